@@ -1,0 +1,49 @@
+# Compile options of our own code, and the functions that make modules and the library of them.
+
+add_library(orthodyn_options INTERFACE)
+target_include_directories(orthodyn_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(orthodyn_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+  # False alarms of g++ 12 inside its own AVX-512 headers.
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-uninitialized>)
+if(ORTHODYN_NATIVE)
+  set(ORTHODYN_ARCH_OPTION -march=native)
+  target_compile_options(orthodyn_options INTERFACE ${ORTHODYN_ARCH_OPTION})
+endif()
+if(ORTHODYN_SANITIZE)
+  target_compile_options(orthodyn_options INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer
+                         -fno-sanitize-recover=undefined)
+  target_link_options(orthodyn_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+# orthodyn_module(NAME FOLDER DEPENDENCIES...): the sources below FOLDER as object library
+# orthodyn_NAME, which sees only what it depends on.
+function(orthodyn_module name folder)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cc)
+  add_library(orthodyn_${name} OBJECT ${sources})
+  target_link_libraries(orthodyn_${name} PUBLIC Eigen3::Eigen ${ARGN} PRIVATE orthodyn_options)
+endfunction()
+
+# orthodyn_library(NAMES...): all modules as one shared library `orthodyn`.
+function(orthodyn_library)
+  set(objects)
+  set(modules)
+  foreach(name ${ARGN})
+    list(APPEND objects $<TARGET_OBJECTS:orthodyn_${name}>)
+    list(APPEND modules orthodyn_${name})
+  endforeach()
+  add_library(orthodyn SHARED ${objects})
+  add_library(orthodyn::orthodyn ALIAS orthodyn)
+  target_include_directories(orthodyn PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/orthodyn>)
+  target_compile_features(orthodyn PUBLIC cxx_std_20)
+  # Eigen's alignment depends on it: users of the headers must have the same.
+  target_compile_options(orthodyn PUBLIC ${ORTHODYN_ARCH_OPTION})
+  target_link_libraries(orthodyn PUBLIC Eigen3::Eigen fmt::fmt PRIVATE
+    yaml-cpp SuiteSparse::cholmod SuiteSparse::klu ${CMAKE_DL_LIBS}
+    SUNDIALS::cvode SUNDIALS::ida SUNDIALS::nvecserial SUNDIALS::sunlinsolklu SUNDIALS::sunmatrixsparse)
+  if(ORTHODYN_SANITIZE)
+    target_link_options(orthodyn PUBLIC -fsanitize=address,undefined)
+  endif()
+  set_target_properties(orthodyn PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+endfunction()

@@ -1,0 +1,38 @@
+// The textbook path: the sparse 2n x 2n Jacobian of the first-order system, for SUNDIALS' own KLU.
+//
+// CVODE, y' = (v, M^-1 f):  J = [0, I; -M^-1 K, -M^-1 D]          (lumped mass only)
+// IDA, F = (q' - v, M v' - f):  dF/dy + cj dF/dy' = [cj I, -I; K, cj M + D]
+#pragma once
+
+#include <vector>
+
+#include "integrators/sundials/handles.h"
+#include "lib/ode/model.h"
+
+namespace orthodyn::sundials {
+
+class FullJacobian {
+ public:
+  explicit FullJacobian(const Model& model);
+
+  OwnedMatrix make_matrix(SUNContext context) const;
+
+  // Pattern and values: CVODE and IDA wipe both before they ask.
+  void fill_cvode(const Linearization& at, SUNMatrix J);
+  void fill_ida(double cj, const Linearization& at, SUNMatrix J);
+
+ private:
+  void fill(SUNMatrix J, double q_diagonal, double v_identity, const std::vector<double>& qq,
+            const std::vector<double>& vv, const Vector& row_scale) const;
+
+  const Model& model_;
+  bool full_v_block_;              // D or M couples unknowns
+  std::vector<int> column_start_;  // of the n x n blocks, both triangles
+  std::vector<int> row_, source_;  // row, and where its value stands on the model's pattern
+  std::vector<double> k_values_, d_values_;
+};
+
+// SUNDIALS' KLU with minimum-degree ordering.
+OwnedSolver make_klu(SUNMatrix A, SUNContext context);
+
+}  // namespace orthodyn::sundials

@@ -1,0 +1,69 @@
+// SUNDIALS' C handles as owning C++ values, and its vectors as Eigen views.
+#pragma once
+
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_matrix.h>
+
+#include <memory>
+#include <type_traits>
+
+#include "integrators/sundials/version.h"
+#include "lib/core/errors.h"
+#include "lib/core/types.h"
+
+namespace orthodyn::sundials {
+
+template <auto destroy>
+struct Destroy {
+  template <class T>
+  void operator()(T* handle) const {
+    destroy(handle);
+  }
+};
+
+template <class Handle, auto destroy>
+using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Destroy<destroy>>;
+
+using OwnedVector = Owned<N_Vector, N_VDestroy>;
+using OwnedMatrix = Owned<SUNMatrix, SUNMatDestroy>;
+using OwnedSolver = Owned<SUNLinearSolver, SUNLinSolFree>;
+
+// Declare it before everything that was made in it: it must die last.
+class Context {
+ public:
+  Context() {
+    if (create_context(&context_) != 0) throw RunError("SUNDIALS could not create its context");
+  }
+  ~Context() { SUNContext_Free(&context_); }
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+  operator SUNContext() const { return context_; }
+
+ private:
+  SUNContext context_ = nullptr;
+};
+
+inline OwnedVector make_vector(Eigen::Index size, SUNContext context) {
+  OwnedVector v(N_VNew_Serial(static_cast<sunindextype>(size), context));
+  if (!v) throw RunError("SUNDIALS could not allocate a vector");
+  N_VConst(0, v.get());
+  return v;
+}
+
+// All entries.
+inline Eigen::Map<Vector> view(N_Vector v) {
+  return {N_VGetArrayPointer(v), static_cast<Eigen::Index>(N_VGetLength(v))};
+}
+
+// The integrators' state is y = (q; v).
+inline auto positions(N_Vector y) {
+  auto all = view(y);
+  return Eigen::Map<Vector>(all.data(), all.size() / 2);
+}
+inline auto velocities(N_Vector y) {
+  auto all = view(y);
+  return Eigen::Map<Vector>(all.data() + all.size() / 2, all.size() / 2);
+}
+
+}  // namespace orthodyn::sundials

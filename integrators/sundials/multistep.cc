@@ -1,0 +1,58 @@
+#include "integrators/sundials/multistep.h"
+
+#include <fmt/format.h>
+
+#include "lib/core/versions.h"
+#include "lib/linear/solver.h"
+
+namespace orthodyn::sundials {
+
+namespace {
+
+const bool registered =
+    solver_registry()
+        .emplace("klu_full", SolverKind{"SUNDIALS' sparse matrix and KLU on the full 2n x 2n system: the textbook "
+                                        "path, and the baseline; symmetric or not.",
+                                        true, nullptr})
+        .second;
+const bool version_registered = library_versions().emplace("SUNDIALS", library_version()).second;
+
+}  // namespace
+
+std::vector<std::string> linear_solver_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, kind] : solver_registry()) names.push_back(name);
+  return names;
+}
+
+void check_linear_solver(const MultistepOptions& options, const Config& config) {
+  if (solver_registry().contains(options.linear_solver)) return;
+  const auto names = linear_solver_names();
+  const auto near = nearest_name(options.linear_solver, names);
+  config.at("linear_solver")
+      .fail("expected one of " + join(names) + ", found '" + options.linear_solver + "'" +
+            (near.empty() ? "" : "; did you mean '" + near + "'?"));
+}
+
+MultistepSettings MultistepSettings::complete(const MultistepOptions& options, const Model& model,
+                                              const std::function<Scales()>& estimate) {
+  const bool given = options.position_scale && options.velocity_scale;
+  const Scales scales = given ? Scales{} : estimate();
+  return {options,
+          {options.position_scale.value_or(scales.position), options.velocity_scale.value_or(scales.velocity)},
+          options.max_order.value_or(model.traits().damped ? 5 : 2),
+          options.linear_solver == "klu_full"};
+}
+
+std::vector<std::pair<std::string, std::string>> MultistepSettings::decisions() const {
+  return {{"position_scale", number_text(scales.position)},
+          {"velocity_scale", number_text(scales.velocity)},
+          {"max_order", std::to_string(max_order)}};
+}
+
+void MultistepSettings::set_weights(N_Vector weights) const {
+  positions(weights).setConstant(1 / (options.rtol * scales.position));
+  velocities(weights).setConstant(1 / (options.rtol * scales.velocity));
+}
+
+}  // namespace orthodyn::sundials

@@ -1,0 +1,45 @@
+// What differs between SUNDIALS 6 and 7: the only place that asks for the version.
+#pragma once
+
+#include <sundials/sundials_context.h>
+#include <sundials/sundials_nvector.h>
+#include <sundials/sundials_types.h>
+#include <sundials/sundials_version.h>
+
+#include <string>
+
+#if SUNDIALS_VERSION_MAJOR >= 7
+#include <sundials/sundials_core.h>
+#endif
+
+namespace orthodyn::sundials {
+
+inline std::string library_version() { return SUNDIALS_VERSION; }
+
+inline int create_context(SUNContext* context) {
+#if SUNDIALS_VERSION_MAJOR >= 7
+  return SUNContext_Create(SUN_COMM_NULL, context);
+#else
+  return SUNContext_Create(nullptr, context);
+#endif
+}
+
+// Sends what a library reports to *text instead of to the terminal. `set_handler` is the library's
+// own setter (CVodeSetErrHandlerFn, IDASetErrHandlerFn), needed by version 6 alone.
+#if SUNDIALS_VERSION_MAJOR >= 7
+inline void keep_error(int, const char* function, const char*, const char* message, SUNErrCode,
+                       void* text, SUNContext) {
+  *static_cast<std::string*>(text) = std::string(function) + ": " + message;
+}
+#define ORTHODYN_CAPTURE_ERRORS(set_handler, context, memory, text)      \
+  (SUNContext_ClearErrHandlers(context),                                 \
+   SUNContext_PushErrHandler(context, orthodyn::sundials::keep_error, text))
+#else
+inline void keep_error(int, const char*, const char* function, char* message, void* text) {
+  *static_cast<std::string*>(text) = std::string(function) + ": " + message;
+}
+#define ORTHODYN_CAPTURE_ERRORS(set_handler, context, memory, text) \
+  set_handler(memory, orthodyn::sundials::keep_error, text)
+#endif
+
+}  // namespace orthodyn::sundials

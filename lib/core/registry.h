@@ -1,0 +1,80 @@
+// Things that the input chooses by name: `type: box`. One file declares one thing and registers it:
+//
+//   const bool registered = Registry<MeshSource>::add<BoxSource>("box", "A box of tetrahedra.");
+//
+// T derives from Base and has a static spec().
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lib/core/spec.h"
+
+namespace orthodyn {
+
+template <class Base>
+class Registry {
+ public:
+  struct Entry {
+    std::string sentence;
+    std::vector<Key> keys;
+    std::function<std::shared_ptr<const Base>(const Config&)> read;
+  };
+
+  static const std::map<std::string, Entry>& entries() { return mutable_entries(); }
+
+  template <class T>
+  static bool add(const std::string& name, const std::string& sentence) {
+    return mutable_entries()
+        .emplace(name, Entry{sentence, T::spec().keys(),
+                             [](const Config& config) -> std::shared_ptr<const Base> {
+                               auto item = std::make_shared<T>();
+                               T::spec().read_into(config, *item, {"type"});
+                               return item;
+                             }})
+        .second;
+  }
+
+  // Reads a section by its key `type`. Throws ConfigError.
+  static std::shared_ptr<const Base> read(const Config& config) {
+    if (!config.is_map())
+      config.fail("expected a section with the key 'type' (" + join(names()) + "), found " +
+                  config.shown());
+    if (!config.has("type")) config.fail("key 'type' is missing; one of " + join(names()));
+    const Config type = config.at("type");
+    const auto it = entries().find(type.text());
+    if (it == entries().end()) {
+      const auto near = nearest_name(type.text(), names());
+      type.fail("unknown '" + type.text() + "'" +
+                (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                " Known: " + join(names()) + ".");
+    }
+    return it->second.read(config);
+  }
+
+  static std::vector<std::string> names() {
+    std::vector<std::string> out;
+    for (const auto& [name, entry] : entries()) out.push_back(name);
+    return out;
+  }
+
+ private:
+  static std::map<std::string, Entry>& mutable_entries() {
+    static std::map<std::string, Entry> all;
+    return all;
+  }
+};
+
+template <class Base>
+struct Value<std::shared_ptr<const Base>> {
+  static std::string type() { return "section with type"; }
+  static std::shared_ptr<const Base> read(const Config& c, const Rule&) {
+    return Registry<Base>::read(c);
+  }
+  static std::string yaml(const std::shared_ptr<const Base>&) { return ""; }
+};
+
+}  // namespace orthodyn

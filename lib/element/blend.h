@@ -1,0 +1,40 @@
+// The weight chi that carries an anisotropic corotational energy safely across inversion:
+//     Psi = chi W + (1 - chi) W_iso,   chi = smoothstep(q),   q = det G / (g0 + c min(det F, 0)^2).
+// An anisotropic W(S - I) is multi-valued where R is not unique (det G = 0), and its force grows
+// like 1/det G there; the nearest isotropic law is single-valued. chi = 1 for every det F >= 0 with
+// det G >= g0 (8 at rest): the model is untouched in regular states. Both det G and det F are
+// polynomials in S, so chi is twice continuously differentiable and Psi an energy.
+#pragma once
+
+#include "lib/element/axial.h"
+
+namespace orthodyn {
+
+inline constexpr double kBlendG0 = 0.2, kBlendInversion = 8;
+
+template <class T>
+struct Blend {
+  T chi = T(1);
+  Mat3T<T> gradient = Mat3T<T>::Zero();  // dchi/dS, symmetric
+};
+
+template <class T>
+Blend<T> blend(const Mat3T<T>& S, const T& det_G) {
+  using std::real;
+  const Mat3T<T> cof = cofactor_of_symmetric(S);
+  const T det_F = S(0, 0) * cof(0, 0) + S(0, 1) * cof(0, 1) + S(0, 2) * cof(0, 2);
+  const bool inverted = real(det_F) < 0;
+  const T negative = inverted ? det_F : T(0);
+  const T scale = T(kBlendG0) + kBlendInversion * negative * negative;
+  Blend<T> b;
+  if (real(det_G) >= real(scale)) return b;
+  const T q = real(det_G) > 0 ? det_G / scale : T(0);
+  b.chi = q * q * q * (T(10) + q * (T(-15) + T(6) * q));
+  const T slope = T(30) * q * q * (T(1) - q) * (T(1) - q);
+  const T trace = S.trace();
+  const Mat3T<T> dG = trace * trace * Mat3T<T>::Identity() - S * S;  // d det G / dS
+  b.gradient = (slope / scale) * (dG - (q * T(2 * kBlendInversion) * negative) * cof);
+  return b;
+}
+
+}  // namespace orthodyn

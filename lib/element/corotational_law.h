@@ -1,0 +1,136 @@
+// The corotational law at a point: Psi(F) = W(S - I) with F = R S and W(e) = e:C:e / 2.
+//
+// Its exact gradient is P = R (sigma + [c]), G c = a(S sigma), G = tr(S) I - S: the classic warped
+// stress R sigma plus the correction that makes it conservative and free of torque for anisotropic
+// C. Inverted states are blended into the nearest isotropic law (blend.h). For isotropic C, c = 0
+// and no blending is needed: neither is computed.
+//
+// F is taken in material axes: F^ = F Q, the columns of Q being the axes, so that C is in its sparse
+// form; P^ = P Q likewise. Stateless: R is a pure function of F.
+//
+// Derivation: with X = R^T dF, w = G^-1 a(X), dS = sym(X) - sym([w] S), T = sigma + [c], tau = T S:
+//     d2Psi = dS:C:dS + 2 w . a(dS T^T) + w . (tr(tau) I - tau) w,
+// whose first term is the Gauss-Newton part.
+#pragma once
+
+#include "lib/element/blend.h"
+#include "lib/element/observation.h"
+#include "lib/element/polar.h"
+#include "lib/element/tangent_form.h"
+
+namespace orthodyn {
+
+// dS/dF in the rotated frame: dS = sym(X) - N w, in Voigt form with engineering shear.
+Mat63 stretch_rate_matrix(const Mat3& S);
+
+// The positive semidefinite form dS : C : dS, weighted by chi.
+TangentForm gauss_newton_form(const Polar<double>& p, const OrthotropicStiffness& C, double chi);
+
+// The form of d2Psi where chi = 1; T = sigma + [c].
+TangentForm exact_form(const Polar<double>& p, const OrthotropicStiffness& C, const Mat3& T);
+
+// Stiffness-proportional damping in terms of the rate of the strain measure itself, so that rigid
+// motion costs nothing: potential beta chi dS:C:dS / 2, P = R (s + [c]), s = beta chi C:dS, G c = a(S s).
+template <class T, class C>
+Mat3T<T> viscous_stress(const Polar<T>& p, const C& stiffness, const T& beta_chi,
+                        const Mat3T<T>& F_rate) {
+  const Mat3T<T> X = p.R.transpose() * F_rate;
+  const Vec3T<T> w = p.G_inverse * axial<T>(X);
+  const Mat3T<T> rate = symmetric_part<T>(X - cross_matrix<T>(w) * p.S);
+  const Mat3T<T> s = beta_chi * stiffness.stress(rate);
+  const Vec3T<T> c = p.G_inverse * axial<T>(p.S * s);
+  return p.R * (s + cross_matrix<T>(c));
+}
+
+template <class C>
+class CorotationalLaw {
+ public:
+  explicit CorotationalLaw(const C& stiffness) : C_(stiffness), sparse_(as_orthotropic(stiffness)) {
+    if constexpr (!C::kIsotropic) isotropic_ = nearest_isotropic(stiffness);
+  }
+
+  // Energy per volume, J/m^3.
+  template <class T>
+  T energy(const Mat3T<T>& F, const Mat3& Q) const {
+    const auto p = polar(F, Q);
+    const Mat3T<T> e = p.S - Mat3T<T>::Identity();
+    const T W = T(0.5) * contract<T>(C_.stress(e), e);
+    if constexpr (C::kIsotropic) {
+      return W;
+    } else {
+      const auto b = blend<T>(p.S, p.det_G);
+      return b.chi * W + (T(1) - b.chi) * T(0.5) * contract<T>(isotropic_.stress(e), e);
+    }
+  }
+
+  // First Piola-Kirchhoff stress times Q; with F_rate the viscous stress of weight beta is added.
+  template <class T>
+  Mat3T<T> stress(const Mat3T<T>& F, const Mat3& Q, const Mat3T<T>* F_rate = nullptr,
+                  double beta = 0) const {
+    const auto p = polar(F, Q);
+    T chi(1);
+    Mat3T<T> P = p.R * rotated_stress(p, chi);
+    if (F_rate) P += viscous_stress<T>(p, C_, damping_weight(p, chi, T(beta)), *F_rate);
+    return P;
+  }
+
+  // The elastic tangent and, if asked for, the damping tangent dP/dF_rate. Where the energy is
+  // blended, `exact` too is a positive semidefinite approximation: the Hessian is unbounded there.
+  TangentForm tangent(const Mat3& F, const Mat3& Q, TangentKind kind, double beta,
+                      TangentForm* damping) const {
+    const auto p = polar(F, Q);
+    const auto b = blend<double>(p.S, p.det_G);
+    if (damping) *damping = gauss_newton_form(p, beta * sparse_, b.chi);
+    if (b.chi < 1) return blended_form(p, b.chi);
+    if (kind == TangentKind::gauss_newton) return gauss_newton_form(p, sparse_, 1);
+    double chi = 1;
+    return exact_form(p, sparse_, rotated_stress(p, chi));
+  }
+
+  PointObservation observe(const Mat3& F, const Mat3& Q) const {
+    const auto p = polar(F, Q);
+    return {cauchy_stress(stress<double>(F, Q), F), p.R, p.S - Mat3::Identity()};
+  }
+
+  // Kirchhoff-like stress in the rotated material frame, T with P = R T; chi of the state.
+  template <class T>
+  Mat3T<T> rotated_stress(const Polar<T>& p, T& chi) const {
+    const Mat3T<T> e = p.S - Mat3T<T>::Identity();
+    const Mat3T<T> sigma = C_.stress(e);
+    if constexpr (C::kIsotropic) {
+      return sigma;
+    } else {
+      const auto b = blend<T>(p.S, p.det_G);
+      chi = b.chi;
+      const Vec3T<T> c = p.G_inverse * axial<T>(p.S * sigma);
+      const Mat3T<T> exact = sigma + cross_matrix<T>(c);
+      if (std::real(chi) == 1) return exact;
+      const Mat3T<T> sigma_iso = isotropic_.stress(e);
+      const T excess = T(0.5) * contract<T>(sigma - sigma_iso, e);
+      return chi * exact + (T(1) - chi) * sigma_iso + excess * b.gradient;
+    }
+  }
+
+ private:
+  // chi must multiply the damping also where an isotropic energy is not blended: dS/dF is unbounded.
+  template <class T>
+  T damping_weight(const Polar<T>& p, const T& chi, const T& beta) const {
+    if constexpr (C::kIsotropic) return beta * blend<T>(p.S, p.det_G).chi;
+    else return beta * chi;
+  }
+
+  // chi times the Gauss-Newton part and 1 - chi times the isotropic law at fixed rotation.
+  TangentForm blended_form(const Polar<double>& p, double chi) const {
+    TangentForm form = gauss_newton_form(p, sparse_, chi);
+    OrthotropicStiffness rest = sparse_;
+    if constexpr (!C::kIsotropic) rest = as_orthotropic(isotropic_);
+    form.Hee = form.Hee + (1 - chi) * rest;
+    return form;
+  }
+
+  C C_;
+  OrthotropicStiffness sparse_;
+  IsotropicStiffness isotropic_;  // the nearest one; used by anisotropic C only
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,50 @@
+// Small strain: Psi = e:C:e / 2 with e = sym(F) - I. Not invariant under rotation; its tangent is
+// constant.
+#pragma once
+
+#include "lib/element/corotational_law.h"
+
+namespace orthodyn {
+
+template <class C>
+class LinearLaw {
+ public:
+  explicit LinearLaw(const C& stiffness) : C_(stiffness) {}
+
+  template <class T>
+  T energy(const Mat3T<T>& F, const Mat3& Q) const {
+    const Mat3T<T> e = strain<T>(F, Q);
+    return T(0.5) * contract<T>(C_.stress(e), e);
+  }
+
+  template <class T>
+  Mat3T<T> stress(const Mat3T<T>& F, const Mat3& Q, const Mat3T<T>* F_rate = nullptr,
+                  double beta = 0) const {
+    Mat3T<T> s = C_.stress(strain<T>(F, Q));
+    if (F_rate) s += T(beta) * C_.stress(Mat3T<T>(symmetric_part<T>(Q.transpose().cast<T>() * *F_rate)));
+    return Q.cast<T>() * s;
+  }
+
+  TangentForm tangent(const Mat3&, const Mat3& Q, TangentKind, double beta, TangentForm* damping) const {
+    const auto form = [&](double factor) -> TangentForm {
+      return {Q, factor * as_orthotropic(C_), Mat63::Zero(), Mat36::Zero(), Mat3::Zero()};
+    };
+    if (damping) *damping = form(beta);
+    return form(1);
+  }
+
+  PointObservation observe(const Mat3& F, const Mat3& Q) const {
+    return {stress<double>(F, Q) * Q.transpose(), Q, strain<double>(F, Q)};
+  }
+
+ private:
+  // In material axes; F is F Q.
+  template <class T>
+  static Mat3T<T> strain(const Mat3T<T>& F, const Mat3& Q) {
+    return symmetric_part<T>(Q.transpose().cast<T>() * F) - Mat3T<T>::Identity();
+  }
+
+  C C_;
+};
+
+}  // namespace orthodyn

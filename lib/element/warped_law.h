@@ -1,0 +1,81 @@
+// The force of warped stiffness: P = R sigma (Mueller & Gross 2004; Li & Barbic 2014; Vega FEM).
+//
+// Kept for comparison: for anisotropic C it is not the gradient of any energy and exerts a net
+// torque. energy() is W(S - I), which this force does not conserve. Tangents: R K R^T (symmetric,
+// approximate), or the exact derivative of this force, which is not symmetric.
+#pragma once
+
+#include "lib/element/corotational_law.h"
+
+namespace orthodyn {
+
+enum class WarpedTangent { rotated, unsymmetric };
+
+template <class C>
+class WarpedLaw {
+ public:
+  WarpedLaw(const C& stiffness, WarpedTangent tangent) : exact_(stiffness), C_(stiffness), tangent_(tangent) {}
+
+  template <class T>
+  T energy(const Mat3T<T>& F, const Mat3& Q) const {
+    const auto p = polar(F, Q);
+    const Mat3T<T> e = p.S - Mat3T<T>::Identity();
+    return T(0.5) * contract<T>(C_.stress(e), e);
+  }
+
+  template <class T>
+  Mat3T<T> stress(const Mat3T<T>& F, const Mat3& Q, const Mat3T<T>* F_rate = nullptr,
+                  double beta = 0) const {
+    const auto p = polar(F, Q);
+    T chi(1);
+    Mat3T<T> P = p.R * rotated_stress(p, chi);
+    if (F_rate)
+      P += viscous_stress<T>(p, C_, T(beta) * blend<T>(p.S, p.det_G).chi, *F_rate);
+    return P;
+  }
+
+  TangentForm tangent(const Mat3& F, const Mat3& Q, TangentKind kind, double beta,
+                      TangentForm* damping) const {
+    const auto p = polar(F, Q);
+    if (damping) exact_.tangent(F, Q, TangentKind::gauss_newton, beta, damping);
+    return kind == TangentKind::exact && tangent_ == WarpedTangent::unsymmetric && p.det_G > kBlendG0
+               ? unsymmetric_form(p)
+               : rotated_form(p);
+  }
+
+  PointObservation observe(const Mat3& F, const Mat3& Q) const {
+    const auto p = polar(F, Q);
+    return {cauchy_stress(stress<double>(F, Q), F), p.R, p.S - Mat3::Identity()};
+  }
+
+  template <class T>
+  Mat3T<T> rotated_stress(const Polar<T>& p, T&) const {
+    return C_.stress(Mat3T<T>(p.S - Mat3T<T>::Identity()));
+  }
+
+ private:
+  TangentForm rotated_form(const Polar<double>& p) const {
+    return {p.R, as_orthotropic(C_), Mat63::Zero(), Mat36::Zero(), Mat3::Zero()};
+  }
+
+  // d(R sigma) = R ([w] sigma + C : dS), dS = e - N w, w = G^-1 a.
+  TangentForm unsymmetric_form(const Polar<double>& p) const {
+    TangentForm form = gauss_newton_form(p, as_orthotropic(C_), 1);
+    double chi = 1;
+    const Mat3 sigma = rotated_stress(p, chi);
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 w = p.G_inverse.col(k);
+      const Mat3 D = symmetric_part<double>(cross_matrix<double>(w) * sigma);
+      form.Hea.col(k) += (Vec6() << D(0, 0), D(1, 1), D(2, 2), D(0, 1), D(1, 2), D(2, 0)).finished();
+    }
+    form.Hae.setZero();
+    form.Haa = 0.5 * (sigma.trace() * Mat3::Identity() - sigma) * p.G_inverse;
+    return form;
+  }
+
+  CorotationalLaw<C> exact_;  // for its objective damping
+  C C_;
+  WarpedTangent tangent_;
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,113 @@
+#include "lib/fem/block_pattern.h"
+
+#include <algorithm>
+
+#include "lib/core/errors.h"
+
+namespace orthodyn {
+
+namespace {
+
+// For each node its neighbours in ascending order, itself included; only those >= itself if
+// `lower`.
+class Neighbours {
+ public:
+  Neighbours(const std::vector<Tet>& tets, int num_nodes, bool lower)
+      : start_(static_cast<std::size_t>(num_nodes) + 1, 0) {
+    for_each_pair(tets, lower, [&](int, int b) { ++start_[static_cast<std::size_t>(b) + 1]; });
+    for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
+    list_.resize(start_.back());
+    std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
+    for_each_pair(tets, lower, [&](int a, int b) { list_[next[static_cast<std::size_t>(b)]++] = a; });
+    make_unique();
+  }
+
+  template <class Visit>
+  void visit(int node, Visit&& f) const {
+    const auto b = static_cast<std::size_t>(node);
+    for (std::size_t k = start_[b]; k < end_[b]; ++k) f(list_[k]);
+  }
+
+ private:
+  template <class F>
+  static void for_each_pair(const std::vector<Tet>& tets, bool lower, F&& f) {
+    for (const Tet& tet : tets)
+      for (int a : tet)
+        for (int b : tet)
+          if (!lower || a >= b) f(a, b);
+  }
+
+  void make_unique() {
+    for (std::size_t b = 0; b + 1 < start_.size(); ++b) {
+      const auto first = list_.begin() + static_cast<std::ptrdiff_t>(start_[b]);
+      const auto last = list_.begin() + static_cast<std::ptrdiff_t>(start_[b + 1]);
+      std::sort(first, last);
+      end_.push_back(static_cast<std::size_t>(std::unique(first, last) - list_.begin()));
+    }
+  }
+
+  std::vector<std::size_t> start_, end_;
+  std::vector<int> list_;
+};
+
+}  // namespace
+
+BlockPattern::BlockPattern(const std::vector<Tet>& tets, const DofMap& dofs, bool symmetric)
+    : dofs_(dofs) {
+  pattern_.n = dofs.num_dofs();
+  pattern_.symmetric = symmetric;
+  pattern_.column_start.push_back(0);
+  const Neighbours neighbours(tets, dofs.num_nodes(), symmetric);
+  std::size_t entries = 0;
+  const auto for_each_entry = [&](auto&& entry, auto&& column_end) {
+    for (int b = 0; b < dofs.num_nodes(); ++b)
+      for (const int column : dofs.node(b)) {
+        if (column < 0) continue;
+        neighbours.visit(b, [&](int a) {
+          for (const int row : dofs.node(a))
+            if (row >= 0 && (!symmetric || row >= column)) entry(row);
+        });
+        column_end();
+      }
+  };
+  for_each_entry([&](int) { ++entries; }, [] {});
+  if (entries > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw ConfigError("the matrix has more than 2^31 entries; use a coarser mesh");
+  pattern_.row.reserve(entries);
+  for_each_entry([&](int row) { pattern_.row.push_back(row); },
+                 [&] { pattern_.column_start.push_back(pattern_.non_zeros()); });
+}
+
+int BlockPattern::offset(int a, int b) const {
+  const auto first_free = [&](int node) {
+    for (const int dof : dofs_.node(node))
+      if (dof >= 0) return dof;
+    return -1;
+  };
+  const int row = first_free(a), column = first_free(b);
+  if (row < 0 || column < 0) return 0;
+  const auto begin = pattern_.row.begin() + pattern_.column_start[static_cast<std::size_t>(column)];
+  const auto end = pattern_.row.begin() + pattern_.column_start[static_cast<std::size_t>(column) + 1];
+  return static_cast<int>(std::lower_bound(begin, end, row) - begin);
+}
+
+void BlockPattern::add(int a, int b, int offset, const Mat3& block, double* values) const {
+  const auto& rows = dofs_.node(a);
+  const auto& columns = dofs_.node(b);
+  int shift = offset;  // of a's first row, in this column
+  for (int c = 0; c < 3; ++c) {
+    const int column = columns[static_cast<std::size_t>(c)];
+    if (column < 0) continue;
+    double* at = values + pattern_.column_start[static_cast<std::size_t>(column)] + shift;
+    for (int r = 0; r < 3; ++r) {
+      const int row = rows[static_cast<std::size_t>(r)];
+      if (row < 0) continue;
+      if (symmetric() && row < column) continue;  // above the diagonal of a diagonal block
+      *at++ += block(r, c);
+    }
+    // The lower triangle loses one leading entry per column; a diagonal block starts at its own.
+    if (symmetric() && a != b) --shift;
+  }
+}
+
+}  // namespace orthodyn

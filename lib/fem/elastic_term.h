@@ -1,0 +1,46 @@
+// Elasticity of the tetrahedra of one region, with optional stiffness-proportional damping.
+#pragma once
+
+#include <memory>
+
+#include "lib/element/corotational_law.h"
+#include "lib/element/observation.h"
+#include "lib/element/warped_law.h"
+#include "lib/fem/block_pattern.h"
+#include "lib/fem/term.h"
+
+namespace orthodyn {
+
+enum class Kinematics { corotational, linear };
+enum class Corotation { exact, warped };
+
+struct ElasticityOptions {
+  Kinematics kinematics = Kinematics::corotational;
+  Corotation corotation = Corotation::exact;
+  WarpedTangent warped_tangent = WarpedTangent::rotated;
+};
+
+class ElasticTerm : public Term {
+ public:
+  EnergyKind energy_kind() const override { return EnergyKind::elastic; }
+
+  // The element's index in the mesh, for k in [0, size()).
+  virtual int size() const = 0;
+  virtual int cell(int k) const = 0;
+  virtual PointObservation observe(int k, const NodalState& s) const = 0;
+  virtual double det_F(int k, const NodalState& s) const = 0;
+
+  // Upper bound of the squared angular frequency of any element about rest, for lumped masses
+  // density V / 4 at its nodes, 1/s^2; critical steps of explicit schemes are 2 / omega.
+  virtual double max_frequency_squared(double density) const = 0;
+};
+
+// `cells` are indices into mesh.tets; Q the material axes; beta in seconds, 0 for none. The pattern
+// must outlive the term.
+std::unique_ptr<ElasticTerm> make_elastic_term(const std::string& region, const TetMesh& mesh,
+                                               std::vector<int> cells, const Stiffness& stiffness,
+                                               const Mat3& Q, double beta,
+                                               const ElasticityOptions& options,
+                                               const BlockPattern& pattern);
+
+}  // namespace orthodyn

@@ -1,0 +1,79 @@
+#include "lib/fem/fem_model.h"
+
+#include <algorithm>
+
+namespace orthodyn {
+
+NodalExpansion::NodalExpansion(const FemModel::Parts& parts, double time, const ConstVectorRef& q,
+                               const ConstVectorRef& v)
+    : t(time), x(*parts.rest), u_rate(NodalVector::Zero(3, parts.rest->cols())) {
+  parts.dofs->add_to(q, x);
+  parts.dofs->add_to(v, u_rate);
+}
+
+template <class F>
+void FemModel::for_each_term(F&& f) const {
+  for (const auto& term : parts_.elastic) f(static_cast<const Term&>(*term));
+  for (const auto& term : parts_.loads) f(static_cast<const Term&>(*term));
+}
+
+void FemModel::force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const {
+  const NodalExpansion nodal(parts_, t, q, v);
+  NodalVector sum = NodalVector::Zero(3, nodal.x.cols());
+  for_each_term([&](const Term& term) { term.add_force(nodal.state(), sum); });
+  parts_.dofs->restrict_to(sum, f);
+  if (parts_.mass_damping > 0) {
+    Vector momentum(v.size());
+    parts_.mass->multiply(v, momentum);
+    f -= parts_.mass_damping * momentum;
+  }
+}
+
+void FemModel::linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
+                         Linearization& out) const {
+  const auto size = parts_.pattern->pattern().row.size();
+  if (parts_.traits.linear && out.stiffness.size() == size) return;  // constant: assembled once
+  const NodalExpansion nodal(parts_, t, q, v);
+  out.stiffness.assign(size, 0);
+  if (parts_.stiffness_damping) out.damping.assign(size, 0);
+  for_each_term([&](const Term& term) {
+    term.add_tangent(nodal.state(), kind, out.stiffness.data(),
+                     parts_.stiffness_damping ? out.damping.data() : nullptr);
+  });
+}
+
+void FemModel::combine(const Weights& w, const Linearization& at, double* values) const {
+  const auto size = static_cast<Eigen::Index>(at.stiffness.size());
+  Eigen::Map<Vector> A(values, size);
+  A = w.stiffness * Eigen::Map<const Vector>(at.stiffness.data(), size);
+  if (!at.damping.empty()) A += w.damping * Eigen::Map<const Vector>(at.damping.data(), size);
+  if (const double m = w.mass + w.damping * parts_.mass_damping; m != 0) parts_.mass->add_to(m, values);
+}
+
+std::vector<double> FemModel::breakpoints(double start, double end) const {
+  std::vector<double> times;
+  for_each_term([&](const Term& term) {
+    const auto more = term.breakpoints(start, end);
+    times.insert(times.end(), more.begin(), more.end());
+  });
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+std::vector<std::pair<std::string, std::size_t>> FemModel::memory() const {
+  const auto& mesh = parts_.mesh;
+  const auto nodes = mesh.nodes.size();
+  std::size_t elements = 0;
+  for_each_term([&](const Term& term) { elements += term.bytes(); });
+  const auto& pattern = parts_.pattern->pattern();
+  // Positions, velocities and forces of all nodes, while a force is computed.
+  const std::size_t expansion = 3 * nodes * sizeof(Vec3);
+  return {{"mesh", nodes * (2 * sizeof(Vec3) + 3 * sizeof(int)) + mesh.tets.size() * (sizeof(Tet) + sizeof(int))},
+          {"elements", elements},
+          {"pattern", (pattern.row.size() + pattern.column_start.size()) * sizeof(int)},
+          {"mass", parts_.mass->bytes()},
+          {"nodal vectors", expansion}};
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,69 @@
+// A finite element model: mass, terms and clamps of one body, as the Model that integrators see.
+// q are the displacements of the free coordinates from the rest shape, m.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lib/fem/elastic_term.h"
+#include "lib/fem/mass.h"
+#include "lib/fem/term.h"
+#include "lib/mesh/tet_mesh.h"
+#include "lib/ode/model.h"
+
+namespace orthodyn {
+
+class FemModel : public Model {
+ public:
+  struct Parts {
+    TetMesh mesh;
+    std::unique_ptr<DofMap> dofs;
+    std::unique_ptr<BlockPattern> pattern;
+    std::unique_ptr<Mass> mass;
+    std::unique_ptr<NodalVector> rest;                  // node positions
+    std::vector<std::unique_ptr<ElasticTerm>> elastic;  // one per region
+    std::vector<std::unique_ptr<Term>> loads;           // everything else
+    double mass_damping = 0;                            // 1/s
+    bool stiffness_damping = false;                     // in any region
+    Traits traits;
+  };
+
+  explicit FemModel(Parts parts) : parts_(std::move(parts)) {}
+
+  int num_dofs() const override { return parts_.dofs->num_dofs(); }
+  const Traits& traits() const override { return parts_.traits; }
+  void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override;
+  const Pattern& pattern() const override { return parts_.pattern->pattern(); }
+  void linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
+                 Linearization& out) const override;
+  void combine(const Weights& w, const Linearization& at, double* values) const override;
+  void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { parts_.mass->multiply(x, y); }
+  void solve_mass(VectorRef x) const override { parts_.mass->solve(x); }
+  std::vector<double> breakpoints(double start, double end) const override;
+
+  std::vector<OutputInfo> outputs() const override;
+  std::vector<double> evaluate(const std::string& name, const State& state) const override;
+  Geometry geometry() const override { return {parts_.mesh.nodes, parts_.mesh.tets}; }
+
+  const Parts& parts() const { return parts_; }
+
+  // What it takes, by part: name and bytes.
+  std::vector<std::pair<std::string, std::size_t>> memory() const;
+
+ private:
+  template <class F>
+  void for_each_term(F&& f) const;
+
+  Parts parts_;
+};
+
+// All nodes' positions and velocities at a state of the free coordinates.
+struct NodalExpansion {
+  NodalExpansion(const FemModel::Parts& parts, double time, const ConstVectorRef& q, const ConstVectorRef& v);
+  NodalState state() const { return {t, x, u_rate}; }
+  double t;
+  NodalVector x, u_rate;
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,43 @@
+// A contribution to the right-hand side of M u'' = f: one physical effect per file. A scene holds
+// the terms that it names and nothing else.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lib/core/types.h"
+#include "lib/fem/dof_map.h"
+
+namespace orthodyn {
+
+// Positions and velocities of all nodes, clamped ones included.
+struct NodalState {
+  double t;               // s
+  const NodalVector& x;   // m
+  const NodalVector& v;   // m/s
+};
+
+enum class EnergyKind { none, elastic, gravitational };
+
+class Term {
+ public:
+  virtual ~Term() = default;
+
+  // What it is and on how much, for `orthodyn check`: "elasticity of region wood, 2500 elements".
+  virtual std::string description() const = 0;
+  virtual std::size_t bytes() const { return 0; }
+
+  virtual void add_force(const NodalState& s, NodalVector& f) const = 0;
+
+  // Adds -df/dx to `stiffness` and -df/dv to `damping` (null if the model has no D).
+  virtual void add_tangent(const NodalState&, TangentKind, double* /*stiffness*/, double* /*damping*/) const {}
+
+  virtual EnergyKind energy_kind() const { return EnergyKind::none; }
+  virtual double energy(const NodalState&) const { return 0; }     // J
+  virtual double dissipation(const NodalState&) const { return 0; }  // W, >= 0
+  virtual double load_power(const NodalState&) const { return 0; }   // W
+
+  virtual std::vector<double> breakpoints(double /*start*/, double /*end*/) const { return {}; }
+};
+
+}  // namespace orthodyn

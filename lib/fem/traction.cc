@@ -1,0 +1,50 @@
+#include "lib/fem/traction.h"
+
+#include <map>
+
+namespace orthodyn {
+
+namespace {
+
+double area(const TetMesh& mesh, const Triangle& t) {
+  const auto& x = [&](std::size_t k) -> const Vec3& { return mesh.nodes[static_cast<std::size_t>(t[k])]; };
+  return 0.5 * (x(1) - x(0)).cross(x(2) - x(0)).norm();
+}
+
+}  // namespace
+
+double surface_area(const TetMesh& mesh, const std::vector<Triangle>& triangles) {
+  double sum = 0;
+  for (const auto& t : triangles) sum += area(mesh, t);
+  return sum;
+}
+
+Traction::Traction(std::string surface, const TetMesh& mesh, const std::vector<Triangle>& triangles,
+                   const Vec3& traction, std::shared_ptr<const TimeFunction> factor)
+    : surface_(std::move(surface)), factor_(std::move(factor)) {
+  std::map<int, Vec3> sums;
+  for (const auto& t : triangles)
+    for (const int node : t)
+      sums.try_emplace(node, Vec3::Zero()).first->second += area(mesh, t) / 3 * traction;
+  forces_.assign(sums.begin(), sums.end());
+}
+
+void Traction::add_force(const NodalState& s, NodalVector& f) const {
+  const double factor = factor_->value(s.t);
+  for (const auto& [node, force] : forces_) f.col(node) += factor * force;
+}
+
+double Traction::load_power(const NodalState& s) const {
+  double power = 0;
+  for (const auto& [node, force] : forces_) power += force.dot(s.v.col(node));
+  return factor_->value(s.t) * power;
+}
+
+std::vector<double> Traction::breakpoints(double start, double end) const {
+  std::vector<double> times;
+  for (const double t : factor_->kinks())
+    if (t > start && t < end) times.push_back(t);
+  return times;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,146 @@
+// CHOLMOD (Davis et al.): sparse Cholesky, simplicial for small and supernodal for large factors.
+#include <cholmod.h>
+
+#include <fmt/format.h>
+
+#include "lib/core/errors.h"
+#include "lib/core/versions.h"
+#include "lib/linear/blas.h"
+#include "lib/linear/solver.h"
+
+namespace orthodyn {
+namespace {
+
+// Below this size minimum degree gives as little fill as nested dissection, and is found sooner.
+constexpr int kNestedDissectionFrom = 50'000;
+
+class Cholmod : public LinearSolver {
+ public:
+  Cholmod() {
+    cholmod_start(&common_);
+    common_.print = 0;
+    common_.quick_return_if_not_posdef = 1;
+#ifdef ORTHODYN_GPL
+    common_.supernodal = CHOLMOD_AUTO;
+#else
+    common_.supernodal = CHOLMOD_SIMPLICIAL;
+#endif
+  }
+
+  ~Cholmod() override {
+    cholmod_free_dense(&y_, &common_);
+    cholmod_free_dense(&e_, &common_);
+    cholmod_free_dense(&x_, &common_);
+    cholmod_free_factor(&factor_, &common_);
+    cholmod_finish(&common_);
+  }
+  Cholmod(const Cholmod&) = delete;
+  Cholmod& operator=(const Cholmod&) = delete;
+
+  void analyze(const Pattern& pattern) override {
+    pattern_ = &pattern;
+    if (pattern.n < kBlasThreadsFrom) set_blas_threads(1);
+    const bool dissect = pattern.n >= kNestedDissectionFrom;
+    common_.nmethods = 1;
+    common_.method[0].ordering = dissect ? CHOLMOD_METIS : CHOLMOD_AMD;
+    common_.postorder = 1;
+    cholmod_free_factor(&factor_, &common_);
+    cholmod_sparse view = view_of(nullptr);
+    factor_ = cholmod_analyze(&view, &common_);
+    refuse_failure();
+    predicted_entries_ = static_cast<std::size_t>(common_.lnz);
+    description_ = fmt::format("{}, {}", factor_->is_super ? "supernodal" : "simplicial",
+                               factor_->ordering == CHOLMOD_METIS ? "nested dissection" : "minimum degree");
+  }
+
+  FactorStatus factor(const double* values) override {
+    cholmod_sparse view = view_of(values);
+    cholmod_factorize(&view, factor_, &common_);
+    if (common_.status == CHOLMOD_NOT_POSDEF) return FactorStatus::not_positive_definite;
+    refuse_failure();
+    return negative_pivot() ? FactorStatus::not_positive_definite : FactorStatus::ok;
+  }
+
+  void solve(const ConstVectorRef& b, VectorRef x) override {
+    cholmod_dense view{};
+    view.nrow = static_cast<std::size_t>(b.size());
+    view.ncol = 1;
+    view.nzmax = view.d = view.nrow;
+    view.x = const_cast<double*>(b.data());  // CHOLMOD reads it only
+    view.xtype = CHOLMOD_REAL;
+    view.dtype = CHOLMOD_DOUBLE;
+    if (!cholmod_solve2(CHOLMOD_A, factor_, &view, nullptr, &x_, nullptr, &y_, &e_, &common_))
+      refuse_failure();
+    x = Eigen::Map<const Vector>(static_cast<const double*>(x_->x), b.size());
+  }
+
+  std::size_t factor_bytes() const override {
+    if (!factor_) return 0;
+    const std::size_t n = factor_->n, index = sizeof(int), number = sizeof(double);
+    if (factor_->is_super)
+      return factor_->xsize * number + factor_->ssize * index + 3 * factor_->nsuper * index + 2 * n * index;
+    const std::size_t entries = factor_->xtype == CHOLMOD_PATTERN ? predicted_entries_ : factor_->nzmax;
+    return entries * (number + index) + 6 * n * index;
+  }
+
+  std::string description() const override { return description_; }
+
+ private:
+  // CHOLMOD takes pointers to non-const, and reads only.
+  cholmod_sparse view_of(const double* values) const {
+    cholmod_sparse view{};
+    view.nrow = view.ncol = static_cast<std::size_t>(pattern_->n);
+    view.nzmax = pattern_->row.size();
+    view.p = const_cast<int*>(pattern_->column_start.data());
+    view.i = const_cast<int*>(pattern_->row.data());
+    view.x = const_cast<double*>(values);
+    view.stype = -1;  // the lower triangle is given
+    view.itype = CHOLMOD_INT;
+    view.xtype = values ? CHOLMOD_REAL : CHOLMOD_PATTERN;
+    view.dtype = CHOLMOD_DOUBLE;
+    view.sorted = view.packed = 1;
+    return view;
+  }
+
+  // The simplicial factorisation is L D L^T, which goes on past a negative pivot.
+  bool negative_pivot() const {
+    if (factor_->is_super || factor_->is_ll) return false;
+    const auto* column = static_cast<const int*>(factor_->p);
+    const auto* value = static_cast<const double*>(factor_->x);
+    for (std::size_t j = 0; j < factor_->n; ++j)
+      if (!(value[column[j]] > 0)) return true;
+    return false;
+  }
+
+  void refuse_failure() const {
+    if (common_.status == CHOLMOD_OUT_OF_MEMORY)
+      throw RunError("the Cholesky factor does not fit in memory; use a coarser mesh");
+    if (common_.status == CHOLMOD_TOO_LARGE)
+      throw RunError("the Cholesky factor has more than 2^31 entries; use a coarser mesh");
+    if (common_.status < 0)
+      throw RunError(fmt::format("CHOLMOD failed with status {}", common_.status));
+  }
+
+  const Pattern* pattern_ = nullptr;
+  cholmod_common common_{};
+  cholmod_factor* factor_ = nullptr;
+  cholmod_dense *x_ = nullptr, *y_ = nullptr, *e_ = nullptr;
+  std::size_t predicted_entries_ = 0;
+  std::string description_;
+};
+
+const bool registered =
+    solver_registry()
+        .emplace("cholmod", SolverKind{"CHOLMOD sparse Cholesky on the reduced n x n matrix, simplicial or "
+                                       "supernodal by size; symmetric tangents.",
+                                       false, [] { return std::make_unique<Cholmod>(); }})
+        .second;
+
+const bool version_registered =
+    library_versions()
+        .emplace("SuiteSparse", fmt::format("CHOLMOD {}.{}.{}", CHOLMOD_MAIN_VERSION, CHOLMOD_SUB_VERSION,
+                                            CHOLMOD_SUBSUB_VERSION))
+        .second;
+
+}  // namespace
+}  // namespace orthodyn

@@ -1,0 +1,45 @@
+// Eigen's simplicial L D L^T: no dependency beyond Eigen, for small systems.
+#include <Eigen/SparseCholesky>
+
+#include "lib/linear/solver.h"
+
+namespace orthodyn {
+namespace {
+
+class EigenLdlt : public LinearSolver {
+ public:
+  void analyze(const Pattern& pattern) override {
+    pattern_ = &pattern;
+    const std::vector<double> ones(pattern.row.size(), 1);
+    ldlt_.analyzePattern(pattern.matrix(ones.data()));
+  }
+
+  FactorStatus factor(const double* values) override {
+    ldlt_.factorize(pattern_->matrix(values));
+    if (ldlt_.info() != Eigen::Success) return FactorStatus::singular;
+    return ldlt_.vectorD().minCoeff() > 0 ? FactorStatus::ok : FactorStatus::not_positive_definite;
+  }
+
+  void solve(const ConstVectorRef& b, VectorRef x) override { x = ldlt_.solve(Vector(b)); }
+
+  std::size_t factor_bytes() const override {
+    const auto entries = static_cast<std::size_t>(ldlt_.matrixL().nestedExpression().nonZeros());
+    return entries * (sizeof(double) + sizeof(int));
+  }
+
+  std::string description() const override { return "simplicial, minimum degree"; }
+
+ private:
+  const Pattern* pattern_ = nullptr;
+  Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower> ldlt_;
+};
+
+const bool registered =
+    solver_registry()
+        .emplace("eigen_ldlt", SolverKind{"Eigen's simplicial Cholesky on the reduced n x n matrix; symmetric "
+                                          "tangents, small systems.",
+                                          false, [] { return std::make_unique<EigenLdlt>(); }})
+        .second;
+
+}  // namespace
+}  // namespace orthodyn

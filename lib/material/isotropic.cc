@@ -1,0 +1,33 @@
+// Isotropic elasticity from Young's modulus and Poisson's ratio.
+#include "lib/material/material.h"
+
+namespace orthodyn {
+namespace {
+
+class Isotropic : public Material {
+ public:
+  static const Spec<Isotropic>& spec() {
+    static const auto s =
+        Spec<Isotropic>()
+            .key("density", &Isotropic::density_, "Mass density.",
+                 {.required = true, .unit = "kg/m^3", .range = kPositive})
+            .key("young", &Isotropic::young_, "Young's modulus.",
+                 {.required = true, .unit = "Pa", .range = kPositive})
+            .key("nu", &Isotropic::nu_, "Poisson's ratio.",
+                 {.required = true, .range = {-1, 0.5, true, true}});
+    return s;
+  }
+
+  Stiffness stiffness() const override {
+    return IsotropicStiffness{young_ * nu_ / ((1 + nu_) * (1 - 2 * nu_)), young_ / (2 * (1 + nu_))};
+  }
+
+ private:
+  double young_ = 0, nu_ = 0;
+};
+
+const bool registered =
+    Registry<Material>::add<Isotropic>("isotropic", "The same stiffness in every direction.");
+
+}  // namespace
+}  // namespace orthodyn

@@ -1,0 +1,59 @@
+// The one-parameter family of Li & Barbic (2014): nu_ij = nu sqrt(E_i/E_j), stable for every set of
+// moduli exactly if -1 < nu < 1/2; G_ij = sqrt(E_i E_j) / (2 (1 + nu)).
+#include <cmath>
+
+#include "lib/material/material.h"
+#include "lib/material/orthotropy.h"
+
+namespace orthodyn {
+namespace {
+
+class OrthotropicStable : public Material {
+ public:
+  static const Spec<OrthotropicStable>& spec() {
+    using O = OrthotropicStable;
+    static const auto s =
+        Spec<O>()
+            .key("density", &O::density_, "Mass density.",
+                 {.required = true, .unit = "kg/m^3", .range = kPositive})
+            .key("young", &O::young_, "Young's moduli E1, E2, E3 along the material axes.",
+                 {.required = true, .unit = "Pa", .range = kPositive})
+            .key("nu", &O::nu_, "The family's parameter; Poisson's ratio where two moduli are equal.",
+                 {.required = true, .range = {-1, 0.5, true, true}})
+            .key("shear_factor", &O::shear_factor_,
+                 "Multiplies the family's shear moduli sqrt(Ei Ej)/(2 (1 + nu)).",
+                 {.range = kPositive})
+            .check([](const O& o, const Config& config) {
+              if (!is_stable(o.constants())) config.fail(explain_instability(o.constants()));
+            });
+    return s;
+  }
+
+  Stiffness stiffness() const override { return orthodyn::stiffness(constants()); }
+
+ private:
+  OrthotropicConstants constants() const {
+    const auto& E = young_;
+    const auto shear = [&](int i, int j) {
+      return shear_factor_ * std::sqrt(E[i] * E[j]) / (2 * (1 + nu_));
+    };
+    OrthotropicConstants c;
+    c.young = E;
+    c.nu12 = nu_ * std::sqrt(E[0] / E[1]);
+    c.nu23 = nu_ * std::sqrt(E[1] / E[2]);
+    c.nu13 = nu_ * std::sqrt(E[0] / E[2]);
+    c.g12 = shear(0, 1);
+    c.g23 = shear(1, 2);
+    c.g13 = shear(0, 2);
+    return c;
+  }
+
+  Vec3 young_ = Vec3::Zero();
+  double nu_ = 0, shear_factor_ = 1;
+};
+
+const bool registered = Registry<Material>::add<OrthotropicStable>(
+    "orthotropic_stable", "Three Young's moduli and one ratio nu in (-1, 1/2): stable for all moduli.");
+
+}  // namespace
+}  // namespace orthodyn

@@ -1,0 +1,138 @@
+#include "lib/material/orthotropy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace orthodyn {
+
+namespace {
+
+// One Poisson's ratio: r = nu * factor, and the two other ratios' indices follow cyclically.
+struct Ratio {
+  const char* name;
+  double nu, factor;
+};
+
+std::array<Ratio, 3> ratios(const OrthotropicConstants& c) {
+  return {{{"nu12", c.nu12, std::sqrt(c.young[1] / c.young[0])},
+           {"nu23", c.nu23, std::sqrt(c.young[2] / c.young[1])},
+           {"nu13", c.nu13, std::sqrt(c.young[2] / c.young[0])}}};
+}
+
+double rho_determinant(const Vec3& r) { return 1 - r.squaredNorm() - 2 * r.prod(); }
+
+// The open interval of r[i] in which Rho is positive definite, the two others given (|others| < 1).
+std::pair<double, double> admissible(const Vec3& r, int i) {
+  const double a = r[(i + 1) % 3], b = r[(i + 2) % 3];
+  const double half = std::sqrt((1 - a * a) * (1 - b * b));
+  return {-a * b - half, -a * b + half};
+}
+
+std::string violated_inequality(const OrthotropicConstants& c, const Vec3& r) {
+  const auto all = ratios(c);
+  constexpr std::array<const char*, 3> first{"E1/E2", "E2/E3", "E1/E3"};
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(r[i]) >= 1)
+      return fmt::format("|{}| < sqrt({}) = {:.4g} is violated", all[static_cast<std::size_t>(i)].name,
+                         first[static_cast<std::size_t>(i)],
+                         1 / all[static_cast<std::size_t>(i)].factor);
+  return fmt::format(
+      "1 - nu12 nu21 - nu23 nu32 - nu31 nu13 - 2 nu12 nu23 nu31 > 0 is violated: it is {:.4g}",
+      rho_determinant(r));
+}
+
+std::string allowed_range(const OrthotropicConstants& c, const Vec3& r) {
+  int worst = 0;
+  r.cwiseAbs().maxCoeff(&worst);
+  const Ratio ratio = ratios(c)[static_cast<std::size_t>(worst)];
+  const bool others_fit = std::abs(r[(worst + 1) % 3]) < 1 && std::abs(r[(worst + 2) % 3]) < 1;
+  const auto [low, high] = others_fit ? admissible(r, worst) : std::pair{-1.0, 1.0};
+  return fmt::format("For these moduli{} {} must lie in ({:.4g}, {:.4g}).",
+                     others_fit ? " and the other two ratios" : "", ratio.name, low / ratio.factor,
+                     high / ratio.factor);
+}
+
+// C's smallest eigenvalue, where C exists.
+std::string smallest_eigenvalue(const OrthotropicConstants& c, const Vec3& r) {
+  const double lambda = rho_eigenvalues(c)[0];
+  if (std::abs(rho_determinant(r)) < 1e-12)
+    return fmt::format("C does not exist (smallest eigenvalue of the unit-diagonal compliance {:.3g})",
+                       lambda);
+  const Mat6 C = voigt(stiffness(c));
+  const double smallest = Eigen::SelfAdjointEigenSolver<Mat6>(C).eigenvalues()[0];
+  return fmt::format("smallest eigenvalue of C {:.3g} Pa, of the unit-diagonal compliance {:.3g}",
+                     smallest, lambda);
+}
+
+}  // namespace
+
+Vec3 scaled_ratios(const OrthotropicConstants& c) {
+  Vec3 r;
+  for (int i = 0; i < 3; ++i) {
+    const Ratio ratio = ratios(c)[static_cast<std::size_t>(i)];
+    r[i] = ratio.nu * ratio.factor;
+  }
+  return r;
+}
+
+// Not by the trigonometric formula: where two eigenvalues coincide it keeps half the digits only.
+Vec3 rho_eigenvalues(const OrthotropicConstants& c) {
+  const Vec3 r = scaled_ratios(c);
+  Mat3 rho;
+  rho << 1, -r[0], -r[2], -r[0], 1, -r[1], -r[2], -r[1], 1;
+  return Eigen::SelfAdjointEigenSolver<Mat3>(rho, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+bool is_stable(const OrthotropicConstants& c) {
+  return c.young.minCoeff() > 0 && std::min({c.g12, c.g23, c.g13}) > 0 &&
+         rho_eigenvalues(c)[0] >= kSmallestRhoEigenvalue;
+}
+
+double stabilising_factor(const OrthotropicConstants& c, double margin) {
+  const double lambda = rho_eigenvalues(c)[0];
+  return lambda >= margin ? 1.0 : (1 - margin) / (1 - lambda);
+}
+
+OrthotropicConstants shrink_ratios(const OrthotropicConstants& c, double factor) {
+  OrthotropicConstants out = c;
+  out.nu12 *= factor;
+  out.nu23 *= factor;
+  out.nu13 *= factor;
+  return out;
+}
+
+OrthotropicStiffness stiffness(const OrthotropicConstants& c) {
+  const Vec3 r = scaled_ratios(c);
+  const double det = rho_determinant(r);
+  const Vec3 root = c.young.cwiseSqrt();
+  // Rho^-1 by cofactors, with r = (r12, r23, r31).
+  const auto entry = [&](double cofactor, int i, int j) { return cofactor / det * root[i] * root[j]; };
+  OrthotropicStiffness s;
+  s.c11 = entry(1 - r[1] * r[1], 0, 0);
+  s.c22 = entry(1 - r[2] * r[2], 1, 1);
+  s.c33 = entry(1 - r[0] * r[0], 2, 2);
+  s.c12 = entry(r[0] + r[1] * r[2], 0, 1);
+  s.c23 = entry(r[1] + r[2] * r[0], 1, 2);
+  s.c31 = entry(r[2] + r[0] * r[1], 2, 0);
+  s.g12 = c.g12;
+  s.g23 = c.g23;
+  s.g31 = c.g13;
+  return s;
+}
+
+std::string explain_instability(const OrthotropicConstants& c) {
+  const Vec3 r = scaled_ratios(c);
+  const double factor = stabilising_factor(c);
+  const auto stable = shrink_ratios(c, factor);
+  return fmt::format(
+      "nu12={:.4g}, nu23={:.4g}, nu13={:.4g} make the stiffness indefinite: {} ({}). {} "
+      "Nearest stable set (all ratios times {:.4g}): nu12: {:.6g}, nu23: {:.6g}, nu13: {:.6g}",
+      c.nu12, c.nu23, c.nu13, violated_inequality(c, r), smallest_eigenvalue(c, r),
+      allowed_range(c, r), factor, stable.nu12, stable.nu23, stable.nu13);
+}
+
+}  // namespace orthodyn

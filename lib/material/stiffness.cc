@@ -1,0 +1,54 @@
+#include "lib/material/stiffness.h"
+
+#include <array>
+#include <utility>
+
+namespace orthodyn {
+
+OrthotropicStiffness operator+(const OrthotropicStiffness& a, const OrthotropicStiffness& b) {
+  return {a.c11 + b.c11, a.c22 + b.c22, a.c33 + b.c33, a.c12 + b.c12, a.c23 + b.c23,
+          a.c31 + b.c31, a.g12 + b.g12, a.g23 + b.g23, a.g31 + b.g31};
+}
+
+OrthotropicStiffness operator*(double s, const OrthotropicStiffness& c) {
+  return {s * c.c11, s * c.c22, s * c.c33, s * c.c12, s * c.c23,
+          s * c.c31, s * c.g12, s * c.g23, s * c.g31};
+}
+
+OrthotropicStiffness as_orthotropic(const IsotropicStiffness& c) {
+  OrthotropicStiffness out;
+  out.c11 = out.c22 = out.c33 = c.lambda + 2 * c.mu;
+  out.c12 = out.c23 = out.c31 = c.lambda;
+  out.g12 = out.g23 = out.g31 = c.mu;
+  return out;
+}
+
+Mat6 voigt(const OrthotropicStiffness& c) {
+  Mat6 m = Mat6::Zero();
+  m.topLeftCorner<3, 3>() << c.c11, c.c12, c.c31, c.c12, c.c22, c.c23, c.c31, c.c23, c.c33;
+  m.diagonal().tail<3>() << c.g12, c.g23, c.g31;
+  return m;
+}
+
+IsotropicStiffness nearest_isotropic(const OrthotropicStiffness& c) {
+  const double iijj = c.c11 + c.c22 + c.c33 + 2 * (c.c12 + c.c23 + c.c31);
+  const double ijij = c.c11 + c.c22 + c.c33 + 2 * (c.g12 + c.g23 + c.g31);
+  const double bulk = iijj / 9;
+  const double mu = (ijij - iijj / 3) / 10;
+  return {bulk - 2 * mu / 3, mu};
+}
+
+Mat6 stress_rotation(const Mat3& Q) {
+  constexpr std::array<std::pair<int, int>, 6> pair{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
+  Mat6 K;
+  for (int row = 0; row < 6; ++row) {
+    const auto [i, j] = pair[static_cast<std::size_t>(row)];
+    for (int column = 0; column < 6; ++column) {
+      const auto [k, l] = pair[static_cast<std::size_t>(column)];
+      K(row, column) = k == l ? Q(i, k) * Q(j, k) : Q(i, k) * Q(j, l) + Q(i, l) * Q(j, k);
+    }
+  }
+  return K;
+}
+
+}  // namespace orthodyn

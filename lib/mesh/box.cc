@@ -1,0 +1,133 @@
+#include "lib/mesh/box.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "lib/core/errors.h"
+
+namespace orthodyn {
+namespace {
+
+// Corners of the unit cell are i + 2 j + 4 k; all tets below are positive.
+constexpr Tet kFive[] = {{0, 5, 3, 6}, {1, 3, 0, 5}, {2, 0, 3, 6}, {4, 6, 5, 0}, {7, 5, 6, 3}};
+constexpr Tet kSix[] = {{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7},
+                        {0, 5, 1, 7}, {0, 6, 4, 7}, {0, 3, 2, 7}};
+
+std::span<const Tet> cell_tets(BoxMesh::Split split) {
+  if (split == BoxMesh::Split::five) return kFive;
+  return kSix;
+}
+
+void check(const BoxMesh& box) {
+  constexpr const char* kAxis[] = {"x", "y", "z"};
+  double nodes = 1;
+  double tets = static_cast<double>(cell_tets(box.split).size());
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double size = box.size[static_cast<Eigen::Index>(a)];
+    if (!(size > 0) || !std::isfinite(size)) {
+      throw ConfigError(
+          fmt::format("box size {} m along {}; it must be positive and finite", size, kAxis[a]));
+    }
+    if (box.cells[a] < 1) {
+      throw ConfigError(
+          fmt::format("{} cells along {}; there must be at least 1", box.cells[a], kAxis[a]));
+    }
+    nodes *= box.cells[a] + 1.0;
+    tets *= box.cells[a];
+  }
+  if (!box.origin.allFinite()) throw ConfigError("the origin of the box is not finite");
+  constexpr int kMax = std::numeric_limits<int>::max();
+  if (nodes > kMax || tets > kMax) {
+    throw ConfigError(fmt::format(
+        "{} x {} x {} cells make {:.3g} nodes and {:.3g} tets; at most {} can be numbered",
+        box.cells[0], box.cells[1], box.cells[2], nodes, tets, kMax));
+  }
+}
+
+// Numbers of the nodes and their places in the grid.
+struct Grid {
+  std::array<int, 3> cells;
+
+  int node(int i, int j, int k) const { return i + (cells[0] + 1) * (j + (cells[1] + 1) * k); }
+  std::array<int, 3> place(int n) const {
+    const int row = n / (cells[0] + 1);
+    return {n % (cells[0] + 1), row % (cells[1] + 1), row / (cells[1] + 1)};
+  }
+};
+
+std::vector<Vec3> make_nodes(const BoxMesh& box) {
+  std::vector<Vec3> nodes;
+  const Vec3 cells(box.cells[0], box.cells[1], box.cells[2]);
+  for (int k = 0; k <= box.cells[2]; ++k) {
+    for (int j = 0; j <= box.cells[1]; ++j) {
+      for (int i = 0; i <= box.cells[0]; ++i) {
+        const Vec3 fraction = Vec3(i, j, k).cwiseQuotient(cells);
+        nodes.push_back(box.origin + box.size.cwiseProduct(fraction));
+      }
+    }
+  }
+  return nodes;
+}
+
+void append_cell(const Grid& grid, std::array<int, 3> cell, BoxMesh::Split split,
+                 std::vector<Tet>& tets) {
+  const bool mirrored =
+      split == BoxMesh::Split::five && (cell[0] % 2 + cell[1] % 2 + cell[2] % 2) % 2 == 1;
+  for (const Tet& local : cell_tets(split)) {
+    Tet tet{};
+    for (std::size_t v = 0; v < 4; ++v) {
+      const int corner = mirrored ? local[v] ^ 1 : local[v];
+      tet[v] =
+          grid.node(cell[0] + (corner & 1), cell[1] + ((corner >> 1) & 1), cell[2] + (corner >> 2));
+    }
+    if (mirrored) std::swap(tet[2], tet[3]);  // a mirror image is inverted
+    tets.push_back(tet);
+  }
+}
+
+std::vector<Tet> make_tets(const BoxMesh& box) {
+  const Grid grid{box.cells};
+  std::vector<Tet> tets;
+  for (int k = 0; k < box.cells[2]; ++k) {
+    for (int j = 0; j < box.cells[1]; ++j) {
+      for (int i = 0; i < box.cells[0]; ++i) append_cell(grid, {i, j, k}, box.split, tets);
+    }
+  }
+  return tets;
+}
+
+// The side that all three nodes lie on. Judged by grid numbers, so exact for any size.
+std::string side_of(const Grid& grid, const Triangle& triangle) {
+  const std::array<int, 3> a = grid.place(triangle[0]);
+  const std::array<int, 3> b = grid.place(triangle[1]);
+  const std::array<int, 3> c = grid.place(triangle[2]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (a[axis] != b[axis] || a[axis] != c[axis]) continue;
+    if (a[axis] == 0) return std::string(1, "xyz"[axis]) + "0";
+    if (a[axis] == grid.cells[axis]) return std::string(1, "xyz"[axis]) + "1";
+  }
+  return {};
+}
+
+}  // namespace
+
+TetMesh make_box(const BoxMesh& box) {
+  check(box);
+  TetMesh mesh;
+  mesh.nodes = make_nodes(box);
+  mesh.tets = make_tets(box);
+  mesh.region_of.assign(mesh.tets.size(), 0);
+  mesh.region_names = {"body"};
+  for (const Triangle& triangle : boundary_triangles(mesh)) {
+    mesh.surfaces[side_of({box.cells}, triangle)].push_back(triangle);
+  }
+  return mesh;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,29 @@
+// A box cut into a grid of cells, each cell into five or six tets.
+#pragma once
+
+#include <array>
+
+#include "lib/core/types.h"
+#include "lib/mesh/tet_mesh.h"
+
+namespace orthodyn {
+
+struct BoxMesh {
+  // five: four corner tets around a central one, alternating from cell to cell so that the
+  //   diagonals match. Mirror symmetric about the mid planes of axes with an even cell count.
+  // six: Kuhn (1960), all cells alike around the diagonal (0,0,0)-(1,1,1). No mirror symmetry.
+  enum class Split { five, six };
+
+  Vec3 size = Vec3::Ones();              // m
+  std::array<int, 3> cells = {1, 1, 1};  // along x, y, z
+  Vec3 origin = Vec3::Zero();            // the corner with the lowest coordinates, m
+  Split split = Split::five;
+};
+
+// One region "body"; surfaces "x0", "x1", "y0", "y1", "z0", "z1" are the sides of lowest and
+// highest x, y, z, oriented outward. Nodes are numbered along x first, then y, then z; cells
+// likewise. Throws ConfigError (without a file) if a cell count is below 1, a size is not positive,
+// a number not finite, or the mesh has more nodes or tets than an int can count.
+TetMesh make_box(const BoxMesh& box);
+
+}  // namespace orthodyn

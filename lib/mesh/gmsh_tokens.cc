@@ -1,0 +1,113 @@
+#include "lib/mesh/gmsh_tokens.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include "lib/core/errors.h"
+
+namespace orthodyn {
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+// from_chars knows no plus sign, but some writers do.
+std::string_view without_plus(std::string_view word) {
+  const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
+  return plus ? word.substr(1) : word;
+}
+
+template <class Number>
+bool parse(std::string_view word, Number& value) {
+  word = without_plus(word);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && end == word.data() + word.size();
+}
+
+}  // namespace
+
+GmshTokens::GmshTokens(std::string path, std::string_view text)
+    : path_(std::move(path)), text_(text) {
+  skip_blank_lines();
+}
+
+char GmshTokens::peek() {
+  while (!at_end() && is_blank(text_[position_])) ++position_;
+  return at_end() || text_[position_] == '\n' ? '\0' : text_[position_];
+}
+
+std::string_view GmshTokens::word(const char* what) {
+  if (at_end()) fail(fmt::format("the file ends where {} is expected; is it truncated?", what));
+  peek();
+  const std::size_t begin = position_;
+  while (!at_end() && text_[position_] != '\n' && !is_blank(text_[position_])) ++position_;
+  if (position_ == begin) fail(fmt::format("expected {}, found the end of the line", what));
+  return text_.substr(begin, position_ - begin);
+}
+
+std::int64_t GmshTokens::integer(const char* what) {
+  const std::string_view found = word(what);
+  std::int64_t value = 0;
+  if (!parse(found, value)) {
+    fail(fmt::format("expected {} (an integer), found {}", what, quoted(found)));
+  }
+  return value;
+}
+
+double GmshTokens::real(const char* what) {
+  const std::string_view found = word(what);
+  double value = 0;
+  if (!parse(found, value) || !std::isfinite(value)) {
+    fail(fmt::format("expected {} (a finite number), found {}", what, quoted(found)));
+  }
+  return value;
+}
+
+std::string_view GmshTokens::rest_of_line() const {
+  const std::string_view rest = text_.substr(position_);
+  return rest.substr(0, std::min(rest.find('\n'), rest.size()));
+}
+
+void GmshTokens::finish_line() {
+  if (peek() != '\0') {
+    fail(fmt::format("expected the end of the line, found {}", quoted(word("a word"))));
+  }
+  skip_line();
+}
+
+void GmshTokens::skip_line() {
+  position_ = std::min(text_.find('\n', position_), text_.size());
+  skip_blank_lines();
+}
+
+void GmshTokens::skip_blank_lines() {
+  std::size_t p = position_;
+  int line = line_;
+  while (p < text_.size() && (is_blank(text_[p]) || text_[p] == '\n')) {
+    line += text_[p] == '\n';
+    ++p;
+  }
+  // At the end of the file the last line that holds something is the one to name.
+  if (p < text_.size()) line_ = line;
+  position_ = p;
+}
+
+void GmshTokens::fail(const std::string& message) const { fail_at(line_, message); }
+
+void GmshTokens::fail_at(int line, const std::string& message) const {
+  throw ConfigError(fmt::format("{}:{}: {}", path_, line, message));
+}
+
+std::string GmshTokens::quoted(std::string_view word) {
+  constexpr std::size_t kLongest = 40;
+  std::string shown(word.substr(0, kLongest));
+  std::replace_if(
+      shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return "\"" + shown + (word.size() > kLongest ? "..." : "") + "\"";
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,49 @@
+// Words and numbers of a text file, line by line, with messages that name the line.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace orthodyn {
+
+// Between calls the cursor is on a line that is not blank, or at the end of the file. Lines end
+// with \n or \r\n. The text must outlive the tokens. Whatever does not fit throws ConfigError.
+class GmshTokens {
+ public:
+  GmshTokens(std::string path, std::string_view text);
+
+  bool at_end() const { return position_ == text_.size(); }
+  int line() const { return line_; }
+  const std::string& path() const { return path_; }
+
+  // The next character of this line that is not blank; '\0' at its end.
+  char peek();
+
+  // The next word of this line; `what` is named if there is none or it does not read as a number.
+  std::string_view word(const char* what);
+  std::int64_t integer(const char* what);
+  double real(const char* what);  // finite
+
+  // What is left of this line. The cursor stays.
+  std::string_view rest_of_line() const;
+
+  void finish_line();  // nothing may be left on it
+  void skip_line();
+
+  [[noreturn]] void fail(const std::string& message) const;
+  [[noreturn]] void fail_at(int line, const std::string& message) const;
+
+  // For messages: in quotes, shortened, unprintable bytes as '?'.
+  static std::string quoted(std::string_view word);
+
+ private:
+  void skip_blank_lines();
+
+  std::string path_;
+  std::string_view text_;
+  std::size_t position_ = 0;
+  int line_ = 1;
+};
+
+}  // namespace orthodyn

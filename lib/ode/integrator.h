@@ -1,0 +1,63 @@
+// An integrator advances one Model by steps of its own choice. One kind per file, chosen in the
+// input by `type` through Registry<IntegratorChoice>.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lib/core/registry.h"
+#include "lib/ode/model.h"
+#include "lib/ode/statistics.h"
+
+namespace orthodyn {
+
+struct StepInfo {
+  double t = 0;  // the time reached
+  double h = 0;
+  int order = 0;
+};
+
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+
+  // Begins, or begins anew after a breakpoint, at this state. Statistics go on.
+  virtual void start(const State& state) = 0;
+
+  // One step, ending at t_stop at the latest. Throws RunError with time, limit and remedy.
+  virtual StepInfo step(double t_stop) = 0;
+
+  // The solution at a time within the last step.
+  virtual void interpolate(double t, State& out) const = 0;
+
+  virtual const Statistics& statistics() const = 0;
+
+  // Bytes that the linear solver's factor takes, or will take; and all else that the integrator holds
+  // once it has been started.
+  virtual std::size_t factor_bytes() const { return 0; }
+  virtual std::size_t bytes() const { return 0; }
+
+  // What was decided that the input left open: (key, value) pairs such as ("max_order", "5").
+  virtual std::vector<std::pair<std::string, std::string>> decisions() const { return {}; }
+};
+
+// Sizes against which errors are measured: an error of rtol * position in every free coordinate, or
+// of rtol * velocity in every velocity, is at tolerance.
+struct Scales {
+  double position = 1, velocity = 1;
+};
+
+// The options of one integrator, read from the input; makes the integrator for a model.
+class IntegratorChoice {
+ public:
+  virtual ~IntegratorChoice() = default;
+  // `estimate` is asked only if the input gives no scales. Throws ConfigError if the integrator
+  // cannot serve the model, which must outlive it.
+  virtual std::unique_ptr<Integrator> make(const Model& model,
+                                           const std::function<Scales()>& estimate) const = 0;
+};
+
+}  // namespace orthodyn

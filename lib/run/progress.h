@@ -1,0 +1,27 @@
+// Tells how far a run is: one line that renews itself on a terminal, else a line every few seconds.
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+
+#include "lib/run/observer.h"
+
+namespace orthodyn {
+
+class Progress : public Observer {
+ public:
+  Progress(double start, double end, std::FILE* out);
+  void on_step(const StepInfo& info, const Integrator& integrator) override;
+  void on_end() override;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void show(const StepInfo& info, double elapsed);
+
+  double start_, end_;
+  std::FILE* out_;
+  bool terminal_, shown_ = false;
+  Clock::time_point begin_, last_;
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,109 @@
+#include "lib/run/run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+#include "lib/core/errors.h"
+
+namespace orthodyn {
+
+namespace {
+
+class Driver {
+ public:
+  Driver(const Model& model, Integrator& integrator, const Plan& plan, const std::vector<Observer*>& observers,
+         const std::atomic<bool>& interrupt, Outcome& outcome)
+      : integrator_(integrator), plan_(plan), observers_(observers), interrupt_(interrupt), outcome_(outcome),
+        stops_(model.breakpoints(outcome.last.t, plan.end)) {
+    stops_.push_back(plan.end);
+  }
+
+  void advance() {
+    for (auto* o : observers_) o->on_start(outcome_.last);
+    integrator_.start(outcome_.last);
+    for (const double stop : stops_) {
+      if (!advance_to(stop)) return;
+      if (stop < plan_.end) integrator_.start(outcome_.last);  // no step across a kink
+    }
+  }
+
+ private:
+  // False if interrupted.
+  bool advance_to(double stop) {
+    while (outcome_.last.t < stop) {
+      if (interrupt_) {
+        outcome_.status = Outcome::Status::interrupted;
+        return false;
+      }
+      const double limit = plan_.exact_times && next_ < plan_.output_times.size()
+                               ? std::min(stop, plan_.output_times[next_])
+                               : stop;
+      StepInfo info = integrator_.step(limit);
+      if (std::abs(info.t - limit) < 1e-12 * std::abs(limit)) info.t = limit;
+      while (next_ < plan_.output_times.size() && plan_.output_times[next_] <= info.t) {
+        State state;
+        integrator_.interpolate(plan_.output_times[next_++], state);
+        for (auto* o : observers_) o->on_output(state);
+      }
+      integrator_.interpolate(info.t, outcome_.last);
+      for (auto* o : observers_) o->on_step(info, integrator_);
+    }
+    return true;
+  }
+
+  Integrator& integrator_;
+  const Plan& plan_;
+  const std::vector<Observer*>& observers_;
+  const std::atomic<bool>& interrupt_;
+  Outcome& outcome_;
+  std::vector<double> stops_;
+  std::size_t next_ = 0;
+};
+
+double cpu_now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+}  // namespace
+
+std::vector<double> evenly_spaced(double start, double end, int frames) {
+  std::vector<double> times;
+  for (int k = 1; k <= frames; ++k) times.push_back(k == frames ? end : start + k * (end - start) / frames);
+  return times;
+}
+
+std::vector<double> by_interval(double start, double end, double interval) {
+  std::vector<double> times;
+  for (long k = 1;; ++k) {
+    const double t = start + static_cast<double>(k) * interval;
+    if (t > end - 1e-9 * interval) break;
+    times.push_back(t);
+  }
+  times.push_back(end);
+  return times;
+}
+
+Outcome run(const Model& model, Integrator& integrator, const State& initial, const Plan& plan,
+            const std::vector<Observer*>& observers, const std::atomic<bool>& interrupt) {
+  Outcome outcome;
+  outcome.last = initial;
+  const auto wall = std::chrono::steady_clock::now();
+  const double cpu = cpu_now();
+  try {
+    Driver(model, integrator, plan, observers, interrupt, outcome).advance();
+    for (auto* o : observers) o->on_end();
+  } catch (const std::bad_alloc&) {
+    outcome.status = Outcome::Status::failed;
+    outcome.message = "out of memory; use a coarser mesh or another linear solver";
+  } catch (const ConfigError&) {
+    throw;
+  } catch (const std::exception& e) {
+    outcome.status = Outcome::Status::failed;
+    outcome.message = e.what();
+  }
+  outcome.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
+  outcome.cpu_seconds = cpu_now() - cpu;
+  return outcome;
+}
+
+}  // namespace orthodyn

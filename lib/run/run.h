@@ -1,0 +1,36 @@
+// Drives one integration from start to end: steps, output times, breakpoints, observers.
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "lib/run/observer.h"
+
+namespace orthodyn {
+
+struct Plan {
+  double end = 0;                    // s
+  std::vector<double> output_times;  // ascending, after the start
+  bool exact_times = false;          // steps end on output times
+};
+
+// `frames` + 1 evenly spaced times including both ends, resp. multiples of an interval; the start is
+// left out.
+std::vector<double> evenly_spaced(double start, double end, int frames);
+std::vector<double> by_interval(double start, double end, double interval);
+
+struct Outcome {
+  enum class Status { completed, interrupted, failed };
+  Status status = Status::completed;
+  std::string message;  // of a failure: what, where, what to try
+  State last;           // the last state reached
+  double wall_seconds = 0, cpu_seconds = 0;
+};
+
+// Never throws for a computation that could not go on: that is an Outcome. Observers are told of the
+// end in every case. `interrupt` is looked at after each step.
+Outcome run(const Model& model, Integrator& integrator, const State& initial, const Plan& plan,
+            const std::vector<Observer*>& observers, const std::atomic<bool>& interrupt);
+
+}  // namespace orthodyn

@@ -1,0 +1,114 @@
+#include "lib/run/vtu.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <type_traits>
+
+#include "lib/run/files.h"
+
+namespace orthodyn {
+
+namespace {
+
+// The XML part, and the binary blocks that it points into.
+class VtuFile {
+ public:
+  template <class T>
+  void array(const std::string& name, int components, const std::vector<T>& values) {
+    xml_ += fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" "
+                        "offset=\"{}\"/>\n",
+                        type_name<T>(), name, components, offset_);
+    const std::uint64_t bytes = values.size() * sizeof(T);
+    std::string block(reinterpret_cast<const char*>(&bytes), sizeof bytes);
+    block.append(reinterpret_cast<const char*>(values.data()), bytes);
+    offset_ += block.size();
+    blocks_.push_back(std::move(block));
+  }
+
+  void text(const std::string& xml) { xml_ += xml; }
+
+  std::vector<std::string> finish() {
+    const char* order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
+    blocks_.insert(blocks_.begin(),
+                   fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+                               "byte_order=\"{}\" header_type=\"UInt64\">\n{}<AppendedData encoding=\"raw\">\n_",
+                               order, xml_));
+    blocks_.emplace_back("\n</AppendedData>\n</VTKFile>\n");
+    return std::move(blocks_);
+  }
+
+ private:
+  template <class T>
+  static const char* type_name() {
+    if constexpr (std::is_same_v<T, float>) return "Float32";
+    else if constexpr (std::is_same_v<T, double>) return "Float64";
+    else if constexpr (std::is_same_v<T, std::int32_t>) return "Int32";
+    else return "UInt8";
+  }
+
+  std::string xml_;
+  std::vector<std::string> blocks_;
+  std::size_t offset_ = 0;
+};
+
+void write_geometry(const Geometry& geometry, VtuFile& file) {
+  std::vector<double> points;
+  points.reserve(3 * geometry.points.size());
+  for (const Vec3& x : geometry.points) points.insert(points.end(), x.begin(), x.end());
+  std::vector<std::int32_t> connectivity, offsets;
+  connectivity.reserve(4 * geometry.cells.size());
+  offsets.reserve(geometry.cells.size());
+  for (const auto& cell : geometry.cells) {
+    connectivity.insert(connectivity.end(), cell.begin(), cell.end());
+    offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
+  }
+  constexpr std::uint8_t kTetra = 10;
+  file.text("<Points>\n");
+  file.array("points", 3, points);
+  file.text("</Points>\n<Cells>\n");
+  file.array("connectivity", 1, connectivity);
+  file.array("offsets", 1, offsets);
+  file.array("types", 1, std::vector<std::uint8_t>(geometry.cells.size(), kTetra));
+  file.text("</Cells>\n");
+}
+
+}  // namespace
+
+VtuWriter::VtuWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields)
+    : folder_(std::move(folder)), model_(model) {
+  for (const auto& info : model.outputs())
+    if (std::find(fields.begin(), fields.end(), info.name) != fields.end()) fields_.push_back(info);
+}
+
+void VtuWriter::write(const State& state) {
+  const Geometry geometry = model_.geometry();
+  VtuFile file;
+  file.text(fmt::format("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+                        geometry.points.size(), geometry.cells.size()));
+  for (const auto& [location, tag] : {std::pair{Location::node, "PointData"}, {Location::cell, "CellData"}}) {
+    file.text(fmt::format("<{}>\n", tag));
+    for (const auto& field : fields_) {
+      if (field.location != location) continue;
+      const auto values = model_.evaluate(field.name, state);
+      file.array(field.name, field.components, std::vector<float>(values.begin(), values.end()));
+    }
+    file.text(fmt::format("</{}>\n", tag));
+  }
+  write_geometry(geometry, file);
+  file.text("</Piece>\n</UnstructuredGrid>\n");
+  write_file(folder_ / "frames" / fmt::format("frame_{:05}.vtu", times_.size()), file.finish());
+  times_.push_back(state.t);
+  write_collection();
+}
+
+void VtuWriter::write_collection() const {
+  std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n";
+  for (std::size_t k = 0; k < times_.size(); ++k)
+    xml += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"frames/frame_{:05}.vtu\"/>\n", times_[k], k);
+  write_file(folder_ / "frames.pvd", {xml + "</Collection>\n</VTKFile>\n"});
+}
+
+}  // namespace orthodyn

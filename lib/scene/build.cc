@@ -1,0 +1,137 @@
+#include "lib/scene/build.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "lib/fem/gravity.h"
+#include "lib/fem/traction.h"
+#include "lib/scene/initial_state.h"
+#include "lib/scene/selection.h"
+
+namespace orthodyn {
+
+namespace {
+
+// For each region of the mesh the entry of scene.regions that describes it.
+std::vector<const Region*> assign_regions(const Scene& scene, const TetMesh& mesh) {
+  std::vector<const Region*> out(mesh.region_names.size(), nullptr);
+  const Region* everywhere = nullptr;
+  for (const auto& [name, region] : scene.regions) {
+    const auto it = std::find(mesh.region_names.begin(), mesh.region_names.end(), name);
+    if (it != mesh.region_names.end()) out[static_cast<std::size_t>(it - mesh.region_names.begin())] = &region;
+    else if (name == "all") everywhere = &region;
+    else region.origin.fail(fmt::format("the mesh has no region '{}'; it has {} (or use 'all')", name,
+                                        join(mesh.region_names)));
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (!out[i]) out[i] = everywhere;
+    if (!out[i])
+      scene.regions.front().second.origin.fail(
+          fmt::format("region '{}' of the mesh has no material; add it, or 'all'", mesh.region_names[i]));
+  }
+  return out;
+}
+
+const Material& material_of(const Scene& scene, const Region& region) {
+  for (const auto& [name, material] : scene.materials)
+    if (name == region.material) return *material;
+  region.origin.fail("unknown material");  // read_scene() has seen to this
+}
+
+double stiffness_damping(const Scene& scene, const Region& region) {
+  return region.stiffness_damping.value_or(scene.damping ? scene.damping->stiffness : 0);
+}
+
+std::vector<double> densities(const Scene& scene, const TetMesh& mesh, const std::vector<const Region*>& regions) {
+  std::vector<double> out;
+  for (const int r : mesh.region_of)
+    out.push_back(material_of(scene, *regions[static_cast<std::size_t>(r)]).density());
+  return out;
+}
+
+void add_elasticity(const Scene& scene, const std::vector<const Region*>& regions, FemModel::Parts& parts) {
+  const TetMesh& mesh = parts.mesh;
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    const Region& region = *regions[r];
+    std::vector<int> cells;
+    for (std::size_t e = 0; e < mesh.tets.size(); ++e)
+      if (mesh.region_of[e] == static_cast<int>(r)) cells.push_back(static_cast<int>(e));
+    if (cells.empty()) continue;
+    parts.elastic.push_back(make_elastic_term(
+        mesh.region_names[r], mesh, std::move(cells), material_of(scene, region).stiffness(),
+        region.axes ? region.axes->rotation() : Mat3::Identity(), stiffness_damping(scene, region),
+        scene.elasticity, *parts.pattern));
+  }
+}
+
+void add_loads(const Scene& scene, FemModel::Parts& parts) {
+  if (scene.gravity)
+    parts.loads.push_back(std::make_unique<Gravity>(*scene.gravity, parts.mass->nodal(), *parts.rest));
+  for (const Load& load : scene.loads) {
+    const auto& triangles = find_surface(parts.mesh, load.surface, load.origin);
+    const Vec3 traction = load.traction ? *load.traction : *load.force / surface_area(parts.mesh, triangles);
+    parts.loads.push_back(std::make_unique<Traction>(load.surface, parts.mesh, triangles, traction, load.factor));
+  }
+}
+
+Traits traits_of(const Scene& scene, const std::vector<const Region*>& regions) {
+  const auto is_damped = [&](const Region* r) { return stiffness_damping(scene, *r) > 0; };
+  Traits traits;
+  traits.linear = scene.elasticity.kinematics == Kinematics::linear;
+  traits.damped = std::all_of(regions.begin(), regions.end(), is_damped);
+  traits.damping_matrix = std::any_of(regions.begin(), regions.end(), is_damped);
+  traits.lumped_mass = scene.mass == MassKind::lumped;
+  traits.time_dependent = std::any_of(scene.loads.begin(), scene.loads.end(), [](const Load& load) {
+    return !load.factor->constant();
+  });
+  const bool warped = scene.elasticity.corotation == Corotation::warped && !traits.linear;
+  traits.conservative = !warped && !traits.damping_matrix && !(scene.damping && scene.damping->mass > 0) &&
+                        !traits.time_dependent;
+  return traits;
+}
+
+}  // namespace
+
+double density_of(const Scene& scene, const std::string& mesh_region) {
+  const Region* found = nullptr;
+  for (const auto& [name, region] : scene.regions)
+    if (name == mesh_region || (name == "all" && !found)) found = &region;
+  return material_of(scene, *found).density();
+}
+
+int nearest_node(const TetMesh& mesh, const Vec3& point) {
+  const auto nearer = [&](const Vec3& a, const Vec3& b) {
+    return (a - point).squaredNorm() < (b - point).squaredNorm();
+  };
+  return static_cast<int>(std::min_element(mesh.nodes.begin(), mesh.nodes.end(), nearer) - mesh.nodes.begin());
+}
+
+BuiltScene build(const Scene& scene) {
+  LoadedMesh loaded = scene.mesh->load();
+  FemModel::Parts parts;
+  parts.mesh = std::move(loaded.mesh);
+  const auto regions = assign_regions(scene, parts.mesh);
+  const int num_nodes = static_cast<int>(parts.mesh.nodes.size());
+  parts.dofs = std::make_unique<DofMap>(num_nodes, clamped_coordinates(scene.clamps, parts.mesh));
+  if (parts.dofs->num_dofs() == 0)
+    scene.clamps.front().origin.fail("all nodes are clamped: nothing can move");
+  const bool symmetric = !(scene.elasticity.kinematics == Kinematics::corotational &&
+                           scene.elasticity.corotation == Corotation::warped &&
+                           scene.elasticity.warped_tangent == WarpedTangent::unsymmetric);
+  parts.pattern = std::make_unique<BlockPattern>(parts.mesh.tets, *parts.dofs, symmetric);
+  parts.mass = std::make_unique<Mass>(scene.mass, parts.mesh, densities(scene, parts.mesh, regions), *parts.dofs,
+                                      *parts.pattern);
+  parts.rest = std::make_unique<NodalVector>(3, num_nodes);
+  for (int i = 0; i < num_nodes; ++i) parts.rest->col(i) = parts.mesh.nodes[static_cast<std::size_t>(i)];
+  parts.mass_damping = scene.damping ? scene.damping->mass : 0;
+  parts.traits = traits_of(scene, regions);
+  parts.stiffness_damping = parts.traits.damping_matrix;
+  add_elasticity(scene, regions, parts);
+  add_loads(scene, parts);
+  BuiltScene built{std::make_unique<FemModel>(std::move(parts)), {}, std::move(loaded.warnings)};
+  built.initial = initial_state(scene, built.model->parts());
+  return built;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,27 @@
+// From a scene to a model that can be integrated.
+#pragma once
+
+#include <memory>
+
+#include "lib/fem/fem_model.h"
+#include "lib/ode/integrator.h"
+#include "lib/scene/scene.h"
+
+namespace orthodyn {
+
+struct BuiltScene {
+  std::unique_ptr<FemModel> model;
+  State initial;
+  Warnings warnings;
+};
+
+// Loads the mesh and makes the terms that the scene names. Throws ConfigError.
+BuiltScene build(const Scene& scene);
+
+// The density of a region of the mesh, kg/m^3.
+double density_of(const Scene& scene, const std::string& mesh_region);
+
+// The node nearest to a point of the rest shape.
+int nearest_node(const TetMesh& mesh, const Vec3& point);
+
+}  // namespace orthodyn

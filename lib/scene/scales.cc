@@ -1,0 +1,79 @@
+#include "lib/scene/scales.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/linear/solver.h"
+
+namespace orthodyn {
+
+namespace {
+
+// Gravity and loads at the peak of their factors, on the free coordinates.
+Vector peak_load(const Scene& scene, const FemModel& model) {
+  const auto& parts = model.parts();
+  NodalVector sum = NodalVector::Zero(3, parts.rest->cols());
+  const NodalVector still = NodalVector::Zero(3, parts.rest->cols());
+  std::vector<double> times = model.breakpoints(scene.time.start, scene.time.end);
+  for (int k = 0; k <= 100; ++k)
+    times.push_back(scene.time.start + k * (scene.time.end - scene.time.start) / 100);
+  Vector largest = Vector::Zero(model.num_dofs());
+  for (const double t : times) {
+    sum.setZero();
+    for (const auto& load : parts.loads) load->add_force({t, *parts.rest, still}, sum);
+    Vector now(model.num_dofs());
+    parts.dofs->restrict_to(sum, now);
+    if (now.norm() > largest.norm()) largest = now;
+  }
+  return largest;
+}
+
+struct StaticEstimate {
+  double deflection = 0, omega = 0;
+};
+
+// Linear statics about rest; nothing if the body is not held.
+std::optional<StaticEstimate> static_estimate(const FemModel& model, const Vector& load) {
+  if (load.norm() == 0) return std::nullopt;
+  const Vector zero = Vector::Zero(model.num_dofs());
+  Linearization at;
+  model.linearize(0, zero, zero, TangentKind::gauss_newton, at);
+  std::vector<double> values(at.stiffness.size());
+  model.combine({0, 0, 1}, at, values.data());
+  auto solver = solver_registry().at(model.pattern().symmetric ? "cholmod" : "klu").make();
+  solver->analyze(model.pattern());
+  if (solver->factor(values.data()) != FactorStatus::ok) return std::nullopt;
+  Vector u(load.size()), momentum(load.size());
+  solver->solve(load, u);
+  model.multiply_mass(u, momentum);
+  const double work = u.dot(load), kinetic = u.dot(momentum);
+  Vector residual(load.size());
+  model.pattern().multiply(values.data(), u, residual);
+  const bool solved = u.allFinite() && (residual - load).norm() < 1e-3 * load.norm();
+  if (!solved || !(work > 0) || !(kinetic > 0)) return std::nullopt;
+  return StaticEstimate{u.cwiseAbs().maxCoeff(), std::sqrt(work / kinetic)};
+}
+
+double initial_energy(const FemModel& model, const State& state) {
+  return model.evaluate("energy.kinetic", state)[0] + model.evaluate("energy.elastic", state)[0];
+}
+
+}  // namespace
+
+Scales estimate_scales(const Scene& scene, const BuiltScene& built) {
+  const FemModel& model = *built.model;
+  const double extent = bounding_box(model.parts().mesh).size().maxCoeff();
+  const double mass = model.parts().mass->total();
+  const double energy = initial_energy(model, built.initial);
+  const Vector load = peak_load(scene, model);
+  const auto statics = static_estimate(model, load);
+
+  Scales scales{0.1 * extent, 3 * std::sqrt(2 * energy / mass)};
+  if (statics && energy == 0) scales.position = std::min(scales.position, 2 * statics->deflection);
+  if (statics) scales.velocity = std::max(scales.velocity, 10 * statics->omega * scales.position);
+  else scales.velocity = std::max(scales.velocity, 3 * std::sqrt(extent * load.lpNorm<1>() / mass));
+  if (scales.velocity == 0) scales.velocity = extent / (scene.time.end - scene.time.start);
+  return scales;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,236 @@
+#include "lib/scene/scene.h"
+
+namespace orthodyn {
+
+template <>
+struct Words<Component> {
+  static constexpr std::array<std::pair<Component, const char*>, 3> list{
+      {{Component::x, "x"}, {Component::y, "y"}, {Component::z, "z"}}};
+};
+template <>
+struct Words<OutputTimes> {
+  static constexpr std::array<std::pair<OutputTimes, const char*>, 2> list{
+      {{OutputTimes::interpolated, "interpolated"}, {OutputTimes::exact, "exact"}}};
+};
+template <>
+struct Words<MassKind> {
+  static constexpr std::array<std::pair<MassKind, const char*>, 2> list{
+      {{MassKind::lumped, "lumped"}, {MassKind::consistent, "consistent"}}};
+};
+template <>
+struct Words<Kinematics> {
+  static constexpr std::array<std::pair<Kinematics, const char*>, 2> list{
+      {{Kinematics::corotational, "corotational"}, {Kinematics::linear, "linear"}}};
+};
+template <>
+struct Words<Corotation> {
+  static constexpr std::array<std::pair<Corotation, const char*>, 2> list{
+      {{Corotation::exact, "exact"}, {Corotation::warped, "warped"}}};
+};
+template <>
+struct Words<WarpedTangent> {
+  static constexpr std::array<std::pair<WarpedTangent, const char*>, 2> list{
+      {{WarpedTangent::rotated, "rotated"}, {WarpedTangent::unsymmetric, "unsymmetric"}}};
+};
+
+const Spec<BoxSelection>& BoxSelection::spec() {
+  static const auto s =
+      Spec<BoxSelection>()
+          .key("min", &BoxSelection::min, "Lowest coordinates.", {.required = true, .unit = "m"})
+          .key("max", &BoxSelection::max, "Highest coordinates.", {.required = true, .unit = "m"});
+  return s;
+}
+
+const Spec<PlaneSelection>& PlaneSelection::spec() {
+  static const auto s =
+      Spec<PlaneSelection>()
+          .key("point", &PlaneSelection::point, "A point of the plane.", {.required = true, .unit = "m"})
+          .key("normal", &PlaneSelection::normal, "Its normal, of any length.", {.required = true})
+          .key("tolerance", &PlaneSelection::tolerance,
+               "Nodes nearer than this belong to it; default 1e-6 of the mesh's diagonal.",
+               {.unit = "m", .range = kNonNegative})
+          .check([](const PlaneSelection& p, const Config& config) {
+            if (p.normal.norm() == 0) config.at("normal").fail("is zero; give a direction");
+          });
+  return s;
+}
+
+const Spec<Clamp>& Clamp::spec() {
+  static const auto s =
+      Spec<Clamp>()
+          .key("surface", &Clamp::surface, "All nodes of a named surface.")
+          .key("box", &Clamp::box, "All nodes in a box (min, max).")
+          .key("plane", &Clamp::plane, "All nodes on a plane (point, normal, tolerance).")
+          .key("nearest", &Clamp::nearest, "The node nearest to a point.", {.unit = "m"})
+          .key("components", &Clamp::components, "Which coordinates are held.")
+          .check([](const Clamp& c, const Config& config) {
+            const int given = c.surface.has_value() + c.box.has_value() + c.plane.has_value() + c.nearest.has_value();
+            if (given != 1) config.fail("give exactly one of surface, box, plane, nearest");
+            if (c.components.empty()) config.at("components").fail("is empty; give some of x, y, z");
+          });
+  return s;
+}
+
+const Spec<Load>& Load::spec() {
+  static const auto s =
+      Spec<Load>()
+          .key("surface", &Load::surface, "A named surface of the mesh.", {.required = true})
+          .key("traction", &Load::traction, "Dead traction per undeformed area.", {.unit = "Pa"})
+          .key("force", &Load::force, "Total dead force, spread evenly over the surface.", {.unit = "N"})
+          .key("factor", &Load::factor, "Factor in time.", {.fallback = "{type: constant}"})
+          .check([](const Load& load, const Config& config) {
+            if (load.traction.has_value() == load.force.has_value())
+              config.fail("give exactly one of traction, force");
+          });
+  return s;
+}
+
+const Spec<Damping>& Damping::spec() {
+  static const auto s =
+      Spec<Damping>()
+          .key("mass", &Damping::mass, "Mass-proportional (Rayleigh alpha): drag on all motion.",
+               {.unit = "1/s", .range = kNonNegative})
+          .key("stiffness", &Damping::stiffness,
+               "Stiffness-proportional (Rayleigh beta), objective: rigid motion is free of it.",
+               {.unit = "s", .range = kNonNegative});
+  return s;
+}
+
+const Spec<Region>& Region::spec() {
+  static const auto s =
+      Spec<Region>()
+          .key("material", &Region::material, "One of `materials`.", {.required = true})
+          .key("axes", &Region::axes, "Directions of the material axes; default x, y, z.")
+          .key("stiffness_damping", &Region::stiffness_damping, "Overrides damping.stiffness here.",
+               {.unit = "s", .range = kNonNegative});
+  return s;
+}
+
+const Spec<Elasticity>& Elasticity::spec() {
+  static const auto s =
+      Spec<Elasticity>()
+          .key("kinematics", &Elasticity::kinematics, "Large rotations, or small strain with a constant K.")
+          .key("corotation", &Elasticity::corotation,
+               "exact: gradient of the energy. warped: R sigma as in Mueller & Gross 2004 and Vega FEM, for "
+               "comparison; it gains energy and exerts a net torque for anisotropic materials.")
+          .key("warped_tangent", &Elasticity::warped_tangent,
+               "Of the warped force: R K R^T, or its exact unsymmetric derivative (klu, klu_full).");
+  return s;
+}
+
+const Spec<Noise>& Noise::spec() {
+  static const auto s =
+      Spec<Noise>()
+          .key("amplitude", &Noise::amplitude, "Largest offset of each free coordinate, uniform.",
+               {.required = true, .unit = "m", .range = kNonNegative})
+          .key("seed", &Noise::seed, "Seed of the generator.", {.range = kNonNegative});
+  return s;
+}
+
+const Spec<Initial>& Initial::spec() {
+  static const auto s =
+      Spec<Initial>()
+          .key("velocity", &Initial::velocity, "Rigid velocity.", {.unit = "m/s"})
+          .key("spin", &Initial::spin, "Rigid angular velocity about the centre.", {.unit = "rad/s"})
+          .key("center", &Initial::center, "Centre of spin and deformation; default the centre of mass.",
+               {.unit = "m"})
+          .key("deformation_gradient", &Initial::deformation_gradient, "Uniform F about the centre.")
+          .key("noise", &Initial::noise, "Random offsets.")
+          .check([](const Initial& initial, const Config& config) {
+            const auto& F = initial.deformation_gradient;
+            if (F && F->determinant() == 0)
+              config.at("deformation_gradient").fail("is singular: the body would have no volume");
+          });
+  return s;
+}
+
+const Spec<TimeSpan>& TimeSpan::spec() {
+  static const auto s = Spec<TimeSpan>()
+                            .key("start", &TimeSpan::start, "Initial time.", {.unit = "s"})
+                            .key("end", &TimeSpan::end, "Final time.", {.required = true, .unit = "s"})
+                            .check([](const TimeSpan& time, const Config& config) {
+                              if (!(time.end > time.start)) config.fail("'end' must be after 'start'");
+                            });
+  return s;
+}
+
+const Spec<Probe>& Probe::spec() {
+  static const auto s =
+      Spec<Probe>()
+          .key("at", &Probe::at, "The node nearest to this point of the rest shape.",
+               {.required = true, .unit = "m"})
+          .key("fields", &Probe::fields, "Node fields to record.");
+  return s;
+}
+
+const Spec<Output>& Output::spec() {
+  static const auto s =
+      Spec<Output>()
+          .key("interval", &Output::interval, "Time between frames.", {.unit = "s", .range = kPositive})
+          .key("frames", &Output::frames, "Frames after the initial one, evenly spaced; default 50.",
+               {.range = {0, 1e6}})
+          .key("times", &Output::times,
+               "interpolated: frames from the integrator's own polynomial; exact: steps end on them.")
+          .key("fields", &Output::fields, "Node and cell fields of the frames (see `orthodyn list fields`).")
+          .key("probes", &Output::probes, "Named points whose fields go to probes.csv.")
+          .key("energy", &Output::energy, "Write energy.csv.")
+          .key("steps", &Output::steps, "Write steps.csv.")
+          .key("momentum", &Output::momentum, "Write momentum.csv.")
+          .check([](const Output& output, const Config& config) {
+            if (output.interval && output.frames) config.fail("give one of interval, frames");
+          });
+  return s;
+}
+
+const Spec<Scene>& Scene::spec() {
+  static const auto s =
+      Spec<Scene>()
+          .key("mesh", &Scene::mesh, "Where the mesh comes from.", {.required = true})
+          .key("materials", &Scene::materials, "Materials by name.", {.required = true})
+          .key("regions", &Scene::regions,
+               "Material and axes of each region of the mesh by its name, or of `all`; default: the only "
+               "material everywhere.")
+          .key("elasticity", &Scene::elasticity, "Kinematics of the elastic law.")
+          .key("mass", &Scene::mass, "Mass matrix.")
+          .key("damping", &Scene::damping, "Rayleigh damping.")
+          .key("gravity", &Scene::gravity, "Acceleration of free fall.", {.unit = "m/s^2"})
+          .key("loads", &Scene::loads, "Loads on surfaces.")
+          .key("clamps", &Scene::clamps, "Nodes that do not move.")
+          .key("initial", &Scene::initial, "Initial state; default at rest.")
+          .key("time", &Scene::time, "Time span.", {.required = true})
+          .key("integrator", &Scene::integrator, "The integrator.", {.fallback = "{type: cvode_bdf}"})
+          .key("output", &Scene::output, "What is written.");
+  return s;
+}
+
+namespace {
+
+// A missing `regions` means the only material everywhere.
+void fill_regions(const Config& config, Scene& scene) {
+  if (!scene.regions.empty()) return;
+  if (scene.materials.size() != 1)
+    config.fail("key 'regions' is missing: with " + std::to_string(scene.materials.size()) +
+                " materials, say which region has which");
+  const std::string yaml = "{all: {material: " + scene.materials.front().first + "}}";
+  scene.regions = Value<Named<Region>>::read(config.fill("regions", yaml), {});
+}
+
+void check_materials_exist(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const auto& [name, material] : scene.materials) names.push_back(name);
+  for (const auto& [name, region] : scene.regions)
+    if (std::find(names.begin(), names.end(), region.material) == names.end())
+      region.origin.fail("material '" + region.material + "' is not among the materials: " + join(names));
+}
+
+}  // namespace
+
+Scene read_scene(const Config& config) {
+  Scene scene = Scene::spec().read(config);
+  if (scene.materials.empty()) config.at("materials").fail("is empty; give at least one material");
+  fill_regions(config, scene);
+  check_materials_exist(scene);
+  return scene;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,130 @@
+// A scene: everything that one simulation consists of, checked, as plain data. SI units.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/core/registry.h"
+#include "lib/fem/elastic_term.h"
+#include "lib/fem/mass.h"
+#include "lib/fem/time_function.h"
+#include "lib/material/axes.h"
+#include "lib/material/material.h"
+#include "lib/ode/integrator.h"
+#include "lib/scene/mesh_source.h"
+
+namespace orthodyn {
+
+enum class Component { x, y, z };
+enum class OutputTimes { interpolated, exact };
+
+// A set of nodes: exactly one of the four.
+struct BoxSelection {
+  Vec3 min = Vec3::Zero(), max = Vec3::Zero();
+  static const Spec<BoxSelection>& spec();
+};
+struct PlaneSelection {
+  Vec3 point = Vec3::Zero(), normal{0, 0, 1};
+  std::optional<double> tolerance;  // m; default 1e-6 of the mesh's diagonal
+  static const Spec<PlaneSelection>& spec();
+};
+
+struct Clamp {
+  std::optional<std::string> surface;
+  std::optional<BoxSelection> box;
+  std::optional<PlaneSelection> plane;
+  std::optional<Vec3> nearest;
+  std::vector<Component> components{Component::x, Component::y, Component::z};
+  Origin origin;
+  static const Spec<Clamp>& spec();
+};
+
+struct Load {
+  std::string surface;
+  std::optional<Vec3> traction;  // Pa, per undeformed area
+  std::optional<Vec3> force;     // N in total, spread evenly over the area
+  std::shared_ptr<const TimeFunction> factor;
+  Origin origin;
+  static const Spec<Load>& spec();
+};
+
+struct Damping {
+  double mass = 0;       // 1/s
+  double stiffness = 0;  // s
+  static const Spec<Damping>& spec();
+};
+
+struct Region {
+  std::string material;
+  std::optional<Axes> axes;
+  std::optional<double> stiffness_damping;  // s; overrides damping.stiffness
+  Origin origin;
+  static const Spec<Region>& spec();
+};
+
+struct Elasticity : ElasticityOptions {
+  static const Spec<Elasticity>& spec();
+};
+
+struct Noise {
+  double amplitude = 0;  // m
+  long seed = 1;
+  static const Spec<Noise>& spec();
+};
+
+struct Initial {
+  Vec3 velocity = Vec3::Zero();                // m/s
+  Vec3 spin = Vec3::Zero();                    // rad/s
+  std::optional<Vec3> center;                  // m; default the centre of mass
+  std::optional<Mat3> deformation_gradient;    // about the centre
+  std::optional<Noise> noise;
+  static const Spec<Initial>& spec();
+};
+
+struct TimeSpan {
+  double start = 0, end = 0;  // s
+  static const Spec<TimeSpan>& spec();
+};
+
+struct Probe {
+  Vec3 at = Vec3::Zero();  // m, in the rest shape
+  std::vector<std::string> fields{"displacement"};
+  Origin origin;
+  static const Spec<Probe>& spec();
+};
+
+struct Output {
+  std::optional<double> interval;  // s
+  std::optional<int> frames;
+  OutputTimes times = OutputTimes::interpolated;
+  std::vector<std::string> fields{"displacement", "velocity"};
+  Named<Probe> probes;
+  bool energy = true, steps = true, momentum = false;
+  Origin origin;
+  static const Spec<Output>& spec();
+};
+
+struct Scene {
+  std::shared_ptr<const MeshSource> mesh;
+  Named<std::shared_ptr<const Material>> materials;
+  Named<Region> regions;
+  Elasticity elasticity;
+  MassKind mass = MassKind::lumped;
+  std::optional<Damping> damping;
+  std::optional<Vec3> gravity;  // m/s^2
+  std::vector<Load> loads;
+  std::vector<Clamp> clamps;
+  std::optional<Initial> initial;
+  TimeSpan time;
+  std::shared_ptr<const IntegratorChoice> integrator;
+  Output output;
+
+  static const Spec<Scene>& spec();
+};
+
+// Reads a scene and fills its defaults into `config`. Throws ConfigError.
+Scene read_scene(const Config& config);
+
+}  // namespace orthodyn

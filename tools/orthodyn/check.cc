@@ -1,0 +1,84 @@
+// `orthodyn check`: what a scene consists of and what it will cost, without running it.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lib/material/stiffness.h"
+#include "tools/orthodyn/commands.h"
+#include "tools/orthodyn/setup.h"
+
+namespace orthodyn {
+
+namespace {
+
+double mebibytes(std::size_t bytes) { return static_cast<double>(bytes) / (1024 * 1024); }
+
+void print_materials(const Scene& scene) {
+  for (const auto& [name, material] : scene.materials) {
+    const Mat6 C = std::visit([](const auto& c) { return voigt(as_orthotropic(c)); }, material->stiffness());
+    const Vec6 lambda = Eigen::SelfAdjointEigenSolver<Mat6>(C).eigenvalues();
+    fmt::print("  {}: density {} kg/m^3, eigenvalues of C {:.4g} Pa\n", name, material->density(),
+               fmt::join(lambda, ", "));
+  }
+}
+
+// 2 / omega_max, by the largest element frequency (Irons 1971): a lower bound of the critical step.
+double critical_step(const Scene& scene, const FemModel& model) {
+  double largest = 0;
+  for (const auto& term : model.parts().elastic) {
+    const int region = model.parts().mesh.region_of[static_cast<std::size_t>(term->cell(0))];
+    const auto& region_name = model.parts().mesh.region_names[static_cast<std::size_t>(region)];
+    largest = std::max(largest, term->max_frequency_squared(density_of(scene, region_name)));
+  }
+  // A consistent element mass is at worst five times smaller in a mode than the lumped one.
+  const double factor = model.traits().lumped_mass ? 1 : 5;
+  return 2 / std::sqrt(factor * largest);
+}
+
+void print_memory(const FemModel& model, const Integrator& integrator) {
+  std::size_t sum = 0;
+  fmt::print("memory\n");
+  const auto line = [&](const std::string& name, std::size_t bytes) {
+    fmt::print("  {:<20} {:8.2f} MiB\n", name, mebibytes(bytes));
+    sum += bytes;
+  };
+  for (const auto& [name, bytes] : model.memory()) line(name, bytes);
+  line("integrator", integrator.bytes());
+  const auto cells = static_cast<double>(model.parts().mesh.tets.size());
+  fmt::print("  {:<20} {:8.2f} MiB, {:.0f} bytes per element\n", "without the factor", mebibytes(sum),
+             static_cast<double>(sum) / cells);
+  if (integrator.factor_bytes() > 0) line("factor", integrator.factor_bytes());
+}
+
+}  // namespace
+
+int check_command(const RunArguments& arguments) {
+  Setup setup = set_up(arguments);
+  const FemModel& model = *setup.built.model;
+  const auto& parts = model.parts();
+  setup.integrator->start(setup.built.initial);
+
+  fmt::print("{}: valid\n", arguments.scene);
+  fmt::print("mesh\n  {} nodes, {} elements, regions {}\n", parts.mesh.nodes.size(), parts.mesh.tets.size(),
+             join(parts.mesh.region_names));
+  const Box box = bounding_box(parts.mesh);
+  fmt::print("  extent {} to {} m, mass {:.6g} kg ({})\n", Value<Vec3>::yaml(box.min), Value<Vec3>::yaml(box.max),
+             parts.mass->total(), parts.mass->lumped() ? "lumped" : "consistent");
+  fmt::print("materials\n");
+  print_materials(setup.scene);
+  fmt::print("terms\n");
+  for (const auto& term : parts.elastic) fmt::print("  {}\n", term->description());
+  for (const auto& term : parts.loads) fmt::print("  {}\n", term->description());
+  if (parts.mass_damping > 0) fmt::print("  mass-proportional damping\n");
+  fmt::print("system\n  {} unknowns, {} non-zeros ({})\n", model.num_dofs(), model.pattern().non_zeros(),
+             model.pattern().symmetric ? "symmetric, lower triangle" : "general");
+  fmt::print("  critical step of an explicit scheme at least {:.4g} s\n", critical_step(setup.scene, model));
+  const auto breakpoints = model.breakpoints(setup.scene.time.start, setup.scene.time.end);
+  if (!breakpoints.empty()) fmt::print("  restarts at kinks of the loads: {} s\n", fmt::join(breakpoints, ", "));
+  fmt::print("integrator\n  type {}\n", setup.config.at("integrator").at("type").text());
+  for (const auto& [key, value] : setup.integrator->decisions()) fmt::print("  {} {}\n", key, value);
+  print_memory(model, *setup.integrator);
+  return 0;
+}
+
+}  // namespace orthodyn

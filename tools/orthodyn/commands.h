@@ -1,0 +1,23 @@
+// The subcommands of `orthodyn`. Each returns the exit code: 0, 2 bad input, 3 could not go on, 130
+// interrupted.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace orthodyn {
+
+struct RunArguments {
+  std::string scene;
+  std::optional<std::string> out;
+  std::vector<std::string> set;
+  std::optional<std::string> integrator;
+  bool quiet = false, force = false;
+};
+
+int run_command(const RunArguments& arguments);
+int check_command(const RunArguments& arguments);
+int list_command(const std::string& what);
+
+}  // namespace orthodyn

@@ -1,0 +1,99 @@
+// `orthodyn list`: what can be named in a scene.
+#include <fmt/format.h>
+
+#include <functional>
+
+#include "lib/core/registry.h"
+#include "lib/linear/solver.h"
+#include "lib/scene/build.h"
+#include "lib/scene/scene.h"
+#include "tools/orthodyn/commands.h"
+
+namespace orthodyn {
+
+namespace {
+
+void print_key(const Key& key) {
+  std::string facts = key.type;
+  if (!key.unit.empty()) facts += ", " + key.unit;
+  if (!key.range.empty()) facts += ", " + key.range;
+  facts += key.required ? ", required" : key.fallback.empty() ? "" : ", default " + key.fallback;
+  fmt::print("    {:<22} {} ({})\n", key.name, key.sentence, facts);
+}
+
+void print_entry(const std::string& name, const std::string& sentence, const std::vector<Key>& keys) {
+  fmt::print("  {}\n    {}\n", name, sentence);
+  for (const auto& key : keys) print_key(key);
+}
+
+template <class Base>
+void print_registry() {
+  for (const auto& [name, entry] : Registry<Base>::entries()) print_entry(name, entry.sentence, entry.keys);
+}
+
+void print_solvers() {
+  for (const auto& [name, kind] : solver_registry()) print_entry(name, kind.sentence, {});
+}
+
+void print_terms() {
+  print_entry("elasticity", "Corotational or linear elasticity of every region.", Elasticity::spec().keys());
+  print_entry("damping", "Rayleigh damping; the stiffness part is objective.", Damping::spec().keys());
+  print_entry("gravity", "Uniform gravity: three numbers, m/s^2.", {});
+  print_entry("loads", "Dead tractions and total forces on surfaces, with a factor in time.", Load::spec().keys());
+  print_entry("clamps", "Nodes that do not move; eliminated from the system.", Clamp::spec().keys());
+  print_entry("initial", "The state at the start.", Initial::spec().keys());
+}
+
+void print_scene() {
+  print_entry("scene", "The keys of a scene.", Scene::spec().keys());
+  print_entry("time", "Time span.", TimeSpan::spec().keys());
+  print_entry("regions.<name>", "What a region consists of.", Region::spec().keys());
+  print_entry("regions.<name>.axes", "Directions of the material axes.", Axes::spec().keys());
+  print_entry("output", "What is written.", Output::spec().keys());
+  print_entry("output.probes.<name>", "A point whose fields are recorded.", Probe::spec().keys());
+}
+
+void print_fields() {
+  const FemModel model{FemModel::Parts{}};
+  for (const auto& info : model.outputs()) {
+    if (info.location == Location::global) continue;
+    fmt::print("  {:<18} {} ({}, {} component{}, {})\n", info.name, info.sentence,
+               info.location == Location::node ? "per node" : "per cell", info.components,
+               info.components == 1 ? "" : "s", info.unit);
+  }
+}
+
+const std::vector<std::pair<std::string, std::function<void()>>>& chapters() {
+  static const std::vector<std::pair<std::string, std::function<void()>>> all = {
+      {"scene", print_scene},
+      {"materials", print_registry<Material>},
+      {"meshes", print_registry<MeshSource>},
+      {"terms", print_terms},
+      {"factors", print_registry<TimeFunction>},
+      {"integrators", print_registry<IntegratorChoice>},
+      {"solvers", print_solvers},
+      {"fields", print_fields},
+  };
+  return all;
+}
+
+}  // namespace
+
+int list_command(const std::string& what) {
+  std::vector<std::string> names;
+  bool found = false;
+  for (const auto& [name, print] : chapters()) {
+    names.push_back(name);
+    if (!what.empty() && what != name) continue;
+    found = true;
+    fmt::print("{}:\n", name);
+    print();
+    fmt::print("\n");
+  }
+  if (found) return 0;
+  const auto near = nearest_name(what, names);
+  throw ConfigError(fmt::format("nothing to list under '{}'{}; known: {}", what,
+                                near.empty() ? "" : ", did you mean '" + near + "'?", join(names)));
+}
+
+}  // namespace orthodyn

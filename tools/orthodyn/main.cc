@@ -1,0 +1,75 @@
+// orthodyn: the command line.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "lib/core/errors.h"
+#include "lib/core/versions.h"
+#include "tools/orthodyn/commands.h"
+
+namespace {
+
+constexpr const char* kExamples = R"(
+Examples:
+  orthodyn run configs/scenes/cantilever.yaml
+  orthodyn run configs/scenes/free_flight.yaml --set elasticity.corotation=warped --out out/warped
+  orthodyn check configs/scenes/laminate.yaml
+  orthodyn list materials
+
+Exit codes: 0 done, 2 the input is at fault (nothing was written), 3 the run could not go on (what
+was computed is kept), 130 interrupted (likewise).)";
+
+void add_scene_options(CLI::App& command, orthodyn::RunArguments& arguments) {
+  command.add_option("scene", arguments.scene, "A scene in YAML.")->required()->type_name("SCENE.yaml");
+  command.add_option("--set", arguments.set, "Change a value by its path, e.g. materials.wood.young.0=12e9.")
+      ->type_name("PATH=VALUE")
+      ->expected(1)
+      ->take_all();
+  command.add_option("--integrator", arguments.integrator, "Short for --set integrator.type=NAME.");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace orthodyn;
+  CLI::App app("Dynamics of large-deformation orthotropic solids, driven by SUNDIALS.");
+  app.footer(kExamples);
+  app.require_subcommand(1);
+  app.set_version_flag("--version", orthodyn_version());
+
+  RunArguments arguments;
+  auto* run = app.add_subcommand("run", "Run a scene: frames for ParaView, energies, steps, a summary.");
+  add_scene_options(*run, arguments);
+  run->add_option("--out", arguments.out, "Folder for the results; default out/<scene>.")->type_name("DIR");
+  run->add_flag("--quiet", arguments.quiet, "No progress and no summary.");
+  run->add_flag("--force", arguments.force, "Replace an earlier result in the folder.");
+
+  auto* check = app.add_subcommand("check", "Read, validate and build a scene, and say what it consists of.");
+  add_scene_options(*check, arguments);
+
+  std::string what;
+  auto* list = app.add_subcommand("list", "What can be named in a scene, each with its keys.");
+  list->add_option("what", what, "scene, materials, integrators, solvers, meshes, terms, factors, fields; all if left out.");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    const int code = app.exit(e);
+    return code == 0 ? 0 : 2;
+  }
+
+  try {
+    if (*run) return run_command(arguments);
+    if (*check) return check_command(arguments);
+    return list_command(what);
+  } catch (const ConfigError& e) {
+    fmt::print(stderr, "error: {}\n", e.what());
+    return 2;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "error: out of memory; use a coarser mesh\n");
+    return 3;
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "error: {}\n", e.what());
+    return 3;
+  }
+}
