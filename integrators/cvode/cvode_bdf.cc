@@ -125,16 +125,12 @@ class CvodeBdf : public Integrator {
     };
     functions_.solve = [this](N_Vector x, N_Vector b) {
       return guarded(border_, [&] {
-        sunrealtype gamma = 0;
-        CVodeGetCurrentGamma(memory_.get(), &gamma);
         model_.multiply_mass(velocities(b), momentum_);
-        reduced_->solve(gamma, positions(b), momentum_, positions(x), velocities(x));
+        reduced_->solve(positions(b), momentum_, positions(x), velocities(x));
       });
     };
     solver_ = make_solver_plug(functions_, context_);
     require(CVodeSetLinearSolver(memory_.get(), solver_.get(), matrix_.get()));
-    // The first block row is solved with the current gamma, so the correction is not to be scaled.
-    require(CVodeSetLinearSolutionScaling(memory_.get(), SUNFALSE));
     require(CVodeSetLinSysFn(memory_.get(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix, sunbooleantype jok,
                                                sunbooleantype* jcur, sunrealtype, void* user, N_Vector, N_Vector,
                                                N_Vector) {

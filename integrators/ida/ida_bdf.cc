@@ -122,7 +122,7 @@ class IdaBdf : public Integrator {
       return guarded(border_, [&] {
         momentum_ = gamma_ * velocities(b);
         positions(x) = gamma_ * positions(b);
-        reduced_->solve(gamma_, positions(x), momentum_, positions(x), velocities(x));
+        reduced_->solve(positions(x), momentum_, positions(x), velocities(x));
       });
     };
     solver_ = make_solver_plug(functions_, context_);

@@ -54,13 +54,12 @@ bool ReducedSolve::factor(double gamma) {
   return status == FactorStatus::ok;
 }
 
-void ReducedSolve::solve(double gamma, const ConstVectorRef& r_q, const ConstVectorRef& p, VectorRef dq,
-                         VectorRef dv) {
+void ReducedSolve::solve(const ConstVectorRef& r_q, const ConstVectorRef& p, VectorRef dq, VectorRef dv) {
   const Measure measure(statistics_.solve);
   model_.pattern().multiply(linearization_.stiffness.data(), r_q, work_);
-  work_ = p - gamma * work_;
+  work_ = p - gamma_ * work_;
   solver_->solve(work_, dv);
-  dq = r_q + gamma * dv;
+  dq = r_q + gamma_ * dv;
 }
 
 }  // namespace orthodyn::sundials

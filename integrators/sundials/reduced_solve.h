@@ -31,10 +31,10 @@ class ReducedSolve {
   // False if no factor could be had: a smaller gamma may help.
   bool factor(double gamma);
 
-  // Solves as above. r_q and dq, p and dv may be the same.
-  void solve(double gamma, const ConstVectorRef& r_q, const ConstVectorRef& p, VectorRef dq, VectorRef dv);
+  // Solves as above with the gamma of the last factor(): what SUNDIALS expects of a direct solver, whose
+  // corrections it scales itself when gamma has moved on. r_q and dq, p and dv may be the same.
+  void solve(const ConstVectorRef& r_q, const ConstVectorRef& p, VectorRef dq, VectorRef dv);
 
-  double factored_gamma() const { return gamma_; }
   std::size_t factor_bytes() const { return solver_->factor_bytes(); }
   std::size_t bytes() const;
   std::string description() const { return solver_->description(); }

@@ -11,6 +11,10 @@
 namespace orthodyn {
 namespace {
 
+// Operations per entry of the factor from which dense blocks pay (CHOLMOD's own limit is 40). On
+// beams of tetrahedra the two are level at 5,000 to 6,000 unknowns.
+constexpr double kSupernodalFrom = 160;
+
 // Below this size minimum degree gives as little fill as nested dissection, and is found sooner.
 constexpr int kNestedDissectionFrom = 50'000;
 
@@ -22,6 +26,7 @@ class Cholmod : public LinearSolver {
     common_.quick_return_if_not_posdef = 1;
 #ifdef ORTHODYN_GPL
     common_.supernodal = CHOLMOD_AUTO;
+    common_.supernodal_switch = kSupernodalFrom;
 #else
     common_.supernodal = CHOLMOD_SIMPLICIAL;
 #endif

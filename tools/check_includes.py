@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""Checks the dependency rule: which module may include which, and who may see which library.
+
+Usage: check_includes.py ROOT. Prints each violation as file:line and exits with 1 if there is one.
+"""
+import pathlib
+import re
+import sys
+
+# Module -> modules that it may include, itself aside.
+ALLOWED = {
+    "lib/core": set(),
+    "lib/material": {"lib/core"},
+    "lib/mesh": {"lib/core"},
+    "lib/linear": {"lib/core"},
+    "lib/ode": {"lib/core"},
+    "lib/element": {"lib/core", "lib/material"},
+    "lib/fem": {"lib/core", "lib/material", "lib/mesh", "lib/element", "lib/ode", "lib/linear"},
+    "lib/scene": {"lib/core", "lib/material", "lib/mesh", "lib/element", "lib/ode", "lib/linear", "lib/fem"},
+    "lib/run": {"lib/core", "lib/ode", "lib/linear"},
+    "integrators": {"lib/core", "lib/ode", "lib/linear"},
+}
+# Include prefix of a library -> the only places that may name it.
+LIBRARIES = {
+    r"yaml-cpp/": ["lib/core/config.cc"],
+    r"(sundials|cvode|ida|arkode|kinsol|nvector|sunmatrix|sunlinsol)/": ["integrators/"],
+    r"(cholmod|klu)\.h": ["lib/linear/"],
+    r"(CLI|nlohmann)/": ["tools/"],
+}
+INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
+VERSION_SWITCH = re.compile(r"^\s*#\s*(?:el)?if.*SUNDIALS_VERSION")
+
+
+def module_of(path):
+    return next((m for m in ALLOWED if path == m or path.startswith(m + "/")), None)
+
+
+def violations(path, line):
+    if VERSION_SWITCH.match(line) and path != "integrators/sundials/version.h":
+        yield "asks for the SUNDIALS version; only integrators/sundials/version.h may"
+    match = INCLUDE.match(line)
+    if not match:
+        return
+    included, module = match.group(1), module_of(path)
+    for prefix, places in LIBRARIES.items():
+        if re.match(prefix, included) and not module_of(included) and not any(path.startswith(p) for p in places):
+            yield f"includes {included}; only {', '.join(places)} may"
+    target = module_of(included)
+    if module and included.startswith(("tools/", "tests/")):
+        yield f"includes {included}: nothing includes tools or tests"
+    if module and target and target != module and target not in ALLOWED[module]:
+        yield f"includes {included}: {module} may not depend on {target}"
+
+
+def main(root):
+    found = 0
+    for folder in ("lib", "integrators", "tools", "tests"):
+        for file in sorted(pathlib.Path(root, folder).rglob("*.[ch]*")):
+            if file.suffix not in (".h", ".cc"):
+                continue
+            path = file.relative_to(root).as_posix()
+            for number, line in enumerate(file.read_text().splitlines(), 1):
+                for what in violations(path, line):
+                    print(f"{path}:{number}: {what}")
+                    found += 1
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    sys.exit(main(sys.argv[1]))
