@@ -4,8 +4,9 @@ add_library(orthodyn_options INTERFACE)
 target_include_directories(orthodyn_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(orthodyn_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-  # False alarms of g++ 12 inside its own AVX-512 headers.
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-uninitialized>)
+  -fno-math-errno  # so that sqrt is an instruction
+  # False alarms of g++ 12 in its own headers (AVX-512, std::string).
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-uninitialized -Wno-restrict>)
 if(ORTHODYN_NATIVE)
   set(ORTHODYN_ARCH_OPTION -march=native)
   target_compile_options(orthodyn_options INTERFACE ${ORTHODYN_ARCH_OPTION})

@@ -18,6 +18,14 @@ struct Blend {
   Mat3T<T> gradient = Mat3T<T>::Zero();  // dchi/dS, symmetric
 };
 
+// The mask of states in which chi = 1.
+template <class T>
+auto is_regular(const Mat3T<T>& S, const T& det_G) {
+  const Mat3T<T> cof = cofactor_of_symmetric<T>(S);
+  const T det_F = S(0, 0) * cof(0, 0) + S(0, 1) * cof(0, 1) + S(0, 2) * cof(0, 2);
+  return (det_F >= T(0)) & (det_G >= T(kBlendG0));
+}
+
 template <class T>
 Blend<T> blend(const Mat3T<T>& S, const T& det_G) {
   using std::real;

@@ -42,6 +42,23 @@ Mat3T<T> viscous_stress(const Polar<T>& p, const C& stiffness, const T& beta_chi
   return p.R * (s + cross_matrix<T>(c));
 }
 
+// The power that this takes per volume, beta chi dS:C:dS, W/m^3. In a batch right where `good`.
+template <class C>
+double viscous_power(const C& stiffness, const Mat3& F, const Mat3& Q, const Mat3& F_rate, double beta) {
+  const auto p = polar(F, Q);
+  const double chi = blend<double>(p.S, p.det_G).chi;
+  return contract<double>(viscous_stress<double>(p, stiffness, beta * chi, F_rate), F_rate);
+}
+
+template <class C>
+Batch viscous_power(const C& stiffness, const Mat3T<Batch>& F, const Mat3T<Batch>& F_rate, double beta,
+                    Batch::Mask& good) {
+  Polar<Batch> p;
+  good = polar(F, p);
+  good = good & is_regular<Batch>(p.S, p.det_G);
+  return contract<Batch>(viscous_stress<Batch>(p, stiffness, Batch(beta), F_rate), F_rate);
+}
+
 template <class C>
 class CorotationalLaw {
  public:
@@ -74,6 +91,26 @@ class CorotationalLaw {
     return P;
   }
 
+  // stress() for a batch of points; right in the lanes of `good`, the others (inverted, singular) are
+  // to be done one by one.
+  Mat3T<Batch> batch_stress(const Mat3T<Batch>& F, const Mat3&, const Mat3T<Batch>* F_rate, double beta,
+                            Batch::Mask& good) const {
+    Polar<Batch> p;
+    good = polar(F, p);
+    good = good & is_regular<Batch>(p.S, p.det_G);
+    Mat3T<Batch> P = p.R * regular_stress<Batch>(p);
+    if (F_rate) P += viscous_stress<Batch>(p, C_, Batch(beta), *F_rate);
+    return P;
+  }
+
+  double dissipation(const Mat3& F, const Mat3& Q, const Mat3& F_rate, double beta) const {
+    return viscous_power(C_, F, Q, F_rate, beta);
+  }
+  Batch batch_dissipation(const Mat3T<Batch>& F, const Mat3&, const Mat3T<Batch>& F_rate, double beta,
+                          Batch::Mask& good) const {
+    return viscous_power(C_, F, F_rate, beta, good);
+  }
+
   // The elastic tangent and, if asked for, the damping tangent dP/dF_rate. Where the energy is
   // blended, `exact` too is a positive semidefinite approximation: the Hessian is unbounded there.
   TangentForm tangent(const Mat3& F, const Mat3& Q, TangentKind kind, double beta,
@@ -92,22 +129,31 @@ class CorotationalLaw {
     return {cauchy_stress(stress<double>(F, Q), F), p.R, p.S - Mat3::Identity()};
   }
 
-  // Kirchhoff-like stress in the rotated material frame, T with P = R T; chi of the state.
+  // The stress in the rotated frame, T = sigma + [c] with P = R T, where chi = 1.
   template <class T>
-  Mat3T<T> rotated_stress(const Polar<T>& p, T& chi) const {
-    const Mat3T<T> e = p.S - Mat3T<T>::Identity();
-    const Mat3T<T> sigma = C_.stress(e);
+  Mat3T<T> regular_stress(const Polar<T>& p) const {
+    const Mat3T<T> sigma = C_.stress(Mat3T<T>(p.S - Mat3T<T>::Identity()));
     if constexpr (C::kIsotropic) {
       return sigma;
     } else {
+      const Vec3T<T> c = p.G_inverse * axial<T>(p.S * sigma);
+      return sigma + cross_matrix<T>(c);
+    }
+  }
+
+  // The same in any state, and its chi.
+  template <class T>
+  Mat3T<T> rotated_stress(const Polar<T>& p, T& chi) const {
+    if constexpr (C::kIsotropic) {
+      return regular_stress(p);
+    } else {
       const auto b = blend<T>(p.S, p.det_G);
       chi = b.chi;
-      const Vec3T<T> c = p.G_inverse * axial<T>(p.S * sigma);
-      const Mat3T<T> exact = sigma + cross_matrix<T>(c);
-      if (std::real(chi) == 1) return exact;
+      if (std::real(chi) == 1) return regular_stress(p);
+      const Mat3T<T> e = p.S - Mat3T<T>::Identity();
       const Mat3T<T> sigma_iso = isotropic_.stress(e);
-      const T excess = T(0.5) * contract<T>(sigma - sigma_iso, e);
-      return chi * exact + (T(1) - chi) * sigma_iso + excess * b.gradient;
+      const T excess = T(0.5) * contract<T>(Mat3T<T>(C_.stress(e) - sigma_iso), e);
+      return chi * regular_stress(p) + (T(1) - chi) * sigma_iso + excess * b.gradient;
     }
   }
 

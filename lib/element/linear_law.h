@@ -25,6 +25,23 @@ class LinearLaw {
     return Q.cast<T>() * s;
   }
 
+  Mat3T<Batch> batch_stress(const Mat3T<Batch>& F, const Mat3& Q, const Mat3T<Batch>* F_rate, double beta,
+                            Batch::Mask& good) const {
+    good = F(0, 0) <= F(0, 0);  // all but NaN
+    return stress<Batch>(F, Q, F_rate, beta);
+  }
+
+  double dissipation(const Mat3&, const Mat3& Q, const Mat3& F_rate, double beta) const {
+    const Mat3 rate = symmetric_part<double>(Q.transpose() * F_rate);
+    return beta * contract<double>(C_.stress(rate), rate);
+  }
+  Batch batch_dissipation(const Mat3T<Batch>&, const Mat3& Q, const Mat3T<Batch>& F_rate, double beta,
+                          Batch::Mask& good) const {
+    const Mat3T<Batch> rate = symmetric_part<Batch>(Q.transpose().cast<Batch>() * F_rate);
+    good = rate(0, 0) <= rate(0, 0);  // all but NaN
+    return Batch(beta) * contract<Batch>(C_.stress(rate), rate);
+  }
+
   TangentForm tangent(const Mat3&, const Mat3& Q, TangentKind, double beta, TangentForm* damping) const {
     const auto form = [&](double factor) -> TangentForm {
       return {Q, factor * as_orthotropic(C_), Mat63::Zero(), Mat36::Zero(), Mat3::Zero()};

@@ -13,16 +13,9 @@
 
 #include <complex>
 
-#include "lib/element/axial.h"
+#include "lib/element/polar_fast.h"
 
 namespace orthodyn {
-
-template <class T>
-struct Polar {
-  Mat3T<T> R, S;
-  Mat3T<T> G_inverse;  // meaningful where det_G > 0
-  T det_G;             // (s1+s2)(s2+s3)(s3+s1)
-};
 
 // Throws RecoverableError if F is not finite.
 Polar<double> polar(const Mat3& F, const Mat3& tie);

@@ -34,6 +34,25 @@ class WarpedLaw {
     return P;
   }
 
+  Mat3T<Batch> batch_stress(const Mat3T<Batch>& F, const Mat3&, const Mat3T<Batch>* F_rate, double beta,
+                            Batch::Mask& good) const {
+    Polar<Batch> p;
+    good = polar(F, p);
+    if (F_rate) good = good & is_regular<Batch>(p.S, p.det_G);
+    Batch chi(1);
+    Mat3T<Batch> P = p.R * rotated_stress<Batch>(p, chi);
+    if (F_rate) P += viscous_stress<Batch>(p, C_, Batch(beta), *F_rate);
+    return P;
+  }
+
+  double dissipation(const Mat3& F, const Mat3& Q, const Mat3& F_rate, double beta) const {
+    return viscous_power(C_, F, Q, F_rate, beta);
+  }
+  Batch batch_dissipation(const Mat3T<Batch>& F, const Mat3&, const Mat3T<Batch>& F_rate, double beta,
+                          Batch::Mask& good) const {
+    return viscous_power(C_, F, F_rate, beta, good);
+  }
+
   TangentForm tangent(const Mat3& F, const Mat3& Q, TangentKind kind, double beta,
                       TangentForm* damping) const {
     const auto p = polar(F, Q);

@@ -5,18 +5,12 @@
 #include <limits>
 
 #include "lib/element/linear_law.h"
-#include "lib/element/tet4.h"
+#include "lib/fem/element_batches.h"
 #include "lib/fem/element_stiffness.h"
 
 namespace orthodyn {
 
 namespace {
-
-Mat3 edges(const NodalVector& x, const Tet& tet) {
-  Mat3 e;
-  for (int k = 0; k < 3; ++k) e.col(k) = x.col(tet[static_cast<std::size_t>(k) + 1]) - x.col(tet[0]);
-  return e;
-}
 
 template <class Law>
 class Elastic final : public ElasticTerm {
@@ -24,15 +18,9 @@ class Elastic final : public ElasticTerm {
   Elastic(std::string region, const TetMesh& mesh, std::vector<int> cells, const Law& law,
           const OrthotropicStiffness& stiffness, const Mat3& Q, double beta, const BlockPattern& pattern)
       : region_(std::move(region)), law_(law), C_(stiffness), Q_(Q), beta_(beta),
-        cells_(std::move(cells)), pattern_(pattern) {
-    for (const int cell : cells_) {
-      const Tet& tet = mesh.tets[static_cast<std::size_t>(cell)];
-      Mat3 e;
-      for (std::size_t k = 0; k < 3; ++k)
-        e.col(static_cast<int>(k)) = mesh.nodes[static_cast<std::size_t>(tet[k + 1])] -
-                                     mesh.nodes[static_cast<std::size_t>(tet[0])];
-      elements_.push_back({tet, Tet4::from_edges(e, Q), ElementOffsets(tet, pattern)});
-    }
+        cells_(std::move(cells)), pattern_(pattern), elements_(mesh, cells_, Q) {
+    offsets_.reserve(cells_.size());
+    for (const int cell : cells_) offsets_.emplace_back(mesh.tets[static_cast<std::size_t>(cell)], pattern);
   }
 
   std::string description() const override {
@@ -41,57 +29,58 @@ class Elastic final : public ElasticTerm {
   }
 
   std::size_t bytes() const override {
-    return elements_.capacity() * sizeof(Element) + cells_.capacity() * sizeof(int);
+    return elements_.bytes() + offsets_.capacity() * sizeof(ElementOffsets) + cells_.capacity() * sizeof(int);
   }
 
   void add_force(const NodalState& s, NodalVector& f) const override {
-    for (const Element& element : elements_) {
-      const Mat3 F = element.shape.gradient(edges(s.x, element.tet));
-      Mat3 P;
-      if (beta_ > 0) {
-        const Mat3 rate = element.shape.gradient(edges(s.v, element.tet));
-        P = law_.template stress<double>(F, Q_, &rate, beta_);
-      } else {
-        P = law_.template stress<double>(F, Q_);
-      }
-      const Mat3 forces = element.shape.node_forces(P);
-      for (int k = 0; k < 3; ++k) f.col(element.tet[static_cast<std::size_t>(k) + 1]) += forces.col(k);
-      f.col(element.tet[0]) -= forces.rowwise().sum();
+    for (int b = 0; b < elements_.num_batches(); ++b) {
+      const Mat3T<Batch> F = elements_.gradients(b, s.x);
+      Mat3T<Batch> rate;
+      if (beta_ > 0) rate = elements_.gradients(b, s.v);
+      Batch::Mask good;
+      const Mat3T<Batch> P = law_.batch_stress(F, Q_, beta_ > 0 ? &rate : nullptr, beta_, good);
+      if (all(good)) elements_.add_forces(b, P, f);
+      else add_forces_one_by_one(b, s, f);
     }
   }
 
   void add_tangent(const NodalState& s, TangentKind kind, double* K, double* D) const override {
-    for (const Element& element : elements_) {
-      const Mat3 F = element.shape.gradient(edges(s.x, element.tet));
+    const bool damped = D && beta_ > 0;
+    for (int k = 0; k < size(); ++k) {
+      const Tet4 shape = elements_.shape(k);
+      const Tet tet = elements_.tet(k);
+      const ElementOffsets& offsets = offsets_[static_cast<std::size_t>(k)];
       TangentForm damping;
-      const bool damped = D && beta_ > 0;
-      const TangentForm form = law_.tangent(F, Q_, kind, beta_, damped ? &damping : nullptr);
-      scatter(element_stiffness(form, element.shape, pattern_.symmetric()), element.tet, element.offsets,
-              pattern_, K);
-      if (damped)
-        scatter(element_stiffness(damping, element.shape, pattern_.symmetric()), element.tet,
-                element.offsets, pattern_, D);
+      const TangentForm form =
+          law_.tangent(elements_.gradient(k, s.x), Q_, kind, beta_, damped ? &damping : nullptr);
+      scatter(element_stiffness(form, shape, pattern_.symmetric()), tet, offsets, pattern_, K);
+      if (damped) scatter(element_stiffness(damping, shape, pattern_.symmetric()), tet, offsets, pattern_, D);
     }
   }
 
   double energy(const NodalState& s) const override {
     double sum = 0;
-    for (const Element& element : elements_)
-      sum += element.shape.volume *
-             law_.template energy<double>(element.shape.gradient(edges(s.x, element.tet)), Q_);
+    for (int k = 0; k < size(); ++k)
+      sum += elements_.shape(k).volume * law_.template energy<double>(elements_.gradient(k, s.x), Q_);
     return sum;
   }
 
   double dissipation(const NodalState& s) const override {
     if (beta_ == 0) return 0;
     double power = 0;
-    const Mat3 zero = Mat3::Zero();
-    for (const Element& element : elements_) {
-      const Mat3 F = element.shape.gradient(edges(s.x, element.tet));
-      const Mat3 rate = element.shape.gradient(edges(s.v, element.tet));
-      const Mat3 viscous = law_.template stress<double>(F, Q_, &rate, beta_) -
-                           law_.template stress<double>(F, Q_, &zero, 0);
-      power += element.shape.volume * contract<double>(viscous, rate);
+    for (int b = 0; b < elements_.num_batches(); ++b) {
+      Batch::Mask good;
+      const Batch density = law_.batch_dissipation(elements_.gradients(b, s.x), Q_, elements_.gradients(b, s.v),
+                                                   beta_, good);
+      if (all(good)) {
+        const Batch product = elements_.volumes(b) * density;
+        for (int l = 0; l < Batch::kLanes; ++l) power += product[l];
+      } else {
+        for_each_lane(b, [&](int k) {
+          power += elements_.shape(k).volume *
+                   law_.dissipation(elements_.gradient(k, s.x), Q_, elements_.gradient(k, s.v), beta_);
+        });
+      }
     }
     return power;
   }
@@ -99,35 +88,38 @@ class Elastic final : public ElasticTerm {
   int size() const override { return static_cast<int>(cells_.size()); }
   int cell(int k) const override { return cells_[static_cast<std::size_t>(k)]; }
 
-  double det_F(int k, const NodalState& s) const override {
-    const Element& element = elements_[static_cast<std::size_t>(k)];
-    return edges(s.x, element.tet).determinant() / (6 * element.shape.volume);
-  }
+  double det_F(int k, const NodalState& s) const override { return elements_.gradient(k, s.x).determinant(); }
 
   PointObservation observe(int k, const NodalState& s) const override {
-    const Element& element = elements_[static_cast<std::size_t>(k)];
-    const Mat3 F = element.shape.gradient(edges(s.x, element.tet));
-    return law_.observe(F, Q_);
+    return law_.observe(elements_.gradient(k, s.x), Q_);
   }
 
   double max_frequency_squared(double density) const override {
     // K_e = V G^T C G; with masses rho V / 4 its largest eigenvalue is that of C^(1/2) G G^T C^(1/2).
     const Mat6 root = Mat6(Eigen::LLT<Mat6>(voigt(C_)).matrixL());
     double largest = 0;
-    for (const Element& element : elements_) {
-      const Mat6 GGt = strain_gram(element.shape);
-      const Mat6 A = root.transpose() * GGt * root;
+    for (int k = 0; k < size(); ++k) {
+      const Mat6 A = root.transpose() * strain_gram(elements_.shape(k)) * root;
       largest = std::max(largest, Eigen::SelfAdjointEigenSolver<Mat6>(A, Eigen::EigenvaluesOnly).eigenvalues()[5]);
     }
     return 4 * largest / density;
   }
 
  private:
-  struct Element {
-    Tet tet;
-    Tet4 shape;
-    ElementOffsets offsets;
-  };
+  template <class Visit>
+  void for_each_lane(int batch, Visit&& visit) const {
+    for (int l = 0; l < elements_.lanes(batch); ++l) visit(batch * Batch::kLanes + l);
+  }
+
+  // For batches with an inverted or degenerate element.
+  void add_forces_one_by_one(int batch, const NodalState& s, NodalVector& f) const {
+    for_each_lane(batch, [&](int k) {
+      Mat3 rate;
+      if (beta_ > 0) rate = elements_.gradient(k, s.v);
+      elements_.add_force(
+          k, law_.template stress<double>(elements_.gradient(k, s.x), Q_, beta_ > 0 ? &rate : nullptr, beta_), f);
+    });
+  }
 
   std::string region_;
   Law law_;
@@ -136,7 +128,8 @@ class Elastic final : public ElasticTerm {
   double beta_;
   std::vector<int> cells_;
   const BlockPattern& pattern_;
-  std::vector<Element> elements_;
+  ElementBatches elements_;
+  std::vector<ElementOffsets> offsets_;
 };
 
 }  // namespace

@@ -17,7 +17,8 @@ class EigenLdlt : public LinearSolver {
   FactorStatus factor(const double* values) override {
     ldlt_.factorize(pattern_->matrix(values));
     if (ldlt_.info() != Eigen::Success) return FactorStatus::singular;
-    return ldlt_.vectorD().minCoeff() > 0 ? FactorStatus::ok : FactorStatus::not_positive_definite;
+    const bool positive = (ldlt_.vectorD().array() > 0).all();  // false for NaN
+    return positive ? FactorStatus::ok : FactorStatus::not_positive_definite;
   }
 
   void solve(const ConstVectorRef& b, VectorRef x) override { x = ldlt_.solve(Vector(b)); }

@@ -9,6 +9,9 @@
 namespace orthodyn {
 namespace {
 
+// Kept pivots may let entries grow by the inverse of this: three digits at most are lost.
+constexpr double kSmallestReciprocalGrowth = 1e-3;
+
 class Klu : public LinearSolver {
  public:
   Klu() {
@@ -36,7 +39,8 @@ class Klu : public LinearSolver {
     int* i = full_.innerIndexPtr();
     double* x = full_.valuePtr();
     const bool kept_pivots = numeric_ && klu_refactor(p, i, x, symbolic_, numeric_, &common_) &&
-                             klu_rcond(symbolic_, numeric_, &common_) && common_.rcond > 1e-14;
+                             klu_rgrowth(p, i, x, symbolic_, numeric_, &common_) &&
+                             common_.rgrowth > kSmallestReciprocalGrowth;
     if (!kept_pivots) {
       klu_free_numeric(&numeric_, &common_);
       numeric_ = klu_factor(p, i, x, symbolic_, &common_);
@@ -52,9 +56,9 @@ class Klu : public LinearSolver {
   }
 
   std::size_t factor_bytes() const override {
-    if (!numeric_) return 0;
-    const auto entries = static_cast<std::size_t>(numeric_->lnz) + static_cast<std::size_t>(numeric_->unz);
-    return entries * (sizeof(double) + sizeof(int));
+    if (!symbolic_) return 0;
+    const double entries = numeric_ ? double(numeric_->lnz) + double(numeric_->unz) : symbolic_->lnz + symbolic_->unz;
+    return static_cast<std::size_t>(entries) * (sizeof(double) + sizeof(int));
   }
 
   std::string description() const override { return "LU, minimum degree"; }

@@ -17,8 +17,9 @@ struct IsotropicStiffness {
 
   template <class T>
   Mat3T<T> stress(const Mat3T<T>& e) const {
-    Mat3T<T> s = (2 * mu) * e;
-    s.diagonal().array() += lambda * e.trace();
+    Mat3T<T> s = T(2 * mu) * e;
+    const T volumetric = T(lambda) * e.trace();
+    for (int i = 0; i < 3; ++i) s(i, i) += volumetric;
     return s;
   }
 };
@@ -35,9 +36,9 @@ struct OrthotropicStiffness {
     s(0, 0) = c11 * e(0, 0) + c12 * e(1, 1) + c31 * e(2, 2);
     s(1, 1) = c12 * e(0, 0) + c22 * e(1, 1) + c23 * e(2, 2);
     s(2, 2) = c31 * e(0, 0) + c23 * e(1, 1) + c33 * e(2, 2);
-    s(0, 1) = s(1, 0) = 2 * g12 * e(0, 1);
-    s(1, 2) = s(2, 1) = 2 * g23 * e(1, 2);
-    s(2, 0) = s(0, 2) = 2 * g31 * e(2, 0);
+    s(0, 1) = s(1, 0) = (2 * g12) * e(0, 1);
+    s(1, 2) = s(2, 1) = (2 * g23) * e(1, 2);
+    s(2, 0) = s(0, 2) = (2 * g31) * e(2, 0);
     return s;
   }
 };

@@ -1,0 +1,93 @@
+// A number type of several doubles side by side, for kernels that treat one element per lane.
+//
+// It has what the element kernels need: arithmetic, sqrt, comparison to a mask, choice by a mask.
+// The same functions exist for double (with bool as the mask), so that one kernel serves both.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "lib/core/types.h"
+
+namespace orthodyn {
+
+class Batch {
+ public:
+#if defined(__AVX512F__)
+  static constexpr int kLanes = 8;
+#else
+  static constexpr int kLanes = 4;
+#endif
+  using Pack = double __attribute__((vector_size(kLanes * sizeof(double))));
+  using Mask = std::int64_t __attribute__((vector_size(kLanes * sizeof(double))));
+
+  Batch() = default;
+  Batch(double x) : v_(x - Pack{}) {}  // NOLINT: numbers convert
+  explicit Batch(Pack v) : v_(v) {}
+  static Batch load(const double* lanes) {
+    Batch b;
+    __builtin_memcpy(&b.v_, lanes, sizeof b.v_);
+    return b;
+  }
+  void store(double* lanes) const { __builtin_memcpy(lanes, &v_, sizeof v_); }
+  double operator[](int lane) const { return v_[lane]; }
+  Pack pack() const { return v_; }
+
+  friend Batch operator+(const Batch& a, const Batch& b) { return Batch(a.v_ + b.v_); }
+  friend Batch operator-(const Batch& a, const Batch& b) { return Batch(a.v_ - b.v_); }
+  friend Batch operator*(const Batch& a, const Batch& b) { return Batch(a.v_ * b.v_); }
+  friend Batch operator/(const Batch& a, const Batch& b) { return Batch(a.v_ / b.v_); }
+  friend Batch operator-(const Batch& a) { return Batch(-a.v_); }
+  Batch& operator+=(const Batch& b) { return *this = *this + b; }
+  Batch& operator-=(const Batch& b) { return *this = *this - b; }
+  Batch& operator*=(const Batch& b) { return *this = *this * b; }
+  Batch& operator/=(const Batch& b) { return *this = *this / b; }
+  friend Mask operator>(const Batch& a, const Batch& b) { return a.v_ > b.v_; }
+  friend Mask operator<(const Batch& a, const Batch& b) { return a.v_ < b.v_; }
+  friend Mask operator>=(const Batch& a, const Batch& b) { return a.v_ >= b.v_; }
+  friend Mask operator<=(const Batch& a, const Batch& b) { return a.v_ <= b.v_; }
+
+ private:
+  Pack v_;
+};
+
+inline Batch sqrt(const Batch& x) {
+  Batch::Pack root;
+  for (int i = 0; i < Batch::kLanes; ++i) root[i] = std::sqrt(x[i]);
+  return Batch(root);
+}
+inline Batch select(const Batch::Mask& m, const Batch& a, const Batch& b) {
+  return Batch(m ? a.pack() : b.pack());
+}
+inline bool all(const Batch::Mask& m) {
+  std::int64_t every = -1;
+  for (int i = 0; i < Batch::kLanes; ++i) every &= m[i];
+  return every != 0;
+}
+
+inline double select(bool m, double a, double b) { return m ? a : b; }
+inline bool all(bool m) { return m; }
+
+}  // namespace orthodyn
+
+namespace Eigen {
+
+template <>
+struct NumTraits<orthodyn::Batch> : NumTraits<double> {
+  using Real = orthodyn::Batch;
+  using NonInteger = orthodyn::Batch;
+  using Nested = orthodyn::Batch;
+  using Literal = orthodyn::Batch;
+  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 0, ReadCost = 1, AddCost = 1, MulCost = 1 };
+};
+
+template <class Op>
+struct ScalarBinaryOpTraits<double, orthodyn::Batch, Op> {
+  using ReturnType = orthodyn::Batch;
+};
+template <class Op>
+struct ScalarBinaryOpTraits<orthodyn::Batch, double, Op> {
+  using ReturnType = orthodyn::Batch;
+};
+
+}  // namespace Eigen

@@ -1,0 +1,182 @@
+// The branch-free part of the polar decomposition (polar.h), for one element or a batch of them.
+#pragma once
+
+#include "lib/element/axial.h"
+#include "lib/element/batch.h"
+
+namespace orthodyn {
+
+template <class T>
+struct Polar {
+  Mat3T<T> R, S;
+  Mat3T<T> G_inverse;  // meaningful where det_G > 0
+  T det_G;             // (s1+s2)(s2+s3)(s3+s1)
+};
+
+namespace polar_detail {
+
+inline constexpr double kRotationTolerance = 1e-15;  // on |a(R^T F)| / |F|, aimed at
+inline constexpr double kAcceptTolerance = 1e-13;    // and accepted
+inline constexpr double kSingularG = 1e-9;  // det G / |F|^3 below which R is not unique to round-off
+inline constexpr int kPolishSteps = 3;
+
+template <class T>
+using Mat4T = Eigen::Matrix<T, 4, 4>;
+template <class T>
+using Vec4T = Eigen::Matrix<T, 4, 1>;
+
+// Davenport's matrix: q^T B q = tr(R(q)^T F).
+template <class T>
+Mat4T<T> davenport(const Mat3T<T>& F) {
+  const Vec3T<T> z = axial<T>(F);
+  const T trace = F.trace();
+  Mat4T<T> B;
+  B(0, 0) = trace;
+  for (int i = 0; i < 3; ++i) {
+    B(0, i + 1) = B(i + 1, 0) = z[i];
+    for (int j = 0; j < 3; ++j) B(i + 1, j + 1) = F(i, j) + F(j, i);
+    B(i + 1, i + 1) -= trace;
+  }
+  return B;
+}
+
+// Largest root of lambda^4 - 2 lambda^2 - 8 d lambda + c for |F| = 1, that is tr(S), to the accuracy
+// that the polishing steps need: they square the error, twice.
+template <class T>
+T largest_eigenvalue(const Mat3T<T>& F) {
+  const Vec3T<T> c0 = F.col(1).cross(F.col(2)), c1 = F.col(2).cross(F.col(0)), c2 = F.col(0).cross(F.col(1));
+  const T d = F.col(0).dot(c0);
+  const T c = T(1) - T(4) * (c0.dot(c0) + c1.dot(c1) + c2.dot(c2));
+  T x(1.7320508075688772);  // tr(S) <= sqrt(3) |F|
+  for (int i = 0; i < 8; ++i) {
+    const T x2 = x * x;
+    const T slope = T(4) * x * (x2 - T(1)) - T(8) * d;
+    const T value = (x2 - T(2)) * x2 - T(8) * d * x + c;
+    const T dx = select(slope > T(1e-9), value / slope, T(0));
+    x -= dx;
+    if (all(dx * dx < T(1e-12))) break;
+  }
+  return x;
+}
+
+// The column with the largest diagonal entry of the adjugate of a symmetric 4x4 matrix: for a
+// singular one, its null vector, not normalised.
+template <class T>
+Vec4T<T> adjugate_column(const Mat4T<T>& m) {
+  const T s0 = m(0, 0) * m(1, 1) - m(1, 0) * m(0, 1), s1 = m(0, 0) * m(1, 2) - m(1, 0) * m(0, 2);
+  const T s2 = m(0, 0) * m(1, 3) - m(1, 0) * m(0, 3), s3 = m(0, 1) * m(1, 2) - m(1, 1) * m(0, 2);
+  const T s4 = m(0, 1) * m(1, 3) - m(1, 1) * m(0, 3);
+  const T c5 = m(2, 2) * m(3, 3) - m(3, 2) * m(2, 3), c4 = m(2, 1) * m(3, 3) - m(3, 1) * m(2, 3);
+  const T c3 = m(2, 1) * m(3, 2) - m(3, 1) * m(2, 2), c2 = m(2, 0) * m(3, 3) - m(3, 0) * m(2, 3);
+  const T c1 = m(2, 0) * m(3, 2) - m(3, 0) * m(2, 2), c0 = m(2, 0) * m(3, 1) - m(3, 0) * m(2, 1);
+  Mat4T<T> A;
+  A(0, 0) = m(1, 1) * c5 - m(1, 2) * c4 + m(1, 3) * c3;
+  A(1, 0) = -m(1, 0) * c5 + m(1, 2) * c2 - m(1, 3) * c1;
+  A(2, 0) = m(1, 0) * c4 - m(1, 1) * c2 + m(1, 3) * c0;
+  A(3, 0) = -m(1, 0) * c3 + m(1, 1) * c1 - m(1, 2) * c0;
+  A(1, 1) = m(0, 0) * c5 - m(0, 2) * c2 + m(0, 3) * c1;
+  A(2, 1) = -m(0, 0) * c4 + m(0, 1) * c2 - m(0, 3) * c0;
+  A(3, 1) = m(0, 0) * c3 - m(0, 1) * c1 + m(0, 2) * c0;
+  A(2, 2) = m(3, 0) * s4 - m(3, 1) * s2 + m(3, 3) * s0;
+  A(3, 2) = -m(3, 0) * s3 + m(3, 1) * s1 - m(3, 2) * s0;
+  A(3, 3) = m(2, 0) * s3 - m(2, 1) * s1 + m(2, 2) * s0;
+  A(0, 1) = A(1, 0), A(0, 2) = A(2, 0), A(0, 3) = A(3, 0);
+  A(1, 2) = A(2, 1), A(1, 3) = A(3, 1), A(2, 3) = A(3, 2);
+  Vec4T<T> q = A.col(0);
+  T largest = A(0, 0) * A(0, 0);
+  for (int k = 1; k < 4; ++k) {
+    const T size = A(k, k) * A(k, k);
+    const auto larger = size > largest;
+    for (int i = 0; i < 4; ++i) q[i] = select(larger, A(i, k), q[i]);
+    largest = select(larger, size, largest);
+  }
+  return q;
+}
+
+// The rotation of a quaternion (w, x, y, z) of any length.
+template <class T>
+Mat3T<T> rotation(const Vec4T<T>& q) {
+  const T s = T(2) / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  const T w = q[0], x = q[1], y = q[2], z = q[3];
+  Mat3T<T> R;
+  R(0, 0) = T(1) - s * (y * y + z * z);
+  R(1, 1) = T(1) - s * (x * x + z * z);
+  R(2, 2) = T(1) - s * (x * x + y * y);
+  R(0, 1) = s * (x * y - w * z);
+  R(1, 0) = s * (x * y + w * z);
+  R(0, 2) = s * (x * z + w * y);
+  R(2, 0) = s * (x * z - w * y);
+  R(1, 2) = s * (y * z - w * x);
+  R(2, 1) = s * (y * z + w * x);
+  return R;
+}
+
+// S, G and what follows from them, of A = R^T F.
+template <class T>
+Mat3T<T> set_stretch(const Mat3T<T>& A, Polar<T>& p) {
+  p.S = symmetric_part<T>(A);
+  Mat3T<T> G = -p.S;
+  const T trace = p.S.trace();
+  for (int i = 0; i < 3; ++i) G(i, i) += trace;
+  p.G_inverse = cofactor_of_symmetric<T>(G);
+  p.det_G = G(0, 0) * p.G_inverse(0, 0) + G(0, 1) * p.G_inverse(0, 1) + G(0, 2) * p.G_inverse(0, 2);
+  p.G_inverse *= T(1) / p.det_G;
+  return G;
+}
+
+// R <- R cay(w), the Cayley transform of the rotation vector w; exact to third order.
+template <class T>
+void turn(Mat3T<T>& R, const Vec3T<T>& w) {
+  const Vec3T<T> h = T(0.5) * w;
+  const T factor = T(2) / (T(1) + h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
+  const Mat3T<T> H = cross_matrix<T>(h);
+  const Mat3T<T> step = H + H * H;
+  R += factor * (R * step).eval();
+}
+
+// Newton steps from p.R for |F| = 1. The mask of those for which p then holds the maximiser.
+template <class T>
+auto polish(const Mat3T<T>& F, Polar<T>& p) {
+  for (int i = 0;; ++i) {
+    const Mat3T<T> A = p.R.transpose() * F;
+    const Vec3T<T> a = axial<T>(A);
+    const Mat3T<T> G = set_stretch<T>(A, p);
+    const T residual = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+    const auto definite = (G(0, 0) > T(0)) & (G(0, 0) * G(1, 1) - G(0, 1) * G(0, 1) > T(0)) &
+                          (p.det_G > T(kSingularG));
+    if (i == kPolishSteps || all(residual <= T(kRotationTolerance * kRotationTolerance)))
+      return definite & (residual <= T(kAcceptTolerance * kAcceptTolerance));
+    turn<T>(p.R, p.G_inverse * a);
+  }
+}
+
+// For |F| = 1; the mask of those that are right to round-off.
+template <class T>
+auto decompose_unit(const Mat3T<T>& F, Polar<T>& p) {
+  Mat4T<T> B = davenport<T>(F);
+  const T lambda = largest_eigenvalue<T>(F);
+  for (int i = 0; i < 4; ++i) B(i, i) -= lambda;
+  p.R = rotation<T>(adjugate_column<T>(B));
+  return polish<T>(F, p);
+}
+
+template <class T>
+void scale(Polar<T>& p, const T& factor) {
+  p.S *= factor;
+  p.G_inverse *= T(1) / factor;
+  p.det_G *= factor * factor * factor;
+}
+
+}  // namespace polar_detail
+
+// Polar decompositions of a batch: lanes outside the returned mask are to be done one by one by
+// polar(), which knows every case.
+inline Batch::Mask polar(const Mat3T<Batch>& F, Polar<Batch>& p) {
+  const Batch norm = sqrt(F.cwiseProduct(F).sum());
+  const Mat3T<Batch> unit = F * (Batch(1) / norm);
+  const Batch::Mask good = polar_detail::decompose_unit<Batch>(unit, p);
+  polar_detail::scale<Batch>(p, norm);
+  return good;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,1 @@
+"""Draws what `orthodyn run` has written: pictures of frames, strips, animations and curves."""

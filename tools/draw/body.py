@@ -1,0 +1,78 @@
+"""Paints a body into 2D axes: shaded faces and lines from far to near, faces seen from behind left out."""
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+
+from .split import split_for
+
+FEW_FACES = 4000  # up to here the edges of the mesh are drawn as well
+INK = np.array([0.13, 0.14, 0.17])
+
+
+class Paint:
+    """Triangles and segments with their depth, to be drawn in that order."""
+
+    def __init__(self):
+        self._shapes = []
+
+    def add(self, outline, depth, face_rgb, edge_rgb, width):
+        """`outline` (k,3,2); segments are triangles whose last two corners agree."""
+        k = len(outline)
+        rgb = [np.broadcast_to(c, (k, 3)) for c in (face_rgb, edge_rgb)]
+        self._shapes.append((outline, depth, *rgb, np.broadcast_to(width, k)))
+
+    def add_segments(self, start, end, depth, rgb, width):
+        self.add(np.stack([start, end, end], axis=1), depth, rgb, rgb, width)
+
+    def draw(self, axes):
+        outline, depth, face, edge, width = (np.concatenate(part) for part in zip(*self._shapes))
+        order = np.argsort(depth, kind="stable")
+        axes.add_collection(PolyCollection(outline[order], facecolors=face[order], edgecolors=edge[order],
+                                           linewidths=width[order], joinstyle="round", zorder=2), autolim=False)
+
+
+def front_faces(surface, flat):
+    a, b, c = (flat[surface.faces[:, k]] for k in range(3))
+    return (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0]) > 0
+
+
+def outline_edges(surface, front):
+    """(f,3): edges of visible faces that are sharp or border on an invisible face."""
+    hidden = (surface.neighbour < 0) | ~front[surface.neighbour]
+    return front[:, None] & (surface.sharp | hidden)
+
+
+def add_body(paint, surface, points, values, colouring, camera, budget):
+    """Faces and edges of the body at `points`; `values` (f,3) at the corners of the faces."""
+    split = split_for(len(surface.faces), budget)
+    front = front_faces(surface, camera.flat(points))
+    corners = points[surface.faces[front]]
+    small = np.einsum("sk,fkx->fsx", split.nodes, corners)
+    flat = camera.flat(small)
+    depth = camera.depth(np.einsum("sk,fkx->fsx", split.centres, corners))
+    normal = np.einsum("sk,fkx->fsx", split.centres, surface.corner_normals(points)[front])
+    normal /= np.linalg.norm(normal, axis=-1, keepdims=True) + 1e-300
+    rgb = colouring(values[front] @ split.centres.T) * camera.shade(normal)[..., None]
+    paint.add(flat[:, split.triangles].reshape(-1, 3, 2), depth.ravel(), rgb.reshape(-1, 3), rgb.reshape(-1, 3), 0.4)
+
+    outline = outline_edges(surface, front)[front]
+    # A neighbour drawn later would cover half of a line's width: lines come nearer by a small triangle's size.
+    nearer = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=-1).max(axis=1)[:, None] / split.n
+    for e, rows in enumerate(split.edges):
+        owner, start, end = rows.T
+        for chosen, darkness, width in ((~outline[:, e], 0.16, 0.35), (outline[:, e], 0.72, 0.9)):
+            if width < 0.5 and len(surface.faces) > FEW_FACES:
+                continue
+            ink = (1 - darkness) * rgb[chosen][:, owner] + darkness * INK
+            paint.add_segments(flat[chosen][:, start].reshape(-1, 2), flat[chosen][:, end].reshape(-1, 2),
+                               (depth[:, owner] + nearer)[chosen].ravel(), ink.reshape(-1, 3), width)
+
+
+def draw_ghost(axes, surface, rest, camera):
+    """The outline of the rest shape, behind the body and faintly before it."""
+    flat = camera.flat(rest)
+    edge = outline_edges(surface, front_faces(surface, flat))
+    ends = np.stack([surface.faces, np.roll(surface.faces, -1, axis=1)], axis=-1)[edge]
+    segments = flat[np.unique(np.sort(ends, axis=1), axis=0)]
+    for zorder, alpha in ((1, 1.0), (3, 0.2)):
+        axes.add_collection(LineCollection(segments, colors="#8b93a1", linewidths=0.7, alpha=alpha,
+                                           capstyle="butt", zorder=zorder), autolim=False)

@@ -1,0 +1,48 @@
+"""Orthographic view from a direction given by azimuth and elevation in degrees; z is up."""
+import numpy as np
+
+
+class Camera:
+    def __init__(self, azimuth=-60.0, elevation=20.0):
+        a, e = np.radians([azimuth, elevation])
+        self.right = np.array([-np.sin(a), np.cos(a), 0.0])
+        self.toward = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
+        self.up = np.cross(self.toward, self.right)
+        light = -0.45 * self.right + 0.62 * self.up + 0.80 * self.toward
+        self.light = light / np.linalg.norm(light)
+
+    def flat(self, points):
+        """Picture coordinates (..., 2)."""
+        return np.stack([points @ self.right, points @ self.up], axis=-1)
+
+    def depth(self, points):
+        """Larger is nearer to the eye."""
+        return points @ self.toward
+
+    def shade(self, normals):
+        """Lambert shade between 0.6 and 1 with a little light from everywhere."""
+        lambert = np.clip(normals @ self.light, 0, 1)
+        sky = 0.5 * (1 + normals @ self.up)
+        return np.clip(0.60 + 0.32 * lambert + 0.08 * sky, 0, 1)
+
+
+class Window:
+    """The rectangle of the picture plane that holds everything given to `include`."""
+
+    def __init__(self):
+        self.low, self.high = np.full(2, np.inf), np.full(2, -np.inf)
+
+    def include(self, flat):
+        self.low = np.minimum(self.low, flat.min(axis=0))
+        self.high = np.maximum(self.high, flat.max(axis=0))
+
+    @property
+    def size(self):
+        size = self.high - self.low
+        return np.maximum(size, 1e-3 * max(size.max(), 1e-9))
+
+    def fitted(self, width, height, margin=0.025):
+        """(xlim, ylim) with the aspect width:height around the rectangle."""
+        scale = (1 + 2 * margin) * max(self.size[0] / width, self.size[1] / height)
+        middle, half = (self.low + self.high) / 2, scale * np.array([width, height]) / 2
+        return [(middle[i] - half[i], middle[i] + half[i]) for i in range(2)]

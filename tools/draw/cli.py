@@ -1,0 +1,204 @@
+"""The commands of `draw`: arguments in, pictures out, one line per file written."""
+import argparse
+import math
+import re
+import sys
+from pathlib import Path
+
+from .errors import DrawError
+
+HELP = """Draws what `orthodyn run` has written into a result folder.
+
+examples:
+  draw all out/beam                                    everything, into out/beam/pictures
+  draw frame out/beam --time 0.5 --grain               one picture, the grain as short strokes
+  draw frame out/beam --color stress_material.11       stress along the grain, at the last frame
+  draw frame out/beam --color velocity.z --view 0,0    seen along x
+  draw strip out/beam --count 6 --ghost                six frames with the rest shape's outline
+  draw strip out/beam --times 0,0.1,0.4 --scale 20     deformation enlarged twenty times
+  draw animate out/beam --every 4 --fps 20
+  draw energy out/beam"""
+COLORS = """colours (--color FIELD[.COMPONENT]):
+  displacement, velocity      .x .y .z .magnitude (default)
+  stress                      .xx .yy .zz .xy .yz .zx .magnitude .von_mises (default)
+  stress_material             .11 .22 .33 .12 .23 .31 .magnitude .von_mises (default)
+  strain                      .11 .22 .33 .12 .23 .31 .magnitude (default); 1 is along the grain
+  det_f, region               volume ratio; one colour per region
+  Without --color: stress.von_mises where frames carry stress, else displacement.
+  The range of cell fields leaves out the outermost 0.4 % at either end, where the colour bar
+  then has a tip; --range gives it exactly. It is one range for all frames of a picture."""
+MOST_FRAMES = 60
+
+
+def _numbers(text, count=None, separator=","):
+    """'1,2' as floats."""
+    try:
+        values = tuple(float(part) for part in text.split(separator))
+    except ValueError:
+        values = ()
+    if not values or (count and len(values) != count) or not all(map(math.isfinite, values)):
+        wanted = f"{count} numbers" if count else "numbers"
+        raise argparse.ArgumentTypeError(f"'{text}' should be {wanted} separated by '{separator}'")
+    return values
+
+
+def _positive(text):
+    value = _numbers(text, 1)[0]
+    if value <= 0:
+        raise argparse.ArgumentTypeError(f"'{text}' should be above zero")
+    return value
+
+
+def _count(text):
+    value = _positive(text)
+    if value != int(value):
+        raise argparse.ArgumentTypeError(f"'{text}' should be a whole number")
+    return int(value)
+
+
+def _size(text):
+    values = _numbers(text.lower(), 2, "x")
+    if min(values) < 400 or max(values) > 10000:
+        raise argparse.ArgumentTypeError(f"'{text}' should be between 400x400 and 10000x10000 pixels")
+    return tuple(int(v) for v in values)
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise DrawError(f"{message}; see `{self.prog} --help`")
+
+
+def _parser():
+    parser = _Parser(prog="draw", description=HELP, formatter_class=argparse.RawDescriptionHelpFormatter,
+                     epilog="`draw COMMAND --help` explains one command.")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=_Parser)
+
+    def command(name, sentence, epilog=None):
+        sub = commands.add_parser(name, help=sentence, description=sentence, epilog=epilog,
+                                  formatter_class=argparse.RawDescriptionHelpFormatter)
+        sub.add_argument("result", metavar="RESULT", help="folder that `orthodyn run` wrote")
+        sub.set_defaults(out=None)
+        if name != "all":
+            sub.add_argument("--out", type=Path, metavar="FILE", help="default: a file in RESULT/pictures")
+        return sub
+
+    def body(name, sentence):
+        sub = command(name, sentence, COLORS)
+        sub.add_argument("--color", metavar="FIELD[.COMPONENT]", help="what colours the body, see below")
+        sub.add_argument("--range", type=lambda s: _numbers(s, 2), metavar="LOW,HIGH", help="colour range, SI units")
+        sub.add_argument("--view", type=lambda s: _numbers(s, 2), default=(-60.0, 20.0), metavar="AZIM,ELEV",
+                         help="where the eye is, degrees (default -60,20; z is up)")
+        sub.add_argument("--scale", type=lambda s: _numbers(s, 1)[0], default=1.0, metavar="S",
+                         help="enlarges the deformation (default 1: true shape)")
+        sub.add_argument("--grain", action="store_true", help="material axis 1 as strokes on the surface")
+        sub.add_argument("--ghost", action="store_true", help="outline of the rest shape")
+        return sub
+
+    frame = body("frame", "One frame as PNG (default: the last).")
+    which = frame.add_mutually_exclusive_group()
+    which.add_argument("--time", type=lambda s: _numbers(s, 1)[0], metavar="T", help="the frame nearest to T seconds")
+    which.add_argument("--index", type=int, metavar="K", help="frame number, from 0; -1 is the last")
+    frame.add_argument("--size", type=_size, metavar="WxH", help="pixels (default: 1600 wide or as the body needs)")
+
+    strip = body("strip", "Several frames side by side as PNG, with one view and one colour range.")
+    which = strip.add_mutually_exclusive_group()
+    which.add_argument("--times", type=_numbers, metavar="T1,T2,...", help="the frames nearest to these seconds")
+    which.add_argument("--count", type=_count, default=6, metavar="N", help="N frames over the whole time (default 6)")
+
+    animate = body("animate", "All frames as GIF below 4 MB.")
+    animate.add_argument("--fps", type=_positive, default=15.0, help="frames per second (default 15)")
+    animate.add_argument("--every", type=_count, metavar="K",
+                         help=f"every K-th frame (default: so that at most {MOST_FRAMES} remain)")
+
+    command("energy", "Energies over time and their balance, from energy.csv.")
+    command("steps", "Step size with order and rejections, Newton iterations, from steps.csv.")
+    command("probes", "Probed values over time, from probes.csv.")
+    command("momentum", "Linear and angular momentum over time, from momentum.csv.")
+    every = body("all", "Strip, animation and all curves into RESULT/pictures.")
+    every.set_defaults(count=6, times=None, fps=15.0, every=None)
+    return parser
+
+
+def _wish(args):
+    return {"color": args.color, "view": args.view, "scale": args.scale, "grain": args.grain,
+            "ghost": args.ghost, "limits": args.range}
+
+
+def _out(args, name):
+    return args.out or Path(args.result) / "pictures" / name
+
+
+def _frame(args):
+    from . import picture, scene, series
+    frames = series.Series(args.result)
+    index = frames.index_at(args.time) if args.time is not None else frames.checked_index(
+        -1 if args.index is None else args.index)
+    yield picture.draw_frame(scene.Scene(frames, [index], scene.Wish(**_wish(args))), index,
+                             _out(args, f"frame_{index:05d}.png"), args.size)
+
+
+def _strip(args):
+    from . import picture, scene, series
+    frames = series.Series(args.result)
+    indices = [frames.index_at(t) for t in args.times] if args.times else frames.evenly(args.count)
+    yield picture.draw_strip(scene.Scene(frames, indices, scene.Wish(**_wish(args))), indices, _out(args, "strip.png"))
+
+
+def _animate(args):
+    from . import animation, scene, series
+    frames = series.Series(args.result)
+    indices = range(0, len(frames), args.every or math.ceil(len(frames) / MOST_FRAMES))
+    yield animation.draw_animation(scene.Scene(frames, indices, scene.Wish(**_wish(args))), indices,
+                                   _out(args, "animation.gif"), args.fps)
+
+
+def _curve(args):
+    from . import curves, series
+    folder = series.result_folder(args.result)
+    yield curves.draw_curve(args.command, folder, _out(args, f"{args.command}.png"))
+
+
+def _all(args):
+    """What the folder has; the rest is left out with a word on stderr."""
+    from .curves import CURVES
+    from .series import result_folder
+    folder = result_folder(args.result)
+    parts = [(name, (folder / f"{name}.csv").is_file(), _curve) for name in CURVES]
+    parts = [(name, (folder / "frames.pvd").is_file(), run) for name, run in
+             (("strip", _strip), ("animate", _animate))] + parts
+    if not any(present for _, present, _ in parts):
+        raise DrawError(f"{folder}: neither frames.pvd nor any of {', '.join(f'{c}.csv' for c in CURVES)}; "
+                        "is it a folder that `orthodyn run` wrote?")
+    for name, present, run in parts:
+        if present:
+            args.command = name
+            yield from run(args)
+
+
+COMMANDS = {"frame": _frame, "strip": _strip, "animate": _animate, "all": _all}
+
+
+def _joined(arguments):
+    """`--view -60,20` as `--view=-60,20`; argparse takes -60,20 for an option."""
+    joined = []
+    for argument in arguments:
+        if joined and joined[-1].startswith("--") and re.match(r"-[\d.]", argument):
+            joined[-1] += "=" + argument
+        else:
+            joined.append(argument)
+    return joined
+
+
+def main(arguments=None):
+    """Exit code: 0, or 2 after one line on stderr."""
+    try:
+        args = _parser().parse_args(_joined(sys.argv[1:] if arguments is None else arguments))
+        for path in COMMANDS.get(args.command, _curve)(args):
+            print(path)
+    except DrawError as error:
+        print(f"draw: {error}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"draw: {error.filename or ''}: {error.strerror}", file=sys.stderr)
+        return 2
+    return 0

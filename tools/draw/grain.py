@@ -1,0 +1,71 @@
+"""Material axis 1 as short strokes on the surface: along the grain strokes, on end grain dots."""
+import numpy as np
+
+from .body import INK
+from .errors import unknown
+from .split import split_for
+from .surface import area_vectors, unit
+
+FIELD = "material_axis_1"
+SPACING = 0.115  # inches on the page
+GRAZING = 0.18  # cosine; on faces seen more flatly strokes would run into each other
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
+PALE = np.array([0.96, 0.96, 0.94])
+
+
+class Grain:
+    """Where strokes sit is chosen once in the rest shape, so that they travel with the material."""
+
+    def __init__(self, surface, rest, metres_per_inch):
+        self.surface, self.spacing = surface, SPACING * metres_per_inch
+        centres = split_for(len(surface.faces), 40000).centres
+        places = np.einsum("sk,fkx->fsx", centres, rest[surface.faces]).reshape(-1, 3)
+        thinned = self._thinned(places)
+        self.face, self.weights = thinned // len(centres), centres[thinned % len(centres)]
+
+    def _thinned(self, places):
+        """At most one place per box of the spacing, for several shifts of the boxes so that few places touch;
+        in a fixed shuffled order so that no rows appear."""
+        random = np.random.default_rng(1)
+        kept = random.permutation(len(places))
+        for shift in random.random((5, 3)):
+            boxes = np.floor(places[kept] / self.spacing + shift).astype(np.int64)
+            kept = kept[np.unique(boxes, axis=0, return_index=True)[1]]
+        return kept
+
+    def add(self, paint, frame, points, values, colouring, camera):
+        """`values` (f,3) at the corners, coloured by `colouring`, are what the strokes must stand out from."""
+        if FIELD not in frame.cell_fields:
+            raise unknown("field", FIELD, [*frame.node_fields, *frame.cell_fields])
+        seen = self._well_seen(points, camera)[self.face]
+        face, weights = self.face[seen], self.weights[seen]
+        corners = points[self.surface.faces[face]]
+        axis = unit(frame.cell_fields[FIELD][self.surface.cell[face]].astype(float))
+        normal = unit(area_vectors(corners))
+        along = axis - np.einsum("ix,ix->i", axis, normal)[:, None] * normal
+        half = 0.5 * self.spacing * np.maximum(np.linalg.norm(along, axis=1), 0.02)
+        along = unit(along) * half[:, None]
+        place = np.einsum("ik,ikx->ix", weights, corners)
+        ends = [place + self._reach(face, weights, corners, step)[:, None] * step for step in (along, -along)]
+        longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=-1).max(axis=1)
+        depth = camera.depth(place) + self.spacing + longest  # above the faces it spans and their edges
+        behind = colouring(np.einsum("ik,ik->i", weights, values[face]))
+        ink = np.where((behind @ LUMINANCE < 0.5)[:, None], PALE, INK)
+        paint.add_segments(*(camera.flat(end) for end in ends), depth, ink, 0.7)
+
+    def _well_seen(self, points, camera):
+        normal = unit(area_vectors(points[self.surface.faces]))
+        return camera.depth(normal) > GRAZING
+
+    def _reach(self, face, weights, corners, step):
+        """Part of `step`, at most 1, that stays on the near side of the face's sharp edges."""
+        edges = corners[:, 1:] - corners[:, :1]
+        gram = np.einsum("iax,ibx->iab", edges, edges)
+        side = np.einsum("iax,ix->ia", edges, step)
+        determinant = np.maximum(gram[:, 0, 0] * gram[:, 1, 1] - gram[:, 0, 1] ** 2, 1e-300)
+        second = (gram[:, 1, 1] * side[:, 0] - gram[:, 0, 1] * side[:, 1]) / determinant
+        third = (gram[:, 0, 0] * side[:, 1] - gram[:, 0, 1] * side[:, 0]) / determinant
+        rate = np.stack([-second - third, second, third], axis=1)
+        opposite_sharp = self.surface.sharp[face][:, [1, 2, 0]]
+        limit = np.where(opposite_sharp & (rate < 0), 0.92 * weights / np.maximum(-rate, 1e-300), 1.0)
+        return np.minimum(limit.min(axis=1), 1.0)

@@ -1,0 +1,95 @@
+"""What colours the body: FIELD[.COMPONENT] of a frame as one number per node or cell."""
+from dataclasses import dataclass
+
+import numpy as np
+
+from .errors import unknown
+
+SPACE = ("xx", "yy", "zz", "xy", "yz", "zx")
+MATERIAL = ("11", "22", "33", "12", "23", "31")
+UNITS = {"displacement": "m", "velocity": "m/s", "stress": "Pa", "stress_material": "Pa"}
+NEUTRAL = {"det_f": 1.0}  # the value of the undeformed body; every other signed field has 0
+
+
+def von_mises(s):
+    """von Mises stress of (n,6) symmetric stresses ordered 11, 22, 33, 12, 23, 31 in any Cartesian frame."""
+    normal = (s[:, 0] - s[:, 1]) ** 2 + (s[:, 1] - s[:, 2]) ** 2 + (s[:, 2] - s[:, 0]) ** 2
+    return np.sqrt(0.5 * normal + 3 * (s[:, 3] ** 2 + s[:, 4] ** 2 + s[:, 5] ** 2))
+
+
+def magnitude(v):
+    """Length of vectors; Frobenius norm of symmetric tensors."""
+    weight = np.array([1, 1, 1, 2, 2, 2]) if v.shape[1] == 6 else 1
+    return np.sqrt((weight * v ** 2).sum(axis=1))
+
+
+def component_names(field, count):
+    if count == 6:
+        return MATERIAL if field in ("stress_material", "strain") else SPACE
+    return {1: (), 3: ("x", "y", "z")}.get(count, tuple(str(i) for i in range(count)))
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """`kind` is a component's index, or "magnitude", "von_mises", "value"."""
+    field: str
+    kind: object
+    label: str
+    on_nodes: bool
+
+    @property
+    def unit(self):
+        return UNITS.get(self.field, "")
+
+    @property
+    def categorical(self):
+        return self.field == "region"
+
+    @property
+    def neutral(self):
+        """Middle of a diverging colour map, None where a map from low to high fits."""
+        if self.field in NEUTRAL:
+            return NEUTRAL[self.field]
+        return 0.0 if isinstance(self.kind, int) else None
+
+    def values(self, frame):
+        fields = frame.node_fields if self.on_nodes else frame.cell_fields
+        if self.field not in fields:
+            raise unknown("field", self.field, [*frame.node_fields, *frame.cell_fields])
+        data = fields[self.field].astype(float)
+        if self.kind == "value":
+            return data[:, 0]
+        if self.kind in ("magnitude", "von_mises"):
+            return {"magnitude": magnitude, "von_mises": von_mises}[self.kind](data)
+        return data[:, self.kind]
+
+
+def default_quantity(frame):
+    """The von Mises stress where frames carry stress, otherwise the displacement."""
+    return "stress.von_mises" if "stress" in frame.cell_fields else "displacement"
+
+
+def _split(text, fields):
+    """Field and component of `text`; names of fields may have dots themselves."""
+    for name in sorted(fields, key=len, reverse=True):
+        if text == name or text.startswith(name + "."):
+            return name, text[len(name) + 1:]
+    raise unknown("field", text.split(".")[0], fields)
+
+
+def find_quantity(text, frame):
+    """The Quantity that `text` names in `frame`; None stands for the default one."""
+    fields = {**frame.cell_fields, **frame.node_fields}
+    field, part = _split(text or default_quantity(frame), fields)
+    on_nodes, count = field in frame.node_fields, fields[field].shape[1]
+    title = field.replace("_", " ").replace("det f", "volume ratio det F")
+    if count == 1 and not part:
+        return Quantity(field, "value", title, on_nodes)
+    components = component_names(field, count)
+    derived = ["magnitude"] * (count > 1) + ["von_mises"] * (count == 6 and field.startswith("stress"))
+    part = part or derived[-1]
+    if part in derived:
+        return Quantity(field, part, f"{title}, {part.replace('von_mises', 'von Mises')}", on_nodes)
+    if part in components:
+        return Quantity(field, components.index(part), f"{title} {part}", on_nodes)
+    raise unknown(f"component of {field}", part, [*components, *derived])

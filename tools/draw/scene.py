@@ -1,0 +1,87 @@
+"""What all frames of one picture share: surface, camera, colour range and window."""
+from dataclasses import dataclass
+
+import numpy as np
+
+from .body import Paint, add_body, draw_ghost
+from .camera import Camera, Window
+from .colouring import Colouring
+from .errors import DrawError
+from .grain import Grain
+from .quantity import find_quantity
+from .surface import Surface
+from .units import time_labels
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What the user may choose about a picture of the body."""
+    color: str = None
+    view: tuple = (-60.0, 20.0)
+    scale: float = 1.0
+    grain: bool = False
+    ghost: bool = False
+    limits: tuple = None
+
+
+class Scene:
+    """Made from all frames that will be drawn, so that they can be compared with each other."""
+
+    def __init__(self, series, indices, wish):
+        self.series, self.wish, self.camera = series, wish, Camera(*wish.view)
+        first = series.frame(indices[0])
+        if not len(first.tets):
+            raise DrawError(f"{series.paths[indices[0]]}: no tetrahedra to draw")
+        self.surface = Surface(first.points, first.tets)
+        self.labels = dict(zip(indices, time_labels([series.times[i] for i in indices])))
+        self._shape = first.points.shape, first.tets.shape
+        self.quantity = find_quantity(wish.color, first)
+        self._grain = None
+        self.window, samples = Window(), []
+        for index in indices:
+            frame = self._frame(index)
+            self.window.include(self.camera.flat(self.positions(frame)[self.surface.nodes]))
+            samples.append(self.corner_values(frame).ravel())
+        if wish.ghost:
+            self.window.include(self.camera.flat(first.points[self.surface.nodes]))
+        self.colouring = Colouring(self.quantity, samples, wish.limits)
+
+    def _frame(self, index):
+        frame = self.series.frame(index)
+        if (frame.points.shape, frame.tets.shape) != self._shape:
+            raise DrawError(f"{self.series.paths[index]}: another mesh than in the first frame")
+        return frame
+
+    def positions(self, frame):
+        moved = frame.node_fields.get("displacement")
+        points = frame.points if moved is None else frame.points + self.wish.scale * moved
+        if not np.isfinite(points).all():
+            raise DrawError("a displacement is not a finite number, the run has diverged; choose an earlier --time")
+        return points
+
+    def corner_values(self, frame):
+        return self.surface.corner_values(self.quantity.values(frame), self.quantity.on_nodes)
+
+    def _grain_on(self, axes, rest):
+        """Made once: all panels of a picture are equally large."""
+        if self._grain is None:
+            inches = axes.get_position().width * axes.figure.get_size_inches()[0]
+            self._grain = Grain(self.surface, rest, np.ptp(axes.get_xlim()) / inches)
+        return self._grain
+
+    @property
+    def note(self):
+        return "" if self.wish.scale == 1 else f"deformation × {self.wish.scale:g}"
+
+    def draw(self, axes, index, budget):
+        """The body at frame `index` into axes whose limits are set already."""
+        frame = self._frame(index)
+        points = self.positions(frame)
+        values = self.corner_values(frame)
+        paint = Paint()
+        add_body(paint, self.surface, points, values, self.colouring, self.camera, budget)
+        if self.wish.grain:
+            self._grain_on(axes, frame.points).add(paint, frame, points, values, self.colouring, self.camera)
+        paint.draw(axes)
+        if self.wish.ghost:
+            draw_ghost(axes, self.surface, frame.points, self.camera)

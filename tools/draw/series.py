@@ -1,0 +1,61 @@
+"""A result folder as a series of frames in time, by its frames.pvd."""
+import functools
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import numpy as np
+
+from .errors import DrawError
+from .vtu import read_vtu
+
+
+def result_folder(name):
+    folder = Path(name)
+    if not folder.is_dir():
+        raise DrawError(f"{folder}: no such result folder; `orthodyn run SCENE.yaml` writes one")
+    return folder
+
+
+class Series:
+    """Times and frames of one run; frames are read when asked for."""
+
+    def __init__(self, name):
+        self.folder = result_folder(name)
+        listed = self._listed(self.folder / "frames.pvd")
+        self.times = np.array([t for t, _ in listed])
+        self.paths = [path for _, path in listed]
+
+    @staticmethod
+    def _listed(pvd):
+        if not pvd.is_file():
+            raise DrawError(f"{pvd}: missing, so there are no frames to draw; does the scene's output write frames?")
+        try:
+            root = ElementTree.fromstring(pvd.read_bytes())
+            listed = [(float(d.get("timestep")), pvd.parent / d.get("file")) for d in root.iter("DataSet")]
+        except (ElementTree.ParseError, TypeError, ValueError) as error:
+            raise DrawError(f"{pvd}: not readable as PVD ({error})") from None
+        if not listed:
+            raise DrawError(f"{pvd}: lists no frames")
+        return sorted(listed, key=lambda entry: entry[0])
+
+    def __len__(self):
+        return len(self.paths)
+
+    @functools.lru_cache(maxsize=8)
+    def frame(self, index):
+        return read_vtu(self.paths[index])
+
+    def index_at(self, time):
+        """Frame nearest to `time`."""
+        return int(np.argmin(np.abs(self.times - time)))
+
+    def checked_index(self, index):
+        """`index`, negative ones counted from the end."""
+        if not -len(self) <= index < len(self):
+            raise DrawError(f"{self.folder}: no frame {index}; there are {len(self)} frames (0 to {len(self) - 1})")
+        return index % len(self)
+
+    def evenly(self, count):
+        """At most `count` frames, evenly spaced in time, first and last among them."""
+        times = np.linspace(self.times[0], self.times[-1], max(count, 1)) if count > 1 else self.times[-1:]
+        return sorted({self.index_at(t) for t in times})

@@ -1,0 +1,132 @@
+"""Reads one VTU file of tetrahedra: VTK XML UnstructuredGrid, arrays ascii or appended raw.
+
+Layout of appended raw data: https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html,
+an underscore, then per array one header integer (byte count) and the bytes.
+"""
+import re
+import xml.etree.ElementTree as ElementTree
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .errors import DrawError
+
+VTK_TETRA = 10
+NUMPY_TYPE = {f"{k}{bits}": f"{c}{bits // 8}" for k, c, sizes in
+              (("Float", "f", (32, 64)), ("Int", "i", (8, 16, 32, 64)), ("UInt", "u", (8, 16, 32, 64)))
+              for bits in sizes}
+
+
+@dataclass
+class Frame:
+    """Rest positions (n,3), tets (m,4) and the fields by name, each (n or m, components)."""
+    points: np.ndarray
+    tets: np.ndarray
+    node_fields: dict = field(default_factory=dict)
+    cell_fields: dict = field(default_factory=dict)
+
+
+class _Arrays:
+    """Decodes DataArray elements of one file."""
+
+    def __init__(self, path, root, appended):
+        self.path, self.appended = path, appended
+        self.order = ">" if root.get("byte_order") == "BigEndian" else "<"
+        self.header = np.dtype(self.order + NUMPY_TYPE.get(root.get("header_type", "UInt32"), "u4"))
+        if root.get("compressor"):
+            raise self.damaged(f"compressed with {root.get('compressor')}; write raw appended data instead")
+
+    def damaged(self, what):
+        return DrawError(f"{self.path}: {what}")
+
+    def read(self, element, tuples):
+        """Values as (tuples, components); None stands for as many tuples as there are."""
+        name, form = element.get("Name", "?"), element.get("format", "ascii")
+        if element.get("type") not in NUMPY_TYPE:
+            raise self.damaged(f"array '{name}' has the type {element.get('type')}, which is no number")
+        dtype = np.dtype(self.order + NUMPY_TYPE[element.get("type")])
+        if form == "appended":
+            values = self._appended(name, dtype, int(element.get("offset", "0")))
+        elif form == "ascii":
+            values = self._ascii(name, dtype, element.text or "")
+        else:
+            raise self.damaged(f"array '{name}' has format=\"{form}\"; readable are appended (raw) and ascii")
+        components = int(element.get("NumberOfComponents", "1"))
+        if tuples is None:
+            tuples = len(values) // components
+        if len(values) != tuples * components:
+            raise self.damaged(f"array '{name}' has {len(values)} values where {tuples} x {components} belong")
+        return values.reshape(tuples, components)
+
+    def _ascii(self, name, dtype, text):
+        try:
+            return np.array(text.split(), dtype=np.float64 if dtype.kind == "f" else np.int64).astype(dtype)
+        except ValueError as error:
+            raise self.damaged(f"array '{name}': {error}") from None
+
+    def _appended(self, name, dtype, offset):
+        begin = offset + self.header.itemsize
+        if offset < 0 or begin > len(self.appended):
+            raise self.damaged(f"array '{name}' begins beyond the end of the file; is the file cut off?")
+        size = int(np.frombuffer(self.appended, self.header, 1, offset)[0])
+        if begin + size > len(self.appended) or size % dtype.itemsize:
+            raise self.damaged(f"array '{name}' should have {size} bytes, but the file holds "
+                               f"{len(self.appended) - begin}; is the file cut off?")
+        native = dtype.newbyteorder("=")
+        return np.frombuffer(self.appended, dtype, size // dtype.itemsize, begin).astype(native)
+
+
+def _split_appended(path, content):
+    """The XML text and the bytes after the underscore."""
+    tag = re.search(rb"<AppendedData[^>]*>", content)
+    if not tag:
+        return content, b""
+    if b'encoding="raw"' not in tag.group():
+        raise DrawError(f"{path}: appended data is not raw; only encoding=\"raw\" is readable")
+    underscore = content.find(b"_", tag.end())
+    appended = content[underscore + 1:] if underscore >= 0 else b""
+    return content[:tag.start()] + b"</VTKFile>", appended
+
+
+def _tets(arrays, cells, count, num_points):
+    named = {a.get("Name"): a for a in cells}
+    missing = {"connectivity", "offsets", "types"} - set(named)
+    if missing:
+        raise arrays.damaged(f"Cells lack {', '.join(sorted(missing))}")
+    other = set(arrays.read(named["types"], count).ravel().tolist()) - {VTK_TETRA}
+    if other:
+        raise arrays.damaged(f"cells of VTK type {sorted(other)}; only tetrahedra (type {VTK_TETRA}) can be drawn")
+    nodes = arrays.read(named["connectivity"], None)
+    if nodes.size != 4 * count:
+        raise arrays.damaged(f"connectivity has {nodes.size} entries; {count} tetrahedra need {4 * count}")
+    tets = nodes.reshape(count, 4).astype(np.int64)
+    if tets.size and (tets.min() < 0 or tets.max() >= num_points):
+        raise arrays.damaged(f"connectivity names point {tets.max()}, but there are {num_points} points")
+    return tets
+
+
+def read_vtu(path):
+    """The Frame in `path`; DrawError when the file is missing, damaged or not made of tets."""
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise DrawError(f"{path}: {error.strerror}") from None
+    text, appended = _split_appended(path, content)
+    try:
+        root = ElementTree.fromstring(text)
+    except ElementTree.ParseError as error:
+        raise DrawError(f"{path}: not readable as VTU ({error})") from None
+    arrays = _Arrays(path, root, appended)
+    piece = root.find("UnstructuredGrid/Piece")
+    if piece is None or piece.find("Points/DataArray") is None or piece.find("Cells") is None:
+        raise arrays.damaged("no UnstructuredGrid with Points and Cells inside")
+    try:
+        num_points, num_cells = int(piece.get("NumberOfPoints")), int(piece.get("NumberOfCells"))
+        points = arrays.read(piece.find("Points/DataArray"), num_points).astype(float)
+        if points.shape[1] != 3:
+            raise arrays.damaged(f"points have {points.shape[1]} components; 3 belong")
+        fields = [{a.get("Name"): arrays.read(a, count) for a in piece.findall(f"{where}/DataArray")}
+                  for where, count in (("PointData", num_points), ("CellData", num_cells))]
+        return Frame(points, _tets(arrays, piece.find("Cells"), num_cells, num_points), *fields)
+    except (TypeError, ValueError) as error:
+        raise arrays.damaged(f"a count or offset is no whole number ({error})") from None
