@@ -174,7 +174,8 @@ void Config::override_with(const std::string& assignment) {
     path = child_path(path, step);
     YAML::Node next = entry(node, step, path, origin);
     if (next.IsDefined() && occurrences(place_->document->root, next) > 1)
-      throw ConfigError(fmt::format("{}: '{}' stands in several places by an alias; change the file", origin, path));
+      throw ConfigError(
+          fmt::format("{}: '{}' stands in several places by an alias; change the file", origin, path));
     const bool last = path.size() == equals;
     if (!last && (!next.IsDefined() || next.IsNull()))
       next = YAML::Node(YAML::NodeType::Map);

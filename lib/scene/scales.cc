@@ -29,7 +29,8 @@ Vector peak_load(const Scene& scene, const FemModel& model) {
 }
 
 struct StaticEstimate {
-  double deflection = 0, omega = 0;
+  double deflection = 0;  // m, the largest coordinate
+  double work = 0;        // J
 };
 
 // Linear statics about rest; nothing if the body is not held.
@@ -43,15 +44,12 @@ std::optional<StaticEstimate> static_estimate(const FemModel& model, const Vecto
   auto solver = solver_registry().at(model.pattern().symmetric ? "cholmod" : "klu").make();
   solver->analyze(model.pattern());
   if (solver->factor(values.data()) != FactorStatus::ok) return std::nullopt;
-  Vector u(load.size()), momentum(load.size());
+  Vector u(load.size()), residual(load.size());
   solver->solve(load, u);
-  model.multiply_mass(u, momentum);
-  const double work = u.dot(load), kinetic = u.dot(momentum);
-  Vector residual(load.size());
   model.pattern().multiply(values.data(), u, residual);
   const bool solved = u.allFinite() && (residual - load).norm() < 1e-3 * load.norm();
-  if (!solved || !(work > 0) || !(kinetic > 0)) return std::nullopt;
-  return StaticEstimate{u.cwiseAbs().maxCoeff(), std::sqrt(work / kinetic)};
+  if (!solved) return std::nullopt;
+  return StaticEstimate{u.cwiseAbs().maxCoeff(), u.dot(load)};
 }
 
 double initial_energy(const FemModel& model, const State& state) {
@@ -68,10 +66,9 @@ Scales estimate_scales(const Scene& scene, const BuiltScene& built) {
   const Vector load = peak_load(scene, model);
   const auto statics = static_estimate(model, load);
 
-  Scales scales{0.1 * extent, 3 * std::sqrt(2 * energy / mass)};
+  const double work = statics ? statics->work : extent * load.lpNorm<1>();
+  Scales scales{0.1 * extent, 3 * std::sqrt(2 * (energy + work) / mass)};
   if (statics && energy == 0) scales.position = std::min(scales.position, 2 * statics->deflection);
-  if (statics) scales.velocity = std::max(scales.velocity, 10 * statics->omega * scales.position);
-  else scales.velocity = std::max(scales.velocity, 3 * std::sqrt(extent * load.lpNorm<1>() / mass));
   if (scales.velocity == 0) scales.velocity = extent / (scene.time.end - scene.time.start);
   return scales;
 }

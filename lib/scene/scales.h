@@ -2,9 +2,8 @@
 //
 // Position: a tenth of the body's largest extent L; less if a body that starts at rest is known to
 // move less: twice the linear static deflection u under the peak loads.
-// Velocity: the largest of 10 omega times the position scale with omega^2 = u.f / u.M u (Rayleigh's
-// quotient of that deflection), and 3 sqrt(2 E0 / m) with E0 the initial elastic and kinetic energy;
-// for an unclamped body under load 3 sqrt(L |f| / m).
+// Velocity: 3 sqrt(2 (E0 + W) / m), with E0 the initial elastic and kinetic energy, m the mass and W
+// the work of the peak loads through that deflection; for an unclamped body through L.
 #pragma once
 
 #include "lib/scene/build.h"

@@ -1,0 +1,130 @@
+#include "integrators/sundials/multistep_integrator.h"
+
+#include <fmt/format.h>
+
+namespace orthodyn::sundials {
+
+MultistepIntegrator::MultistepIntegrator(std::string name, const Model& model, const MultistepSettings& settings)
+    : model_(model), settings_(settings), y_(make_vector(size(), context_)), momentum_(model.num_dofs()),
+      name_(std::move(name)) {
+  if (settings.full) full_.emplace(model);
+  else reduced_.emplace(model, settings.options.linear_solver, settings.tangent(), statistics_);
+}
+
+void MultistepIntegrator::start(const State& state) {
+  positions(y()) = state.q;
+  velocities(y()) = state.v;
+  t_ = state.t;
+  if (started_) {
+    const Counters now = counters();
+    reinitialise(state.t);  // sets the library's counters to zero
+    before_.steps += now.steps;
+    before_.error_test_failures += now.error_test_failures;
+    before_.convergence_failures += now.convergence_failures;
+    before_.newton_iterations += now.newton_iterations;
+    before_.setups += now.setups;
+  } else {
+    initialise(state.t);
+    started_ = true;
+  }
+}
+
+StepInfo MultistepIntegrator::step(double t_stop) {
+  if (statistics_.steps >= settings_.options.max_steps)
+    throw RunError(fmt::format("{} gave up at t = {:.6g} s after {} steps (max_steps); raise integrator.max_steps "
+                               "or integrator.rtol",
+                               name_, t_, statistics_.steps));
+  border_.recoverable_cause.clear();
+  const int flag = advance(t_stop, t_);
+  update_statistics();
+  if (flag < 0) fail(flag);
+  StepInfo info = last_step();
+  info.t = t_;
+  return info;
+}
+
+void MultistepIntegrator::interpolate(double t, State& out) const {
+  const auto dense = make_vector(size(), context_);
+  if (dense_output(t, dense.get()) < 0)
+    throw RunError(fmt::format("{} cannot interpolate at t = {:.17g} s: {}", name_, t, border_.library_message));
+  out.t = t;
+  out.q = positions(dense.get());
+  out.v = velocities(dense.get());
+}
+
+std::size_t MultistepIntegrator::bytes() const {
+  return workspace_bytes() + (reduced_ ? reduced_->bytes() : 0);
+}
+
+std::vector<std::pair<std::string, std::string>> MultistepIntegrator::decisions() const {
+  auto all = settings_.decisions();
+  const std::string detail = reduced_ ? " (" + reduced_->description() + ")" : "";
+  all.emplace_back("linear_solver", settings_.options.linear_solver + detail);
+  return all;
+}
+
+void MultistepIntegrator::require(int flag) const {
+  if (flag < 0) throw RunError(name_ + " refused its set-up: " + border_.library_message);
+}
+
+void MultistepIntegrator::make_reduced_solver(std::function<double()> gamma,
+                                              std::function<void(N_Vector, N_Vector)> solve) {
+  matrix_ = make_matrix_plug(context_);
+  functions_.setup = [this, gamma = std::move(gamma)] {
+    bool factored = false;
+    const int thrown = guarded(border_, [&] { factored = reduced_->factor(gamma()); });
+    return thrown ? thrown : factored ? 0 : 1;
+  };
+  functions_.solve = [this, solve = std::move(solve)](N_Vector x, N_Vector b) {
+    return guarded(border_, [&] { solve(x, b); });
+  };
+  solver_ = make_solver_plug(functions_, context_);
+}
+
+void MultistepIntegrator::make_full_solver() {
+  matrix_ = full_->make_matrix(context_);
+  solver_ = make_klu(matrix_.get(), context_);
+}
+
+void MultistepIntegrator::linearize_full(double t, N_Vector y) {
+  const Measure measure(statistics_.tangent);
+  model_.linearize(t, positions(y), velocities(y), settings_.tangent(), linearization_);
+}
+
+void MultistepIntegrator::update_statistics() {
+  const Counters now = counters();
+  auto& s = statistics_;
+  s.steps = before_.steps + now.steps;
+  s.error_test_failures = before_.error_test_failures + now.error_test_failures;
+  s.convergence_failures = before_.convergence_failures + now.convergence_failures;
+  s.rejected_steps = s.error_test_failures + s.convergence_failures;
+  s.newton_iterations = before_.newton_iterations + now.newton_iterations;
+  if (settings_.full) {  // inside SUNDIALS: counted, not timed
+    s.factorization.count = before_.setups + now.setups;
+    s.solve.count = s.newton_iterations;
+  }
+}
+
+void MultistepIntegrator::fail(int flag) {
+  if (border_.failure) std::rethrow_exception(border_.failure);
+  const std::string where = fmt::format("{} stopped at t = {:.6g} s, step {:.3g} s: ", name_, t_, current_step());
+  const std::string cause = border_.recoverable_cause.empty() ? "" : " (" + border_.recoverable_cause + ")";
+  switch (classify(flag)) {
+    case Failure::error_test:
+      throw RunError(where + "the error test keeps failing" + cause +
+                     "; raise integrator.rtol, lower integrator.h_min, or look for a kink in the loads");
+    case Failure::convergence:
+      throw RunError(where + "Newton's method does not converge at the smallest step" + cause +
+                     "; set integrator.gauss_newton: true, lower rtol or h_min, or check for inverted elements");
+    case Failure::force:
+      throw RunError(where + "the force cannot be evaluated" + cause +
+                     "; lower integrator.h_max or check the loads");
+    case Failure::too_close:
+      throw RunError(where + "the time left is below the resolution of time");
+    case Failure::other:
+      break;
+  }
+  throw RunError(where + border_.library_message + fmt::format(" (flag {})", flag));
+}
+
+}  // namespace orthodyn::sundials

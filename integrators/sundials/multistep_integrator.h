@@ -1,0 +1,85 @@
+// What cvode_bdf and ida_bdf share: the state, the model behind its border, the linear solver (reduced
+// or full), counting, and the sentences of failure. The libraries' own calls stay in the two.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "integrators/sundials/callbacks.h"
+#include "integrators/sundials/full_jacobian.h"
+#include "integrators/sundials/multistep.h"
+#include "integrators/sundials/plug.h"
+#include "integrators/sundials/reduced_solve.h"
+
+namespace orthodyn::sundials {
+
+class MultistepIntegrator : public Integrator {
+ public:
+  void start(const State& state) override;
+  StepInfo step(double t_stop) override;
+  void interpolate(double t, State& out) const override;
+  const Statistics& statistics() const override { return statistics_; }
+  std::size_t factor_bytes() const override { return reduced_ ? reduced_->factor_bytes() : 0; }
+  std::size_t bytes() const override;
+  std::vector<std::pair<std::string, std::string>> decisions() const override;
+
+ protected:
+  // What the library has counted since it was (re-)initialised.
+  struct Counters {
+    long steps = 0, error_test_failures = 0, convergence_failures = 0, newton_iterations = 0, setups = 0;
+  };
+  // What kind of failure a negative flag stands for.
+  enum class Failure { error_test, convergence, force, too_close, other };
+
+  // `name` is the integrator's, for messages.
+  MultistepIntegrator(std::string name, const Model& model, const MultistepSettings& settings);
+
+  // First, resp. further starts, from y(); may set up more.
+  virtual void initialise(double t) = 0;
+  virtual void reinitialise(double t) = 0;
+  // One library step towards t_stop: sets t and returns the flag.
+  virtual int advance(double t_stop, double& t) = 0;
+  virtual StepInfo last_step() const = 0;
+  virtual double current_step() const = 0;
+  virtual int dense_output(double t, N_Vector out) const = 0;
+  virtual Counters counters() const = 0;
+  virtual Failure classify(int flag) const = 0;
+  virtual std::size_t workspace_bytes() const = 0;
+
+  // Throws RunError with the library's words if the flag is negative.
+  void require(int flag) const;
+
+  // The linear solver: `setup` and `solve` go to the reduced solve, resp. SUNDIALS' KLU.
+  void make_reduced_solver(std::function<double()> gamma, std::function<void(N_Vector x, N_Vector b)> solve);
+  void make_full_solver();
+  void linearize_full(double t, N_Vector y);
+
+  Eigen::Index size() const { return 2 * static_cast<Eigen::Index>(model_.num_dofs()); }
+  N_Vector y() const { return y_.get(); }
+
+  const Model& model_;
+  MultistepSettings settings_;
+  Statistics statistics_;
+  Border border_;
+  Context context_;  // before everything made in it
+  OwnedVector y_;
+  Vector momentum_;
+  std::optional<ReducedSolve> reduced_;
+  std::optional<FullJacobian> full_;
+  Linearization linearization_;  // of the full path
+  OwnedMatrix matrix_;
+  OwnedSolver solver_;
+
+ private:
+  void update_statistics();
+  [[noreturn]] void fail(int flag);
+
+  std::string name_;
+  SolverFunctions functions_;
+  Counters before_;  // counted before the last restart
+  double t_ = 0;
+  bool started_ = false;
+};
+
+}  // namespace orthodyn::sundials
