@@ -1,0 +1,124 @@
+// The driver and its files, on small scenes.
+#include <algorithm>
+#include <cstring>
+
+#include "lib/run/curves.h"
+#include "lib/run/run.h"
+#include "lib/run/vtu.h"
+#include "lib/scene/build.h"
+#include "tests/run/command.h"
+
+namespace orthodyn {
+namespace {
+
+struct Recorder : Observer {
+  void on_start(const State& s) override { outputs.push_back(s.t); }
+  void on_output(const State& s) override { outputs.push_back(s.t); }
+  void on_step(const StepInfo& info, const Integrator&) override { steps.push_back(info.t); }
+  void on_end() override { ++ends; }
+  std::vector<double> outputs, steps;
+  int ends = 0;
+};
+
+struct Case {
+  explicit Case(const std::string& yaml)
+      : scene(read_scene(Config::from_text(yaml))), built(build(scene)),
+        integrator(scene.integrator->make(*built.model, [] { return Scales{0.1, 1}; })) {}
+  Outcome run_with(Plan plan, std::vector<Observer*> observers) {
+    plan.end = scene.time.end;
+    return run(*built.model, *integrator, built.initial, plan, observers, never);
+  }
+  Scene scene;
+  BuiltScene built;
+  std::unique_ptr<Integrator> integrator;
+  std::atomic<bool> never{false};
+};
+
+TEST(OutputTimes, CoverTheSpanEvenlyAndEndOnIt) {
+  EXPECT_EQ(evenly_spaced(0, 1, 4), (std::vector<double>{0.25, 0.5, 0.75, 1}));
+  EXPECT_EQ(by_interval(0, 1, 0.4), (std::vector<double>{0.4, 0.8, 1}));
+  EXPECT_EQ(by_interval(0, 0.3, 0.1).size(), 3u);  // no doubled end from rounding
+  EXPECT_TRUE(evenly_spaced(0, 1, 0).empty());
+}
+
+TEST(Driver, DeliversEveryOutputOnceAndInOrder) {
+  for (const bool exact : {false, true}) {
+    Case swing(kSwing);
+    Recorder seen;
+    const Plan plan{0, evenly_spaced(0, 0.5, 37), exact};
+    EXPECT_EQ(swing.run_with(plan, {&seen}).status, Outcome::Status::completed);
+    ASSERT_EQ(seen.outputs.size(), 38u);
+    for (std::size_t k = 0; k < 37; ++k) EXPECT_EQ(seen.outputs[k + 1], plan.output_times[k]);
+    EXPECT_EQ(seen.ends, 1);
+    for (const double t : plan.output_times)
+      EXPECT_TRUE(!exact || std::find(seen.steps.begin(), seen.steps.end(), t) != seen.steps.end()) << t;
+  }
+}
+
+TEST(Driver, NeverStepsAcrossAKinkOfTheLoads) {
+  Case swing(std::string(kSwing) + "loads: [{surface: x1, force: [0, 1, 0], factor: {type: ramp, start: 0.1, end: 0.2}}]\n");
+  Recorder seen;
+  EXPECT_EQ(swing.run_with({}, {&seen}).status, Outcome::Status::completed);
+  for (const double kink : {0.1, 0.2})
+    EXPECT_NE(std::find(seen.steps.begin(), seen.steps.end(), kink), seen.steps.end()) << kink;
+}
+
+TEST(Driver, TurnsAFailureIntoAnOutcomeThatKeepsTheLastState) {
+  Case swing(kSwing + std::string("mass: lumped\n"));
+  struct Fails : Observer {
+    void on_step(const StepInfo& info, const Integrator&) override {
+      if (info.t > 0.1) throw RunError("no space left");
+    }
+  } fails;
+  Recorder seen;
+  const auto outcome = swing.run_with({}, {&seen, &fails});
+  EXPECT_EQ(outcome.status, Outcome::Status::failed);
+  EXPECT_EQ(outcome.message, "no space left");
+  EXPECT_GT(outcome.last.t, 0.1);
+}
+
+class Files : public InFolder {};
+
+TEST_F(Files, FrameZeroIsTheInitialStateAndTimesAreReal) {
+  Case swing(kSwing);
+  VtuWriter frames(folder_, *swing.built.model, {"displacement", "stress"});
+  ASSERT_EQ(swing.run_with({0, {0.125, 0.5}, false}, {&frames}).status, Outcome::Status::completed);
+  const auto pvd = read_text(folder_ / "frames.pvd");
+  for (const char* entry : {"timestep=\"0\" part=\"0\" file=\"frames/frame_00000.vtu\"", "timestep=\"0.125\"", "timestep=\"0.5\""})
+    EXPECT_NE(pvd.find(entry), std::string::npos) << entry;
+}
+
+TEST_F(Files, AVtuHoldsAsManyBytesAsItsOffsetsSay) {
+  Case swing(kSwing);
+  VtuWriter frames(folder_, *swing.built.model, {"displacement", "velocity", "det_f", "stress_material", "region"});
+  frames.on_start(swing.built.initial);
+  const auto text = read_text(folder_ / "frames/frame_00000.vtu");
+  const auto base = text.find("<AppendedData encoding=\"raw\">\n_") + 31;
+  ASSERT_NE(base, std::string::npos + 31);
+  std::size_t expected = 0;
+  for (std::size_t at = text.find("offset=\""); at < base && at != std::string::npos; at = text.find("offset=\"", at + 1)) {
+    EXPECT_EQ(std::stoul(text.substr(at + 8)), expected);
+    std::uint64_t bytes = 0;
+    std::memcpy(&bytes, text.data() + base + expected, sizeof bytes);
+    expected += sizeof bytes + bytes;
+  }
+  EXPECT_EQ(text.substr(base + expected), "\n</AppendedData>\n</VTKFile>\n");
+}
+
+TEST_F(Files, TheEnergyBalanceClosesAsTheToleranceFalls) {
+  const auto drift = [&](const char* rtol) {
+    Case swing(std::string(kSwing).replace(std::string(kSwing).find("1e-3"), 4, rtol) +
+               "loads: [{surface: x1, force: [0, 2, 0], factor: {type: sine, frequency: 3}}]\n");
+    EnergyWriter energy(folder_ / "energy.csv", *swing.built.model, *swing.integrator, true, true);
+    swing.run_with({0, evenly_spaced(0, 0.5, 10), false}, {&energy});
+    EXPECT_GT(energy.last().dissipated, 0);
+    EXPECT_NE(energy.last().loads, 0);
+    return energy.drift() / energy.scale();
+  };
+  const double loose = drift("1e-4"), tight = drift("1e-7");
+  EXPECT_LT(loose, 1e-2);
+  EXPECT_LT(tight, loose / 30);
+}
+
+}  // namespace
+}  // namespace orthodyn

@@ -1,0 +1,126 @@
+#include <filesystem>
+
+#include "lib/scene/scales.h"
+#include "tests/scene/scenes.h"
+
+namespace orthodyn {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> shipped_scenes() {
+  std::vector<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(ORTHODYN_SOURCE_DIR) / "configs"))
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+TEST(ShippedScenes, EachLoadsBuildsAndMakesItsIntegrator) {
+  const auto files = shipped_scenes();
+  ASSERT_GE(files.size(), 4u);
+  for (const auto& file : files) {
+    const Scene scene = read_scene(Config::from_file(file));
+    const BuiltScene built = build(scene);
+    EXPECT_GT(built.model->num_dofs(), 0) << file;
+    EXPECT_TRUE(scene.integrator->make(*built.model, [&] { return estimate_scales(scene, built); })) << file;
+  }
+}
+
+TEST(ResolvedScene, ReadsBackToItself) {
+  for (const auto& file : shipped_scenes()) {
+    Config once = Config::from_file(file);
+    read_scene(once);
+    Config twice = Config::from_text(once.dump(), file);
+    read_scene(twice);
+    EXPECT_EQ(once.dump(), twice.dump()) << file;
+  }
+}
+
+TEST(ResolvedScene, SpellsOutDefaultsButNoTermThatIsAbsent) {
+  Config config = Config::from_text(kValidScene);
+  read_scene(config);
+  const std::string text = config.dump();
+  for (const char* key : {"rtol: 0.0001", "type: cvode_bdf", "corotation: exact", "split: five"})
+    EXPECT_NE(text.find(key), std::string::npos) << key;
+  for (const char* key : {"gravity", "damping:", "loads", "initial"})
+    EXPECT_EQ(text.find(key), std::string::npos) << key;
+}
+
+TEST(BuiltScene, HoldsOnlyTheTermsThatItNames) {
+  const auto bare = build_text(kValidScene);
+  EXPECT_EQ(bare.model->parts().loads.size(), 0u);
+  EXPECT_FALSE(bare.model->traits().damping_matrix);
+  Linearization at;
+  bare.model->linearize(0, bare.initial.q, bare.initial.v, TangentKind::exact, at);
+  EXPECT_TRUE(at.damping.empty());
+
+  const auto loaded = build_text(kValidScene + "gravity: [0, 0, -9.81]\ndamping: {stiffness: 0.01}\n");
+  EXPECT_EQ(loaded.model->parts().loads.size(), 1u);
+  EXPECT_TRUE(loaded.model->traits().damped);
+}
+
+TEST(Clamps, RemoveTheirCoordinatesFromTheSystem) {
+  EXPECT_EQ(build_text(kValidScene).model->num_dofs(), 3 * 8);
+  const auto partly = replaced(kValidScene, "surface: x0", "{surface: x0, components: [x, z]}");
+  EXPECT_EQ(build_text(partly).model->num_dofs(), 3 * 8 + 4);
+  const auto nearest = replaced(kValidScene, "surface: x0", "nearest: [2.1, 1.1, 1.1]");
+  EXPECT_EQ(build_text(nearest).model->num_dofs(), 3 * 12 - 3);
+}
+
+TEST(DampedTrait, NeedsStiffnessDampingInEveryRegion) {
+  const auto none_here = kValidScene + "damping: {stiffness: 0.01}\nregions: {body: {material: soft, stiffness_damping: 0}}\n";
+  EXPECT_FALSE(build_text(none_here).model->traits().damped);
+  EXPECT_FALSE(build_text(kValidScene + "damping: {mass: 1}\n").model->traits().damped);
+}
+
+TEST(InitialState, IsAnAffineMapWithRigidMotionOnTop) {
+  const auto free = replaced(kValidScene, "clamps:\n  - surface: x0\n",
+                             "initial:\n  velocity: [1, 2, 3]\n  spin: [0, 0, 4]\n  center: [1, 0, 0]\n"
+                             "  deformation_gradient: [[1.5, 0, 0], [0, 1, 0.25], [0, 0, 1]]\n");
+  const auto built = build_text(free);
+  const auto& nodes = built.model->parts().mesh.nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Vec3 arm = nodes[i] - Vec3(1, 0, 0);
+    const Vec3 x(1.5 * arm[0], arm[1] + 0.25 * arm[2], arm[2]);
+    const auto at = static_cast<Eigen::Index>(3 * i);
+    EXPECT_LT((built.initial.q.segment<3>(at) - (x - arm)).norm(), 1e-15);
+    EXPECT_LT((built.initial.v.segment<3>(at) - Vec3(1 - 4 * x[1], 2 + 4 * x[0], 3)).norm(), 1e-14);
+  }
+}
+
+TEST(Noise, IsTheSameForTheSameSeedAndBounded) {
+  const auto with_seed = [](int seed) {
+    return build_text(kValidScene + "initial: {noise: {amplitude: 0.01, seed: " + std::to_string(seed) + "}}\n").initial.q;
+  };
+  EXPECT_EQ(with_seed(3), with_seed(3));
+  EXPECT_GT((with_seed(3) - with_seed(4)).norm(), 0.001);
+  EXPECT_LE(with_seed(3).cwiseAbs().maxCoeff(), 0.01);
+}
+
+TEST(Scales, FollowTheStaticDeflectionOfAStiffBodyAndTheSizeOfASoftOne) {
+  // A bar pulled along itself: u = F L / (E A) at nu = 0, W = F u.
+  const std::string bar = R"(mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1]}
+materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
+clamps: [{surface: x0}]
+loads: [{surface: x1, force: [1000, 0, 0], factor: {type: ramp, end: 0.05}}]
+time: {end: 0.1}
+)";
+  const auto scales = [](const std::string& yaml) {
+    const Scene scene = read_scene(Config::from_text(yaml));
+    return estimate_scales(scene, build(scene));
+  };
+  const double u = 1000 * 2 / 1e6, work = 1000 * u;
+  EXPECT_NEAR(scales(bar).position, 2 * u, 1e-10);
+  EXPECT_NEAR(scales(bar).velocity, 3 * std::sqrt(2 * work / 2000), 1e-10);
+  EXPECT_NEAR(scales(replaced(bar, "1e6", "1e2")).position, 0.1 * 2, 1e-12);
+}
+
+TEST(Scales, OfASpinningFreeBodyComeFromItsKineticEnergy) {
+  const auto yaml = replaced(kValidScene, "clamps:\n  - surface: x0\n", "initial: {velocity: [3, 0, 0]}\n");
+  const Scene scene = read_scene(Config::from_text(yaml));
+  EXPECT_NEAR(estimate_scales(scene, build(scene)).velocity, 3 * 3.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace orthodyn

@@ -1,0 +1,64 @@
+// Bad scenes: one clear message with file:line:column, what was found, what is allowed.
+#include "tests/scene/scenes.h"
+
+namespace orthodyn {
+namespace {
+
+struct BadScene {
+  std::string name, from, to;
+  std::vector<std::string> says;
+};
+
+class Refusal : public testing::TestWithParam<BadScene> {};
+
+TEST_P(Refusal, NamesThePlaceAndTheRemedy) {
+  const auto& bad = GetParam();
+  const std::string message = refusal(replaced(kValidScene, bad.from, bad.to));
+  for (const auto& part : bad.says) EXPECT_NE(message.find(part), std::string::npos) << part << "\nin: " << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, Refusal,
+    testing::Values(
+        BadScene{"unknown_key", "time: {end: 0.1}", "tiem: {end: 0.1}", {"scene.yaml:6:7: tiem", "did you mean 'time'"}},
+        BadScene{"unknown_nested_key", "density", "densty", {"scene.yaml:3:35", "densty", "did you mean 'density'"}},
+        BadScene{"wrong_type", "1000", "heavy", {"scene.yaml:3:36: materials.soft.density", "number", "'heavy'"}},
+        BadScene{"negative_density", "1000", "-1", {"materials.soft.density", "> 0", "-1"}},
+        BadScene{"nan", "1000", ".nan", {"materials.soft.density", ".nan"}},
+        BadScene{"nan_by_word", "1000", "nan", {"materials.soft.density", "finite"}},
+        BadScene{"poisson_out_of_range", "0.3", "0.5", {"materials.soft.nu", "(-1, 0.5)", "0.5"}},
+        BadScene{"missing_time", "time: {end: 0.1}", "mass: lumped", {"'time' is missing"}},
+        BadScene{"time_backwards", "0.1", "-1", {"scene.yaml:6:7: time", "after 'start'"}},
+        BadScene{"unknown_material_type", "isotropic", "isotropi", {"materials.soft.type", "did you mean 'isotropic'"}},
+        BadScene{"unknown_mesh_type", "type: box", "type: bax", {"mesh.type", "did you mean 'box'"}},
+        BadScene{"flat_box", "[2, 1, 1], c", "[2, 0, 1], c", {"scene.yaml:1:29: mesh.size.1", "> 0"}},
+        BadScene{"no_cells", "cells: [2, 1, 1]", "cells: [2, 0, 1]", {"mesh.cells.1"}},
+        BadScene{"unknown_surface", "surface: x0", "surface: x9", {"scene.yaml:5:5: clamps.0", "no surface 'x9'", "x0"}},
+        BadScene{"empty_selection", "surface: x0", "plane: {point: [9, 0, 0], normal: [1, 0, 0]}",
+                 {"clamps.0", "selects no node", "[2, 1, 1]"}},
+        BadScene{"two_selections", "surface: x0", "{surface: x0, nearest: [0, 0, 0]}", {"clamps.0", "exactly one"}},
+        BadScene{"everything_clamped", "surface: x0", "box: {min: [-9, -9, -9], max: [9, 9, 9]}", {"all nodes are clamped"}},
+        BadScene{"missing_file", "{type: box, size: [2, 1, 1], cells: [2, 1, 1]}", "{type: gmsh, file: nowhere.msh}",
+                 {"nowhere.msh"}},
+        BadScene{"unknown_region", "time:", "regions: {core: {material: soft}}\ntime:",
+                 {"scene.yaml:6:17: regions.core", "no region 'core'", "body"}},
+        BadScene{"unknown_material", "time:", "regions: {all: {material: hard}}\ntime:", {"regions.all", "'hard'", "soft"}},
+        BadScene{"load_without_value", "time:", "loads: [{surface: x1}]\ntime:", {"loads.0", "exactly one of traction, force"}},
+        BadScene{"load_on_nothing", "time:", "loads: [{surface: tip, force: [1, 0, 0]}]\ntime:", {"loads.0", "no surface 'tip'"}},
+        BadScene{"descending_table", "time:",
+                 "loads: [{surface: x1, force: [1, 0, 0], factor: {type: table, points: [[0, 1], [0, 2]]}}]\ntime:",
+                 {"loads.0.factor.points.1", "ascend"}},
+        BadScene{"singular_deformation", "time:",
+                 "initial: {deformation_gradient: [[1, 0, 0], [0, 1, 0], [0, 0, 0]]}\ntime:", {"deformation_gradient", "singular"}},
+        BadScene{"interval_and_frames", "time:", "output: {interval: 0.1, frames: 3}\ntime:", {"output", "one of interval, frames"}},
+        BadScene{"unknown_solver", "time:", "integrator: {type: cvode_bdf, linear_solver: colmod}\ntime:",
+                 {"integrator.linear_solver", "did you mean 'cholmod'"}},
+        BadScene{"unstable_material", "{type: isotropic, density: 1000, young: 1e6, nu: 0.3}",
+                 "{type: orthotropic, density: 448, young: [1.188e10, 9.27e8, 5.11e8], nu12: 0.37, nu13: 0.43, nu23: 1.7, "
+                 "g12: 7.6e8, g23: 3.6e7, g13: 7.2e8}",
+                 {"scene.yaml:3:9: materials.soft", "nu23=1.7", "indefinite", "smallest eigenvalue", "must lie in",
+                  "Nearest stable set"}}),
+    [](const auto& scene) { return scene.param.name; });
+
+}  // namespace
+}  // namespace orthodyn

@@ -1,0 +1,39 @@
+// A small valid scene to start from, and ways to break it.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "lib/scene/build.h"
+
+namespace orthodyn {
+
+inline const std::string kValidScene = R"(mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1]}
+materials:
+  soft: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}
+clamps:
+  - surface: x0
+time: {end: 0.1}
+)";
+
+inline BuiltScene build_text(const std::string& yaml) { return build(read_scene(Config::from_text(yaml, "scene.yaml"))); }
+
+// The message of the ConfigError that building this scene throws.
+inline std::string refusal(const std::string& yaml) {
+  try {
+    build_text(yaml);
+  } catch (const ConfigError& e) {
+    return e.what();
+  }
+  ADD_FAILURE() << "accepted:\n" << yaml;
+  return "";
+}
+
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+}  // namespace orthodyn
