@@ -1,0 +1,56 @@
+// Where R is not unique all elements must fall the same way, whatever the round-off.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "lib/element/polar.h"
+#include "tests/element/states.h"
+
+namespace orthodyn {
+namespace {
+
+// Mirror images of the unit element in one, resp. all directions; line and point.
+const std::vector<Mat3> kTied{Mat3(Vec3(-1, 1, 1).asDiagonal()),
+                              Mat3(Vec3(1, -1, 1).asDiagonal()),
+                              Mat3(-Mat3::Identity()),
+                              Mat3(Vec3(1.1, 0.8, -0.8).asDiagonal()),
+                              Mat3(Vec3(2, 0, 0).asDiagonal()),
+                              Mat3(Vec3(-2, 0, 0).asDiagonal()),
+                              Mat3(Mat3::Zero())};
+
+TEST(PolarTie, OfAPointIsTheTieItself) {
+  const Mat3 tie = Random(9).rotation();
+  const Mat3 point = Mat3::Zero();
+  const auto p = polar(point, tie);
+  EXPECT_EQ(p.R, tie);
+  EXPECT_EQ(p.S, point);
+  EXPECT_EQ(p.det_G, 0);
+}
+
+TEST(PolarTie, IsBrokenTheSameWayUnderRoundOffNoise) {
+  Random random(10);
+  for (const Mat3& F : kTied) {
+    if (F.isZero()) continue;  // noise is all there is
+    const Mat3 R = polar(F, Mat3::Identity()).R;
+    for (int sample = 0; sample < 50; ++sample) {
+      const Mat3 noisy = F + 1e-14 * random.matrix();
+      EXPECT_LE((polar(noisy, Mat3::Identity()).R - R).norm(), 1e-12) << F;
+    }
+  }
+}
+
+TEST(PolarTie, IsBrokenInSpaceAndNotInMaterialAxes) {
+  Random random(11);
+  for (const Mat3& F : kTied) {
+    const Mat3 Q = random.rotation();
+    EXPECT_LE((polar(Mat3(F * Q), Q).R - polar(F, Mat3::Identity()).R * Q).norm(), 1e-12) << F;
+  }
+}
+
+TEST(PolarTie, OfAMirroredElementKeepsTheRotationNearestToTheTie) {
+  // Identity is among the maximisers of tr(R^T diag(-1, 1, 1)), so it is the nearest.
+  EXPECT_LE((polar(kTied[0], Mat3::Identity()).R - Mat3::Identity()).norm(), 16 * kEps);
+}
+
+}  // namespace
+}  // namespace orthodyn

@@ -1,0 +1,95 @@
+// Deformation gradients with given principal stretches, stiffnesses, and complex-step derivatives.
+#pragma once
+
+#include <complex>
+
+#include "lib/element/tangent_form.h"
+#include "tests/material/constants.h"
+
+namespace orthodyn {
+
+using Complex = std::complex<double>;
+using CMat3 = Mat3T<Complex>;
+
+struct State {
+  Mat3 R, V;  // rotation; principal axes as columns
+  Vec3 s;     // principal stretches, signed, s1 >= s2 >= |s3|
+  Mat3 S() const { return V * s.asDiagonal() * V.transpose(); }
+  Mat3 F() const { return R * S(); }
+};
+
+inline State random_state(Random& random, const Vec3& stretches) {
+  return {random.rotation(), random.rotation(), stretches};
+}
+
+// Principal stretches within 1 +- strain.
+inline State random_strain(Random& random, double strain) {
+  return random_state(random, Vec3::Ones() + strain * random.vector());
+}
+
+// Young's moduli ratio, 1, 1.
+inline OrthotropicStiffness fibre(double ratio) { return stiffness(stable_family({ratio, 1, 1}, 0.3)); }
+
+inline constexpr IsotropicStiffness kIsotropic{0.6, 0.4};
+
+inline constexpr double kComplexStep = 1e-60;
+
+// Derivative of f at F in the direction dF; f takes and returns a complex matrix.
+template <class Function>
+Mat3 derivative(const Function& f, const Mat3& F, const Mat3& dF) {
+  const CMat3 stepped = F.cast<Complex>() + Complex(0, kComplexStep) * dF.cast<Complex>();
+  return CMat3(f(stepped)).imag() / kComplexStep;
+}
+
+inline Mat3 unit_matrix(int k) {
+  Mat3 E = Mat3::Zero();
+  E(k % 3, k / 3) = 1;
+  return E;
+}
+
+// The columns are the derivatives with respect to F11, F21, F31, F12, ...
+template <class Function>
+Mat9 jacobian(const Function& f, const Mat3& F) {
+  Mat9 J;
+  for (int k = 0; k < 9; ++k) J.col(k) = derivative(f, F, unit_matrix(k)).reshaped();
+  return J;
+}
+
+template <class Law>
+Mat9 stress_jacobian(const Law& law, const Mat3& F, const Mat3& Q) {
+  return jacobian([&](const CMat3& G) { return law.template stress<Complex>(G, Q); }, F);
+}
+
+template <class Law>
+Mat3 energy_gradient(const Law& law, const Mat3& F, const Mat3& Q) {
+  Mat3 P;
+  for (int k = 0; k < 9; ++k) {
+    CMat3 G = F.cast<Complex>();
+    G(k % 3, k / 3) += Complex(0, kComplexStep);
+    P(k % 3, k / 3) = law.template energy<Complex>(G, Q).imag() / kComplexStep;
+  }
+  return P;
+}
+
+// The form as a matrix on dF instead of R^T dF.
+inline Mat9 in_space(const TangentForm& form) {
+  Mat9 R = Mat9::Zero();
+  for (int k = 0; k < 3; ++k) R.block<3, 3>(3 * k, 3 * k) = form.R;
+  return R * expand(form) * R.transpose();
+}
+
+inline double asymmetry(const Mat9& H) { return (H - H.transpose()).norm() / H.norm(); }
+
+// Relative to the largest eigenvalue; H symmetric.
+inline double smallest_eigenvalue(const Mat9& H) {
+  const auto lambda = Eigen::SelfAdjointEigenSolver<Mat9>(H, Eigen::EigenvaluesOnly).eigenvalues();
+  return lambda[0] / lambda.cwiseAbs().maxCoeff();
+}
+
+// |skew(P F^T)| / |P F^T|: the torque that a stress exerts.
+inline double torque_fraction(const Mat3& P, const Mat3& F) {
+  const Mat3 tau = P * F.transpose();
+  return 0.5 * (tau - tau.transpose()).norm() / tau.norm();
+}
+
+}  // namespace orthodyn
