@@ -79,13 +79,17 @@ class Cholmod : public LinearSolver {
     x = Eigen::Map<const Vector>(static_cast<const double*>(x_->x), b.size());
   }
 
+  // The factor, and what CHOLMOD needs beside it while it factors: a permuted copy of the matrix and,
+  // for supernodes, the largest update.
   std::size_t factor_bytes() const override {
     if (!factor_) return 0;
     const std::size_t n = factor_->n, index = sizeof(int), number = sizeof(double);
+    const std::size_t copy = pattern_->row.size() * (number + index) + n * index;
     if (factor_->is_super)
-      return factor_->xsize * number + factor_->ssize * index + 3 * factor_->nsuper * index + 2 * n * index;
+      return factor_->xsize * number + factor_->ssize * index + 3 * factor_->nsuper * index + 2 * n * index +
+             factor_->maxcsize * number + copy;
     const std::size_t entries = factor_->xtype == CHOLMOD_PATTERN ? predicted_entries_ : factor_->nzmax;
-    return entries * (number + index) + 6 * n * index;
+    return entries * (number + index) + 6 * n * index + copy;
   }
 
   std::string description() const override { return description_; }

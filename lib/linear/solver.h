@@ -28,6 +28,8 @@ class LinearSolver {
   // x = A^-1 b. x and b may be the same.
   virtual void solve(const ConstVectorRef& b, VectorRef x) = 0;
 
+  // Bytes taken at the peak of a factorisation: the factor and the solver's workspace. After analyze()
+  // a prediction.
   virtual std::size_t factor_bytes() const = 0;
 
   // What was chosen at analysis, e.g. "supernodal, nested dissection".

@@ -35,8 +35,8 @@ class Integrator {
 
   virtual const Statistics& statistics() const = 0;
 
-  // Bytes that the linear solver's factor takes, or will take; and all else that the integrator holds
-  // once it has been started.
+  // Bytes that factorisations take, or will take, workspace included; and all else that the integrator
+  // holds once it has been started.
   virtual std::size_t factor_bytes() const { return 0; }
   virtual std::size_t bytes() const { return 0; }
 

@@ -45,9 +45,9 @@ void print_memory(const FemModel& model, const Integrator& integrator) {
   for (const auto& [name, bytes] : model.memory()) line(name, bytes);
   line("integrator", integrator.bytes());
   const auto cells = static_cast<double>(model.parts().mesh.tets.size());
-  fmt::print("  {:<20} {:8.2f} MiB, {:.0f} bytes per element\n", "without the factor", mebibytes(sum),
+  fmt::print("  {:<20} {:8.2f} MiB, {:.0f} bytes per element\n", "without factor", mebibytes(sum),
              static_cast<double>(sum) / cells);
-  if (integrator.factor_bytes() > 0) line("factor", integrator.factor_bytes());
+  if (integrator.factor_bytes() > 0) line("factorisation", integrator.factor_bytes());
 }
 
 }  // namespace

