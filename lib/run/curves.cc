@@ -64,7 +64,7 @@ void EnergyWriter::record(const State& state) {
   drift_ = std::max(drift_, std::abs(last_.balance() - first_.balance()));
   scale_ = std::max({scale_, last_.kinetic, last_.elastic});
   file_.row({state.t, last_.kinetic, last_.elastic, last_.gravitational, last_.dissipated, last_.loads,
-             last_.balance()});
+             last_.balance() - first_.balance()});
 }
 
 MomentumWriter::MomentumWriter(const std::filesystem::path& path, const Model& model)

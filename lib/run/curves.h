@@ -32,8 +32,8 @@ struct EnergyBalance {
   double balance() const { return kinetic + elastic + gravitational + dissipated - loads; }
 };
 
-// energy.csv; also the figures of the summary. Powers are integrated only where they can differ
-// from zero.
+// energy.csv, its balance relative to the start (zero when exact); also the figures of the summary.
+// Powers are integrated only where they can differ from zero.
 class EnergyWriter : public Observer {
  public:
   // An empty path writes no file. `integrator` is the one that is run.

@@ -1,0 +1,97 @@
+// A batch of elements gives what the elements give one by one, and knows which lanes it cannot do.
+#include <gtest/gtest.h>
+
+#include "lib/element/corotational_law.h"
+#include "lib/element/linear_law.h"
+#include "lib/element/warped_law.h"
+
+namespace orthodyn {
+namespace {
+
+const OrthotropicStiffness kStiff{12, 5, 3, 2, 1, 1.5, 2, 1, 1.2};
+const Mat3 kAxes = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+
+// Deformation gradients around a random rotation; lane `inverted` is turned inside out.
+std::array<Mat3, Batch::kLanes> states(double strain, int inverted = -1) {
+  std::array<Mat3, Batch::kLanes> out;
+  std::srand(7);
+  for (int l = 0; l < Batch::kLanes; ++l) {
+    const Mat3 R = Eigen::Quaterniond(Eigen::Vector4d::Random().normalized()).toRotationMatrix();
+    Mat3 U = Mat3::Identity() + strain * Mat3::Random();
+    if (l == inverted) U.col(0) *= -0.5;
+    out[static_cast<std::size_t>(l)] = R * U * kAxes;
+  }
+  return out;
+}
+
+Mat3T<Batch> pack(const std::array<Mat3, Batch::kLanes>& lanes) {
+  Mat3T<Batch> F;
+  for (int i = 0; i < 9; ++i) {
+    double values[Batch::kLanes];
+    for (int l = 0; l < Batch::kLanes; ++l) values[l] = lanes[static_cast<std::size_t>(l)](i);
+    F(i) = Batch::load(values);
+  }
+  return F;
+}
+
+template <class Law>
+void expect_lanes_equal(const Law& law, double strain) {
+  const auto F = states(strain), rates = states(1);
+  const auto F_batch = pack(F), rate_batch = pack(rates);
+  for (const bool damped : {false, true}) {
+    Batch::Mask good;
+    const auto P = law.batch_stress(F_batch, kAxes, damped ? &rate_batch : nullptr, 0.3, good);
+    ASSERT_TRUE(all(good));
+    for (int l = 0; l < Batch::kLanes; ++l) {
+      const auto& rate = rates[static_cast<std::size_t>(l)];
+      const Mat3 expected =
+          law.template stress<double>(F[static_cast<std::size_t>(l)], kAxes, damped ? &rate : nullptr, 0.3);
+      for (int i = 0; i < 9; ++i) EXPECT_NEAR(P(i)[l], expected(i), 1e-13 * (0.1 * kStiff.c11 + expected.norm()));
+    }
+  }
+  Batch::Mask good;
+  const Batch power = law.batch_dissipation(F_batch, kAxes, rate_batch, 0.3, good);
+  for (int l = 0; l < Batch::kLanes; ++l) {
+    const double expected =
+        law.dissipation(F[static_cast<std::size_t>(l)], kAxes, rates[static_cast<std::size_t>(l)], 0.3);
+    EXPECT_NEAR(power[l], expected, 1e-12 * expected);
+  }
+}
+
+TEST(Batch, OfTheCorotationalLawEqualsItsElements) {
+  for (const double strain : {0.0, 1e-6, 0.05, 0.3}) expect_lanes_equal(CorotationalLaw(kStiff), strain);
+  expect_lanes_equal(CorotationalLaw(IsotropicStiffness{2, 1}), 0.2);
+}
+
+TEST(Batch, OfTheWarpedAndTheLinearLawEqualTheirElements) {
+  expect_lanes_equal(WarpedLaw(kStiff, WarpedTangent::rotated), 0.2);
+  expect_lanes_equal(LinearLaw(kStiff), 0.2);
+}
+
+TEST(Batch, LeavesAnInvertedLaneToTheScalarLawAndDoesTheOthers) {
+  const int inverted = Batch::kLanes - 2;
+  const auto F = states(0.1, inverted);
+  const CorotationalLaw law(kStiff);
+  Batch::Mask good;
+  const auto P = law.batch_stress(pack(F), kAxes, nullptr, 0, good);
+  for (int l = 0; l < Batch::kLanes; ++l) {
+    EXPECT_EQ(good[l] != 0, l != inverted) << "lane " << l;
+    if (l == inverted) continue;
+    const Mat3 expected = law.stress<double>(F[static_cast<std::size_t>(l)], kAxes);
+    for (int i = 0; i < 9; ++i) EXPECT_NEAR(P(i)[l], expected(i), 1e-13 * expected.norm());
+  }
+}
+
+TEST(Batch, MarksLanesThatAreNotFinite) {
+  auto F = states(0.1);
+  F[1](2, 0) = std::numeric_limits<double>::quiet_NaN();
+  F[2].setZero();
+  Batch::Mask good;
+  CorotationalLaw(kStiff).batch_stress(pack(F), kAxes, nullptr, 0, good);
+  EXPECT_EQ(good[1], 0);
+  EXPECT_EQ(good[2], 0);
+  EXPECT_NE(good[0], 0);
+}
+
+}  // namespace
+}  // namespace orthodyn
