@@ -1,5 +1,6 @@
 // IDA's BDF on the implicit system F = (q' - v, M v' - f) = 0 (Hindmarsh et al. 2005): fixed leading
 // coefficient, variable order 1-5. A consistent mass costs it no solve.
+#include <fmt/format.h>
 #include <ida/ida.h>
 #include <ida/ida_ls.h>
 
@@ -102,8 +103,16 @@ class IdaBdf : public MultistepIntegrator {
   // q' = v, v' = M^-1 f: initial conditions that satisfy F = 0 by construction.
   void make_consistent(double t) {
     positions(y_dot_.get()) = velocities(y());
-    model_.force(t, positions(y()), velocities(y()), velocities(y_dot_.get()));
-    model_.solve_mass(velocities(y_dot_.get()));
+    auto acceleration = velocities(y_dot_.get());
+    try {
+      model_.force(t, positions(y()), velocities(y()), acceleration);
+      require_finite(acceleration);
+    } catch (const RecoverableError& e) {
+      throw RunError(fmt::format("ida_bdf stopped at t = {:.6g} s: the force cannot be evaluated ({}); check the "
+                                 "initial state and the loads",
+                                 t, e.what()));
+    }
+    model_.solve_mass(acceleration);
   }
 
   static int residual(sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector r, void* user) {

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
+
 namespace orthodyn::sundials {
 
 MultistepIntegrator::MultistepIntegrator(std::string name, const Model& model, const MultistepSettings& settings)
@@ -40,7 +43,23 @@ StepInfo MultistepIntegrator::step(double t_stop) {
   if (flag < 0) fail(flag);
   StepInfo info = last_step();
   info.t = t_;
+  refuse_to_creep(info, t_stop);
   return info;
+}
+
+// In front of a time past which the model cannot be evaluated the library takes ever smaller steps.
+void MultistepIntegrator::refuse_to_creep(const StepInfo& info, double t_stop) const {
+  if (info.t >= t_stop || info.h > 4 * std::numeric_limits<double>::epsilon() * std::abs(info.t)) return;
+  throw RunError(position() + "the step has shrunk to the resolution of time" + cause() +
+                 "; raise integrator.rtol, lower integrator.h_max or check the loads");
+}
+
+std::string MultistepIntegrator::position() const {
+  return fmt::format("{} stopped at t = {:.6g} s, step {:.3g} s: ", name_, t_, current_step());
+}
+
+std::string MultistepIntegrator::cause() const {
+  return border_.recoverable_cause.empty() ? "" : " (" + border_.recoverable_cause + ")";
 }
 
 void MultistepIntegrator::interpolate(double t, State& out) const {
@@ -107,24 +126,22 @@ void MultistepIntegrator::update_statistics() {
 
 void MultistepIntegrator::fail(int flag) {
   if (border_.failure) std::rethrow_exception(border_.failure);
-  const std::string where = fmt::format("{} stopped at t = {:.6g} s, step {:.3g} s: ", name_, t_, current_step());
-  const std::string cause = border_.recoverable_cause.empty() ? "" : " (" + border_.recoverable_cause + ")";
   switch (classify(flag)) {
     case Failure::error_test:
-      throw RunError(where + "the error test keeps failing" + cause +
+      throw RunError(position() + "the error test keeps failing" + cause() +
                      "; raise integrator.rtol, lower integrator.h_min, or look for a kink in the loads");
     case Failure::convergence:
-      throw RunError(where + "Newton's method does not converge at the smallest step" + cause +
+      throw RunError(position() + "Newton's method does not converge at the smallest step" + cause() +
                      "; set integrator.gauss_newton: true, lower rtol or h_min, or check for inverted elements");
     case Failure::force:
-      throw RunError(where + "the force cannot be evaluated" + cause +
+      throw RunError(position() + "the force cannot be evaluated" + cause() +
                      "; lower integrator.h_max or check the loads");
     case Failure::too_close:
-      throw RunError(where + "the time left is below the resolution of time");
+      throw RunError(position() + "the time left is below the resolution of time");
     case Failure::other:
       break;
   }
-  throw RunError(where + border_.library_message + fmt::format(" (flag {})", flag));
+  throw RunError(position() + border_.library_message + fmt::format(" (flag {})", flag));
 }
 
 }  // namespace orthodyn::sundials

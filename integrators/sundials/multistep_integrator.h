@@ -73,6 +73,9 @@ class MultistepIntegrator : public Integrator {
 
  private:
   void update_statistics();
+  void refuse_to_creep(const StepInfo& info, double t_stop) const;
+  std::string position() const;  // where it stopped, to begin a message
+  std::string cause() const;     // why the model refused the last state, if it did
   [[noreturn]] void fail(int flag);
 
   std::string name_;

@@ -1,0 +1,105 @@
+// Every integrator with every linear solver against exact solutions.
+#include "tests/contract/integrators.h"
+
+namespace orthodyn {
+namespace {
+
+class Accuracy : public testing::TestWithParam<Pair> {};
+INSTANTIATE_TEST_SUITE_P(Registry, Accuracy, testing::ValuesIn(all_pairs()), pair_name);
+
+void expect_orders(const LinearModel& model, const Pair& pair) {
+  for (const int order : {2, 5})
+    expect_order(order, [&](double rtol) { return largest_error(model, pair, {rtol, order}); });
+}
+
+TEST_P(Accuracy, OfAHarmonicOscillatorFallsWithTheTolerance) { expect_orders(harmonic_oscillator(), GetParam()); }
+TEST_P(Accuracy, OfADampedOscillatorFallsWithTheTolerance) { expect_orders(damped_oscillator(), GetParam()); }
+TEST_P(Accuracy, OfAStiffPairFallsWithTheTolerance) { expect_orders(stiff_pair(), GetParam()); }
+TEST_P(Accuracy, UnderAKinkedLoadFallsWithTheTolerance) { expect_orders(kinked_oscillator(), GetParam()); }
+TEST_P(Accuracy, OfAChainFallsWithTheTolerance) { expect_orders(chain(false), GetParam()); }
+
+TEST_P(Accuracy, OfAChainWithConsistentMassFallsWithTheTolerance) {
+  if (GetParam().integrator == "cvode_bdf" && GetParam().solver == "klu_full") GTEST_SKIP() << "refused by design";
+  expect_orders(chain(true), GetParam());
+}
+
+TEST_P(Accuracy, OfThePendulumsEnergyFallsWithTheTolerance) {
+  const auto model = pendulum();
+  const double energy = model.energy(model.initial());
+  expect_order(2, [&](double rtol) {
+    double largest = 0;
+    integrate(model, *make_integrator(GetParam(), model, {rtol, 2}), [&](const StepInfo& info, const Integrator& i) {
+      State state;
+      i.interpolate(info.t, state);
+      largest = std::max(largest, std::abs(model.energy(state) - energy));
+    });
+    return largest;
+  });
+}
+
+TEST_P(Accuracy, BetweenStepsFallsWithTheTolerance) {
+  for (const int order : {2, 5})
+    for (const double fraction : {0.3, 0.7})
+      expect_order(order, [&](double rtol) {
+        return largest_error(damped_oscillator(), GetParam(), {rtol, order}, fraction);
+      });
+}
+
+TEST_P(Accuracy, OfAnUnsymmetricModelFallsWithTheTolerance) {
+  if (GetParam().solver != "none" && !solver_registry().at(GetParam().solver).takes_general)
+    GTEST_SKIP() << "refused by design";
+  const CirculatoryModel model;
+  for (const int order : {2, 5})
+    expect_order(order, [&](double rtol) { return largest_error(model, GetParam(), {rtol, order}); });
+}
+
+// A stiff component must not be followed by the step: 10^6 times stiffer costs no more than twice the
+// steps.
+TEST_P(Accuracy, OfTheStiffPairCostsNoMoreThanThatOfOneOscillator) {
+  const auto stiff = stiff_pair();
+  const LinearModel slow({.mass = scalar(1), .stiffness = scalar(1), .beta = 0.1, .start = Vector::Ones(1), .end = 6});
+  const auto steps = [&](const SmallModel& model) {
+    const auto integrator = make_integrator(GetParam(), model);
+    integrate(model, *integrator);
+    return integrator->statistics().steps;
+  };
+  EXPECT_LE(steps(stiff), 2 * steps(slow));
+}
+
+// What the linear solver is must not show in the result.
+template <class SomeModel>
+void expect_the_same_steps_with_all_solvers(const SomeModel& model, const Options& options) {
+  for (const auto& name : Registry<IntegratorChoice>::names()) {
+    std::optional<State> first;
+    long steps = 0, iterations = 0;
+    for (const auto& pair : all_pairs()) {
+      if (pair.integrator != name) continue;
+      const auto integrator = make_integrator(pair, model, options);
+      const State last = integrate(model, *integrator);
+      if (first) {
+        EXPECT_EQ(integrator->statistics().steps, steps) << name << " " << pair.solver;
+        EXPECT_EQ(integrator->statistics().newton_iterations, iterations) << name << " " << pair.solver;
+        EXPECT_LE(distance(last, *first, model.scales()), 1e-3 * options.rtol) << name << " " << pair.solver;
+      } else {
+        first = last;
+        steps = integrator->statistics().steps;
+        iterations = integrator->statistics().newton_iterations;
+      }
+    }
+  }
+}
+
+TEST(LinearSolvers, AllTakeTheSameStepsOnALinearModel) {
+  for (const int order : {2, 5}) expect_the_same_steps_with_all_solvers(chain(false), {1e-5, order});
+}
+
+TEST(LinearSolvers, AllTakeTheSameStepsOnAStiffModel) {
+  for (const int order : {2, 5}) expect_the_same_steps_with_all_solvers(stiff_pair(), {1e-5, order});
+}
+
+TEST(LinearSolvers, AllTakeTheSameStepsOnANonlinearModel) {
+  expect_the_same_steps_with_all_solvers(pendulum(), {1e-5, 2});
+}
+
+}  // namespace
+}  // namespace orthodyn

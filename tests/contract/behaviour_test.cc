@@ -1,0 +1,285 @@
+// What every integrator promises besides accuracy: stops, failures, statistics, refusals.
+#include "tests/contract/integrators.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace orthodyn {
+namespace {
+
+class Contract : public testing::TestWithParam<Pair> {
+ protected:
+  std::unique_ptr<Integrator> make(const SmallModel& model, const Options& options = {}) const {
+    return make_integrator(GetParam(), model, options);
+  }
+  // The message of the RunError in which the run ends.
+  std::string failure(const SmallModel& model, const Options& options = {}) const {
+    const auto integrator = make(model, options);
+    try {
+      integrate(model, *integrator);
+    } catch (const RunError& e) {
+      return e.what();
+    }
+    return "";
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Registry, Contract, testing::ValuesIn(all_pairs()), pair_name);
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+double time_in(const std::string& message) {
+  const auto at = message.find("t = ");
+  return at == std::string::npos ? -1 : std::strtod(message.c_str() + at + 4, nullptr);
+}
+
+TEST_P(Contract, StepsEndExactlyOnTheTimesAskedFor) {
+  const auto model = damped_oscillator();
+  const auto integrator = make(model);
+  integrator->start(model.initial());
+  double before = 0;
+  for (const double stop : {1e-5, 0.1, 1.0 / 3, 0.5, 0.50001, 2.0, std::nextafter(2.5, 3), 4.0}) {
+    StepInfo info;
+    do {
+      info = integrator->step(stop);
+      EXPECT_GT(info.t, before);
+      ASSERT_LE(info.t, stop);
+      before = info.t;
+    } while (info.t < stop);
+    EXPECT_EQ(info.t, stop);
+    State state;
+    integrator->interpolate(stop, state);
+    EXPECT_EQ(state.t, stop);
+    EXPECT_LE(distance(state, model.exact(stop), model.scales()), 1e-2);
+  }
+}
+
+TEST_P(Contract, AStepSaysItsLengthAndOrder) {
+  const auto model = damped_oscillator();
+  double before = 0;
+  integrate(model, *make(model, {1e-5, 2}), [&](const StepInfo& info, const Integrator&) {
+    EXPECT_NEAR(info.h, info.t - before, 1e-12);
+    EXPECT_GE(info.order, 1);
+    EXPECT_LE(info.order, 2);
+    before = info.t;
+  });
+}
+
+TEST_P(Contract, ARestartAtABreakpointGoesOnFromTheGivenStateAndKeepsCounting) {
+  const auto model = kinked_oscillator();
+  const auto integrator = make(model);
+  long steps = 0;
+  double last = 0;
+  integrate(model, *integrator, [&](const StepInfo& info, const Integrator& i) {
+    EXPECT_EQ(i.statistics().steps, ++steps);
+    for (const double kink : {1.0, 2.0}) EXPECT_FALSE(last < kink && info.t > kink) << "stepped across " << kink;
+    last = info.t;
+  });
+}
+
+// A model that rests until its load sets in must not have lost the ability to move.
+TEST_P(Contract, ALoadAfterALongRestIsNotMissed) {
+  const LinearModel model({.mass = scalar(1), .stiffness = scalar(9), .beta = 0.05, .load = Vector::Constant(1, 9),
+                           .factor = {{1000, 0}, {1000.5, 1}}, .end = 1002, .velocity_scale = 3});
+  const State last = integrate(model, *make(model));
+  EXPECT_LE(distance(last, model.exact(1002), model.scales()), 1e-2);
+}
+
+TEST_P(Contract, TheSameRunTwiceIsTheSameToTheLastBit) {
+  const auto model = pendulum();
+  const State a = integrate(model, *make(model)), b = integrate(model, *make(model));
+  EXPECT_EQ(a.q, b.q);
+  EXPECT_EQ(a.v, b.v);
+}
+
+TEST_P(Contract, ARecoverableModelErrorOnlyShortensTheStep) {
+  const Disturbed<LinearModel> model(damped_oscillator(), [](long call, double, VectorRef) {
+    if (call == 40 || call == 41) throw RecoverableError("not this state");
+  });
+  const auto integrator = make(model);
+  const State last = integrate(model, *integrator);
+  EXPECT_GE(integrator->statistics().rejected_steps, 1);
+  EXPECT_LE(distance(last, model.exact(last.t), model.scales()), 1e-2);
+}
+
+TEST_P(Contract, AForceThatIsNotANumberOnlyShortensTheStep) {
+  for (const double wrong : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    const Disturbed<LinearModel> model(damped_oscillator(), [wrong](long call, double, VectorRef f) {
+      if (call == 40 || call == 41) f[0] = wrong;
+    });
+    const auto integrator = make(model);
+    const State last = integrate(model, *integrator);
+    EXPECT_GE(integrator->statistics().rejected_steps, 1);
+    EXPECT_LE(distance(last, model.exact(last.t), model.scales()), 1e-2);
+  }
+}
+
+TEST_P(Contract, APersistentModelErrorEndsInARunErrorWithTimeCauseAndRemedy) {
+  const Disturbed<LinearModel> model(damped_oscillator(), [](long, double t, VectorRef) {
+    if (t > 0.5) throw RecoverableError("the door is shut");
+  });
+  const std::string message = failure(model);
+  EXPECT_GT(time_in(message), 0.3) << message;
+  EXPECT_LE(time_in(message), 0.5) << message;
+  EXPECT_TRUE(contains(message, GetParam().integrator)) << message;
+  EXPECT_TRUE(contains(message, "the door is shut")) << message;
+  EXPECT_TRUE(contains(message, "h_max") || contains(message, "rtol")) << message;
+}
+
+TEST_P(Contract, AModelErrorAtTheInitialStateEndsInARunErrorWithTimeAndCause) {
+  const Disturbed<LinearModel> model(damped_oscillator(),
+                                     [](long, double, VectorRef) { throw RecoverableError("the door is shut"); });
+  const std::string message = failure(model);
+  EXPECT_EQ(time_in(message), 0) << message;
+  EXPECT_TRUE(contains(message, "the door is shut")) << message;
+}
+
+TEST_P(Contract, AnInitialForceThatIsNotANumberEndsInARunError) {
+  const Disturbed<LinearModel> model(damped_oscillator(), [](long, double, VectorRef f) { f[0] = std::nan(""); });
+  EXPECT_TRUE(contains(failure(model), "not finite")) << failure(model);
+}
+
+struct Surprise {
+  int number;
+};
+
+TEST_P(Contract, AnyOtherExceptionPassesThroughUnharmed) {
+  const Disturbed<LinearModel> model(damped_oscillator(), [](long call, double, VectorRef) {
+    if (call == 30) throw Surprise{42};
+  });
+  const auto integrator = make(model);
+  try {
+    integrate(model, *integrator);
+    FAIL() << "nothing was thrown";
+  } catch (const Surprise& e) {
+    EXPECT_EQ(e.number, 42);
+  }
+}
+
+TEST_P(Contract, StatisticsAddUp) {
+  const auto model = pendulum();
+  const auto integrator = make(model, {1e-4, 5});
+  long steps = 0;
+  integrate(model, *integrator, [&](const StepInfo&, const Integrator&) { ++steps; });
+  const Statistics& s = integrator->statistics();
+  EXPECT_EQ(s.steps, steps);
+  EXPECT_GT(s.rejected_steps, 0);  // the stretched spring rings: the first steps are too long
+  EXPECT_EQ(s.rejected_steps, s.error_test_failures + s.convergence_failures);
+  EXPECT_GE(s.newton_iterations, s.steps);
+  EXPECT_GE(s.force.count, s.newton_iterations);
+  EXPECT_GE(s.solve.count, s.newton_iterations);
+  EXPECT_GT(s.tangent.count, 0);
+  EXPECT_GE(s.factorization.count, s.tangent.count);
+  EXPECT_GT(s.force.seconds, 0);
+  EXPECT_GT(s.tangent.seconds, 0);
+  EXPECT_GT(integrator->bytes(), 0u);
+}
+
+TEST_P(Contract, SaysWhatItDecided) {
+  const auto model = damped_oscillator();
+  std::map<std::string, std::string> decided;
+  for (const auto& [key, value] : make(model)->decisions()) decided[key] = value;
+  EXPECT_EQ(decided["position_scale"], "1");
+  EXPECT_EQ(decided["velocity_scale"], "3");
+  EXPECT_TRUE(contains(decided["linear_solver"], GetParam().solver));
+}
+
+TEST_P(Contract, TooManyStepsEndInARunErrorThatNamesTheLimit) {
+  const std::string message = failure(harmonic_oscillator(), {1e-6, 2, ", max_steps: 20"});
+  EXPECT_TRUE(contains(message, "max_steps")) << message;
+  EXPECT_TRUE(contains(message, "20 steps")) << message;
+  EXPECT_GT(time_in(message), 0) << message;
+}
+
+TEST_P(Contract, StepsStayWithinTheirLimits) {
+  const auto model = damped_oscillator();
+  integrate(model, *make(model, {1e-3, 2, ", h_max: 0.01"}), [](const StepInfo& info, const Integrator&) {
+    EXPECT_LE(info.h, 0.01 * (1 + 1e-12));
+  });
+}
+
+// Damped, released from `amplitude`.
+LinearModel released_from(double amplitude) {
+  return LinearModel({.mass = scalar(2), .stiffness = scalar(18), .beta = 0.4 / 3, .start = Vector::Constant(1, amplitude), .end = 4});
+}
+
+TEST_P(Contract, AMotionAMillionTimesLargerWithItsScalesTakesTheSameSteps) {
+  if (!has_key(GetParam().integrator, "position_scale")) GTEST_SKIP() << "has no scales";
+  const auto steps = [&](double amplitude) {
+    const auto model = released_from(amplitude);
+    const auto integrator = make(model, {1e-5, 2, fmt::format(", position_scale: {}, velocity_scale: {}", amplitude, 3 * amplitude)});
+    integrate(model, *integrator);
+    return integrator->statistics().steps;
+  };
+  EXPECT_EQ(steps(1e6), steps(1));
+  EXPECT_EQ(steps(1e-6), steps(1));
+}
+
+// A scale a thousand times smaller asks for an error a thousand times smaller: ten times the steps of
+// a method of order two.
+TEST_P(Contract, ASmallerScaleOfEitherKindCostsSteps) {
+  if (!has_key(GetParam().integrator, "position_scale")) GTEST_SKIP() << "has no scales";
+  const auto steps = [&](double position, double velocity) {
+    const auto model = released_from(1);
+    const auto integrator = make(model, {1e-4, 2, fmt::format(", position_scale: {}, velocity_scale: {}", position, velocity)});
+    integrate(model, *integrator);
+    return integrator->statistics().steps;
+  };
+  const long usual = steps(1, 3);
+  EXPECT_GT(steps(1e-3, 3), 5 * usual);
+  EXPECT_GT(steps(1, 3e-3), 5 * usual);
+}
+
+bool looks_at_definiteness(const std::string& solver) {
+  return solver_registry().contains(solver) && !solver_registry().at(solver).takes_general;
+}
+
+// The column's sideways stiffness is negative: as it comes to rest the steps grow until the Newton
+// matrix is indefinite.
+TEST_P(Contract, AnIndefiniteTangentFallsBackToGaussNewtonWhichIsCounted) {
+  const auto model = upright_column();
+  const auto integrator = make(model, {1e-4, 2});
+  State state = model.initial();
+  integrator->start(state);
+  StepInfo info;
+  do info = integrator->step(100);
+  while (info.t < 100);
+  integrator->interpolate(100, state);
+  EXPECT_NEAR(state.q[0], 0, 1e-12);
+  EXPECT_NEAR(state.q[1], 1 - SpringPendulum::kGravity / SpringPendulum::kStiffness, 1e-4);
+  if (looks_at_definiteness(GetParam().solver)) EXPECT_GT(integrator->statistics().gauss_newton_fallbacks, 0);
+  else EXPECT_EQ(integrator->statistics().gauss_newton_fallbacks, 0);
+}
+
+TEST_P(Contract, AConsistentMassIsServedOrRefusedWithTheRemedy) {
+  const auto model = chain(true);
+  if (GetParam().integrator != "cvode_bdf" || GetParam().solver != "klu_full") {
+    EXPECT_NO_THROW(make(model));
+    return;
+  }
+  try {
+    make(model);
+    FAIL() << "accepted";
+  } catch (const ConfigError& e) {
+    EXPECT_TRUE(contains(e.what(), "mass: lumped")) << e.what();
+    EXPECT_TRUE(contains(e.what(), "ida_bdf")) << e.what();
+  }
+}
+
+TEST_P(Contract, AnUnsymmetricTangentIsServedOrRefusedWithTheRemedy) {
+  const CirculatoryModel model;
+  if (!looks_at_definiteness(GetParam().solver)) {
+    EXPECT_NO_THROW(make(model));
+    return;
+  }
+  try {
+    make(model);
+    FAIL() << "accepted";
+  } catch (const ConfigError& e) {
+    EXPECT_TRUE(contains(e.what(), "klu")) << e.what();
+    EXPECT_TRUE(contains(e.what(), GetParam().solver)) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace orthodyn

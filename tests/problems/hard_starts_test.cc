@@ -1,0 +1,75 @@
+// Starts that no mesh should ever be in (physics.md, rows 12 to 15): collapsed, mirrored, random. With
+// damping the energy falls, everything stays finite, and no exception is thrown. That the rest shape
+// is found again is not asked: inverted equilibria are physical.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "tests/problems/running.h"
+
+namespace orthodyn {
+namespace {
+
+using Place = std::function<Vec3(Random&, const Vec3& X)>;
+
+struct Start {
+  std::string name;
+  Place place;
+};
+void PrintTo(const Start& s, std::ostream* os) { *os << s.name; }
+
+const Vec3 kCenter{1, 0.5, 0.5};
+
+Place in_box() {
+  return [](Random& r, const Vec3&) { return Vec3(r.between(0, 2), r.between(0, 1), r.between(0, 1)); };
+}
+
+const Start kStarts[] = {
+    {"point", [](Random&, const Vec3&) { return kCenter; }},
+    {"almost_a_point", [](Random& r, const Vec3&) { return Vec3(kCenter + 1e-9 * r.vector()); }},
+    {"line", [](Random&, const Vec3& X) { return Vec3(X[0], 0.5, 0.5); }},
+    {"plane", [](Random&, const Vec3& X) { return Vec3(X[0], X[1], 0.5); }},
+    {"mirrored", [](Random&, const Vec3& X) { return Vec3(2 - X[0], X[1], X[2]); }},
+    {"random_1", in_box()},
+    {"random_2", in_box()},
+    {"random_3", in_box()},
+};
+
+class HardStart : public testing::TestWithParam<std::tuple<Start, std::string>> {};
+INSTANTIATE_TEST_SUITE_P(Starts, HardStart,
+                         testing::Combine(testing::ValuesIn(kStarts), testing::Values("cvode_bdf", "ida_bdf")),
+                         [](const auto& tested) {
+                           return std::get<0>(tested.param).name + "_" + std::get<1>(tested.param);
+                         });
+
+TEST_P(HardStart, LosesEnergyAndStaysFinite) {
+  const auto& [start, integrator] = GetParam();
+  for (const double ratio : {1.0, 10.0, 100.0}) {
+    BuiltTestScene scene(fmt::format(R"(
+mesh: {{type: box, size: [2, 1, 1], cells: [2, 1, 1], split: six}}
+materials: {{m: {}}}
+regions: {{body: {{material: m, axes: {}}}}}
+damping: {{mass: 1}}
+integrator: {{type: {}, rtol: 1e-5, max_order: 2}}
+time: {{end: 10}}
+)", fibre_material(ratio), kTurnedAxes, integrator));
+    Random random(static_cast<unsigned>(start.name.back()));
+    scene.built.initial.q = scene.dofs([&](const Vec3& X) { return Vec3(start.place(random, X) - X); });
+    const double initial = total_energy(scene, scene.built.initial);
+    double lowest = initial, last = initial, largest_rise = 0;
+    const auto outcome = run_scene(scene, 200, [&](const State& state) {
+      last = total_energy(scene, state);
+      ASSERT_TRUE(std::isfinite(last));
+      largest_rise = std::max(largest_rise, last - lowest);
+      lowest = std::min(lowest, last);
+    });
+    EXPECT_EQ(outcome.status, Outcome::Status::completed) << ratio << ": " << outcome.message;
+    // The energy's error is that of the state, 1e-5^(2/3) = 5e-4 of it, times the sum of about ten
+    // oscillations before they are damped out.
+    EXPECT_LE(largest_rise, 5e-3 * initial) << ratio;
+    EXPECT_LT(last, 0.5 * initial) << ratio;
+  }
+}
+
+}  // namespace
+}  // namespace orthodyn
