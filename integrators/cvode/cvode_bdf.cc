@@ -72,7 +72,6 @@ class CvodeBdf : public MultistepIntegrator {
     CVodeGetNumErrTestFails(m, &c.error_test_failures);
     CVodeGetNumStepSolveFails(m, &c.convergence_failures);
     CVodeGetNumNonlinSolvIters(m, &c.newton_iterations);
-    CVodeGetNumLinSolvSetups(m, &c.setups);
     return c;
   }
 

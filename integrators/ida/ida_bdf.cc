@@ -74,7 +74,6 @@ class IdaBdf : public MultistepIntegrator {
     IDAGetNumErrTestFails(m, &c.error_test_failures);
     IDAGetNumStepSolveFails(m, &c.convergence_failures);
     IDAGetNumNonlinSolvIters(m, &c.newton_iterations);
-    IDAGetNumLinSolvSetups(m, &c.setups);
     return c;
   }
 

@@ -80,7 +80,14 @@ OwnedSolver make_klu(SUNMatrix A, SUNContext context) {
   OwnedSolver solver(SUNLinSol_KLU(y.get(), A, context));
   if (!solver) throw RunError("SUNDIALS could not create its KLU solver");
   SUNLinSol_KLUSetOrdering(solver.get(), 0);  // AMD; the default COLAMD is about twice as slow here
+  SUNLinSolInitialize(solver.get());
   return solver;
+}
+
+std::size_t klu_factor_bytes(SUNLinearSolver klu) {
+  const auto* numeric = klu ? SUNLinSol_KLUGetNumeric(klu) : nullptr;
+  if (!numeric) return 0;
+  return static_cast<std::size_t>(numeric->lnz + numeric->unz) * (sizeof(double) + sizeof(sunindextype));
 }
 
 }  // namespace orthodyn::sundials

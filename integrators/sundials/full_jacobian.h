@@ -34,5 +34,6 @@ class FullJacobian {
 
 // SUNDIALS' KLU with minimum-degree ordering.
 OwnedSolver make_klu(SUNMatrix A, SUNContext context);
+std::size_t klu_factor_bytes(SUNLinearSolver klu);  // 0 before the first factorisation
 
 }  // namespace orthodyn::sundials

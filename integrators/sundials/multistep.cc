@@ -25,7 +25,9 @@ std::vector<std::string> linear_solver_names() {
   return names;
 }
 
-void check_linear_solver(const MultistepOptions& options, const Config& config) {
+void check_options(const MultistepOptions& options, const Config& config) {
+  if (options.h_max && options.h_min > *options.h_max) config.at("h_min").fail("is larger than h_max");
+  if (options.h0 && options.h_max && *options.h0 > *options.h_max) config.at("h0").fail("is larger than h_max");
   if (solver_registry().contains(options.linear_solver)) return;
   const auto names = linear_solver_names();
   const auto near = nearest_name(options.linear_solver, names);

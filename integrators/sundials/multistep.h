@@ -51,7 +51,7 @@ struct MultistepSettings {
 
 // The names that linear_solver takes.
 std::vector<std::string> linear_solver_names();
-void check_linear_solver(const MultistepOptions& options, const Config& config);
+void check_options(const MultistepOptions& options, const Config& config);
 
 template <class T>
 Spec<T> MultistepOptions::spec_for() {
@@ -74,7 +74,7 @@ Spec<T> MultistepOptions::spec_for() {
       .key("linear_solver", &O::linear_solver, "One of `orthodyn list solvers`.")
       .key("gauss_newton", &O::gauss_newton,
            "Use the positive semidefinite Gauss-Newton part of the tangent from the start.")
-      .check([](const T& options, const Config& config) { check_linear_solver(options, config); });
+      .check([](const T& options, const Config& config) { check_options(options, config); });
 }
 
 }  // namespace orthodyn::sundials

@@ -20,14 +20,16 @@ class MultistepIntegrator : public Integrator {
   StepInfo step(double t_stop) override;
   void interpolate(double t, State& out) const override;
   const Statistics& statistics() const override { return statistics_; }
-  std::size_t factor_bytes() const override { return reduced_ ? reduced_->factor_bytes() : 0; }
+  std::size_t factor_bytes() const override {
+    return reduced_ ? reduced_->factor_bytes() : klu_factor_bytes(klu_.get());
+  }
   std::size_t bytes() const override;
   std::vector<std::pair<std::string, std::string>> decisions() const override;
 
  protected:
   // What the library has counted since it was (re-)initialised.
   struct Counters {
-    long steps = 0, error_test_failures = 0, convergence_failures = 0, newton_iterations = 0, setups = 0;
+    long steps = 0, error_test_failures = 0, convergence_failures = 0, newton_iterations = 0;
   };
   // What kind of failure a negative flag stands for.
   enum class Failure { error_test, convergence, force, too_close, other };
@@ -69,7 +71,7 @@ class MultistepIntegrator : public Integrator {
   std::optional<FullJacobian> full_;
   Linearization linearization_;  // of the full path
   OwnedMatrix matrix_;
-  OwnedSolver solver_;
+  OwnedSolver klu_, solver_;  // SUNDIALS' KLU of the full path stands behind the plug
 
  private:
   void update_statistics();

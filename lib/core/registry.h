@@ -49,7 +49,7 @@ class Registry {
     if (it == entries().end()) {
       const auto near = nearest_name(type.text(), names());
       type.fail("unknown '" + type.text() + "'" +
-                (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                (near.empty() ? "." : "; did you mean '" + near + "'?") +
                 " Known: " + join(names()) + ".");
     }
     return it->second.read(config);

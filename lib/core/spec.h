@@ -100,7 +100,7 @@ class Spec {
     for (const auto& given : section.keys()) {
       if (std::find(known.begin(), known.end(), given) != known.end()) continue;
       const std::string near = nearest_name(given, known);
-      section.at(given).fail("unknown key" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
+      section.at(given).fail("unknown key" + (near.empty() ? "." : "; did you mean '" + near + "'?") +
                              " Known here: " + join(known) + ".");
     }
   }

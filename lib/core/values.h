@@ -93,12 +93,13 @@ struct Value<std::string> {
 // A path in the input, made relative to the file that names it.
 struct FilePath {
   std::string path;
+  std::string where = "";  // in the input, for messages
 };
 
 template <>
 struct Value<FilePath> {
   static std::string type() { return "file"; }
-  static FilePath read(const Config& c, const Rule&) { return {c.file_path()}; }
+  static FilePath read(const Config& c, const Rule&) { return {c.file_path(), c.where()}; }
   static std::string yaml(const FilePath& x) { return x.path; }
 };
 

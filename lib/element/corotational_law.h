@@ -13,9 +13,7 @@
 // whose first term is the Gauss-Newton part.
 #pragma once
 
-#include "lib/element/blend.h"
-#include "lib/element/observation.h"
-#include "lib/element/polar.h"
+#include "lib/element/rotating_law.h"
 #include "lib/element/tangent_form.h"
 
 namespace orthodyn {
@@ -29,40 +27,12 @@ TangentForm gauss_newton_form(const Polar<double>& p, const OrthotropicStiffness
 // The form of d2Psi where chi = 1; T = sigma + [c].
 TangentForm exact_form(const Polar<double>& p, const OrthotropicStiffness& C, const Mat3& T);
 
-// Stiffness-proportional damping in terms of the rate of the strain measure itself, so that rigid
-// motion costs nothing: potential beta chi dS:C:dS / 2, P = R (s + [c]), s = beta chi C:dS, G c = a(S s).
-template <class T, class C>
-Mat3T<T> viscous_stress(const Polar<T>& p, const C& stiffness, const T& beta_chi,
-                        const Mat3T<T>& F_rate) {
-  const Mat3T<T> X = p.R.transpose() * F_rate;
-  const Vec3T<T> w = p.G_inverse * axial<T>(X);
-  const Mat3T<T> rate = symmetric_part<T>(X - cross_matrix<T>(w) * p.S);
-  const Mat3T<T> s = beta_chi * stiffness.stress(rate);
-  const Vec3T<T> c = p.G_inverse * axial<T>(p.S * s);
-  return p.R * (s + cross_matrix<T>(c));
-}
-
-// The power that this takes per volume, beta chi dS:C:dS, W/m^3. In a batch right where `good`.
 template <class C>
-double viscous_power(const C& stiffness, const Mat3& F, const Mat3& Q, const Mat3& F_rate, double beta) {
-  const auto p = polar(F, Q);
-  const double chi = blend<double>(p.S, p.det_G).chi;
-  return contract<double>(viscous_stress<double>(p, stiffness, beta * chi, F_rate), F_rate);
-}
-
-template <class C>
-Batch viscous_power(const C& stiffness, const Mat3T<Batch>& F, const Mat3T<Batch>& F_rate, double beta,
-                    Batch::Mask& good) {
-  Polar<Batch> p;
-  good = polar(F, p);
-  good = good & is_regular<Batch>(p.S, p.det_G);
-  return contract<Batch>(viscous_stress<Batch>(p, stiffness, Batch(beta), F_rate), F_rate);
-}
-
-template <class C>
-class CorotationalLaw {
+class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
  public:
-  explicit CorotationalLaw(const C& stiffness) : C_(stiffness), sparse_(as_orthotropic(stiffness)) {
+  static constexpr const char* kName = "corotational, exact gradient";
+
+  explicit CorotationalLaw(const C& stiffness) : RotatingLaw<CorotationalLaw, C>(stiffness), sparse_(as_orthotropic(stiffness)) {
     if constexpr (!C::kIsotropic) isotropic_ = nearest_isotropic(stiffness);
   }
 
@@ -103,14 +73,6 @@ class CorotationalLaw {
     return P;
   }
 
-  double dissipation(const Mat3& F, const Mat3& Q, const Mat3& F_rate, double beta) const {
-    return viscous_power(C_, F, Q, F_rate, beta);
-  }
-  Batch batch_dissipation(const Mat3T<Batch>& F, const Mat3&, const Mat3T<Batch>& F_rate, double beta,
-                          Batch::Mask& good) const {
-    return viscous_power(C_, F, F_rate, beta, good);
-  }
-
   // The elastic tangent and, if asked for, the damping tangent dP/dF_rate. Where the energy is
   // blended, `exact` too is a positive semidefinite approximation: the Hessian is unbounded there.
   TangentForm tangent(const Mat3& F, const Mat3& Q, TangentKind kind, double beta,
@@ -122,11 +84,6 @@ class CorotationalLaw {
     if (kind == TangentKind::gauss_newton) return gauss_newton_form(p, sparse_, 1);
     double chi = 1;
     return exact_form(p, sparse_, rotated_stress(p, chi));
-  }
-
-  PointObservation observe(const Mat3& F, const Mat3& Q) const {
-    const auto p = polar(F, Q);
-    return {cauchy_stress(stress<double>(F, Q), F), p.R, p.S - Mat3::Identity()};
   }
 
   // The stress in the rotated frame, T = sigma + [c] with P = R T, where chi = 1.
@@ -174,7 +131,7 @@ class CorotationalLaw {
     return form;
   }
 
-  C C_;
+  using RotatingLaw<CorotationalLaw, C>::C_;
   OrthotropicStiffness sparse_;
   IsotropicStiffness isotropic_;  // the nearest one; used by anisotropic C only
 };

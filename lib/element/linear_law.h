@@ -9,6 +9,8 @@ namespace orthodyn {
 template <class C>
 class LinearLaw {
  public:
+  static constexpr const char* kName = "small strain";
+
   explicit LinearLaw(const C& stiffness) : C_(stiffness) {}
 
   template <class T>
@@ -29,6 +31,11 @@ class LinearLaw {
                             Batch::Mask& good) const {
     good = F(0, 0) <= F(0, 0);  // all but NaN
     return stress<Batch>(F, Q, F_rate, beta);
+  }
+
+  Batch batch_energy(const Mat3T<Batch>& F, const Mat3& Q, Batch::Mask& good) const {
+    good = F(0, 0) <= F(0, 0);  // all but NaN
+    return energy<Batch>(F, Q);
   }
 
   double dissipation(const Mat3&, const Mat3& Q, const Mat3& F_rate, double beta) const {

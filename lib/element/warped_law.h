@@ -12,9 +12,12 @@ namespace orthodyn {
 enum class WarpedTangent { rotated, unsymmetric };
 
 template <class C>
-class WarpedLaw {
+class WarpedLaw : public RotatingLaw<WarpedLaw<C>, C> {
  public:
-  WarpedLaw(const C& stiffness, WarpedTangent tangent) : exact_(stiffness), C_(stiffness), tangent_(tangent) {}
+  static constexpr const char* kName = "WARPED force R sigma (no energy, net torque)";
+
+  WarpedLaw(const C& stiffness, WarpedTangent tangent)
+      : RotatingLaw<WarpedLaw, C>(stiffness), exact_(stiffness), tangent_(tangent) {}
 
   template <class T>
   T energy(const Mat3T<T>& F, const Mat3& Q) const {
@@ -45,14 +48,6 @@ class WarpedLaw {
     return P;
   }
 
-  double dissipation(const Mat3& F, const Mat3& Q, const Mat3& F_rate, double beta) const {
-    return viscous_power(C_, F, Q, F_rate, beta);
-  }
-  Batch batch_dissipation(const Mat3T<Batch>& F, const Mat3&, const Mat3T<Batch>& F_rate, double beta,
-                          Batch::Mask& good) const {
-    return viscous_power(C_, F, F_rate, beta, good);
-  }
-
   TangentForm tangent(const Mat3& F, const Mat3& Q, TangentKind kind, double beta,
                       TangentForm* damping) const {
     const auto p = polar(F, Q);
@@ -60,11 +55,6 @@ class WarpedLaw {
     return kind == TangentKind::exact && tangent_ == WarpedTangent::unsymmetric && p.det_G > kBlendG0
                ? unsymmetric_form(p)
                : rotated_form(p);
-  }
-
-  PointObservation observe(const Mat3& F, const Mat3& Q) const {
-    const auto p = polar(F, Q);
-    return {cauchy_stress(stress<double>(F, Q), F), p.R, p.S - Mat3::Identity()};
   }
 
   template <class T>
@@ -92,8 +82,8 @@ class WarpedLaw {
     return form;
   }
 
-  CorotationalLaw<C> exact_;  // for its objective damping
-  C C_;
+  CorotationalLaw<C> exact_;  // for its damping tangent
+  using RotatingLaw<WarpedLaw, C>::C_;
   WarpedTangent tangent_;
 };
 

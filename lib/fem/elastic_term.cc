@@ -24,9 +24,11 @@ class Elastic final : public ElasticTerm {
   }
 
   std::string description() const override {
-    return fmt::format("elasticity of region {}, {} elements{}", region_, size(),
+    return fmt::format("elasticity of region {}: {}, {} elements{}", region_, law(), size(),
                        beta_ > 0 ? ", stiffness-proportional damping" : "");
   }
+
+  std::string law() const override { return Law::kName; }
 
   std::size_t bytes() const override {
     return elements_.bytes() + offsets_.capacity() * sizeof(ElementOffsets) + cells_.capacity() * sizeof(int);
@@ -59,30 +61,18 @@ class Elastic final : public ElasticTerm {
   }
 
   double energy(const NodalState& s) const override {
-    double sum = 0;
-    for (int k = 0; k < size(); ++k)
-      sum += elements_.shape(k).volume * law_.template energy<double>(elements_.gradient(k, s.x), Q_);
-    return sum;
+    return integrate(
+        [&](int b, Batch::Mask& good) { return law_.batch_energy(elements_.gradients(b, s.x), Q_, good); },
+        [&](int k) { return law_.template energy<double>(elements_.gradient(k, s.x), Q_); });
   }
 
   double dissipation(const NodalState& s) const override {
     if (beta_ == 0) return 0;
-    double power = 0;
-    for (int b = 0; b < elements_.num_batches(); ++b) {
-      Batch::Mask good;
-      const Batch density = law_.batch_dissipation(elements_.gradients(b, s.x), Q_, elements_.gradients(b, s.v),
-                                                   beta_, good);
-      if (all(good)) {
-        const Batch product = elements_.volumes(b) * density;
-        for (int l = 0; l < Batch::kLanes; ++l) power += product[l];
-      } else {
-        for_each_lane(b, [&](int k) {
-          power += elements_.shape(k).volume *
-                   law_.dissipation(elements_.gradient(k, s.x), Q_, elements_.gradient(k, s.v), beta_);
-        });
-      }
-    }
-    return power;
+    return integrate(
+        [&](int b, Batch::Mask& good) {
+          return law_.batch_dissipation(elements_.gradients(b, s.x), Q_, elements_.gradients(b, s.v), beta_, good);
+        },
+        [&](int k) { return law_.dissipation(elements_.gradient(k, s.x), Q_, elements_.gradient(k, s.v), beta_); });
   }
 
   int size() const override { return static_cast<int>(cells_.size()); }
@@ -109,6 +99,19 @@ class Elastic final : public ElasticTerm {
   template <class Visit>
   void for_each_lane(int batch, Visit&& visit) const {
     for (int l = 0; l < elements_.lanes(batch); ++l) visit(batch * Batch::kLanes + l);
+  }
+
+  // The volume integral of a density given for whole batches and, where those fail, for elements.
+  template <class OfBatch, class OfElement>
+  double integrate(OfBatch&& of_batch, OfElement&& of_element) const {
+    double sum = 0;
+    for (int b = 0; b < elements_.num_batches(); ++b) {
+      Batch::Mask good;
+      const Batch product = elements_.volumes(b) * of_batch(b, good);
+      if (all(good)) for (int l = 0; l < Batch::kLanes; ++l) sum += product[l];
+      else for_each_lane(b, [&](int k) { sum += elements_.shape(k).volume * of_element(k); });
+    }
+    return sum;
   }
 
   // For batches with an inverted or degenerate element.

@@ -24,6 +24,9 @@ class ElasticTerm : public Term {
  public:
   EnergyKind energy_kind() const override { return EnergyKind::elastic; }
 
+  // The law in words, e.g. "corotational, exact".
+  virtual std::string law() const = 0;
+
   // The element's index in the mesh, for k in [0, size()).
   virtual int size() const = 0;
   virtual int cell(int k) const = 0;

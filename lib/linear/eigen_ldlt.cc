@@ -6,6 +6,12 @@
 namespace orthodyn {
 namespace {
 
+// matrixL() may be asked only after a factorisation; the size of L is known from the analysis on.
+class Ldlt : public Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower> {
+ public:
+  std::size_t entries() const { return static_cast<std::size_t>(m_matrix.nonZeros()); }
+};
+
 class EigenLdlt : public LinearSolver {
  public:
   void analyze(const Pattern& pattern) override {
@@ -24,15 +30,14 @@ class EigenLdlt : public LinearSolver {
   void solve(const ConstVectorRef& b, VectorRef x) override { x = ldlt_.solve(Vector(b)); }
 
   std::size_t factor_bytes() const override {
-    const auto entries = static_cast<std::size_t>(ldlt_.matrixL().nestedExpression().nonZeros());
-    return entries * (sizeof(double) + sizeof(int));
+    return pattern_ ? ldlt_.entries() * (sizeof(double) + sizeof(int)) : 0;
   }
 
   std::string description() const override { return "simplicial, minimum degree"; }
 
  private:
   const Pattern* pattern_ = nullptr;
-  Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower> ldlt_;
+  Ldlt ldlt_;
 };
 
 const bool registered =

@@ -32,7 +32,9 @@ class Orthotropic : public Material {
             .key("g13", &O::g13_, "Shear modulus in the plane 1-3.", modulus)
             .check([](const O& o, const Config& config) {
               o.refuse_unpaired(config);
-              if (!is_stable(o.constants())) config.fail(explain_instability(o.constants()));
+              if (!is_stable(o.constants())) {
+                config.fail(explain_instability(o.constants(), {!o.nu12_, !o.nu23_, !o.nu13_}));
+              }
             });
     return s;
   }
@@ -45,7 +47,7 @@ class Orthotropic : public Material {
       if (!a && !b)
         config.fail(fmt::format("a Poisson's ratio is missing: give {} or {}", ij, ji));
       if (a && b)
-        config.fail(fmt::format("{} and {} are the same constant ({} E_j = {} E_i); give one", ij, ji, ij, ji));
+        config.fail(fmt::format("{} and {} are the same constant ({} E{} = {} E{}); give one", ij, ji, ij, ij[3], ji, ji[3]));
     };
     once(nu12_, nu21_, "nu12", "nu21");
     once(nu23_, nu32_, "nu23", "nu32");

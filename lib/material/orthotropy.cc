@@ -11,16 +11,25 @@ namespace orthodyn {
 
 namespace {
 
-// One Poisson's ratio: r = nu * factor, and the two other ratios' indices follow cyclically.
+// One Poisson's ratio as the user knows it: r = nu * factor.
 struct Ratio {
-  const char* name;
+  std::string name;  // "nu12"
   double nu, factor;
+  std::string moduli;  // "E1/E2": |nu| < sqrt of it
 };
 
-std::array<Ratio, 3> ratios(const OrthotropicConstants& c) {
-  return {{{"nu12", c.nu12, std::sqrt(c.young[1] / c.young[0])},
-           {"nu23", c.nu23, std::sqrt(c.young[2] / c.young[1])},
-           {"nu13", c.nu13, std::sqrt(c.young[2] / c.young[0])}}};
+using Ratios = std::array<Ratio, 3>;
+
+Ratios ratios(const OrthotropicConstants& c, const std::array<bool, 3>& reversed = {}) {
+  const auto ratio = [&](int i, int j, double nu_ij, bool turned) -> Ratio {
+    if (turned) {
+      std::swap(i, j);
+      nu_ij *= c.young[i] / c.young[j];  // nu_ji = nu_ij E_j / E_i, i and j swapped already
+    }
+    return {fmt::format("nu{}{}", i + 1, j + 1), nu_ij, std::sqrt(c.young[j] / c.young[i]),
+            fmt::format("E{}/E{}", i + 1, j + 1)};
+  };
+  return {ratio(0, 1, c.nu12, reversed[0]), ratio(1, 2, c.nu23, reversed[1]), ratio(0, 2, c.nu13, reversed[2])};
 }
 
 double rho_determinant(const Vec3& r) { return 1 - r.squaredNorm() - 2 * r.prod(); }
@@ -32,23 +41,25 @@ std::pair<double, double> admissible(const Vec3& r, int i) {
   return {-a * b - half, -a * b + half};
 }
 
-std::string violated_inequality(const OrthotropicConstants& c, const Vec3& r) {
-  const auto all = ratios(c);
-  constexpr std::array<const char*, 3> first{"E1/E2", "E2/E3", "E1/E3"};
-  for (int i = 0; i < 3; ++i)
-    if (std::abs(r[i]) >= 1)
-      return fmt::format("|{}| < sqrt({}) = {:.4g} is violated", all[static_cast<std::size_t>(i)].name,
-                         first[static_cast<std::size_t>(i)],
-                         1 / all[static_cast<std::size_t>(i)].factor);
+int largest_ratio(const Vec3& r) {
+  int worst = 0;
+  r.cwiseAbs().maxCoeff(&worst);
+  return worst;
+}
+
+std::string violated_inequality(const Ratios& all, const Vec3& r) {
+  const int worst = largest_ratio(r);
+  const Ratio& ratio = all[static_cast<std::size_t>(worst)];
+  if (std::abs(r[worst]) >= 1)
+    return fmt::format("|{}| < sqrt({}) = {:.4g} is violated", ratio.name, ratio.moduli, 1 / ratio.factor);
   return fmt::format(
       "1 - nu12 nu21 - nu23 nu32 - nu31 nu13 - 2 nu12 nu23 nu31 > 0 is violated: it is {:.4g}",
       rho_determinant(r));
 }
 
-std::string allowed_range(const OrthotropicConstants& c, const Vec3& r) {
-  int worst = 0;
-  r.cwiseAbs().maxCoeff(&worst);
-  const Ratio ratio = ratios(c)[static_cast<std::size_t>(worst)];
+std::string allowed_range(const Ratios& all, const Vec3& r) {
+  const int worst = largest_ratio(r);
+  const Ratio& ratio = all[static_cast<std::size_t>(worst)];
   const bool others_fit = std::abs(r[(worst + 1) % 3]) < 1 && std::abs(r[(worst + 2) % 3]) < 1;
   const auto [low, high] = others_fit ? admissible(r, worst) : std::pair{-1.0, 1.0};
   return fmt::format("For these moduli{} {} must lie in ({:.4g}, {:.4g}).",
@@ -124,15 +135,19 @@ OrthotropicStiffness stiffness(const OrthotropicConstants& c) {
   return s;
 }
 
-std::string explain_instability(const OrthotropicConstants& c) {
+std::string explain_instability(const OrthotropicConstants& c, const std::array<bool, 3>& reversed) {
   const Vec3 r = scaled_ratios(c);
+  const Ratios all = ratios(c, reversed);
   const double factor = stabilising_factor(c);
-  const auto stable = shrink_ratios(c, factor);
+  std::string given, stable;
+  for (const Ratio& ratio : all) {
+    const char* separator = given.empty() ? "" : ", ";
+    given += fmt::format("{}{}={:.4g}", separator, ratio.name, ratio.nu);
+    stable += fmt::format("{}{}: {:.6g}", separator, ratio.name, factor * ratio.nu);
+  }
   return fmt::format(
-      "nu12={:.4g}, nu23={:.4g}, nu13={:.4g} make the stiffness indefinite: {} ({}). {} "
-      "Nearest stable set (all ratios times {:.4g}): nu12: {:.6g}, nu23: {:.6g}, nu13: {:.6g}",
-      c.nu12, c.nu23, c.nu13, violated_inequality(c, r), smallest_eigenvalue(c, r),
-      allowed_range(c, r), factor, stable.nu12, stable.nu23, stable.nu13);
+      "{} make the stiffness indefinite: {} ({}). {} Nearest stable set (all ratios times {:.4g}): {}", given,
+      violated_inequality(all, r), smallest_eigenvalue(c, r), allowed_range(all, r), factor, stable);
 }
 
 }  // namespace orthodyn

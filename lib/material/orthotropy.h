@@ -7,6 +7,7 @@
 // Li & Barbic (2014) eq. (4)-(8).
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "lib/material/stiffness.h"
@@ -41,7 +42,8 @@ OrthotropicConstants shrink_ratios(const OrthotropicConstants& c, double factor)
 OrthotropicStiffness stiffness(const OrthotropicConstants& c);
 
 // What makes c unstable, the admissible range of the offending ratio and the nearest stable set,
-// ready to paste. Precondition: !is_stable(c), with positive moduli.
-std::string explain_instability(const OrthotropicConstants& c);
+// ready to paste. `reversed` says which of the pairs 12, 23, 13 the user knows as nu_ji: the text
+// speaks of these. Precondition: !is_stable(c), with positive moduli.
+std::string explain_instability(const OrthotropicConstants& c, const std::array<bool, 3>& reversed = {});
 
 }  // namespace orthodyn

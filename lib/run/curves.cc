@@ -35,35 +35,31 @@ EnergyWriter::EnergyWriter(const std::filesystem::path& path, const Model& model
 void EnergyWriter::on_start(const State& state) {
   if (dissipates_) dissipation_.start(state);
   if (loaded_) load_work_.start(state);
-  record(state);
+  look(state);
+  first_ = last_;
+  drift_ = 0;
+  write(state.t);
 }
 
 void EnergyWriter::on_output(const State& state) {
-  integrate_to(state, integrator_);
-  record(state);
+  look(state);
+  write(state.t);
 }
 
-void EnergyWriter::on_step(const StepInfo& info, const Integrator& integrator) {
-  if (!dissipates_ && !loaded_) return;
-  State state;
-  integrator.interpolate(info.t, state);
-  integrate_to(state, integrator);
-}
+void EnergyWriter::on_step(const StepInfo&, const State& state, const Integrator&) { look(state); }
 
-void EnergyWriter::integrate_to(const State& state, const Integrator& integrator) {
-  if (dissipates_) dissipation_.advance(state, integrator);
-  if (loaded_) load_work_.advance(state, integrator);
-}
-
-void EnergyWriter::record(const State& state) {
+void EnergyWriter::look(const State& state) {
+  if (dissipates_) dissipation_.advance(state, integrator_);
+  if (loaded_) load_work_.advance(state, integrator_);
   const auto energy = [&](const char* name) { return model_.evaluate(name, state)[0]; };
   last_ = {energy("energy.kinetic"), energy("energy.elastic"), energy("energy.gravitational"),
            dissipation_.value(), load_work_.value()};
-  if (!started_) first_ = last_;
-  started_ = true;
   drift_ = std::max(drift_, std::abs(last_.balance() - first_.balance()));
   scale_ = std::max({scale_, last_.kinetic, last_.elastic});
-  file_.row({state.t, last_.kinetic, last_.elastic, last_.gravitational, last_.dissipated, last_.loads,
+}
+
+void EnergyWriter::write(double t) {
+  file_.row({t, last_.kinetic, last_.elastic, last_.gravitational, last_.dissipated, last_.loads,
              last_.balance() - first_.balance()});
 }
 
@@ -72,20 +68,34 @@ MomentumWriter::MomentumWriter(const std::filesystem::path& path, const Model& m
       file_(path, {"t [s]", "linear.x [kg m/s]", "linear.y [kg m/s]", "linear.z [kg m/s]",
                    "angular.x [kg m^2/s]", "angular.y [kg m^2/s]", "angular.z [kg m^2/s]"}) {}
 
-void MomentumWriter::record(const State& state) {
-  const auto p = model_.evaluate("momentum.linear", state);
+void MomentumWriter::on_start(const State& state) {
+  first_ = look(state);
+  drift_ = 0;
+  write(state);
+}
+
+void MomentumWriter::on_output(const State& state) {
+  look(state);
+  write(state);
+}
+
+Vec3 MomentumWriter::look(const State& state) {
   const auto l = model_.evaluate("momentum.angular", state);
   const Vec3 angular(l[0], l[1], l[2]);
-  if (!started_) first_ = angular;
-  started_ = true;
   drift_ = std::max(drift_, (angular - first_).norm());
+  return angular;
+}
+
+void MomentumWriter::write(const State& state) {
+  const auto p = model_.evaluate("momentum.linear", state);
+  const auto l = model_.evaluate("momentum.angular", state);
   file_.row({state.t, p[0], p[1], p[2], l[0], l[1], l[2]});
 }
 
 StepWriter::StepWriter(const std::filesystem::path& path)
     : file_(path, {"t [s]", "h [s]", "order", "newton_iterations", "rejected"}) {}
 
-void StepWriter::on_step(const StepInfo& info, const Integrator& integrator) {
+void StepWriter::on_step(const StepInfo& info, const State&, const Integrator& integrator) {
   const Statistics now = integrator.statistics();
   file_.row({info.t, info.h, static_cast<double>(info.order),
              static_cast<double>(now.newton_iterations - before_.newton_iterations),

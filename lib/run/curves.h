@@ -41,22 +41,21 @@ class EnergyWriter : public Observer {
                bool loaded);
   void on_start(const State& state) override;
   void on_output(const State& state) override;
-  void on_step(const StepInfo& info, const Integrator& integrator) override;
+  void on_step(const StepInfo& info, const State& state, const Integrator& integrator) override;
 
-  const EnergyBalance& first() const { return first_; }
   const EnergyBalance& last() const { return last_; }
-  // max |balance - first balance| over the outputs, and the largest kinetic or elastic energy.
+  // max |balance - first balance| over all steps, and the largest kinetic or elastic energy.
   double drift() const { return drift_; }
   double scale() const { return scale_; }
 
  private:
-  void integrate_to(const State& state, const Integrator& integrator);
-  void record(const State& state);
+  void look(const State& state);
+  void write(double t);
 
   const Model& model_;
   const Integrator& integrator_;
   CsvFile file_;
-  bool dissipates_, loaded_, started_ = false;
+  bool dissipates_, loaded_;
   PowerIntegral dissipation_, load_work_;
   EnergyBalance first_, last_;
   double drift_ = 0, scale_ = 0;
@@ -66,17 +65,19 @@ class EnergyWriter : public Observer {
 class MomentumWriter : public Observer {
  public:
   MomentumWriter(const std::filesystem::path& path, const Model& model);
-  void on_start(const State& state) override { record(state); }
-  void on_output(const State& state) override { record(state); }
-  // Largest change of the angular momentum since the start, kg m^2/s, and its initial size.
+  void on_start(const State& state) override;
+  void on_output(const State& state) override;
+  void on_step(const StepInfo&, const State& state, const Integrator&) override { look(state); }
+  // Largest change of the angular momentum over all steps, kg m^2/s, and its initial size.
   double angular_drift() const { return drift_; }
   double angular_scale() const { return first_.norm(); }
 
  private:
-  void record(const State& state);
+  Vec3 look(const State& state);
+  void write(const State& state);
+
   const Model& model_;
   CsvFile file_;
-  bool started_ = false;
   Vec3 first_ = Vec3::Zero();
   double drift_ = 0;
 };
@@ -85,7 +86,7 @@ class MomentumWriter : public Observer {
 class StepWriter : public Observer {
  public:
   explicit StepWriter(const std::filesystem::path& path);
-  void on_step(const StepInfo& info, const Integrator& integrator) override;
+  void on_step(const StepInfo& info, const State& state, const Integrator& integrator) override;
 
  private:
   CsvFile file_;

@@ -38,6 +38,28 @@ void write_file(const std::filesystem::path& path, const std::vector<std::string
   if (ec) fail(path);
 }
 
+namespace {
+constexpr std::size_t kReserved = 16384;
+
+std::string padded(std::string text) {
+  if (text.size() < kReserved) text.append(kReserved - text.size(), '\n');
+  return text;
+}
+}  // namespace
+
+ReservedFile::ReservedFile(std::filesystem::path path, const std::string& content) : path_(std::move(path)) {
+  write_file(path_, {padded(content)});
+}
+
+void ReservedFile::rewrite(const std::string& content) const {
+  std::fstream out(path_, std::ios::in | std::ios::out | std::ios::binary);
+  const std::string text = padded(content);
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  out.close();
+  if (!out) fail(path_);
+  std::filesystem::resize_file(path_, content.size());
+}
+
 CsvFile::CsvFile(const std::filesystem::path& path, const std::vector<std::string>& header)
     : path_(path), out_(path) {
   out_ << fmt::format("{}\n", fmt::join(header, ",")) << std::flush;

@@ -12,6 +12,16 @@ namespace orthodyn {
 // whole or absent. Its folder is made.
 void write_file(const std::filesystem::path& path, const std::vector<std::string>& parts);
 
+// A small file that can be rewritten although the disk is full: the first write reserves room.
+class ReservedFile {
+ public:
+  ReservedFile(std::filesystem::path path, const std::string& content);
+  void rewrite(const std::string& content) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
 // A CSV file whose rows are on disk as soon as they are written.
 class CsvFile {
  public:

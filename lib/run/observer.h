@@ -15,9 +15,9 @@ class Observer {
   // At each output time, within the last step.
   virtual void on_output(const State&) {}
 
-  // After each step, and after the outputs that fell into it. `integrator.interpolate` works for
-  // times within the step.
-  virtual void on_step(const StepInfo&, const Integrator&) {}
+  // After each step, and after the outputs that fell into it: the state at its end.
+  // `integrator.interpolate` works for times within the step.
+  virtual void on_step(const StepInfo&, const State&, const Integrator&) {}
 
   // When the run is over, however it ended.
   virtual void on_end() {}

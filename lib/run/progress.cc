@@ -25,7 +25,7 @@ std::string duration_text(double seconds) {
 Progress::Progress(double start, double end, std::FILE* out)
     : start_(start), end_(end), out_(out), terminal_(isatty(fileno(out)) != 0), begin_(Clock::now()), last_(begin_) {}
 
-void Progress::on_step(const StepInfo& info, const Integrator&) {
+void Progress::on_step(const StepInfo& info, const State&, const Integrator&) {
   const auto now = Clock::now();
   if (terminal_ ? now - last_ < kTerminalPeriod : now - last_ < kPlainPeriod) return;
   last_ = now;

@@ -11,7 +11,7 @@ namespace orthodyn {
 class Progress : public Observer {
  public:
   Progress(double start, double end, std::FILE* out);
-  void on_step(const StepInfo& info, const Integrator& integrator) override;
+  void on_step(const StepInfo& info, const State&, const Integrator&) override;
   void on_end() override;
 
  private:

@@ -48,7 +48,7 @@ class Driver {
         for (auto* o : observers_) o->on_output(state);
       }
       integrator_.interpolate(info.t, outcome_.last);
-      for (auto* o : observers_) o->on_step(info, integrator_);
+      for (auto* o : observers_) o->on_step(info, outcome_.last, integrator_);
     }
     return true;
   }
@@ -68,7 +68,7 @@ double cpu_now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 std::vector<double> evenly_spaced(double start, double end, int frames) {
   std::vector<double> times;
-  for (int k = 1; k <= frames; ++k) times.push_back(k == frames ? end : start + k * (end - start) / frames);
+  for (int k = 1; k <= frames; ++k) times.push_back((start * (frames - k) + end * k) / frames);
   return times;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "lib/core/errors.h"
 #include "lib/run/files.h"
 
 namespace orthodyn {
@@ -99,9 +100,16 @@ void VtuWriter::write(const State& state) {
   }
   write_geometry(geometry, file);
   file.text("</Piece>\n</UnstructuredGrid>\n");
-  write_file(folder_ / "frames" / fmt::format("frame_{:05}.vtu", times_.size()), file.finish());
+  const auto frame = folder_ / "frames" / fmt::format("frame_{:05}.vtu", times_.size());
+  write_file(frame, file.finish());
   times_.push_back(state.t);
-  write_collection();
+  try {
+    write_collection();
+  } catch (const RunError&) {  // no frame without its time
+    times_.pop_back();
+    std::filesystem::remove(frame);
+    throw;
+  }
 }
 
 void VtuWriter::write_collection() const {

@@ -1,4 +1,6 @@
 // box, gmsh.
+#include <filesystem>
+
 #include "lib/mesh/box.h"
 #include "lib/scene/mesh_source.h"
 
@@ -43,6 +45,8 @@ class GmshSource : public MeshSource {
     return s;
   }
   LoadedMesh load() const override {
+    if (!std::filesystem::is_regular_file(file_.path))
+      throw ConfigError(file_.where + ": no such file: " + file_.path);
     LoadedMesh loaded = read_gmsh(file_.path);
     for (Vec3& x : loaded.mesh.nodes) x *= scale_;
     return loaded;

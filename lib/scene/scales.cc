@@ -63,6 +63,7 @@ Scales estimate_scales(const Scene& scene, const BuiltScene& built) {
   const double extent = bounding_box(model.parts().mesh).size().maxCoeff();
   const double mass = model.parts().mass->total();
   const double energy = initial_energy(model, built.initial);
+  if (!std::isfinite(energy)) throw ConfigError("the initial state has no finite energy; check `initial`");
   const Vector load = peak_load(scene, model);
   const auto statics = static_estimate(model, load);
 

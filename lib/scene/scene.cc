@@ -114,7 +114,14 @@ const Spec<Elasticity>& Elasticity::spec() {
                "exact: gradient of the energy. warped: R sigma as in Mueller & Gross 2004 and Vega FEM, for "
                "comparison; it gains energy and exerts a net torque for anisotropic materials.")
           .key("warped_tangent", &Elasticity::warped_tangent,
-               "Of the warped force: R K R^T, or its exact unsymmetric derivative (klu, klu_full).");
+               "Of the warped force: R K R^T, or its exact unsymmetric derivative (klu, klu_full).")
+          .check([](const Elasticity& e, const Config& config) {
+            const bool warped = e.corotation == Corotation::warped;
+            if (warped && e.kinematics == Kinematics::linear)
+              config.at("corotation").fail("has no meaning with kinematics: linear; remove one of them");
+            if (e.warped_tangent == WarpedTangent::unsymmetric && !warped)
+              config.at("warped_tangent").fail("has no meaning without corotation: warped; remove it");
+          });
   return s;
 }
 

@@ -49,8 +49,8 @@ const std::vector<Triangle>& find_surface(const TetMesh& mesh, const std::string
   std::vector<std::string> names;
   for (const auto& [known, triangles] : mesh.surfaces) names.push_back(known);
   const auto near = nearest_name(name, names);
-  origin.fail(fmt::format("the mesh has no surface '{}'{}; it has {}", name,
-                          near.empty() ? "" : "; did you mean '" + near + "'?",
+  origin.fail(fmt::format("the mesh has no surface '{}'{} It has {}", name,
+                          near.empty() ? "." : "; did you mean '" + near + "'?",
                           names.empty() ? "none (in Gmsh, make a Physical Surface)" : join(names)));
 }
 

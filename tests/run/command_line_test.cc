@@ -61,7 +61,10 @@ TEST_F(CommandLine, BadInputExitsWith2AndWritesNothing) {
   for (const std::string arguments :
        {"run nowhere.yaml", "run torn.yaml", "run binary.yaml", "run .", "run swing.yaml --set gravity=[0,0]",
         "run swing.yaml --set nothing", "run swing.yaml --set mesh.cells.7=1", "run swing.yaml --integrator cvode_bfd",
-        "run swing.yaml --set output.fields=[displacment]", "run swing.yaml --set materials.soft.young=.inf",
+        "run swing.yaml --set output.fields=[displacment]",
+        "run swing.yaml --set elasticity.kinematics=linear --set elasticity.corotation=warped",
+        "run swing.yaml --set elasticity.warped_tangent=unsymmetric",
+        "run swing.yaml --set integrator.h_min=1 --set integrator.h_max=0.1", "run swing.yaml --set materials.soft.young=.inf",
         "check swing.yaml --set clamps.0.surface=x7", "run", "fly swing.yaml", "list gravity"}) {
     const auto result = orthodyn(arguments);
     EXPECT_EQ(result.exit_code, 2) << arguments << "\n" << result.output;
@@ -90,14 +93,35 @@ TEST_F(CommandLine, ARunThatCannotGoOnExitsWith3AndKeepsItsFrames) {
 
 TEST_F(CommandLine, AFullDiskEndsTheRunWithWholeFrames) {
   write("swing.yaml", kSwing);
-  // No file may grow past 8 blocks of 512 bytes: the first frame does not fit.
-  const auto result = shell("cd " + folder_.string() + " && trap '' XFSZ; ulimit -f 8; " ORTHODYN_EXECUTABLE
-                            " run swing.yaml --quiet --set 'mesh.cells=[8, 2, 2]'");
+  // No file may grow past 20 kB: the first frame does not fit.
+  const auto result = shell("cd " + folder_.string() + " && trap '' XFSZ; ulimit -f 40; " ORTHODYN_EXECUTABLE
+                            " run swing.yaml --quiet --set 'mesh.cells=[16, 4, 4]'");
   EXPECT_EQ(result.exit_code, 3) << result.output;
   EXPECT_NE(result.output.find("cannot write"), std::string::npos) << result.output;
   for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out"))
     EXPECT_NE(entry.path().extension(), ".part") << entry.path();
   EXPECT_NE(read_text(folder_ / "out/swing/run.json").find("\"failed\""), std::string::npos);
+}
+
+TEST_F(CommandLine, DriftIsThatOfTheWholeRunNotOfItsFrames) {
+  write("swing.yaml", kSwing);
+  const auto drift = [&](const std::string& frames) {
+    EXPECT_EQ(orthodyn("run swing.yaml --quiet --force --set output.frames=" + frames).exit_code, 0);
+    const auto json = read_text(folder_ / "out/swing/run.json");
+    const auto at = json.find("\"balance_drift\": ");
+    EXPECT_NE(at, std::string::npos);
+    return std::stod(json.substr(at + 17));
+  };
+  const double none = drift("0");
+  EXPECT_GT(none, 0);
+  EXPECT_NEAR(none, drift("20"), 0.2 * none);
+}
+
+TEST_F(CommandLine, SaysWhichForceIsAtWork) {
+  write("swing.yaml", kSwing);
+  EXPECT_NE(orthodyn("check swing.yaml").output.find("exact gradient"), std::string::npos);
+  EXPECT_NE(orthodyn("run swing.yaml --set elasticity.corotation=warped").output.find("WARPED"), std::string::npos);
+  EXPECT_NE(read_text(folder_ / "out/swing/run.json").find("WARPED"), std::string::npos);
 }
 
 TEST_F(CommandLine, CtrlCEndsCleanlyWithTheFramesSoFar) {

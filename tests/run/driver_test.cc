@@ -14,7 +14,7 @@ namespace {
 struct Recorder : Observer {
   void on_start(const State& s) override { outputs.push_back(s.t); }
   void on_output(const State& s) override { outputs.push_back(s.t); }
-  void on_step(const StepInfo& info, const Integrator&) override { steps.push_back(info.t); }
+  void on_step(const StepInfo& info, const State&, const Integrator&) override { steps.push_back(info.t); }
   void on_end() override { ++ends; }
   std::vector<double> outputs, steps;
   int ends = 0;
@@ -66,7 +66,7 @@ TEST(Driver, NeverStepsAcrossAKinkOfTheLoads) {
 TEST(Driver, TurnsAFailureIntoAnOutcomeThatKeepsTheLastState) {
   Case swing(kSwing + std::string("mass: lumped\n"));
   struct Fails : Observer {
-    void on_step(const StepInfo& info, const Integrator&) override {
+    void on_step(const StepInfo& info, const State&, const Integrator&) override {
       if (info.t > 0.1) throw RunError("no space left");
     }
   } fails;

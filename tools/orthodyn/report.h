@@ -15,7 +15,7 @@ class InversionWatch : public Observer {
  public:
   explicit InversionWatch(const Model& model) : model_(model) {}
   void on_start(const State& state) override { look(state); }
-  void on_step(const StepInfo& info, const Integrator& integrator) override;
+  void on_step(const StepInfo&, const State& state, const Integrator&) override { look(state); }
 
   double smallest() const { return smallest_; }
   int element() const { return element_; }

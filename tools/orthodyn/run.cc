@@ -103,7 +103,7 @@ int run_command(const RunArguments& arguments) {
                             arguments.force);
   Setup setup = set_up(arguments);
   folder.prepare();
-  write_file(folder.path() / "run.json", {run_json(arguments, nullptr)});
+  const ReservedFile record(folder.path() / "run.json", run_json(arguments, nullptr));
   write_file(folder.path() / "scene.yaml", {resolved_scene(setup, arguments, folder.path())});
 
   Observers observers(setup, arguments, folder.path());
@@ -114,9 +114,12 @@ int run_command(const RunArguments& arguments) {
   const RunReport report{arguments, setup, outcome, observers.inversion,
                          observers.energy ? &*observers.energy : nullptr,
                          observers.momentum ? &*observers.momentum : nullptr};
-  write_file(folder.path() / "run.json", {run_json(arguments, &report)});
-  if (!arguments.quiet) print_summary(report, folder.path());
   if (outcome.status == Outcome::Status::failed) fmt::print(stderr, "error: {}\n", outcome.message);
+  record.rewrite(run_json(arguments, &report));
+  if (!arguments.quiet) print_summary(report, folder.path());
+  if (observers.inversion.smallest() <= 0)
+    fmt::print(stderr, "warning: element {} was inverted at t = {:.4g} s (det F = {:.3g})\n",
+               observers.inversion.element(), observers.inversion.time(), observers.inversion.smallest());
   if (outcome.status == Outcome::Status::interrupted)
     fmt::print(stderr, "interrupted at t = {:.6g} s; what was computed is in {}\n", outcome.last.t,
                folder.path().string());
