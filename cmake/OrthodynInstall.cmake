@@ -4,7 +4,7 @@ set(_config ${CMAKE_INSTALL_LIBDIR}/cmake/orthodyn)
 
 install(TARGETS orthodyn EXPORT orthodynTargets)
 install(TARGETS orthodyn_cli)
-install(DIRECTORY lib integrators DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/orthodyn FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY lib DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/orthodyn FILES_MATCHING PATTERN "*.h")
 install(EXPORT orthodynTargets NAMESPACE orthodyn:: DESTINATION ${_config})
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/orthodynConfig.cmake.in
   ${PROJECT_BINARY_DIR}/orthodynConfig.cmake INSTALL_DESTINATION ${_config})

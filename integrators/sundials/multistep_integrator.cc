@@ -36,7 +36,7 @@ StepInfo MultistepIntegrator::step(double t_stop) {
     throw RunError(fmt::format("{} gave up at t = {:.6g} s after {} steps (max_steps); raise integrator.max_steps "
                                "or integrator.rtol",
                                name_, t_, statistics_.steps));
-  border_.recoverable_cause.clear();
+  border_ = {};
   const int flag = advance(t_stop, t_);
   update_statistics();
   if (flag < 0) fail(flag);

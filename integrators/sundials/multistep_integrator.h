@@ -70,6 +70,7 @@ class MultistepIntegrator : public Integrator {
   std::optional<ReducedSolve> reduced_;
   std::optional<FullJacobian> full_;
   Linearization linearization_;  // of the full path
+  SolverFunctions functions_;    // before the plug that calls them
   OwnedMatrix matrix_;
   OwnedSolver klu_, solver_;  // SUNDIALS' KLU of the full path stands behind the plug
 
@@ -81,7 +82,6 @@ class MultistepIntegrator : public Integrator {
   [[noreturn]] void fail(int flag);
 
   std::string name_;
-  SolverFunctions functions_;
   Counters before_;  // counted before the last restart
   double t_ = 0;
   bool started_ = false;

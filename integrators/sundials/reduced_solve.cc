@@ -26,7 +26,9 @@ std::size_t ReducedSolve::bytes() const {
 }
 
 void ReducedSolve::linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v) {
-  at_ = {t, q, v};
+  at_.t = t;
+  at_.q = q;
+  at_.v = v;
   assemble(gauss_newton_left_ > 0 ? TangentKind::gauss_newton : tangent_);
   if (gauss_newton_left_ > 0) --gauss_newton_left_;
 }

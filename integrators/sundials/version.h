@@ -24,19 +24,26 @@ inline int create_context(SUNContext* context) {
 #endif
 }
 
+inline void keep_message(const char* function, const char* message, void* text) noexcept {
+  try {
+    *static_cast<std::string*>(text) = std::string(function ? function : "") + ": " + (message ? message : "");
+  } catch (...) {  // out of memory: the flag alone has to do
+  }
+}
+
 // Sends what a library reports to *text instead of to the terminal. `set_handler` is the library's
 // own setter (CVodeSetErrHandlerFn, IDASetErrHandlerFn), needed by version 6 alone.
 #if SUNDIALS_VERSION_MAJOR >= 7
-inline void keep_error(int, const char* function, const char*, const char* message, SUNErrCode,
-                       void* text, SUNContext) {
-  *static_cast<std::string*>(text) = std::string(function) + ": " + message;
+inline void keep_error(int, const char* function, const char*, const char* message, SUNErrCode code,
+                       void* text, SUNContext) noexcept {
+  keep_message(function, message ? message : SUNGetErrMsg(code), text);
 }
 #define ORTHODYN_CAPTURE_ERRORS(set_handler, context, memory, text)      \
   (SUNContext_ClearErrHandlers(context),                                 \
    SUNContext_PushErrHandler(context, orthodyn::sundials::keep_error, text))
 #else
-inline void keep_error(int, const char*, const char* function, char* message, void* text) {
-  *static_cast<std::string*>(text) = std::string(function) + ": " + message;
+inline void keep_error(int, const char*, const char* function, char* message, void* text) noexcept {
+  keep_message(function, message, text);
 }
 #define ORTHODYN_CAPTURE_ERRORS(set_handler, context, memory, text) \
   set_handler(memory, orthodyn::sundials::keep_error, text)

@@ -1,6 +1,7 @@
 #include "lib/core/config.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -244,6 +245,13 @@ std::string Config::text() const {
 Config Config::fill(const std::string& key, const std::string& yaml) const {
   YAML::Node node = place_->node;
   node[key] = YAML::Load(yaml);
+  place_->document->filled.insert(child_path(place_->path, key));
+  return at(key);
+}
+
+Config Config::fill_text(const std::string& key, const std::string& text) const {
+  YAML::Node node = place_->node;
+  node[key] = text;
   place_->document->filled.insert(child_path(place_->path, key));
   return at(key);
 }

@@ -44,6 +44,9 @@ class Config {
   // Writes a value (as YAML text) into this map, for dump(). Creates the key where it is missing.
   Config fill(const std::string& key, const std::string& yaml) const;
 
+  // The same for a plain text, which is not read as YAML.
+  Config fill_text(const std::string& key, const std::string& text) const;
+
   // What stands here, shortened, for messages.
   std::string shown() const;
 

@@ -109,6 +109,7 @@ class Spec {
   static void read_field(const Config& section, const std::string& name, const Rule& rule,
                          V& target) {
     if (section.has(name) && !section.at(name).is_null()) {
+      if (!rule.fallback.empty()) complete_type(section.at(name), rule.fallback);
       target = Value<V>::read(section.at(name), rule);
     } else if (rule.required) {
       section.fail("key '" + name + "' is missing (" + Value<V>::type() +
@@ -120,6 +121,13 @@ class Spec {
     } else if (const std::string text = Value<V>::yaml(target); !text.empty()) {
       section.fill(name, text);
     }
+  }
+
+  // `integrator: {rtol: 1e-5}` keeps the type of the fallback "{type: cvode_bdf}".
+  static void complete_type(const Config& given, const std::string& fallback) {
+    const Config usual = Config::from_text(fallback);
+    if (given.is_map() && usual.has("type") && !given.has("type"))
+      given.fill_text("type", usual.at("type").text());
   }
 
   std::vector<Field> fields_;

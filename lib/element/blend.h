@@ -3,7 +3,7 @@
 // An anisotropic W(S - I) is multi-valued where R is not unique (det G = 0), and its force grows
 // like 1/det G there; the nearest isotropic law is single-valued. chi = 1 for every det F >= 0 with
 // det G >= g0 (8 at rest): the model is untouched in regular states. Both det G and det F are
-// polynomials in S, so chi is twice continuously differentiable and Psi an energy.
+// polynomials in S, so chi is continuously differentiable and Psi an energy.
 #pragma once
 
 #include "lib/element/axial.h"

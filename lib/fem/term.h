@@ -29,6 +29,9 @@ class Term {
 
   virtual void add_force(const NodalState& s, NodalVector& f) const = 0;
 
+  // What it exerts at the peak of its factor in time, on the body in state s.
+  virtual void add_peak_force(const NodalState& s, NodalVector& f) const { add_force(s, f); }
+
   // Adds -df/dx to `stiffness` and -df/dv to `damping` (null if the model has no D).
   virtual void add_tangent(const NodalState&, TangentKind, double* /*stiffness*/, double* /*damping*/) const {}
 

@@ -34,6 +34,10 @@ void Traction::add_force(const NodalState& s, NodalVector& f) const {
   for (const auto& [node, force] : forces_) f.col(node) += factor * force;
 }
 
+void Traction::add_peak_force(const NodalState&, NodalVector& f) const {
+  for (const auto& [node, force] : forces_) f.col(node) += factor_->peak() * force;
+}
+
 double Traction::load_power(const NodalState& s) const {
   double power = 0;
   for (const auto& [node, force] : forces_) power += force.dot(s.v.col(node));

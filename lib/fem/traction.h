@@ -19,6 +19,7 @@ class Traction : public Term {
 
   std::string description() const override { return "traction on " + surface_; }
   void add_force(const NodalState& s, NodalVector& f) const override;
+  void add_peak_force(const NodalState& s, NodalVector& f) const override;
   double load_power(const NodalState& s) const override;
   std::vector<double> breakpoints(double start, double end) const override;
 

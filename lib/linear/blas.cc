@@ -21,8 +21,17 @@ std::string blas_name() {
 
 bool blas_is_openblas() { return find<char*()>("openblas_get_config") != nullptr; }
 
-void set_blas_threads(int threads) {
-  if (auto* set = find<void(int)>("openblas_set_num_threads")) set(threads);
+OneBlasThread::OneBlasThread(bool one) {
+  static auto* get = find<int()>("openblas_get_num_threads");
+  static auto* set = find<void(int)>("openblas_set_num_threads");
+  if (!one || !get || !set || get() == 1) return;
+  before_ = get();
+  set(1);
+}
+
+OneBlasThread::~OneBlasThread() {
+  static auto* set = find<void(int)>("openblas_set_num_threads");
+  if (before_ > 0) set(before_);
 }
 
 }  // namespace orthodyn

@@ -11,6 +11,18 @@ inline constexpr int kBlasThreadsFrom = 15'000;
 // E.g. "OpenBLAS 0.3.21 ...", or "unknown (not OpenBLAS)".
 std::string blas_name();
 bool blas_is_openblas();
-void set_blas_threads(int threads);  // without effect if not OpenBLAS
+
+// One BLAS thread while it lives, if `one` is set; then as many as before. Without effect if the BLAS
+// is not OpenBLAS.
+class OneBlasThread {
+ public:
+  explicit OneBlasThread(bool one);
+  ~OneBlasThread();
+  OneBlasThread(const OneBlasThread&) = delete;
+  OneBlasThread& operator=(const OneBlasThread&) = delete;
+
+ private:
+  int before_ = 0;  // 0: nothing to restore
+};
 
 }  // namespace orthodyn

@@ -48,7 +48,6 @@ class Cholmod : public LinearSolver {
 
   void analyze(const Pattern& pattern) override {
     pattern_ = &pattern;
-    if (pattern.n < kBlasThreadsFrom) set_blas_threads(1);
     const bool dissect = pattern.n >= kNestedDissectionFrom;
     common_.nmethods = 1;
     common_.method[0].ordering = dissect ? CHOLMOD_METIS : CHOLMOD_AMD;
@@ -56,13 +55,19 @@ class Cholmod : public LinearSolver {
     cholmod_free_factor(&factor_, &common_);
     cholmod_sparse view = view_of(nullptr);
     factor_ = cholmod_analyze(&view, &common_);
+    if (!factor_ && dissect && common_.status != CHOLMOD_OUT_OF_MEMORY) {  // built without METIS
+      common_.method[0].ordering = CHOLMOD_AMD;
+      factor_ = cholmod_analyze(&view, &common_);
+    }
     refuse_failure();
+    if (!factor_) throw RunError("CHOLMOD could not analyse the matrix");
     predicted_entries_ = static_cast<std::size_t>(common_.lnz);
     description_ = fmt::format("{}, {}", factor_->is_super ? "supernodal" : "simplicial",
                                factor_->ordering == CHOLMOD_METIS ? "nested dissection" : "minimum degree");
   }
 
   FactorStatus factor(const double* values) override {
+    const OneBlasThread threads(pattern_->n < kBlasThreadsFrom);
     cholmod_sparse view = view_of(values);
     cholmod_factorize(&view, factor_, &common_);
     if (common_.status == CHOLMOD_NOT_POSDEF) return FactorStatus::not_positive_definite;
@@ -71,6 +76,7 @@ class Cholmod : public LinearSolver {
   }
 
   void solve(const ConstVectorRef& b, VectorRef x) override {
+    const OneBlasThread threads(pattern_->n < kBlasThreadsFrom);
     cholmod_dense view{};
     view.nrow = static_cast<std::size_t>(b.size());
     view.ncol = 1;

@@ -36,7 +36,7 @@ struct EnergyBalance {
 // Powers are integrated only where they can differ from zero.
 class EnergyWriter : public Observer {
  public:
-  // An empty path writes no file. `integrator` is the one that is run.
+  // `integrator` is the one that is run.
   EnergyWriter(const std::filesystem::path& path, const Model& model, const Integrator& integrator, bool dissipates,
                bool loaded);
   void on_start(const State& state) override;

@@ -1,6 +1,7 @@
 #include "lib/run/files.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cerrno>
 #include <cstring>

@@ -20,7 +20,7 @@ class Observer {
   virtual void on_step(const StepInfo&, const State&, const Integrator&) {}
 
   // When the run is over, however it ended.
-  virtual void on_end() {}
+  virtual void on_end() noexcept {}
 };
 
 }  // namespace orthodyn

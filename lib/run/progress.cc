@@ -48,8 +48,8 @@ void Progress::show(const StepInfo& info, double elapsed) {
   shown_ = true;
 }
 
-void Progress::on_end() {
-  if (terminal_ && shown_) fmt::print(out_, "\r\x1b[K");
+void Progress::on_end() noexcept {
+  if (terminal_ && shown_) std::fputs("\r\x1b[K", out_);
   std::fflush(out_);
 }
 

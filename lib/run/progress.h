@@ -12,7 +12,7 @@ class Progress : public Observer {
  public:
   Progress(double start, double end, std::FILE* out);
   void on_step(const StepInfo& info, const State&, const Integrator&) override;
-  void on_end() override;
+  void on_end() noexcept override;
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -16,8 +16,14 @@ class Driver {
   Driver(const Model& model, Integrator& integrator, const Plan& plan, const std::vector<Observer*>& observers,
          const std::atomic<bool>& interrupt, Outcome& outcome)
       : integrator_(integrator), plan_(plan), observers_(observers), interrupt_(interrupt), outcome_(outcome),
-        stops_(model.breakpoints(outcome.last.t, plan.end)) {
+        tiny_(1e-12 * std::max(std::abs(outcome.last.t), std::abs(plan.end))), outputs_(plan.output_times) {
+    for (const double t : model.breakpoints(outcome.last.t, plan.end))
+      if (t - (stops_.empty() ? outcome.last.t : stops_.back()) > tiny_ && plan.end - t > tiny_) stops_.push_back(t);
     stops_.push_back(plan.end);
+    // An output that differs from a stop by round-off is meant to be there.
+    for (double& t : outputs_)
+      for (const double stop : stops_)
+        if (std::abs(t - stop) <= tiny_) t = stop;
   }
 
   void advance() {
@@ -37,14 +43,11 @@ class Driver {
         outcome_.status = Outcome::Status::interrupted;
         return false;
       }
-      const double limit = plan_.exact_times && next_ < plan_.output_times.size()
-                               ? std::min(stop, plan_.output_times[next_])
-                               : stop;
-      StepInfo info = integrator_.step(limit);
-      if (std::abs(info.t - limit) < 1e-12 * std::abs(limit)) info.t = limit;
-      while (next_ < plan_.output_times.size() && plan_.output_times[next_] <= info.t) {
+      const double limit = plan_.exact_times && next_ < outputs_.size() ? std::min(stop, outputs_[next_]) : stop;
+      const StepInfo info = integrator_.step(limit);
+      while (next_ < outputs_.size() && outputs_[next_] <= info.t) {
         State state;
-        integrator_.interpolate(plan_.output_times[next_++], state);
+        integrator_.interpolate(outputs_[next_++], state);
         for (auto* o : observers_) o->on_output(state);
       }
       integrator_.interpolate(info.t, outcome_.last);
@@ -58,7 +61,8 @@ class Driver {
   const std::vector<Observer*>& observers_;
   const std::atomic<bool>& interrupt_;
   Outcome& outcome_;
-  std::vector<double> stops_;
+  double tiny_;                          // times closer than this are one
+  std::vector<double> outputs_, stops_;
   std::size_t next_ = 0;
 };
 
@@ -91,7 +95,6 @@ Outcome run(const Model& model, Integrator& integrator, const State& initial, co
   const double cpu = cpu_now();
   try {
     Driver(model, integrator, plan, observers, interrupt, outcome).advance();
-    for (auto* o : observers) o->on_end();
   } catch (const std::bad_alloc&) {
     outcome.status = Outcome::Status::failed;
     outcome.message = "out of memory; use a coarser mesh or another linear solver";
@@ -101,6 +104,7 @@ Outcome run(const Model& model, Integrator& integrator, const State& initial, co
     outcome.status = Outcome::Status::failed;
     outcome.message = e.what();
   }
+  for (auto* o : observers) o->on_end();
   outcome.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
   outcome.cpu_seconds = cpu_now() - cpu;
   return outcome;

@@ -9,23 +9,15 @@ namespace orthodyn {
 
 namespace {
 
-// Gravity and loads at the peak of their factors, on the free coordinates.
-Vector peak_load(const Scene& scene, const FemModel& model) {
+// Gravity and loads at the peaks of their factors, on the free coordinates.
+Vector peak_load(const FemModel& model) {
   const auto& parts = model.parts();
   NodalVector sum = NodalVector::Zero(3, parts.rest->cols());
   const NodalVector still = NodalVector::Zero(3, parts.rest->cols());
-  std::vector<double> times = model.breakpoints(scene.time.start, scene.time.end);
-  for (int k = 0; k <= 100; ++k)
-    times.push_back(scene.time.start + k * (scene.time.end - scene.time.start) / 100);
-  Vector largest = Vector::Zero(model.num_dofs());
-  for (const double t : times) {
-    sum.setZero();
-    for (const auto& load : parts.loads) load->add_force({t, *parts.rest, still}, sum);
-    Vector now(model.num_dofs());
-    parts.dofs->restrict_to(sum, now);
-    if (now.norm() > largest.norm()) largest = now;
-  }
-  return largest;
+  for (const auto& load : parts.loads) load->add_peak_force({0, *parts.rest, still}, sum);
+  Vector free(model.num_dofs());
+  parts.dofs->restrict_to(sum, free);
+  return free;
 }
 
 struct StaticEstimate {
@@ -64,12 +56,13 @@ Scales estimate_scales(const Scene& scene, const BuiltScene& built) {
   const double mass = model.parts().mass->total();
   const double energy = initial_energy(model, built.initial);
   if (!std::isfinite(energy)) throw ConfigError("the initial state has no finite energy; check `initial`");
-  const Vector load = peak_load(scene, model);
+  const Vector load = peak_load(model);
+  const bool at_rest = built.initial.q.isZero(0) && built.initial.v.isZero(0);
   const auto statics = static_estimate(model, load);
 
   const double work = statics ? statics->work : extent * load.lpNorm<1>();
   Scales scales{0.1 * extent, 3 * std::sqrt(2 * (energy + work) / mass)};
-  if (statics && energy == 0) scales.position = std::min(scales.position, 2 * statics->deflection);
+  if (statics && at_rest) scales.position = std::min(scales.position, 2 * statics->deflection);
   if (scales.velocity == 0) scales.velocity = extent / (scene.time.end - scene.time.start);
   return scales;
 }

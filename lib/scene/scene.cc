@@ -218,8 +218,9 @@ void fill_regions(const Config& config, Scene& scene) {
   if (scene.materials.size() != 1)
     config.fail("key 'regions' is missing: with " + std::to_string(scene.materials.size()) +
                 " materials, say which region has which");
-  const std::string yaml = "{all: {material: " + scene.materials.front().first + "}}";
-  scene.regions = Value<Named<Region>>::read(config.fill("regions", yaml), {});
+  const Config regions = config.fill("regions", "{all: {}}");
+  regions.at("all").fill_text("material", scene.materials.front().first);
+  scene.regions = Value<Named<Region>>::read(regions, {});
 }
 
 void check_materials_exist(const Scene& scene) {
@@ -237,6 +238,9 @@ Scene read_scene(const Config& config) {
   if (scene.materials.empty()) config.at("materials").fail("is empty; give at least one material");
   fill_regions(config, scene);
   check_materials_exist(scene);
+  const auto& interval = scene.output.interval;
+  if (interval && (scene.time.end - scene.time.start) / *interval > 1e6)
+    config.at("output").at("interval").fail("gives more than 1e6 frames");
   return scene;
 }
 

@@ -127,7 +127,7 @@ TEST_F(CommandLine, SaysWhichForceIsAtWork) {
 TEST_F(CommandLine, CtrlCEndsCleanlyWithTheFramesSoFar) {
   write("swing.yaml", kSwing);
   const auto result = shell("cd " + folder_.string() + " && " ORTHODYN_EXECUTABLE
-                            " run swing.yaml --quiet --set time.end=1e6 --set integrator.h_max=1e-3 --set "
+                            " run swing.yaml --quiet --set time.end=1e3 --set integrator.h_max=1e-3 --set "
                             "output.interval=0.01 --set output.frames=null & pid=$!; for i in $(seq 100); do [ -e " +
                             folder_.string() + "/out/swing/frames/frame_00003.vtu ] && break; sleep 0.1; done; "
                             "kill -INT $pid; wait $pid");

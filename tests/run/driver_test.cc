@@ -15,7 +15,7 @@ struct Recorder : Observer {
   void on_start(const State& s) override { outputs.push_back(s.t); }
   void on_output(const State& s) override { outputs.push_back(s.t); }
   void on_step(const StepInfo& info, const State&, const Integrator&) override { steps.push_back(info.t); }
-  void on_end() override { ++ends; }
+  void on_end() noexcept override { ++ends; }
   std::vector<double> outputs, steps;
   int ends = 0;
 };
@@ -63,6 +63,18 @@ TEST(Driver, NeverStepsAcrossAKinkOfTheLoads) {
     EXPECT_NE(std::find(seen.steps.begin(), seen.steps.end(), kink), seen.steps.end()) << kink;
 }
 
+TEST(Driver, TakesTimesThatDifferByRoundOffForOne) {
+  for (const char* type : {"cvode_bdf", "ida_bdf"}) {
+    Case swing(std::string(kSwing).replace(std::string(kSwing).find("cvode_bdf"), 9, type) +
+               "loads:\n- {surface: x1, force: [0, 1, 0], factor: {type: ramp, end: 0.3}}\n"
+               "- {surface: x1, force: [0, 1, 0], factor: {type: ramp, end: 0.30000000000000004}}\n");
+    Recorder seen;
+    const auto outcome = swing.run_with({0, by_interval(0, 0.5, 0.1), true}, {&seen});
+    EXPECT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
+    EXPECT_EQ(seen.outputs.size(), 6u);
+  }
+}
+
 TEST(Driver, TurnsAFailureIntoAnOutcomeThatKeepsTheLastState) {
   Case swing(kSwing + std::string("mass: lumped\n"));
   struct Fails : Observer {
@@ -74,6 +86,7 @@ TEST(Driver, TurnsAFailureIntoAnOutcomeThatKeepsTheLastState) {
   const auto outcome = swing.run_with({}, {&seen, &fails});
   EXPECT_EQ(outcome.status, Outcome::Status::failed);
   EXPECT_EQ(outcome.message, "no space left");
+  EXPECT_EQ(seen.ends, 1);
   EXPECT_GT(outcome.last.t, 0.1);
 }
 

@@ -1,5 +1,6 @@
 // `orthodyn check`: what a scene consists of and what it will cost, without running it.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 

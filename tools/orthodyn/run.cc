@@ -44,7 +44,7 @@ std::vector<ProbeColumn> probe_columns(const Scene& scene, const TetMesh& mesh) 
 std::string resolved_scene(const Setup& setup, const RunArguments& arguments, const fs::path& folder) {
   const Config mesh = setup.config.at("mesh");
   if (mesh.has("file"))
-    mesh.fill("file", fs::proximate(mesh.at("file").file_path(), folder).string());
+    mesh.fill_text("file", fs::proximate(mesh.at("file").file_path(), folder).string());
   return fmt::format("# {} with every default spelled out, by orthodyn {}.\n{}", arguments.scene,
                      orthodyn_version(), setup.config.dump());
 }
@@ -102,9 +102,10 @@ int run_command(const RunArguments& arguments) {
                                           : fs::path("out") / fs::path(arguments.scene).stem(),
                             arguments.force);
   Setup setup = set_up(arguments);
+  const std::string resolved = resolved_scene(setup, arguments, folder.path());
   folder.prepare();
   const ReservedFile record(folder.path() / "run.json", run_json(arguments, nullptr));
-  write_file(folder.path() / "scene.yaml", {resolved_scene(setup, arguments, folder.path())});
+  write_file(folder.path() / "scene.yaml", {resolved});
 
   Observers observers(setup, arguments, folder.path());
   std::signal(SIGINT, interrupt);
