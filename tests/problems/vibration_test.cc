@@ -106,5 +106,30 @@ TEST(Cantilever, FirstBendingFrequencyExtrapolatesToTimoshenkosBeam) {
   EXPECT_NEAR(extrapolated, timoshenko, 0.01 * timoshenko) << coarse << " " << fine;
 }
 
+// The same release as for the bar, with large rotations allowed for: at an amplitude of 1e-4 L they do
+// not show.
+TEST(Cantilever, AReleasedFirstModeSwingsAtItsFrequency) {
+  const auto beam = [](double end) {
+    return BuiltTestScene(spruce_box("[1, 0.05, 0.05]", "[20, 2, 2]", "five", 0.44, fmt::format(R"(
+clamps: [{{surface: x0}}]
+integrator: {{type: cvode_bdf, rtol: 1e-6, max_order: 2, position_scale: 1e-4, velocity_scale: 0.03}}
+time: {{end: {}}}
+)", end)));
+  };
+  const auto guess = [](const Vec3& X) { return Vec3(0, X[0] * X[0], 0); };
+  const auto still = beam(1);
+  const Mode mode = inverse_iteration(still, still.dofs(guess));
+  auto scene = beam(1 / mode.frequency);
+  scene.built.initial.q = 1e-4 * mode.shape / mode.shape.lpNorm<Eigen::Infinity>();
+  double largest = 0;
+  const auto outcome = run_scene(scene, 20, [&](const State& state) {
+    const Vector expected = std::cos(2 * std::numbers::pi * mode.frequency * state.t) * scene.built.initial.q;
+    largest = std::max(largest, (state.q - expected).lpNorm<Eigen::Infinity>());
+  });
+  EXPECT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
+  // rtol^(2/3) = 1e-4 of the amplitude, times about ten for one period.
+  EXPECT_LE(largest, 2e-3 * 1e-4);
+}
+
 }  // namespace
 }  // namespace orthodyn
