@@ -20,6 +20,8 @@ struct Traits {
   bool lumped_mass = true;         // M is diagonal
   bool time_dependent = false;     // f depends on t
   bool conservative = true;        // total energy is constant when nothing is damped
+  bool dissipative = false;        // power.dissipated can differ from zero
+  bool loaded = false;             // power.loads can differ from zero
 };
 
 struct Weights {

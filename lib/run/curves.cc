@@ -3,93 +3,48 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace orthodyn {
 
-void PowerIntegral::start(const State& state) {
-  t_ = state.t;
-  last_ = model_.evaluate(power_, state)[0];
-}
-
-double PowerIntegral::advance(const State& to, const Integrator& integrator) {
-  if (!(to.t > t_)) return sum_;
-  State middle;
-  integrator.interpolate(0.5 * (t_ + to.t), middle);
-  const double end = model_.evaluate(power_, to)[0];
-  sum_ += (to.t - t_) / 6 * (last_ + 4 * model_.evaluate(power_, middle)[0] + end);
-  t_ = to.t;
-  last_ = end;
-  return sum_;
-}
-
-EnergyWriter::EnergyWriter(const std::filesystem::path& path, const Model& model, const Integrator& integrator,
-                           bool dissipates, bool loaded)
-    : model_(model), integrator_(integrator),
+EnergyWriter::EnergyWriter(const std::filesystem::path& path, const Model& model, const Integrator& integrator)
+    : EnergyMeter(model, integrator),
       file_(path, {"t [s]", "kinetic [J]", "elastic [J]", "gravitational [J]", "dissipated [J]", "loads [J]",
-                   "balance [J]"}),
-      dissipates_(dissipates), loaded_(loaded), dissipation_(model, "power.dissipated"),
-      load_work_(model, "power.loads") {}
+                   "balance [J]"}) {}
 
 void EnergyWriter::on_start(const State& state) {
-  if (dissipates_) dissipation_.start(state);
-  if (loaded_) load_work_.start(state);
-  look(state);
-  first_ = last_;
-  drift_ = 0;
+  EnergyMeter::on_start(state);
   write(state.t);
 }
 
 void EnergyWriter::on_output(const State& state) {
-  look(state);
+  EnergyMeter::on_output(state);
   write(state.t);
 }
 
-void EnergyWriter::on_step(const StepInfo&, const State& state, const Integrator&) { look(state); }
-
-void EnergyWriter::look(const State& state) {
-  if (dissipates_) dissipation_.advance(state, integrator_);
-  if (loaded_) load_work_.advance(state, integrator_);
-  const auto energy = [&](const char* name) { return model_.evaluate(name, state)[0]; };
-  last_ = {energy("energy.kinetic"), energy("energy.elastic"), energy("energy.gravitational"),
-           dissipation_.value(), load_work_.value()};
-  drift_ = std::max(drift_, std::abs(last_.balance() - first_.balance()));
-  scale_ = std::max({scale_, last_.kinetic, last_.elastic});
-}
-
 void EnergyWriter::write(double t) {
-  file_.row({t, last_.kinetic, last_.elastic, last_.gravitational, last_.dissipated, last_.loads,
-             last_.balance() - first_.balance()});
+  const auto& e = last();
+  file_.row({t, e.kinetic, e.elastic, e.gravitational, e.dissipated, e.loads, change()});
 }
 
 MomentumWriter::MomentumWriter(const std::filesystem::path& path, const Model& model)
-    : model_(model),
+    : MomentumMeter(model),
       file_(path, {"t [s]", "linear.x [kg m/s]", "linear.y [kg m/s]", "linear.z [kg m/s]",
                    "angular.x [kg m^2/s]", "angular.y [kg m^2/s]", "angular.z [kg m^2/s]"}) {}
 
 void MomentumWriter::on_start(const State& state) {
-  first_ = look(state);
-  drift_ = 0;
-  write(state);
+  MomentumMeter::on_start(state);
+  write(state.t);
 }
 
 void MomentumWriter::on_output(const State& state) {
-  look(state);
-  write(state);
+  MomentumMeter::on_output(state);
+  write(state.t);
 }
 
-Vec3 MomentumWriter::look(const State& state) {
-  const auto l = model_.evaluate("momentum.angular", state);
-  const Vec3 angular(l[0], l[1], l[2]);
-  drift_ = std::max(drift_, (angular - first_).norm());
-  return angular;
-}
-
-void MomentumWriter::write(const State& state) {
-  const auto p = model_.evaluate("momentum.linear", state);
-  const auto l = model_.evaluate("momentum.angular", state);
-  file_.row({state.t, p[0], p[1], p[2], l[0], l[1], l[2]});
+void MomentumWriter::write(double t) {
+  const Vec3 &p = linear(), &l = angular();
+  file_.row({t, p[0], p[1], p[2], l[0], l[1], l[2]});
 }
 
 StepWriter::StepWriter(const std::filesystem::path& path)

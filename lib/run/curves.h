@@ -5,81 +5,33 @@
 #include <string>
 #include <vector>
 
+#include "lib/run/balance.h"
 #include "lib/run/files.h"
-#include "lib/run/observer.h"
 
 namespace orthodyn {
 
-// Integrates a model's power over the steps of an integrator: Simpson's rule on its dense output.
-class PowerIntegral {
- public:
-  PowerIntegral(const Model& model, std::string power) : model_(model), power_(std::move(power)) {}
-  void start(const State& state);
-  // To a time within the integrator's last step.
-  double advance(const State& to, const Integrator& integrator);
-  double value() const { return sum_; }
-
- private:
-  const Model& model_;
-  std::string power_;
-  double t_ = 0, last_ = 0, sum_ = 0;
-};
-
-struct EnergyBalance {
-  double kinetic = 0, elastic = 0, gravitational = 0;  // J
-  double dissipated = 0, loads = 0;                    // J since the start
-  // Total plus dissipated less the work of loads: constant, but for the error of the integration.
-  double balance() const { return kinetic + elastic + gravitational + dissipated - loads; }
-};
-
 // energy.csv, its balance relative to the start (zero when exact); also the figures of the summary.
-// Powers are integrated only where they can differ from zero.
-class EnergyWriter : public Observer {
+class EnergyWriter : public EnergyMeter {
  public:
-  // `integrator` is the one that is run.
-  EnergyWriter(const std::filesystem::path& path, const Model& model, const Integrator& integrator, bool dissipates,
-               bool loaded);
+  EnergyWriter(const std::filesystem::path& path, const Model& model, const Integrator& integrator);
   void on_start(const State& state) override;
   void on_output(const State& state) override;
-  void on_step(const StepInfo& info, const State& state, const Integrator& integrator) override;
-
-  const EnergyBalance& last() const { return last_; }
-  // max |balance - first balance| over all steps, and the largest kinetic or elastic energy.
-  double drift() const { return drift_; }
-  double scale() const { return scale_; }
 
  private:
-  void look(const State& state);
   void write(double t);
-
-  const Model& model_;
-  const Integrator& integrator_;
   CsvFile file_;
-  bool dissipates_, loaded_;
-  PowerIntegral dissipation_, load_work_;
-  EnergyBalance first_, last_;
-  double drift_ = 0, scale_ = 0;
 };
 
-// momentum.csv: linear and angular momentum about the origin.
-class MomentumWriter : public Observer {
+// momentum.csv.
+class MomentumWriter : public MomentumMeter {
  public:
   MomentumWriter(const std::filesystem::path& path, const Model& model);
   void on_start(const State& state) override;
   void on_output(const State& state) override;
-  void on_step(const StepInfo&, const State& state, const Integrator&) override { look(state); }
-  // Largest change of the angular momentum over all steps, kg m^2/s, and its initial size.
-  double angular_drift() const { return drift_; }
-  double angular_scale() const { return first_.norm(); }
 
  private:
-  Vec3 look(const State& state);
-  void write(const State& state);
-
-  const Model& model_;
+  void write(double t);
   CsvFile file_;
-  Vec3 first_ = Vec3::Zero();
-  double drift_ = 0;
 };
 
 // steps.csv: t, h, order, Newton iterations and rejections of each step.

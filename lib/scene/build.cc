@@ -85,9 +85,10 @@ Traits traits_of(const Scene& scene, const std::vector<const Region*>& regions) 
   traits.time_dependent = std::any_of(scene.loads.begin(), scene.loads.end(), [](const Load& load) {
     return !load.factor->constant();
   });
+  traits.dissipative = traits.damping_matrix || (scene.damping && scene.damping->mass > 0);
+  traits.loaded = !scene.loads.empty();
   const bool warped = scene.elasticity.corotation == Corotation::warped && !traits.linear;
-  traits.conservative = !warped && !traits.damping_matrix && !(scene.damping && scene.damping->mass > 0) &&
-                        !traits.time_dependent;
+  traits.conservative = !warped && !traits.dissipative && !traits.time_dependent;
   return traits;
 }
 

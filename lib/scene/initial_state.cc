@@ -33,6 +33,8 @@ State initial_state(const Scene& scene, const FemModel::Parts& parts) {
   for (Eigen::Index i = 0; i < u.cols(); ++i) {
     const Vec3 arm = parts.rest->col(i) + u.col(i) - center;
     v.col(i) = initial.velocity + initial.spin.cross(arm);
+    if (initial.velocity_field)
+      for (int c = 0; c < 3; ++c) v(c, i) += (*initial.velocity_field)[static_cast<std::size_t>(c)].at(parts.rest->col(i));
   }
   parts.dofs->restrict_to(u, state.q);
   parts.dofs->restrict_to(v, state.v);

@@ -139,6 +139,8 @@ const Spec<Initial>& Initial::spec() {
       Spec<Initial>()
           .key("velocity", &Initial::velocity, "Rigid velocity.", {.unit = "m/s"})
           .key("spin", &Initial::spin, "Rigid angular velocity about the centre.", {.unit = "rad/s"})
+          .key("velocity_field", &Initial::velocity_field,
+               "Velocity added to the rigid one: three formulas of the rest position.", {.unit = "m/s"})
           .key("center", &Initial::center, "Centre of spin and deformation; default the centre of mass.",
                {.unit = "m"})
           .key("deformation_gradient", &Initial::deformation_gradient, "Uniform F about the centre.")
@@ -206,7 +208,8 @@ const Spec<Scene>& Scene::spec() {
           .key("initial", &Scene::initial, "Initial state; default at rest.")
           .key("time", &Scene::time, "Time span.", {.required = true})
           .key("integrator", &Scene::integrator, "The integrator.", {.fallback = "{type: cvode_bdf}"})
-          .key("output", &Scene::output, "What is written.");
+          .key("output", &Scene::output, "What is written.")
+          .key("expect", &Scene::expect, "Known figures, which `orthodyn verify` checks.");
   return s;
 }
 

@@ -1,11 +1,13 @@
 // A scene: everything that one simulation consists of, checked, as plain data. SI units.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "lib/core/formula.h"
 #include "lib/core/registry.h"
 #include "lib/fem/elastic_term.h"
 #include "lib/fem/mass.h"
@@ -13,6 +15,7 @@
 #include "lib/material/axes.h"
 #include "lib/material/material.h"
 #include "lib/ode/integrator.h"
+#include "lib/scene/expectation.h"
 #include "lib/scene/mesh_source.h"
 
 namespace orthodyn {
@@ -77,6 +80,7 @@ struct Noise {
 struct Initial {
   Vec3 velocity = Vec3::Zero();                // m/s
   Vec3 spin = Vec3::Zero();                    // rad/s
+  std::optional<std::array<PointFormula, 3>> velocity_field;  // m/s, of the rest position
   std::optional<Vec3> center;                  // m; default the centre of mass
   std::optional<Mat3> deformation_gradient;    // about the centre
   std::optional<Noise> noise;
@@ -120,6 +124,7 @@ struct Scene {
   TimeSpan time;
   std::shared_ptr<const IntegratorChoice> integrator;
   Output output;
+  std::vector<Expectation> expect;
 
   static const Spec<Scene>& spec();
 };

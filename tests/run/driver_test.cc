@@ -122,7 +122,7 @@ TEST_F(Files, TheEnergyBalanceClosesAsTheToleranceFalls) {
   const auto drift = [&](const char* rtol) {
     Case swing(std::string(kSwing).replace(std::string(kSwing).find("1e-3"), 4, rtol) +
                "loads: [{surface: x1, force: [0, 2, 0], factor: {type: sine, frequency: 3}}]\n");
-    EnergyWriter energy(folder_ / "energy.csv", *swing.built.model, *swing.integrator, true, true);
+    EnergyWriter energy(folder_ / "energy.csv", *swing.built.model, *swing.integrator);
     swing.run_with({0, evenly_spaced(0, 0.5, 10), false}, {&energy});
     EXPECT_GT(energy.last().dissipated, 0);
     EXPECT_NE(energy.last().loads, 0);

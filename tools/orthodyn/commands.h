@@ -1,5 +1,5 @@
-// The subcommands of `orthodyn`. Each returns the exit code: 0, 2 bad input, 3 could not go on, 130
-// interrupted.
+// The subcommands of `orthodyn`. Each returns the exit code: 0, 1 an expectation was missed, 2 bad
+// input, 3 could not go on, 130 interrupted.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,15 @@ struct RunArguments {
   bool quiet = false, force = false;
 };
 
+struct VerifyArguments {
+  std::vector<std::string> places;  // files and folders
+  std::vector<std::string> set;
+  std::optional<std::string> integrator, junit;
+};
+
 int run_command(const RunArguments& arguments);
 int check_command(const RunArguments& arguments);
 int list_command(const std::string& what);
+int verify_command(const VerifyArguments& arguments);
 
 }  // namespace orthodyn

@@ -56,6 +56,10 @@ void print_scene() {
   print_entry("output.probes.<name>", "A point whose fields are recorded.", Probe::spec().keys());
 }
 
+void print_expectations() {
+  print_entry("expect.<n>", "A figure that `orthodyn verify` compares.", Expectation::spec().keys());
+}
+
 void print_fields() {
   const FemModel model{FemModel::Parts{}};
   for (const auto& info : model.outputs()) {
@@ -75,6 +79,7 @@ const std::vector<std::pair<std::string, std::function<void()>>>& chapters() {
       {"factors", print_registry<TimeFunction>},
       {"integrators", print_registry<IntegratorChoice>},
       {"solvers", print_solvers},
+      {"expect", print_expectations},
       {"fields", print_fields},
   };
   return all;

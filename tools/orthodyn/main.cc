@@ -19,8 +19,9 @@ Examples:
   orthodyn run configs/scenes/free_flight.yaml --set elasticity.corotation=warped --out out/warped
   orthodyn check configs/scenes/laminate.yaml
   orthodyn list materials
+  orthodyn verify configs/cases
 
-Exit codes: 0 done, 2 the input is at fault (nothing was written), 3 the run could not go on (what
+Exit codes: 0 done, 1 an expectation was missed, 2 the input is at fault (nothing was written), 3 the run could not go on (what
 was computed is kept), 130 interrupted (likewise).)";
 
 void add_scene_options(CLI::App& command, orthodyn::RunArguments& arguments) {
@@ -55,9 +56,21 @@ int main(int argc, char** argv) {
   auto* check = app.add_subcommand("check", "Read, validate and build a scene, and say what it consists of.");
   add_scene_options(*check, arguments);
 
+  VerifyArguments cases;
+  auto* verify = app.add_subcommand("verify", "Run scenes that expect known figures, and compare: exit code 1 on a miss.");
+  verify->add_option("places", cases.places, "Scenes with an 'expect' list, or folders of them.")
+      ->required()
+      ->type_name("DIR|FILE");
+  verify->add_option("--junit", cases.junit, "Also write the results as JUnit XML.")->type_name("FILE");
+  verify->add_option("--set", cases.set, "Change a value in every case by its path.")
+      ->type_name("PATH=VALUE")
+      ->expected(1)
+      ->take_all();
+  verify->add_option("--integrator", cases.integrator, "Short for --set integrator.type=NAME.");
+
   std::string what;
   auto* list = app.add_subcommand("list", "What can be named in a scene, each with its keys.");
-  list->add_option("what", what, "scene, materials, integrators, solvers, meshes, terms, factors, fields; all if left out.");
+  list->add_option("what", what, "scene, materials, integrators, solvers, meshes, terms, factors, expect, fields; all if left out.");
 
   try {
     app.parse(argc, argv);
@@ -69,6 +82,7 @@ int main(int argc, char** argv) {
   try {
     if (*run) return run_command(arguments);
     if (*check) return check_command(arguments);
+    if (*verify) return verify_command(cases);
     return list_command(what);
   } catch (const ConfigError& e) {
     fmt::print(stderr, "error: {}\n", e.what());

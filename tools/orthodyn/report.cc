@@ -88,14 +88,6 @@ ordered_json decisions(const Integrator& integrator) {
 
 }  // namespace
 
-void InversionWatch::look(const State& state) {
-  const auto now = model_.evaluate("det_f.smallest", state);
-  if (element_ >= 0 && now[0] >= smallest_) return;
-  smallest_ = now[0];
-  element_ = static_cast<int>(now[1]);
-  time_ = state.t;
-}
-
 std::string run_json(const RunArguments& arguments, const RunReport* report) {
   ordered_json out{{"status", report ? status_word(report->outcome.status) : "running"},
                    {"scene", arguments.scene},

@@ -57,10 +57,8 @@ class Observers {
     const auto& model = *setup.built.model;
     const auto& scene = setup.scene;
     if (!scene.output.fields.empty()) frames_.emplace(folder, model, scene.output.fields);
-    if (scene.output.energy) {
-      const bool dissipates = model.traits().damping_matrix || model.parts().mass_damping > 0;
-      energy.emplace(folder / "energy.csv", model, *setup.integrator, dissipates, !scene.loads.empty());
-    }
+    if (scene.output.energy)
+      energy.emplace(folder / "energy.csv", model, *setup.integrator);
     if (scene.output.momentum) momentum.emplace(folder / "momentum.csv", model);
     if (scene.output.steps) steps_.emplace(folder / "steps.csv");
     if (!scene.output.probes.empty())

@@ -2,11 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "lib/linear/blas.h"
-#include "lib/scene/scales.h"
-
 namespace orthodyn {
 
 namespace {
@@ -18,46 +13,12 @@ Config read_config(const RunArguments& arguments) {
   return config;
 }
 
-// Every name in `fields` must be an output of the model at one of the given places.
-void check_fields(const Model& model, const std::vector<std::string>& fields, std::vector<Location> allowed,
-                  const Origin& origin) {
-  std::vector<std::string> names;
-  for (const auto& info : model.outputs())
-    if (std::find(allowed.begin(), allowed.end(), info.location) != allowed.end()) names.push_back(info.name);
-  for (const auto& field : fields) {
-    if (std::find(names.begin(), names.end(), field) != names.end()) continue;
-    const auto near = nearest_name(field, names);
-    origin.fail(fmt::format("unknown field '{}'{}; known: {}", field,
-                            near.empty() ? "" : "; did you mean '" + near + "'?", join(names)));
-  }
-}
-
-void check_outputs(const Scene& scene, const Model& model) {
-  check_fields(model, scene.output.fields, {Location::node, Location::cell}, scene.output.origin);
-  for (const auto& [name, probe] : scene.output.probes)
-    check_fields(model, probe.fields, {Location::node}, probe.origin);
-}
-
 }  // namespace
 
 Setup set_up(const RunArguments& arguments) {
-  Config config = read_config(arguments);
-  Scene scene = read_scene(config);
-  BuiltScene built = build(scene);
-  check_outputs(scene, *built.model);
-  std::unique_ptr<Integrator> integrator;
-  try {
-    integrator = scene.integrator->make(*built.model, [&] { return estimate_scales(scene, built); });
-  } catch (const ConfigError& e) {
-    config.at("integrator").fail(e.what());
-  }
-  for (const auto& [key, value] : integrator->decisions())
-    if (key != "linear_solver") config.at("integrator").fill(key, value);
-  for (const auto& warning : built.warnings) fmt::print(stderr, "warning: {}\n", warning);
-  if (!blas_is_openblas())
-    fmt::print(stderr, "warning: the BLAS in use is not OpenBLAS; large factorisations will be several times "
-                       "slower (Debian: libopenblas0-pthread)\n");
-  return {std::move(config), std::move(scene), std::move(built), std::move(integrator)};
+  Setup setup = set_up(read_config(arguments));
+  for (const auto& warning : setup.built.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  return setup;
 }
 
 }  // namespace orthodyn

@@ -1,0 +1,62 @@
+#include "lib/scene/expectation.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace orthodyn {
+
+template <>
+struct Words<Take> {
+  static constexpr std::array<std::pair<Take, const char*>, 8> list{{{Take::end, "end"},
+                                                                     {Take::max, "max"},
+                                                                     {Take::min, "min"},
+                                                                     {Take::time_of_max, "time_of_max"},
+                                                                     {Take::time_of_min, "time_of_min"},
+                                                                     {Take::mean, "mean"},
+                                                                     {Take::frequency, "frequency"},
+                                                                     {Take::drift, "drift"}}};
+};
+
+namespace {
+
+void check_expectation(const Expectation& e, const Config& config) {
+  if (e.relative.has_value() == e.absolute.has_value()) config.fail("give exactly one of relative, absolute");
+  if (e.relative && e.value == 0) config.at("relative").fail("means nothing for the value 0; give 'absolute'");
+  if (e.at && e.take != Take::end) config.at("at").fail("stands in place of 'take'; remove one of them");
+  if (e.of && e.take != Take::drift) config.at("of").fail("goes with take: drift only");
+  if (e.source.empty()) config.at("source").fail("is empty; say where the value is known from");
+  if (e.reason.empty()) config.at("reason").fail("is empty; say why this tolerance");
+}
+
+}  // namespace
+
+const Spec<Expectation>& Expectation::spec() {
+  static const auto s =
+      Spec<Expectation>()
+          .key("quantity", &Expectation::quantity,
+               "A probe's field and component (tip.displacement.z, or .magnitude) or a scalar of the whole body "
+               "(energy.balance, momentum.angular.z, det_f.smallest).",
+               {.required = true})
+          .key("take", &Expectation::take,
+               "Which figure of its course over time. drift is the largest change from the start, relative to "
+               "`of`; default the initial size, for energy.balance the largest energy.")
+          .key("at", &Expectation::at, "The value at this time, in place of `take`.", {.unit = "s"})
+          .key("value", &Expectation::value, "The expected figure, in SI units.", {.required = true})
+          .key("source", &Expectation::source, "Where the value is known from.", {.required = true})
+          .key("relative", &Expectation::relative, "Tolerance relative to the value.", {.range = kPositive})
+          .key("absolute", &Expectation::absolute, "Tolerance in the quantity's unit.", {.range = kPositive})
+          .key("of", &Expectation::of, "What a drift is relative to.", {.range = kPositive})
+          .key("reason", &Expectation::reason, "Why the tolerance is what it is.", {.required = true})
+          .check(check_expectation);
+  return s;
+}
+
+double Expectation::limit() const { return relative ? *relative * std::abs(value) : absolute.value_or(0); }
+
+std::string Expectation::title() const {
+  if (at) return fmt::format("{} at {:.6g} s", quantity, *at);
+  return fmt::format("{} of {}", Value<Take>::yaml(take), quantity);
+}
+
+}  // namespace orthodyn

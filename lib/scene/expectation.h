@@ -1,0 +1,33 @@
+// What a scene is expected to show: one figure of its trajectory, known from elsewhere. A scene with
+// expectations is a test case for `orthodyn verify`.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "lib/core/spec.h"
+
+namespace orthodyn {
+
+// How one figure is taken from a quantity's course over time.
+enum class Take { end, max, min, time_of_max, time_of_min, mean, frequency, drift };
+
+struct Expectation {
+  std::string quantity;      // "tip.displacement.z", "energy.balance", "momentum.angular.magnitude"
+  Take take = Take::end;
+  std::optional<double> at;  // s, in place of `take`
+  double value = 0;          // in the quantity's unit, SI
+  std::string source;        // where the value is known from
+  std::optional<double> relative, absolute;  // the tolerance: one of the two
+  std::optional<double> of;  // of a drift: what it is relative to
+  std::string reason;        // why the tolerance is what it is
+  Origin origin;
+  static const Spec<Expectation>& spec();
+
+  // The largest |computed - value| that passes.
+  double limit() const;
+  // "max of tip.displacement.z"
+  std::string title() const;
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,22 @@
+// From the input to a model and its integrator, ready to run.
+#pragma once
+
+#include <memory>
+
+#include "lib/core/config.h"
+#include "lib/ode/integrator.h"
+#include "lib/scene/build.h"
+
+namespace orthodyn {
+
+struct Setup {
+  Config config;  // resolved: every default filled in, the integrator's decisions too
+  Scene scene;
+  BuiltScene built;  // with warnings for the user
+  std::unique_ptr<Integrator> integrator;
+};
+
+// Reads, validates and builds. Throws ConfigError.
+Setup set_up(Config config);
+
+}  // namespace orthodyn

@@ -1,0 +1,96 @@
+#include "lib/study/verify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "lib/run/run.h"
+#include "lib/scene/setup.h"
+#include "lib/study/series.h"
+
+namespace orthodyn {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+double relative_drift(const Expectation& e, const SeriesRecorder& recorder, std::size_t q) {
+  const Series& series = recorder.series(q);
+  double scale = e.of.value_or(0);
+  if (!e.of && e.quantity == kEnergyBalance) scale = recorder.energy_scale();
+  if (!e.of && e.quantity != kEnergyBalance)
+    for (int c = 0; c < series.components; ++c) scale = std::hypot(scale, series.values[static_cast<std::size_t>(c)]);
+  return drift(series) / scale;  // NaN or infinite without a scale: not met
+}
+
+double figure(const Expectation& e, const SeriesRecorder& recorder, std::size_t q) {
+  const Series& series = recorder.series(q);
+  if (e.at) return recorder.at(q, *e.at);
+  switch (e.take) {
+    case Take::end: return series.values.back();
+    case Take::max: return maximum(series);
+    case Take::min: return maximum(series, -1);
+    case Take::time_of_max: return time_of_maximum(series);
+    case Take::time_of_min: return time_of_maximum(series, -1);
+    case Take::mean: return mean(series);
+    case Take::frequency: return frequency(series);
+    case Take::drift: return relative_drift(e, recorder, q);
+  }
+  return 0;
+}
+
+std::vector<double> times_asked_for(const std::vector<Expectation>& expectations, double start) {
+  std::set<double> times;
+  for (const auto& e : expectations)
+    if (e.at && *e.at > start) times.insert(*e.at);
+  return {times.begin(), times.end()};
+}
+
+}  // namespace
+
+bool Check::passed() const { return std::abs(difference()) <= expectation.limit(); }
+
+bool CaseResult::passed() const {
+  return failure.empty() && std::all_of(checks.begin(), checks.end(), [](const Check& c) { return c.passed(); });
+}
+
+std::vector<std::string> find_cases(const std::vector<std::string>& places) {
+  std::vector<std::string> files;
+  for (const auto& place : places) {
+    if (!fs::exists(place)) throw ConfigError(place + ": no such file or folder");
+    if (!fs::is_directory(place)) {
+      files.push_back(place);
+      continue;
+    }
+    std::vector<std::string> here;
+    for (const auto& entry : fs::directory_iterator(place))
+      if (entry.path().extension() == ".yaml") here.push_back(entry.path().string());
+    if (here.empty()) throw ConfigError(place + ": holds no *.yaml files");
+    std::sort(here.begin(), here.end());
+    files.insert(files.end(), here.begin(), here.end());
+  }
+  return files;
+}
+
+CaseResult verify(const Config& scene) {
+  Setup setup = set_up(scene);
+  const auto& expectations = setup.scene.expect;
+  if (expectations.empty()) scene.fail("expects nothing; add a list 'expect' (see `orthodyn list expect`)");
+  const Origin origin{scene.where()};
+  std::vector<Quantity> quantities;
+  for (const auto& e : expectations)
+    quantities.push_back(find_quantity(e.quantity, setup.scene, *setup.built.model, origin));
+
+  SeriesRecorder recorder(*setup.built.model, *setup.integrator, std::move(quantities));
+  const Plan plan{setup.scene.time.end, times_asked_for(expectations, setup.scene.time.start), false};
+  const std::atomic<bool> never{false};
+  const Outcome outcome = run(*setup.built.model, *setup.integrator, setup.built.initial, plan, {&recorder}, never);
+  CaseResult result{scene.file(), outcome.message, outcome.wall_seconds, {}};
+  const bool ended = outcome.status == Outcome::Status::completed;
+  for (std::size_t q = 0; q < expectations.size(); ++q)
+    result.checks.push_back({expectations[q], ended ? figure(expectations[q], recorder, q) : std::nan("")});
+  return result;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,43 @@
+"""The ways an error is measured, in the order a reader meets them."""
+import math
+
+KINDS = {"l2": "over time (L2)", "final": "at the end", "max": "largest in time"}
+FIELDS = ("displacement", "velocity")
+DEFAULT = "displacement.l2"
+DEFINITIONS = {
+    "l2": "the root mean square over all sampled times",
+    "final": "the value at the end time",
+    "max": "the largest value over all sampled times",
+}
+
+
+def label(measure):
+    """displacement.l2 -> 'displacement, over time (L2)'."""
+    if measure == "phase":
+        return "phase of the dominant frequency"
+    what, kind = measure.rsplit(".", 1)
+    what = "probe " + what[len("probes."):] if what.startswith("probes.") else what
+    return f"{what}, {KINDS.get(kind, kind)}"
+
+
+def unit(measure):
+    return "rad" if measure == "phase" else "relative"
+
+
+def _rank(measure):
+    what, kind = measure.rsplit(".", 1) if "." in measure else (measure, "")
+    first = FIELDS.index(what) if what in FIELDS else 2 + (what == "phase")
+    return first, what, list(KINDS).index(kind) if kind in KINDS else len(KINDS)
+
+
+def present(points):
+    """Measures that at least one finished point has, in order."""
+    found = {key for p in points if p.completed for key, value in p.errors.items() if math.isfinite(value)}
+    return sorted(found, key=_rank)
+
+
+def primary(comparison):
+    """The measure that is shown first: that of the answers, else displacement over time."""
+    found = present(comparison.points)
+    wanted = [a.error for a in comparison.answers] + [DEFAULT]
+    return next((m for m in wanted if m in found), found[0] if found else DEFAULT)

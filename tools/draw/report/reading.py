@@ -1,0 +1,176 @@
+"""compare.json -> Comparison; what is wrong in the file becomes one line with its place."""
+import json
+import math
+
+import numpy as np
+
+from ..errors import DrawError, unknown
+from ..series import result_folder
+from .comparison import (PARTS, Answer, Comparison, Control, Method, Order, Point, Problem, Reference, Spread,
+                         Work)
+
+FORMAT = 1
+FILE = "compare.json"
+
+
+class Node:
+    """An object of the file with its place, `points[3].wall`; null and missing keys read as unknown."""
+
+    def __init__(self, file, place, value):
+        self.file, self.place = file, place
+        if not isinstance(value, dict):
+            raise self.wrong(None, value, "an object {...}")
+        self.value = value
+
+    def wrong(self, key, found, wanted):
+        place = ".".join(str(part) for part in (self.place, key) if part) or "the file"
+        return DrawError(f"{self.file}: {place}: found {json.dumps(found)[:60]} where {wanted} belongs; "
+                         "was it changed by hand? `orthodyn compare` writes it anew")
+
+    def text(self, key, default=""):
+        value = self.value.get(key)
+        if isinstance(value, (dict, list)):
+            raise self.wrong(key, value, "a text")
+        return default if value is None else str(value)
+
+    def needed(self, key):
+        value = self.text(key)
+        if not value:
+            raise self.wrong(key, None, "a name")
+        return value
+
+    def number(self, key):
+        value = self.value.get(key)
+        if value is None:
+            return math.nan
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise self.wrong(key, value, "a number")
+        return float(value)
+
+    def numbers(self):
+        """All values that are numbers, by key."""
+        return {key: self.number(key) for key, value in self.value.items() if not isinstance(value, (str, dict, list))}
+
+    def texts(self):
+        return {key: self.text(key) for key, value in self.value.items() if value is not None}
+
+    def child(self, key):
+        value = self.value.get(key)
+        return Node(self.file, f"{self.place}.{key}".lstrip("."), {} if value is None else value)
+
+    def list(self, key):
+        value = self.value.get(key)
+        if value is not None and not isinstance(value, list):
+            raise self.wrong(key, value, "a list [...]")
+        return value or []
+
+    def children(self, key):
+        return [Node(self.file, f"{self.place}.{key}[{k}]".lstrip("."), value)
+                for k, value in enumerate(self.list(key))]
+
+    def series(self, key):
+        try:
+            return np.array([math.nan if v is None else v for v in self.list(key)], float)
+        except (TypeError, ValueError):
+            raise self.wrong(key, self.value[key], "a list of numbers") from None
+
+    def one_of(self, key, known):
+        """A name that must be among `known`."""
+        name = self.needed(key)
+        if name not in known:
+            raise DrawError(f"{self.file}: {self.place}.{key}: {unknown(key, name, known)}")
+        return name
+
+
+def _errors(node):
+    """{"displacement": {"l2": x}, "phase": y} as {"displacement.l2": x, "phase": y}."""
+    flat = {"phase": node.number("phase")} if "phase" in node.value else {}
+    for name in ("displacement", "velocity"):
+        flat.update({f"{name}.{kind}": x for kind, x in node.child(name).numbers().items()})
+    probes = node.child("probes")
+    for name in probes.value:
+        flat.update({f"probes.{name}.{kind}": x for kind, x in probes.child(name).numbers().items()})
+    return flat
+
+
+def _reference(node):
+    return Reference(node.text("kind", "none"), node.text("method"), node.text("check"), node.number("seconds"),
+                     node.text("message"), _errors(node.child("errors")))
+
+
+def _problem(node):
+    scales, time = node.child("scales"), node.child("time")
+    name = node.needed("id")
+    return Problem(name, node.text("label", name), node.text("scene"), node.child("set").texts(),
+                   node.text("sentence"), *map(node.number, ("unknowns", "elements", "nodes")), time.number("start"),
+                   time.number("end"), scales.numbers(), scales.text("words"), node.child("probe_scales").numbers(),
+                   node.number("dominant_frequency"), _reference(node.child("reference")))
+
+
+def _method(node):
+    name = node.needed("id")
+    return Method(name, node.text("label", name), node.text("integrator"), node.text("sentence"),
+                  node.child("set").texts(), node.text("control"))
+
+
+def _spread(node):
+    return Spread(node.number("median"), node.number("min"), node.number("max"))
+
+
+def _point(index, node, problems, methods):
+    control, statistics, drift = node.child("control"), node.child("statistics"), node.child("drift_over_time")
+    times, energy = drift.series("t"), drift.series("energy")
+    if len(times) != len(energy):
+        raise drift.wrong("energy", len(energy), f"a list of {len(times)} numbers, as in t,")
+    works = {part: statistics.child(part) for part in PARTS}
+    return Point(
+        index, node.one_of("problem", problems), node.one_of("method", methods),
+        Control(control.text("kind"), control.number("value")), node.text("status", "failed"), node.text("reason"),
+        node.text("message"), node.number("time_reached"), node.number("repeats"),
+        {clock: _spread(node.child(clock)) for clock in ("wall", "cpu")}, statistics.numbers(),
+        {part: Work(n.number("count"), n.number("seconds")) for part, n in works.items()},
+        node.number("peak_memory_bytes"), node.number("factor_bytes"), _errors(node.child("errors")),
+        {str(key) for key in node.list("near_reference")}, node.child("drift").numbers(), times, energy,
+        node.number("smallest_det_f"), node.child("decisions").texts(), node.text("scene"))
+
+
+def _answer(node, problems, methods):
+    entries = [(e.one_of("method", methods), e) for e in node.children("methods")]
+    return Answer(node.one_of("problem", problems), node.text("error"), node.number("target"),
+                  {name: e.number("seconds") for name, e in entries},
+                  {name: e.number("best_error") for name, e in entries})
+
+
+def _parsed(path):
+    """The file's JSON, checked to be a comparison that this program can read."""
+    if not path.is_file():
+        raise DrawError(f"{path}: missing; `orthodyn compare FILE.yaml --out {path.parent}` writes it")
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except (json.JSONDecodeError, UnicodeDecodeError) as error:
+        raise DrawError(f"{path}: not readable as JSON ({error}); if it is cut off, let `orthodyn compare` finish "
+                        "or run it again") from None
+    found = content.get("orthodyn_comparison") if isinstance(content, dict) else None
+    if found is None:
+        raise DrawError(f"{path}: no comparison, the key orthodyn_comparison is missing; "
+                        "give the folder that `orthodyn compare` wrote")
+    if found != FORMAT:
+        raise DrawError(f"{path}: written in format {json.dumps(found)}, readable is format {FORMAT}; "
+                        "use the `draw` and the `orthodyn` of one version")
+    return content
+
+
+def read_comparison(folder):
+    path = result_folder(folder) / FILE
+    node = Node(path, "", _parsed(path))
+    problems = [_problem(n) for n in node.children("problems")]
+    methods = [_method(n) for n in node.children("methods")]
+    ids, names = [p.id for p in problems], [m.id for m in methods]
+    return Comparison(
+        node.text("name", path.parent.name), node.text("title"), node.text("description"), node.text("file"),
+        node.text("started"), node.value.get("complete") is True, node.number("planned_points"),
+        node.child("machine").texts(), node.child("versions").texts(), node.child("settings").texts(), problems, methods,
+        [_point(k, n, ids, names) for k, n in enumerate(node.children("points"))],
+        [_answer(n, ids, names) for n in node.children("answers")],
+        [Order(n.text("problem"), n.text("method"), n.text("error"), n.number("slope"))
+         for n in node.children("orders")])

@@ -1,0 +1,74 @@
+"""How runs are drawn against a control or the time: markers, lines, the lane of failures, their labels."""
+import numpy as np
+
+from ..chart import spread
+from . import theme
+from .scale import positive
+from .theme import LIGHT
+
+LANE_ROW = 13
+LANE_GAP = 6
+FAILURE_EDGE = {"marker": "x", "mew": 1.9, "ms": 7, "ls": "none"}
+
+
+def lane_height(failing):
+    """Pixels of the lane with one row per method that failed somewhere."""
+    return max(20, LANE_ROW * len(failing) + 6) if failing else 0
+
+
+def draw_runs(axes, index, runs, hollow):
+    """A method's runs (x, y, point) as a line with one mark each; `hollow` is a set of point indices."""
+    colour = theme.colour(index)
+    axes.plot([x for x, _, _ in runs], [y for _, y, _ in runs], color=colour, lw=1.7, ls=theme.dashes(index),
+              gid=f"me-{index}", zorder=3)
+    for x, y, point in runs:
+        open_ = point.index in hollow
+        axes.plot([x], [y], marker=theme.marker(index), ms=theme.marker_size(index, 8.5), ls="none",
+                  mfc=LIGHT["paper"] if open_ else colour, mec=colour if open_ else LIGHT["paper"],
+                  mew=1.3 if open_ else 0.9, alpha=1.0, gid=f"pt-{point.index}-{index}", zorder=4)
+
+
+def draw_lane(lane, failing, place):
+    """Crosses of failed runs: {method index: points}; `place(point)` is x, or nan where it is not known."""
+    lane.set_facecolor(LIGHT["lane"])
+    lane.grid(False)
+    lane.spines["bottom"].set_visible(False)
+    lane.tick_params(labelbottom=False, labelleft=False)
+    lane.set_yticks([])
+    lane.set_ylim(len(failing) - 0.5 + 0.15, -0.5 - 0.15)
+    low, _ = lane.get_xlim()
+    for row, (index, points) in enumerate(failing.items()):
+        for point in points:
+            x = place(point)
+            lane.plot([x if np.isfinite(x) and x > 0 else low], [row], color=theme.colour(index),
+                      clip_on=False, gid=f"pt-{point.index}-{index}", **FAILURE_EDGE)
+
+
+def label_right(sheet, box, entries, ends):
+    """Names right of the axes near their lines' ends (0 top to 1 bottom); `box` is left, top, width, height."""
+    left, top, width, height = box
+    wanted = np.array([top + height * np.clip(end, 0, 1) for end in ends])
+    placed = spread(wanted, 20.0)
+    # Names moved apart as one group may leave the sheet; the group comes back as a whole.
+    placed = placed + min(0.0, top + height - placed.max()) if placed.size else placed
+    placed = placed + max(0.0, top + 4 - placed.min()) if placed.size else placed
+    for (index, words, muted), y in zip(entries, placed):
+        sheet.method_label(left + width + 14, y, index, words, muted)
+
+
+def end_fraction(axes, value):
+    """Where a value is on a logarithmic y axis, 0 at the top."""
+    low, high = np.log10(axes.get_ylim())
+    if not positive([value]).size:
+        return 0.0
+    return 1 - (np.log10(value) - low) / (high - low)
+
+
+def draw_unresolved(axes, bound, words):
+    """Shades what is below `bound`, ten times the reference's own error."""
+    low, high = axes.get_ylim()
+    if not bound > low:
+        return
+    axes.axhspan(low, min(bound, high), color=LIGHT["band"], lw=0, zorder=0)
+    axes.annotate(words, (1, min(bound, high)), xycoords=("axes fraction", "data"), xytext=(-6, -5),
+                  textcoords="offset points", ha="right", va="top", fontsize=11, color=LIGHT["muted"], zorder=1)

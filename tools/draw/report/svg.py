@@ -1,0 +1,101 @@
+"""A figure as SVG text to be put into the page: small, in CSS variables, with marks that a script finds."""
+import io
+import re
+import xml.etree.ElementTree as ElementTree
+
+import matplotlib
+from matplotlib.backends.backend_svg import FigureCanvasSVG
+
+from .theme import LIGHT
+
+SVG = "{http://www.w3.org/2000/svg}"
+LINK = "{http://www.w3.org/1999/xlink}href"
+DROPPED = ("metadata", "style", "title")
+NUMBER = re.compile(r"-?\d+\.\d+")
+VARIABLES = {hexadecimal: f"var(--{name})" for name, hexadecimal in LIGHT.items()}
+ElementTree.register_namespace("", SVG[1:-1])
+
+
+def raw_svg(figure, salt, fonttype="none"):
+    """What matplotlib writes; `salt` makes the ids of this figure its own."""
+    stream = io.StringIO()
+    with matplotlib.rc_context({"svg.fonttype": fonttype, "svg.hashsalt": salt}):
+        FigureCanvasSVG(figure).print_svg(stream, metadata={"Date": None})
+    return stream.getvalue()
+
+
+def _rounded(text, digits):
+    return NUMBER.sub(lambda m: f"{float(m.group()):.{digits}f}".rstrip("0").rstrip(".").replace("-0", "-0")
+                      if float(m.group()) else "0", text)
+
+
+def _themed(style):
+    """Colours become variables; the font is the page's."""
+    style = re.sub(r"#[0-9a-f]{6}", lambda m: VARIABLES.get(m.group(), m.group()), style)
+    style = re.sub(r"font: (?:(bold|\d+) )?([\d.]+)px [^;]*", _font, style)
+    return re.sub(r";\s*$", "", re.sub(r"([:;]) ", r"\1", style))
+
+
+def _font(match):
+    weight, size = match.groups()
+    return f"font-size:{size}px" + (f";font-weight:{weight}" if weight else "")
+
+
+def _marked(element, identity):
+    """gid `pt-INDEX-METHOD` or `me-METHOD` as data attributes."""
+    kind, *numbers = identity.split("-")
+    if kind == "pt":
+        element.set("data-p", numbers[0])
+    element.set("data-m", numbers[-1])
+
+
+def _short_names(root, salt):
+    """New names of the ids that something refers to."""
+    used = set()
+    for element in root.iter():
+        for value in element.attrib.values():
+            used.update(re.findall(r"(?:url\(#|^#)([^)]+)", value))
+    return {old: f"{salt}-{k}" for k, old in enumerate(sorted(used))}
+
+
+def _cleaned(element, names, in_definition=False):
+    for child in list(element):
+        if child.tag.replace(SVG, "") in DROPPED:
+            element.remove(child)
+    for key, value in list(element.attrib.items()):
+        if key == "id":
+            del element.attrib["id"]
+            if re.match(r"(pt|me)-\d", value):
+                _marked(element, value)
+            elif value in names:
+                element.set("id", names[value])
+        elif key == LINK:
+            del element.attrib[LINK]
+            element.set("href", "#" + names[value[1:]])
+        elif key == "style":
+            element.set(key, _themed(value))
+        else:
+            value = re.sub(r"url\(#([^)]+)\)", lambda m: f"url(#{names[m.group(1)]})", value)
+            rounded = key in ("d", "x", "y", "transform", "width", "height")
+            element.set(key, _rounded(value, 2 if in_definition or key == "transform" else 1) if rounded else value)
+    for child in element:
+        _cleaned(child, names, in_definition or element.tag == SVG + "defs")
+
+
+def page_svg(sheet, salt):
+    """The sheet's SVG element for the page; `salt` must be unique in the page and begin with a letter."""
+    text = raw_svg(sheet.figure, salt)
+    root = ElementTree.fromstring(text[text.index("<svg"):])
+    _cleaned(root, _short_names(root, salt))
+    for key in ("width", "height", "version"):
+        root.attrib.pop(key, None)
+    root.set("viewBox", f"0 0 {sheet.width:g} {sheet.height:g}")
+    root.set("role", "img")
+    root.set("aria-label", sheet.description)
+    root.set("tabindex", "0")
+    text = ElementTree.tostring(root, encoding="unicode").replace(' xmlns="http://www.w3.org/2000/svg"', "", 1)
+    return re.sub(r">\s+<", "><", re.sub(r'(\sd=")([^"]*)', lambda m: m.group(1) + _joined_path(m.group(2)), text))
+
+
+def _joined_path(path):
+    return re.sub(r"\s*\n\s*", "", path).strip()

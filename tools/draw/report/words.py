@@ -1,0 +1,93 @@
+"""Numbers and times for people; '–' stands for what is not known."""
+import math
+
+UNKNOWN = "–"
+SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+THIN = "\u202f"  # narrow no-break space
+
+
+def known(x):
+    return x is not None and math.isfinite(x)
+
+
+def exponent(x, digits=2):
+    """0.0032 -> '3.2e-3', 1e-3 -> '1e-3'."""
+    if not known(x):
+        return UNKNOWN
+    if x == 0:
+        return "0"
+    mantissa, power = f"{x:.{digits - 1}e}".split("e")
+    mantissa = mantissa.rstrip("0").rstrip(".") if "." in mantissa else mantissa
+    return f"{mantissa}e{int(power)}"
+
+
+def fixed_exponent(x):
+    """For columns: always two digits, 1e-3 -> '1.0e-3'."""
+    if not known(x) or x == 0:
+        return exponent(x)
+    mantissa, power = f"{x:.1e}".split("e")
+    return f"{mantissa}e{int(power)}"
+
+
+def percent(x):
+    """1e-3 -> '0.1 %'; '' where per cent would not help."""
+    return f"{100 * x:.2g}{THIN}%" if known(x) and 1e-6 <= x <= 1 else ""
+
+
+def seconds(x):
+    """Two or three digits and a unit: '24 ms', '0.24 s', '12.3 s', '34 min'."""
+    if not known(x):
+        return UNKNOWN
+    for factor, unit, from_ in ((3600, "h", 2 * 3600), (60, "min", 600), (1, "s", 0.095), (1e-3, "ms", 0.095e-3)):
+        if x >= from_:
+            return f"{_digits(x / factor)}{THIN}{unit}"
+    return f"{_digits(x / 1e-6)}{THIN}µs"
+
+
+def _digits(x):
+    if x == 0 or not 1e-3 <= x < 1e6:
+        return f"{x:.3g}"
+    return f"{x:.{max(0, 1 - math.floor(math.log10(x)))}f}" if x < 100 else f"{x:.0f}"
+
+
+def plain_seconds(x):
+    """For columns headed by 's'."""
+    if not known(x):
+        return UNKNOWN
+    return f"{x:.3f}" if x < 10 else f"{x:.1f}" if x < 1000 else f"{x:.0f}"
+
+
+def count(x):
+    """12345 -> '12 345' with a narrow space."""
+    return f"{x:,.0f}".replace(",", THIN) if known(x) else UNKNOWN
+
+
+def megabytes(x):
+    return f"{x / 1e6:,.0f}".replace(",", THIN) if known(x) else UNKNOWN
+
+
+def general(x, digits=4):
+    return f"{x:.{digits}g}" if known(x) else UNKNOWN
+
+
+def control(control):
+    """'rtol 1e-3', 'step 2 ms'."""
+    if not known(control.value):
+        return control.kind or UNKNOWN
+    value = seconds(control.value) if control.kind == "step" else exponent(control.value, 3)
+    return f"{control.kind} {value}"
+
+
+def power_of_ten(x):
+    """1e-3 -> '10⁻³', for axes."""
+    return "10" + str(round(math.log10(x))).translate(SUPERSCRIPT)
+
+
+def joined(parts):
+    """'a', 'a and b', 'a, b and c'."""
+    parts = list(parts)
+    return " and ".join([", ".join(parts[:-1]), parts[-1]] if len(parts) > 1 else parts)
+
+
+def plural(number, noun):
+    return f"{count(number)} {noun}" + ("" if number == 1 else "s")

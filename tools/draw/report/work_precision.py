@@ -1,0 +1,117 @@
+"""The work-precision diagram: error against time, both logarithmic, one line per method."""
+import numpy as np
+
+from . import measures, words
+from .comparison import NEAR_REFERENCE
+from .runs import LANE_GAP, draw_lane, draw_runs, draw_unresolved, end_fraction, label_right, lane_height
+from .scale import error_tick, limits, positive, seconds_tick, set_log
+from .sheet import WIDE, Sheet, legend_columns, legend_height, shortened, side_margin, styled
+from .theme import LIGHT, colour
+
+SHOW_BAND_WITHIN = 30.0  # of the smallest error; a band further below would squeeze the lines
+
+
+def runs_of(comparison, problem, method, measure, clock):
+    """(seconds, error, point) of the finished runs that a logarithmic diagram can show."""
+    found = [(p.seconds(clock), p.error(measure), p) for p in comparison.finished(problem, method.id)]
+    return [run for run in found if positive(run[:2]).size == 2]
+
+
+def failing_methods(comparison, problem):
+    """{method index: failed points}, without methods that never failed."""
+    found = {k: comparison.failed(problem, m.id) for k, m in enumerate(comparison.methods)}
+    return {k: points for k, points in found.items() if points}
+
+
+def error_limits(errors, bound):
+    """Limits of the error axis, down to the band of unresolved errors where it is near."""
+    errors = positive(errors)
+    low, high = limits(errors)
+    if errors.size and bound > errors.min() / SHOW_BAND_WITHIN:
+        low = min(low, bound / 6)
+    return low, high
+
+
+def unresolved_words(problem, measure, narrow):
+    own = words.exponent(problem.reference.errors.get(measure, np.nan))
+    return f"not resolved: below 10 × {own}" if narrow else f"not resolved: below 10 × the reference's own error ({own})"
+
+
+def title_of(measure):
+    return f"Error: {measures.label(measure)}" + (" [rad]" if measure == "phase" else "")
+
+
+def _entries(comparison, problem, runs):
+    """Labels of the methods that ran: (index, words, muted); muted without a finished run."""
+    ran = {p.method for p in comparison.points_of(problem)}
+    return [(k, shortened(m.label, 26), not runs[k]) for k, m in enumerate(comparison.methods) if m.id in ran]
+
+
+def _description(problem, measure, runs, comparison):
+    best = [f"{comparison.methods[k].label} {words.exponent(min(e for _, e, _ in r))} in at most "
+            f"{words.seconds(max(t for t, _, _ in r))}" for k, r in runs.items() if r]
+    return (f"Work-precision diagram of {problem.label}, {measures.label(measure)}. Smallest error: "
+            f"{'; '.join(best) or 'no finished run'}.")
+
+
+def _whiskers(axes, index, runs, clock):
+    """Thin lines from the fastest to the slowest repeat."""
+    spans = [(p.clocks[clock].min, p.clocks[clock].max, error) for _, error, p in runs]
+    spans = [s for s in spans if positive(s[:2]).size == 2 and s[1] > 1.05 * s[0]]
+    if spans:
+        axes.plot([x for low, high, _ in spans for x in (low, high, np.nan)],
+                  [y for *_, y in spans for y in (y, y, np.nan)], color=colour(index), lw=1, alpha=0.55,
+                  gid=f"me-{index}", zorder=2)
+
+
+def _layout(width, entries, failing):
+    """The sheet and the boxes of axes and lane, (left, top, width, height)."""
+    narrow = width < WIDE
+    lane = lane_height(failing)
+    left, right = (46, 12) if narrow else (54, side_margin(entries))
+    columns = legend_columns(entries)
+    top, height = 40 + (lane + LANE_GAP if lane else 0), (290 if narrow else 400)
+    below = 62 + (legend_height(entries, columns) if narrow else 0)
+    sheet = Sheet(width, top + height + below)
+    return sheet, (left, top, width - left - right, height), (left, 40, width - left - right, lane), columns
+
+
+@styled
+def draw_work_precision(comparison, problem, measure, clock, width):
+    runs = {k: runs_of(comparison, problem, m, measure, clock) for k, m in enumerate(comparison.methods)}
+    failing, entries = failing_methods(comparison, problem), _entries(comparison, problem, runs)
+    sheet, box, lane_box, columns = _layout(width, entries, failing)
+    sheet.description = _description(problem, measure, runs, comparison)
+    bound = NEAR_REFERENCE * problem.reference.errors.get(measure, np.nan)
+    axes = sheet.axes(*box)
+    times = [t for r in runs.values() for t, _, _ in r] + [p.seconds(clock) for f in failing.values() for p in f]
+    set_log(axes, "x", *limits(times), seconds_tick, 4 if sheet.narrow else 8)
+    set_log(axes, "y", *error_limits([e for r in runs.values() for _, e, _ in r], bound), error_tick)
+    draw_unresolved(axes, bound, unresolved_words(problem, measure, sheet.narrow))
+    for k, found in runs.items():
+        if found:
+            hollow = {p.index for _, _, p in found if comparison.is_near_reference(p, measure)}
+            _whiskers(axes, k, found, clock)
+            draw_runs(axes, k, found, hollow)
+    _furnish(sheet, axes, box, measure, clock)
+    if failing:
+        lane = sheet.axes(*lane_box, sharex=axes)
+        draw_lane(lane, failing, lambda p: p.seconds(clock))
+        sheet.text(box[0] - 8, lane_box[1] + lane_box[3] / 2, "failed", ha="right", fontsize=11, color=LIGHT["muted"])
+    if sheet.narrow:
+        sheet.legend(box[1] + box[3] + 52, entries, columns)
+    else:
+        ends = [end_fraction(axes, runs[k][-1][1]) if runs[k] else 0.0 for k, _, _ in entries]
+        label_right(sheet, box, entries, ends)
+    return sheet
+
+
+def _furnish(sheet, axes, box, measure, clock):
+    """Words at the axes; without any finished run they say so."""
+    left, top, width, height = box
+    sheet.text(8, 16, title_of(measure), weight="bold")
+    name = "Wall time" if clock == "wall" else "CPU time"
+    hint = "" if sheet.narrow else "   (left and down is better)"
+    sheet.text(left + width / 2, top + height + 40, f"{name}, median of repeats{hint}", ha="center")
+    if not axes.lines:
+        sheet.text(left + width / 2, top + height / 2, "no finished run", ha="center", color=LIGHT["muted"])

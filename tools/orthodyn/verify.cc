@@ -1,0 +1,82 @@
+// `orthodyn verify`: scenes with known figures, as a table of targets and what was computed.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "lib/run/files.h"
+#include "lib/scene/scene.h"
+#include "lib/study/verify.h"
+#include "tools/orthodyn/commands.h"
+
+namespace orthodyn {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string case_name(const CaseResult& result) { return fs::path(result.file).stem().string(); }
+
+// How wide the columns of names must be.
+struct Widths {
+  std::size_t name = 4, quantity = 8;
+};
+
+void print_head(const Widths& widths) {
+  fmt::print("{:<{}}  {:<{}}  {:>12}  {:>12}  {:>10}  {:>8}\n", "case", widths.name, "quantity", widths.quantity, "target",
+             "computed", "difference", "limit");
+}
+
+void print_result(const CaseResult& result, const Widths& widths) {
+  for (const auto& check : result.checks)
+    fmt::print("{:<{}}  {:<{}}  {:>12.6g}  {:>12.6g}  {:>10.2e}  {:>8.1e}  {}\n", case_name(result), widths.name,
+               check.expectation.title(), widths.quantity, check.expectation.value, check.computed, check.difference(),
+               check.expectation.limit(), check.passed() ? "pass" : "MISS");
+  if (!result.failure.empty()) fmt::print("{:<{}}  {}\n", "", widths.name, result.failure);
+  for (const auto& check : result.checks)
+    if (result.failure.empty() && !check.passed())
+      fmt::print("{:<{}}  {}: expected from {}; tolerance: {}\n", "", widths.name, check.expectation.title(),
+                 check.expectation.source, check.expectation.reason);
+  std::fflush(stdout);
+}
+
+struct Cases {
+  std::vector<Config> configs;
+  Widths widths;
+};
+
+// Read before anything runs: a typing error in the last file must not wait for the others.
+Cases read_cases(const VerifyArguments& arguments) {
+  Cases cases;
+  for (const auto& file : find_cases(arguments.places)) {
+    Config config = Config::from_file(file);
+    if (arguments.integrator) config.override_with("integrator.type=" + *arguments.integrator);
+    for (const auto& assignment : arguments.set) config.override_with(assignment);
+    cases.widths.name = std::max(cases.widths.name, fs::path(file).stem().string().size());
+    for (const auto& e : read_scene(config).expect)
+      cases.widths.quantity = std::max(cases.widths.quantity, e.title().size());
+    cases.configs.push_back(std::move(config));
+  }
+  return cases;
+}
+
+}  // namespace
+
+int verify_command(const VerifyArguments& arguments) {
+  const auto [configs, widths] = read_cases(arguments);
+  print_head(widths);
+  std::vector<CaseResult> results;
+  std::size_t missed = 0;
+  double seconds = 0;
+  for (const auto& config : configs) {
+    results.push_back(verify(config));
+    print_result(results.back(), widths);
+    if (!results.back().passed()) ++missed;
+    seconds += results.back().seconds;
+  }
+  if (arguments.junit) write_file(*arguments.junit, {junit_xml(results)});
+  fmt::print("{} of {} cases pass ({:.1f} s)\n", results.size() - missed, results.size(), seconds);
+  return missed == 0 ? 0 : 1;
+}
+
+}  // namespace orthodyn
