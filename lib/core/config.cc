@@ -108,6 +108,11 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
+void put_on_one_line(YAML::Node node) {
+  if (node.IsMap() || node.IsSequence()) node.SetStyle(YAML::EmitterStyle::Flow);
+  for (auto child : node) put_on_one_line(node.IsMap() ? child.second : YAML::Node(child));
+}
+
 // How often `node` stands below `root`; an alias repeats it, and writing to one place writes to all.
 int occurrences(const YAML::Node& root, const YAML::Node& node) {
   int count = root.is(node) ? 1 : 0;
@@ -287,6 +292,14 @@ std::string Config::file_path() const {
 
 void Config::fail(const std::string& message) const {
   throw ConfigError(where() + ": " + message);
+}
+
+std::string Config::yaml() const {
+  YAML::Node copy = YAML::Clone(place_->node);
+  put_on_one_line(copy);
+  YAML::Emitter out;
+  out << copy;
+  return out.c_str();
 }
 
 std::string Config::dump() const {

@@ -61,6 +61,9 @@ class Config {
 
   [[noreturn]] void fail(const std::string& message) const;
 
+  // What stands here, as YAML on one line.
+  std::string yaml() const;
+
   // The whole document as YAML.
   std::string dump() const;
 

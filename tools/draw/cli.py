@@ -17,7 +17,8 @@ examples:
   draw strip out/beam --count 6 --ghost                six frames with the rest shape's outline
   draw strip out/beam --times 0,0.1,0.4 --scale 20     deformation enlarged twenty times
   draw animate out/beam --every 4 --fps 20
-  draw energy out/beam"""
+  draw energy out/beam
+  draw report out/compare                              a comparison as one page, report.html"""
 COLORS = """colours (--color FIELD[.COMPONENT]):
   displacement, velocity      .x .y .z .magnitude (default)
   stress                      .xx .yy .zz .xy .yz .zx .magnitude .von_mises (default)
@@ -114,6 +115,10 @@ def _parser():
     command("steps", "Step size with order and rejections, Newton iterations, from steps.csv.")
     command("probes", "Probed values over time, from probes.csv.")
     command("momentum", "Linear and angular momentum over time, from momentum.csv.")
+    report = commands.add_parser("report", help="One HTML page and paper figures of a comparison, from compare.json.",
+                                 description="One HTML page and paper figures of a comparison, from compare.json.")
+    report.add_argument("result", metavar="RESULT", help="folder that `orthodyn compare` wrote")
+    report.add_argument("-o", "--out", type=Path, metavar="FILE", help="the page (default: RESULT/report.html)")
     every = body("all", "Strip, animation and all curves into RESULT/pictures.")
     every.set_defaults(count=6, times=None, fps=15.0, every=None)
     return parser
@@ -175,7 +180,12 @@ def _all(args):
             yield from run(args)
 
 
-COMMANDS = {"frame": _frame, "strip": _strip, "animate": _animate, "all": _all}
+def _report(args):
+    from .report import write_report
+    yield from write_report(args.result, args.out)
+
+
+COMMANDS = {"report": _report, "frame": _frame, "strip": _strip, "animate": _animate, "all": _all}
 
 
 def _joined(arguments):

@@ -22,9 +22,17 @@ struct VerifyArguments {
   std::optional<std::string> integrator, junit;
 };
 
+struct CompareArguments {
+  std::string comparison;
+  std::optional<std::string> out;
+  bool quiet = false, no_report = false;
+};
+
 int run_command(const RunArguments& arguments);
 int check_command(const RunArguments& arguments);
 int list_command(const std::string& what);
+int compare_command(const CompareArguments& arguments);
+int measure_command(const std::string& folder);  // one point of a comparison, in its own process
 int verify_command(const VerifyArguments& arguments);
 
 }  // namespace orthodyn

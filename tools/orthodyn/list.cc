@@ -7,6 +7,7 @@
 #include "lib/linear/solver.h"
 #include "lib/scene/build.h"
 #include "lib/scene/scene.h"
+#include "lib/study/comparison.h"
 #include "tools/orthodyn/commands.h"
 
 namespace orthodyn {
@@ -60,6 +61,13 @@ void print_expectations() {
   print_entry("expect.<n>", "A figure that `orthodyn verify` compares.", Expectation::spec().keys());
 }
 
+void print_comparison() {
+  print_entry("comparison", "The keys of a comparison, for `orthodyn compare`.", Comparison::spec().keys());
+  print_entry("scenes.<n>", "A scene of a comparison.", SceneEntry::spec().keys());
+  print_entry("limits", "Of each point of a comparison.", Limits::spec().keys());
+  print_entry("reference", "What errors are measured against.", ReferenceOptions::spec().keys());
+}
+
 void print_fields() {
   const FemModel model{FemModel::Parts{}};
   for (const auto& info : model.outputs()) {
@@ -80,6 +88,7 @@ const std::vector<std::pair<std::string, std::function<void()>>>& chapters() {
       {"integrators", print_registry<IntegratorChoice>},
       {"solvers", print_solvers},
       {"expect", print_expectations},
+      {"comparison", print_comparison},
       {"fields", print_fields},
   };
   return all;

@@ -19,6 +19,7 @@ Examples:
   orthodyn run configs/scenes/free_flight.yaml --set elasticity.corotation=warped --out out/warped
   orthodyn check configs/scenes/laminate.yaml
   orthodyn list materials
+  orthodyn compare configs/comparisons/damped_beam.yaml
   orthodyn verify configs/cases
 
 Exit codes: 0 done, 1 an expectation was missed, 2 the input is at fault (nothing was written), 3 the run could not go on (what
@@ -56,6 +57,20 @@ int main(int argc, char** argv) {
   auto* check = app.add_subcommand("check", "Read, validate and build a scene, and say what it consists of.");
   add_scene_options(*check, arguments);
 
+  CompareArguments comparison;
+  auto* compare = app.add_subcommand(
+      "compare", "Compare integrators on scenes: error against time, as a report, CSV and JSON. Run again, it goes on.");
+  compare->add_option("comparison", comparison.comparison, "A comparison in YAML.")
+      ->required()
+      ->type_name("COMPARISON.yaml");
+  compare->add_option("--out", comparison.out, "Folder for the results; default out/<comparison>.")->type_name("DIR");
+  compare->add_flag("--quiet", comparison.quiet, "Say nothing but errors.");
+  compare->add_flag("--no-report", comparison.no_report, "Write compare.json and compare.csv only.");
+
+  std::string folder;
+  auto* measure = app.add_subcommand("measure", "One point of a comparison; called by compare.")->group("");
+  measure->add_option("folder", folder)->required();
+
   VerifyArguments cases;
   auto* verify = app.add_subcommand("verify", "Run scenes that expect known figures, and compare: exit code 1 on a miss.");
   verify->add_option("places", cases.places, "Scenes with an 'expect' list, or folders of them.")
@@ -70,7 +85,7 @@ int main(int argc, char** argv) {
 
   std::string what;
   auto* list = app.add_subcommand("list", "What can be named in a scene, each with its keys.");
-  list->add_option("what", what, "scene, materials, integrators, solvers, meshes, terms, factors, expect, fields; all if left out.");
+  list->add_option("what", what, "scene, materials, integrators, solvers, meshes, terms, factors, expect, comparison, fields; all if left out.");
 
   try {
     app.parse(argc, argv);
@@ -82,6 +97,8 @@ int main(int argc, char** argv) {
   try {
     if (*run) return run_command(arguments);
     if (*check) return check_command(arguments);
+    if (*compare) return compare_command(comparison);
+    if (*measure) return measure_command(folder);
     if (*verify) return verify_command(cases);
     return list_command(what);
   } catch (const ConfigError& e) {

@@ -2,25 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <thread>
-
-#include "lib/core/versions.h"
-#include "lib/linear/blas.h"
+#include "lib/study/machine.h"
 
 namespace orthodyn {
 
 namespace {
-
-using nlohmann::ordered_json;
-
-std::string processor() {
-  std::ifstream in("/proc/cpuinfo");
-  for (std::string line; std::getline(in, line);)
-    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
-  return "unknown";
-}
 
 const char* status_word(Outcome::Status status) {
   switch (status) {
@@ -31,30 +17,8 @@ const char* status_word(Outcome::Status status) {
   return "";
 }
 
-ordered_json versions() {
-  ordered_json out{{"orthodyn", orthodyn_version()}};
-  for (const auto& [library, version] : library_versions()) out[library] = version;
-  out["BLAS"] = blas_name();
-  return out;
-}
-
-ordered_json cost(const Cost& c) { return {{"count", c.count}, {"seconds", c.seconds}}; }
-
-ordered_json statistics(const Statistics& s) {
-  return {{"steps", s.steps},
-          {"rejected_steps", s.rejected_steps},
-          {"error_test_failures", s.error_test_failures},
-          {"convergence_failures", s.convergence_failures},
-          {"newton_iterations", s.newton_iterations},
-          {"gauss_newton_fallbacks", s.gauss_newton_fallbacks},
-          {"force", cost(s.force)},
-          {"tangent", cost(s.tangent)},
-          {"factorization", cost(s.factorization)},
-          {"solve", cost(s.solve)}};
-}
-
 // Where a run came to its end: the places that are likely to be at fault.
-ordered_json whereabouts(const RunReport& report) {
+Json whereabouts(const RunReport& report) {
   const auto& last = report.outcome.last;
   const auto speed = report.setup.built.model->evaluate("speed.largest", last);
   const auto det_f = report.setup.built.model->evaluate("det_f.smallest", last);
@@ -65,7 +29,7 @@ ordered_json whereabouts(const RunReport& report) {
           {"largest_speed", speed[0]}};
 }
 
-ordered_json energies(const EnergyWriter& energy) {
+Json energies(const EnergyWriter& energy) {
   const auto& e = energy.last();
   return {{"kinetic", e.kinetic},         {"elastic", e.elastic},
           {"gravitational", e.gravitational}, {"dissipated", e.dissipated},
@@ -73,15 +37,15 @@ ordered_json energies(const EnergyWriter& energy) {
           {"scale", energy.scale()}};
 }
 
-ordered_json terms(const FemModel& model) {
-  ordered_json out = ordered_json::array();
+Json terms(const FemModel& model) {
+  Json out = Json::array();
   for (const auto& term : model.parts().elastic) out.push_back(term->description());
   for (const auto& term : model.parts().loads) out.push_back(term->description());
   return out;
 }
 
-ordered_json decisions(const Integrator& integrator) {
-  ordered_json out;
+Json decisions(const Integrator& integrator) {
+  Json out;
   for (const auto& [key, value] : integrator.decisions()) out[key] = value;
   return out;
 }
@@ -89,11 +53,11 @@ ordered_json decisions(const Integrator& integrator) {
 }  // namespace
 
 std::string run_json(const RunArguments& arguments, const RunReport* report) {
-  ordered_json out{{"status", report ? status_word(report->outcome.status) : "running"},
+  Json out{{"status", report ? status_word(report->outcome.status) : "running"},
                    {"scene", arguments.scene},
                    {"set", arguments.set},
-                   {"versions", versions()},
-                   {"machine", {{"processor", processor()}, {"cores", std::thread::hardware_concurrency()}}}};
+                   {"versions", versions_json()},
+                   {"machine", machine_json()}};
   if (!report) return out.dump(2) + "\n";
   const auto& model = *report->setup.built.model;
   out["model"] = {{"nodes", model.parts().mesh.nodes.size()},
@@ -104,7 +68,7 @@ std::string run_json(const RunArguments& arguments, const RunReport* report) {
   out["time_reached"] = report->outcome.last.t;
   out["wall_seconds"] = report->outcome.wall_seconds;
   out["cpu_seconds"] = report->outcome.cpu_seconds;
-  out["statistics"] = statistics(report->setup.integrator->statistics());
+  out["statistics"] = to_json(report->setup.integrator->statistics());
   out["factor_bytes"] = report->setup.integrator->factor_bytes();
   out["smallest_det_f"] = {{"value", report->inversion.smallest()},
                            {"element", report->inversion.element()},

@@ -1,12 +1,12 @@
 // `orthodyn run`: one scene from start to end, with everything that it writes.
 #include <fmt/format.h>
 
-#include <csignal>
 #include <filesystem>
 
 #include "lib/core/versions.h"
 #include "lib/run/progress.h"
 #include "lib/run/vtu.h"
+#include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/report.h"
 #include "tools/orthodyn/result_folder.h"
 
@@ -15,14 +15,6 @@ namespace orthodyn {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::atomic<bool> interrupted{false};
-
-// The first Ctrl-C ends the run after the current step, a second one the program.
-void interrupt(int signal) {
-  interrupted = true;
-  std::signal(signal, SIG_DFL);
-}
 
 Plan plan_of(const Scene& scene) {
   const auto& out = scene.output;
@@ -106,10 +98,9 @@ int run_command(const RunArguments& arguments) {
   write_file(folder.path() / "scene.yaml", {resolved});
 
   Observers observers(setup, arguments, folder.path());
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
+  heed_interrupts();
   const Outcome outcome = run(*setup.built.model, *setup.integrator, setup.built.initial, plan_of(setup.scene),
-                              observers.all(), interrupted);
+                              observers.all(), interrupted());
   const RunReport report{arguments, setup, outcome, observers.inversion,
                          observers.energy ? &*observers.energy : nullptr,
                          observers.momentum ? &*observers.momentum : nullptr};

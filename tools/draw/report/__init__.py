@@ -1,1 +1,15 @@
 """One page and paper figures from compare.json, what `orthodyn compare` has written."""
+from pathlib import Path
+
+
+def write_report(result, out=None):
+    """Writes RESULT/report.html (or `out`) and RESULT/pictures; yields the paths."""
+    from .gallery import write_paper_figures
+    from .page import page
+    from .reading import read_comparison
+    comparison, folder = read_comparison(result), Path(result)
+    path = out or folder / "report.html"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(page(comparison, folder), encoding="utf-8")
+    yield path
+    yield from write_paper_figures(comparison, folder / "pictures")

@@ -46,12 +46,14 @@ def draw_lane(lane, failing, place):
 
 def label_right(sheet, box, entries, ends):
     """Names right of the axes near their lines' ends (0 top to 1 bottom); `box` is left, top, width, height."""
+    if not entries:
+        return
     left, top, width, height = box
     wanted = np.array([top + height * np.clip(end, 0, 1) for end in ends])
     placed = spread(wanted, 20.0)
     # Names moved apart as one group may leave the sheet; the group comes back as a whole.
-    placed = placed + min(0.0, top + height - placed.max()) if placed.size else placed
-    placed = placed + max(0.0, top + 4 - placed.min()) if placed.size else placed
+    placed = placed + min(0.0, top + height - placed.max())
+    placed = placed + max(0.0, top + 4 - placed.min())
     for (index, words, muted), y in zip(entries, placed):
         sheet.method_label(left + width + 14, y, index, words, muted)
 
@@ -64,11 +66,12 @@ def end_fraction(axes, value):
     return 1 - (np.log10(value) - low) / (high - low)
 
 
-def draw_unresolved(axes, bound, words):
-    """Shades what is below `bound`, ten times the reference's own error."""
+def draw_unresolved(axes, bound, words, side="left"):
+    """Shades what is below `bound`, ten times the reference's own error; the words are at the side without lines."""
     low, high = axes.get_ylim()
     if not bound > low:
         return
     axes.axhspan(low, min(bound, high), color=LIGHT["band"], lw=0, zorder=0)
-    axes.annotate(words, (1, min(bound, high)), xycoords=("axes fraction", "data"), xytext=(-6, -5),
-                  textcoords="offset points", ha="right", va="top", fontsize=11, color=LIGHT["muted"], zorder=1)
+    at, shift = (0, 6) if side == "left" else (1, -6)
+    axes.annotate(words, (at, low), xycoords=("axes fraction", "data"), xytext=(shift, 6),
+                  textcoords="offset points", ha=side, va="bottom", fontsize=11, color=LIGHT["muted"], zorder=1)

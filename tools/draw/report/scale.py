@@ -22,17 +22,28 @@ def limits(values, pad=0.08, least=1.0):
     return 10.0 ** max(low - extra, -299.0), 10.0 ** min(high + extra, 299.0)
 
 
-def ticks(low, high, most):
-    """1-2-5 ticks over less than two decades, else powers of ten, at most `most`."""
+def _candidates(low, high):
+    """Ticks from fine to coarse: 1-2-5, 1-3, powers of ten, every second power, ..."""
     first, last = int(np.floor(np.log10(low))), int(np.ceil(np.log10(high)))
-    decades = np.log10(high) - np.log10(low)
-    steps = (1, 2, 5) if 3 * decades <= most and decades < 2.2 else (1,)
-    every = 1 if len(steps) > 1 else max(1, int(np.ceil(decades / most)))
-    found = [m * 10.0 ** k for k in range(first, last + 1) if k % every == 0 for m in steps]
-    return [x for x in found if low * 0.9999 <= x <= high * 1.0001]
+    for steps, every in [((1, 2, 5), 1), ((1, 3), 1)] + [((1,), k) for k in range(1, last - first + 2)]:
+        found = [m * 10.0 ** k for k in range(first, last + 1) if k % every == 0 for m in steps]
+        yield [x for x in found if low * 0.9999 <= x <= high * 1.0001]
+
+
+def ticks(low, high, most):
+    """The finest candidate of at most `most` ticks, or a finer one rather than less than two ticks."""
+    best = []
+    for found in _candidates(low, high):
+        if len(found) <= most:
+            return found if len(found) >= 2 or not best else best
+        best = found
+    return best
 
 
 def error_tick(x):
+    """1e-3 -> '10⁻³', 2e-3 -> '2e-3', 1 -> '1'."""
+    if 0.99 < x < 10:
+        return f"{x:g}"
     mantissa = x / 10.0 ** np.floor(np.log10(x) + 1e-9)
     return words.power_of_ten(x) if abs(mantissa - 1) < 1e-6 else words.exponent(x)
 

@@ -69,7 +69,7 @@ class Sheet:
                   ms=theme.marker_size(index, 8), mec=LIGHT["paper"], mew=0.8, ls="none")
         self.text(x + 25, y, words, gid=gid, color=LIGHT["muted" if muted else "ink"])
 
-    def legend(self, top, entries, columns=1, left=8):
+    def legend(self, top, entries, columns=1, left=2):
         """Labels of methods (index, words, muted) in rows below `top`."""
         step = (self.width - 2 * left) / columns
         for k, (index, words, muted) in enumerate(entries):

@@ -25,8 +25,7 @@ def raw_svg(figure, salt, fonttype="none"):
 
 
 def _rounded(text, digits):
-    return NUMBER.sub(lambda m: f"{float(m.group()):.{digits}f}".rstrip("0").rstrip(".").replace("-0", "-0")
-                      if float(m.group()) else "0", text)
+    return NUMBER.sub(lambda m: f"{float(m.group()):.{digits}f}".rstrip("0").rstrip("."), text)
 
 
 def _themed(style):
@@ -78,8 +77,18 @@ def _cleaned(element, names, in_definition=False):
             value = re.sub(r"url\(#([^)]+)\)", lambda m: f"url(#{names[m.group(1)]})", value)
             rounded = key in ("d", "x", "y", "transform", "width", "height")
             element.set(key, _rounded(value, 2 if in_definition or key == "transform" else 1) if rounded else value)
+    if re.match(r"rotate\(-?0[ ,)]", element.get("transform", "")):
+        del element.attrib["transform"]
     for child in element:
         _cleaned(child, names, in_definition or element.tag == SVG + "defs")
+    element[:] = [kept for child in element for kept in _unwrapped(child)]
+
+
+def _unwrapped(element):
+    """Groups that say nothing give way to what is in them."""
+    if element.tag in (SVG + "g", SVG + "defs") and not element.attrib and (element.tag == SVG + "g" or not len(element)):
+        return list(element)
+    return [element]
 
 
 def page_svg(sheet, salt):
@@ -98,4 +107,5 @@ def page_svg(sheet, salt):
 
 
 def _joined_path(path):
-    return re.sub(r"\s*\n\s*", "", path).strip()
+    """'M 1 2  L 3 4' as 'M1 2L3 4'."""
+    return re.sub(r"\s*([A-Za-z])\s*", r"\1", path.strip())

@@ -50,11 +50,22 @@ def _digits(x):
     return f"{x:.{max(0, 1 - math.floor(math.log10(x)))}f}" if x < 100 else f"{x:.0f}"
 
 
+def step(x):
+    """0.0025 -> '2.5 ms'."""
+    factor, unit = next(((f, u) for f, u in ((1, "s"), (1e-3, "ms"), (1e-6, "µs")) if x >= f), (1e-9, "ns"))
+    return f"{x / factor:.3g}{THIN}{unit}"
+
+
 def plain_seconds(x):
     """For columns headed by 's'."""
     if not known(x):
         return UNKNOWN
     return f"{x:.3f}" if x < 10 else f"{x:.1f}" if x < 1000 else f"{x:.0f}"
+
+
+def span(spread):
+    """'0.230 to 0.260' of repeats that differ."""
+    return f"{plain_seconds(spread.min)} to {plain_seconds(spread.max)}" if spread.max > spread.min else UNKNOWN
 
 
 def count(x):
@@ -74,8 +85,7 @@ def control(control):
     """'rtol 1e-3', 'step 2 ms'."""
     if not known(control.value):
         return control.kind or UNKNOWN
-    value = seconds(control.value) if control.kind == "step" else exponent(control.value, 3)
-    return f"{control.kind} {value}"
+    return f"{control.kind} {step(control.value) if control.kind == 'step' else exponent(control.value, 3)}"
 
 
 def power_of_ten(x):

@@ -68,7 +68,7 @@ def _layout(width, entries, failing):
     """The sheet and the boxes of axes and lane, (left, top, width, height)."""
     narrow = width < WIDE
     lane = lane_height(failing)
-    left, right = (46, 12) if narrow else (54, side_margin(entries))
+    left, right = (46, 20) if narrow else (54, side_margin(entries))
     columns = legend_columns(entries)
     top, height = 40 + (lane + LANE_GAP if lane else 0), (290 if narrow else 400)
     below = 62 + (legend_height(entries, columns) if narrow else 0)
@@ -109,7 +109,7 @@ def draw_work_precision(comparison, problem, measure, clock, width):
 def _furnish(sheet, axes, box, measure, clock):
     """Words at the axes; without any finished run they say so."""
     left, top, width, height = box
-    sheet.text(8, 16, title_of(measure), weight="bold")
+    sheet.text(0, 16, title_of(measure), weight="bold")
     name = "Wall time" if clock == "wall" else "CPU time"
     hint = "" if sheet.narrow else "   (left and down is better)"
     sheet.text(left + width / 2, top + height + 40, f"{name}, median of repeats{hint}", ha="center")

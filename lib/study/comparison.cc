@@ -1,0 +1,147 @@
+#include "lib/study/comparison.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "lib/core/registry.h"
+#include "lib/ode/integrator.h"
+
+namespace orthodyn {
+
+template <>
+struct Words<ReferenceKind> {
+  static constexpr std::array<std::pair<ReferenceKind, const char*>, 3> list{
+      {{ReferenceKind::automatic, "automatic"}, {ReferenceKind::computed, "computed"}, {ReferenceKind::none, "none"}}};
+};
+
+namespace {
+
+std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
+
+void require_known_integrator(const Config& c, const std::string& type) {
+  const auto names = Registry<IntegratorChoice>::names();
+  if (std::find(names.begin(), names.end(), type) != names.end()) return;
+  const auto near = nearest_name(type, names);
+  c.fail("unknown integrator '" + type + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
+         " Known: all, " + join(names) + ".");
+}
+
+std::vector<IntegratorEntry> expand_all(const std::vector<IntegratorEntry>& entries) {
+  std::vector<IntegratorEntry> out;
+  for (const auto& entry : entries) {
+    if (entry.type != "all") out.push_back(entry);
+    else
+      for (const auto& name : Registry<IntegratorChoice>::names()) out.push_back({name, name, {}, entry.origin});
+  }
+  return out;
+}
+
+template <class Entry>
+void refuse_equal_labels(const std::vector<Entry>& entries) {
+  for (auto a = entries.begin(); a != entries.end(); ++a)
+    if (std::any_of(entries.begin(), a, [&](const Entry& b) { return b.label == a->label; }))
+      a->origin.fail("'" + a->label + "' stands here twice; give one of them a different 'label'");
+}
+
+void check_comparison(const Comparison& c, const Config& config) {
+  if (c.scenes.empty()) config.at("scenes").fail("is empty; name at least one scene");
+  if (c.integrators.empty()) config.at("integrators").fail("is empty; name some, or 'all'");
+  if (c.tolerances.empty() && c.steps.empty()) config.fail("give 'tolerances', 'steps' or both");
+  for (const auto& [path, values] : c.vary)
+    if (values.empty()) config.at("vary").at(path).fail("is empty; list the values to compare");
+}
+
+}  // namespace
+
+SceneEntry Value<SceneEntry>::read(const Config& c, const Rule&) {
+  SceneEntry entry;
+  if (c.is_map()) entry = SceneEntry::spec().read(c);
+  else entry.file = Value<FilePath>::read(c, {}), entry.origin.where = c.where();
+  if (entry.label.empty()) entry.label = stem(entry.file.path);
+  return entry;
+}
+
+IntegratorEntry Value<IntegratorEntry>::read(const Config& c, const Rule&) {
+  IntegratorEntry entry{"", "", {}, {c.where()}};
+  if (!c.is_map()) {
+    entry.type = entry.label = c.text();
+    if (entry.type != "all") require_known_integrator(c, entry.type);
+    return entry;
+  }
+  if (!c.has("type")) c.fail("key 'type' is missing: the integrator's name");
+  entry.type = c.at("type").text();
+  require_known_integrator(c.at("type"), entry.type);
+  entry.label = entry.type;
+  for (const auto& key : c.keys()) {
+    if (key == "label") entry.label = c.at(key).text();
+    else if (key == "rtol" || key == "step")
+      c.at(key).fail("comes from 'tolerances' and 'steps' of the comparison; remove it here");
+    else if (key != "type") entry.options.emplace_back(key, YamlText{c.at(key).yaml()});
+  }
+  return entry;
+}
+
+const Spec<SceneEntry>& SceneEntry::spec() {
+  static const auto s = Spec<SceneEntry>()
+                            .key("file", &SceneEntry::file, "A scene.", {.required = true})
+                            .key("label", &SceneEntry::label, "Its name in the report; default the file's.")
+                            .key("set", &SceneEntry::set, "Changes by path: {mesh.cells: [45, 9, 9]}.");
+  return s;
+}
+
+const Spec<Limits>& Limits::spec() {
+  static const auto s =
+      Spec<Limits>()
+          .key("seconds", &Limits::seconds, "Wall time of one integration.", {.unit = "s", .range = kPositive})
+          .key("memory", &Limits::memory, "Memory of one process.", {.unit = "bytes", .range = {1e8}});
+  return s;
+}
+
+const Spec<ReferenceOptions>& ReferenceOptions::spec() {
+  static const auto s =
+      Spec<ReferenceOptions>()
+          .key("kind", &ReferenceOptions::kind,
+               "automatic: the exact solution where there is one, else computed. none: no errors.")
+          .key("integrator", &ReferenceOptions::integrator,
+               "The integrator of the reference, as in a scene; default arkode_dirk at a thousandth of the "
+               "smallest tolerance.")
+          .key("check", &ReferenceOptions::check,
+               "A second one, of another family, whose difference bounds the error of the reference; default "
+               "cvode_bdf of order 5 at a hundredth of the smallest tolerance.")
+          .key("seconds", &ReferenceOptions::seconds, "Limit of the wall time of either.",
+               {.unit = "s", .range = kPositive});
+  return s;
+}
+
+const Spec<Comparison>& Comparison::spec() {
+  static const auto s =
+      Spec<Comparison>()
+          .key("title", &Comparison::title, "Heading of the report; default the file's name.")
+          .key("description", &Comparison::description, "What is compared and why, in a sentence or two.")
+          .key("scenes", &Comparison::scenes, "Scene files, or sections {file, label, set}.", {.required = true})
+          .key("integrators", &Comparison::integrators,
+               "Names, 'all', or sections {type, label, any option of the integrator}.", {.fallback = "[all]"})
+          .key("tolerances", &Comparison::tolerances, "rtol of the adaptive methods.", {.range = {0, 1, true, true}})
+          .key("steps", &Comparison::steps, "Steps of the fixed-step methods.", {.unit = "s", .range = kPositive})
+          .key("vary", &Comparison::vary,
+               "Further values by path, all combined: {integrator.linear_solver: [klu, cholmod]}. What lies below "
+               "'integrator' makes methods, everything else makes scenes.")
+          .key("repeats", &Comparison::repeats, "Timed integrations of each point.", {.range = {1, 100}})
+          .key("samples", &Comparison::samples, "Times at which errors are taken, evenly spaced.", {.range = {2, 1e5}})
+          .key("limits", &Comparison::limits, "Of each point.")
+          .key("reference", &Comparison::reference, "What errors are measured against.")
+          .check(check_comparison);
+  return s;
+}
+
+Comparison read_comparison(const Config& config) {
+  Comparison comparison = Comparison::spec().read(config);
+  comparison.name = stem(config.file());
+  if (comparison.title.empty()) comparison.title = comparison.name;
+  comparison.integrators = expand_all(comparison.integrators);
+  refuse_equal_labels(comparison.scenes);
+  refuse_equal_labels(comparison.integrators);
+  return comparison;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,89 @@
+// A comparison of integrators, as its YAML file says it: scenes x integrators x (tolerances or steps)
+// x whatever else is varied.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/core/spec.h"
+
+namespace orthodyn {
+
+// YAML that is handed on as it stands: a value for a key of a scene.
+struct YamlText {
+  std::string text;
+};
+
+template <>
+struct Value<YamlText> {
+  static std::string type() { return "any value"; }
+  static YamlText read(const Config& c, const Rule&) { return {c.yaml()}; }
+  static std::string yaml(const YamlText& x) { return x.text; }
+};
+
+// In the list of scenes: a file, or a section.
+struct SceneEntry {
+  FilePath file;
+  std::string label;    // default the file's stem
+  Named<YamlText> set;  // by path
+  Origin origin;
+  static const Spec<SceneEntry>& spec();
+};
+
+// In the list of integrators: a name, or a section {type, label, any option of the integrator}.
+struct IntegratorEntry {
+  std::string type, label;
+  Named<YamlText> options;
+  Origin origin;
+};
+
+struct Limits {
+  double seconds = 60;  // of one integration
+  double memory = 8e9;  // bytes of one process
+  static const Spec<Limits>& spec();
+};
+
+enum class ReferenceKind { automatic, computed, none };
+
+struct ReferenceOptions {
+  ReferenceKind kind = ReferenceKind::automatic;
+  std::optional<YamlText> integrator, check;  // sections of a scene
+  double seconds = 1800;                      // limit
+  static const Spec<ReferenceOptions>& spec();
+};
+
+struct Comparison {
+  std::string name;         // the file's stem
+  std::string title;
+  std::string description;
+  std::vector<SceneEntry> scenes;
+  std::vector<IntegratorEntry> integrators;  // `all`: every one of the registry
+  std::vector<double> tolerances, steps;
+  Named<std::vector<YamlText>> vary;  // by path in a scene
+  int repeats = 3, samples = 100;
+  Limits limits;
+  ReferenceOptions reference;
+
+  static const Spec<Comparison>& spec();
+};
+
+// Throws ConfigError.
+Comparison read_comparison(const Config& config);
+
+// A section or a scalar in a list: `- beam.yaml` is short for `- {file: beam.yaml}`.
+template <>
+struct Value<SceneEntry> {
+  static std::string type() { return "file, or section"; }
+  static SceneEntry read(const Config& c, const Rule&);
+  static std::string yaml(const SceneEntry&) { return ""; }
+};
+
+template <>
+struct Value<IntegratorEntry> {
+  static std::string type() { return "name, or section with type"; }
+  static IntegratorEntry read(const Config& c, const Rule&);
+  static std::string yaml(const IntegratorEntry&) { return ""; }
+};
+
+}  // namespace orthodyn

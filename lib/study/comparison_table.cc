@@ -1,0 +1,223 @@
+#include "lib/study/comparison_table.h"
+
+#include <fmt/format.h>
+
+#include "lib/study/answers.h"
+#include "lib/study/machine.h"
+
+namespace orthodyn {
+
+namespace {
+
+// A point this close to the reference's own error cannot be told from it.
+constexpr double kResolution = 10;
+constexpr const char* kNorms[] = {"final", "l2", "max"};
+
+Json set_json(const Assignments& set, const std::string& prefix = "") {
+  Json out = Json::object();
+  for (const auto& [path, value] : set) out[prefix + path] = value;
+  return out;
+}
+
+Json field(const Json& object, const std::string& key) {
+  return object.is_object() && object.contains(key) ? object.at(key) : Json();
+}
+
+Json reference_json(const ReferenceResult* reference) {
+  if (!reference) return {{"kind", "none"}, {"message", "no reference was asked for"}};
+  const Json& result = reference->result;
+  if (reference->folder.empty())
+    return {{"kind", "none"}, {"method", reference->method}, {"message", field(result, "message")}};
+  const bool exact = result.at("kind") == "exact";
+  const Json seconds = field(result, "seconds");
+  return {{"kind", exact ? "exact" : "computed"},
+          {"method", exact ? "exact solution by modes" : reference->method},
+          {"check", exact ? Json() : Json(reference->check_method)},
+          {"seconds", seconds},
+          {"message", field(reference->check, "message")},
+          {"errors", field(reference->check, "errors")},
+          {"folder", reference->folder}};
+}
+
+Json scales_json(const Json& scales) {
+  if (!scales.is_object()) return nullptr;
+  return {{"displacement", scales.at("displacement")},
+          {"velocity", scales.at("velocity")},
+          {"words", "largest displacement from the rest shape, resp. velocity, of the reference over time, in the mass norm"}};
+}
+
+Json problem_json(const Problem& problem, const ReferenceResult* reference, const Json& model) {
+  const Json scales = reference ? field(reference->result, "scales") : Json();
+  return {{"id", problem.id},
+          {"label", problem.label},
+          {"scene", problem.file},
+          {"set", set_json(problem.set)},
+          {"sentence", head_comment(problem.file)},
+          {"unknowns", field(model, "unknowns")},
+          {"elements", field(model, "elements")},
+          {"nodes", field(model, "nodes")},
+          {"time", {{"start", field(model, "start")}, {"end", field(model, "end")}}},
+          {"scales", scales_json(scales)},
+          {"probe_scales", field(scales, "probes")},
+          {"dominant_frequency", field(scales, "dominant_frequency")},
+          {"reference", reference_json(reference)}};
+}
+
+Json method_json(const Method& method) {
+  return {{"id", method.id},
+          {"label", method.label},
+          {"integrator", method.integrator},
+          {"sentence", method.sentence},
+          {"set", set_json(method.set, "integrator.")},
+          {"control", control_word(method.control)}};
+}
+
+// The names of the errors that are within a factor of ten of the reference's own.
+Json near_reference(const Json& errors, const Json& of_reference) {
+  Json out = Json::array();
+  if (!errors.is_object() || !of_reference.is_object()) return out;
+  const auto look = [&](const Json& a, const Json& b, const std::string& prefix) {
+    for (const char* norm : kNorms)
+      if (a.at(norm).is_number() && b.at(norm).is_number() &&
+          a.at(norm).get<double>() < kResolution * b.at(norm).get<double>())
+        out.push_back(prefix + "." + norm);
+  };
+  for (const char* kind : {"displacement", "velocity"}) look(errors.at(kind), of_reference.at(kind), kind);
+  for (const auto& [name, e] : errors.at("probes").items())
+    look(e, of_reference.at("probes").at(name), "probes." + name);
+  return out;
+}
+
+Json point_json(const Campaign& campaign, std::size_t index, const Json& result, const Json& reference) {
+  const Point& point = campaign.design().points[index];
+  const Method& method = campaign.design().methods[point.method];
+  Json out{{"problem", campaign.design().problems[point.problem].id},
+           {"method", method.id},
+           {"control", {{"kind", control_word(method.control)}, {"value", point.control}}},
+           {"status", result.at("status")}};
+  for (const char* key : {"reason", "message", "time_reached", "repeats", "wall", "cpu", "statistics",
+                          "peak_memory_bytes", "factor_bytes", "errors", "drift", "drift_over_time",
+                          "smallest_det_f", "decisions"})
+    out[key] = field(result, key);
+  out["near_reference"] = near_reference(out["errors"], field(reference, "errors"));
+  out["scene"] = campaign.point_folder(index) + "/scene.yaml";
+  return out;
+}
+
+// A completed run with inverted elements where the reference has none did not solve the same problem.
+void mark_inverted(Json& point, const ReferenceResult* reference) {
+  if (!reference || point.at("status") != "completed" || !point.at("smallest_det_f").is_number()) return;
+  const Json of_reference = field(reference->result, "smallest_det_f");
+  if (!of_reference.is_number() || of_reference.get<double>() <= 0 || point.at("smallest_det_f").get<double>() > 0) return;
+  point["status"] = "failed";
+  point["reason"] = "inverted";
+  point["message"] = "an element was inverted, which does not happen in the reference";
+}
+
+bool contains(const Json& list, const std::string& text) {
+  return std::find(list.begin(), list.end(), Json(text)) != list.end();
+}
+
+// The finished points of a method on a problem, from loose to tight.
+std::vector<WorkPoint> work_points(const Json& points, const Json& problem, const Json& method) {
+  std::vector<WorkPoint> out;
+  for (const auto& point : points) {
+    if (point.at("problem") != problem || point.at("method") != method || point.at("status") != "completed") continue;
+    if (!point.at("errors").is_object() || !point.at("wall").is_object()) continue;
+    const Json error = point.at("errors").at("displacement").at("l2");
+    if (!error.is_number()) continue;
+    out.push_back({point.at("control").at("value"), error, point.at("wall").at("median"),
+                   !contains(point.at("near_reference"), "displacement.l2")});
+  }
+  return out;
+}
+
+double reference_error(const Json& problem) {
+  const Json errors = field(problem.at("reference"), "errors");
+  return errors.is_object() ? errors.at("displacement").at("l2").get<double>() : 0;
+}
+
+Json answer_json(const Json& problem, double target, const Json& methods, const Json& points) {
+  Json rows = Json::array();
+  for (const auto& method : methods) {
+    const auto work = work_points(points, problem.at("id"), method.at("id"));
+    Json row{{"method", method.at("id")}, {"seconds", nullptr}};
+    if (const auto seconds = seconds_to_reach(target, work)) row["seconds"] = *seconds;
+    else if (!work.empty())
+      row["best_error"] = std::min_element(work.begin(), work.end(), [](const auto& a, const auto& b) {
+                            return a.error < b.error;
+                          })->error;
+    rows.push_back(row);
+  }
+  std::stable_sort(rows.begin(), rows.end(), [](const Json& a, const Json& b) {
+    if (a.at("seconds").is_null() || b.at("seconds").is_null()) return !a.at("seconds").is_null();
+    return a.at("seconds").get<double>() < b.at("seconds").get<double>();
+  });
+  return {{"problem", problem.at("id")}, {"error", "displacement.l2"}, {"target", target}, {"methods", rows}};
+}
+
+void add_conclusions(Json& out) {
+  out["answers"] = Json::array();
+  out["orders"] = Json::array();
+  for (const auto& problem : out.at("problems")) {
+    std::vector<WorkPoint> all;
+    for (const auto& method : out.at("methods")) {
+      const auto work = work_points(out.at("points"), problem.at("id"), method.at("id"));
+      all.insert(all.end(), work.begin(), work.end());
+      if (const auto fit = slope(work))
+        out["orders"].push_back({{"problem", problem.at("id")},
+                                 {"method", method.at("id")},
+                                 {"error", "displacement.l2"},
+                                 {"slope", fit->value},
+                                 {"points", fit->points},
+                                 {"from", fit->from},
+                                 {"to", fit->to}});
+    }
+    for (const double target : targets(all, kResolution * reference_error(problem)))
+      out["answers"].push_back(answer_json(problem, target, out.at("methods"), out.at("points")));
+  }
+}
+
+}  // namespace
+
+Json comparison_json(const Campaign& campaign, const std::string& file, const std::string& started) {
+  const auto& comparison = campaign.comparison();
+  const auto& design = campaign.design();
+  Json out{{"orthodyn_comparison", 1},
+           {"name", comparison.name},
+           {"title", comparison.title},
+           {"description", comparison.description},
+           {"file", file},
+           {"started", started},
+           {"complete", campaign.results().size() == design.points.size()},
+           {"planned_points", design.points.size()},
+           {"machine", machine_json()},
+           {"versions", versions_json()},
+           {"settings",
+            {{"repeats", comparison.repeats},
+             {"samples", comparison.samples},
+             {"limit_seconds", comparison.limits.seconds},
+             {"limit_memory_bytes", comparison.limits.memory}}},
+           {"problems", Json::array()},
+           {"methods", Json::array()},
+           {"points", Json::array()}};
+  for (const auto& method : design.methods) out["methods"].push_back(method_json(method));
+  for (std::size_t p = 0; p < design.problems.size(); ++p) {
+    const auto found = campaign.references().find(p);
+    const ReferenceResult* reference = found == campaign.references().end() ? nullptr : &found->second;
+    Json model = reference ? field(reference->result, "model") : Json();
+    Json points = Json::array();
+    for (const auto& [index, result] : campaign.results()) {
+      if (design.points[index].problem != p) continue;
+      if (model.is_null()) model = field(result, "model");
+      points.push_back(point_json(campaign, index, result, reference ? reference_json(reference) : Json()));
+      mark_inverted(points.back(), reference);
+    }
+    out["problems"].push_back(problem_json(design.problems[p], reference, model));
+    out["points"].insert(out["points"].end(), points.begin(), points.end());
+  }
+  add_conclusions(out);
+  return out;
+}
+
+}  // namespace orthodyn

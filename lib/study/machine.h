@@ -1,0 +1,12 @@
+// Where something was measured, and with which versions, as JSON.
+#pragma once
+
+#include "lib/study/point_result.h"
+
+namespace orthodyn {
+
+Json machine_json();   // processor, cores, memory
+Json versions_json();  // orthodyn and every library
+std::string utc_now();  // 2026-01-31T12:00:00Z
+
+}  // namespace orthodyn

@@ -1,0 +1,27 @@
+// A program run as a child process, with limits of time and memory that it cannot ignore.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace orthodyn {
+
+struct ProcessLimits {
+  double seconds = 0;  // of wall time, then it is killed
+  double memory = 0;   // bytes of address space
+};
+
+struct ProcessEnd {
+  enum class Kind { exited, signalled, timed_out, interrupted };
+  Kind kind = Kind::exited;
+  int code = 0;  // exit code, or the signal
+};
+
+// Runs argv[0] with its output going to `log`, and waits. When `interrupt` becomes true the child is
+// killed. It dies with this process, too. Throws RunError if it cannot be started.
+ProcessEnd run_process(const std::vector<std::string>& argv, const std::filesystem::path& log,
+                       const ProcessLimits& limits, const std::atomic<bool>& interrupt);
+
+}  // namespace orthodyn

@@ -1,0 +1,171 @@
+"""The answer in words, and the times to reach several errors as a table with bars."""
+import math
+
+from . import measures, words
+from .comparable import main_target
+from .markup import Html, joined, scrolling, tag
+from .method_name import method_name
+from .tables import caption
+
+
+def _with_percent(target, measure):
+    text = words.exponent(target)
+    percent = words.percent(target) if measure != "phase" else ""
+    return f"{text} ({percent})" if percent else f"{text} rad" if measure == "phase" else text
+
+
+def _answers(comparison, problem):
+    """Answers of the first measure, loose targets first."""
+    primary = measures.primary(comparison)
+    return sorted((a for a in comparison.answers if a.problem == problem.id and a.error == primary and a.target > 0),
+                  key=lambda a: -a.target)
+
+
+def _main(comparison, problem):
+    target = main_target(comparison)
+    return next((a for a in _answers(comparison, problem) if a.target == target), None)
+
+
+def _ranked(answer):
+    """(method, seconds) of those that reached the target, fastest first."""
+    return sorted(((m, s) for m, s in answer.seconds.items() if math.isfinite(s)), key=lambda pair: pair[1])
+
+
+def _label(comparison, method):
+    return comparison.methods[comparison.method_index(method)].label
+
+
+def headline(comparison):
+    """One sentence: who is fastest, on how many problems."""
+    wins = {}
+    for problem in comparison.problems:
+        answer = _main(comparison, problem)
+        ranked = _ranked(answer) if answer else []
+        if ranked:
+            wins.setdefault(ranked[0][0], []).append((problem, ranked[0][1]))
+    if not wins:
+        return tag("p", _nothing_reached(comparison), class_="headline")
+    target = _with_percent(main_target(comparison), measures.primary(comparison))
+    if len(comparison.problems) == 1:
+        (method, [(_, seconds)]), = wins.items()
+        ranked = _ranked(_main(comparison, comparison.problems[0]))
+        then = f"; next is {_label(comparison, ranked[1][0])} with {words.seconds(ranked[1][1])}" if ranked[1:] else ""
+        return tag("p", f"For an error of {target}, ", tag("strong", f"{_label(comparison, method)} is fastest"),
+                   f": {words.seconds(seconds)}{then}.", class_="headline")
+    return tag("p", f"For an error of {target}, the fastest is ", joined(_wins(comparison, wins), "; "), ".",
+               class_="headline")
+
+
+def _wins(comparison, wins):
+    for method, won in sorted(wins.items(), key=lambda item: -len(item[1])):
+        named = words.joined(problem.label for problem, _ in won)
+        where = f" on {len(won)} of {len(comparison.problems)} problems ({named})" if len(won) > 1 else f" on {named}"
+        where = f" on all {len(won)} problems" if len(won) == len(comparison.problems) else where
+        yield joined([tag("strong", _label(comparison, method)), where])
+
+
+def _nothing_reached(comparison):
+    if not any(p.completed for p in comparison.points):
+        return "No run has finished, so there is no error to compare; the failures and their reasons are listed below."
+    if not comparison.answers:
+        return "The comparison holds no times to given errors; the diagrams below show error against time directly."
+    return "No method has reached any of the errors asked for; the table says how far each one came."
+
+
+def sentence(comparison, problem):
+    """To reach an error of 1e-3 on damped_beam: a 0.2 s, b 0.3 s; c did not reach it, best 3e-3."""
+    answer = _main(comparison, problem)
+    if not answer:
+        return None
+    ranked = _ranked(answer)
+    first = ranked[0][1] if ranked else math.nan
+    reached = [f"{_label(comparison, m)} {words.seconds(s)}" + (f" ({_ratio(s / first)})" if k and first > 0 else "")
+               for k, (m, s) in enumerate(ranked)]
+    missed = [f"{_label(comparison, m)} did not reach it ({_best(answer, m)})" for m in answer.seconds
+              if not math.isfinite(answer.seconds[m])]
+    target = _with_percent(answer.target, answer.error)
+    parts = [part for part in (", ".join(reached), ", ".join(missed)) if part]
+    return tag("p", f"To reach an error of {target} on ", tag("em", problem.label), f": {'; '.join(parts)}.")
+
+
+def _best(answer, method):
+    best = answer.best_error.get(method, math.nan)
+    return f"best {words.exponent(best)}" if words.known(best) else "no finished run"
+
+
+def _ratio(x):
+    return f"{x:.1f}×" if x < 10 else f"{x:.0f}×"
+
+
+def _target_words(answer):
+    percent = words.percent(answer.target) if answer.error != "phase" else ""
+    return words.exponent(answer.target), tag("small", f" ({percent})") if percent else None
+
+
+def _cell(answer, method):
+    if method not in answer.seconds:
+        return tag("td", words.UNKNOWN, class_="none")
+    seconds = answer.seconds[method]
+    if not math.isfinite(seconds):
+        return tag("td", _best(answer, method), class_="none")
+    ranked = _ranked(answer)
+    fastest, slowest = ranked[0][1], ranked[-1][1]
+    ratio = _ratio(seconds / fastest) if fastest > 0 and seconds > fastest else "fastest"
+    share = max(1.0, 100 * seconds / slowest) if slowest > 0 else 1.0
+    return tag("td", tag("b" if seconds == fastest else "span", words.seconds(seconds)),
+               tag("small", ratio), Html(f'<i class="bar" style="width:{share:.1f}%"></i>'), )
+
+
+def table(comparison, problem):
+    """Methods by targets; rows in the order of the main target."""
+    answers = _answers(comparison, problem)
+    if not answers:
+        return None
+    main = _main(comparison, problem) or answers[0]
+    order = [m for m, _ in _ranked(main)]
+    order += [m.id for m in comparison.methods if m.id not in order and comparison.points_of(problem, m.id)]
+    head = [tag("th", "Method", scope="col")] + [
+        tag("th", *_target_words(a), scope="col", class_="main" if a is main else None) for a in answers]
+    rows = [tag("tr", tag("th", method_name(comparison, m), scope="row"), *(_cell(a, m) for a in answers))
+            for m in order]
+    title = caption(f"Wall time to reach an error of …, and its ratio to the fastest. Error: {measures.label(main.error)}.")
+    return scrolling(tag("table", title, tag("thead", tag("tr", *head)), tag("tbody", *rows), class_="targets"),
+                     label=f"Times to reach an error on {problem.label}")
+
+
+def overview(comparison):
+    """Methods by problems at the main target; methods in the order of their mean ratio to the fastest."""
+    found = [(p, _main(comparison, p)) for p in comparison.problems]
+    found = [(problem, answer) for problem, answer in found if answer]
+    if len(found) < 2:
+        return None
+    target = _with_percent(found[0][1].target, found[0][1].error)
+    head = [tag("th", "Method", scope="col"), *(tag("th", problem.label, scope="col") for problem, _ in found)]
+    rows = [tag("tr", tag("th", method_name(comparison, m.id), scope="row"), *(_cell(a, m.id) for _, a in found))
+            for m in sorted(comparison.methods, key=lambda m: _mean_rank([a for _, a in found], m.id))]
+    title = caption(f"Wall time to reach an error of {target}, and its ratio to the fastest, on every problem. "
+                    f"Error: {measures.label(found[0][1].error)}.")
+    return scrolling(tag("table", title, tag("thead", tag("tr", *head)), tag("tbody", *rows), class_="targets"),
+                     label="Times on every problem")
+
+
+def _mean_rank(answers, method):
+    """Mean logarithm of the ratio to the fastest; a target that was not reached counts as a factor of 1000."""
+    total = 0.0
+    for answer in answers:
+        seconds, ranked = answer.seconds.get(method, math.nan), _ranked(answer)
+        reached = ranked and seconds > 0 and ranked[0][1] > 0
+        total += math.log(seconds / ranked[0][1]) if reached else math.log(1000)
+    return total
+
+
+def answer_section(comparison):
+    parts = [headline(comparison), overview(comparison)]
+    for problem in comparison.problems:
+        size = f"{words.count(problem.unknowns)} unknowns" if words.known(problem.unknowns) else ""
+        content = [sentence(comparison, problem), table(comparison, problem)]
+        if any(content):
+            title = tag("h3", problem.label, " ", tag("small", size))
+            parts += [tag("div", title, tag("p", problem.sentence, class_="scene") if problem.sentence else None,
+                          *content, class_="problem")]
+    return joined(parts)

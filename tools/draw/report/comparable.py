@@ -1,0 +1,52 @@
+"""Which error the methods are compared at, and which run of each method stands for it."""
+import math
+
+from . import measures
+
+USUAL = 1e-3
+
+
+def _distance(target):
+    return abs(math.log10(target / USUAL))
+
+
+def main_target(comparison):
+    """The target error of the first words: near 1e-3, reached by at least half of those asked."""
+    primary, reached, asked = measures.primary(comparison), {}, {}
+    for answer in comparison.answers:
+        if answer.error == primary and answer.target > 0:
+            found = [math.isfinite(s) for s in answer.seconds.values()]
+            reached[answer.target] = reached.get(answer.target, 0) + sum(found)
+            asked[answer.target] = asked.get(answer.target, 0) + len(found)
+    if not reached:
+        return None
+    good = [t for t in reached if 2 * reached[t] >= asked[t]] or [t for t in reached
+                                                                  if reached[t] == max(reached.values())]
+    return min(good, key=_distance)
+
+
+def _smallest_reachable(comparison, problem, measure):
+    """Without answers: 1e-3, or the power of ten that every method with a finished run reaches."""
+    best = [min((p.error(measure) for p in comparison.finished(problem, m.id) if math.isfinite(p.error(measure))),
+                default=math.nan) for m in comparison.methods]
+    best = [b for b in best if b > 0]
+    return max(USUAL, 10.0 ** math.ceil(math.log10(max(best)))) if best else USUAL
+
+
+def target_of(comparison, problem):
+    return main_target(comparison) or _smallest_reachable(comparison, problem, measures.primary(comparison))
+
+
+def representatives(comparison, problem):
+    """(point, reached) per method with a finished run, fastest first: the cheapest run below the target,
+    else the most accurate one."""
+    measure, target, found = measures.primary(comparison), target_of(comparison, problem), []
+    for method in comparison.methods:
+        runs = [p for p in comparison.finished(problem, method.id) if math.isfinite(p.seconds())]
+        below = [p for p in runs if p.error(measure) <= target]
+        measured = [p for p in runs if math.isfinite(p.error(measure))]
+        if below:
+            found.append((min(below, key=lambda p: p.seconds()), True))
+        elif runs:
+            found.append((min(measured or runs, key=lambda p: p.error(measure)), False))
+    return sorted(found, key=lambda pair: (not pair[1], pair[0].seconds()))

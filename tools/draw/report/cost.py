@@ -1,0 +1,95 @@
+"""Where the time goes: stacked bars of one run per method, all of about the same error."""
+import numpy as np
+
+from . import measures, theme, words
+from .comparable import representatives, target_of
+from .comparison import PARTS
+from .sheet import LETTER, Sheet, shortened, styled
+from .theme import LIGHT
+
+NAMES = {"force": "force", "tangent": "tangent", "factorization": "factorisation", "solve": "solve", "rest": "rest"}
+COLOURS = dict(zip(NAMES, ("k1", "k2", "k3", "k4", "k5")))
+BAR = 20
+
+
+def parts_of(point):
+    """{part: seconds}, the rest being wall time without the others and never below zero."""
+    parts = {part: np.nan_to_num(point.work[part].seconds) for part in PARTS}
+    parts["rest"] = max(0.0, np.nan_to_num(point.seconds()) - sum(parts.values()))
+    return parts
+
+
+def _note(point, reached, measure, narrow):
+    """The words right of a bar."""
+    total = words.seconds(point.seconds())
+    error = f"error {words.exponent(point.error(measure))}"
+    if not reached:
+        return f"{total}  ({error})" if narrow else f"{total}, {error}: target not reached"
+    return f"{total}  ({error})" if narrow else f"{total}, {error}, {words.control(point.control)}"
+
+
+def _bar(axes, row, point, index, faint):
+    start, sizes = 0.0, parts_of(point)
+    for part, size in sizes.items():
+        if size > 0:
+            axes.barh(row, size, left=start, height=1, color=LIGHT[COLOURS[part]], alpha=0.45 if faint else 1,
+                      linewidth=0)[0].set_gid(f"pt-{point.index}-{index}")
+        start += size
+    return start
+
+
+def _key(sheet, top):
+    """The parts' colours in their order."""
+    left = 0
+    for part, name in NAMES.items():
+        if left + 24 + LETTER * len(name) > sheet.width:
+            left, top = 0, top + 20
+        sheet.line([left + 6], [top], marker="s", ms=10, ls="none", color=LIGHT[COLOURS[part]], mew=0)
+        sheet.text(left + 16, top, name)
+        left += 38 + 6.6 * len(name)
+
+
+@styled
+def draw_cost_breakdown(comparison, problem, width):
+    """None without a finished run."""
+    found = representatives(comparison, problem)
+    if not found:
+        return None
+    measure, narrow = measures.primary(comparison), width < 500
+    notes = [_note(point, reached, measure, narrow) for point, reached in found]
+    labels = [shortened(_method(comparison, point).label, 26) for point, _ in found]
+    left = 2 if narrow else 36 + LETTER * max(map(len, labels))
+    across = width - left - LETTER * max(map(len, notes)) - 10
+    pitch, top = (46, 94) if narrow else (32, 62)
+    sheet = Sheet(width, top + pitch * len(found) + 8, _description(comparison, problem, found))
+    heading = f"Wall time for an error below {words.exponent(target_of(comparison, problem))}"
+    sheet.text(0, 16, heading if narrow else f"{heading}, {measures.label(measure)}", weight="bold")
+    _key(sheet, 44)
+    largest = max(sum(parts_of(point).values()) for point, _ in found) or 1.0
+    for row, ((point, reached), label, note) in enumerate(zip(found, labels, notes)):
+        y = top + pitch * row + (20 if narrow else 0)
+        axes = sheet.axes(left, y, across, BAR, xlim=(0, largest), ylim=(-0.5, 0.5))
+        axes.set_axis_off()
+        index = comparison.method_index(point.method)
+        total = _bar(axes, 0, point, index, not reached)
+        sheet.text(left + across * total / largest + 8, y + BAR / 2, note, color=LIGHT["ink" if reached else "muted"])
+        _name(sheet, 0, y - 10 if narrow else y + BAR / 2, index, label)
+    return sheet
+
+
+def _method(comparison, point):
+    return comparison.methods[comparison.method_index(point.method)]
+
+
+def _name(sheet, x, y, index, label):
+    sheet.line([x + 6], [y], marker=theme.marker(index), ms=theme.marker_size(index, 8), ls="none",
+               color=theme.colour(index), mec=LIGHT["paper"], mew=0.8)
+    sheet.text(x + 18, y, label)
+
+
+def _description(comparison, problem, found):
+    rows = []
+    for point, _ in found:
+        parts = ", ".join(f"{NAMES[k]} {words.seconds(s)}" for k, s in parts_of(point).items())
+        rows.append(f"{_method(comparison, point).label} {words.seconds(point.seconds())} ({parts})")
+    return f"Cost breakdown for {problem.label}: {'; '.join(rows)}."

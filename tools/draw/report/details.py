@@ -1,0 +1,110 @@
+"""What a reader needs to trust the numbers: references, definitions, methods, machine, the command."""
+from . import measures, words
+from .markup import joined, scrolling, tag
+from .method_name import method_name
+from .tables import caption
+
+
+def _reference_words(problem):
+    reference = problem.reference
+    if reference.kind == "exact":
+        return f"Exact solution{': ' + reference.method if reference.method else ''}."
+    if reference.kind == "none" or not reference.kind:
+        return "None, so errors are not known." + (f" {reference.message}" if reference.message else "")
+    parts = [f"Computed by {reference.method or 'an unnamed method'}"]
+    if words.known(reference.seconds):
+        parts.append(f" in {words.seconds(reference.seconds)}")
+    if reference.check:
+        parts.append(f". Its own error is its difference to a second solution by {reference.check}")
+    return "".join(parts) + "." + (f" {reference.message}" if reference.message else "")
+
+
+def _own_errors(problem):
+    """What by how (over time, at the end, largest), of the reference's own errors."""
+    own = problem.reference.errors
+    whats = list(dict.fromkeys(key.rsplit(".", 1)[0] for key in own if "." in key))
+    rows = [_own_row(what.replace("probes.", "probe "), [own.get(f"{what}.{kind}") for kind in measures.KINDS])
+            for what in whats]
+    if "phase" in own:
+        rows.append(_own_row("phase [rad]", [own["phase"]] + [None] * (len(measures.KINDS) - 1)))
+    if not rows:
+        return None
+    head = [tag("th", "Quantity", scope="col")] + [tag("th", h, scope="col", class_="num") for h in measures.KINDS.values()]
+    return scrolling(tag("table", caption("The reference's own errors"), tag("thead", tag("tr", *head)),
+                         tag("tbody", *rows), class_="small"), label=f"Own errors of the reference of {problem.label}")
+
+
+def _own_row(name, values):
+    cells = (tag("td", "" if v is None else words.fixed_exponent(v), class_="num") for v in values)
+    return tag("tr", tag("th", name, scope="row"), *cells)
+
+
+def _pairs(items):
+    """A description list without what is not known."""
+    return tag("dl", *(joined([tag("dt", key), tag("dd", value)]) for key, value in items if value))
+
+
+def _settings(changes):
+    return joined((tag("code", f"{k}={v}") for k, v in changes.items()), " ")
+
+
+def _size(problem):
+    sizes = ((problem.unknowns, "unknowns"), (problem.elements, "elements"), (problem.nodes, "nodes"))
+    return ", ".join(f"{words.count(value)} {name}" for value, name in sizes if words.known(value))
+
+
+def problem_details(problem):
+    scales = {**{k: v for k, v in problem.scales.items() if words.known(v)},
+              **{f"probe {k}": v for k, v in problem.probe_scales.items() if words.known(v)}}
+    span = f"{words.general(problem.start)} to {words.general(problem.end)} s" if words.known(problem.end) else ""
+    frequency = f"{words.general(problem.dominant_frequency)} Hz" if words.known(problem.dominant_frequency) else ""
+    scale_text = ", ".join(f"{k} {words.general(v)}" for k, v in scales.items())
+    scale_text += f" ({problem.scale_words})" if problem.scale_words and scale_text else ""
+    return tag("div", tag("h3", problem.label), _pairs((
+        ("Shows", problem.sentence), ("Scene", tag("code", problem.scene) if problem.scene else ""),
+        ("Changed in it", _settings(problem.set)), ("Size", _size(problem)), ("Time span", span),
+        ("Dominant frequency", frequency), ("Scales of the errors", scale_text),
+        ("Reference", _reference_words(problem)))), _own_errors(problem))
+
+
+def definitions():
+    kinds = [joined([tag("dt", kind), tag("dd", f"{text}.")]) for kind, text in
+             ((measures.KINDS[k], measures.DEFINITIONS[k]) for k in measures.KINDS)]
+    return joined([
+        tag("p", "An error is the difference between a run and the reference at the same times, in one number. "
+                 "For displacement and velocity the difference of all nodes is measured in the mass norm, "
+                 "‖d‖ = √(dᵀ M d) with the mass matrix M, so that heavy parts count more than light ones; a probe "
+                 "is one point of the body. Each is divided by the scale named for its problem: an error of 1e-2 "
+                 "is one per cent of that scale. Over time it becomes"),
+        tag("dl", *kinds),
+        tag("p", "The phase error is the angle, in radians, by which the swing of the dominant frequency is ahead "
+                 "of or behind the reference over the whole span. A drift is the largest change of a quantity "
+                 "that is conserved or balanced, relative (energy: to the largest energy)."),
+        tag("p", "No reference is exact to the last digit. An error below ten times the reference's own error says "
+                 "little about the method: its marker is hollow and the diagrams are shaded there.")])
+
+
+def methods_table(comparison):
+    rows = [tag("tr", tag("th", method_name(comparison, m.id), scope="row"), tag("td", m.integrator),
+                tag("td", m.control), tag("td", m.sentence, class_="message"), tag("td", _settings(m.set)))
+            for m in comparison.methods]
+    head = [tag("th", h, scope="col") for h in ("Method", "Integrator", "Controlled by", "What it is", "Set")]
+    return scrolling(tag("table", caption("Methods and what was set for them"), tag("thead", tag("tr", *head)),
+                         tag("tbody", *rows)), label="Methods")
+
+
+def _value(key, text):
+    """memory_bytes 24e9 -> 24000 MB, other texts as they are."""
+    try:
+        return f"{words.megabytes(float(text))} MB" if "bytes" in key else text
+    except ValueError:
+        return text
+
+
+def provenance(comparison, folder):
+    def listed(values):
+        return _pairs((k.replace("_bytes", "").replace("_", " "), _value(k, v)) for k, v in values.items())
+    command = f"orthodyn compare {comparison.file or 'FILE.yaml'} --out {folder}\ntools/draw/draw report {folder}"
+    blocks = (("Machine", comparison.machine), ("Versions", comparison.versions), ("Settings", comparison.settings))
+    return joined([tag("div", *(tag("div", tag("h3", name), listed(values)) for name, values in blocks if values),
+                       class_="columns"), tag("h3", "To reproduce"), tag("pre", tag("code", command))])

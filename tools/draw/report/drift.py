@@ -1,0 +1,74 @@
+"""Energy drift over time, one line per method, of runs of about the same error."""
+import numpy as np
+
+from . import words
+from .comparable import representatives
+from .runs import end_fraction, label_right
+from .scale import error_tick, limits, positive, set_log
+from .sheet import WIDE, Sheet, legend_columns, legend_height, shortened, side_margin, styled
+from .theme import LIGHT, colour, dashes
+
+MOST_SAMPLES = 200
+FLOOR = 1e-18  # below it a drift is round-off of round-off
+
+
+def _usable(point):
+    return positive(np.abs(point.drift_energy)).size > 0
+
+
+def drift_runs(comparison, problem):
+    """The representative of each method, or its finished run of nearest cost that has a history."""
+    found = []
+    for point, _ in representatives(comparison, problem):
+        runs = [p for p in comparison.finished(problem, point.method) if _usable(p)]
+        if runs:
+            found.append(min(runs, key=lambda p: (p is not point, abs(p.seconds() - point.seconds()))))
+    return sorted(found, key=lambda p: comparison.method_index(p.method))
+
+
+def _history(point):
+    """Times and |drift|; zeros, as at the start, leave a gap on a logarithmic axis."""
+    every = max(1, len(point.drift_times) // MOST_SAMPLES)
+    size = np.abs(point.drift_energy[::every])
+    return point.drift_times[::every], np.where(size > FLOOR, size, np.nan)
+
+
+@styled
+def draw_energy_drift(comparison, problem, width):
+    """None where no run has a history."""
+    found = drift_runs(comparison, problem)
+    if not found:
+        return None
+    indices = [comparison.method_index(p.method) for p in found]
+    entries = [(k, shortened(comparison.methods[k].label, 26), False) for k in indices]
+    columns, narrow = legend_columns(entries), width < WIDE
+    left, right, height = (50, 20, 230) if narrow else (54, side_margin(entries), 270)
+    box = (left, 40, width - left - right, height)
+    sheet = Sheet(width, 40 + height + 62 + (legend_height(entries, columns) if narrow else 0),
+                  _description(comparison, problem, found))
+    axes, ends = sheet.axes(*box), []
+    histories = [_history(point) for point in found]
+    # The first instants start at zero drift; they must not stretch the axis over many decades.
+    values = np.concatenate([size[np.isfinite(size)] for _, size in histories])
+    set_log(axes, "y", *limits(values[values >= np.quantile(values, 0.02)] if values.size else values), error_tick)
+    for k, point, (times, size) in zip(indices, found, histories):
+        axes.plot(times, size, color=colour(k), ls=dashes(k), lw=1.5, gid=f"me-{k}")
+        last = size[np.isfinite(size)]
+        ends.append(end_fraction(axes, last[-1] if last.size else np.nan))
+    axes.margins(x=0.0)
+    if problem.end > problem.start:
+        axes.set_xlim(problem.start, problem.end)
+    axes.locator_params(axis="x", nbins=4 if narrow else 8)
+    sheet.text(0, 16, "Energy drift, |change| / largest energy", weight="bold")
+    sheet.text(left + box[2] / 2, 40 + height + 40, "Time in the scene [s]", ha="center", color=LIGHT["ink"])
+    if narrow:
+        sheet.legend(40 + height + 52, entries, columns)
+    else:
+        label_right(sheet, box, entries, ends)
+    return sheet
+
+
+def _description(comparison, problem, found):
+    rows = [f"{comparison.methods[comparison.method_index(p.method)].label} "
+            f"{words.exponent(p.drift.get('energy', np.nan))} ({words.control(p.control)})" for p in found]
+    return f"Energy drift over time for {problem.label}; largest: {'; '.join(rows)}."

@@ -1,0 +1,125 @@
+"""Draws figures: for the page in two widths and several variants, for papers as files."""
+import re
+
+import matplotlib
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+from . import measures
+from .cost import draw_cost_breakdown
+from .drift import draw_energy_drift
+from .markup import Html, tag
+from .scale import positive
+from .sheet import NARROW, WIDE
+from .svg import page_svg, raw_svg
+from .tolerance import draw_error_against_control
+from .work_precision import draw_work_precision
+
+PAPER_DPI = 220
+CLOCKS = {"wall": "wall time", "cpu": "CPU time"}
+
+
+class Gallery:
+    """Figures of one comparison; every SVG gets ids of its own."""
+
+    def __init__(self, comparison):
+        self.comparison = comparison
+        self.primary = measures.primary(comparison)
+        self._drawn = 0
+
+    def both_widths(self, draw):
+        """`draw(width)` as a wide and a narrow SVG, of which the page shows one; None where nothing is drawn."""
+        parts = []
+        for name, width in (("wide", WIDE), ("narrow", NARROW)):
+            sheet = draw(width)
+            if sheet is None:
+                return None
+            self._drawn += 1
+            parts.append(tag("div", Html(page_svg(sheet, f"f{self._drawn}")), class_=name))
+        return Html("".join(parts))
+
+    def work_precision(self, problem, measure=None, clock="wall"):
+        measure = measure or self.primary
+        return self.both_widths(lambda w: draw_work_precision(self.comparison, problem, measure, clock, w))
+
+    def tolerance(self, problem, measure=None):
+        measure = measure or self.primary
+        return self.both_widths(lambda w: draw_error_against_control(self.comparison, problem, measure, w))
+
+    def cost(self, problem):
+        return self.both_widths(lambda w: draw_cost_breakdown(self.comparison, problem, w))
+
+    def drift(self, problem):
+        return self.both_widths(lambda w: draw_energy_drift(self.comparison, problem, w))
+
+    def choices(self):
+        """(measure, clock) that runs have, the first ones first; the very first is shown without asking."""
+        found = measures.present(self.comparison.points) or [self.primary]
+        found.sort(key=lambda m: m != self.primary)
+        clocks = [c for c in CLOCKS if c == "wall" or positive(p.seconds(c) for p in self.comparison.points).size]
+        pairs = [(m, "wall") for m in found] + [(m, c) for m in found for c in clocks[1:]]
+        return sorted(pairs, key=lambda pair: pair[0] != self.primary)
+
+    def variants(self, room):
+        """{(figure, problem id): templates} of all choices but the first, as far as `room` characters allow;
+        and the choices that are in it."""
+        first, *others = self.choices()
+        found, offered = {}, [first]
+        for measure, clock in others:
+            group = self._group(measure, clock)
+            room -= sum(map(len, group.values()))
+            if room < 0:
+                break
+            offered.append((measure, clock))
+            for key, template in group.items():
+                found.setdefault(key, []).append(template)
+        return found, offered
+
+    def _group(self, measure, clock):
+        """The templates of one choice for all problems; tolerances do not depend on the clock."""
+        group = {}
+        for problem in self.comparison.problems:
+            group["wp", problem.id] = tag("template", self.work_precision(problem, measure, clock),
+                                          data_measure=measure, data_clock=clock)
+            if clock == "wall":
+                group["tol", problem.id] = tag("template", self.tolerance(problem, measure), data_measure=measure)
+        return group
+
+
+def _paper_sheets(comparison, problem):
+    """(name, function that draws it); drawn twice because a canvas keeps its figure."""
+    measure = measures.primary(comparison)
+    return (("work_precision", lambda: draw_work_precision(comparison, problem, measure, "wall", WIDE)),
+            ("error_against_control", lambda: draw_error_against_control(comparison, problem, measure, WIDE)),
+            ("cost_breakdown", lambda: draw_cost_breakdown(comparison, problem, WIDE)),
+            ("energy_drift", lambda: draw_energy_drift(comparison, problem, WIDE)))
+
+
+def _unique_names(problems):
+    """Problem ids as parts of file names."""
+    names = {}
+    for problem in problems:
+        name = re.sub(r"[^\w.-]+", "_", problem.id).strip("._") or "problem"
+        while name in names.values():
+            name += "_"
+        names[problem.id] = name
+    return names
+
+
+def write_paper_figures(comparison, folder):
+    """Writes FIGURE_PROBLEM.svg and .png; yields their paths."""
+    folder.mkdir(parents=True, exist_ok=True)
+    names = _unique_names(comparison.problems)
+    for problem in comparison.problems:
+        for figure, draw in _paper_sheets(comparison, problem):
+            sheet = draw()
+            if sheet is None:
+                continue
+            stem = folder / f"{figure}_{names[problem.id]}"
+            sheet.figure.set_facecolor("white")
+            FigureCanvasAgg(sheet.figure)
+            with matplotlib.rc_context({"savefig.facecolor": "white"}):
+                sheet.figure.savefig(f"{stem}.png", dpi=PAPER_DPI)
+            svg, png = stem.with_name(stem.name + ".svg"), stem.with_name(stem.name + ".png")
+            svg.write_text(raw_svg(sheet.figure, stem.name, fonttype="path"), encoding="utf-8")
+            yield svg
+            yield png

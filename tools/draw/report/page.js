@@ -1,0 +1,128 @@
+// Values under the pointer, the choice of measure and clock, the theme. The page is complete without it.
+(() => {
+  "use strict";
+  const root = document.documentElement;
+  const data = JSON.parse(document.getElementById("run-data").textContent);
+  const chosen = {measure: data.measure, clock: "wall"};
+  const reach = 22; // px around a mark where it can be picked
+  root.classList.add("scripted");
+
+  const element = (name, text) => Object.assign(document.createElement(name), {textContent: text ?? ""});
+  const tip = Object.assign(element("div"), {id: "tip", hidden: true});
+  tip.setAttribute("role", "status");
+  document.body.append(tip);
+
+  const errorRow = run => {
+    const value = run.e[chosen.measure];
+    const near = (run.near || []).includes(chosen.measure);
+    return value === undefined ? [] : [["Error", value + (near ? " (near the reference's own)" : "")]];
+  };
+
+  function fillTip(run) {
+    const list = element("dl");
+    for (const [label, text] of [...errorRow(run), ...run.rows]) list.append(element("dt", label), element("dd", text));
+    tip.replaceChildren(element("b", run.title), list);
+  }
+
+  function placeTip(mark) {
+    const box = mark.getBoundingClientRect();
+    tip.hidden = false;
+    const width = tip.offsetWidth, height = tip.offsetHeight, middle = box.left + box.width / 2;
+    const left = Math.min(Math.max(8, middle + 14), root.clientWidth - width - 8);
+    const above = box.top - height - 10, top = above > 4 ? above : box.bottom + 10;
+    tip.style.left = `${left + scrollX}px`;
+    tip.style.top = `${top + scrollY}px`;
+  }
+
+  let picked = null; // the svg and the mark that are shown
+  function highlight(svg, method) {
+    for (const part of svg.querySelectorAll("[data-m]")) part.classList.toggle("off", method !== null && part.dataset.m !== method);
+  }
+  function clear() {
+    if (picked) highlight(picked.svg, null);
+    picked = null;
+    tip.hidden = true;
+  }
+  function pick(svg, mark) {
+    if (picked && picked.svg === svg && picked.mark === mark) return;
+    clear();
+    picked = {svg, mark};
+    highlight(svg, mark.dataset.m);
+    if (mark.dataset.p === undefined) return;
+    fillTip(data.runs[Number(mark.dataset.p)]);
+    placeTip(mark);
+  }
+
+  function nearest(svg, x, y) {
+    let found = null, least = reach;
+    for (const mark of svg.querySelectorAll("[data-p]")) {
+      const b = mark.getBoundingClientRect();
+      const outside = Math.hypot(Math.max(b.left - x, 0, x - b.right), Math.max(b.top - y, 0, y - b.bottom));
+      const distance = outside + 0.01 * Math.hypot((b.left + b.right) / 2 - x, (b.top + b.bottom) / 2 - y);
+      if (distance < least) [found, least] = [mark, distance];
+    }
+    return found;
+  }
+
+  function point(event) {
+    const svg = event.target.closest ? event.target.closest("figure svg") : null;
+    const mark = svg && (nearest(svg, event.clientX, event.clientY) || event.target.closest("[data-m]"));
+    if (mark) pick(svg, mark); else clear();
+  }
+  document.addEventListener("pointermove", point);
+  document.addEventListener("pointerdown", point);
+  document.addEventListener("focusout", clear);
+
+  document.addEventListener("keydown", event => {
+    if (event.key === "Escape") clear();
+    const svg = document.activeElement.closest("figure svg");
+    const step = {ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1}[event.key];
+    if (!svg || !step) return;
+    const marks = [...svg.querySelectorAll("[data-p]")];
+    if (!marks.length) return;
+    const at = picked && picked.svg === svg ? marks.indexOf(picked.mark) : step > 0 ? -1 : 0;
+    const next = picked ? marks.findIndex((m, k) => step > 0 && k > at && m.dataset.p !== picked.mark.dataset.p) : 0;
+    const before = marks.slice(0, Math.max(at, 0)).reverse().find(m => m.dataset.p !== picked?.mark.dataset.p);
+    event.preventDefault();
+    pick(svg, step > 0 ? marks[Math.max(next, 0)] : before || marks[marks.length - 1]);
+  });
+
+  const originals = new Map(); // figure -> what was shown first
+  function show(figure) {
+    const stage = figure.querySelector(".stage");
+    if (!originals.has(figure)) originals.set(figure, stage.innerHTML);
+    const clock = figure.dataset.clock;
+    const first = figure.dataset.measure === chosen.measure && (!clock || clock === chosen.clock);
+    const template = [...figure.querySelectorAll("template")].find(t =>
+      t.dataset.measure === chosen.measure && (!t.dataset.clock || t.dataset.clock === chosen.clock));
+    if (first) stage.innerHTML = originals.get(figure);
+    else if (template) stage.replaceChildren(template.content.cloneNode(true));
+    else stage.replaceChildren(Object.assign(element("p", "This choice was left out to keep the page small; the table of runs has its numbers."), {className: "empty"}));
+  }
+
+  function choose(kind, value) {
+    chosen[kind] = value;
+    clear();
+    for (const input of document.querySelectorAll(`[data-pick=${kind}]`)) {
+      if (input.type === "radio") input.checked = input.value === value; else input.value = value;
+    }
+    document.querySelectorAll("figure[data-measure]").forEach(show);
+    for (const cell of document.querySelectorAll("[data-e]")) {
+      const run = data.runs[Number(cell.dataset.e)];
+      cell.textContent = run.e[chosen.measure] ?? "–";
+      cell.toggleAttribute("data-near", (run.near || []).includes(chosen.measure));
+    }
+    for (const name of document.querySelectorAll("[data-measure-name]")) name.textContent = data.labels[chosen.measure];
+  }
+  for (const input of document.querySelectorAll("[data-pick]")) {
+    input.addEventListener("change", () => choose(input.dataset.pick, input.value));
+  }
+
+  const button = document.getElementById("theme");
+  const system = matchMedia("(prefers-color-scheme: dark)");
+  const isDark = () => root.dataset.theme ? root.dataset.theme === "dark" : system.matches;
+  const name = () => { button.textContent = isDark() ? "Light" : "Dark"; button.setAttribute("aria-label", `Use the ${isDark() ? "light" : "dark"} theme`); };
+  button.addEventListener("click", () => { root.dataset.theme = isDark() ? "light" : "dark"; name(); });
+  system.addEventListener("change", name);
+  name();
+})();

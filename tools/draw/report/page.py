@@ -1,0 +1,155 @@
+"""Puts the report together: one HTML file that opens without a network."""
+from pathlib import Path
+
+from . import answer, details, measures, tables, words
+from .drift import drift_runs
+from .gallery import CLOCKS, Gallery
+from .markup import Html, data_script, joined, tag, void
+from .method_name import glyphs
+from .theme import DARK, LIGHT
+from .tips import tip
+
+HERE = Path(__file__).resolve().parent
+BUDGET = 2_700_000  # characters of the page; further variants of figures are left out
+
+READ = {
+    "wp": "One marker is one run, one line one method from loose to tight control; lower left is better: less error in "
+          "less time. Hollow markers are near the reference's own error. Crosses above are runs that failed, at the time they "
+          "took. Thin horizontal lines span the repeats.",
+    "tol": "How the error follows what was asked for. The slope is the order observed in log-log; a method that keeps "
+           "its promise has slope 1 against a tolerance, and its order against a step.",
+    "cost": "For each method the cheapest run whose error is below the target, or its most accurate run if none is "
+            "(pale). Rest is wall time minus the parts that were measured.",
+    "drift": "Change of the energy balance since the start, in magnitude, of the same runs as in the cost breakdown.",
+}
+
+
+def _variables(colours):
+    return "".join(f"--{name}:{value};" for name, value in colours.items())
+
+
+def _style():
+    light, dark = _variables(LIGHT) + "color-scheme:light;", _variables(DARK) + "color-scheme:dark;"
+    themes = (f":root{{{light}}}@media (prefers-color-scheme:dark){{:root:not([data-theme=light]){{{dark}}}}}"
+              f":root[data-theme=dark]{{{dark}}}@media print{{:root:root:root{{{light}}}}}")
+    return tag("style", Html(themes + (HERE / "page.css").read_text(encoding="utf-8")))
+
+
+def _counted(comparison):
+    finished = sum(p.completed for p in comparison.points)
+    failed = len(comparison.points) - finished
+    parts = [words.plural(len(comparison.methods), "method"), words.plural(len(comparison.problems), "problem"),
+             words.plural(len(comparison.points), "run") + (f" ({failed} failed)" if failed else "")]
+    machine = comparison.machine.get("processor", "")
+    cores = comparison.machine.get("cores")
+    where = machine + (f", {cores} cores" if machine and cores else "")
+    return parts + [part for part in (comparison.started.replace("T", " ").replace("Z", " UTC"), where) if part]
+
+
+def _banner(comparison):
+    if comparison.complete:
+        return None
+    planned = f" of {words.count(comparison.planned)}" if words.known(comparison.planned) else ""
+    return tag("p", tag("strong", "Not finished: "), f"{len(comparison.points)}{planned} points. What follows is "
+               "what there is so far.", class_="banner", role="status")
+
+
+def _header(comparison):
+    sections = (("answer", "Answer"), ("precision", "Work and precision"), ("tolerance", "Tolerance"), ("cost", "Cost"),
+                ("drift", "Drift"), ("runs", "Runs"), ("details", "Details"))
+    links = (tag("a", name, href=f"#{identity}") for identity, name in sections)
+    return tag("header", tag("button", "Dark", type="button", id="theme", class_="js"),
+               tag("h1", comparison.title or comparison.name),
+               tag("p", comparison.description, class_="lede") if comparison.description else None,
+               tag("p", " · ".join(_counted(comparison)), class_="facts"), _banner(comparison),
+               tag("nav", *links, aria_label="Sections"))
+
+
+def _choosers(offered, group, with_clock=True):
+    """The selector of the error measure and of the clock; hidden without a script."""
+    found = list(dict.fromkeys(measure for measure, _ in offered))
+    clocks = list(dict.fromkeys(clock for _, clock in offered)) if with_clock else []
+    parts = []
+    if len(found) > 1:
+        options = (tag("option", measures.label(m), value=m) for m in found)
+        parts.append(tag("label", "Error measured as ", tag("select", *options, data_pick="measure", autocomplete="off")))
+    if len(clocks) > 1:
+        radios = (tag("label", void("input", type="radio", name=f"clock-{group}", value=c, data_pick="clock",
+                                    checked=c == "wall", autocomplete="off"), tag("span", CLOCKS[c])) for c in clocks)
+        parts.append(tag("fieldset", tag("legend", "Time", class_="unseen"), *radios))
+    return tag("div", *parts, class_="choosers js") if parts else None
+
+
+def _figure(problem, kind, picture, variants=(), first=None):
+    """A figure with its variants; `first` is the (measure, clock) that is shown."""
+    if picture is None:
+        return None
+    measure, clock = first or (None, None)
+    stage = tag("div", picture, class_="stage")
+    return tag("figure", stage, *variants, tag("figcaption", READ[kind]), data_kind=kind,
+               data_measure=measure, data_clock=clock if kind == "wp" else None,
+               aria_label=f"{problem.label}")
+
+
+def _section(identity, title, *content):
+    return tag("section", tag("h2", title), *content, id=identity)
+
+
+def _each(comparison, content):
+    """`content(problem)` below each problem's name; the name is left out where there is one problem only."""
+    parts = []
+    for problem in comparison.problems:
+        found = content(problem) or tag("p", "Nothing to show: no finished run has it.", class_="empty")
+        title = tag("h3", problem.label) if len(comparison.problems) > 1 else None
+        parts.append(tag("div", title, found, class_="problem"))
+    return joined(parts) or tag("p", "The comparison names no problem.", class_="empty")
+
+
+def _cost(comparison, gallery, problem):
+    picture = gallery.cost(problem)
+    return picture and joined([_figure(problem, "cost", picture), tables.cost_table(comparison, problem)])
+
+
+def _drift(comparison, gallery, problem):
+    picture, runs = gallery.drift(problem), drift_runs(comparison, problem)
+    return picture and joined([_figure(problem, "drift", picture), tables.drift_table(comparison, problem, runs)])
+
+
+def _after(comparison, gallery, folder):
+    """All sections below the two that have variants."""
+    return joined([
+        _section("cost", "Where the time goes", _each(comparison, lambda p: _cost(comparison, gallery, p))),
+        _section("drift", "Energy drift", _each(comparison, lambda p: _drift(comparison, gallery, p))),
+        _section("runs", "All runs", _each(comparison, lambda p: tables.runs_table(comparison, p)),
+                 tag("h3", "Failures"), tables.failures_table(comparison)),
+        _section("details", "How this was measured", tag("h3", "What an error is"), details.definitions(),
+                 tag("h3", "Methods"), details.methods_table(comparison),
+                 *(details.problem_details(p) for p in comparison.problems), details.provenance(comparison, folder))])
+
+
+def page(comparison, folder):
+    """The whole page as text; `folder` is named in the command that reproduces it."""
+    gallery = Gallery(comparison)
+    first = gallery.choices()[0]
+    shown = {p.id: (gallery.work_precision(p), gallery.tolerance(p)) for p in comparison.problems}
+    after = _after(comparison, gallery, folder)
+    runs = data_script("run-data", {
+        "measure": first[0], "labels": {m: measures.label(m) for m in measures.present(comparison.points)},
+        "runs": [tip(comparison, p) for p in comparison.points]})
+    script = tag("script", Html((HERE / "page.js").read_text(encoding="utf-8")))
+    base = len(after) + len(runs) + sum(len(a) + len(b) for a, b in shown.values()) + 100_000
+    variants, offered = gallery.variants(BUDGET - base)
+
+    def figures(kind, which):
+        return _each(comparison, lambda p: _figure(p, kind, shown[p.id][which], variants.get((kind, p.id), ()), first))
+
+    main = tag("main", _section("answer", "The answer", answer.answer_section(comparison)),
+               _section("precision", "Work and precision", _choosers(offered, "wp"), figures("wp", 0)),
+               _section("tolerance", "Error against tolerance and step", _choosers(offered, "tol", False),
+                        figures("tol", 1)), after)
+    head = tag("head", void("meta", charset="utf-8"),
+               void("meta", name="viewport", content="width=device-width, initial-scale=1"),
+               tag("title", comparison.title or comparison.name), _style(),
+               void("link", rel="icon", href="data:,"))
+    return "<!DOCTYPE html>\n" + tag("html", head, tag("body", glyphs(comparison), _header(comparison), main,
+                                                             runs, script), lang="en") + "\n"

@@ -1,0 +1,11 @@
+// The drawing tool, which is no part of this program but stands beside it.
+#pragma once
+
+#include <filesystem>
+
+namespace orthodyn {
+
+// Has report.html drawn in a comparison's folder, and says where; a warning if that is not possible.
+void draw_report(const std::filesystem::path& folder, bool quiet);
+
+}  // namespace orthodyn
