@@ -97,15 +97,12 @@ bool Campaign::measure_points(std::size_t problem, const std::atomic<bool>& inte
   for (std::size_t i = 0; i < design_.points.size(); ++i) {
     const Point& point = design_.points[i];
     if (point.problem != problem) continue;
-    const Method& method = design_.methods[point.method];
     const auto reference = references_.find(problem);
     const std::string measured_against =
         reference == references_.end() || reference->second.folder.empty()
             ? ""
             : fs::absolute(options_.folder / reference->second.folder).string();
-    const Task task{fmt::format("{}, {}, {} {:g}", design_.problems[problem].label, method.label,
-                                control_word(method.control), point.control),
-                    "points", point_scene(design_, point),
+    const Task task{title(design_, point), "points", point_scene(design_, point),
                     {comparison_.repeats, comparison_.samples, comparison_.limits.seconds, measured_against, false, false}};
     Json result = perform(task, interrupt, point_folders_[i]);
     if (result.is_null()) return false;

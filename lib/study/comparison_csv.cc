@@ -75,22 +75,16 @@ std::string cell(const Json& point, const Column& column) {
   return at->is_string() ? quoted(at->get<std::string>()) : at->dump();
 }
 
-// By the leading measure; compare.json has it for each.
-bool is_near_reference(const Json& point) {
-  const Json& names = point.at("near_reference");
-  return std::find(names.begin(), names.end(), Json("displacement.l2")) != names.end();
-}
-
 }  // namespace
 
 std::string comparison_csv(const Json& comparison) {
   const auto columns = columns_of(comparison);
   std::string out;
   for (const auto& column : columns) out += (out.empty() ? "" : ",") + quoted(column.title);
-  out += ",near_reference.displacement.l2\n";
+  out += fmt::format(",near_reference.{}\n", kLeadingError);
   for (const auto& point : comparison.at("points")) {
     for (const auto& column : columns) out += cell(point, column) + ",";
-    out += is_near_reference(point) ? "true\n" : "false\n";
+    out += is_near_reference(point, kLeadingError) ? "true\n" : "false\n";
   }
   return out;
 }

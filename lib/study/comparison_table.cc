@@ -1,6 +1,6 @@
 #include "lib/study/comparison_table.h"
 
-#include <fmt/format.h>
+#include <algorithm>
 
 #include "lib/study/answers.h"
 #include "lib/study/machine.h"
@@ -114,10 +114,6 @@ void mark_inverted(Json& point, const ReferenceResult* reference) {
   point["message"] = "an element was inverted, which does not happen in the reference";
 }
 
-bool contains(const Json& list, const std::string& text) {
-  return std::find(list.begin(), list.end(), Json(text)) != list.end();
-}
-
 // The finished points of a method on a problem, from loose to tight.
 std::vector<WorkPoint> work_points(const Json& points, const Json& problem, const Json& method) {
   std::vector<WorkPoint> out;
@@ -127,7 +123,7 @@ std::vector<WorkPoint> work_points(const Json& points, const Json& problem, cons
     const Json error = point.at("errors").at("displacement").at("l2");
     if (!error.is_number()) continue;
     out.push_back({point.at("control").at("value"), error, point.at("wall").at("median"),
-                   !contains(point.at("near_reference"), "displacement.l2")});
+                   !is_near_reference(point, kLeadingError)});
   }
   return out;
 }
@@ -153,7 +149,7 @@ Json answer_json(const Json& problem, double target, const Json& methods, const 
     if (a.at("seconds").is_null() || b.at("seconds").is_null()) return !a.at("seconds").is_null();
     return a.at("seconds").get<double>() < b.at("seconds").get<double>();
   });
-  return {{"problem", problem.at("id")}, {"error", "displacement.l2"}, {"target", target}, {"methods", rows}};
+  return {{"problem", problem.at("id")}, {"error", kLeadingError}, {"target", target}, {"methods", rows}};
 }
 
 void add_conclusions(Json& out) {
@@ -167,7 +163,7 @@ void add_conclusions(Json& out) {
       if (const auto fit = slope(work))
         out["orders"].push_back({{"problem", problem.at("id")},
                                  {"method", method.at("id")},
-                                 {"error", "displacement.l2"},
+                                 {"error", kLeadingError},
                                  {"slope", fit->value},
                                  {"points", fit->points},
                                  {"from", fit->from},
@@ -179,6 +175,11 @@ void add_conclusions(Json& out) {
 }
 
 }  // namespace
+
+bool is_near_reference(const Json& point, const std::string& error) {
+  const Json& names = point.at("near_reference");
+  return std::any_of(names.begin(), names.end(), [&](const Json& n) { return n.get<std::string>() == error; });
+}
 
 Json comparison_json(const Campaign& campaign, const std::string& file, const std::string& started) {
   const auto& comparison = campaign.comparison();

@@ -1,5 +1,7 @@
 #include "lib/study/expand.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 #include <functional>
@@ -130,6 +132,15 @@ std::string section(const std::string& type, const Assignments& options) {
   return yaml + "}";
 }
 
+// Wrong input shows before anything runs.
+void check_point(const Design& design, const Point& point) {
+  try {
+    point_scene(design, point);
+  } catch (const ConfigError& e) {
+    throw ConfigError(fmt::format("{}: {}", title(design, point), e.what()));
+  }
+}
+
 }  // namespace
 
 std::string control_word(Method::Control control) { return control == Method::Control::rtol ? "rtol" : "step"; }
@@ -154,6 +165,12 @@ Config point_scene(const Design& design, const Point& point) {
   return scene_config(design.problems[point.problem], method.integrator, options);
 }
 
+std::string title(const Design& design, const Point& point) {
+  const Method& method = design.methods[point.method];
+  return fmt::format("{}, {}, {} {:g}", design.problems[point.problem].label, method.label,
+                     control_word(method.control), point.control);
+}
+
 Design expand(const Comparison& comparison) {
   Design design{problems_of(comparison), methods_of(comparison), {}};
   std::vector<double> tolerances = comparison.tolerances, steps = comparison.steps;
@@ -163,7 +180,7 @@ Design expand(const Comparison& comparison) {
     for (std::size_t m = 0; m < design.methods.size(); ++m)
       for (const double control : design.methods[m].control == Method::Control::rtol ? tolerances : steps)
         design.points.push_back({p, m, control});
-  for (const auto& point : design.points) point_scene(design, point);  // wrong input shows before anything runs
+  for (const auto& point : design.points) check_point(design, point);
   return design;
 }
 

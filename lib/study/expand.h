@@ -44,6 +44,9 @@ struct Design {
 // Throws ConfigError, also for a scene that cannot be read.
 Design expand(const Comparison& comparison);
 
+// "damped_beam, cvode_bdf, rtol 0.001"
+std::string title(const Design& design, const Point& point);
+
 // The scene of a problem with an integrator section; defaults are filled in, nothing is written by it but
 // what probes need. Keys of the scene's own integrator are kept where the new one has them.
 Config scene_config(const Problem& problem, const std::string& integrator, const Assignments& options);

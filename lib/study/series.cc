@@ -31,6 +31,21 @@ Vertex vertex(const Series& s, double sign) {
   return {s.times[k] - b / (2 * a), s.values[k] - b * b / (4 * a)};
 }
 
+// The integral of the parabola through the samples k, k + 1, k + 2 from the first to the second of them,
+// by Newton's divided differences.
+double integral_over_first(const Series& s, std::size_t k) {
+  const double h = s.times[k + 1] - s.times[k], g = s.times[k + 2] - s.times[k + 1];
+  const double slope = (s.values[k + 1] - s.values[k]) / h, next = (s.values[k + 2] - s.values[k + 1]) / g;
+  return h * (s.values[k] + h * (slope / 2 - (next - slope) / (h + g) * h / 6));
+}
+
+// The same from the second to the third.
+double integral_over_last(const Series& s, std::size_t k) {
+  const double h = s.times[k + 1] - s.times[k], g = s.times[k + 2] - s.times[k + 1];
+  const double slope = (s.values[k + 1] - s.values[k]) / h, next = (s.values[k + 2] - s.values[k + 1]) / g;
+  return g * (s.values[k + 2] - g * (next / 2 + (next - slope) / (h + g) * g / 6));
+}
+
 }  // namespace
 
 double maximum(const Series& series, double sign) { return vertex(series, sign).value; }
@@ -38,10 +53,17 @@ double maximum(const Series& series, double sign) { return vertex(series, sign).
 double time_of_maximum(const Series& series, double sign) { return vertex(series, sign).t; }
 
 double mean(const Series& s) {
-  if (s.size() < 2) return kNone;
+  const auto n = s.size();
+  if (n < 2) return kNone;
   double sum = 0;
-  for (std::size_t k = 1; k < s.size(); ++k)
-    sum += 0.5 * (s.values[k] + s.values[k - 1]) * (s.times[k] - s.times[k - 1]);
+  for (std::size_t k = 0; k + 1 < n; ++k) {
+    // Parabolas through either neighbour, averaged; at the ends there is one.
+    double pieces = 0;
+    int count = 0;
+    if (k > 0) pieces += integral_over_last(s, k - 1), ++count;
+    if (k + 2 < n) pieces += integral_over_first(s, k), ++count;
+    sum += count > 0 ? pieces / count : 0.5 * (s.values[0] + s.values[1]) * (s.times[1] - s.times[0]);
+  }
   return sum / (s.times.back() - s.times.front());
 }
 

@@ -19,6 +19,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kTable = "compare.json";
+// Written first: a folder with it is a comparison's.
+constexpr const char* kMark = "comparison.yaml";
 
 // Finished points are known by their fingerprints, so any comparison may go on in its folder; but
 // only there.
@@ -27,7 +29,7 @@ void refuse_other_folders(const fs::path& folder) {
   if (!fs::exists(folder, ec)) return;
   if (!fs::is_directory(folder, ec))
     throw ConfigError(folder.string() + ": is a file, expected a folder for the results; use --out");
-  if (fs::is_empty(folder, ec) || fs::exists(folder / kTable, ec)) return;
+  if (fs::is_empty(folder, ec) || fs::exists(folder / kMark, ec)) return;
   throw ConfigError(folder.string() + ": holds files that are no comparison; use --out with another folder");
 }
 
@@ -94,7 +96,7 @@ int compare_command(const CompareArguments& arguments) {
   Design design = expand(comparison);
   const fs::path folder = arguments.out ? fs::path(*arguments.out) : fs::path("out") / comparison.name;
   refuse_other_folders(folder);
-  write_file(folder / "comparison.yaml",
+  write_file(folder / kMark,
              {fmt::format("# {} with every default spelled out.\n{}", arguments.comparison, config.dump())});
 
   Teller teller;

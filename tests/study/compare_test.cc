@@ -1,0 +1,197 @@
+// `orthodyn compare` as a user meets it: results, failures, interruption.
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "tests/run/command.h"
+
+namespace orthodyn {
+namespace {
+
+using Json = nlohmann::json;
+
+const char* const kSmall = R"(scenes: [swing.yaml]
+integrators: [cvode_bdf, ida_bdf]
+tolerances: [1e-2, 1e-3, 1e-4]
+repeats: 2
+samples: 40
+reference:
+  integrator: {type: ida_bdf, max_order: 5, rtol: 1e-8}
+  check: {type: cvode_bdf, max_order: 5, rtol: 1e-7}
+)";
+
+class Compare : public InFolder {
+ protected:
+  Compare() {
+    write("swing.yaml", kSwing);
+    write("c.yaml", kSmall);
+  }
+  Json table() const { return Json::parse(read_text(folder_ / "out/c/compare.json")); }
+  CommandResult compare(const std::string& more = "") const { return orthodyn("compare c.yaml --no-report" + more); }
+
+  // What must not change when a comparison goes on: the files of finished points.
+  std::set<std::pair<std::string, std::string>> finished() const {
+    std::set<std::pair<std::string, std::string>> out;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out/c"))
+      if (entry.path().filename() == "result.json") out.emplace(entry.path().string(), read_text(entry.path()));
+    return out;
+  }
+};
+
+TEST_F(Compare, MeasuresEveryPointAgainstACheckedReference) {
+  const auto done = compare();
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  const Json t = table();
+  EXPECT_TRUE(t.at("complete"));
+  ASSERT_EQ(t.at("points").size(), 6u);
+  for (const auto& point : t.at("points")) {
+    EXPECT_EQ(point.at("status"), "completed") << point.dump();
+    EXPECT_EQ(point.at("repeats"), 2);
+    EXPECT_GT(point.at("wall").at("median"), 0);
+    const double rtol = point.at("control").at("value"), error = point.at("errors").at("displacement").at("l2");
+    EXPECT_LT(error, 30 * rtol);
+    EXPECT_GT(error, 0.01 * rtol);
+    EXPECT_EQ(point.at("near_reference").size(), 0u);
+    EXPECT_TRUE(point.at("errors").at("probes").contains("tip"));
+    EXPECT_GT(point.at("statistics").at("steps"), 0);
+    EXPECT_GT(point.at("peak_memory_bytes"), 1e6);
+    EXPECT_EQ(point.at("drift_over_time").at("t").size(), 40u);
+    EXPECT_TRUE(point.at("drift").at("angular_momentum").is_null());  // it is clamped
+  }
+  const double bound = t.at("problems")[0].at("reference").at("errors").at("displacement").at("l2");
+  EXPECT_GT(bound, 0);
+  EXPECT_LT(bound, 1e-5);
+  EXPECT_FALSE(t.at("answers").empty());
+  EXPECT_EQ(t.at("orders").size(), 2u);
+}
+
+TEST_F(Compare, TheCsvHoldsTheNumbersOfTheJson) {
+  ASSERT_EQ(compare().exit_code, 0);
+  std::istringstream csv(read_text(folder_ / "out/c/compare.csv"));
+  std::string header, row;
+  std::getline(csv, header);
+  const auto cells = [](const std::string& line) {
+    std::vector<std::string> out;
+    std::istringstream in(line);
+    for (std::string cell; std::getline(in, cell, ',');) out.push_back(cell);
+    return out;
+  };
+  const auto titles = cells(header);
+  const auto column = [&](const std::string& title) {
+    return static_cast<std::size_t>(std::find(titles.begin(), titles.end(), title) - titles.begin());
+  };
+  const Json t = table();
+  for (const auto& point : t.at("points")) {
+    ASSERT_TRUE(std::getline(csv, row));
+    const auto values = cells(row);
+    ASSERT_EQ(values.size(), titles.size());
+    EXPECT_EQ(std::stod(values[column("wall.median [s]")]), point.at("wall").at("median"));
+    EXPECT_EQ(std::stod(values[column("error.displacement.l2")]), point.at("errors").at("displacement").at("l2"));
+    EXPECT_EQ(std::stol(values[column("steps")]), point.at("statistics").at("steps"));
+    EXPECT_EQ(values[column("method")], point.at("method"));
+  }
+  EXPECT_FALSE(std::getline(csv, row));
+}
+
+TEST_F(Compare, GoesOnWhereItStopped) {
+  ASSERT_EQ(compare().exit_code, 0);
+  const auto before = finished();
+  write("c.yaml", std::string(kSmall).replace(std::string(kSmall).find("1e-4"), 4, "1e-4, 1e-5"));
+  const auto again = compare();
+  EXPECT_EQ(again.exit_code, 0);
+  for (const auto& file : before) EXPECT_TRUE(finished().contains(file)) << file.first;
+}
+
+TEST_F(Compare, AKillAtAnyMomentCostsAtMostThePointInProgress) {
+  for (const int milliseconds : {60, 150, 400, 900}) {
+    const pid_t child = fork();
+    if (child == 0) {
+      std::freopen("/dev/null", "w", stdout);
+      if (chdir(folder_.c_str()) == 0)
+        execl(ORTHODYN_EXECUTABLE, ORTHODYN_EXECUTABLE, "compare", "c.yaml", "--no-report", nullptr);
+      _exit(127);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    const auto before = fs::exists(folder_ / "out/c") ? finished() : decltype(finished()){};
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    const auto after = finished();
+    for (const auto& file : before) EXPECT_TRUE(after.contains(file)) << file.first;
+    for (const auto& [path, text] : after) EXPECT_TRUE(Json::accept(text)) << path;  // whole or absent
+  }
+  const auto before = finished();
+  const auto done = compare();
+  EXPECT_EQ(done.exit_code, 0) << done.output;
+  for (const auto& file : before) EXPECT_TRUE(finished().contains(file)) << file.first;
+  EXPECT_EQ(table().at("points").size(), 6u);
+  EXPECT_EQ(finished().size(), 8u);  // with the reference and its check: nothing was done twice
+}
+
+TEST_F(Compare, AnInterruptKeepsTheTable) {
+  const auto stopped = shell("cd " + folder_.string() + " && timeout -s INT 0.5 " ORTHODYN_EXECUTABLE
+                             " compare c.yaml --no-report --quiet; echo code $?");
+  EXPECT_TRUE(stopped.output.find("will not be done again") != std::string::npos ||
+              stopped.output.find("code 0") != std::string::npos)  // a fast machine was done before
+      << stopped.output;
+}
+
+TEST_F(Compare, APointThatTakesTooLongStaysInTheTable) {
+  write("c.yaml", "scenes: [swing.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-2, 1e-9]\nlimits: {seconds: 1e-3}\n"
+                  "repeats: 1\nreference: {kind: none}\n");
+  ASSERT_EQ(compare().exit_code, 0);
+  const Json t = table();
+  const Json& tight = t.at("points")[1];
+  EXPECT_EQ(tight.at("status"), "failed");
+  EXPECT_EQ(tight.at("reason"), "time limit");
+  EXPECT_LT(tight.at("time_reached"), 0.5);
+  EXPECT_NE(read_text(folder_ / "out/c/compare.csv").find("time limit"), std::string::npos);
+}
+
+TEST_F(Compare, ARunThatFailsAndAModelThatIsRefusedStayInTheTableWithTheirReasons) {
+  write("c.yaml", "scenes: [{file: swing.yaml, set: {mass: consistent}}]\ntolerances: [1e-3]\nintegrators:\n"
+                  "- {type: cvode_bdf, label: short, max_steps: 3}\n- {type: cvode_bdf, label: full, linear_solver: "
+                  "klu_full}\nrepeats: 1\nreference: {kind: none}\n");
+  ASSERT_EQ(compare().exit_code, 0);
+  const Json t = table();
+  EXPECT_EQ(t.at("points")[0].at("reason"), "too many steps");
+  EXPECT_EQ(t.at("points")[1].at("reason"), "refused");
+  EXPECT_NE(t.at("points")[1].at("message").get<std::string>().find("mass: lumped"), std::string::npos);
+}
+
+TEST_F(Compare, AProcessThatDiesCostsOnePoint) {
+  ASSERT_EQ(compare().exit_code, 0);
+  fs::remove(folder_ / "out/c" / fs::path(table().at("points")[0].at("scene").get<std::string>()).parent_path() /
+             "result.json");
+  // What it would measure against cannot be read.
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out/c/references"))
+    if (entry.path().filename() == "trajectory.bin") fs::resize_file(entry.path(), 100);
+  const auto again = compare();
+  EXPECT_EQ(again.exit_code, 0) << again.output;
+  const Json t = table();
+  EXPECT_EQ(t.at("points")[0].at("reason"), "crashed");
+  EXPECT_NE(t.at("points")[0].at("message").get<std::string>().find("cut short"), std::string::npos);
+  for (std::size_t k = 1; k < 6; ++k) EXPECT_EQ(t.at("points")[k].at("status"), "completed");
+}
+
+TEST_F(Compare, ALinearSceneIsMeasuredAgainstItsExactSolution) {
+  write("c.yaml", "scenes: [{file: swing.yaml, set: {elasticity.kinematics: linear}}]\nintegrators: [cvode_bdf]\n"
+                  "tolerances: [1e-3, 1e-5, 1e-7]\nrepeats: 1\n");
+  ASSERT_EQ(compare().exit_code, 0);
+  const Json t = table();
+  EXPECT_EQ(t.at("problems")[0].at("reference").at("kind"), "exact");
+  EXPECT_LT(t.at("points")[2].at("errors").at("displacement").at("l2"), 1e-5);
+  EXPECT_LT(t.at("points")[2].at("errors").at("velocity").at("max"), 1e-4);
+}
+
+TEST_F(Compare, NeverWritesIntoAFolderOfSomethingElse) {
+  fs::create_directories(folder_ / "mine");
+  write("mine/thesis.tex", "precious");
+  const auto done = compare(" --out mine");
+  EXPECT_EQ(done.exit_code, 2);
+  EXPECT_NE(done.output.find("no comparison"), std::string::npos) << done.output;
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "mine"), fs::directory_iterator()), 1);
+}
+
+}  // namespace
+}  // namespace orthodyn

@@ -1,0 +1,117 @@
+// From a comparison file to its points.
+#include "lib/study/expand.h"
+
+#include "lib/core/registry.h"
+#include "lib/ode/integrator.h"
+
+#include "tests/run/command.h"
+
+namespace orthodyn {
+namespace {
+
+class Expand : public InFolder {
+ protected:
+  Expand() { write("swing.yaml", kSwing); }
+
+  Design expanded(const std::string& comparison) const {
+    return expand(read_comparison(Config::from_file(write("c.yaml", comparison).string())));
+  }
+  std::string refusal(const std::string& comparison) const {
+    try {
+      expanded(comparison);
+    } catch (const ConfigError& e) {
+      return e.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(Expand, TakesEveryRegisteredIntegratorAndOrdersTolerancesFromLooseToTight) {
+  const auto design = expanded("scenes: [swing.yaml]\ntolerances: [1e-4, 1e-2]\n");
+  const auto names = Registry<IntegratorChoice>::names();
+  ASSERT_EQ(design.methods.size(), names.size());
+  for (std::size_t m = 0; m < names.size(); ++m) EXPECT_EQ(design.methods[m].integrator, names[m]);
+  ASSERT_EQ(design.points.size(), 2 * names.size());
+  EXPECT_EQ(design.points[0].control, 1e-2);
+  EXPECT_EQ(design.points[1].control, 1e-4);
+}
+
+TEST_F(Expand, KeysOfTheIntegratorMakeMethodsAndAllOthersMakeProblems) {
+  const auto design = expanded(R"(scenes: [swing.yaml]
+integrators: [cvode_bdf]
+tolerances: [1e-3]
+vary: {integrator.linear_solver: [klu, cholmod], mesh.cells: [[4, 1, 1], [8, 1, 1]]}
+)");
+  ASSERT_EQ(design.methods.size(), 2u);
+  ASSERT_EQ(design.problems.size(), 2u);
+  EXPECT_EQ(design.methods[0].label, "cvode_bdf, linear_solver klu");
+  EXPECT_EQ(design.problems[1].label, "swing, cells [8, 1, 1]");
+  EXPECT_EQ(design.points.size(), 4u);
+  const Config scene = point_scene(design, design.points.back());
+  EXPECT_EQ(scene.at("integrator").at("linear_solver").text(), "cholmod");
+  EXPECT_EQ(scene.at("mesh").at("cells").yaml(), "[8, 1, 1]");
+  EXPECT_EQ(scene.at("integrator").at("rtol").number(), 1e-3);
+}
+
+TEST_F(Expand, KeepsTheScalesOfTheSceneForEveryMethod) {
+  write("scaled.yaml", std::string(kSwing).replace(std::string(kSwing).find("rtol: 1e-3"), 10, "position_scale: 0.25"));
+  const auto design = expanded("scenes: [scaled.yaml]\nintegrators: [ida_bdf]\ntolerances: [1e-3]\n");
+  EXPECT_EQ(point_scene(design, design.points[0]).at("integrator").at("position_scale").number(), 0.25);
+}
+
+TEST_F(Expand, AnOptionOfTheEntryWinsOverTheScene) {
+  write("second.yaml", std::string(kSwing).replace(std::string(kSwing).find("rtol: 1e-3"), 10, "max_order: 2"));
+  const auto design = expanded(
+      "scenes: [second.yaml]\nintegrators: [{type: cvode_bdf, label: order 4, max_order: 4}]\ntolerances: [1e-3]\n");
+  EXPECT_EQ(design.methods[0].label, "order 4");
+  EXPECT_EQ(point_scene(design, design.points[0]).at("integrator").at("max_order").integer(), 4);
+}
+
+TEST_F(Expand, WritesNothingButProbes) {
+  const auto design = expanded("scenes: [swing.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-3]\n");
+  const Config output = point_scene(design, design.points[0]).at("output");
+  EXPECT_EQ(output.at("fields").size(), 0u);
+  EXPECT_FALSE(output.at("energy").boolean());
+  EXPECT_TRUE(output.at("probes").has("tip"));
+}
+
+TEST_F(Expand, RefusesWithPlaceAndRemedy) {
+  const std::string good = "scenes: [swing.yaml]\n";
+  EXPECT_NE(refusal(good + "tolerances: [1e-3]\nintegrators: [cvode]\n").find("c.yaml:3:15"), std::string::npos);
+  EXPECT_NE(refusal(good + "tolerances: [1e-3]\nintegrators: [cvode_bfd]\n").find("did you mean 'cvode_bdf'"),
+            std::string::npos);
+  EXPECT_NE(refusal(good).find("give 'tolerances', 'steps' or both"), std::string::npos);
+  EXPECT_NE(refusal(good + "steps: [1e-3]\nintegrators: [cvode_bdf]\n").find("add 'tolerances'"), std::string::npos);
+  EXPECT_NE(refusal(good + "tolerances: [2]\n").find("c.yaml:2:14"), std::string::npos);
+  EXPECT_NE(refusal("scenes: [swing.yaml, swing.yaml]\ntolerances: [1e-3]\n").find("twice"), std::string::npos);
+  EXPECT_NE(refusal("scenes: [no.yaml]\ntolerances: [1e-3]\n").find("no such file"), std::string::npos);
+  EXPECT_NE(refusal(good + "tolerances: [1e-3]\nvary: {mesh.cels: [[1, 1, 1]]}\n").find("did you mean 'cells'"),
+            std::string::npos);
+  EXPECT_NE(refusal(good + "tolerances: [1e-3]\nintegrators: [{type: cvode_bdf, rtol: 1}]\n").find("remove it here"),
+            std::string::npos);
+}
+
+TEST(HeadComment, IsOneLineOfText) {
+  const auto text = head_comment(ORTHODYN_SOURCE_DIR "/configs/scenes/free_flight.yaml");
+  EXPECT_TRUE(text.starts_with("A block ten times stiffer")) << text;
+  EXPECT_EQ(text.find('\n'), std::string::npos);
+}
+
+class ShippedComparisons : public testing::TestWithParam<std::string> {};
+
+TEST_P(ShippedComparisons, CanBeExpanded) {
+  EXPECT_FALSE(expand(read_comparison(Config::from_file(GetParam()))).points.empty());
+}
+
+std::vector<std::string> shipped() {
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator(ORTHODYN_SOURCE_DIR "/configs/comparisons"))
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path().string());
+  return files;
+}
+
+INSTANTIATE_TEST_SUITE_P(Configs, ShippedComparisons, testing::ValuesIn(shipped()),
+                         [](const auto& tested) { return fs::path(tested.param).stem().string(); });
+
+}  // namespace
+}  // namespace orthodyn

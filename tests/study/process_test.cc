@@ -1,0 +1,50 @@
+// Child processes and their limits.
+#include "lib/study/process.h"
+
+#include <csignal>
+#include <thread>
+
+#include "lib/run/files.h"
+#include "tests/run/command.h"
+
+namespace orthodyn {
+namespace {
+
+class Process : public InFolder {
+ protected:
+  ProcessEnd run(const std::string& command, double seconds = 30) {
+    return run_process({"/bin/sh", "-c", command}, folder_ / "log", {seconds, 8e9}, interrupt_);
+  }
+  std::atomic<bool> interrupt_{false};
+};
+
+TEST_F(Process, HandsBackTheExitCodeAndTheOutput) {
+  EXPECT_EQ(run("echo said; echo so >&2; exit 7").code, 7);
+  EXPECT_EQ(read_text(folder_ / "log"), "said\nso\n");
+}
+
+TEST_F(Process, TellsASignalFromAnExit) {
+  const auto end = run("kill -SEGV $$");
+  EXPECT_EQ(end.kind, ProcessEnd::Kind::signalled);
+  EXPECT_EQ(end.code, SIGSEGV);
+}
+
+TEST_F(Process, IsKilledAfterItsTime) {
+  EXPECT_EQ(run("sleep 100", 0.2).kind, ProcessEnd::Kind::timed_out);
+}
+
+TEST_F(Process, EndsWhenThereIsAnInterrupt) {
+  std::thread later([this] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    interrupt_ = true;
+  });
+  EXPECT_EQ(run("sleep 100").kind, ProcessEnd::Kind::interrupted);
+  later.join();
+}
+
+TEST_F(Process, AMissingProgramIsAnExitCode) {
+  EXPECT_EQ(run_process({"/no/such/program"}, folder_ / "log", {10, 8e9}, interrupt_).code, 127);
+}
+
+}  // namespace
+}  // namespace orthodyn

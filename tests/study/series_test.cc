@@ -1,0 +1,74 @@
+// Figures of a series, on functions whose figures are known.
+#include "lib/study/series.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace orthodyn {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+template <class F>
+Series sample(F&& f, double end, int n, double uneven = 0) {
+  Series s;
+  for (int k = 0; k <= n; ++k) {
+    const double t = end * k / n + uneven * std::sin(7.0 * k) * end / n;
+    s.times.push_back(t);
+    s.values.push_back(f(t));
+  }
+  return s;
+}
+
+TEST(Series, FindsTheVertexOfAParabolaBetweenUnevenSamples) {
+  const auto s = sample([](double t) { return 3 - 2 * (t - 0.537) * (t - 0.537); }, 1, 10, 0.2);
+  EXPECT_NEAR(maximum(s), 3, 1e-13);
+  EXPECT_NEAR(time_of_maximum(s), 0.537, 1e-13);
+}
+
+TEST(Series, ReportsExtremaAtTheEndsAsTheyAre) {
+  const auto s = sample([](double t) { return t; }, 2, 5);
+  EXPECT_EQ(maximum(s), 2);
+  EXPECT_EQ(time_of_maximum(s), 2);
+  EXPECT_EQ(maximum(s, -1), 0);
+  EXPECT_EQ(time_of_maximum(s, -1), 0);
+}
+
+TEST(Series, MeanIsOverTimeAndNotOverSamples) {
+  Series s;
+  s.times = {0, 1, 1.01, 1.02, 2};
+  s.values = {0, 1, 1.01, 1.02, 2};
+  EXPECT_NEAR(mean(s), 1, 1e-14);
+}
+
+TEST(Series, TheMeanOfAParabolaIsExactOnUnevenSamples) {
+  for (const int n : {2, 3, 9})
+    EXPECT_NEAR(mean(sample([](double t) { return 1 + 3 * t * t; }, 2, n)), 5, 1e-13) << n;
+  const auto s = sample([](double t) { return t * t; }, 1, 9, 0.2);
+  const double a = s.times.front(), b = s.times.back();
+  EXPECT_NEAR(mean(s), (b * b * b - a * a * a) / 3 / (b - a), 1e-14);
+}
+
+TEST(Series, FrequencyIsThatOfASineOnAnyLevel) {
+  const double f = 3.7;
+  const auto s = sample([&](double t) { return 5 + 0.1 * std::sin(2 * kPi * f * t + 0.3); }, 10 / f, 4000);
+  EXPECT_NEAR(frequency(s), f, 1e-6 * f);
+}
+
+TEST(Series, WhatDoesNotSwingHasNoFrequency) {
+  EXPECT_TRUE(std::isnan(frequency(sample([](double t) { return t * t; }, 1, 50))));
+  EXPECT_TRUE(std::isnan(frequency(Series{})));
+}
+
+TEST(Series, DriftOfAVectorIsTheLongestChange) {
+  Series s;
+  s.components = 3;
+  s.times = {0, 1, 2};
+  s.values = {1, 1, 1, 1, 4, 5, 1, 2, 1};
+  EXPECT_DOUBLE_EQ(drift(s), 5);
+}
+
+}  // namespace
+}  // namespace orthodyn
