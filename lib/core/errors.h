@@ -13,11 +13,33 @@ class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// Why a computation could not go on, in one word for a table.
+enum class Reason { other, diverged, step_too_small, too_many_steps, newton, error_test, force, out_of_memory };
+
+inline const char* reason_name(Reason reason) {
+  switch (reason) {
+    case Reason::other: break;
+    case Reason::diverged: return "diverged";
+    case Reason::step_too_small: return "step too small";
+    case Reason::too_many_steps: return "too many steps";
+    case Reason::newton: return "newton";
+    case Reason::error_test: return "error test";
+    case Reason::force: return "force";
+    case Reason::out_of_memory: return "out of memory";
+  }
+  return "other";
+}
+
 // The computation could not go on: what() says how far it came, why, and what to try.
 // What was computed so far is kept; the command line exits with 3.
 class RunError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit RunError(const std::string& message, Reason reason = Reason::other)
+      : std::runtime_error(message), reason_(reason) {}
+  Reason reason() const { return reason_; }
+
+ private:
+  Reason reason_;
 };
 
 // The model cannot be evaluated at this state, but may be at one closer to the last good one.

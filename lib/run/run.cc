@@ -98,8 +98,13 @@ Outcome run(const Model& model, Integrator& integrator, const State& initial, co
   } catch (const std::bad_alloc&) {
     outcome.status = Outcome::Status::failed;
     outcome.message = "out of memory; use a coarser mesh or another linear solver";
+    outcome.reason = Reason::out_of_memory;
   } catch (const ConfigError&) {
     throw;
+  } catch (const RunError& e) {
+    outcome.status = Outcome::Status::failed;
+    outcome.message = e.what();
+    outcome.reason = e.reason();
   } catch (const std::exception& e) {
     outcome.status = Outcome::Status::failed;
     outcome.message = e.what();

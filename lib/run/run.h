@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/errors.h"
 #include "lib/run/observer.h"
 
 namespace orthodyn {
@@ -23,8 +24,9 @@ std::vector<double> by_interval(double start, double end, double interval);
 struct Outcome {
   enum class Status { completed, interrupted, failed };
   Status status = Status::completed;
-  std::string message;  // of a failure: what, where, what to try
-  State last;           // the last state reached
+  std::string message;            // of a failure: what, where, what to try
+  Reason reason = Reason::other;  // of a failure, for tables
+  State last;                     // the last state reached
   double wall_seconds = 0, cpu_seconds = 0;
 };
 
