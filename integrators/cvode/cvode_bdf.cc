@@ -2,7 +2,8 @@
 #include <cvode/cvode.h>
 #include <cvode/cvode_ls.h>
 
-#include "integrators/sundials/multistep_integrator.h"
+#include "integrators/sundials/multistep.h"
+#include "integrators/sundials/sundials_integrator.h"
 
 namespace orthodyn::sundials {
 namespace {
@@ -11,10 +12,11 @@ struct FreeMemory {
   void operator()(void* memory) const { CVodeFree(&memory); }
 };
 
-class CvodeBdf : public MultistepIntegrator {
+class CvodeBdf : public SundialsIntegrator {
  public:
   CvodeBdf(const Model& model, const MultistepSettings& settings)
-      : MultistepIntegrator("cvode_bdf", model, settings), memory_(CVodeCreate(CV_BDF, context_)) {
+      : SundialsIntegrator("cvode_bdf", model, settings), max_order_(settings.max_order),
+        memory_(CVodeCreate(CV_BDF, context_)) {
     if (!memory_) throw RunError("CVODE could not be created");
     if (settings.full && !model.traits().lumped_mass)
       throw ConfigError("linear_solver klu_full under cvode_bdf needs `mass: lumped` (the inverse of a "
@@ -32,7 +34,7 @@ class CvodeBdf : public MultistepIntegrator {
       return 0;
     }));
     const auto& o = settings_.options;
-    require(CVodeSetMaxOrd(m, settings_.max_order));
+    require(CVodeSetMaxOrd(m, max_order_));
     require(CVodeSetNonlinConvCoef(m, o.nonlinear_coefficient));
     require(CVodeSetMaxNonlinIters(m, o.max_newton_iterations));
     if (o.h0) require(CVodeSetInitStep(m, *o.h0));
@@ -75,18 +77,18 @@ class CvodeBdf : public MultistepIntegrator {
     return c;
   }
 
-  Failure classify(int flag) const override {
+  Reason classify(int flag) const override {
     switch (flag) {
-      case CV_ERR_FAILURE: return Failure::error_test;
+      case CV_ERR_FAILURE: return Reason::error_test;
       case CV_CONV_FAILURE:
       case CV_LSETUP_FAIL:
-      case CV_NLS_FAIL: return Failure::convergence;
+      case CV_NLS_FAIL: return Reason::newton;
       case CV_RHSFUNC_FAIL:
       case CV_FIRST_RHSFUNC_ERR:
       case CV_REPTD_RHSFUNC_ERR:
-      case CV_UNREC_RHSFUNC_ERR: return Failure::force;
-      case CV_TOO_CLOSE: return Failure::too_close;
-      default: return Failure::other;
+      case CV_UNREC_RHSFUNC_ERR: return Reason::force;
+      case CV_TOO_CLOSE: return Reason::step_too_small;
+      default: return Reason::other;
     }
   }
 
@@ -148,6 +150,7 @@ class CvodeBdf : public MultistepIntegrator {
     }));
   }
 
+  int max_order_;
   std::unique_ptr<void, FreeMemory> memory_;
 };
 
