@@ -3,7 +3,7 @@
 #include <arkode/arkode_arkstep.h>
 
 #include "integrators/arkode/tables.h"
-#include "integrators/sundials/sundials_integrator.h"
+#include "integrators/sundials/first_order.h"
 #include "lib/ode/hermite.h"
 
 namespace orthodyn::sundials {
@@ -23,15 +23,11 @@ int order_of(ARKODE_DIRKTableID id) {
   return table->q;
 }
 
-class ArkodeDirk : public SundialsIntegrator {
+class ArkodeDirk : public FirstOrderIntegrator {
  public:
   ArkodeDirk(const Model& model, const Settings& settings, const DirkOptions& options)
-      : SundialsIntegrator("arkode_dirk", model, settings), table_(options.table), step_(options.step),
-        order_(order_of(options.table)) {
-    if (settings.full && !model.traits().lumped_mass)
-      throw ConfigError("linear_solver klu_full under arkode_dirk needs `mass: lumped` (the inverse of a "
-                        "consistent mass is dense); use ida_bdf, or klu or cholmod");
-  }
+      : FirstOrderIntegrator("arkode_dirk", model, settings), table_(options.table), step_(options.step),
+        order_(order_of(options.table)) {}
 
  protected:
   void initialise(double t) override {
@@ -124,20 +120,15 @@ class ArkodeDirk : public SundialsIntegrator {
  private:
   static ArkodeDirk& self(void* user) { return *static_cast<ArkodeDirk*>(user); }
 
-  // y' = (v, M^-1 f)
+  // An explicit first stage asks for the derivative at the last step's end, which is known. A force that
+  // could not be evaluated there would end the integration: no smaller step avoids it.
   static int right_hand_side(sunrealtype t, N_Vector y, N_Vector y_dot, void* user) {
     auto& me = self(user);
-    return guarded(me.border_, [&] {
-      positions(y_dot) = velocities(y);
-      if (me.is_end(t, y)) {
-        velocities(y_dot) = me.end_.a;
-        return;
-      }
-      const Measure measure(me.statistics_.force);
-      me.model_.force(t, positions(y), velocities(y), velocities(y_dot));
-      require_finite(velocities(y_dot));
-      me.model_.solve_mass(velocities(y_dot));
-    });
+    const Knot& end = me.end_;
+    if (t != end.t || positions(y) != end.q || velocities(y) != end.v) return me.evaluate(t, y, y_dot);
+    positions(y_dot) = end.v;
+    velocities(y_dot) = end.a;
+    return 0;
   }
 
   void tune() {
@@ -152,12 +143,6 @@ class ArkodeDirk : public SundialsIntegrator {
     // The rate of convergence is not remembered. On a linear model it is all but zero, and Newton
     // would take one iteration for enough even after gamma has moved.
     require(ARKStepSetNonlinCRDown(m, 1));
-  }
-
-  // An explicit first stage asks for the derivative at the last step's end, which is known. A force that
-  // could not be evaluated there would end the integration: no smaller step avoids it.
-  bool is_end(double t, N_Vector y) const {
-    return t == end_.t && positions(y) == end_.q && velocities(y) == end_.v;
   }
 
   // The last step before t_stop is what is left, without a sliver of round-off after it.
@@ -183,40 +168,22 @@ class ArkodeDirk : public SundialsIntegrator {
   }
 
   void attach_reduced() {
-    make_reduced_solver(
-        [this] {
-          sunrealtype gamma = 0;
-          ARKStepGetCurrentGamma(memory_.get(), &gamma);
-          return gamma;
-        },
-        [this](N_Vector x, N_Vector b) {
-          model_.multiply_mass(velocities(b), momentum_);
-          reduced_->solve(positions(b), momentum_, positions(x), velocities(x));
-        });
+    make_first_order_solver([this] {
+      sunrealtype gamma = 0;
+      ARKStepGetCurrentGamma(memory_.get(), &gamma);
+      return gamma;
+    });
     require(ARKStepSetLinearSolver(memory_.get(), solver_.get(), matrix_.get()));
-    // K and D are kept: with jok only their combination is made anew, at factorisation.
-    require(ARKStepSetLinSysFn(memory_.get(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix, SUNMatrix,
-                                                 sunbooleantype jok, sunbooleantype* jcur, sunrealtype, void* user,
-                                                 N_Vector, N_Vector, N_Vector) {
-      auto& me = self(user);
-      *jcur = !jok;
-      return guarded(me.border_, [&] {
-        if (!jok) me.reduced_->linearize(t, positions(y), velocities(y));
-      });
-    }));
+    require(ARKStepSetLinSysFn(memory_.get(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix, SUNMatrix, sunbooleantype jok,
+                                               sunbooleantype* jcur, sunrealtype, void* user, N_Vector, N_Vector,
+                                               N_Vector) { return self(user).linearize_reduced(t, y, jok, jcur); }));
   }
 
   void attach_full() {
     make_full_solver();
     require(ARKStepSetLinearSolver(memory_.get(), solver_.get(), matrix_.get()));
     require(ARKStepSetJacFn(memory_.get(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* user, N_Vector,
-                                              N_Vector, N_Vector) {
-      auto& me = self(user);
-      return guarded(me.border_, [&] {
-        me.linearize_full(t, y);
-        me.full_->fill_cvode(me.linearization_, J);
-      });
-    }));
+                                            N_Vector, N_Vector) { return self(user).fill_full(t, y, J); }));
   }
 
   ARKODE_DIRKTableID table_;

@@ -2,8 +2,8 @@
 #include <cvode/cvode.h>
 #include <cvode/cvode_ls.h>
 
+#include "integrators/sundials/first_order.h"
 #include "integrators/sundials/multistep.h"
-#include "integrators/sundials/sundials_integrator.h"
 
 namespace orthodyn::sundials {
 namespace {
@@ -12,15 +12,12 @@ struct FreeMemory {
   void operator()(void* memory) const { CVodeFree(&memory); }
 };
 
-class CvodeBdf : public SundialsIntegrator {
+class CvodeBdf : public FirstOrderIntegrator {
  public:
   CvodeBdf(const Model& model, const MultistepSettings& settings)
-      : SundialsIntegrator("cvode_bdf", model, settings), max_order_(settings.max_order),
+      : FirstOrderIntegrator("cvode_bdf", model, settings), max_order_(settings.max_order),
         memory_(CVodeCreate(CV_BDF, context_)) {
     if (!memory_) throw RunError("CVODE could not be created");
-    if (settings.full && !model.traits().lumped_mass)
-      throw ConfigError("linear_solver klu_full under cvode_bdf needs `mass: lumped` (the inverse of a "
-                        "consistent mass is dense); use ida_bdf, or klu or cholmod");
   }
 
  protected:
@@ -101,53 +98,27 @@ class CvodeBdf : public SundialsIntegrator {
  private:
   static CvodeBdf& self(void* user) { return *static_cast<CvodeBdf*>(user); }
 
-  // y' = (v, M^-1 f)
   static int right_hand_side(sunrealtype t, N_Vector y, N_Vector y_dot, void* user) {
-    auto& me = self(user);
-    return guarded(me.border_, [&] {
-      const Measure measure(me.statistics_.force);
-      positions(y_dot) = velocities(y);
-      me.model_.force(t, positions(y), velocities(y), velocities(y_dot));
-      require_finite(velocities(y_dot));
-      me.model_.solve_mass(velocities(y_dot));
-    });
+    return self(user).evaluate(t, y, y_dot);
   }
 
   void attach_reduced() {
-    make_reduced_solver(
-        [this] {
-          sunrealtype gamma = 0;
-          CVodeGetCurrentGamma(memory_.get(), &gamma);
-          return gamma;
-        },
-        [this](N_Vector x, N_Vector b) {
-          model_.multiply_mass(velocities(b), momentum_);
-          reduced_->solve(positions(b), momentum_, positions(x), velocities(x));
-        });
+    make_first_order_solver([this] {
+      sunrealtype gamma = 0;
+      CVodeGetCurrentGamma(memory_.get(), &gamma);
+      return gamma;
+    });
     require(CVodeSetLinearSolver(memory_.get(), solver_.get(), matrix_.get()));
-    // K and D are kept: with jok only their combination is made anew, at factorisation.
     require(CVodeSetLinSysFn(memory_.get(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix, sunbooleantype jok,
                                                sunbooleantype* jcur, sunrealtype, void* user, N_Vector, N_Vector,
-                                               N_Vector) {
-      auto& me = self(user);
-      *jcur = !jok;
-      return guarded(me.border_, [&] {
-        if (!jok) me.reduced_->linearize(t, positions(y), velocities(y));
-      });
-    }));
+                                               N_Vector) { return self(user).linearize_reduced(t, y, jok, jcur); }));
   }
 
   void attach_full() {
     make_full_solver();
     require(CVodeSetLinearSolver(memory_.get(), solver_.get(), matrix_.get()));
     require(CVodeSetJacFn(memory_.get(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* user, N_Vector,
-                                            N_Vector, N_Vector) {
-      auto& me = self(user);
-      return guarded(me.border_, [&] {
-        me.linearize_full(t, y);
-        me.full_->fill_cvode(me.linearization_, J);
-      });
-    }));
+                                            N_Vector, N_Vector) { return self(user).fill_full(t, y, J); }));
   }
 
   int max_order_;

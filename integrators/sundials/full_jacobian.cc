@@ -28,7 +28,7 @@ OwnedMatrix FullJacobian::make_matrix(SUNContext context) const {
   return J;
 }
 
-void FullJacobian::fill_cvode(const Linearization& at, SUNMatrix J) {
+void FullJacobian::fill_first_order(const Linearization& at, SUNMatrix J) {
   Vector inverse_mass = Vector::Ones(model_.num_dofs());
   model_.solve_mass(inverse_mass);
   model_.combine({0, 0, -1}, at, k_values_.data());
