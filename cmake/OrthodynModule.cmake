@@ -44,7 +44,8 @@ function(orthodyn_library)
   target_compile_options(orthodyn PUBLIC ${ORTHODYN_ARCH_OPTION})
   target_link_libraries(orthodyn PUBLIC Eigen3::Eigen fmt::fmt PRIVATE
     yaml-cpp muparser::muparser SuiteSparse::cholmod SuiteSparse::klu ${CMAKE_DL_LIBS}
-    SUNDIALS::cvode SUNDIALS::ida SUNDIALS::nvecserial SUNDIALS::sunlinsolklu SUNDIALS::sunmatrixsparse)
+    SUNDIALS::arkode SUNDIALS::cvode SUNDIALS::ida SUNDIALS::nvecserial SUNDIALS::sunlinsolklu
+    SUNDIALS::sunmatrixsparse)
   if(ORTHODYN_SANITIZE)
     target_link_options(orthodyn PUBLIC -fsanitize=address,undefined)
   endif()

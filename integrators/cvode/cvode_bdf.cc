@@ -2,7 +2,8 @@
 #include <cvode/cvode.h>
 #include <cvode/cvode_ls.h>
 
-#include "integrators/sundials/multistep_integrator.h"
+#include "integrators/sundials/first_order.h"
+#include "integrators/sundials/multistep.h"
 
 namespace orthodyn::sundials {
 namespace {
@@ -11,14 +12,12 @@ struct FreeMemory {
   void operator()(void* memory) const { CVodeFree(&memory); }
 };
 
-class CvodeBdf : public MultistepIntegrator {
+class CvodeBdf : public FirstOrderIntegrator {
  public:
   CvodeBdf(const Model& model, const MultistepSettings& settings)
-      : MultistepIntegrator("cvode_bdf", model, settings), memory_(CVodeCreate(CV_BDF, context_)) {
+      : FirstOrderIntegrator("cvode_bdf", model, settings), max_order_(settings.max_order),
+        memory_(CVodeCreate(CV_BDF, context_)) {
     if (!memory_) throw RunError("CVODE could not be created");
-    if (settings.full && !model.traits().lumped_mass)
-      throw ConfigError("linear_solver klu_full under cvode_bdf needs `mass: lumped` (the inverse of a "
-                        "consistent mass is dense); use ida_bdf, or klu or cholmod");
   }
 
  protected:
@@ -32,7 +31,7 @@ class CvodeBdf : public MultistepIntegrator {
       return 0;
     }));
     const auto& o = settings_.options;
-    require(CVodeSetMaxOrd(m, settings_.max_order));
+    require(CVodeSetMaxOrd(m, max_order_));
     require(CVodeSetNonlinConvCoef(m, o.nonlinear_coefficient));
     require(CVodeSetMaxNonlinIters(m, o.max_newton_iterations));
     if (o.h0) require(CVodeSetInitStep(m, *o.h0));
@@ -75,18 +74,18 @@ class CvodeBdf : public MultistepIntegrator {
     return c;
   }
 
-  Failure classify(int flag) const override {
+  Reason classify(int flag) const override {
     switch (flag) {
-      case CV_ERR_FAILURE: return Failure::error_test;
+      case CV_ERR_FAILURE: return Reason::error_test;
       case CV_CONV_FAILURE:
       case CV_LSETUP_FAIL:
-      case CV_NLS_FAIL: return Failure::convergence;
+      case CV_NLS_FAIL: return Reason::newton;
       case CV_RHSFUNC_FAIL:
       case CV_FIRST_RHSFUNC_ERR:
       case CV_REPTD_RHSFUNC_ERR:
-      case CV_UNREC_RHSFUNC_ERR: return Failure::force;
-      case CV_TOO_CLOSE: return Failure::too_close;
-      default: return Failure::other;
+      case CV_UNREC_RHSFUNC_ERR: return Reason::force;
+      case CV_TOO_CLOSE: return Reason::step_too_small;
+      default: return Reason::other;
     }
   }
 
@@ -99,55 +98,30 @@ class CvodeBdf : public MultistepIntegrator {
  private:
   static CvodeBdf& self(void* user) { return *static_cast<CvodeBdf*>(user); }
 
-  // y' = (v, M^-1 f)
   static int right_hand_side(sunrealtype t, N_Vector y, N_Vector y_dot, void* user) {
-    auto& me = self(user);
-    return guarded(me.border_, [&] {
-      const Measure measure(me.statistics_.force);
-      positions(y_dot) = velocities(y);
-      me.model_.force(t, positions(y), velocities(y), velocities(y_dot));
-      require_finite(velocities(y_dot));
-      me.model_.solve_mass(velocities(y_dot));
-    });
+    return self(user).evaluate(t, y, y_dot);
   }
 
   void attach_reduced() {
-    make_reduced_solver(
-        [this] {
-          sunrealtype gamma = 0;
-          CVodeGetCurrentGamma(memory_.get(), &gamma);
-          return gamma;
-        },
-        [this](N_Vector x, N_Vector b) {
-          model_.multiply_mass(velocities(b), momentum_);
-          reduced_->solve(positions(b), momentum_, positions(x), velocities(x));
-        });
+    make_first_order_solver([this] {
+      sunrealtype gamma = 0;
+      CVodeGetCurrentGamma(memory_.get(), &gamma);
+      return gamma;
+    });
     require(CVodeSetLinearSolver(memory_.get(), solver_.get(), matrix_.get()));
-    // K and D are kept: with jok only their combination is made anew, at factorisation.
     require(CVodeSetLinSysFn(memory_.get(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix, sunbooleantype jok,
                                                sunbooleantype* jcur, sunrealtype, void* user, N_Vector, N_Vector,
-                                               N_Vector) {
-      auto& me = self(user);
-      *jcur = !jok;
-      return guarded(me.border_, [&] {
-        if (!jok) me.reduced_->linearize(t, positions(y), velocities(y));
-      });
-    }));
+                                               N_Vector) { return self(user).linearize_reduced(t, y, jok, jcur); }));
   }
 
   void attach_full() {
     make_full_solver();
     require(CVodeSetLinearSolver(memory_.get(), solver_.get(), matrix_.get()));
     require(CVodeSetJacFn(memory_.get(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* user, N_Vector,
-                                            N_Vector, N_Vector) {
-      auto& me = self(user);
-      return guarded(me.border_, [&] {
-        me.linearize_full(t, y);
-        me.full_->fill_cvode(me.linearization_, J);
-      });
-    }));
+                                            N_Vector, N_Vector) { return self(user).fill_full(t, y, J); }));
   }
 
+  int max_order_;
   std::unique_ptr<void, FreeMemory> memory_;
 };
 

@@ -1,10 +1,10 @@
 // IDA's BDF on the implicit system F = (q' - v, M v' - f) = 0 (Hindmarsh et al. 2005): fixed leading
 // coefficient, variable order 1-5. A consistent mass costs it no solve.
-#include <fmt/format.h>
 #include <ida/ida.h>
 #include <ida/ida_ls.h>
 
-#include "integrators/sundials/multistep_integrator.h"
+#include "integrators/sundials/multistep.h"
+#include "integrators/sundials/sundials_integrator.h"
 
 namespace orthodyn::sundials {
 namespace {
@@ -13,11 +13,11 @@ struct FreeMemory {
   void operator()(void* memory) const { IDAFree(&memory); }
 };
 
-class IdaBdf : public MultistepIntegrator {
+class IdaBdf : public SundialsIntegrator {
  public:
   IdaBdf(const Model& model, const MultistepSettings& settings)
-      : MultistepIntegrator("ida_bdf", model, settings), y_dot_(make_vector(size(), context_)),
-        memory_(IDACreate(context_)) {
+      : SundialsIntegrator("ida_bdf", model, settings), max_order_(settings.max_order),
+        y_dot_(make_vector(size(), context_)), memory_(IDACreate(context_)) {
     if (!memory_) throw RunError("IDA could not be created");
   }
 
@@ -33,7 +33,7 @@ class IdaBdf : public MultistepIntegrator {
       return 0;
     }));
     const auto& o = settings_.options;
-    require(IDASetMaxOrd(m, settings_.max_order));
+    require(IDASetMaxOrd(m, max_order_));
     require(IDASetNonlinConvCoef(m, o.nonlinear_coefficient));
     require(IDASetMaxNonlinIters(m, o.max_newton_iterations));
     if (o.h0) require(IDASetInitStep(m, *o.h0));
@@ -77,16 +77,16 @@ class IdaBdf : public MultistepIntegrator {
     return c;
   }
 
-  Failure classify(int flag) const override {
+  Reason classify(int flag) const override {
     switch (flag) {
-      case IDA_ERR_FAIL: return Failure::error_test;
+      case IDA_ERR_FAIL: return Reason::error_test;
       case IDA_CONV_FAIL:
       case IDA_LSETUP_FAIL:
-      case IDA_NLS_FAIL: return Failure::convergence;
+      case IDA_NLS_FAIL: return Reason::newton;
       case IDA_RES_FAIL:
       case IDA_REP_RES_ERR:
-      case IDA_FIRST_RES_FAIL: return Failure::force;
-      default: return Failure::other;
+      case IDA_FIRST_RES_FAIL: return Reason::force;
+      default: return Reason::other;
     }
   }
 
@@ -102,16 +102,7 @@ class IdaBdf : public MultistepIntegrator {
   // q' = v, v' = M^-1 f: initial conditions that satisfy F = 0 by construction.
   void make_consistent(double t) {
     positions(y_dot_.get()) = velocities(y());
-    auto acceleration = velocities(y_dot_.get());
-    try {
-      model_.force(t, positions(y()), velocities(y()), acceleration);
-      require_finite(acceleration);
-    } catch (const RecoverableError& e) {
-      throw RunError(fmt::format("ida_bdf stopped at t = {:.6g} s: the force cannot be evaluated ({}); check the "
-                                 "initial state and the loads",
-                                 t, e.what()));
-    }
-    model_.solve_mass(acceleration);
+    initial_acceleration(t, velocities(y_dot_.get()));
   }
 
   static int residual(sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector r, void* user) {
@@ -157,6 +148,7 @@ class IdaBdf : public MultistepIntegrator {
     }));
   }
 
+  int max_order_;
   OwnedVector y_dot_;
   double gamma_ = 0;  // 1/cj of the last set-up
   std::unique_ptr<void, FreeMemory> memory_;

@@ -24,11 +24,11 @@ OwnedMatrix FullJacobian::make_matrix(SUNContext context) const {
   const sunindextype n = model_.num_dofs();
   const auto block = static_cast<sunindextype>(row_.size());
   OwnedMatrix J(SUNSparseMatrix(2 * n, 2 * n, 2 * n + block + (full_v_block_ ? block : n), CSC_MAT, context));
-  if (!J) throw RunError("the 2n x 2n Jacobian does not fit in memory; use linear_solver: cholmod");
+  if (!J) throw RunError("the 2n x 2n Jacobian does not fit in memory; use linear_solver: cholmod", Reason::out_of_memory);
   return J;
 }
 
-void FullJacobian::fill_cvode(const Linearization& at, SUNMatrix J) {
+void FullJacobian::fill_first_order(const Linearization& at, SUNMatrix J) {
   Vector inverse_mass = Vector::Ones(model_.num_dofs());
   model_.solve_mass(inverse_mass);
   model_.combine({0, 0, -1}, at, k_values_.data());

@@ -1,6 +1,6 @@
 // The textbook path: the sparse 2n x 2n Jacobian of the first-order system, for SUNDIALS' own KLU.
 //
-// CVODE, y' = (v, M^-1 f):  J = [0, I; -M^-1 K, -M^-1 D]          (lumped mass only)
+// CVODE and ARKODE, y' = (v, M^-1 f):  J = [0, I; -M^-1 K, -M^-1 D]          (lumped mass only)
 // IDA, F = (q' - v, M v' - f):  dF/dy + cj dF/dy' = [cj I, -I; K, cj M + D]
 #pragma once
 
@@ -18,7 +18,7 @@ class FullJacobian {
   OwnedMatrix make_matrix(SUNContext context) const;
 
   // Pattern and values: CVODE and IDA wipe both before they ask.
-  void fill_cvode(const Linearization& at, SUNMatrix J);
+  void fill_first_order(const Linearization& at, SUNMatrix J);
   void fill_ida(double cj, const Linearization& at, SUNMatrix J);
 
  private:

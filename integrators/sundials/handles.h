@@ -46,7 +46,7 @@ class Context {
 
 inline OwnedVector make_vector(Eigen::Index size, SUNContext context) {
   OwnedVector v(N_VNew_Serial(static_cast<sunindextype>(size), context));
-  if (!v) throw RunError("SUNDIALS could not allocate a vector");
+  if (!v) throw RunError("SUNDIALS could not allocate a vector", Reason::out_of_memory);
   N_VConst(0, v.get());
   return v;
 }

@@ -1,80 +1,32 @@
-// What cvode_bdf and ida_bdf have in common: their keys, tolerances and the words for their limits.
+// What the multistep methods have beside the keys of all: their highest order.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "integrators/sundials/handles.h"
-#include "lib/ode/integrator.h"
+#include "integrators/sundials/options.h"
 
 namespace orthodyn::sundials {
 
-// Adds the keys of both to a Spec of an options struct derived from MultistepOptions.
-struct MultistepOptions {
-  double rtol = 1e-4;
-  std::optional<double> position_scale, velocity_scale;  // m, m/s
+struct MultistepOptions : Options {
   std::optional<int> max_order;
-  std::optional<double> h0, h_max;  // s
-  double h_min = 0;                 // s
-  long max_steps = 1'000'000;
-  double nonlinear_coefficient = 0.01;
-  int max_newton_iterations = 6;
-  std::string linear_solver = "cholmod";
-  bool gauss_newton = false;
 
   template <class T>
-  static Spec<T> spec_for();
-};
-
-// How an options struct was completed for one model.
-struct MultistepSettings {
-  MultistepOptions options;
-  Scales scales;
-  int max_order;
-  bool full;  // klu_full
-
-  TangentKind tangent() const {
-    return options.gauss_newton ? TangentKind::gauss_newton : TangentKind::exact;
+  static Spec<T> spec_for() {
+    return Options::spec_for<T>().key("max_order", &MultistepOptions::max_order,
+                                      "Highest order; default 5 with stiffness damping everywhere, else 2.",
+                                      {.range = {1, 5}});
   }
-
-  static MultistepSettings complete(const MultistepOptions& options, const Model& model,
-                                    const std::function<Scales()>& estimate);
-
-  std::vector<std::pair<std::string, std::string>> decisions() const;
-
-  // Block weights: 1/(rtol * position) for q, 1/(rtol * velocity) for v. Relative tolerances on
-  // positions would depend on the frame.
-  void set_weights(N_Vector weights) const;
 };
 
-// The names that linear_solver takes.
-std::vector<std::string> linear_solver_names();
-void check_options(const MultistepOptions& options, const Config& config);
+struct MultistepSettings : Settings {
+  int max_order;
 
-template <class T>
-Spec<T> MultistepOptions::spec_for() {
-  using O = MultistepOptions;
-  return Spec<T>()
-      .key("rtol", &O::rtol, "Local error allowed per step, relative to the scales.", {.range = {0, 1, true, true}})
-      .key("position_scale", &O::position_scale, "Size of motion; default from the scene.",
-           {.unit = "m", .range = kPositive})
-      .key("velocity_scale", &O::velocity_scale, "Size of velocities; default from the scene.",
-           {.unit = "m/s", .range = kPositive})
-      .key("max_order", &O::max_order, "Highest order; default 5 with stiffness damping everywhere, else 2.",
-           {.range = {1, 5}})
-      .key("h0", &O::h0, "First step; default estimated.", {.unit = "s", .range = kPositive})
-      .key("h_min", &O::h_min, "Smallest step.", {.unit = "s", .range = kNonNegative})
-      .key("h_max", &O::h_max, "Largest step; default unlimited.", {.unit = "s", .range = kPositive})
-      .key("max_steps", &O::max_steps, "Steps after which the run is given up.", {.range = {1}})
-      .key("nonlinear_coefficient", &O::nonlinear_coefficient,
-           "Newton stops at this fraction of the error test.", {.range = {0, 1, true, false}})
-      .key("max_newton_iterations", &O::max_newton_iterations, "Newton iterations per step.", {.range = {1, 50}})
-      .key("linear_solver", &O::linear_solver, "One of `orthodyn list solvers`.")
-      .key("gauss_newton", &O::gauss_newton,
-           "Use the positive semidefinite Gauss-Newton part of the tangent from the start.")
-      .check([](const T& options, const Config& config) { check_options(options, config); });
-}
+  // Orders above 2 stall on undamped oscillations: part of the imaginary axis is unstable for them.
+  static MultistepSettings complete(const MultistepOptions& options, const Model& model,
+                                    const std::function<Scales()>& estimate) {
+    MultistepSettings s{Settings::complete(options, estimate),
+                        options.max_order.value_or(model.traits().damped ? 5 : 2)};
+    s.decisions.emplace_back("max_order", std::to_string(s.max_order));
+    return s;
+  }
+};
 
 }  // namespace orthodyn::sundials

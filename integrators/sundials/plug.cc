@@ -17,7 +17,7 @@ int solve(SUNLinearSolver S, SUNMatrix, N_Vector x, N_Vector b, sunrealtype) {
 
 OwnedMatrix make_matrix_plug(SUNContext context) {
   OwnedMatrix A(SUNMatNewEmpty(context));
-  if (!A) throw RunError("SUNDIALS could not allocate a matrix");
+  if (!A) throw RunError("SUNDIALS could not allocate a matrix", Reason::out_of_memory);
   A->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
   A->ops->zero = [](SUNMatrix) { return 0; };
   A->ops->destroy = [](SUNMatrix M) { SUNMatFreeEmpty(M); };
@@ -26,7 +26,7 @@ OwnedMatrix make_matrix_plug(SUNContext context) {
 
 OwnedSolver make_solver_plug(SolverFunctions& solver, SUNContext context) {
   OwnedSolver S(SUNLinSolNewEmpty(context));
-  if (!S) throw RunError("SUNDIALS could not allocate a linear solver");
+  if (!S) throw RunError("SUNDIALS could not allocate a linear solver", Reason::out_of_memory);
   S->content = &solver;
   S->ops->gettype = type;
   S->ops->getid = id;

@@ -133,7 +133,7 @@ class Cholmod : public LinearSolver {
 
   void refuse_failure() const {
     if (common_.status == CHOLMOD_OUT_OF_MEMORY)
-      throw RunError("the Cholesky factor does not fit in memory; use a coarser mesh");
+      throw RunError("the Cholesky factor does not fit in memory; use a coarser mesh", Reason::out_of_memory);
     if (common_.status == CHOLMOD_TOO_LARGE)
       throw RunError("the Cholesky factor has more than 2^31 entries; use a coarser mesh");
     if (common_.status < 0)

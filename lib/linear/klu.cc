@@ -30,7 +30,8 @@ class Klu : public LinearSolver {
     const std::vector<double> zeros(pattern.row.size(), 0.0);
     full_ = full(zeros.data());
     symbolic_ = klu_analyze(static_cast<int>(full_.cols()), full_.outerIndexPtr(), full_.innerIndexPtr(), &common_);
-    if (!symbolic_) throw RunError("KLU's analysis failed for lack of memory; use cholmod or a coarser mesh");
+    if (!symbolic_)
+      throw RunError("KLU's analysis failed for lack of memory; use cholmod or a coarser mesh", Reason::out_of_memory);
   }
 
   FactorStatus factor(const double* values) override {
@@ -46,7 +47,7 @@ class Klu : public LinearSolver {
       numeric_ = klu_factor(p, i, x, symbolic_, &common_);
     }
     if (common_.status == KLU_OUT_OF_MEMORY || common_.status == KLU_TOO_LARGE)
-      throw RunError("the LU factors do not fit in memory; use cholmod or a coarser mesh");
+      throw RunError("the LU factors do not fit in memory; use cholmod or a coarser mesh", Reason::out_of_memory);
     return numeric_ ? FactorStatus::ok : FactorStatus::singular;
   }
 

@@ -35,6 +35,14 @@ inline std::vector<Pair> all_pairs() {
   return pairs;
 }
 
+// The table of a Runge-Kutta method of that order.
+inline std::string table_of(int order) { return order == 2 ? "TRBDF2_3_3_2" : "ESDIRK547L2SA_7_4_5"; }
+
+// klu_full of a method for y' = (v, M^-1 f) would need the inverse of a consistent mass, which is dense.
+inline bool refuses_consistent_mass(const Pair& pair) {
+  return pair.solver == "klu_full" && pair.integrator != "ida_bdf";
+}
+
 struct Options {
   double rtol = 1e-5;
   int max_order = 2;
@@ -45,6 +53,8 @@ inline std::unique_ptr<Integrator> make_integrator(const Pair& pair, const Small
   std::string yaml = fmt::format("{{type: {}, rtol: {}", pair.integrator, o.rtol);
   if (pair.solver != "none") yaml += ", linear_solver: " + pair.solver;
   if (has_key(pair.integrator, "max_order")) yaml += fmt::format(", max_order: {}", o.max_order);
+  if (has_key(pair.integrator, "table") && o.more.find("table:") == std::string::npos)
+    yaml += ", table: " + table_of(o.max_order);
   const auto choice = Registry<IntegratorChoice>::read(Config::from_text(yaml + o.more + "}"));
   return choice->make(model, [&] { return model.scales(); });
 }

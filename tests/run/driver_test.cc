@@ -79,15 +79,26 @@ TEST(Driver, TurnsAFailureIntoAnOutcomeThatKeepsTheLastState) {
   Case swing(kSwing + std::string("mass: lumped\n"));
   struct Fails : Observer {
     void on_step(const StepInfo& info, const State&, const Integrator&) override {
-      if (info.t > 0.1) throw RunError("no space left");
+      if (info.t > 0.1) throw RunError("no space left", Reason::diverged);
     }
   } fails;
   Recorder seen;
   const auto outcome = swing.run_with({}, {&seen, &fails});
   EXPECT_EQ(outcome.status, Outcome::Status::failed);
   EXPECT_EQ(outcome.message, "no space left");
+  EXPECT_EQ(outcome.reason, Reason::diverged);
   EXPECT_EQ(seen.ends, 1);
   EXPECT_GT(outcome.last.t, 0.1);
+}
+
+TEST(Driver, TurnsALackOfMemoryIntoAnOutcomeThatSaysSo) {
+  Case swing(kSwing + std::string("mass: lumped\n"));
+  struct Fails : Observer {
+    void on_step(const StepInfo&, const State&, const Integrator&) override { throw std::bad_alloc(); }
+  } fails;
+  const auto outcome = swing.run_with({}, {&fails});
+  EXPECT_EQ(outcome.status, Outcome::Status::failed);
+  EXPECT_STREQ(reason_name(outcome.reason), "out of memory");
 }
 
 class Files : public InFolder {};

@@ -78,7 +78,9 @@ std::string run_json(const RunArguments& arguments, const RunReport* report) {
     out["momentum"] = {{"angular_drift", report->momentum->angular_drift()},
                        {"angular_scale", report->momentum->angular_scale()}};
   if (report->outcome.status == Outcome::Status::failed)
-    out["failure"] = {{"message", report->outcome.message}, {"where", whereabouts(*report)}};
+    out["failure"] = {{"reason", reason_name(report->outcome.reason)},
+                      {"message", report->outcome.message},
+                      {"where", whereabouts(*report)}};
   return out.dump(2) + "\n";
 }
 

@@ -1,5 +1,5 @@
-// What cvode_bdf and ida_bdf share: the state, the model behind its border, the linear solver (reduced
-// or full), counting, and the sentences of failure. The libraries' own calls stay in the two.
+// What all integrators of SUNDIALS share: the state, the model behind its border, the linear solver
+// (reduced or full), counting, and the sentences of failure. The libraries' own calls stay in theirs.
 #pragma once
 
 #include <functional>
@@ -8,13 +8,13 @@
 
 #include "integrators/sundials/callbacks.h"
 #include "integrators/sundials/full_jacobian.h"
-#include "integrators/sundials/multistep.h"
+#include "integrators/sundials/options.h"
 #include "integrators/sundials/plug.h"
 #include "integrators/sundials/reduced_solve.h"
 
 namespace orthodyn::sundials {
 
-class MultistepIntegrator : public Integrator {
+class SundialsIntegrator : public Integrator {
  public:
   void start(const State& state) override;
   StepInfo step(double t_stop) override;
@@ -24,18 +24,15 @@ class MultistepIntegrator : public Integrator {
     return reduced_ ? reduced_->factor_bytes() : klu_factor_bytes(klu_.get());
   }
   std::size_t bytes() const override;
-  std::vector<std::pair<std::string, std::string>> decisions() const override;
+  Decisions decisions() const override;
 
  protected:
   // What the library has counted since it was (re-)initialised.
   struct Counters {
     long steps = 0, error_test_failures = 0, convergence_failures = 0, newton_iterations = 0;
   };
-  // What kind of failure a negative flag stands for.
-  enum class Failure { error_test, convergence, force, too_close, other };
-
   // `name` is the integrator's, for messages.
-  MultistepIntegrator(std::string name, const Model& model, const MultistepSettings& settings);
+  SundialsIntegrator(std::string name, const Model& model, const Settings& settings);
 
   // First, resp. further starts, from y(); may set up more.
   virtual void initialise(double t) = 0;
@@ -46,11 +43,15 @@ class MultistepIntegrator : public Integrator {
   virtual double current_step() const = 0;
   virtual int dense_output(double t, N_Vector out) const = 0;
   virtual Counters counters() const = 0;
-  virtual Failure classify(int flag) const = 0;
+  virtual Reason classify(int flag) const = 0;  // of a negative flag
   virtual std::size_t workspace_bytes() const = 0;
+  virtual bool adaptive() const { return true; }
 
   // Throws RunError with the library's words if the flag is negative.
   void require(int flag) const;
+
+  // M^-1 f at y(), where the integration begins. Throws RunError where it cannot be evaluated.
+  void initial_acceleration(double t, VectorRef a);
 
   // The linear solver: `setup` and `solve` go to the reduced solve, resp. SUNDIALS' KLU.
   void make_reduced_solver(std::function<double()> gamma, std::function<void(N_Vector x, N_Vector b)> solve);
@@ -61,7 +62,7 @@ class MultistepIntegrator : public Integrator {
   N_Vector y() const { return y_.get(); }
 
   const Model& model_;
-  MultistepSettings settings_;
+  Settings settings_;
   Statistics statistics_;
   Border border_;
   Context context_;  // before everything made in it

@@ -1,4 +1,4 @@
-#include "integrators/sundials/multistep_integrator.h"
+#include "integrators/sundials/sundials_integrator.h"
 
 #include <fmt/format.h>
 
@@ -7,14 +7,14 @@
 
 namespace orthodyn::sundials {
 
-MultistepIntegrator::MultistepIntegrator(std::string name, const Model& model, const MultistepSettings& settings)
+SundialsIntegrator::SundialsIntegrator(std::string name, const Model& model, const Settings& settings)
     : model_(model), settings_(settings), y_(make_vector(size(), context_)), momentum_(model.num_dofs()),
       name_(std::move(name)) {
   if (settings.full) full_.emplace(model);
   else reduced_.emplace(model, settings.options.linear_solver, settings.tangent(), statistics_);
 }
 
-void MultistepIntegrator::start(const State& state) {
+void SundialsIntegrator::start(const State& state) {
   positions(y()) = state.q;
   velocities(y()) = state.v;
   t_ = state.t;
@@ -31,11 +31,12 @@ void MultistepIntegrator::start(const State& state) {
   }
 }
 
-StepInfo MultistepIntegrator::step(double t_stop) {
+StepInfo SundialsIntegrator::step(double t_stop) {
   if (statistics_.steps >= settings_.options.max_steps)
     throw RunError(fmt::format("{} gave up at t = {:.6g} s after {} steps (max_steps); raise integrator.max_steps "
-                               "or integrator.rtol",
-                               name_, t_, statistics_.steps));
+                               "or integrator.{}",
+                               name_, t_, statistics_.steps, adaptive() ? "rtol" : "step"),
+                   Reason::too_many_steps);
   border_ = {};
   const int flag = advance(t_stop, t_);
   update_statistics();
@@ -47,21 +48,22 @@ StepInfo MultistepIntegrator::step(double t_stop) {
 }
 
 // In front of a time past which the model cannot be evaluated the library takes ever smaller steps.
-void MultistepIntegrator::refuse_to_creep(const StepInfo& info, double t_stop) const {
+void SundialsIntegrator::refuse_to_creep(const StepInfo& info, double t_stop) const {
   if (info.t >= t_stop || info.h > 4 * std::numeric_limits<double>::epsilon() * std::abs(info.t)) return;
   throw RunError(position() + "the step has shrunk to the resolution of time" + cause() +
-                 "; raise integrator.rtol, lower integrator.h_max or check the loads");
+                     "; raise integrator.rtol, lower integrator.h_max or check the loads",
+                 Reason::step_too_small);
 }
 
-std::string MultistepIntegrator::position() const {
+std::string SundialsIntegrator::position() const {
   return fmt::format("{} stopped at t = {:.6g} s, step {:.3g} s: ", name_, t_, current_step());
 }
 
-std::string MultistepIntegrator::cause() const {
+std::string SundialsIntegrator::cause() const {
   return border_.recoverable_cause.empty() ? "" : " (" + border_.recoverable_cause + ")";
 }
 
-void MultistepIntegrator::interpolate(double t, State& out) const {
+void SundialsIntegrator::interpolate(double t, State& out) const {
   const auto dense = make_vector(size(), context_);
   if (dense_output(t, dense.get()) < 0)
     throw RunError(fmt::format("{} cannot interpolate at t = {:.17g} s: {}", name_, t, border_.library_message));
@@ -70,22 +72,22 @@ void MultistepIntegrator::interpolate(double t, State& out) const {
   out.v = velocities(dense.get());
 }
 
-std::size_t MultistepIntegrator::bytes() const {
+std::size_t SundialsIntegrator::bytes() const {
   return workspace_bytes() + (reduced_ ? reduced_->bytes() : 0);
 }
 
-std::vector<std::pair<std::string, std::string>> MultistepIntegrator::decisions() const {
-  auto all = settings_.decisions();
+Decisions SundialsIntegrator::decisions() const {
+  auto all = settings_.decisions;
   const std::string detail = reduced_ ? " (" + reduced_->description() + ")" : "";
   all.emplace_back("linear_solver", settings_.options.linear_solver + detail);
   return all;
 }
 
-void MultistepIntegrator::require(int flag) const {
+void SundialsIntegrator::require(int flag) const {
   if (flag < 0) throw RunError(name_ + " refused its set-up: " + border_.library_message);
 }
 
-void MultistepIntegrator::make_reduced_solver(std::function<double()> gamma,
+void SundialsIntegrator::make_reduced_solver(std::function<double()> gamma,
                                               std::function<void(N_Vector, N_Vector)> solve) {
   matrix_ = make_matrix_plug(context_);
   functions_.setup = [this, gamma = std::move(gamma)] {
@@ -99,7 +101,7 @@ void MultistepIntegrator::make_reduced_solver(std::function<double()> gamma,
   solver_ = make_solver_plug(functions_, context_);
 }
 
-void MultistepIntegrator::make_full_solver() {
+void SundialsIntegrator::make_full_solver() {
   matrix_ = full_->make_matrix(context_);
   klu_ = make_klu(matrix_.get(), context_);
   functions_.setup = [this] {
@@ -113,12 +115,12 @@ void MultistepIntegrator::make_full_solver() {
   solver_ = make_solver_plug(functions_, context_);
 }
 
-void MultistepIntegrator::linearize_full(double t, N_Vector y) {
+void SundialsIntegrator::linearize_full(double t, N_Vector y) {
   const Measure measure(statistics_.tangent);
   model_.linearize(t, positions(y), velocities(y), settings_.tangent(), linearization_);
 }
 
-void MultistepIntegrator::update_statistics() {
+void SundialsIntegrator::update_statistics() {
   const Counters now = counters();
   auto& s = statistics_;
   s.steps = before_.steps + now.steps;
@@ -128,24 +130,45 @@ void MultistepIntegrator::update_statistics() {
   s.newton_iterations = before_.newton_iterations + now.newton_iterations;
 }
 
-void MultistepIntegrator::fail(int flag) {
+void SundialsIntegrator::fail(int flag) {
   if (border_.failure) std::rethrow_exception(border_.failure);
-  switch (classify(flag)) {
-    case Failure::error_test:
+  const Reason reason = classify(flag);
+  switch (reason) {
+    case Reason::error_test:
       throw RunError(position() + "the error test keeps failing" + cause() +
-                     "; raise integrator.rtol, lower integrator.h_min, or look for a kink in the loads");
-    case Failure::convergence:
-      throw RunError(position() + "Newton's method does not converge at the smallest step" + cause() +
-                     "; set integrator.gauss_newton: true, lower rtol or h_min, or check for inverted elements");
-    case Failure::force:
-      throw RunError(position() + "the force cannot be evaluated" + cause() +
-                     "; lower integrator.h_max or check the loads");
-    case Failure::too_close:
-      throw RunError(position() + "the time left is below the resolution of time");
-    case Failure::other:
-      break;
+                         "; raise integrator.rtol, lower integrator.h_min, or look for a kink in the loads",
+                     reason);
+    case Reason::newton:
+      throw RunError(position() + "Newton's method does not converge" +
+                         (adaptive() ? " at the smallest step" + cause() +
+                                           "; set integrator.gauss_newton: true, lower rtol or h_min, or check for "
+                                           "inverted elements"
+                                     : cause() + "; lower integrator.step, set integrator.gauss_newton: true, or "
+                                                 "check for inverted elements"),
+                     reason);
+    case Reason::force:
+      throw RunError(position() + "the force cannot be evaluated" + cause() + "; lower integrator." +
+                         (adaptive() ? "h_max" : "step") + " or check the loads",
+                     reason);
+    case Reason::step_too_small:
+      throw RunError(position() + "the time left is below the resolution of time", reason);
+    default:
+      throw RunError(position() + border_.library_message + fmt::format(" (flag {})", flag), reason);
   }
-  throw RunError(position() + border_.library_message + fmt::format(" (flag {})", flag));
+}
+
+void SundialsIntegrator::initial_acceleration(double t, VectorRef a) {
+  try {
+    const Measure measure(statistics_.force);
+    model_.force(t, positions(y()), velocities(y()), a);
+    require_finite(a);
+  } catch (const RecoverableError& e) {
+    throw RunError(fmt::format("{} stopped at t = {:.6g} s: the force cannot be evaluated ({}); check the initial "
+                               "state and the loads",
+                               name_, t, e.what()),
+                   Reason::force);
+  }
+  model_.solve_mass(a);
 }
 
 }  // namespace orthodyn::sundials

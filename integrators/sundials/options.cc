@@ -1,4 +1,4 @@
-#include "integrators/sundials/multistep.h"
+#include "integrators/sundials/options.h"
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ std::vector<std::string> linear_solver_names() {
   return names;
 }
 
-void check_options(const MultistepOptions& options, const Config& config) {
+void check_options(const Options& options, const Config& config) {
   if (options.h_max && options.h_min > *options.h_max) config.at("h_min").fail("is larger than h_max");
   if (options.h0 && options.h_max && *options.h0 > *options.h_max) config.at("h0").fail("is larger than h_max");
   if (solver_registry().contains(options.linear_solver)) return;
@@ -36,23 +36,18 @@ void check_options(const MultistepOptions& options, const Config& config) {
             (near.empty() ? "" : "; did you mean '" + near + "'?"));
 }
 
-MultistepSettings MultistepSettings::complete(const MultistepOptions& options, const Model& model,
-                                              const std::function<Scales()>& estimate) {
+Settings Settings::complete(const Options& options, const std::function<Scales()>& estimate) {
   const bool given = options.position_scale && options.velocity_scale;
-  const Scales scales = given ? Scales{} : estimate();
+  const Scales estimated = given ? Scales{} : estimate();
+  const Scales scales = {options.position_scale.value_or(estimated.position),
+                         options.velocity_scale.value_or(estimated.velocity)};
   return {options,
-          {options.position_scale.value_or(scales.position), options.velocity_scale.value_or(scales.velocity)},
-          options.max_order.value_or(model.traits().damped ? 5 : 2),
-          options.linear_solver == "klu_full"};
+          scales,
+          options.linear_solver == "klu_full",
+          {{"position_scale", number_text(scales.position)}, {"velocity_scale", number_text(scales.velocity)}}};
 }
 
-std::vector<std::pair<std::string, std::string>> MultistepSettings::decisions() const {
-  return {{"position_scale", number_text(scales.position)},
-          {"velocity_scale", number_text(scales.velocity)},
-          {"max_order", std::to_string(max_order)}};
-}
-
-void MultistepSettings::set_weights(N_Vector weights) const {
+void Settings::set_weights(N_Vector weights) const {
   positions(weights).setConstant(1 / (options.rtol * scales.position));
   velocities(weights).setConstant(1 / (options.rtol * scales.velocity));
 }

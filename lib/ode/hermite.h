@@ -1,0 +1,21 @@
+// Dense output of one-step methods for q' = v, v' = a: the quintic Hermite polynomial through q, v
+// and a at both ends of a step, and its derivative for v.
+//
+// Errors of O(h^6) in q and O(h^5) in v over a step of length h, at no evaluation of the model
+// (Hairer, Norsett & Wanner 1993, II.6, with three conditions per end).
+#pragma once
+
+#include "lib/core/types.h"
+
+namespace orthodyn {
+
+// The solution at an end of a step; a = M^-1 f.
+struct Knot {
+  double t = 0;
+  Vector q, v, a;
+};
+
+// q and v at a time between the ends. At an end, just what stands there.
+void interpolate(const Knot& begin, const Knot& end, double t, VectorRef q, VectorRef v);
+
+}  // namespace orthodyn

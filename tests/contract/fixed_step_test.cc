@@ -1,0 +1,148 @@
+// What every integrator with a key `step` promises: that step, its order, its dense output.
+#include "tests/contract/integrators.h"
+
+#include <sstream>
+
+namespace orthodyn {
+namespace {
+
+std::vector<Pair> pairs_with_fixed_step() {
+  std::vector<Pair> pairs;
+  for (const auto& pair : all_pairs())
+    if (has_key(pair.integrator, "step")) pairs.push_back(pair);
+  return pairs;
+}
+
+class FixedStep : public testing::TestWithParam<Pair> {
+ protected:
+  std::unique_ptr<Integrator> make(const SmallModel& model, double step) const {
+    return make_integrator(GetParam(), model, {1e-9, 5, fmt::format(", step: {}", step)});
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Registry, FixedStep, testing::ValuesIn(pairs_with_fixed_step()), pair_name);
+
+TEST_P(FixedStep, IsTakenAsGivenButForTheLastOneBeforeAStop) {
+  const auto model = damped_oscillator();
+  const auto integrator = make(model, 0.1);
+  integrator->start(model.initial());
+  double before = 0;
+  std::vector<double> lengths;
+  for (const double stop : {1.0, 1.25, 4.0}) {
+    StepInfo info;
+    do {
+      info = integrator->step(stop);
+      EXPECT_NEAR(info.h, info.t - before, 1e-12);
+      lengths.push_back(info.h);
+      before = info.t;
+    } while (info.t < stop);
+    EXPECT_EQ(info.t, stop);
+  }
+  ASSERT_EQ(lengths.size(), 10u + 3u + 28u);  // no sliver of round-off at 1
+  for (std::size_t k = 0; k < lengths.size(); ++k) {
+    const double expected = k == 12 || k == 40 ? 0.05 : 0.1;
+    EXPECT_NEAR(lengths[k], expected, 1e-12) << "step " << k;
+  }
+}
+
+// The slope of log error against log step.
+double order_of(const LinearModel& model, const Pair& pair, const std::vector<double>& steps, const std::string& more,
+                double fraction = 1) {
+  std::vector<double> errors;
+  for (const double step : steps)
+    errors.push_back(largest_error(model, pair, {1e-11, 5, fmt::format(", step: {}", step) + more}, fraction));
+  return slope(steps, errors);
+}
+
+// The names of all tables, from the key's documentation.
+std::vector<std::string> tables(const std::string& integrator) {
+  std::vector<std::string> names;
+  for (const auto& key : Registry<IntegratorChoice>::entries().at(integrator).keys) {
+    if (key.name != "table") continue;
+    std::istringstream in(key.type);
+    for (std::string name; std::getline(in, name, '|');) names.push_back(name);
+  }
+  return names;
+}
+
+TEST_P(FixedStep, ErrorFallsWithTheOrderThatTheTablesNameEndsIn) {
+  if (!has_key(GetParam().integrator, "table")) GTEST_SKIP() << "has no tables";
+  const auto names = tables(GetParam().integrator);
+  EXPECT_GT(names.size(), 10u);
+  for (const auto& name : names) {
+    const int order = name.back() - '0';
+    const double measured = order_of(harmonic_oscillator(), GetParam(), {0.1, 0.075, 0.05, 0.0375}, ", table: " + name);
+    EXPECT_NEAR(measured, order, 0.35) << name;
+  }
+}
+
+// A fifth-order error between steps, too: the velocity's interpolant has it.
+TEST_P(FixedStep, ErrorBetweenStepsFallsWithTheFifthOrder) {
+  if (!has_key(GetParam().integrator, "table")) GTEST_SKIP() << "has no tables";
+  for (const double fraction : {0.3, 0.7})
+    EXPECT_NEAR(order_of(harmonic_oscillator(), GetParam(), {0.1, 0.075, 0.05, 0.0375},
+                         ", table: " + table_of(5), fraction),
+                5, 0.35)
+        << fraction;
+}
+
+TEST_P(FixedStep, MayBeMuchLongerThanAStiffTimeScale) {
+  EXPECT_LE(largest_error(stiff_pair(), GetParam(), {1e-8, 5, ", step: 0.1"}), 1e-4);
+}
+
+TEST_P(FixedStep, CountsOnAfterARestart) {
+  const auto model = kinked_oscillator();
+  const auto integrator = make(model, 0.05);
+  long steps = 0, iterations = 0;
+  integrate(model, *integrator, [&](const StepInfo&, const Integrator& i) {
+    EXPECT_EQ(i.statistics().steps, ++steps);
+    EXPECT_GT(i.statistics().newton_iterations, iterations);
+    EXPECT_EQ(i.statistics().newton_iterations, i.statistics().solve.count);
+    iterations = i.statistics().newton_iterations;
+  });
+  EXPECT_EQ(steps, 80);
+  EXPECT_EQ(integrator->statistics().rejected_steps, 0);
+}
+
+TEST_P(FixedStep, WhereTheForceFailsEndsInARunErrorThatNamesTheStep) {
+  const Disturbed<LinearModel> model(damped_oscillator(), [](long, double t, VectorRef) {
+    if (t > 0.5) throw RecoverableError("the door is shut");
+  });
+  const auto integrator = make(model, 0.02);
+  try {
+    integrate(model, *integrator);
+    FAIL() << "nothing was thrown";
+  } catch (const RunError& e) {
+    const std::string message = e.what();
+    EXPECT_NE(message.find("the door is shut"), std::string::npos) << message;
+    EXPECT_NE(message.find("t = 0.5"), std::string::npos) << message;
+    EXPECT_NE(message.find("lower integrator.step"), std::string::npos) << message;
+    EXPECT_TRUE(e.reason() == Reason::force || e.reason() == Reason::newton) << reason_name(e.reason());
+  }
+}
+
+std::string refusal(const std::string& yaml) {
+  try {
+    Registry<IntegratorChoice>::read(Config::from_text(yaml, "a.yaml"));
+  } catch (const ConfigError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST_P(FixedStep, RefusesTheLimitsOfAnAdaptiveOne) {
+  for (const std::string key : {"h0", "h_min", "h_max"}) {
+    if (!has_key(GetParam().integrator, key)) continue;
+    const auto message = refusal(fmt::format("{{type: {}, step: 0.1, {}: 0.01}}", GetParam().integrator, key));
+    EXPECT_NE(message.find(key + ": has no meaning with a fixed step"), std::string::npos) << message;
+  }
+}
+
+TEST(ArkodeDirk, RefusesAnUnknownTableWithTheNearestAndAllNames) {
+  const auto message = refusal("{type: arkode_dirk, table: ESDIRK547L2SA_7_4_4}");
+  EXPECT_NE(message.find("did you mean 'ESDIRK547L2SA_7_4_5'?"), std::string::npos) << message;
+  EXPECT_NE(message.find("TRBDF2_3_3_2"), std::string::npos) << message;
+  EXPECT_NE(message.find("a.yaml:1:"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace orthodyn
