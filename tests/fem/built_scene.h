@@ -87,9 +87,9 @@ inline Vector random_dofs(Random& random, Eigen::Index n, double amplitude) {
   return Vector::NullaryExpr(n, [&] { return random.between(-amplitude, amplitude); });
 }
 
-// Axes turned by 0.7 rad about (1, 2, 3).
+// Axes turned by -0.7 rad about (1, 2, 3).
 inline const std::string kTurnedAxes =
-    "{first: [0.781637, 0.549334, -0.295435], second: [-0.481607, 0.832030, 0.272891]}";
+    "{first: [0.781639, 0.550117, -0.293958], second: [-0.482929, 0.832030, 0.272956]}";
 
 inline std::string fibre_material(double ratio, double density = 1) {
   return "{type: orthotropic_stable, density: " + std::to_string(density) + ", young: [" + std::to_string(ratio) +
