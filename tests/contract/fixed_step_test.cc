@@ -37,11 +37,24 @@ TEST_P(FixedStep, IsTakenAsGivenButForTheLastOneBeforeAStop) {
     } while (info.t < stop);
     EXPECT_EQ(info.t, stop);
   }
-  ASSERT_EQ(lengths.size(), 10u + 3u + 28u);  // no sliver of round-off at 1
+  ASSERT_EQ(lengths.size(), 10u + 3u + 28u);
   for (std::size_t k = 0; k < lengths.size(); ++k) {
     const double expected = k == 12 || k == 40 ? 0.05 : 0.1;
     EXPECT_NEAR(lengths[k], expected, 1e-12) << "step " << k;
   }
+}
+
+// 20,000 additions of 1e-4 fall short of 2 by 2e-13, more than a library's own margin for round-off.
+TEST_P(FixedStep, LeavesNoSliverOfRoundOffBeforeAStop) {
+  const auto model = damped_oscillator();
+  const auto integrator = make(model, 1e-4);
+  integrator->start(model.initial());
+  StepInfo info;
+  do {
+    info = integrator->step(2);
+    ASSERT_GT(info.h, 0.99e-4);
+  } while (info.t < 2);
+  EXPECT_EQ(integrator->statistics().steps, 20'000);
 }
 
 // The slope of log error against log step.
