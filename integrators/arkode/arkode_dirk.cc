@@ -60,8 +60,9 @@ class ArkodeDirk : public FirstOrderIntegrator {
   int advance(double t_stop, double& t) override {
     if (step_) require(ARKStepSetFixedStep(memory_.get(), length_of_step(t_stop - t)));
     require(ARKStepSetStopTime(memory_.get(), t_stop));
-    const int flag = ARKStepEvolve(memory_.get(), t_stop, y(), &t, ARK_ONE_STEP);
-    if (flag >= 0) take_end(t);
+    sunrealtype reached = t;  // after a failure the time of a stage
+    const int flag = ARKStepEvolve(memory_.get(), t_stop, y(), &reached, ARK_ONE_STEP);
+    if (flag >= 0) take_end(t = reached);
     return flag;
   }
 
@@ -131,6 +132,7 @@ class ArkodeDirk : public FirstOrderIntegrator {
     return 0;
   }
 
+  // Figures: docs/decisions.md.
   void tune() {
     void* m = memory_.get();
     // The derivative of a stage is taken from its solution: a force evaluated there would multiply what
