@@ -7,6 +7,8 @@ from .markup import Html, joined, scrolling, tag
 from .method_name import method_name
 from .tables import caption
 
+EQUAL = 1.1  # a ratio of times below it is hardly a difference
+
 
 def _with_percent(target, measure):
     text = words.exponent(target)
@@ -47,13 +49,25 @@ def headline(comparison):
         return tag("p", _nothing_reached(comparison), class_="headline")
     target = _with_percent(main_target(comparison), measures.primary(comparison))
     if len(comparison.problems) == 1:
-        (method, [(_, seconds)]), = wins.items()
-        ranked = _ranked(_main(comparison, comparison.problems[0]))
-        then = f"; next is {_label(comparison, ranked[1][0])} with {words.seconds(ranked[1][1])}" if ranked[1:] else ""
-        return tag("p", f"For an error of {target}, ", tag("strong", f"{_label(comparison, method)} is fastest"),
-                   f": {words.seconds(seconds)}{then}.", class_="headline")
+        return tag("p", f"For an error of {target}, ", *_fastest(comparison, comparison.problems[0]), class_="headline")
     return tag("p", f"For an error of {target}, the fastest is ", joined(_wins(comparison, wins), "; "), ".",
                class_="headline")
+
+
+def _fastest(comparison, problem):
+    """'a is fastest: 0.2 s; next is b with 0.3 s.'; methods within 10 % of each other are named together."""
+    ranked = _ranked(_main(comparison, problem))
+    equal = [pair for pair in ranked if pair[1] <= EQUAL * ranked[0][1]]
+    names = words.joined(_label(comparison, method) for method, _ in equal)
+    first = words.seconds(ranked[0][1])
+    if len(equal) > 1:
+        yield tag("strong", f"{names} are fastest")
+        yield f", {first} to {words.seconds(equal[-1][1])}"
+    else:
+        yield tag("strong", f"{names} is fastest")
+        yield f": {first}"
+    later = ranked[len(equal):]
+    yield f"; next is {_label(comparison, later[0][0])} with {words.seconds(later[0][1])}." if later else "."
 
 
 def _wins(comparison, wins):
@@ -107,7 +121,7 @@ def _cell(answer, method):
         return tag("td", words.UNKNOWN, class_="none")
     seconds = answer.seconds[method]
     if not math.isfinite(seconds):
-        return tag("td", _best(answer, method), class_="none")
+        return tag("td", "not reached", tag("small", _best(answer, method)), class_="none")
     ranked = _ranked(answer)
     fastest, slowest = ranked[0][1], ranked[-1][1]
     ratio = _ratio(seconds / fastest) if fastest > 0 and seconds > fastest else "fastest"
@@ -128,7 +142,8 @@ def table(comparison, problem):
         tag("th", *_target_words(a), scope="col", class_="main" if a is main else None) for a in answers]
     rows = [tag("tr", tag("th", method_name(comparison, m), scope="row"), *(_cell(a, m) for a in answers))
             for m in order]
-    title = caption(f"Wall time to reach an error of …, and its ratio to the fastest. Error: {measures.label(main.error)}.")
+    title = caption("Wall time to reach an error of …, and its ratio to the fastest; interpolated between runs. "
+                    f"Error: {measures.label(main.error)}.")
     return scrolling(tag("table", title, tag("thead", tag("tr", *head)), tag("tbody", *rows), class_="targets"),
                      label=f"Times to reach an error on {problem.label}")
 
@@ -159,13 +174,23 @@ def _mean_rank(answers, method):
     return total
 
 
+def _why_no_answer(comparison, problem):
+    finished = len(comparison.finished(problem))
+    if not finished:
+        return "No run has finished."
+    if problem.reference.kind == "none":
+        return f"{words.plural(finished, 'run')} finished, but there is no reference to measure an error against."
+    return f"{words.plural(finished, 'run')} finished; times to given errors were not asked for."
+
+
 def answer_section(comparison):
     parts = [headline(comparison), overview(comparison)]
     for problem in comparison.problems:
         size = f"{words.count(problem.unknowns)} unknowns" if words.known(problem.unknowns) else ""
         content = [sentence(comparison, problem), table(comparison, problem)]
-        if any(content):
-            title = tag("h3", problem.label, " ", tag("small", size))
-            parts += [tag("div", title, tag("p", problem.sentence, class_="scene") if problem.sentence else None,
-                          *content, class_="problem")]
+        if not any(content):
+            content = [tag("p", _why_no_answer(comparison, problem), class_="empty")]
+        parts.append(tag("div", tag("h3", problem.label, " ", tag("small", size)),
+                         tag("p", problem.sentence, class_="scene") if problem.sentence else None, *content,
+                         class_="problem"))
     return joined(parts)

@@ -19,20 +19,21 @@ def parts_of(point):
     return parts
 
 
-def _note(point, reached, measure, narrow):
-    """The words right of a bar."""
+def _note(point, reached, measure, narrow, cut):
+    """The words right of a bar; `cut` says that the bar should be longer."""
     total = words.seconds(point.seconds())
     error = f"error {words.exponent(point.error(measure))}"
     if not reached:
-        return f"{total}  ({error})" if narrow else f"{total}, {error}: target not reached"
-    return f"{total}  ({error})" if narrow else f"{total}, {error}, {words.control(point.control)}"
+        end = "; bar cut off" if cut else ""
+        return f"{total} ({error}{end})" if narrow else f"{total}, {error}: target not reached{end}"
+    return f"{total} ({error})" if narrow else f"{total}, {error}, {words.control(point.control)}"
 
 
-def _bar(axes, row, point, index, faint):
+def _bar(axes, point, index, faint):
     start, sizes = 0.0, parts_of(point)
     for part, size in sizes.items():
         if size > 0:
-            axes.barh(row, size, left=start, height=1, color=LIGHT[COLOURS[part]], alpha=0.45 if faint else 1,
+            axes.barh(0, size, left=start, height=1, color=LIGHT[COLOURS[part]], alpha=0.45 if faint else 1,
                       linewidth=0)[0].set_gid(f"pt-{point.index}-{index}")
         start += size
     return start
@@ -56,7 +57,9 @@ def draw_cost_breakdown(comparison, problem, width):
     if not found:
         return None
     measure, narrow = measures.primary(comparison), width < 500
-    notes = [_note(point, reached, measure, narrow) for point, reached in found]
+    largest = _scale(found)
+    notes = [_note(point, reached, measure, narrow, sum(parts_of(point).values()) > largest)
+             for point, reached in found]
     labels = [shortened(_method(comparison, point).label, 26) for point, _ in found]
     left = 2 if narrow else 36 + LETTER * max(map(len, labels))
     across = width - left - LETTER * max(map(len, notes)) - 10
@@ -65,16 +68,21 @@ def draw_cost_breakdown(comparison, problem, width):
     heading = f"Wall time for an error below {words.exponent(target_of(comparison, problem))}"
     sheet.text(0, 16, heading if narrow else f"{heading}, {measures.label(measure)}", weight="bold")
     _key(sheet, 44)
-    largest = max(sum(parts_of(point).values()) for point, _ in found) or 1.0
     for row, ((point, reached), label, note) in enumerate(zip(found, labels, notes)):
         y = top + pitch * row + (20 if narrow else 0)
         axes = sheet.axes(left, y, across, BAR, xlim=(0, largest), ylim=(-0.5, 0.5))
         axes.set_axis_off()
         index = comparison.method_index(point.method)
-        total = _bar(axes, 0, point, index, not reached)
+        total = min(largest, _bar(axes, point, index, not reached))
         sheet.text(left + across * total / largest + 8, y + BAR / 2, note, color=LIGHT["ink" if reached else "muted"])
         _name(sheet, 0, y - 10 if narrow else y + BAR / 2, index, label)
     return sheet
+
+
+def _scale(found):
+    """Seconds of the full width: the slowest that reached the target; longer bars are cut off there."""
+    totals = [(sum(parts_of(point).values()), reached) for point, reached in found]
+    return max([t for t, reached in totals if reached] or [t for t, _ in totals]) or 1.0
 
 
 def _method(comparison, point):

@@ -29,7 +29,8 @@ def _own_errors(problem):
         rows.append(_own_row("phase [rad]", [own["phase"]] + [None] * (len(measures.KINDS) - 1)))
     if not rows:
         return None
-    head = [tag("th", "Quantity", scope="col")] + [tag("th", h, scope="col", class_="num") for h in measures.KINDS.values()]
+    head = [tag("th", "Quantity", scope="col"),
+            *(tag("th", name, scope="col", class_="num") for name in measures.KINDS.values())]
     return scrolling(tag("table", caption("The reference's own errors"), tag("thead", tag("tr", *head)),
                          tag("tbody", *rows), class_="small"), label=f"Own errors of the reference of {problem.label}")
 
@@ -88,7 +89,8 @@ def methods_table(comparison):
     rows = [tag("tr", tag("th", method_name(comparison, m.id), scope="row"), tag("td", m.integrator),
                 tag("td", m.control), tag("td", m.sentence, class_="message"), tag("td", _settings(m.set)))
             for m in comparison.methods]
-    head = [tag("th", h, scope="col") for h in ("Method", "Integrator", "Controlled by", "What it is", "Set")]
+    head = [tag("th", h, scope="col", class_="word" if h == "What it is" else None)
+            for h in ("Method", "Integrator", "Controlled by", "What it is", "Set")]
     return scrolling(tag("table", caption("Methods and what was set for them"), tag("thead", tag("tr", *head)),
                          tag("tbody", *rows)), label="Methods")
 

@@ -33,6 +33,19 @@ def _history(point):
     return point.drift_times[::every], np.where(size > FLOOR, size, np.nan)
 
 
+def _draw_histories(axes, indices, histories):
+    """Lines of |drift|; returns where each one ends, for its name."""
+    # The first instants start at zero drift; they must not stretch the axis over many decades.
+    values = np.concatenate([size[np.isfinite(size)] for _, size in histories])
+    set_log(axes, "y", *limits(values[values >= np.quantile(values, 0.02)] if values.size else values), error_tick)
+    ends = []
+    for k, (times, size) in zip(indices, histories):
+        axes.plot(times, size, color=colour(k), ls=dashes(k), lw=1.5, gid=f"me-{k}")
+        last = size[np.isfinite(size)]
+        ends.append(end_fraction(axes, last[-1] if last.size else np.nan))
+    return ends
+
+
 @styled
 def draw_energy_drift(comparison, problem, width):
     """None where no run has a history."""
@@ -46,15 +59,8 @@ def draw_energy_drift(comparison, problem, width):
     box = (left, 40, width - left - right, height)
     sheet = Sheet(width, 40 + height + 62 + (legend_height(entries, columns) if narrow else 0),
                   _description(comparison, problem, found))
-    axes, ends = sheet.axes(*box), []
-    histories = [_history(point) for point in found]
-    # The first instants start at zero drift; they must not stretch the axis over many decades.
-    values = np.concatenate([size[np.isfinite(size)] for _, size in histories])
-    set_log(axes, "y", *limits(values[values >= np.quantile(values, 0.02)] if values.size else values), error_tick)
-    for k, point, (times, size) in zip(indices, found, histories):
-        axes.plot(times, size, color=colour(k), ls=dashes(k), lw=1.5, gid=f"me-{k}")
-        last = size[np.isfinite(size)]
-        ends.append(end_fraction(axes, last[-1] if last.size else np.nan))
+    axes = sheet.axes(*box)
+    ends = _draw_histories(axes, indices, [_history(point) for point in found])
     axes.margins(x=0.0)
     if problem.end > problem.start:
         axes.set_xlim(problem.start, problem.end)

@@ -2,7 +2,6 @@
 import re
 
 import matplotlib
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from . import measures
 from .cost import draw_cost_breakdown
@@ -10,11 +9,12 @@ from .drift import draw_energy_drift
 from .markup import Html, tag
 from .scale import positive
 from .sheet import NARROW, WIDE
-from .svg import page_svg, raw_svg
+from .svg import Styles, page_svg
 from .tolerance import draw_error_against_control
 from .work_precision import draw_work_precision
 
 PAPER_DPI = 220
+PAPER = {"bbox_inches": "tight", "pad_inches": 0.08, "facecolor": "white"}
 CLOCKS = {"wall": "wall time", "cpu": "CPU time"}
 
 
@@ -24,6 +24,7 @@ class Gallery:
     def __init__(self, comparison):
         self.comparison = comparison
         self.primary = measures.primary(comparison)
+        self.styles = Styles()
         self._drawn = 0
 
     def both_widths(self, draw):
@@ -34,7 +35,7 @@ class Gallery:
             if sheet is None:
                 return None
             self._drawn += 1
-            parts.append(tag("div", Html(page_svg(sheet, f"f{self._drawn}")), class_=name))
+            parts.append(tag("div", Html(page_svg(sheet, f"f{self._drawn}", self.styles)), class_=name))
         return Html("".join(parts))
 
     def work_precision(self, problem, measure=None, clock="wall"):
@@ -86,7 +87,7 @@ class Gallery:
 
 
 def _paper_sheets(comparison, problem):
-    """(name, function that draws it); drawn twice because a canvas keeps its figure."""
+    """(name, function that draws it)."""
     measure = measures.primary(comparison)
     return (("work_precision", lambda: draw_work_precision(comparison, problem, measure, "wall", WIDE)),
             ("error_against_control", lambda: draw_error_against_control(comparison, problem, measure, WIDE)),
@@ -114,12 +115,9 @@ def write_paper_figures(comparison, folder):
             sheet = draw()
             if sheet is None:
                 continue
-            stem = folder / f"{figure}_{names[problem.id]}"
-            sheet.figure.set_facecolor("white")
-            FigureCanvasAgg(sheet.figure)
-            with matplotlib.rc_context({"savefig.facecolor": "white"}):
-                sheet.figure.savefig(f"{stem}.png", dpi=PAPER_DPI)
-            svg, png = stem.with_name(stem.name + ".svg"), stem.with_name(stem.name + ".png")
-            svg.write_text(raw_svg(sheet.figure, stem.name, fonttype="path"), encoding="utf-8")
+            svg, png = (folder / f"{figure}_{names[problem.id]}.{kind}" for kind in ("svg", "png"))
+            with matplotlib.rc_context({"svg.fonttype": "path", "svg.hashsalt": svg.stem}):
+                sheet.figure.savefig(svg, metadata={"Date": None}, **PAPER)
+            sheet.figure.savefig(png, dpi=PAPER_DPI, **PAPER)
             yield svg
             yield png

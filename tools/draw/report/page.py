@@ -14,12 +14,13 @@ BUDGET = 2_700_000  # characters of the page; further variants of figures are le
 
 READ = {
     "wp": "One marker is one run, one line one method from loose to tight control; lower left is better: less error in "
-          "less time. Hollow markers are near the reference's own error. Crosses above are runs that failed, at the time they "
-          "took. Thin horizontal lines span the repeats.",
+          "less time. Hollow markers are near the reference's own error. Crosses above are runs that failed, at the "
+          "time they took (at the left edge where it is not known). Thin horizontal lines span the repeats.",
     "tol": "How the error follows what was asked for. The slope is the order observed in log-log; a method that keeps "
            "its promise has slope 1 against a tolerance, and its order against a step.",
     "cost": "For each method the cheapest run whose error is below the target, or its most accurate run if none is "
-            "(pale). Rest is wall time minus the parts that were measured.",
+            "(pale, and cut off where it is longer than the others). Rest is wall time minus the parts that were "
+            "measured.",
     "drift": "Change of the energy balance since the start, in magnitude, of the same runs as in the cost breakdown.",
 }
 
@@ -28,11 +29,12 @@ def _variables(colours):
     return "".join(f"--{name}:{value};" for name, value in colours.items())
 
 
-def _style():
+def _style(figures):
+    """`figures` are the rules of the figures' classes."""
     light, dark = _variables(LIGHT) + "color-scheme:light;", _variables(DARK) + "color-scheme:dark;"
     themes = (f":root{{{light}}}@media (prefers-color-scheme:dark){{:root:not([data-theme=light]){{{dark}}}}}"
               f":root[data-theme=dark]{{{dark}}}@media print{{:root:root:root{{{light}}}}}")
-    return tag("style", Html(themes + (HERE / "page.css").read_text(encoding="utf-8")))
+    return tag("style", Html(themes + (HERE / "page.css").read_text(encoding="utf-8") + figures))
 
 
 def _counted(comparison):
@@ -72,7 +74,8 @@ def _choosers(offered, group, with_clock=True):
     parts = []
     if len(found) > 1:
         options = (tag("option", measures.label(m), value=m) for m in found)
-        parts.append(tag("label", "Error measured as ", tag("select", *options, data_pick="measure", autocomplete="off")))
+        select = tag("select", *options, data_pick="measure", autocomplete="off")
+        parts.append(tag("label", "Error measured as ", select))
     if len(clocks) > 1:
         radios = (tag("label", void("input", type="radio", name=f"clock-{group}", value=c, data_pick="clock",
                                     checked=c == "wall", autocomplete="off"), tag("span", CLOCKS[c])) for c in clocks)
@@ -80,13 +83,14 @@ def _choosers(offered, group, with_clock=True):
     return tag("div", *parts, class_="choosers js") if parts else None
 
 
-def _figure(problem, kind, picture, variants=(), first=None):
+def _figure(comparison, problem, kind, picture, variants=(), first=None):
     """A figure with its variants; `first` is the (measure, clock) that is shown."""
     if picture is None:
         return None
     measure, clock = first or (None, None)
+    explained = problem is comparison.problems[0]  # once per kind is enough
     stage = tag("div", picture, class_="stage")
-    return tag("figure", stage, *variants, tag("figcaption", READ[kind]), data_kind=kind,
+    return tag("figure", stage, *variants, tag("figcaption", READ[kind]) if explained else None, data_kind=kind,
                data_measure=measure, data_clock=clock if kind == "wp" else None,
                aria_label=f"{problem.label}")
 
@@ -107,12 +111,13 @@ def _each(comparison, content):
 
 def _cost(comparison, gallery, problem):
     picture = gallery.cost(problem)
-    return picture and joined([_figure(problem, "cost", picture), tables.cost_table(comparison, problem)])
+    return picture and joined([_figure(comparison, problem, "cost", picture), tables.cost_table(comparison, problem)])
 
 
 def _drift(comparison, gallery, problem):
     picture, runs = gallery.drift(problem), drift_runs(comparison, problem)
-    return picture and joined([_figure(problem, "drift", picture), tables.drift_table(comparison, problem, runs)])
+    return picture and joined([_figure(comparison, problem, "drift", picture),
+                               tables.drift_table(comparison, problem, runs)])
 
 
 def _after(comparison, gallery, folder):
@@ -141,7 +146,8 @@ def page(comparison, folder):
     variants, offered = gallery.variants(BUDGET - base)
 
     def figures(kind, which):
-        return _each(comparison, lambda p: _figure(p, kind, shown[p.id][which], variants.get((kind, p.id), ()), first))
+        return _each(comparison, lambda p: _figure(comparison, p, kind, shown[p.id][which],
+                                                   variants.get((kind, p.id), ()), first))
 
     main = tag("main", _section("answer", "The answer", answer.answer_section(comparison)),
                _section("precision", "Work and precision", _choosers(offered, "wp"), figures("wp", 0)),
@@ -149,7 +155,7 @@ def page(comparison, folder):
                         figures("tol", 1)), after)
     head = tag("head", void("meta", charset="utf-8"),
                void("meta", name="viewport", content="width=device-width, initial-scale=1"),
-               tag("title", comparison.title or comparison.name), _style(),
+               tag("title", comparison.title or comparison.name), _style(gallery.styles.css()),
                void("link", rel="icon", href="data:,"))
     return "<!DOCTYPE html>\n" + tag("html", head, tag("body", glyphs(comparison), _header(comparison), main,
                                                              runs, script), lang="en") + "\n"

@@ -169,7 +169,7 @@ def read_comparison(folder):
     return Comparison(
         node.text("name", path.parent.name), node.text("title"), node.text("description"), node.text("file"),
         node.text("started"), node.value.get("complete") is True, node.number("planned_points"),
-        node.child("machine").texts(), node.child("versions").texts(), node.child("settings").texts(), problems, methods,
+        *(node.child(key).texts() for key in ("machine", "versions", "settings")), problems, methods,
         [_point(k, n, ids, names) for k, n in enumerate(node.children("points"))],
         [_answer(n, ids, names) for n in node.children("answers")],
         [Order(n.text("problem"), n.text("method"), n.text("error"), n.number("slope"))

@@ -8,7 +8,6 @@ from .theme import LIGHT
 
 LANE_ROW = 13
 LANE_GAP = 6
-FAILURE_EDGE = {"marker": "x", "mew": 1.9, "ms": 7, "ls": "none"}
 
 
 def lane_height(failing):
@@ -25,7 +24,7 @@ def draw_runs(axes, index, runs, hollow):
         open_ = point.index in hollow
         axes.plot([x], [y], marker=theme.marker(index), ms=theme.marker_size(index, 8.5), ls="none",
                   mfc=LIGHT["paper"] if open_ else colour, mec=colour if open_ else LIGHT["paper"],
-                  mew=1.3 if open_ else 0.9, alpha=1.0, gid=f"pt-{point.index}-{index}", zorder=4)
+                  mew=1.3 if open_ else 0.9, clip_on=False, gid=f"pt-{point.index}-{index}", zorder=4)
 
 
 def draw_lane(lane, failing, place):
@@ -41,7 +40,7 @@ def draw_lane(lane, failing, place):
         for point in points:
             x = place(point)
             lane.plot([x if np.isfinite(x) and x > 0 else low], [row], color=theme.colour(index),
-                      clip_on=False, gid=f"pt-{point.index}-{index}", **FAILURE_EDGE)
+                      clip_on=False, gid=f"pt-{point.index}-{index}", **theme.FAILURE)
 
 
 def label_right(sheet, box, entries, ends):
@@ -54,8 +53,16 @@ def label_right(sheet, box, entries, ends):
     # Names moved apart as one group may leave the sheet; the group comes back as a whole.
     placed = placed + min(0.0, top + height - placed.max())
     placed = placed + max(0.0, top + 4 - placed.min())
-    for (index, words, muted), y in zip(entries, placed):
-        sheet.method_label(left + width + 14, y, index, words, muted)
+    for (index, words, failed), y in zip(entries, placed):
+        sheet.method_label(left + width + 14, y, index, words, failed)
+
+
+def say_nothing_finished(sheet, axes, box):
+    """Words in the place of lines; the error axis has no meaning then."""
+    left, top, width, height = box
+    axes.set_yticks([])
+    axes.grid(False)
+    sheet.text(left + width / 2, top + height / 2, "no finished run", ha="center", color=LIGHT["muted"])
 
 
 def end_fraction(axes, value):

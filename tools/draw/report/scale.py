@@ -31,9 +31,12 @@ def _candidates(low, high):
 
 
 def ticks(low, high, most):
-    """The finest candidate of at most `most` ticks, or a finer one rather than less than two ticks."""
-    best = []
-    for found in _candidates(low, high):
+    """Powers of ten where there are three to `most`, else the finest candidate of at most `most` ticks,
+    or a finer one rather than less than two ticks."""
+    best, candidates = [], list(_candidates(low, high))
+    if 3 <= len(candidates[2]) <= most:
+        return candidates[2]
+    for found in candidates:
         if len(found) <= most:
             return found if len(found) >= 2 or not best else best
         best = found

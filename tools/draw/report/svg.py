@@ -16,10 +16,10 @@ VARIABLES = {hexadecimal: f"var(--{name})" for name, hexadecimal in LIGHT.items(
 ElementTree.register_namespace("", SVG[1:-1])
 
 
-def raw_svg(figure, salt, fonttype="none"):
+def _raw_svg(figure, salt):
     """What matplotlib writes; `salt` makes the ids of this figure its own."""
     stream = io.StringIO()
-    with matplotlib.rc_context({"svg.fonttype": fonttype, "svg.hashsalt": salt}):
+    with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": salt}):
         FigureCanvasSVG(figure).print_svg(stream, metadata={"Date": None})
     return stream.getvalue()
 
@@ -86,14 +86,29 @@ def _cleaned(element, names, in_definition=False):
 
 def _unwrapped(element):
     """Groups that say nothing give way to what is in them."""
-    if element.tag in (SVG + "g", SVG + "defs") and not element.attrib and (element.tag == SVG + "g" or not len(element)):
-        return list(element)
-    return [element]
+    if element.tag == SVG + "g" and len(element) == 1 and element[0].tag == SVG + "use":
+        element[0].attrib.update(element.attrib)
+        return [element[0]]
+    empty = element.tag == SVG + "defs" and not len(element)
+    return list(element) if empty or element.tag == SVG + "g" and not element.attrib else [element]
 
 
-def page_svg(sheet, salt):
+class Styles:
+    """Styles of all figures of a page, each written once as a class."""
+
+    def __init__(self):
+        self._names = {}
+
+    def named(self, style):
+        return self._names.setdefault(style, f"s{len(self._names)}")
+
+    def css(self):
+        return "".join(f".{name}{{{style}}}" for style, name in self._names.items())
+
+
+def page_svg(sheet, salt, styles):
     """The sheet's SVG element for the page; `salt` must be unique in the page and begin with a letter."""
-    text = raw_svg(sheet.figure, salt)
+    text = _raw_svg(sheet.figure, salt)
     root = ElementTree.fromstring(text[text.index("<svg"):])
     _cleaned(root, _short_names(root, salt))
     for key in ("width", "height", "version"):
@@ -103,7 +118,9 @@ def page_svg(sheet, salt):
     root.set("aria-label", sheet.description)
     root.set("tabindex", "0")
     text = ElementTree.tostring(root, encoding="unicode").replace(' xmlns="http://www.w3.org/2000/svg"', "", 1)
-    return re.sub(r">\s+<", "><", re.sub(r'(\sd=")([^"]*)', lambda m: m.group(1) + _joined_path(m.group(2)), text))
+    text = re.sub(r'style="([^"]*)"', lambda m: f'class="{styles.named(m.group(1))}"', text)
+    text = re.sub(r'(\sd=")([^"]*)', lambda m: m.group(1) + _joined_path(m.group(2)), text)
+    return re.sub(r">\s+<", "><", text).replace(" />", "/>")
 
 
 def _joined_path(path):

@@ -35,7 +35,8 @@ def _count(point, key):
 
 def _run_row(comparison, point, measure):
     near = comparison.is_near_reference(point, measure)
-    cells = [words.plain_seconds(point.seconds()), words.span(point.clocks["wall"]), words.plain_seconds(point.seconds("cpu")),
+    cells = [words.plain_seconds(point.seconds()), words.span(point.clocks["wall"]),
+             words.plain_seconds(point.seconds("cpu")),
              *(_count(point, k) for k in ("steps", "rejected_steps", "newton_iterations")),
              *(words.count(point.work[part].count) for part in PARTS), words.megabytes(point.peak_memory),
              *(words.fixed_exponent(point.drift.get(k, math.nan)) for k in
@@ -46,8 +47,8 @@ def _run_row(comparison, point, measure):
                *map(number, cells), class_=None if point.completed else "failed")
 
 
-RUN_HEAD = ("Wall [s]", "Repeats [s]", "CPU [s]", "Steps", "Rejected", "Newton", "Force", "Tangent", "Factorisation", "Solve",
-            "Memory [MB]", "Energy drift", "Linear mom.", "Angular mom.")
+RUN_HEAD = ("Wall [s]", "Repeats [s]", "CPU [s]", "Steps", "Rejected", "Newton", "Force", "Tangent", "Factorisation",
+            "Solve", "Memory [MB]", "Energy drift", "Linear mom.", "Angular mom.")
 
 
 def runs_table(comparison, problem):
@@ -64,13 +65,15 @@ def failures_table(comparison):
     failed = [(problem, p) for problem in comparison.problems for p in comparison.failed(problem)]
     if not failed:
         return tag("p", "Every run has finished.")
-    rows = [tag("tr", tag("th", method_name(comparison, p.method), scope="row"), tag("td", problem.label, class_="word"),
+    rows = [tag("tr", tag("th", method_name(comparison, p.method), scope="row"),
+                tag("td", problem.label, class_="word"),
                 number(words.control(p.control)), tag("td", p.reason or p.status, class_="word"),
                 number(_reached(problem, p)), number(words.plain_seconds(p.seconds())),
                 tag("td", p.message or words.UNKNOWN, class_="message")) for problem, p in failed]
     head = (("Method", False), ("Problem", False), ("Control", True), ("Reason", False), ("Reached t [s]", True),
             ("Wall [s]", True), ("Message", False))
-    return _table(f"{words.plural(len(failed), 'run')} of {len(comparison.points)} did not finish", head, rows, "Failures")
+    title = f"{words.plural(len(failed), 'run')} of {len(comparison.points)} did not finish"
+    return _table(title, head, rows, "Failures")
 
 
 def _reached(problem, point):
@@ -90,7 +93,8 @@ def cost_table(comparison, problem):
                         number(words.plain_seconds(total)), *cells))
     head = [("Method", False), ("Control", True), ("Error", True), ("Wall [s]", True),
             *((name.capitalize(), True) for name in cost.NAMES.values())]
-    return _table("Seconds, share of the wall time, and number of calls", head, rows, f"Cost on {problem.label}", "cost")
+    title = "Seconds, share of the wall time, and number of calls"
+    return _table(title, head, rows, f"Cost on {problem.label}", "cost")
 
 
 def _part(seconds, total, work):

@@ -3,7 +3,8 @@ import numpy as np
 
 from . import measures, words
 from .comparison import NEAR_REFERENCE
-from .runs import LANE_GAP, draw_lane, draw_runs, draw_unresolved, end_fraction, label_right, lane_height
+from .runs import (LANE_GAP, draw_lane, draw_runs, draw_unresolved, end_fraction, label_right, lane_height,
+                   say_nothing_finished)
 from .scale import error_tick, limits, positive, seconds_tick, set_log
 from .sheet import WIDE, Sheet, legend_columns, legend_height, shortened, side_margin, styled
 from .theme import LIGHT
@@ -100,10 +101,11 @@ def _panel(sheet, box, rows, comparison, problem, measure, kind, first):
     return axes, runs
 
 
-def _boxes(width, kinds, lanes, margin):
+def _boxes(width, kinds, lanes, margin, flat):
     """(left, top, width, height) per kind: beside each other, or below each other where narrow."""
     narrow = width < WIDE
     left, right, height = (46, 20, 250) if narrow else (54, margin, 340)
+    height = 90 if flat else height
     top = 40 + (lanes + LANE_GAP if lanes else 0)
     if narrow:
         return [(left, top + k * (height + 66 + lanes + LANE_GAP), width - left - right, height)
@@ -120,7 +122,7 @@ def draw_error_against_control(comparison, problem, measure, width):
     entries = _entries(comparison, problem, measure, drawn)
     lanes = max(lane_height(_failing(comparison, problem, kind)) for kind in kinds)
     columns = legend_columns(entries)
-    boxes = _boxes(width, kinds, lanes, side_margin(entries))
+    boxes = _boxes(width, kinds, lanes, side_margin(entries), not drawn)
     bottom = boxes[-1][1] + boxes[-1][3] + 62
     sheet = Sheet(width, bottom + (legend_height(entries, columns) if width < WIDE else 0),
                   _description(problem, measure, entries))
@@ -128,8 +130,8 @@ def draw_error_against_control(comparison, problem, measure, width):
     panels = [_panel(sheet, box, lanes, comparison, problem, measure, kind, k == 0 or sheet.narrow)
               for k, (kind, box) in enumerate(zip(kinds, boxes))]
     if not drawn:
-        left, top, across, height = boxes[0]
-        sheet.text(left + across / 2, top + height / 2, "no finished run", ha="center", color=LIGHT["muted"])
+        for (axes, _), box in zip(panels, boxes):
+            say_nothing_finished(sheet, axes, box)
     if sheet.narrow:
         sheet.legend(bottom - 10, entries, columns)
     else:

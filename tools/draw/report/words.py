@@ -16,6 +16,8 @@ def exponent(x, digits=2):
         return UNKNOWN
     if x == 0:
         return "0"
+    if 1 <= abs(x) < 1000:
+        return f"{x:.{digits}g}" if abs(x) < 10 ** digits else f"{x:.0f}"
     mantissa, power = f"{x:.{digits - 1}e}".split("e")
     mantissa = mantissa.rstrip("0").rstrip(".") if "." in mantissa else mantissa
     return f"{mantissa}e{int(power)}"

@@ -3,7 +3,8 @@ import numpy as np
 
 from . import measures, words
 from .comparison import NEAR_REFERENCE
-from .runs import LANE_GAP, draw_lane, draw_runs, draw_unresolved, end_fraction, label_right, lane_height
+from .runs import (LANE_GAP, draw_lane, draw_runs, draw_unresolved, end_fraction, label_right, lane_height,
+                   say_nothing_finished)
 from .scale import error_tick, limits, positive, seconds_tick, set_log
 from .sheet import WIDE, Sheet, legend_columns, legend_height, shortened, side_margin, styled
 from .theme import LIGHT, colour
@@ -34,7 +35,7 @@ def error_limits(errors, bound):
 
 def unresolved_words(problem, measure, narrow):
     own = words.exponent(problem.reference.errors.get(measure, np.nan))
-    return f"not resolved: below 10 × {own}" if narrow else f"not resolved: below 10 × the reference's own error ({own})"
+    return "not resolved: below 10 × " + (own if narrow else f"the reference's own error ({own})")
 
 
 def title_of(measure):
@@ -42,7 +43,7 @@ def title_of(measure):
 
 
 def _entries(comparison, problem, runs):
-    """Labels of the methods that ran: (index, words, muted); muted without a finished run."""
+    """Labels of the methods that ran: (index, words, whether all its runs failed)."""
     ran = {p.method for p in comparison.points_of(problem)}
     return [(k, shortened(m.label, 26), not runs[k]) for k, m in enumerate(comparison.methods) if m.id in ran]
 
@@ -65,12 +66,13 @@ def _whiskers(axes, index, runs, clock):
 
 
 def _layout(width, entries, failing):
-    """The sheet and the boxes of axes and lane, (left, top, width, height)."""
+    """The sheet and the boxes of axes and lane, (left, top, width, height); flat where no run has finished."""
     narrow = width < WIDE
     lane = lane_height(failing)
     left, right = (46, 20) if narrow else (54, side_margin(entries))
     columns = legend_columns(entries)
     top, height = 40 + (lane + LANE_GAP if lane else 0), (290 if narrow else 400)
+    height = max(90, 20 * len(entries)) if all(failed for *_, failed in entries) else height
     below = 62 + (legend_height(entries, columns) if narrow else 0)
     sheet = Sheet(width, top + height + below)
     return sheet, (left, top, width - left - right, height), (left, 40, width - left - right, lane), columns
@@ -114,4 +116,4 @@ def _furnish(sheet, axes, box, measure, clock):
     hint = "" if sheet.narrow else "   (left and down is better)"
     sheet.text(left + width / 2, top + height + 40, f"{name}, median of repeats{hint}", ha="center")
     if not axes.lines:
-        sheet.text(left + width / 2, top + height / 2, "no finished run", ha="center", color=LIGHT["muted"])
+        say_nothing_finished(sheet, axes, box)
