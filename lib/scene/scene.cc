@@ -237,6 +237,8 @@ void check_materials_exist(const Scene& scene) {
 }  // namespace
 
 Scene read_scene(const Config& config) {
+  if (config.is_map() && config.has("scenes"))
+    config.at("scenes").fail("a scene has no such key; a comparison of scenes is run by `orthodyn compare`");
   Scene scene = Scene::spec().read(config);
   if (scene.materials.empty()) config.at("materials").fail("is empty; give at least one material");
   fill_regions(config, scene);

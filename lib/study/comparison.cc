@@ -135,6 +135,8 @@ const Spec<Comparison>& Comparison::spec() {
 }
 
 Comparison read_comparison(const Config& config) {
+  if (config.is_map() && config.has("mesh"))
+    config.at("mesh").fail("a comparison has no such key; a scene is run by `orthodyn run`");
   Comparison comparison = Comparison::spec().read(config);
   comparison.name = stem(config.file());
   if (comparison.title.empty()) comparison.title = comparison.name;

@@ -114,7 +114,7 @@ TEST(SpinningCube, DriftOverFiftyRevolutionsIsLinearAndFallsWithTheTolerance) {
     };
     const auto& e = d.energy_over_time;
     const auto split = e.begin() + static_cast<std::ptrdiff_t>(halfway);
-    EXPECT_LE(largest(split, e.end()), 2.5 * largest(e.begin(), split));
+    EXPECT_LE(largest(split, e.end()), 3 * largest(e.begin(), split));  // linear: 2, quadratic: 4
   }
   EXPECT_GE(std::log10(loose.energy / tight.energy) / 2, 5.0 / 6 - 0.15);
   EXPECT_GE(std::log10(loose.angular / tight.angular) / 2, 5.0 / 6 - 0.15);

@@ -11,7 +11,8 @@ namespace fs = std::filesystem;
 std::vector<std::string> shipped_scenes() {
   std::vector<std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(ORTHODYN_SOURCE_DIR) / "configs"))
-    if (entry.path().extension() == ".yaml") files.push_back(entry.path().string());
+    if (entry.path().extension() == ".yaml" && entry.path().parent_path().filename() != "comparisons")
+      files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
   return files;
 }
