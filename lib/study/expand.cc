@@ -85,13 +85,17 @@ void add_methods(const Comparison& comparison, const IntegratorEntry& entry, con
                 Registry<IntegratorChoice>::entries().at(entry.type).sentence, {}, Method::Control::rtol};
   for (const auto& [key, value] : entry.options) method.set.emplace_back(key, value.text);
   for (const auto& [path, value] : variant.set) method.set.emplace_back(last_step(path), value);
-  const bool adaptive = has_key(entry.type, "rtol") && !comparison.tolerances.empty();
+  const auto& tolerances = comparison.tolerances;
+  const bool adaptive = has_key(entry.type, "rtol") && !tolerances.empty();
   const bool fixed = has_key(entry.type, "step") && !comparison.steps.empty();
   const std::string label = method.label;
   if (adaptive) methods.push_back(method);
   if (fixed) {
     method.control = Method::Control::step;
-    if (adaptive) method.label = label + ", fixed step";
+    if (adaptive) {  // then rtol is of Newton's method alone, which must not limit what the step can reach
+      method.label = label + ", fixed step";
+      method.set.emplace_back("rtol", number_text(*std::min_element(tolerances.begin(), tolerances.end())));
+    }
     methods.push_back(method);
   }
   if (!adaptive && !fixed)

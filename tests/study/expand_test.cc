@@ -59,6 +59,16 @@ TEST_F(Expand, KeepsTheScalesOfTheSceneForEveryMethod) {
   EXPECT_EQ(point_scene(design, design.points[0]).at("integrator").at("position_scale").number(), 0.25);
 }
 
+TEST_F(Expand, AMethodWithBothKindsOfControlIsComparedWithBoth) {
+  const auto design = expanded("scenes: [swing.yaml]\nintegrators: [arkode_dirk]\ntolerances: [1e-3, 1e-6]\nsteps: [0.02]\n");
+  ASSERT_EQ(design.methods.size(), 2u);
+  EXPECT_EQ(design.methods[1].label, "arkode_dirk, fixed step");
+  ASSERT_EQ(design.points.size(), 3u);
+  const Config integrator = point_scene(design, design.points[2]).at("integrator");
+  EXPECT_EQ(integrator.at("step").number(), 0.02);
+  EXPECT_EQ(integrator.at("rtol").number(), 1e-6);  // Newton's, no coarser than the comparison
+}
+
 TEST_F(Expand, AnOptionOfTheEntryWinsOverTheScene) {
   write("second.yaml", std::string(kSwing).replace(std::string(kSwing).find("rtol: 1e-3"), 10, "max_order: 2"));
   const auto design = expanded(

@@ -75,13 +75,19 @@ class Teller {
   int done_ = 0;
 };
 
+std::string label_of(const Json& list, const Json& id) {
+  for (const auto& item : list)
+    if (item.at("id") == id) return item.at("label");
+  return id;
+}
+
 void print_answers(const Json& table) {
   for (const auto& answer : table.at("answers")) {
-    fmt::print("error {:g} on {}:", answer.at("target").get<double>(), answer.at("problem").get<std::string>());
+    fmt::print("error {:g} on {}:", answer.at("target").get<double>(), label_of(table.at("problems"), answer.at("problem")));
     const char* separator = " ";
     for (const auto& row : answer.at("methods")) {
       if (row.at("seconds").is_null()) continue;
-      fmt::print("{}{} {:.3g} s", separator, row.at("method").get<std::string>(), row.at("seconds").get<double>());
+      fmt::print("{}{} {:.3g} s", separator, label_of(table.at("methods"), row.at("method")), row.at("seconds").get<double>());
       separator = ", ";
     }
     fmt::print("\n");
