@@ -127,7 +127,7 @@ bool Campaign::find_reference(std::size_t problem, const std::atomic<bool>& inte
                          : fmt::format("{{type: arkode_dirk, rtol: {}}}", std::max(1e-3 * tightest, 1e-11)));
   const Section second = read_section(
       options.check ? options.check->text
-                    : fmt::format("{{type: cvode_bdf, max_order: 5, rtol: {}}}", std::max(1e-2 * tightest, 1e-11)));
+                    : fmt::format("{{type: cvode_bdf, max_order: 5, rtol: {}}}", std::max(1e-3 * tightest, 1e-10)));
   ReferenceResult reference;
   Task task{p.label + ", reference", "references", scene_config(p, first.type, first.options), reference_job()};
   reference.method = first.words;

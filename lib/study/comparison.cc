@@ -107,7 +107,7 @@ const Spec<ReferenceOptions>& ReferenceOptions::spec() {
                "smallest tolerance.")
           .key("check", &ReferenceOptions::check,
                "A second one, of another family, whose difference bounds the error of the reference; default "
-               "cvode_bdf of order 5 at a hundredth of the smallest tolerance.")
+               "cvode_bdf of order 5 at a thousandth of the smallest tolerance.")
           .key("seconds", &ReferenceOptions::seconds, "Limit of the wall time of either.",
                {.unit = "s", .range = kPositive});
   return s;

@@ -129,8 +129,8 @@ std::vector<WorkPoint> work_points(const Json& points, const Json& problem, cons
 }
 
 double reference_error(const Json& problem) {
-  const Json errors = field(problem.at("reference"), "errors");
-  return errors.is_object() ? errors.at("displacement").at("l2").get<double>() : 0;
+  const Json error = field(field(field(problem.at("reference"), "errors"), "displacement"), "l2");
+  return error.is_number() ? error.get<double>() : 0;
 }
 
 Json answer_json(const Json& problem, double target, const Json& methods, const Json& points) {

@@ -193,6 +193,7 @@ std::string head_comment(const std::string& file) {
   std::string text;
   for (std::string line; std::getline(in, line) && line.starts_with('#');) {
     line.erase(0, line.find_first_not_of("# "));
+    if (line.empty()) break;
     text += (text.empty() ? "" : " ") + line;
   }
   return text;

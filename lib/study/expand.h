@@ -54,7 +54,7 @@ Config scene_config(const Problem& problem, const std::string& integrator, const
 // Of a method at a control.
 Config point_scene(const Design& design, const Point& point);
 
-// The first comment of a file, as one line.
+// The first paragraph of a file's first comment, as one line.
 std::string head_comment(const std::string& file);
 
 }  // namespace orthodyn

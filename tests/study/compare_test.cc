@@ -27,13 +27,13 @@ class Compare : public InFolder {
     write("swing.yaml", kSwing);
     write("c.yaml", kSmall);
   }
-  Json table() const { return Json::parse(read_text(folder_ / "out/c/compare.json")); }
+  Json table() const { return Json::parse(read_text(folder_ / "out/comparisons/c/compare.json")); }
   CommandResult compare(const std::string& more = "") const { return orthodyn("compare c.yaml --no-report" + more); }
 
   // What must not change when a comparison goes on: the files of finished points.
   std::set<std::pair<std::string, std::string>> finished() const {
     std::set<std::pair<std::string, std::string>> out;
-    for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out/c"))
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out/comparisons/c"))
       if (entry.path().filename() == "result.json") out.emplace(entry.path().string(), read_text(entry.path()));
     return out;
   }
@@ -68,7 +68,7 @@ TEST_F(Compare, MeasuresEveryPointAgainstACheckedReference) {
 
 TEST_F(Compare, TheCsvHoldsTheNumbersOfTheJson) {
   ASSERT_EQ(compare().exit_code, 0);
-  std::istringstream csv(read_text(folder_ / "out/c/compare.csv"));
+  std::istringstream csv(read_text(folder_ / "out/comparisons/c/compare.csv"));
   std::string header, row;
   std::getline(csv, header);
   const auto cells = [](const std::string& line) {
@@ -113,7 +113,7 @@ TEST_F(Compare, AKillAtAnyMomentCostsAtMostThePointInProgress) {
       _exit(127);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
-    const auto before = fs::exists(folder_ / "out/c") ? finished() : decltype(finished()){};
+    const auto before = fs::exists(folder_ / "out/comparisons/c") ? finished() : decltype(finished()){};
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
     const auto after = finished();
@@ -145,7 +145,7 @@ TEST_F(Compare, APointThatTakesTooLongStaysInTheTable) {
   EXPECT_EQ(tight.at("status"), "failed");
   EXPECT_EQ(tight.at("reason"), "time limit");
   EXPECT_LT(tight.at("time_reached"), 0.5);
-  EXPECT_NE(read_text(folder_ / "out/c/compare.csv").find("time limit"), std::string::npos);
+  EXPECT_NE(read_text(folder_ / "out/comparisons/c/compare.csv").find("time limit"), std::string::npos);
 }
 
 TEST_F(Compare, ARunThatFailsAndAModelThatIsRefusedStayInTheTableWithTheirReasons) {
@@ -161,10 +161,10 @@ TEST_F(Compare, ARunThatFailsAndAModelThatIsRefusedStayInTheTableWithTheirReason
 
 TEST_F(Compare, AProcessThatDiesCostsOnePoint) {
   ASSERT_EQ(compare().exit_code, 0);
-  fs::remove(folder_ / "out/c" / fs::path(table().at("points")[0].at("scene").get<std::string>()).parent_path() /
+  fs::remove(folder_ / "out/comparisons/c" / fs::path(table().at("points")[0].at("scene").get<std::string>()).parent_path() /
              "result.json");
   // What it would measure against cannot be read.
-  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out/c/references"))
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out/comparisons/c/references"))
     if (entry.path().filename() == "trajectory.bin") fs::resize_file(entry.path(), 100);
   const auto again = compare();
   EXPECT_EQ(again.exit_code, 0) << again.output;
@@ -182,6 +182,23 @@ TEST_F(Compare, ALinearSceneIsMeasuredAgainstItsExactSolution) {
   EXPECT_EQ(t.at("problems")[0].at("reference").at("kind"), "exact");
   EXPECT_LT(t.at("points")[2].at("errors").at("displacement").at("l2"), 1e-5);
   EXPECT_LT(t.at("points")[2].at("errors").at("velocity").at("max"), 1e-4);
+}
+
+TEST_F(Compare, ErrorsFallWithTheToleranceAsTheOrderSays) {
+  write("c.yaml", R"(scenes: [{file: swing.yaml, set: {elasticity.kinematics: linear}}]
+integrators: [cvode_bdf, ida_bdf]
+tolerances: [1e-3, 1e-4, 1e-5, 1e-6, 1e-7]
+vary: {integrator.max_order: [2, 5]}
+repeats: 1
+)");
+  ASSERT_EQ(compare().exit_code, 0);
+  const Json t = table();
+  ASSERT_EQ(t.at("orders").size(), 4u);
+  for (const auto& order : t.at("orders")) {
+    const double k = order.at("method").get<std::string>().ends_with("2") ? 2 : 5;
+    EXPECT_GT(order.at("slope"), k / (k + 1) - 0.15) << order.dump();
+    EXPECT_LT(order.at("slope"), 1.2) << order.dump();
+  }
 }
 
 TEST_F(Compare, NeverWritesIntoAFolderOfSomethingElse) {

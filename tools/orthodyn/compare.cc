@@ -100,7 +100,7 @@ int compare_command(const CompareArguments& arguments) {
   const Config config = Config::from_file(arguments.comparison);
   const Comparison comparison = read_comparison(config);
   Design design = expand(comparison);
-  const fs::path folder = arguments.out ? fs::path(*arguments.out) : fs::path("out") / comparison.name;
+  const fs::path folder = arguments.out ? fs::path(*arguments.out) : fs::path("out/comparisons") / comparison.name;
   refuse_other_folders(folder);
   write_file(folder / kMark,
              {fmt::format("# {} with every default spelled out.\n{}", arguments.comparison, config.dump())});

@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
   compare->add_option("comparison", comparison.comparison, "A comparison in YAML.")
       ->required()
       ->type_name("COMPARISON.yaml");
-  compare->add_option("--out", comparison.out, "Folder for the results; default out/<comparison>.")->type_name("DIR");
+  compare->add_option("--out", comparison.out, "Folder for the results; default out/comparisons/<name>.")->type_name("DIR");
   compare->add_flag("--quiet", comparison.quiet, "Say nothing but errors.");
   compare->add_flag("--no-report", comparison.no_report, "Write compare.json and compare.csv only.");
 

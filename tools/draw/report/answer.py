@@ -183,6 +183,13 @@ def _why_no_answer(comparison, problem):
     return f"{words.plural(finished, 'run')} finished; times to given errors were not asked for."
 
 
+def _scene(problem):
+    """What the scene shows, and what was changed in it."""
+    changes = ", ".join(f"{k} left out" if v in ("~", "null") else f"{k}: {v}" for k, v in problem.set.items())
+    text = " ".join(part for part in (problem.sentence, f"Changed here: {changes}." if changes else "") if part)
+    return tag("p", text, class_="scene") if text else None
+
+
 def answer_section(comparison):
     parts = [headline(comparison), overview(comparison)]
     for problem in comparison.problems:
@@ -191,6 +198,6 @@ def answer_section(comparison):
         if not any(content):
             content = [tag("p", _why_no_answer(comparison, problem), class_="empty")]
         parts.append(tag("div", tag("h3", problem.label, " ", tag("small", size)),
-                         tag("p", problem.sentence, class_="scene") if problem.sentence else None, *content,
+                         _scene(problem), *content,
                          class_="problem"))
     return joined(parts)

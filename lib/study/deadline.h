@@ -1,0 +1,26 @@
+// Ends a run that takes too long, after the step in progress: run() looks at `over` as its interrupt.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+
+#include "lib/run/observer.h"
+
+namespace orthodyn {
+
+class Deadline : public Observer {
+ public:
+  explicit Deadline(double seconds)
+      : end_(Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
+  void on_step(const StepInfo&, const State&, const Integrator&) override {
+    if (Clock::now() > end_) over = true;
+  }
+
+  std::atomic<bool> over{false};
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point end_;
+};
+
+}  // namespace orthodyn
