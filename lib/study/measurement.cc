@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <stdexcept>
 
@@ -171,11 +172,15 @@ void Measurement::watch_run() {
 }
 
 void Measurement::record_drift(const EnergyMeter& energy, const MomentumMeter& momentum) {
-  const bool is_known = is_free(*setup_.built.model);
-  const auto relative = [&](double drift, double scale) { return is_known && scale > 0 ? Json(drift / scale) : Json(); };
+  const auto& parts = setup_.built.model->parts();
+  const bool is_kept = is_free(*setup_.built.model);
+  const auto relative = [&](double drift, double scale) { return is_kept && scale > 0 ? Json(drift / scale) : Json(); };
+  // What momentum the largest energy could be: a body at rest has none of its own to compare with.
+  const double linear = std::sqrt(2 * parts.mass->total() * energy.scale());
+  const double angular = linear * bounding_box(parts.mesh).diagonal() / 2;
   result_["drift"] = {{"energy", energy.relative_drift()},
-                      {"linear_momentum", relative(momentum.linear_drift(), momentum.linear_scale())},
-                      {"angular_momentum", relative(momentum.angular_drift(), momentum.angular_scale())}};
+                      {"linear_momentum", relative(momentum.linear_drift(), linear)},
+                      {"angular_momentum", relative(momentum.angular_drift(), angular)}};
 }
 
 void Measurement::compare(const Trajectory& trajectory) {

@@ -319,7 +319,8 @@ class TheCommand(OfAComparison):
         self.assertEqual(out[0], str(self.folder / "report.html"))
         names = {Path(path).name for path in out[1:]}
         self.assertEqual(names, {f"{figure}_damped_beam.{kind}" for kind in ("svg", "png") for figure in (
-            "work_precision", "error_against_control", "cost_breakdown", "energy_drift")})
+            "work_precision", "error_against_control", "drift_against_control", "cost_breakdown",
+            "energy_drift")})
         self.assertTrue(all(Path(path).stat().st_size > 1000 for path in out))
 
     def test_the_page_may_go_elsewhere(self):

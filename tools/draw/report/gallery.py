@@ -91,6 +91,8 @@ def _paper_sheets(comparison, problem):
     measure = measures.primary(comparison)
     return (("work_precision", lambda: draw_work_precision(comparison, problem, measure, "wall", WIDE)),
             ("error_against_control", lambda: draw_error_against_control(comparison, problem, measure, WIDE)),
+            ("drift_against_control",
+             lambda: draw_error_against_control(comparison, problem, measures.DRIFT + "energy", WIDE)),
             ("cost_breakdown", lambda: draw_cost_breakdown(comparison, problem, WIDE)),
             ("energy_drift", lambda: draw_energy_drift(comparison, problem, WIDE)))
 

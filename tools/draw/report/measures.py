@@ -2,7 +2,8 @@
 import math
 
 KINDS = {"l2": "over time (L2)", "final": "at the end", "max": "largest in time"}
-FIELDS = ("displacement", "velocity")
+FIELDS = ("displacement", "drift", "velocity", "probes", "phase")
+DRIFT = "drift."
 DEFAULT = "displacement.l2"
 DEFINITIONS = {
     "l2": "the root mean square over all sampled times",
@@ -15,6 +16,8 @@ def label(measure):
     """displacement.l2 -> 'displacement, over time (L2)'."""
     if measure == "phase":
         return "phase of the dominant frequency"
+    if measure.startswith(DRIFT):
+        return f"drift of {measure[len(DRIFT):].replace('_', ' ')}, largest in time"
     what, kind = measure.rsplit(".", 1)
     what = "probe " + what[len("probes."):] if what.startswith("probes.") else what
     return f"{what}, {KINDS.get(kind, kind)}"
@@ -26,8 +29,7 @@ def unit(measure):
 
 def _rank(measure):
     what, kind = measure.rsplit(".", 1) if "." in measure else (measure, "")
-    first = FIELDS.index(what) if what in FIELDS else 2 + (what == "phase")
-    return first, what, list(KINDS).index(kind) if kind in KINDS else len(KINDS)
+    return FIELDS.index(measure.split(".")[0]), what, list(KINDS).index(kind) if kind in KINDS else len(KINDS)
 
 
 def present(points):

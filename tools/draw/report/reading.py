@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from ..errors import DrawError, unknown
+from . import measures
 from ..series import result_folder
 from .comparison import (PARTS, Answer, Comparison, Control, Method, Order, Point, Problem, Reference, Spread,
                          Work)
@@ -93,6 +94,11 @@ def _errors(node):
     return flat
 
 
+def _drifts(node):
+    """Drifts are measures of a run like its errors, and need no reference."""
+    return {f"{measures.DRIFT}{name}": x for name, x in node.numbers().items()}
+
+
 def _reference(node):
     return Reference(node.text("kind", "none"), node.text("method"), node.text("check"), node.number("seconds"),
                      node.text("message"), _errors(node.child("errors")))
@@ -129,7 +135,8 @@ def _point(index, node, problems, methods):
         node.text("message"), node.number("time_reached"), node.number("repeats"),
         {clock: _spread(node.child(clock)) for clock in ("wall", "cpu")}, statistics.numbers(),
         {part: Work(n.number("count"), n.number("seconds")) for part, n in works.items()},
-        node.number("peak_memory_bytes"), node.number("factor_bytes"), _errors(node.child("errors")),
+        node.number("peak_memory_bytes"), node.number("factor_bytes"),
+        {**_errors(node.child("errors")), **_drifts(node.child("drift"))},
         {str(key) for key in node.list("near_reference")}, node.child("drift").numbers(), times, energy,
         node.number("smallest_det_f"), node.child("decisions").texts(), node.text("scene"))
 
