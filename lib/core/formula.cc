@@ -23,7 +23,7 @@ struct PointFormula::Parsed {
   mu::Parser parser;
 };
 
-PointFormula::PointFormula(const std::string& text) : text_(text) {
+PointFormula::PointFormula(const std::string& text, std::string where) : text_(text), where_(std::move(where)) {
   auto parsed = std::make_shared<Parsed>();
   try {
     auto& parser = parsed->parser;
@@ -42,12 +42,18 @@ PointFormula::PointFormula(const std::string& text) : text_(text) {
 
 double PointFormula::at(const Vec3& x) const {
   parsed_->x = x;
-  return parsed_->parser.Eval();
+  double value = std::nan("");
+  try {
+    value = parsed_->parser.Eval();
+  } catch (const mu::Parser::exception_type&) {  // no std::exception; the value stays what it is
+  }
+  if (std::isfinite(value)) return value;
+  throw ConfigError(fmt::format("{}: '{}' is {} at x = {}, y = {}, z = {}", where_, text_, value, x[0], x[1], x[2]));
 }
 
 PointFormula Value<PointFormula>::read(const Config& c, const Rule&) {
   try {
-    return PointFormula(c.text());
+    return PointFormula(c.text(), c.where());
   } catch (const std::invalid_argument& e) {
     c.fail(fmt::format("cannot read the formula {}: {} Known: x, y, z, pi, e, and functions such as sin, exp, sqrt.",
                        c.shown(), e.what()));

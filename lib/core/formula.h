@@ -14,14 +14,15 @@ class PointFormula {
  public:
   PointFormula() : PointFormula("0") {}
   // Throws std::invalid_argument with muParser's complaint.
-  explicit PointFormula(const std::string& text);
+  explicit PointFormula(const std::string& text, std::string where = "");
 
+  // Throws ConfigError where the value is not a number. Not to be called by two threads at once.
   double at(const Vec3& x) const;
   const std::string& text() const { return text_; }
 
  private:
   struct Parsed;
-  std::string text_;
+  std::string text_, where_;  // and its place in the input
   std::shared_ptr<const Parsed> parsed_;
 };
 

@@ -5,6 +5,15 @@
 
 namespace orthodyn {
 
+namespace {
+
+// To the larger of the two; NaN stays.
+void raise(double& largest, double value) {
+  if (!(value <= largest) && !std::isnan(largest)) largest = value;
+}
+
+}  // namespace
+
 void PowerIntegral::start(const State& state) {
   t_ = state.t;
   last_ = model_.evaluate(power_, state)[0];
@@ -39,7 +48,7 @@ void EnergyMeter::look(const State& state) {
   const auto energy = [&](const char* name) { return model_.evaluate(name, state)[0]; };
   last_ = {energy("energy.kinetic"), energy("energy.elastic"), energy("energy.gravitational"),
            dissipation_.value(), load_work_.value()};
-  drift_ = std::max(drift_, std::abs(change()));
+  raise(drift_, std::abs(change()));
   scale_ = std::max({scale_, last_.kinetic, last_.elastic});
 }
 
@@ -57,8 +66,8 @@ void MomentumMeter::look(const State& state) {
   };
   linear_ = vector("momentum.linear");
   angular_ = vector("momentum.angular");
-  linear_drift_ = std::max(linear_drift_, (linear_ - first_linear_).norm());
-  angular_drift_ = std::max(angular_drift_, (angular_ - first_angular_).norm());
+  raise(linear_drift_, (linear_ - first_linear_).norm());
+  raise(angular_drift_, (angular_ - first_angular_).norm());
 }
 
 void InversionWatch::look(const State& state) {

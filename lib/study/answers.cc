@@ -12,7 +12,7 @@ std::optional<double> seconds_to_reach(double target, const std::vector<WorkPoin
     const WorkPoint& tight = points[i];
     if (!(tight.error <= target)) continue;
     best = std::min(best, tight.seconds);
-    if (i == 0 || !(points[i - 1].error > target)) continue;
+    if (i == 0 || !(points[i - 1].error > target) || tight.error == 0) continue;
     const WorkPoint& loose = points[i - 1];
     const double part = std::log(loose.error / target) / std::log(loose.error / tight.error);
     best = std::min(best, std::exp(std::lerp(std::log(loose.seconds), std::log(tight.seconds), part)));

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstring>
 #include <fstream>
 
@@ -19,6 +18,7 @@ namespace {
 
 // A process is killed when it has had the time of all its runs and this much more, s.
 constexpr double kSetUpTime = 60;
+constexpr const char* kCrashed = "crashed";
 
 std::string last_line(const fs::path& file) {
   std::ifstream in(file);
@@ -28,51 +28,32 @@ std::string last_line(const fs::path& file) {
   return last;
 }
 
-Json read_json(const fs::path& file) {
-  std::ifstream in(file);
-  return Json::parse(in, nullptr, false);
-}
-
 Json died(const ProcessEnd& end, const fs::path& log) {
   const auto failed = [](const std::string& reason, const std::string& message) {
     return Json{{"status", "failed"}, {"reason", reason}, {"message", message}};
   };
   if (end.kind == ProcessEnd::Kind::timed_out) return failed("time limit", "killed after the limit of the wall time");
+  if (end.kind == ProcessEnd::Kind::out_of_memory)
+    return failed(reason_name(Reason::out_of_memory), "killed when it used more than the limit of memory");
   const std::string said = last_line(log);
   const std::string how = end.kind == ProcessEnd::Kind::signalled
                               ? fmt::format("ended by signal {} ({})", end.code, strsignal(end.code))
                               : fmt::format("ended with code {}", end.code);
-  return failed("crashed", how + (said.empty() ? "" : ": " + said));
+  return failed(kCrashed, how + (said.empty() ? "" : ": " + said));
 }
 
-double smallest(const std::vector<double>& values, double otherwise) {
-  return values.empty() ? otherwise : *std::min_element(values.begin(), values.end());
-}
-
-// A section {type: ..., key: value} as a method's name, options and words.
-struct Section {
-  std::string type, words;
-  Assignments options;
-};
-
-Section read_section(const std::string& yaml) {
-  const Config config = Config::from_text(yaml, "reference");
-  Section section;
-  if (!config.is_map() || !config.has("type")) config.fail("expected a section with the key 'type', found " + yaml);
-  section.type = section.words = config.at("type").text();
-  for (const auto& key : config.keys()) {
-    if (key == "type") continue;
-    section.options.emplace_back(key, config.at(key).yaml());
-    section.words += ", " + key + " " + config.at(key).yaml();
-  }
-  return section;
+// What a process that died has left may have had a cause that is gone by now.
+bool is_finished(const fs::path& folder, const Json& result, const Job& job) {
+  if (!result.is_object() || (result.contains("reason") && result.at("reason") == kCrashed)) return false;
+  return !job.keep_trajectory || result.at("status") != "completed" || Trajectory::is_whole(folder / kTrajectoryFile);
 }
 
 // The mesh file's place is that of the scene: from the task's folder it is reached by its full path.
 std::string placed_scene(const Config& scene) {
-  const Config mesh = scene.at("mesh");
+  const Config placed = Config::from_text(scene.dump(), scene.file());
+  const Config mesh = placed.at("mesh");
   if (mesh.has("file")) mesh.fill_text("file", fs::absolute(mesh.at("file").file_path()).string());
-  return scene.dump();
+  return placed.dump();
 }
 
 }  // namespace
@@ -103,7 +84,8 @@ bool Campaign::measure_points(std::size_t problem, const std::atomic<bool>& inte
             ? ""
             : fs::absolute(options_.folder / reference->second.folder).string();
     const Task task{title(design_, point), "points", point_scene(design_, point),
-                    {comparison_.repeats, comparison_.samples, comparison_.limits.seconds, measured_against, false, false}};
+                    {comparison_.repeats, comparison_.samples, comparison_.limits.seconds, measured_against, false, false,
+                     code_}};
     Json result = perform(task, interrupt, point_folders_[i]);
     if (result.is_null()) return false;
     results_[i] = std::move(result);
@@ -113,34 +95,26 @@ bool Campaign::measure_points(std::size_t problem, const std::atomic<bool>& inte
 }
 
 Job Campaign::reference_job() const {
-  Job job{0, comparison_.samples, comparison_.reference.seconds, "", true, false};
+  Job job{0, comparison_.samples, comparison_.reference.seconds, "", true, false, code_};
   job.exact_if_possible = comparison_.reference.kind == ReferenceKind::automatic;
   return job;
 }
 
 bool Campaign::find_reference(std::size_t problem, const std::atomic<bool>& interrupt) {
   const Problem& p = design_.problems[problem];
-  const double tightest = smallest(comparison_.tolerances, 1e-6);
-  const auto& options = comparison_.reference;
-  const Section first = read_section(
-      options.integrator ? options.integrator->text
-                         : fmt::format("{{type: arkode_dirk, rtol: {}}}", std::max(1e-3 * tightest, 1e-11)));
-  const Section second = read_section(
-      options.check ? options.check->text
-                    : fmt::format("{{type: cvode_bdf, max_order: 5, rtol: {}}}", std::max(1e-3 * tightest, 1e-10)));
-  ReferenceResult reference;
-  Task task{p.label + ", reference", "references", scene_config(p, first.type, first.options), reference_job()};
-  reference.method = first.words;
+  ReferenceResult reference{"", design_.reference.label, design_.check.label, nullptr, nullptr};
+  Task task{p.label + ", reference", "references", reference_scene(p, design_.reference), reference_job()};
   std::string folder;
   reference.result = perform(task, interrupt, folder);
   if (reference.result.is_null()) return false;
   const bool usable = reference.result.at("status") == "completed";
   if (usable) reference.folder = folder;
   if (usable && reference.result.at("kind") == "computed") {
-    reference.check_method = second.words;
     task.title = p.label + ", check of the reference";
-    task.scene = scene_config(p, second.type, second.options);
-    task.job = {0, comparison_.samples, options.seconds, fs::absolute(options_.folder / folder).string(), false, false};
+    task.scene = reference_scene(p, design_.check);
+    task.job = reference_job();
+    task.job.keep_trajectory = task.job.exact_if_possible = false;
+    task.job.reference = fs::absolute(options_.folder / folder).string();
     reference.check = perform(task, interrupt, folder);
     if (reference.check.is_null()) return false;
   } else {
@@ -150,36 +124,36 @@ bool Campaign::find_reference(std::size_t problem, const std::atomic<bool>& inte
   return true;
 }
 
-std::string Campaign::prepare(const Task& task) {
+std::string Campaign::folder_of(const Task& task) const {
   Fingerprint print;
   Json job = task.job.json();
   job["reference"] = fs::path(task.job.reference).filename().string();  // a fingerprint itself
-  print.add(code_).add(task.scene.dump()).add(job.dump()).add(fmt::format("{}", comparison_.limits.memory));
+  print.add(machine_fingerprint()).add(task.scene.dump()).add(job.dump()).add(fmt::format("{}", comparison_.limits.memory));
   if (task.scene.at("mesh").has("file")) print.add_file(task.scene.at("mesh").at("file").file_path());
-  const std::string folder = task.kind + "/" + print.text();
-  if (!fs::exists(options_.folder / folder / kResultFile)) {
-    write_file(options_.folder / folder / kSceneFile, {"# " + task.title + "\n" + placed_scene(task.scene)});
-    write_file(options_.folder / folder / kJobFile, {task.job.json().dump(2) + "\n"});
-  }
-  return folder;
+  return task.kind + "/" + print.text();
 }
 
 Json Campaign::perform(const Task& task, const std::atomic<bool>& interrupt, std::string& folder) {
-  folder = prepare(task);
+  folder = folder_of(task);
   ++number_;
   const fs::path path = options_.folder / folder;
   Json result = read_json(path / kResultFile);
-  const bool cached = result.is_object();
+  const bool cached = is_finished(path, result, task.job);
   if (!cached) {
     options_.notify({number_, count_, task.title, true, false, nullptr});
-    result = execute(path, task.job, interrupt);
+    result = execute(path, task, interrupt);
     if (result.is_null()) return result;
   }
   options_.notify({number_, count_, task.title, false, cached, &result});
   return result;
 }
 
-Json Campaign::execute(const fs::path& folder, const Job& job, const std::atomic<bool>& interrupt) {
+Json Campaign::execute(const fs::path& folder, const Task& task, const std::atomic<bool>& interrupt) {
+  write_file(folder / kSceneFile, {"# " + task.title + "\n" + placed_scene(task.scene)});
+  write_file(folder / kJobFile, {to_text(task.job.json(), 2)});
+  std::error_code ignored;
+  fs::remove(folder / kResultFile, ignored);
+  const Job& job = task.job;
   const ProcessLimits limits{job.seconds * (job.repeats + 3) + kSetUpTime, comparison_.limits.memory};
   const fs::path log = folder / "log.txt";
   const ProcessEnd end = run_process({options_.program, "measure", folder.string()}, log, limits, interrupt);
@@ -187,7 +161,7 @@ Json Campaign::execute(const fs::path& folder, const Job& job, const std::atomic
   Json result = read_json(folder / kResultFile);
   if (result.is_object()) return result;
   result = died(end, log);
-  write_file(folder / kResultFile, {result.dump() + "\n"});
+  write_file(folder / kResultFile, {to_text(result)});
   return result;
 }
 

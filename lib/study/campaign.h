@@ -59,8 +59,8 @@ class Campaign {
   };
   // The result, from disk if it is there; null if interrupted. Sets `folder`.
   Json perform(const Task& task, const std::atomic<bool>& interrupt, std::string& folder);
-  std::string prepare(const Task& task);  // the task's folder
-  Json execute(const std::filesystem::path& folder, const Job& job, const std::atomic<bool>& interrupt);
+  std::string folder_of(const Task& task) const;
+  Json execute(const std::filesystem::path& folder, const Task& task, const std::atomic<bool>& interrupt);
   bool find_reference(std::size_t problem, const std::atomic<bool>& interrupt);
   bool measure_points(std::size_t problem, const std::atomic<bool>& interrupt, const std::function<void()>& after_each);
   Job reference_job() const;

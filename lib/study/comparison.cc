@@ -16,6 +16,8 @@ struct Words<ReferenceKind> {
 
 namespace {
 
+constexpr Range kSeconds{0, 1e7, true, false};
+
 std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
 
 void require_known_integrator(const Config& c, const std::string& type) {
@@ -36,6 +38,17 @@ std::vector<IntegratorEntry> expand_all(const std::vector<IntegratorEntry>& entr
   return out;
 }
 
+// {type, label, any option of the integrator}
+IntegratorEntry read_section(const Config& c) {
+  if (!c.has("type")) c.fail("key 'type' is missing: the integrator's name");
+  IntegratorEntry entry{c.at("type").text(), "", {}, {c.where()}};
+  require_known_integrator(c.at("type"), entry.type);
+  entry.label = c.has("label") ? c.at("label").text() : entry.type;
+  for (const auto& key : c.keys())
+    if (key != "type" && key != "label") entry.options.emplace_back(key, YamlText{c.at(key).yaml()});
+  return entry;
+}
+
 template <class Entry>
 void refuse_equal_labels(const std::vector<Entry>& entries) {
   for (auto a = entries.begin(); a != entries.end(); ++a)
@@ -43,12 +56,43 @@ void refuse_equal_labels(const std::vector<Entry>& entries) {
       a->origin.fail("'" + a->label + "' stands here twice; give one of them a different 'label'");
 }
 
+void refuse_repeated(std::vector<double> values, const Config& config, const char* key) {
+  std::sort(values.begin(), values.end());
+  if (std::adjacent_find(values.begin(), values.end()) != values.end()) config.at(key).fail("has a value twice");
+}
+
+void check_varied(const std::string& path, const std::vector<YamlText>& values, const Config& at) {
+  if (values.empty()) at.fail("is empty; list the values to compare");
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (values[i].text == values[j].text) at.at(i).fail("stands here twice");
+  if (path == "integrator.rtol" || path == "integrator.step")
+    at.fail("comes from 'tolerances' and 'steps' of the comparison; remove it here");
+  if (path == "integrator.type") at.fail("comes from 'integrators' of the comparison; remove it here");
+}
+
+// A key that none of the integrators has would be varied for nothing.
+void check_varied_options(const Comparison& c, const Config& config) {
+  for (const auto& [path, values] : c.vary) {
+    if (!path.starts_with("integrator.")) continue;
+    const std::string key = path.substr(std::string("integrator.").size());
+    std::vector<std::string> known;
+    for (const auto& entry : c.integrators)
+      for (const auto& k : Registry<IntegratorChoice>::entries().at(entry.type).keys) known.push_back(k.name);
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    const auto near = nearest_name(key, known);
+    config.at("vary").at(path).fail("none of the integrators has a key '" + key + "'" +
+                                    (near.empty() ? "" : "; did you mean '" + near + "'?"));
+  }
+}
+
 void check_comparison(const Comparison& c, const Config& config) {
   if (c.scenes.empty()) config.at("scenes").fail("is empty; name at least one scene");
   if (c.integrators.empty()) config.at("integrators").fail("is empty; name some, or 'all'");
   if (c.tolerances.empty() && c.steps.empty()) config.fail("give 'tolerances', 'steps' or both");
-  for (const auto& [path, values] : c.vary)
-    if (values.empty()) config.at("vary").at(path).fail("is empty; list the values to compare");
+  refuse_repeated(c.tolerances, config, "tolerances");
+  refuse_repeated(c.steps, config, "steps");
+  for (const auto& [path, values] : c.vary) check_varied(path, values, config.at("vary").at(path));
 }
 
 }  // namespace
@@ -62,23 +106,18 @@ SceneEntry Value<SceneEntry>::read(const Config& c, const Rule&) {
 }
 
 IntegratorEntry Value<IntegratorEntry>::read(const Config& c, const Rule&) {
-  IntegratorEntry entry{"", "", {}, {c.where()}};
   if (!c.is_map()) {
-    entry.type = entry.label = c.text();
-    if (entry.type != "all") require_known_integrator(c, entry.type);
-    return entry;
+    if (c.text() != "all") require_known_integrator(c, c.text());
+    return {c.text(), c.text(), {}, {c.where()}};
   }
-  if (!c.has("type")) c.fail("key 'type' is missing: the integrator's name");
-  entry.type = c.at("type").text();
-  require_known_integrator(c.at("type"), entry.type);
-  entry.label = entry.type;
-  for (const auto& key : c.keys()) {
-    if (key == "label") entry.label = c.at(key).text();
-    else if (key == "rtol" || key == "step")
-      c.at(key).fail("comes from 'tolerances' and 'steps' of the comparison; remove it here");
-    else if (key != "type") entry.options.emplace_back(key, YamlText{c.at(key).yaml()});
-  }
-  return entry;
+  for (const char* control : {"rtol", "step"})
+    if (c.has(control)) c.at(control).fail("comes from 'tolerances' and 'steps' of the comparison; remove it here");
+  return read_section(c);
+}
+
+ReferenceEntry Value<ReferenceEntry>::read(const Config& c, const Rule&) {
+  if (!c.is_map()) c.fail("expected a section with the key 'type', found " + c.shown());
+  return {read_section(c)};
 }
 
 const Spec<SceneEntry>& SceneEntry::spec() {
@@ -92,8 +131,8 @@ const Spec<SceneEntry>& SceneEntry::spec() {
 const Spec<Limits>& Limits::spec() {
   static const auto s =
       Spec<Limits>()
-          .key("seconds", &Limits::seconds, "Wall time of one integration.", {.unit = "s", .range = kPositive})
-          .key("memory", &Limits::memory, "Memory of one process.", {.unit = "bytes", .range = {1e8}});
+          .key("seconds", &Limits::seconds, "Wall time of one integration.", {.unit = "s", .range = kSeconds})
+          .key("memory", &Limits::memory, "Memory in use by one process.", {.unit = "bytes", .range = kPositive});
   return s;
 }
 
@@ -109,7 +148,7 @@ const Spec<ReferenceOptions>& ReferenceOptions::spec() {
                "A second one, of another family, whose difference bounds the error of the reference; default "
                "cvode_bdf of order 5 at a thousandth of the smallest tolerance.")
           .key("seconds", &ReferenceOptions::seconds, "Limit of the wall time of either.",
-               {.unit = "s", .range = kPositive});
+               {.unit = "s", .range = kSeconds});
   return s;
 }
 
@@ -127,7 +166,7 @@ const Spec<Comparison>& Comparison::spec() {
                "Further values by path, all combined: {integrator.linear_solver: [klu, cholmod]}. What lies below "
                "'integrator' makes methods, everything else makes scenes.")
           .key("repeats", &Comparison::repeats, "Timed integrations of each point.", {.range = {1, 100}})
-          .key("samples", &Comparison::samples, "Times at which errors are taken, evenly spaced.", {.range = {2, 1e5}})
+          .key("samples", &Comparison::samples, "Times at which errors are taken, evenly spaced.", {.range = {2, 2000}})
           .key("limits", &Comparison::limits, "Of each point.")
           .key("reference", &Comparison::reference, "What errors are measured against.")
           .check(check_comparison);
@@ -141,6 +180,7 @@ Comparison read_comparison(const Config& config) {
   comparison.name = stem(config.file());
   if (comparison.title.empty()) comparison.title = comparison.name;
   comparison.integrators = expand_all(comparison.integrators);
+  check_varied_options(comparison, config);
   refuse_equal_labels(comparison.scenes);
   refuse_equal_labels(comparison.integrators);
   return comparison;

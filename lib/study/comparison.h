@@ -38,9 +38,12 @@ struct IntegratorEntry {
   Origin origin;
 };
 
+// The same, with all that controls its error.
+struct ReferenceEntry : IntegratorEntry {};
+
 struct Limits {
-  double seconds = 60;  // of one integration
-  double memory = 8e9;  // bytes of one process
+  double seconds = 60;  // of wall time of one integration
+  double memory = 8e9;  // bytes in use by one process
   static const Spec<Limits>& spec();
 };
 
@@ -48,7 +51,7 @@ enum class ReferenceKind { automatic, computed, none };
 
 struct ReferenceOptions {
   ReferenceKind kind = ReferenceKind::automatic;
-  std::optional<YamlText> integrator, check;  // sections of a scene
+  std::optional<ReferenceEntry> integrator, check;
   double seconds = 1800;                      // limit
   static const Spec<ReferenceOptions>& spec();
 };
@@ -84,6 +87,13 @@ struct Value<IntegratorEntry> {
   static std::string type() { return "name, or section with type"; }
   static IntegratorEntry read(const Config& c, const Rule&);
   static std::string yaml(const IntegratorEntry&) { return ""; }
+};
+
+template <>
+struct Value<ReferenceEntry> {
+  static std::string type() { return "section with type"; }
+  static ReferenceEntry read(const Config& c, const Rule&);
+  static std::string yaml(const ReferenceEntry&) { return ""; }
 };
 
 }  // namespace orthodyn

@@ -1,6 +1,7 @@
 #include "lib/study/comparison_table.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "lib/study/answers.h"
 #include "lib/study/machine.h"
@@ -23,19 +24,24 @@ Json field(const Json& object, const std::string& key) {
   return object.is_object() && object.contains(key) ? object.at(key) : Json();
 }
 
-Json reference_json(const ReferenceResult* reference) {
-  if (!reference) return {{"kind", "none"}, {"message", "no reference was asked for"}};
+Json no_reference(const std::string& method, const Json& message) {
+  return {{"kind", "none"}, {"method", method}, {"message", message}, {"checked", false}};
+}
+
+// `wanted`: the comparison asks for references.
+Json reference_json(const ReferenceResult* reference, bool wanted) {
+  if (!reference) return no_reference("", wanted ? "not computed yet" : "no reference was asked for");
   const Json& result = reference->result;
-  if (reference->folder.empty())
-    return {{"kind", "none"}, {"method", reference->method}, {"message", field(result, "message")}};
+  if (reference->folder.empty()) return no_reference(reference->method, field(result, "message"));
   const bool exact = result.at("kind") == "exact";
-  const Json seconds = field(result, "seconds");
+  const Json errors = exact ? field(result, "own_errors") : field(reference->check, "errors");
   return {{"kind", exact ? "exact" : "computed"},
           {"method", exact ? "exact solution by modes" : reference->method},
           {"check", exact ? Json() : Json(reference->check_method)},
-          {"seconds", seconds},
+          {"checked", errors.is_object()},
+          {"seconds", field(result, "seconds")},
           {"message", field(reference->check, "message")},
-          {"errors", field(reference->check, "errors")},
+          {"errors", errors},
           {"folder", reference->folder}};
 }
 
@@ -46,13 +52,13 @@ Json scales_json(const Json& scales) {
           {"words", "largest displacement from the rest shape, resp. velocity, of the reference over time, in the mass norm"}};
 }
 
-Json problem_json(const Problem& problem, const ReferenceResult* reference, const Json& model) {
+Json problem_json(const Problem& problem, const ReferenceResult* reference, bool wanted, const Json& model) {
   const Json scales = reference ? field(reference->result, "scales") : Json();
   return {{"id", problem.id},
           {"label", problem.label},
           {"scene", problem.file},
           {"set", set_json(problem.set)},
-          {"sentence", head_comment(problem.file)},
+          {"sentence", head_comment(problem.text)},
           {"unknowns", field(model, "unknowns")},
           {"elements", field(model, "elements")},
           {"nodes", field(model, "nodes")},
@@ -60,7 +66,7 @@ Json problem_json(const Problem& problem, const ReferenceResult* reference, cons
           {"scales", scales_json(scales)},
           {"probe_scales", field(scales, "probes")},
           {"dominant_frequency", field(scales, "dominant_frequency")},
-          {"reference", reference_json(reference)}};
+          {"reference", reference_json(reference, wanted)}};
 }
 
 Json method_json(const Method& method) {
@@ -72,19 +78,20 @@ Json method_json(const Method& method) {
           {"control", control_word(method.control)}};
 }
 
-// The names of the errors that are within a factor of ten of the reference's own.
+// The names of the errors that are within a factor of ten of the reference's own; all, if that is not known.
 Json near_reference(const Json& errors, const Json& of_reference) {
   Json out = Json::array();
-  if (!errors.is_object() || !of_reference.is_object()) return out;
+  if (!errors.is_object()) return out;
   const auto look = [&](const Json& a, const Json& b, const std::string& prefix) {
-    for (const char* norm : kNorms)
-      if (a.at(norm).is_number() && b.at(norm).is_number() &&
-          a.at(norm).get<double>() < kResolution * b.at(norm).get<double>())
+    for (const char* norm : kNorms) {
+      const Json own = field(b, norm);
+      if (a.at(norm).is_number() && (!own.is_number() || a.at(norm).get<double>() < kResolution * own.get<double>()))
         out.push_back(prefix + "." + norm);
+    }
   };
-  for (const char* kind : {"displacement", "velocity"}) look(errors.at(kind), of_reference.at(kind), kind);
+  for (const char* kind : {"displacement", "velocity"}) look(errors.at(kind), field(of_reference, kind), kind);
   for (const auto& [name, e] : errors.at("probes").items())
-    look(e, of_reference.at("probes").at(name), "probes." + name);
+    look(e, field(field(of_reference, "probes"), name), "probes." + name);
   return out;
 }
 
@@ -104,16 +111,6 @@ Json point_json(const Campaign& campaign, std::size_t index, const Json& result,
   return out;
 }
 
-// A completed run with inverted elements where the reference has none did not solve the same problem.
-void mark_inverted(Json& point, const ReferenceResult* reference) {
-  if (!reference || point.at("status") != "completed" || !point.at("smallest_det_f").is_number()) return;
-  const Json of_reference = field(reference->result, "smallest_det_f");
-  if (!of_reference.is_number() || of_reference.get<double>() <= 0 || point.at("smallest_det_f").get<double>() > 0) return;
-  point["status"] = "failed";
-  point["reason"] = "inverted";
-  point["message"] = "an element was inverted, which does not happen in the reference";
-}
-
 // The finished points of a method on a problem, from loose to tight.
 std::vector<WorkPoint> work_points(const Json& points, const Json& problem, const Json& method) {
   std::vector<WorkPoint> out;
@@ -128,9 +125,10 @@ std::vector<WorkPoint> work_points(const Json& points, const Json& problem, cons
   return out;
 }
 
+// Infinite if it is not known: then there is nothing to conclude.
 double reference_error(const Json& problem) {
   const Json error = field(field(field(problem.at("reference"), "errors"), "displacement"), "l2");
-  return error.is_number() ? error.get<double>() : 0;
+  return error.is_number() ? error.get<double>() : std::numeric_limits<double>::infinity();
 }
 
 Json answer_json(const Json& problem, double target, const Json& methods, const Json& points) {
@@ -202,6 +200,7 @@ Json comparison_json(const Campaign& campaign, const std::string& file, const st
            {"problems", Json::array()},
            {"methods", Json::array()},
            {"points", Json::array()}};
+  const bool wanted = comparison.reference.kind != ReferenceKind::none;
   for (const auto& method : design.methods) out["methods"].push_back(method_json(method));
   for (std::size_t p = 0; p < design.problems.size(); ++p) {
     const auto found = campaign.references().find(p);
@@ -211,10 +210,9 @@ Json comparison_json(const Campaign& campaign, const std::string& file, const st
     for (const auto& [index, result] : campaign.results()) {
       if (design.points[index].problem != p) continue;
       if (model.is_null()) model = field(result, "model");
-      points.push_back(point_json(campaign, index, result, reference ? reference_json(reference) : Json()));
-      mark_inverted(points.back(), reference);
+      points.push_back(point_json(campaign, index, result, reference_json(reference, wanted)));
     }
-    out["problems"].push_back(problem_json(design.problems[p], reference, model));
+    out["problems"].push_back(problem_json(design.problems[p], reference, wanted, model));
     out["points"].insert(out["points"].end(), points.begin(), points.end());
   }
   add_conclusions(out);

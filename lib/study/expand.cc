@@ -6,21 +6,16 @@
 #include <fstream>
 #include <functional>
 #include <set>
+#include <sstream>
 
 #include "lib/core/registry.h"
 #include "lib/ode/integrator.h"
-#include "lib/scene/scene.h"
 
 namespace orthodyn {
 
 namespace {
 
 constexpr const char* kIntegratorPrefix = "integrator.";
-
-bool has_key(const std::string& integrator, const std::string& key) {
-  const auto& keys = Registry<IntegratorChoice>::entries().at(integrator).keys;
-  return std::any_of(keys.begin(), keys.end(), [&](const Key& k) { return k.name == key; });
-}
 
 // "mesh.cells" -> "cells": enough to tell labels apart.
 std::string last_step(const std::string& path) {
@@ -53,6 +48,7 @@ std::vector<Variant> combinations(const Comparison& comparison, const std::funct
 
 bool is_of_integrator(const std::string& path) { return path.starts_with(kIntegratorPrefix); }
 
+// Letters, digits, '_', '.' and '-' of a label.
 std::string identifier(const std::string& label) {
   std::string id;
   for (const char c : label) {
@@ -60,22 +56,46 @@ std::string identifier(const std::string& label) {
     else if (!id.empty() && id.back() != '-') id += '-';
   }
   while (id.ends_with('-')) id.pop_back();
-  return id;
+  return id.empty() ? "unnamed" : id;
+}
+
+// Sets the ids of problems or methods, counting those that would be equal.
+template <class Item>
+void identify(std::vector<Item>& items) {
+  std::set<std::string> taken;
+  for (auto& item : items) {
+    const std::string id = identifier(item.label);
+    item.id = id;
+    for (int n = 2; !taken.insert(item.id).second; ++n) item.id = id + "-" + std::to_string(n);
+  }
+}
+
+std::string read_text(const FilePath& file) {
+  Config::from_file(file.path);  // says what is wrong with it
+  std::ifstream in(file.path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 std::vector<Problem> problems_of(const Comparison& comparison) {
   const auto variants = combinations(comparison, [](const std::string& path) { return !is_of_integrator(path); });
   std::vector<Problem> problems;
   for (const auto& scene : comparison.scenes) {
+    const std::string text = read_text(scene.file);
     for (const auto& variant : variants) {
-      Problem problem{"", scene.label + variant.words, scene.file.path, {}};
-      problem.id = identifier(problem.label);
+      Problem problem{"", scene.label + variant.words, scene.file.path, text, {}};
       for (const auto& [path, value] : scene.set) problem.set.emplace_back(path, value.text);
       problem.set.insert(problem.set.end(), variant.set.begin(), variant.set.end());
       problems.push_back(std::move(problem));
     }
   }
+  identify(problems);
   return problems;
+}
+
+// With a fixed step rtol is of Newton's method alone, which must not limit what the step can reach.
+std::string newton_tolerance(const std::vector<double>& tolerances) {
+  const double usual = 1e-6;
+  return number_text(tolerances.empty() ? usual : std::min(usual, *std::min_element(tolerances.begin(), tolerances.end())));
 }
 
 // One method for each kind of control that the integrator has.
@@ -92,10 +112,8 @@ void add_methods(const Comparison& comparison, const IntegratorEntry& entry, con
   if (adaptive) methods.push_back(method);
   if (fixed) {
     method.control = Method::Control::step;
-    if (adaptive) {  // then rtol is of Newton's method alone, which must not limit what the step can reach
-      method.label = label + ", fixed step";
-      method.set.emplace_back("rtol", number_text(*std::min_element(tolerances.begin(), tolerances.end())));
-    }
+    if (adaptive) method.label = label + ", fixed step";
+    if (has_key(entry.type, "rtol")) method.set.emplace_back("rtol", newton_tolerance(tolerances));
     methods.push_back(method);
   }
   if (!adaptive && !fixed)
@@ -112,28 +130,40 @@ std::vector<Method> methods_of(const Comparison& comparison) {
     };
     for (const auto& variant : combinations(comparison, concerns)) add_methods(comparison, entry, variant, methods);
   }
-  for (auto& method : methods) method.id = identifier(method.label);
+  identify(methods);
   return methods;
 }
 
-// Keys of the scene's own integrator that the new one has too: scales, limits of the step.
-Assignments kept_options(const Config& scene, const std::string& integrator) {
-  Assignments kept;
-  if (!scene.has("integrator") || !scene.at("integrator").is_map()) return kept;
-  const Config own = scene.at("integrator");
-  for (const auto& key : own.keys())
-    if (key != "type" && key != "rtol" && key != "step" && has_key(integrator, key))
-      kept.emplace_back(key, own.at(key).yaml());
-  return kept;
+// The default of the reference, resp. of its check, or what is given.
+Method reference_method(const std::optional<ReferenceEntry>& entry, const Method& otherwise) {
+  if (!entry) return otherwise;
+  Method method{"", entry->type, entry->type, "", {}, Method::Control::rtol};
+  for (const auto& [key, value] : entry->options) {
+    method.set.emplace_back(key, value.text);
+    method.label += ", " + key + " " + value.text;
+  }
+  return method;
 }
 
-std::string section(const std::string& type, const Assignments& options) {
-  std::string yaml = "{type: " + type;
-  std::set<std::string> seen;
-  // The last assignment of a key holds.
-  for (auto it = options.rbegin(); it != options.rend(); ++it)
-    if (seen.insert(it->first).second) yaml += ", " + it->first + ": " + it->second;
-  return yaml + "}";
+Method usual_reference(const std::string& type, double rtol, Assignments more) {
+  more.emplace_back("rtol", number_text(rtol));
+  Method method{"", type, type, "", more, Method::Control::rtol};
+  for (const auto& [key, value] : more) method.label += ", " + key + " " + value;
+  return method;
+}
+
+void choose_references(const Comparison& comparison, Design& design) {
+  const auto& tolerances = comparison.tolerances;
+  const double tightest = tolerances.empty() ? 1e-6 : *std::min_element(tolerances.begin(), tolerances.end());
+  design.reference = reference_method(comparison.reference.integrator,
+                                      usual_reference("arkode_dirk", std::max(1e-3 * tightest, 1e-11), {}));
+  design.check = reference_method(comparison.reference.check, usual_reference("cvode_bdf", std::max(1e-3 * tightest, 1e-10),
+                                                                              {{"max_order", "5"}}));
+  if (comparison.reference.kind == ReferenceKind::none) return;
+  for (const auto& problem : design.problems) {
+    reference_scene(problem, design.reference);  // wrong input shows before anything runs
+    reference_scene(problem, design.check);
+  }
 }
 
 // Wrong input shows before anything runs.
@@ -149,26 +179,6 @@ void check_point(const Design& design, const Point& point) {
 
 std::string control_word(Method::Control control) { return control == Method::Control::rtol ? "rtol" : "step"; }
 
-Config scene_config(const Problem& problem, const std::string& integrator, const Assignments& options) {
-  Config config = Config::from_file(problem.file);
-  for (const auto& [path, value] : problem.set) config.override_with(path + "=" + value);
-  Assignments all = kept_options(config, integrator);
-  all.insert(all.end(), options.begin(), options.end());
-  config.override_with("integrator=" + section(integrator, all));
-  for (const char* silent : {"output.fields=[]", "output.energy=false", "output.steps=false", "output.momentum=false",
-                             "expect=null"})
-    config.override_with(silent);
-  read_scene(config);
-  return config;
-}
-
-Config point_scene(const Design& design, const Point& point) {
-  const Method& method = design.methods[point.method];
-  Assignments options = method.set;
-  options.emplace_back(control_word(method.control), number_text(point.control));
-  return scene_config(design.problems[point.problem], method.integrator, options);
-}
-
 std::string title(const Design& design, const Point& point) {
   const Method& method = design.methods[point.method];
   return fmt::format("{}, {}, {} {:g}", design.problems[point.problem].label, method.label,
@@ -176,7 +186,7 @@ std::string title(const Design& design, const Point& point) {
 }
 
 Design expand(const Comparison& comparison) {
-  Design design{problems_of(comparison), methods_of(comparison), {}};
+  Design design{problems_of(comparison), methods_of(comparison), {}, {}, {}};
   std::vector<double> tolerances = comparison.tolerances, steps = comparison.steps;
   std::sort(tolerances.rbegin(), tolerances.rend());
   std::sort(steps.rbegin(), steps.rend());
@@ -185,11 +195,12 @@ Design expand(const Comparison& comparison) {
       for (const double control : design.methods[m].control == Method::Control::rtol ? tolerances : steps)
         design.points.push_back({p, m, control});
   for (const auto& point : design.points) check_point(design, point);
+  choose_references(comparison, design);
   return design;
 }
 
-std::string head_comment(const std::string& file) {
-  std::ifstream in(file);
+std::string head_comment(const std::string& yaml) {
+  std::istringstream in(yaml);
   std::string text;
   for (std::string line; std::getline(in, line) && line.starts_with('#');) {
     line.erase(0, line.find_first_not_of("# "));

@@ -13,8 +13,8 @@ using Assignments = std::vector<std::pair<std::string, std::string>>;  // path a
 
 // A scene with its physics fixed: what errors are measured on.
 struct Problem {
-  std::string id, label;
-  std::string file;
+  std::string id, label;  // ids are unique
+  std::string file, text;  // read once: a scene that is edited meanwhile is another one
   Assignments set;
 };
 
@@ -28,6 +28,8 @@ struct Method {
   Control control = Control::rtol;
 };
 
+bool has_key(const std::string& integrator, const std::string& key);
+
 std::string control_word(Method::Control control);
 
 struct Point {
@@ -39,6 +41,7 @@ struct Design {
   std::vector<Problem> problems;
   std::vector<Method> methods;
   std::vector<Point> points;  // by problem, then method, from loose to tight
+  Method reference, check;    // with all that controls their errors among `set`
 };
 
 // Throws ConfigError, also for a scene that cannot be read.
@@ -47,14 +50,14 @@ Design expand(const Comparison& comparison);
 // "damped_beam, cvode_bdf, rtol 0.001"
 std::string title(const Design& design, const Point& point);
 
-// The scene of a problem with an integrator section; defaults are filled in, nothing is written by it but
-// what probes need. Keys of the scene's own integrator are kept where the new one has them.
-Config scene_config(const Problem& problem, const std::string& integrator, const Assignments& options);
-
-// Of a method at a control.
+// The scene that a point runs: defaults are filled in, nothing is written but what probes need. Options
+// of the scene's own integrator are kept where the method has such keys and says nothing else.
 Config point_scene(const Design& design, const Point& point);
 
-// The first paragraph of a file's first comment, as one line.
-std::string head_comment(const std::string& file);
+// The same for the reference or its check: of the scene's own options, scales and linear solver are kept.
+Config reference_scene(const Problem& problem, const Method& method);
+
+// The first paragraph of the first comment of a YAML text, as one line.
+std::string head_comment(const std::string& yaml);
 
 }  // namespace orthodyn

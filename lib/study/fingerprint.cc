@@ -3,12 +3,14 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
 #include "lib/core/errors.h"
 #include "lib/core/versions.h"
 #include "lib/linear/blas.h"
+#include "lib/study/machine.h"
 
 namespace orthodyn {
 
@@ -35,6 +37,16 @@ std::string code_fingerprint() {
     print.add_file(info.dli_fname);
   print.add(orthodyn_version()).add(blas_name());
   for (const auto& [library, version] : library_versions()) print.add(library + " " + version);
+  return print.text();
+}
+
+std::string machine_fingerprint() {
+  Fingerprint print;
+  print.add(machine_json().dump());
+  for (const char* variable : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"}) {
+    const char* value = std::getenv(variable);
+    print.add(value ? value : "");
+  }
   return print.text();
 }
 

@@ -22,4 +22,7 @@ class Fingerprint {
 // Of the code that integrates: the file that holds this function, and the versions of the libraries.
 std::string code_fingerprint();
 
+// Of what times depend on besides: processor, number of cores, threads of BLAS.
+std::string machine_fingerprint();
+
 }  // namespace orthodyn

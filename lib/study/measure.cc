@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "lib/run/files.h"
+#include "lib/study/fingerprint.h"
 #include "lib/study/measurement.h"
 
 namespace orthodyn {
@@ -18,6 +19,8 @@ Json failure(const std::string& reason, const std::string& message) {
 Json measured(const fs::path& folder) {
   std::ifstream in(folder / kJobFile);
   const Job job = Job::from(Json::parse(in));
+  if (job.code != code_fingerprint())
+    throw RunError("the program has changed since the comparison was started; start it again");
   try {
     return Measurement(set_up(Config::from_file((folder / kSceneFile).string())), job, folder).result();
   } catch (const ConfigError& e) {
@@ -29,6 +32,6 @@ Json measured(const fs::path& folder) {
 
 }  // namespace
 
-void measure(const fs::path& folder) { write_file(folder / kResultFile, {measured(folder).dump() + "\n"}); }
+void measure(const fs::path& folder) { write_file(folder / kResultFile, {to_text(measured(folder))}); }
 
 }  // namespace orthodyn

@@ -1,9 +1,9 @@
 #include "lib/study/measurement.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -49,10 +49,25 @@ bool is_free(const FemModel& model) {
          model.num_dofs() == 3 * static_cast<int>(parts.mesh.nodes.size());
 }
 
+// Of this program alone, bytes: what getrusage() says begins with what the parent process held.
 double peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024 * static_cast<double>(usage.ru_maxrss);
+  std::ifstream in("/proc/self/status");
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with("VmHWM:")) return 1024 * std::stod(line.substr(6));
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+// The same error in every measure.
+TrajectoryErrors uniform_errors(double e, const std::vector<ProbePoint>& probes) {
+  TrajectoryErrors errors{{e, e, e}, {e, e, e}, {}, e};
+  for (const auto& probe : probes) errors.probes.emplace_back(probe.name, ErrorNorms{e, e, e});
+  return errors;
+}
+
+// The smallest det F of a result; infinite where it has none.
+double smallest_det_f(const Json& result) {
+  const bool known = result.is_object() && result.contains("smallest_det_f") && result.at("smallest_det_f").is_number();
+  return known ? result.at("smallest_det_f").get<double>() : std::numeric_limits<double>::infinity();
 }
 
 // The index of the median.
@@ -96,6 +111,7 @@ bool Measurement::take_exact_solution() {
   recorder.on_start(setup_.built.initial);
   for (const double t : times_) recorder.on_output(exact->at(t));
   result_["kind"] = "exact";
+  result_["own_errors"] = to_json(uniform_errors(exact->round_off(times_.back()), probe_points(setup_)));
   compare(recorder.trajectory());
   return true;
 }
@@ -109,10 +125,8 @@ bool Measurement::run_once(const std::vector<Observer*>& observers, const Plan& 
   outcome = run(*setup_.built.model, integrator, setup_.built.initial, plan, all, deadline.over);
   result_["time_reached"] = outcome.last.t;
   if (outcome.status == Outcome::Status::completed) return true;
-  const bool late = outcome.status == Outcome::Status::interrupted;
-  result_["status"] = "failed";
-  result_["reason"] = late ? "time limit" : reason_name(outcome.reason);
-  result_["message"] = late ? "not done after the limit of the wall time" : outcome.message;
+  if (outcome.status == Outcome::Status::interrupted) fail("time limit", "not done after the limit of the wall time");
+  else fail(reason_name(outcome.reason), outcome.message);
   result_["statistics"] = to_json(integrator.statistics());
   return false;
 }
@@ -195,10 +209,15 @@ void Measurement::compare(const Trajectory& trajectory) {
   const auto errors = reference.errors(trajectory);
   result_["errors"] = to_json(errors);
   const bool nothing_moves = reference.scales().displacement == 0;
-  if (errors.displacement.max <= kDiverged || nothing_moves) return;
+  if (!(errors.displacement.max <= kDiverged) && !nothing_moves) fail("diverged", "the error is larger than the motion");
+  else if (smallest_det_f(result_) <= 0 && smallest_det_f(read_json(fs::path(job_.reference) / kResultFile)) > 0)
+    fail("inverted", "an element was inverted, which does not happen in the reference");
+}
+
+void Measurement::fail(const std::string& reason, const std::string& message) {
   result_["status"] = "failed";
-  result_["reason"] = "diverged";
-  result_["message"] = "the error is larger than the motion";
+  result_["reason"] = reason;
+  result_["message"] = message;
 }
 
 }  // namespace orthodyn

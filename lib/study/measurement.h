@@ -33,6 +33,7 @@ class Measurement {
                      const std::vector<Statistics>& statistics);
   void record_drift(const EnergyMeter& energy, const MomentumMeter& momentum);
   void compare(const Trajectory& trajectory);
+  void fail(const std::string& reason, const std::string& message);
   std::unique_ptr<Integrator> fresh_integrator() const;
 
   Setup setup_;

@@ -11,10 +11,15 @@ namespace orthodyn {
 class ModalSolution {
  public:
   // Nothing if the model has no such solution: not linear, loads that vary in time, damping that couples
-  // the modes, or more than 2,000 unknowns (the eigenproblem is dense).
+  // the modes, more than 2,000 unknowns (the eigenproblem is dense), or modes so much slower than the
+  // fastest (1e4 times) that round-off hides their frequencies.
   static std::optional<ModalSolution> find(const Model& model, const State& initial);
 
   State at(double t) const;
+
+  // What round-off may do to it up to a time, relative: the phase of the slowest mode, whose eigenvalue is
+  // known to eps of the largest.
+  double round_off(double t) const;
 
  private:
   ModalSolution() = default;

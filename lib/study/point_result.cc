@@ -1,6 +1,7 @@
 #include "lib/study/point_result.h"
 
 #include <algorithm>
+#include <fstream>
 
 namespace orthodyn {
 
@@ -15,12 +16,14 @@ Json to_json(const ErrorNorms& e) { return {{"final", e.final}, {"l2", e.l2}, {"
 Json Job::json() const {
   return {{"repeats", repeats},     {"samples", samples},
           {"seconds", seconds},     {"reference", reference},
-          {"keep_trajectory", keep_trajectory}, {"exact_if_possible", exact_if_possible}};
+          {"keep_trajectory", keep_trajectory}, {"exact_if_possible", exact_if_possible},
+          {"code", code}};
 }
 
 Job Job::from(const Json& json) {
   return {json.at("repeats"),         json.at("samples"),         json.at("seconds"), json.at("reference"),
-          json.at("keep_trajectory"), json.at("exact_if_possible")};
+          json.at("keep_trajectory"), json.at("exact_if_possible"),
+          json.at("code")};
 }
 
 Json to_json(const Statistics& s) {
@@ -52,6 +55,15 @@ Json to_json(const TrajectoryScales& scales) {
           {"velocity", scales.velocity},
           {"probes", probes},
           {"dominant_frequency", scales.dominant_frequency}};
+}
+
+Json read_json(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return Json::parse(in, nullptr, false);
+}
+
+std::string to_text(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Json spread(std::vector<double> values) {

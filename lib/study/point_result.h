@@ -2,6 +2,7 @@
 // that compares and the one that measures.
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -20,6 +21,7 @@ struct Job {
   std::string reference;             // folder of a reference's result; "" for none
   bool keep_trajectory = false;      // for others to be measured against
   bool exact_if_possible = false;    // the exact solution in place of an integration, where there is one
+  std::string code;                  // fingerprint of the program that is to do it
 
   Json json() const;
   static Job from(const Json& json);
@@ -28,6 +30,12 @@ struct Job {
 Json to_json(const Statistics& statistics);
 Json to_json(const TrajectoryErrors& errors);
 Json to_json(const TrajectoryScales& scales);
+
+// Of a file; discarded (no object) if there is none or it is cut short.
+Json read_json(const std::filesystem::path& file);
+
+// As text, whatever bytes a file or a crashed program has put in.
+std::string to_text(const Json& json, int indent = -1);
 
 // {"median": ..., "min": ..., "max": ...}
 Json spread(std::vector<double> values);

@@ -10,17 +10,18 @@ namespace orthodyn {
 
 struct ProcessLimits {
   double seconds = 0;  // of wall time, then it is killed
-  double memory = 0;   // bytes of address space
+  double memory = 0;   // bytes in use, then it is killed
 };
 
 struct ProcessEnd {
-  enum class Kind { exited, signalled, timed_out, interrupted };
+  enum class Kind { exited, signalled, timed_out, out_of_memory, interrupted };
   Kind kind = Kind::exited;
   int code = 0;  // exit code, or the signal
+  bool succeeded() const { return kind == Kind::exited && code == 0; }
 };
 
-// Runs argv[0] with its output going to `log`, and waits. When `interrupt` becomes true the child is
-// killed. It dies with this process, too. Throws RunError if it cannot be started.
+// Runs argv[0] with its output going to `log`, and waits. When `interrupt` becomes true the child and all
+// that it has started are killed. It dies with this process, too. Throws RunError if it cannot be started.
 ProcessEnd run_process(const std::vector<std::string>& argv, const std::filesystem::path& log,
                        const ProcessLimits& limits, const std::atomic<bool>& interrupt);
 

@@ -86,6 +86,7 @@ double drift(const Series& s) {
   for (std::size_t k = 0; k < s.size(); ++k) {
     double squares = 0;
     for (std::size_t c = 0; c < n; ++c) squares += std::pow(s.values[k * n + c] - s.values[c], 2);
+    if (std::isnan(squares)) return kNone;
     largest = std::max(largest, std::sqrt(squares));
   }
   return largest;
@@ -102,7 +103,6 @@ SeriesRecorder::SeriesRecorder(const Model& model, const Integrator& integrator,
 void SeriesRecorder::on_start(const State& state) {
   if (energy_) energy_->on_start(state);
   record(state);
-  at_outputs_[state.t] = series_.front().size() - 1;
 }
 
 // In the order of time with the other looks, as the energy balance needs: see on_step().
@@ -119,14 +119,17 @@ void SeriesRecorder::on_step(const StepInfo& info, const State& state, const Int
     record(within);
   }
   record(state);
-  for (const double t : pending_)
-    at_outputs_[t] = static_cast<std::size_t>(
-        std::lower_bound(series_.front().times.begin(), series_.front().times.end(), t) -
-        series_.front().times.begin());
   pending_.clear();
 }
 
-double SeriesRecorder::at(std::size_t quantity, double t) const { return series_[quantity].values[at_outputs_.at(t)]; }
+double SeriesRecorder::at(std::size_t quantity, double t) const {
+  const Series& s = series_[quantity];
+  const auto after = std::lower_bound(s.times.begin(), s.times.end(), t);
+  const auto nearest = after == s.times.begin()                                      ? after
+                       : after == s.times.end() || t - *(after - 1) < *after - t ? after - 1
+                                                                                     : after;
+  return s.values[static_cast<std::size_t>(nearest - s.times.begin())];
+}
 
 void SeriesRecorder::record(const State& state) {
   if (energy_) energy_->on_output(state);

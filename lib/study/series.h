@@ -1,7 +1,6 @@
 // Quantities over time, looked at closely: at every step and three times within it.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <vector>
 
@@ -34,7 +33,7 @@ class SeriesRecorder : public Observer {
   void on_step(const StepInfo& info, const State& state, const Integrator& integrator) override;
 
   const Series& series(std::size_t quantity) const { return series_[quantity]; }
-  // A scalar quantity at the start or at an output time of the run.
+  // A scalar quantity at the start or at an output time of the run, but for round-off in the time.
   double at(std::size_t quantity, double t) const;
   // The largest kinetic or elastic energy, J, if an energy balance is among the quantities.
   double energy_scale() const { return energy_ ? energy_->scale() : 0; }
@@ -45,8 +44,7 @@ class SeriesRecorder : public Observer {
 
   std::vector<Quantity> quantities_;
   std::vector<Series> series_;
-  std::vector<double> pending_;               // output times within the step
-  std::map<double, std::size_t> at_outputs_;  // where in the series
+  std::vector<double> pending_;          // output times within the step
   std::unique_ptr<EnergyMeter> energy_;               // only if asked for
   double last_t_ = 0;
 };

@@ -37,12 +37,22 @@ void Trajectory::save(const std::filesystem::path& path) const {
                     bytes(v.data(), static_cast<std::size_t>(v.size()))});
 }
 
+bool Trajectory::is_whole(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  Head head{};
+  in.read(reinterpret_cast<char*>(&head), sizeof head);
+  if (!in || std::memcmp(head.mark, kMark, sizeof kMark) != 0) return false;
+  const auto doubles = head.times * (1 + 2 * head.unknowns);
+  std::error_code ec;
+  return std::filesystem::file_size(path, ec) == sizeof head + static_cast<std::size_t>(doubles) * sizeof(double);
+}
+
 Trajectory Trajectory::load(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   Head head{};
   in.read(reinterpret_cast<char*>(&head), sizeof head);
   if (!in || std::memcmp(head.mark, kMark, sizeof kMark) != 0)
-    throw RunError(path.string() + ": is no trajectory; delete it to have it computed again");
+    throw RunError(path.string() + ": is no trajectory; start the comparison again");
   Trajectory out;
   out.times.resize(static_cast<std::size_t>(head.times));
   out.q.resize(head.unknowns, head.times);
@@ -50,7 +60,7 @@ Trajectory Trajectory::load(const std::filesystem::path& path) {
   read_doubles(in, out.times.data(), head.times);
   read_doubles(in, out.q.data(), out.q.size());
   read_doubles(in, out.v.data(), out.v.size());
-  if (!in) throw RunError(path.string() + ": is cut short; delete it to have it computed again");
+  if (!in) throw RunError(path.string() + ": is cut short; start the comparison again");
   return out;
 }
 

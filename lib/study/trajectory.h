@@ -15,6 +15,9 @@ struct Trajectory {
   // Binary, whole or absent. Both throw RunError.
   void save(const std::filesystem::path& path) const;
   static Trajectory load(const std::filesystem::path& path);
+
+  // True if the file is whole, by its size.
+  static bool is_whole(const std::filesystem::path& path);
 };
 
 // Records the initial state and every output.

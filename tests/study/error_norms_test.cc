@@ -83,12 +83,14 @@ TEST_F(TrajectoryFile, ComesBackAsItWasWritten) {
 
 TEST_F(TrajectoryFile, ACutOneIsRefusedWithTheRemedy) {
   Rigid().moving([](double t) { return t; }, 7).save(folder_ / "t.bin");
+  EXPECT_TRUE(Trajectory::is_whole(folder_ / "t.bin"));
   fs::resize_file(folder_ / "t.bin", fs::file_size(folder_ / "t.bin") - 1);
+  EXPECT_FALSE(Trajectory::is_whole(folder_ / "t.bin"));
   try {
     Trajectory::load(folder_ / "t.bin");
     FAIL();
   } catch (const RunError& e) {
-    EXPECT_NE(std::string(e.what()).find("delete it"), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find("start the comparison again"), std::string::npos);
   }
 }
 

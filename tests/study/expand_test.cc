@@ -77,6 +77,34 @@ TEST_F(Expand, AnOptionOfTheEntryWinsOverTheScene) {
   EXPECT_EQ(point_scene(design, design.points[0]).at("integrator").at("max_order").integer(), 4);
 }
 
+TEST_F(Expand, GivesEveryProblemAnIdOfItsOwn) {
+  const auto design = expanded("scenes: [swing.yaml]\ntolerances: [1e-3]\nvary: {gravity: [[0, 0, -1], [0, 0, 1]]}\n");
+  ASSERT_EQ(design.problems.size(), 2u);
+  EXPECT_NE(design.problems[0].id, design.problems[1].id);
+}
+
+TEST_F(Expand, AFixedStepKnowsNoLimitsOfSteps) {
+  write("limited.yaml", std::string(kSwing).replace(std::string(kSwing).find("rtol: 1e-3"), 10, "h_max: 0.1"));
+  const auto design = expanded("scenes: [limited.yaml]\nintegrators: [arkode_dirk]\nsteps: [0.01]\n");
+  EXPECT_FALSE(point_scene(design, design.points[0]).at("integrator").has("h_max"));
+}
+
+TEST_F(Expand, AReferenceTakesScalesFromTheSceneAndNothingElse) {
+  write("own.yaml", std::string(kSwing).replace(std::string(kSwing).find("rtol: 1e-3"), 10, "max_steps: 7, velocity_scale: 2"));
+  const auto design = expanded("scenes: [own.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-3]\n");
+  const Config integrator = reference_scene(design.problems[0], design.check).at("integrator");
+  EXPECT_EQ(integrator.at("velocity_scale").number(), 2);
+  EXPECT_EQ(integrator.at("max_order").integer(), 5);
+  EXPECT_NE(integrator.at("max_steps").integer(), 7);
+  EXPECT_EQ(point_scene(design, design.points[0]).at("integrator").at("max_steps").integer(), 7);
+}
+
+TEST_F(Expand, ASceneThatIsEditedMeanwhileIsReadOnce) {
+  const auto design = expanded("scenes: [swing.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-3]\n");
+  write("swing.yaml", "broken");
+  EXPECT_EQ(point_scene(design, design.points[0]).at("time").at("end").number(), 0.5);
+}
+
 TEST_F(Expand, WritesNothingButProbes) {
   const auto design = expanded("scenes: [swing.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-3]\n");
   const Config output = point_scene(design, design.points[0]).at("output");
@@ -99,10 +127,18 @@ TEST_F(Expand, RefusesWithPlaceAndRemedy) {
             std::string::npos);
   EXPECT_NE(refusal(good + "tolerances: [1e-3]\nintegrators: [{type: cvode_bdf, rtol: 1}]\n").find("remove it here"),
             std::string::npos);
+  EXPECT_NE(refusal(good + "tolerances: [1e-3]\nvary: {integrator.max_ordr: [1, 2]}\n").find("did you mean 'max_order'"),
+            std::string::npos);
+  EXPECT_NE(refusal(good + "tolerances: [1e-3]\nvary: {integrator.rtol: [1, 2]}\n").find("remove it here"),
+            std::string::npos);
+  EXPECT_NE(refusal(good + "tolerances: [1e-3, 1e-3]\n").find("twice"), std::string::npos);
+  EXPECT_NE(refusal(good + "tolerances: [1e-3]\nvary: {mass: [lumped, lumped]}\n").find("c.yaml:3:23"), std::string::npos);
+  EXPECT_NE(refusal(good + "tolerances: [1e-3]\nreference: {integrator: {type: arkod_dirk}}\n").find("c.yaml:3:32"),
+            std::string::npos);
 }
 
 TEST(HeadComment, IsOneLineOfText) {
-  const auto text = head_comment(ORTHODYN_SOURCE_DIR "/configs/scenes/free_flight.yaml");
+  const auto text = head_comment(read_text(ORTHODYN_SOURCE_DIR "/configs/scenes/free_flight.yaml"));
   EXPECT_TRUE(text.starts_with("A block ten times stiffer")) << text;
   EXPECT_EQ(text.find('\n'), std::string::npos);
 }

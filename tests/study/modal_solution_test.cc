@@ -67,6 +67,16 @@ TEST(Modal, AFreeBodyFallsAsItShould) {
   }
 }
 
+// Stiffness damping leaves rigid motion alone, and round-off must not make it drag.
+TEST(Modal, AFreeBodyWithStiffnessDampingFallsFreely) {
+  const auto setup = linear("gravity: [0, 0, -4]\ndamping: {stiffness: 0.05}\n");
+  const auto solution = ModalSolution::find(*setup.built.model, setup.built.initial);
+  ASSERT_TRUE(solution.has_value());
+  EXPECT_NEAR(setup.built.model->evaluate("momentum.linear", solution->at(0.8))[2] /
+                  setup.built.model->parts().mass->total(),
+              0.3 - 4 * 0.8, 1e-10);
+}
+
 TEST(Modal, DoesNotPretendForOtherModels) {
   const auto none = [](const std::string& scene) {
     const auto setup = set_up(Config::from_text(scene));

@@ -33,6 +33,12 @@ TEST_F(Process, IsKilledAfterItsTime) {
   EXPECT_EQ(run("sleep 100", 0.2).kind, ProcessEnd::Kind::timed_out);
 }
 
+TEST_F(Process, IsKilledWhenItTakesTooMuchMemory) {
+  const auto end = run_process({"/bin/sh", "-c", "x=$(head -c 100000000 /dev/zero | tr '\\0' x); echo $x; sleep 100"},
+                               folder_ / "log", {60, 5e7}, interrupt_);
+  EXPECT_EQ(end.kind, ProcessEnd::Kind::out_of_memory);
+}
+
 TEST_F(Process, EndsWhenThereIsAnInterrupt) {
   std::thread later([this] {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));

@@ -9,6 +9,7 @@
 #include "lib/study/machine.h"
 #include "lib/study/measure.h"
 #include "tools/orthodyn/commands.h"
+#include "tools/orthodyn/comparison_folder.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/interrupt.h"
 
@@ -19,20 +20,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kTable = "compare.json";
-// Written first: a folder with it is a comparison's.
-constexpr const char* kMark = "comparison.yaml";
-
-// Finished points are known by their fingerprints, so any comparison may go on in its folder; but
-// only there.
-void refuse_other_folders(const fs::path& folder) {
-  std::error_code ec;
-  if (!fs::exists(folder, ec)) return;
-  if (!fs::is_directory(folder, ec))
-    throw ConfigError(folder.string() + ": is a file, expected a folder for the results; use --out");
-  if (fs::is_empty(folder, ec) || fs::exists(folder / kMark, ec)) return;
-  throw ConfigError(folder.string() + ": holds files that are no comparison; use --out with another folder");
-}
-
 // A line for each point, and how long the rest may take.
 class Teller {
  public:
@@ -82,6 +69,12 @@ std::string label_of(const Json& list, const Json& id) {
 }
 
 void print_answers(const Json& table) {
+  for (const auto& problem : table.at("problems")) {
+    const Json& reference = problem.at("reference");
+    if (reference.at("kind") == "computed" && !reference.at("checked").get<bool>())
+      fmt::print("the reference of {} could not be checked, so its error is unknown: no answers\n",
+                 problem.at("label").get<std::string>());
+  }
   for (const auto& answer : table.at("answers")) {
     fmt::print("error {:g} on {}:", answer.at("target").get<double>(), label_of(table.at("problems"), answer.at("problem")));
     const char* separator = " ";
@@ -100,10 +93,9 @@ int compare_command(const CompareArguments& arguments) {
   const Config config = Config::from_file(arguments.comparison);
   const Comparison comparison = read_comparison(config);
   Design design = expand(comparison);
-  const fs::path folder = arguments.out ? fs::path(*arguments.out) : fs::path("out/comparisons") / comparison.name;
-  refuse_other_folders(folder);
-  write_file(folder / kMark,
-             {fmt::format("# {} with every default spelled out.\n{}", arguments.comparison, config.dump())});
+  const ComparisonFolder place(arguments.out ? fs::path(*arguments.out)
+                                             : fs::path("out/comparisons") / comparison.name);
+  const fs::path& folder = place.path();
 
   Teller teller;
   const auto notify = [&](const TaskNotice& notice) {
@@ -115,7 +107,7 @@ int compare_command(const CompareArguments& arguments) {
   heed_interrupts();
   const bool complete = campaign.run(interrupted(), [&] {
     table = comparison_json(campaign, arguments.comparison, started);
-    write_file(folder / kTable, {table.dump(1) + "\n"});
+    write_file(folder / kTable, {to_text(table, 1)});
     write_file(folder / "compare.csv", {comparison_csv(table)});
   });
   if (!complete)

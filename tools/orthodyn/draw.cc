@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "lib/study/process.h"
+#include "tools/orthodyn/interrupt.h"
 
 namespace orthodyn {
 
@@ -21,8 +22,9 @@ fs::path find_draw() {
 void draw_report(const fs::path& folder, bool quiet) {
   const fs::path draw = find_draw(), log = folder / "report.log";
   const std::atomic<bool> never{false};
+  const std::atomic<bool>& interrupt = interrupted() ? never : interrupted();  // a second Ctrl-C ends it all
   const bool drawn = fs::exists(draw) &&
-                     run_process({draw.string(), "report", folder.string()}, log, {600, 16e9}, never).code == 0;
+                     run_process({draw.string(), "report", folder.string()}, log, {600, 16e9}, interrupt).succeeded();
   if (!drawn)
     fmt::print(stderr, "warning: no report was drawn (see {}); by hand: tools/draw/draw report {}\n", log.string(),
                folder.string());

@@ -74,7 +74,8 @@ def _wins(comparison, wins):
     for method, won in sorted(wins.items(), key=lambda item: -len(item[1])):
         named = words.joined(problem.label for problem, _ in won)
         where = f" on {len(won)} of {len(comparison.problems)} problems ({named})" if len(won) > 1 else f" on {named}"
-        where = (" on both problems" if len(won) == 2 else f" on all {len(won)} problems") if len(won) == len(comparison.problems) else where
+        if len(won) == len(comparison.problems):
+            where = " on both problems" if len(won) == 2 else f" on all {len(won)} problems"
         yield joined([tag("strong", _label(comparison, method)), where])
 
 

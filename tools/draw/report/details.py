@@ -14,7 +14,10 @@ def _reference_words(problem):
     parts = [f"Computed by {reference.method or 'an unnamed method'}"]
     if words.known(reference.seconds):
         parts.append(f" in {words.seconds(reference.seconds)}")
-    if reference.check:
+    if reference.check and not reference.errors:
+        parts.append(f". The check by {reference.check} failed, so its own error is not known and nothing is "
+                     "concluded from it")
+    elif reference.check:
         parts.append(f". Its own error is its difference to a second solution by {reference.check}")
     return "".join(parts) + "." + (f" {reference.message}" if reference.message else "")
 
