@@ -33,7 +33,7 @@ std::vector<IntegratorEntry> expand_all(const std::vector<IntegratorEntry>& entr
   for (const auto& entry : entries) {
     if (entry.type != "all") out.push_back(entry);
     else
-      for (const auto& name : Registry<IntegratorChoice>::names()) out.push_back({name, name, {}, entry.origin});
+      for (const auto& name : Registry<IntegratorChoice>::names()) out.push_back({name, name, {}, entry.origin, true});
   }
   return out;
 }
@@ -41,7 +41,7 @@ std::vector<IntegratorEntry> expand_all(const std::vector<IntegratorEntry>& entr
 // {type, label, any option of the integrator}
 IntegratorEntry read_section(const Config& c) {
   if (!c.has("type")) c.fail("key 'type' is missing: the integrator's name");
-  IntegratorEntry entry{c.at("type").text(), "", {}, {c.where()}};
+  IntegratorEntry entry{c.at("type").text(), "", {}, {c.where()}, false};
   require_known_integrator(c.at("type"), entry.type);
   entry.label = c.has("label") ? c.at("label").text() : entry.type;
   for (const auto& key : c.keys())
@@ -86,6 +86,15 @@ void check_varied_options(const Comparison& c, const Config& config) {
   }
 }
 
+void refuse_unused(const Config& config, const std::string& name, const std::vector<double>& values,
+                   const Comparison& c, const std::string& key) {
+  if (values.empty()) return;
+  for (const auto& entry : c.integrators)
+    for (const auto& k : Registry<IntegratorChoice>::entries().at(entry.type).keys)
+      if (k.name == key) return;
+  config.at(name).fail("none of the integrators takes them (as '" + key + "'); remove them");
+}
+
 void check_comparison(const Comparison& c, const Config& config) {
   if (c.scenes.empty()) config.at("scenes").fail("is empty; name at least one scene");
   if (c.integrators.empty()) config.at("integrators").fail("is empty; name some, or 'all'");
@@ -108,7 +117,7 @@ SceneEntry Value<SceneEntry>::read(const Config& c, const Rule&) {
 IntegratorEntry Value<IntegratorEntry>::read(const Config& c, const Rule&) {
   if (!c.is_map()) {
     if (c.text() != "all") require_known_integrator(c, c.text());
-    return {c.text(), c.text(), {}, {c.where()}};
+    return {c.text(), c.text(), {}, {c.where()}, false};
   }
   for (const char* control : {"rtol", "step"})
     if (c.has(control)) c.at(control).fail("comes from 'tolerances' and 'steps' of the comparison; remove it here");
@@ -181,6 +190,8 @@ Comparison read_comparison(const Config& config) {
   if (comparison.title.empty()) comparison.title = comparison.name;
   comparison.integrators = expand_all(comparison.integrators);
   check_varied_options(comparison, config);
+  refuse_unused(config, "tolerances", comparison.tolerances, comparison, "rtol");
+  refuse_unused(config, "steps", comparison.steps, comparison, "step");
   refuse_equal_labels(comparison.scenes);
   refuse_equal_labels(comparison.integrators);
   return comparison;

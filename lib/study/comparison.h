@@ -36,6 +36,7 @@ struct IntegratorEntry {
   std::string type, label;
   Named<YamlText> options;
   Origin origin;
+  bool by_all = false;  // named by `all`: left out if it takes nothing that the comparison gives
 };
 
 // The same, with all that controls its error.

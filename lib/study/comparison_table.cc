@@ -174,12 +174,26 @@ void add_conclusions(Json& out) {
 
 }  // namespace
 
+namespace {
+
+// When the oldest of the points was measured; null without any.
+Json first_measured(const Campaign& campaign) {
+  Json first;
+  for (const auto& [index, result] : campaign.results()) {
+    const Json at = field(result, "at");
+    if (at.is_string() && (first.is_null() || at.get<std::string>() < first.get<std::string>())) first = at;
+  }
+  return first;
+}
+
+}  // namespace
+
 bool is_near_reference(const Json& point, const std::string& error) {
   const Json& names = point.at("near_reference");
   return std::any_of(names.begin(), names.end(), [&](const Json& n) { return n.get<std::string>() == error; });
 }
 
-Json comparison_json(const Campaign& campaign, const std::string& file, const std::string& started) {
+Json comparison_json(const Campaign& campaign, const std::string& file) {
   const auto& comparison = campaign.comparison();
   const auto& design = campaign.design();
   Json out{{"orthodyn_comparison", 1},
@@ -187,7 +201,7 @@ Json comparison_json(const Campaign& campaign, const std::string& file, const st
            {"title", comparison.title},
            {"description", comparison.description},
            {"file", file},
-           {"started", started},
+           {"started", first_measured(campaign)},
            {"complete", campaign.results().size() == design.points.size()},
            {"planned_points", design.points.size()},
            {"machine", machine_json()},

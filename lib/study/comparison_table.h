@@ -1,7 +1,6 @@
 // A comparison's results as data for others: one JSON document for the report, one CSV row a point.
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "lib/study/campaign.h"
@@ -12,7 +11,7 @@ namespace orthodyn {
 inline constexpr const char* kLeadingError = "displacement.l2";
 
 // The document; its fields are described in docs/compare.md. `file` is the comparison's, for the reader.
-Json comparison_json(const Campaign& campaign, const std::string& file, const std::string& started);
+Json comparison_json(const Campaign& campaign, const std::string& file);
 
 // True if an error of a point ("displacement.l2") cannot be told from the reference's own.
 bool is_near_reference(const Json& point, const std::string& error);

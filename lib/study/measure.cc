@@ -4,6 +4,7 @@
 
 #include "lib/run/files.h"
 #include "lib/study/fingerprint.h"
+#include "lib/study/machine.h"
 #include "lib/study/measurement.h"
 
 namespace orthodyn {
@@ -32,6 +33,10 @@ Json measured(const fs::path& folder) {
 
 }  // namespace
 
-void measure(const fs::path& folder) { write_file(folder / kResultFile, {to_text(measured(folder))}); }
+void measure(const fs::path& folder) {
+  Json result = measured(folder);
+  result["at"] = utc_now();
+  write_file(folder / kResultFile, {to_text(result)});
+}
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// What internal forces must be whatever the body (physics.md, section 4): null at rest and after rigid
+// What internal forces must be whatever the body: null at rest and after rigid
 // motion, in balance, exact for affine motion, free of units and of the observer's frame.
 #include <gtest/gtest.h>
 

@@ -76,7 +76,7 @@ TEST(FreeFlight, KeepsLinearMomentumToRoundOffAtAnyTolerance) {
   EXPECT_LE(drift({.spin = "[0.5, 1, 2]", .rtol = 1e-3, .max_order = 2}).linear, 1e-12);
 }
 
-// physics.md, row 11; angular momentum to 100 rtol.
+// Angular momentum to 100 rtol.
 TEST(FreeFlight, ReleasedAtRestTheBodyDoesNotBeginToSpin) {
   const Drift exact = drift({});
   EXPECT_LE(exact.angular, 1e-5);
@@ -96,7 +96,7 @@ TEST(FreeFlight, OfAnIsotropicBodyTheWarpedForceIsTheExactOne) {
     EXPECT_NEAR(exact.energy_over_time[i], warped.energy_over_time[i], 1e-7);
 }
 
-// physics.md, row 10 for 50 revolutions: the drift grows no faster than linearly in time, and falls
+// For 50 revolutions the drift grows no faster than linearly in time, and falls
 // with rtol.
 TEST(SpinningCube, DriftOverFiftyRevolutionsIsLinearAndFallsWithTheTolerance) {
   const double end = 50 * 2 * std::numbers::pi / 2;
@@ -121,7 +121,7 @@ TEST(SpinningCube, DriftOverFiftyRevolutionsIsLinearAndFallsWithTheTolerance) {
   EXPECT_LE(tight.energy, 1e-3);
 }
 
-// physics.md, row 21: a problem and the same one turned give trajectories that differ by the turn.
+// A problem and the same one turned give trajectories that differ by the turn.
 TEST(FreeFlight, OfATurnedBodyIsTheTurnedFlight) {
   const double rtol = 1e-6;
   const Mat3 R = Eigen::AngleAxisd(0.9, Vec3(3, -1, 2).normalized()).toRotationMatrix();

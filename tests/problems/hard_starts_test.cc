@@ -1,4 +1,4 @@
-// Starts that no mesh should ever be in (physics.md, rows 12 to 15): collapsed, mirrored, random. With
+// Starts that no mesh should ever be in: collapsed, mirrored, random. With
 // damping the energy falls, everything stays finite, and no exception is thrown. That the rest shape
 // is found again is not asked: inverted equilibria are physical.
 #include <gtest/gtest.h>

@@ -61,7 +61,7 @@ TEST(SpinningBox, ExactSolutionLeavesAResidualOfSecondOrder) {
 }
 
 // Half a revolution from the exact state: the shape may differ by the discretisation error, 3.4 % of
-// the largest displacement at n = 16 (physics.md), twice that as it swings about its equilibrium.
+// the largest displacement at n = 16, twice that as it swings about its equilibrium.
 TEST(SpinningBox, RotatesRigidlyForHalfARevolution) {
   auto scene = box(16, fmt::format("{}", std::numbers::pi / kOmega));
   scene.built.initial.q = exact_dofs(scene);

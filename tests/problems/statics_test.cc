@@ -66,7 +66,6 @@ TEST(OffAxisTension, HasTheClosedFormModulusAndShearCoupling) {
   }
 }
 
-// physics.md, section 5.
 TEST(OffAxisTension, OfSpruceMatchesTheTable) {
   struct Row { double degrees, modulus, coupling; };
   for (const auto& row : {Row{15, 5.833211e9, 1.708048}, Row{30, 2.611311e9, 1.289311}, Row{45, 1.508943e9, 0.828322}}) {

@@ -57,7 +57,7 @@ time: {{end: {}}}
 
 const auto kStretch = [](const Vec3& X) { return Vec3(X[0], 0, 0); };
 
-// physics.md, section 5: errors of f1 = sqrt(E1/rho) / (4 L) that an independent program has on this
+// Errors of f1 = sqrt(E1/rho) / (4 L) that an independent program has on this
 // mesh; in one dimension they are +-(pi h / 4 L)^2 / 6.
 TEST(Bar, FirstFrequencyHasTheKnownErrorOfEachMassMatrix) {
   const double exact = std::sqrt(10.8e9 / 400) / 4;

@@ -119,7 +119,7 @@ TEST_F(Expand, RefusesWithPlaceAndRemedy) {
   EXPECT_NE(refusal(good + "tolerances: [1e-3]\nintegrators: [cvode_bfd]\n").find("did you mean 'cvode_bdf'"),
             std::string::npos);
   EXPECT_NE(refusal(good).find("give 'tolerances', 'steps' or both"), std::string::npos);
-  EXPECT_NE(refusal(good + "steps: [1e-3]\nintegrators: [cvode_bdf]\n").find("add 'tolerances'"), std::string::npos);
+  EXPECT_NE(refusal(good + "steps: [1e-3]\nintegrators: [cvode_bdf]\n").find("none of the integrators takes them"), std::string::npos);
   EXPECT_NE(refusal(good + "tolerances: [2]\n").find("c.yaml:2:14"), std::string::npos);
   EXPECT_NE(refusal("scenes: [swing.yaml, swing.yaml]\ntolerances: [1e-3]\n").find("twice"), std::string::npos);
   EXPECT_NE(refusal("scenes: [no.yaml]\ntolerances: [1e-3]\n").find("no such file"), std::string::npos);

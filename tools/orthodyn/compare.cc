@@ -6,7 +6,6 @@
 
 #include "lib/run/files.h"
 #include "lib/study/comparison_table.h"
-#include "lib/study/machine.h"
 #include "lib/study/measure.h"
 #include "tools/orthodyn/commands.h"
 #include "tools/orthodyn/comparison_folder.h"
@@ -102,11 +101,10 @@ int compare_command(const CompareArguments& arguments) {
     if (!arguments.quiet) teller(notice);
   };
   Campaign campaign(comparison, std::move(design), {folder, fs::read_symlink("/proc/self/exe").string(), notify});
-  const std::string started = utc_now();
   Json table;
   heed_interrupts();
   const bool complete = campaign.run(interrupted(), [&] {
-    table = comparison_json(campaign, arguments.comparison, started);
+    table = comparison_json(campaign, arguments.comparison);
     write_file(folder / kTable, {to_text(table, 1)});
     write_file(folder / "compare.csv", {comparison_csv(table)});
   });

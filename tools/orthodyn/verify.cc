@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "lib/run/files.h"
-#include "lib/scene/scene.h"
+#include "lib/scene/setup.h"
 #include "lib/study/verify.h"
 #include "tools/orthodyn/commands.h"
 
@@ -45,7 +45,7 @@ struct Cases {
   Widths widths;
 };
 
-// Read before anything runs: a typing error in the last file must not wait for the others.
+// Read and built before anything runs: a typing error in the last file must not wait for the others.
 Cases read_cases(const VerifyArguments& arguments) {
   Cases cases;
   for (const auto& file : find_cases(arguments.places)) {
@@ -53,7 +53,7 @@ Cases read_cases(const VerifyArguments& arguments) {
     if (arguments.integrator) config.override_with("integrator.type=" + *arguments.integrator);
     for (const auto& assignment : arguments.set) config.override_with(assignment);
     cases.widths.name = std::max(cases.widths.name, fs::path(file).stem().string().size());
-    for (const auto& e : read_scene(config).expect)
+    for (const auto& e : set_up(config).scene.expect)
       cases.widths.quantity = std::max(cases.widths.quantity, e.title().size());
     cases.configs.push_back(std::move(config));
   }
@@ -64,6 +64,7 @@ Cases read_cases(const VerifyArguments& arguments) {
 
 int verify_command(const VerifyArguments& arguments) {
   const auto [configs, widths] = read_cases(arguments);
+  if (arguments.junit) write_file(*arguments.junit, {junit_xml({})});  // if it cannot be written, say so now
   print_head(widths);
   std::vector<CaseResult> results;
   std::size_t missed = 0;

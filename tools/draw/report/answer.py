@@ -33,25 +33,34 @@ def _ranked(answer):
     return sorted(((m, s) for m, s in answer.seconds.items() if math.isfinite(s)), key=lambda pair: pair[1])
 
 
+MEANING = ("An error is the distance from a far more accurate solution, as a share of the largest motion. "
+           "rtol is the tolerance that a method with error control was asked to keep in each step. A method that is "
+           "asked for little may need as long as when it is asked for more: then its cheapest run stands for both.")
+
+
 def _label(comparison, method):
     return comparison.methods[comparison.method_index(method)].label
 
 
 def headline(comparison):
     """One sentence: who is fastest, on how many problems."""
-    wins = {}
+    wins, open_problems = {}, []
     for problem in comparison.problems:
         answer = _main(comparison, problem)
         ranked = _ranked(answer) if answer else []
-        if ranked:
-            wins.setdefault(ranked[0][0], []).append((problem, ranked[0][1]))
+        if not ranked:
+            open_problems.append(problem)
+        for method, seconds in ranked:
+            if seconds <= EQUAL * ranked[0][1]:
+                wins.setdefault(method, []).append((problem, seconds))
     if not wins:
         return tag("p", _nothing_reached(comparison), class_="headline")
     target = _with_percent(main_target(comparison), measures.primary(comparison))
     if len(comparison.problems) == 1:
         return tag("p", f"For an error of {target}, ", *_fastest(comparison, comparison.problems[0]), class_="headline")
-    return tag("p", f"For an error of {target}, the fastest is ", joined(_wins(comparison, wins), "; "), ".",
-               class_="headline")
+    nobody = words.joined(problem.label for problem in open_problems)
+    return tag("p", f"For an error of {target}, fastest (or within 10 % of it) is ", joined(_wins(comparison, wins), "; "),
+               f"; nobody reached it on {nobody}." if nobody else ".", class_="headline")
 
 
 def _fastest(comparison, problem):
@@ -192,7 +201,7 @@ def _scene(problem):
 
 
 def answer_section(comparison):
-    parts = [headline(comparison), overview(comparison)]
+    parts = [headline(comparison), tag("p", MEANING, class_="scene"), overview(comparison)]
     for problem in comparison.problems:
         size = f"{words.count(problem.unknowns)} unknowns" if words.known(problem.unknowns) else ""
         content = [sentence(comparison, problem), table(comparison, problem)]

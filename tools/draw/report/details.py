@@ -1,4 +1,6 @@
 """What a reader needs to trust the numbers: references, definitions, methods, machine, the command."""
+import shlex
+
 from . import measures, words
 from .markup import joined, scrolling, tag
 from .method_name import method_name
@@ -109,7 +111,8 @@ def _value(key, text):
 def provenance(comparison, folder):
     def listed(values):
         return _pairs((k.replace("_bytes", "").replace("_", " "), _value(k, v)) for k, v in values.items())
-    command = f"orthodyn compare {comparison.file or 'FILE.yaml'} --out {folder}\ntools/draw/draw report {folder}"
+    file, place = shlex.quote(comparison.file or "FILE.yaml"), shlex.quote(str(folder))
+    command = f"orthodyn compare {file} --out {place}\ntools/draw/draw report {place}"
     blocks = (("Machine", comparison.machine), ("Versions", comparison.versions), ("Settings", comparison.settings))
     return joined([tag("div", *(tag("div", tag("h3", name), listed(values)) for name, values in blocks if values),
                        class_="columns"), tag("h3", "To reproduce"), tag("pre", tag("code", command))])

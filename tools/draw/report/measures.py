@@ -29,6 +29,9 @@ def unit(measure):
 
 def _rank(measure):
     what, kind = measure.rsplit(".", 1) if "." in measure else (measure, "")
+    if measure.startswith(DRIFT):
+        kind = ""
+        what = measure.replace("energy", "")  # first of the drifts
     return FIELDS.index(measure.split(".")[0]), what, list(KINDS).index(kind) if kind in KINDS else len(KINDS)
 
 
