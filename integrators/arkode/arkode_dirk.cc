@@ -176,9 +176,9 @@ class ArkodeDirk : public FirstOrderIntegrator {
       return gamma;
     });
     require(ARKStepSetLinearSolver(memory_.get(), solver_.get(), matrix_.get()));
-    require(ARKStepSetLinSysFn(memory_.get(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix, SUNMatrix, sunbooleantype jok,
-                                               sunbooleantype* jcur, sunrealtype, void* user, N_Vector, N_Vector,
-                                               N_Vector) { return self(user).linearize_reduced(t, y, jok, jcur); }));
+    require(ARKStepSetLinSysFn(memory_.get(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix, SUNMatrix,
+                                                 sunbooleantype jok, sunbooleantype* jcur, sunrealtype, void* user,
+                                                 N_Vector, N_Vector, N_Vector) { return self(user).linearize_reduced(t, y, jok, jcur); }));
   }
 
   void attach_full() {

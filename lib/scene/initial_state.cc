@@ -34,7 +34,8 @@ State initial_state(const Scene& scene, const FemModel::Parts& parts) {
     const Vec3 arm = parts.rest->col(i) + u.col(i) - center;
     v.col(i) = initial.velocity + initial.spin.cross(arm);
     if (initial.velocity_field)
-      for (int c = 0; c < 3; ++c) v(c, i) += (*initial.velocity_field)[static_cast<std::size_t>(c)].at(parts.rest->col(i));
+      for (std::size_t c = 0; c < 3; ++c)
+        v(static_cast<Eigen::Index>(c), i) += (*initial.velocity_field)[c].at(parts.rest->col(i));
   }
   parts.dofs->restrict_to(u, state.q);
   parts.dofs->restrict_to(v, state.v);

@@ -84,8 +84,8 @@ bool Campaign::measure_points(std::size_t problem, const std::atomic<bool>& inte
             ? ""
             : fs::absolute(options_.folder / reference->second.folder).string();
     const Task task{title(design_, point), "points", point_scene(design_, point),
-                    {comparison_.repeats, comparison_.samples, comparison_.limits.seconds, measured_against, false, false,
-                     code_}};
+                    {comparison_.repeats, comparison_.samples, comparison_.limits.seconds, measured_against, false,
+                     false, code_}};
     Json result = perform(task, interrupt, point_folders_[i]);
     if (result.is_null()) return false;
     results_[i] = std::move(result);
@@ -128,7 +128,8 @@ std::string Campaign::folder_of(const Task& task) const {
   Fingerprint print;
   Json job = task.job.json();
   job["reference"] = fs::path(task.job.reference).filename().string();  // a fingerprint itself
-  print.add(machine_fingerprint()).add(task.scene.dump()).add(job.dump()).add(fmt::format("{}", comparison_.limits.memory));
+  print.add(machine_fingerprint()).add(task.scene.dump()).add(job.dump());
+  print.add(fmt::format("{}", comparison_.limits.memory));
   if (task.scene.at("mesh").has("file")) print.add_file(task.scene.at("mesh").at("file").file_path());
   return task.kind + "/" + print.text();
 }

@@ -49,7 +49,8 @@ Json scales_json(const Json& scales) {
   if (!scales.is_object()) return nullptr;
   return {{"displacement", scales.at("displacement")},
           {"velocity", scales.at("velocity")},
-          {"words", "largest displacement from the rest shape, resp. velocity, of the reference over time, in the mass norm"}};
+          {"words", "largest displacement from the rest shape, resp. velocity, of the reference over time, in the mass "
+                    "norm"}};
 }
 
 Json problem_json(const Problem& problem, const ReferenceResult* reference, bool wanted, const Json& model) {

@@ -29,7 +29,8 @@ struct Variant {
 };
 
 // All combinations of the values of `vary` whose paths `concerns` accepts.
-std::vector<Variant> combinations(const Comparison& comparison, const std::function<bool(const std::string&)>& concerns) {
+std::vector<Variant> combinations(const Comparison& comparison,
+                                  const std::function<bool(const std::string&)>& concerns) {
   std::vector<Variant> all{{}};
   for (const auto& [path, values] : comparison.vary) {
     if (!concerns(path)) continue;
@@ -95,7 +96,8 @@ std::vector<Problem> problems_of(const Comparison& comparison) {
 // With a fixed step rtol is of Newton's method alone, which must not limit what the step can reach.
 std::string newton_tolerance(const std::vector<double>& tolerances) {
   const double usual = 1e-6;
-  return number_text(tolerances.empty() ? usual : std::min(usual, *std::min_element(tolerances.begin(), tolerances.end())));
+  if (tolerances.empty()) return number_text(usual);
+  return number_text(std::min(usual, *std::min_element(tolerances.begin(), tolerances.end())));
 }
 
 // One method for each kind of control that the integrator has.
@@ -157,8 +159,8 @@ void choose_references(const Comparison& comparison, Design& design) {
   const double tightest = tolerances.empty() ? 1e-6 : *std::min_element(tolerances.begin(), tolerances.end());
   design.reference = reference_method(comparison.reference.integrator,
                                       usual_reference("arkode_dirk", std::max(1e-3 * tightest, 1e-11), {}));
-  design.check = reference_method(comparison.reference.check, usual_reference("cvode_bdf", std::max(1e-3 * tightest, 1e-10),
-                                                                              {{"max_order", "5"}}));
+  design.check = reference_method(
+      comparison.reference.check, usual_reference("cvode_bdf", std::max(1e-3 * tightest, 1e-10), {{"max_order", "5"}}));
   if (comparison.reference.kind == ReferenceKind::none) return;
   for (const auto& problem : design.problems) {
     reference_scene(problem, design.reference);  // wrong input shows before anything runs

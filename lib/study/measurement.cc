@@ -209,7 +209,8 @@ void Measurement::compare(const Trajectory& trajectory) {
   const auto errors = reference.errors(trajectory);
   result_["errors"] = to_json(errors);
   const bool nothing_moves = reference.scales().displacement == 0;
-  if (!(errors.displacement.max <= kDiverged) && !nothing_moves) fail("diverged", "the error is larger than the motion");
+  if (!(errors.displacement.max <= kDiverged) && !nothing_moves)
+    fail("diverged", "the error is larger than the motion");
   else if (smallest_det_f(result_) <= 0 && smallest_det_f(read_json(fs::path(job_.reference) / kResultFile)) > 0)
     fail("inverted", "an element was inverted, which does not happen in the reference");
 }
