@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kTable = "compare.json";
+
 // A line for each point, and how long the rest may take.
 class Teller {
  public:

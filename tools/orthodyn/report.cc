@@ -109,8 +109,7 @@ void print_summary(const RunReport& report, const std::filesystem::path& folder)
     const auto& e = report.energy->last();
     fmt::print("  {:<15} kinetic {:.4g} J, elastic {:.4g} J, gravitational {:.4g} J, dissipated {:.4g} J, loads {:.4g} J\n",
                "energy", e.kinetic, e.elastic, e.gravitational, e.dissipated, e.loads);
-    fmt::print("  {:<15} {:.3g} of the largest energy\n", "balance drift",
-               report.energy->scale() > 0 ? report.energy->drift() / report.energy->scale() : 0);
+    fmt::print("  {:<15} {:.3g} of the largest energy\n", "balance drift", report.energy->relative_drift());
   }
   if (report.momentum && report.momentum->angular_scale() > 0)
     fmt::print("  {:<15} {:.3g} of the initial angular momentum\n", "momentum drift",

@@ -4,19 +4,16 @@
 
 namespace orthodyn {
 
-namespace {
-
-Config read_config(const RunArguments& arguments) {
-  Config config = Config::from_file(arguments.scene);
-  if (arguments.integrator) config.override_with("integrator.type=" + *arguments.integrator);
-  for (const auto& assignment : arguments.set) config.override_with(assignment);
+Config read_config(const std::string& file, const std::optional<std::string>& integrator,
+                   const std::vector<std::string>& assignments) {
+  Config config = Config::from_file(file);
+  if (integrator) config.override_with("integrator.type=" + *integrator);
+  for (const auto& assignment : assignments) config.override_with(assignment);
   return config;
 }
 
-}  // namespace
-
 Setup set_up(const RunArguments& arguments) {
-  Setup setup = set_up(read_config(arguments));
+  Setup setup = set_up(read_config(arguments.scene, arguments.integrator, arguments.set));
   for (const auto& warning : setup.built.warnings) fmt::print(stderr, "warning: {}\n", warning);
   return setup;
 }

@@ -6,6 +6,10 @@
 
 namespace orthodyn {
 
+// A YAML file with the changes of the command line.
+Config read_config(const std::string& file, const std::optional<std::string>& integrator,
+                   const std::vector<std::string>& assignments);
+
 // Reads, validates and builds; prints warnings to stderr. Throws ConfigError.
 Setup set_up(const RunArguments& arguments);
 

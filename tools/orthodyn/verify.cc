@@ -5,9 +5,8 @@
 #include <filesystem>
 
 #include "lib/run/files.h"
-#include "lib/scene/setup.h"
 #include "lib/study/verify.h"
-#include "tools/orthodyn/commands.h"
+#include "tools/orthodyn/setup.h"
 
 namespace orthodyn {
 
@@ -49,9 +48,7 @@ struct Cases {
 Cases read_cases(const VerifyArguments& arguments) {
   Cases cases;
   for (const auto& file : find_cases(arguments.places)) {
-    Config config = Config::from_file(file);
-    if (arguments.integrator) config.override_with("integrator.type=" + *arguments.integrator);
-    for (const auto& assignment : arguments.set) config.override_with(assignment);
+    Config config = read_config(file, arguments.integrator, arguments.set);
     cases.widths.name = std::max(cases.widths.name, fs::path(file).stem().string().size());
     for (const auto& e : set_up(config).scene.expect)
       cases.widths.quantity = std::max(cases.widths.quantity, e.title().size());
