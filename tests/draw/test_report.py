@@ -2,108 +2,22 @@
 
 Run with  /usr/bin/python3 -m unittest tests/draw/test_report.py
 """
-import contextlib
-import io
 import json
 import math
 import re
-import shutil
-import subprocess
 import sys
-import tempfile
 import unittest
-from html.parser import HTMLParser
 from pathlib import Path
 
 sys.dont_write_bytecode = True
 TOOLS = Path(__file__).resolve().parents[2] / "tools"
 sys.path[:0] = [str(TOOLS), str(Path(__file__).resolve().parent)]
 
-from draw.cli import main  # noqa: E402
-from draw.report import comparable, cost, measures, scale, theme, tolerance, words  # noqa: E402
-from draw.report.markup import Html, data_script, tag  # noqa: E402
-from draw.report.page import page  # noqa: E402
-from draw.report.reading import read_comparison  # noqa: E402
+from draw.report import comparable, cost, theme, tolerance, words  # noqa: E402
 from draw.report.sheet import NARROW, WIDE  # noqa: E402
 from draw.report.work_precision import draw_work_precision  # noqa: E402
-from synthetic_comparison import comparison, failed, write_comparison  # noqa: E402
-
-VOID = {"meta", "link", "input"}
-EVIL = '<script>alert("x")</script> & $\\frac{1}$ \'</title>'
-
-
-class Page(HTMLParser):
-    """What a page holds, read back; keeps open elements to see that all are closed."""
-
-    def __init__(self, text):
-        super().__init__()
-        self.open, self.ids, self.attributes, self.words, self.unbalanced = [], [], [], [], []
-        self.tables, self.cell = [], None
-        self.feed(text)
-
-    def handle_starttag(self, name, attributes):
-        found = dict(attributes)
-        self.attributes.append((name, found))
-        if "id" in found:
-            self.ids.append(found["id"])
-        if name == "table":
-            self.tables.append([])
-        if name == "tr" and self.tables:
-            self.tables[-1].append([])
-        if name in ("td", "th"):
-            self.tables[-1][-1].append("")
-            self.cell = name
-        if name not in VOID:
-            self.open.append(name)
-
-    def handle_startendtag(self, name, attributes):
-        self.attributes.append((name, dict(attributes)))
-        if "id" in dict(attributes):
-            self.ids.append(dict(attributes)["id"])
-
-    def handle_endtag(self, name):
-        if not self.open or self.open.pop() != name:
-            self.unbalanced.append(name)
-        if name == self.cell:
-            self.cell = None
-
-    def handle_data(self, text):
-        if self.open and self.open[-1] not in ("script", "style"):
-            self.words.append(text)
-        if self.cell:
-            self.tables[-1][-1][-1] += text
-
-    @property
-    def text(self):
-        return " ".join("".join(self.words).replace(words.THIN, " ").split())
-
-
-class OfAComparison(unittest.TestCase):
-    def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = Path(holder.name) / "r"
-
-    def read(self, content):
-        return read_comparison(write_comparison(self.folder, content))
-
-    def html(self, content):
-        return page(self.read(content), self.folder)
-
-    def small(self, problems=1, methods=3, points=3, **changes):
-        """Only one error measure and one clock: few figures, drawn quickly."""
-        content = comparison(problems, methods, points)
-        for point in content["points"]:
-            if point["errors"]:
-                point["errors"] = {"displacement": {"l2": point["errors"]["displacement"]["l2"]}}
-            point["cpu"] = None
-        return {**content, **changes}
-
-    def run_draw(self, *arguments):
-        out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            code = main(["report", *map(str, arguments)])
-        return code, out.getvalue().splitlines(), err.getvalue().splitlines()
+from synthetic_comparison import comparison, failed  # noqa: E402
+from report_page import EVIL, OfAComparison, Page  # noqa: E402
 
 
 class TheNumbers(OfAComparison):
@@ -315,150 +229,6 @@ class TheFile(OfAComparison):
     def test_a_large_comparison_stays_below_three_megabytes(self):
         content = comparison(problems=6, methods=12, points=8)
         self.assertLess(len(self.html(content).encode()), 3e6)
-
-
-class TheCommand(OfAComparison):
-    def test_it_writes_the_page_and_the_paper_figures(self):
-        write_comparison(self.folder, self.small())
-        code, out, err = self.run_draw(self.folder)
-        self.assertEqual((code, err), (0, []))
-        self.assertEqual(out[0], str(self.folder / "report.html"))
-        names = {Path(path).name for path in out[1:]}
-        self.assertEqual(names, {f"{figure}_damped_beam.{kind}" for kind in ("svg", "png") for figure in (
-            "work_precision", "error_against_control", "drift_against_control", "cost_breakdown",
-            "energy_drift")})
-        self.assertTrue(all(Path(path).stat().st_size > 1000 for path in out))
-
-    def test_the_page_may_go_elsewhere(self):
-        write_comparison(self.folder, self.small())
-        other = self.folder.parent / "a" / "page.html"
-        self.assertEqual(self.run_draw(self.folder, "-o", other)[1][0], str(other))
-        self.assertTrue(other.is_file())
-
-    def fails_with(self, pattern, content=None):
-        if content is not None:
-            self.folder.mkdir(exist_ok=True)
-            (self.folder / "compare.json").write_text(content if isinstance(content, str) else json.dumps(content))
-        code, out, err = self.run_draw(self.folder)
-        self.assertEqual((code, out, len(err)), (2, [], 1), err)
-        self.assertRegex(err[0], pattern)
-
-    def test_a_bad_file_is_one_line_with_the_place_and_the_remedy(self):
-        self.fails_with("no such result folder")
-        self.folder.mkdir()
-        self.fails_with("compare.json: missing; `orthodyn compare")
-        self.fails_with("not readable as JSON .*line 1.*cut off", json.dumps(self.small())[:-100])
-        self.fails_with("no comparison, the key orthodyn_comparison", {"steps": 3})
-        self.fails_with("no comparison", "[1]")
-        self.fails_with("written in format 2, readable is format 1", self.small(orthodyn_comparison=2))
-
-    def test_a_wrong_entry_is_named(self):
-        content = self.small()
-        content["points"][2]["method"] = "cvode_bdff"
-        self.fails_with(r"points\[2\]\.method: no method 'cvode_bdff'; did you mean 'cvode_bdf'", content)
-        content = self.small()
-        content["points"][1]["wall"]["median"] = "fast"
-        self.fails_with(r'points\[1\]\.wall\.median: found "fast" where a number belongs', content)
-        self.fails_with(r"points: found 3 where a list", {**self.small(), "points": 3})
-        self.fails_with(r"problems\[0\]: found \"p\" where an object", {**self.small(), "problems": ["p"]})
-        content = self.small()
-        content["points"][1]["drift_over_time"]["t"].pop()
-        self.fails_with(r"points\[1\]\.drift_over_time\.energy", content)
-
-
-class SmallPieces(unittest.TestCase):
-    def test_numbers_read_well(self):
-        self.assertEqual([words.exponent(x) for x in (1e-3, 3.2e-3, 0, math.nan, 9.99e-4)],
-                         ["1e-3", "3.2e-3", "0", "–", "1e-3"])
-        plain = [words.seconds(x).replace(words.THIN, " ") for x in (0.24, 1.4, 12.3, 0.0031, 61, 4000, 2e-5, 9e3)]
-        self.assertEqual(plain, ["0.24 s", "1.4 s", "12 s", "3.1 ms", "61 s", "67 min", "20 µs", "2.5 h"])
-        self.assertEqual([words.percent(x).replace(words.THIN, " ") for x in (1e-3, 1e-5, 1e-9)],
-                         ["0.1 %", "0.001 %", ""])
-        self.assertEqual(words.power_of_ten(1e-12), "10⁻¹²")
-        self.assertEqual(words.joined("abc"), "a, b and c")
-
-    def test_ticks_are_few_and_at_least_two(self):
-        for low, high in ((1e-8, 1), (0.03, 0.5), (2e-3, 9e-3), (1e-200, 1e200), (0.9, 1.3e3)):
-            found = scale.ticks(low, high, 5)
-            self.assertTrue(2 <= len(found) <= 8 and low <= found[0] and found[-1] <= high * 1.001, found)
-
-    def test_measures_have_words_and_an_order(self):
-        self.assertEqual(measures.label("probes.tip.max"), "probe tip, largest in time")
-        keys = ["phase", "velocity.l2", "probes.a.final", "displacement.max", "displacement.l2"]
-        self.assertEqual(sorted(keys, key=measures._rank),
-                         ["displacement.l2", "displacement.max", "velocity.l2", "probes.a.final", "phase"])
-
-    def test_text_is_escaped_once_and_html_stays(self):
-        self.assertEqual(tag("p", "a<b", tag("b", "&"), title='"', hidden=True, id=None),
-                         '<p title="&quot;" hidden>a&lt;b<b>&amp;</b></p>')
-        self.assertNotIn("</script>", data_script("i", "</script>")[:-9])
-        self.assertIsInstance(tag("p"), Html)
-
-    def test_methods_differ_in_colour_or_dashes_and_all_in_marker(self):
-        looks = {(theme.colour(k), str(theme.dashes(k))) for k in range(12)}
-        self.assertEqual(len(looks), 12)
-        self.assertEqual(len({theme.marker(k) for k in range(12)}), 12)
-
-    def test_colours_stand_out_from_the_page_in_both_themes(self):
-        def luminance(colour):
-            parts = [int(colour[k:k + 2], 16) / 255 for k in (1, 3, 5)]
-            parts = [p / 12.92 if p <= 0.04045 else ((p + 0.055) / 1.055) ** 2.4 for p in parts]
-            return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
-        for colours in (theme.LIGHT, theme.DARK):
-            for name, least in [(f"c{k}", 3.0) for k in range(1, 9)] + [("ink", 7.0), ("muted", 4.5)]:
-                light, dark = sorted((luminance(colours[name]), luminance(colours["paper"])), reverse=True)
-                self.assertGreater((light + 0.05) / (dark + 0.05), least, name)
-
-
-PROBE = """<script>
-const run = () => {
-  const wide = document.querySelector("#precision .wide svg"), mark = wide.querySelector("[data-p]");
-  mark.scrollIntoView({block: "center", behavior: "instant"});
-  const box = mark.getBoundingClientRect();
-  mark.dispatchEvent(new PointerEvent("pointermove", {bubbles: true, clientX: box.left + 3, clientY: box.top + 3}));
-  const tip = document.getElementById("tip").innerText.split("\\n")[0];
-  const select = document.querySelector("select[data-pick=measure]");
-  select.value = "velocity.max";
-  select.dispatchEvent(new Event("change"));
-  const label = document.querySelector("#precision .wide svg").getAttribute("aria-label");
-  document.getElementById("theme").click();
-  const error = document.querySelector("#runs [data-e]").textContent;
-  const result = [tip, label, error, document.documentElement.dataset.theme,
-                  document.documentElement.scrollWidth <= innerWidth];
-  const holder = document.createElement("pre");
-  document.body.append(Object.assign(holder, {id: "probe", textContent: JSON.stringify(result)}));
-};
-run();
-</script></body>"""
-
-
-class InABrowser(OfAComparison):
-    CHROMIUM = shutil.which("chromium")
-
-    def dom(self, path, width=1280):
-        """The page after its scripts, and what the console said."""
-        with tempfile.TemporaryDirectory() as profile:
-            done = subprocess.run(
-                [self.CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-                 "--disable-background-networking", "--disable-component-update", "--disable-sync",
-                 f"--user-data-dir={profile}", f"--window-size={width},900", "--enable-logging=stderr", "--dump-dom",
-                 path.as_uri()], capture_output=True, text=True, timeout=90)
-        return done.stdout, re.findall(r":CONSOLE.*", done.stderr)
-
-    @unittest.skipUnless(CHROMIUM, "chromium is not installed, so the page's script is not tried")
-    def test_the_script_runs_without_a_word_on_the_console(self):
-        content = comparison(methods=2, points=2)
-        path = self.folder / "probe.html"
-        path.write_text(self.html(content).replace("</body>", PROBE), encoding="utf-8")
-        dom, console = self.dom(path)
-        self.assertEqual(console, [])
-        result = re.search(r'<pre id="probe">(.*?)</pre>', dom)
-        self.assertTrue(result, dom[-300:])
-        tip, label, error, chosen, fits = json.loads(result.group(1))
-        self.assertEqual(tip, "cvode_bdf, rtol 1e-2")
-        self.assertIn("velocity, largest in time", label)
-        self.assertEqual(float(error), float(f"{content['points'][0]['errors']['velocity']['max']:.1e}"))
-        self.assertEqual((chosen, fits), ("dark", True))
 
 
 if __name__ == "__main__":

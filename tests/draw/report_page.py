@@ -1,0 +1,95 @@
+"""A report's page read back, and the set-up of the tests that look at one."""
+import contextlib
+import io
+import sys
+import tempfile
+import unittest
+from html.parser import HTMLParser
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+TOOLS = Path(__file__).resolve().parents[2] / "tools"
+sys.path[:0] = [str(TOOLS), str(Path(__file__).resolve().parent)]
+
+from draw.cli import main  # noqa: E402
+from draw.report import words  # noqa: E402
+from draw.report.page import page  # noqa: E402
+from draw.report.reading import read_comparison  # noqa: E402
+from synthetic_comparison import comparison, write_comparison  # noqa: E402
+
+VOID = {"meta", "link", "input"}
+EVIL = '<script>alert("x")</script> & $\\frac{1}$ \'</title>'
+
+
+class Page(HTMLParser):
+    """What a page holds, read back; keeps open elements to see that all are closed."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.ids, self.attributes, self.words, self.unbalanced = [], [], [], [], []
+        self.tables, self.cell = [], None
+        self.feed(text)
+
+    def handle_starttag(self, name, attributes):
+        found = dict(attributes)
+        self.attributes.append((name, found))
+        if "id" in found:
+            self.ids.append(found["id"])
+        if name == "table":
+            self.tables.append([])
+        if name == "tr" and self.tables:
+            self.tables[-1].append([])
+        if name in ("td", "th"):
+            self.tables[-1][-1].append("")
+            self.cell = name
+        if name not in VOID:
+            self.open.append(name)
+
+    def handle_startendtag(self, name, attributes):
+        self.attributes.append((name, dict(attributes)))
+        if "id" in dict(attributes):
+            self.ids.append(dict(attributes)["id"])
+
+    def handle_endtag(self, name):
+        if not self.open or self.open.pop() != name:
+            self.unbalanced.append(name)
+        if name == self.cell:
+            self.cell = None
+
+    def handle_data(self, text):
+        if self.open and self.open[-1] not in ("script", "style"):
+            self.words.append(text)
+        if self.cell:
+            self.tables[-1][-1][-1] += text
+
+    @property
+    def text(self):
+        return " ".join("".join(self.words).replace(words.THIN, " ").split())
+
+
+class OfAComparison(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = Path(holder.name) / "r"
+
+    def read(self, content):
+        return read_comparison(write_comparison(self.folder, content))
+
+    def html(self, content):
+        return page(self.read(content), self.folder)
+
+    def small(self, problems=1, methods=3, points=3, **changes):
+        """Only one error measure and one clock: few figures, drawn quickly."""
+        content = comparison(problems, methods, points)
+        for point in content["points"]:
+            if point["errors"]:
+                point["errors"] = {"displacement": {"l2": point["errors"]["displacement"]["l2"]}}
+            point["cpu"] = None
+        return {**content, **changes}
+
+    def run_draw(self, *arguments):
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            code = main(["report", *map(str, arguments)])
+        return code, out.getvalue().splitlines(), err.getvalue().splitlines()
