@@ -1,17 +1,17 @@
 #include "lib/core/config.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <numeric>
+#include <map>
 #include <set>
 #include <sstream>
+
+#include "lib/core/yaml_document.h"
 
 namespace orthodyn {
 
@@ -20,74 +20,11 @@ namespace {
 struct Document {
   std::string file;
   YAML::Node root;
+  Origins included;                  // what does not stand in `file`
   std::set<std::string> overridden;  // paths given by --set
   std::set<std::string> filled;      // paths of defaults: they stand on no line
+  std::map<std::string, std::pair<YAML::Node, std::string>> files;  // by path: values that name files
 };
-
-std::string mark_text(const std::string& file, const YAML::Mark& mark) {
-  if (mark.is_null()) return file;
-  return fmt::format("{}:{}:{}", file, mark.line + 1, mark.column + 1);
-}
-
-// yaml-cpp keeps duplicate keys and ignores merge keys in silence; an alias may contain itself.
-class StructureCheck {
- public:
-  explicit StructureCheck(const std::string& file) : file_(file) {}
-
-  void visit(const YAML::Node& node, int depth) {
-    if (++visited_ > 1'000'000 || depth > 100)
-      fail(node, "nested too deeply (an alias that contains itself?)");
-    if (node.IsSequence())
-      for (const auto& child : node) visit(child, depth + 1);
-    if (node.IsMap()) visit_map(node, depth);
-  }
-
- private:
-  void visit_map(const YAML::Node& node, int depth) {
-    std::set<std::string> seen;
-    for (const auto& entry : node) {
-      if (!entry.first.IsScalar()) fail(entry.first, "a key must be a plain word");
-      const std::string key = entry.first.Scalar();
-      if (key == "<<") fail(entry.first, "merge keys (<<) are not supported; write the keys out");
-      if (!seen.insert(key).second)
-        fail(entry.first, fmt::format("key '{}' stands twice in the same section; keep one", key));
-      visit(entry.second, depth + 1);
-    }
-  }
-
-  [[noreturn]] void fail(const YAML::Node& node, const std::string& message) const {
-    throw ConfigError(mark_text(file_, node.Mark()) + ": " + message);
-  }
-
-  std::string file_;
-  long visited_ = 0;
-};
-
-YAML::Node parse(const std::string& text, const std::string& file) {
-  try {
-    auto documents = YAML::LoadAll(text);
-    if (documents.empty()) throw ConfigError(file + ": the file is empty");
-    if (documents.size() > 1)
-      throw ConfigError(file + ": more than one YAML document; keep what stands before '---'");
-    StructureCheck(file).visit(documents[0], 0);
-    return documents[0];
-  } catch (const YAML::Exception& e) {
-    throw ConfigError(
-        fmt::format("{}: not YAML: {}", mark_text(file, e.mark), e.msg));
-  }
-}
-
-std::string read_file(const std::string& path) {
-  namespace fs = std::filesystem;
-  std::error_code ec;
-  if (!fs::exists(path, ec)) throw ConfigError(path + ": no such file");
-  if (fs::is_directory(path, ec)) throw ConfigError(path + ": is a folder, expected a YAML file");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw ConfigError(path + ": cannot be opened for reading");
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 bool parse_number(std::string_view text, double& value) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
@@ -111,20 +48,6 @@ std::vector<std::string> split(const std::string& text, char separator) {
 void put_on_one_line(YAML::Node node) {
   if (node.IsMap() || node.IsSequence()) node.SetStyle(YAML::EmitterStyle::Flow);
   for (auto child : node) put_on_one_line(node.IsMap() ? child.second : YAML::Node(child));
-}
-
-// How often `node` stands below `root`; an alias repeats it, and writing to one place writes to all.
-int occurrences(const YAML::Node& root, const YAML::Node& node) {
-  int count = root.is(node) ? 1 : 0;
-  if (root.IsSequence())
-    for (const auto& child : root) count += occurrences(child, node);
-  if (root.IsMap())
-    for (const auto& entry : root) count += occurrences(entry.second, node);
-  return count;
-}
-
-std::string child_path(const std::string& parent, const std::string& key) {
-  return parent.empty() ? key : parent + "." + key;
 }
 
 // Of a list or a section, for writing: a missing key is made.
@@ -156,12 +79,13 @@ struct Config::Place {
 
 Config::Config(std::shared_ptr<const Place> place) : place_(std::move(place)) {}
 
-Config Config::from_file(const std::string& path) { return from_text(read_file(path), path); }
+Config Config::from_file(const std::string& path) { return from_text(read_text_file(path), path); }
 
 Config Config::from_text(const std::string& text, const std::string& name) {
   auto document = std::make_shared<Document>();
   document->file = name;
-  document->root = parse(text, name);
+  document->root = parse_yaml(text, name);
+  document->included = resolve_includes(document->root, name);
   return Config(std::make_shared<Place>(Place{document, document->root, ""}));
 }
 
@@ -172,7 +96,7 @@ void Config::override_with(const std::string& assignment) {
   if (equals == std::string::npos || std::count(steps.begin(), steps.end(), "") > 0 ||
       assignment.find_first_not_of(' ', equals + 1) == std::string::npos)
     throw ConfigError(origin + ": expected PATH=VALUE, such as integrator.rtol=1e-5");
-  const YAML::Node value = parse(assignment.substr(equals + 1) + "\n", origin);
+  const YAML::Node value = parse_yaml(assignment.substr(equals + 1) + "\n", origin);
 
   YAML::Node node = place_->document->root;  // a handle: writing through it changes the document
   std::string path;
@@ -218,6 +142,11 @@ Config Config::at(const std::string& key) const {
   const YAML::Node& node = place_->node;
   return Config(
       std::make_shared<Place>(Place{place_->document, node[key], child_path(place_->path, key)}));
+}
+
+bool Config::reads_as_number() const {
+  double value = 0;
+  return is_scalar() && parse_number(place_->node.Scalar(), value);
 }
 
 double Config::number() const {
@@ -276,18 +205,34 @@ std::string Config::where() const {
     return fmt::format("{}: --set {}", document.file, place_->path);
   if (is_at_or_below(place_->path, document.filled))
     return fmt::format("{}: {}", document.file, place_->path);
-  const std::string mark = mark_text(document.file, place_->node.Mark());
+  const std::string mark = mark_text(file(), place_->node.Mark());
   return place_->path.empty() ? mark : mark + ": " + place_->path;
 }
 
 std::string Config::path() const { return place_->path; }
-std::string Config::file() const { return place_->document->file; }
+
+std::string Config::file() const {
+  const auto& document = *place_->document;
+  std::string path = place_->path;
+  while (!path.empty()) {
+    if (const auto it = document.included.find(path); it != document.included.end()) return it->second;
+    const auto dot = path.rfind('.');
+    path.resize(dot == std::string::npos ? 0 : dot);
+  }
+  return document.file;
+}
 
 std::string Config::file_path() const {
   namespace fs = std::filesystem;
-  const fs::path given(text());
-  if (given.is_absolute()) return given.string();
-  return (fs::path(place_->document->file).parent_path() / given).string();
+  const std::string found = (fs::path(file()).parent_path() / text()).string();
+  place_->document->files.insert_or_assign(place_->path, std::pair(place_->node, found));
+  return found;
+}
+
+std::vector<std::string> Config::file_paths() const {
+  std::vector<std::string> out;
+  for (const auto& [path, file] : place_->document->files) out.push_back(file.second);
+  return out;
 }
 
 void Config::fail(const std::string& message) const {
@@ -308,29 +253,17 @@ std::string Config::dump() const {
   return std::string(out.c_str()) + "\n";
 }
 
-std::string nearest_name(const std::string& name, const std::vector<std::string>& names) {
-  const auto distance = [&](const std::string& other) {
-    std::vector<std::size_t> row(other.size() + 1);
-    std::iota(row.begin(), row.end(), 0u);
-    for (std::size_t i = 1; i <= name.size(); ++i) {
-      std::size_t diagonal = row[0]++;
-      for (std::size_t j = 1; j <= other.size(); ++j) {
-        const std::size_t substitute = diagonal + (name[i - 1] != other[j - 1]);
-        diagonal = row[j];
-        row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
-      }
-    }
-    return row.back();
-  };
-  std::string best;
-  std::size_t best_distance = std::max<std::size_t>(2, name.size() / 3) + 1;
-  for (const auto& other : names)
-    if (const auto d = distance(other); d < best_distance) best_distance = d, best = other;
-  return best;
-}
-
-std::string join(const std::vector<std::string>& names, const std::string& separator) {
-  return fmt::format("{}", fmt::join(names, separator));
+std::string Config::dump_for(const std::string& folder) const {
+  namespace fs = std::filesystem;
+  std::vector<std::pair<YAML::Node, std::string>> before;
+  for (const auto& [path, file] : place_->document->files) {
+    before.emplace_back(file.first, file.first.Scalar());
+    YAML::Node node = file.first;
+    node = folder.empty() ? fs::absolute(file.second).string() : fs::proximate(file.second, folder).string();
+  }
+  const std::string text = dump();
+  for (auto& [node, value] : before) node = value;
+  return text;
 }
 
 }  // namespace orthodyn

@@ -10,13 +10,17 @@
 #include <vector>
 
 #include "lib/core/errors.h"
+#include "lib/core/words.h"
 
 namespace orthodyn {
 
 class Config {
  public:
-  // Reads a file, resp. a text. Throws ConfigError for a missing or unreadable file, a syntax
-  // error, more than one document, duplicate keys and merge keys (<<).
+  // Reads a file, resp. a text. In any section the key `include` names a file, or a list of files,
+  // whose keys stand there too: what the section says itself wins, later files win over earlier ones,
+  // and sections within are joined in the same way. Throws ConfigError for a missing or unreadable
+  // file, a syntax error, more than one document, duplicate keys, merge keys (<<), tags, and files that
+  // include themselves.
   static Config from_file(const std::string& path);
   static Config from_text(const std::string& text, const std::string& name = "<text>");
 
@@ -34,6 +38,8 @@ class Config {
   std::vector<std::string> keys() const;  // of a map, in the order of the file
   bool has(const std::string& key) const;
   Config at(const std::string& key) const;  // of a map; the key must exist
+
+  bool reads_as_number() const;
 
   // Scalars, strictly: a number is finite, an integer integral. Throws ConfigError.
   double number() const;
@@ -56,8 +62,11 @@ class Config {
   std::string path() const;
   std::string file() const;
 
-  // A file named by this value, relative to the input file's folder.
+  // A file named by this value, relative to the folder of the input file that says so.
   std::string file_path() const;
+
+  // The files that have been asked for so far in this document.
+  std::vector<std::string> file_paths() const;
 
   [[noreturn]] void fail(const std::string& message) const;
 
@@ -67,16 +76,14 @@ class Config {
   // The whole document as YAML.
   std::string dump() const;
 
+  // The same for a reader in another folder: the files asked for so far are named relative to it, or in
+  // full if it is empty.
+  std::string dump_for(const std::string& folder) const;
+
  private:
   struct Place;
   explicit Config(std::shared_ptr<const Place> place);
   std::shared_ptr<const Place> place_;
 };
-
-// The entry of `names` nearest to `name` by edit distance, or "" if none is near.
-std::string nearest_name(const std::string& name, const std::vector<std::string>& names);
-
-// "a, b, c"
-std::string join(const std::vector<std::string>& names, const std::string& separator = ", ");
 
 }  // namespace orthodyn

@@ -48,14 +48,6 @@ bool is_finished(const fs::path& folder, const Json& result, const Job& job) {
   return !job.keep_trajectory || result.at("status") != "completed" || Trajectory::is_whole(folder / kTrajectoryFile);
 }
 
-// The mesh file's place is that of the scene: from the task's folder it is reached by its full path.
-std::string placed_scene(const Config& scene) {
-  const Config placed = Config::from_text(scene.dump(), scene.file());
-  const Config mesh = placed.at("mesh");
-  if (mesh.has("file")) mesh.fill_text("file", fs::absolute(mesh.at("file").file_path()).string());
-  return placed.dump();
-}
-
 }  // namespace
 
 Campaign::Campaign(const Comparison& comparison, Design design, CampaignOptions options)
@@ -130,7 +122,7 @@ std::string Campaign::folder_of(const Task& task) const {
   job["reference"] = fs::path(task.job.reference).filename().string();  // a fingerprint itself
   print.add(machine_fingerprint()).add(task.scene.dump()).add(job.dump());
   print.add(fmt::format("{}", comparison_.limits.memory));
-  if (task.scene.at("mesh").has("file")) print.add_file(task.scene.at("mesh").at("file").file_path());
+  for (const auto& file : task.scene.file_paths()) print.add_file(file);
   return task.kind + "/" + print.text();
 }
 
@@ -150,7 +142,7 @@ Json Campaign::perform(const Task& task, const std::atomic<bool>& interrupt, std
 }
 
 Json Campaign::execute(const fs::path& folder, const Task& task, const std::atomic<bool>& interrupt) {
-  write_file(folder / kSceneFile, {"# " + task.title + "\n" + placed_scene(task.scene)});
+  write_file(folder / kSceneFile, {"# " + task.title + "\n" + task.scene.dump_for("")});
   write_file(folder / kJobFile, {to_text(task.job.json(), 2)});
   std::error_code ignored;
   fs::remove(folder / kResultFile, ignored);
