@@ -7,6 +7,7 @@ install(TARGETS orthodyn_cli)
 install(DIRECTORY lib DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/orthodyn FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY tools/draw DESTINATION ${CMAKE_INSTALL_DATADIR}/orthodyn USE_SOURCE_PERMISSIONS
         PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY configs/schema DESTINATION ${CMAKE_INSTALL_DATADIR}/orthodyn)
 install(EXPORT orthodynTargets NAMESPACE orthodyn:: DESTINATION ${_config})
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/orthodynConfig.cmake.in
   ${PROJECT_BINARY_DIR}/orthodynConfig.cmake INSTALL_DESTINATION ${_config})

@@ -28,7 +28,11 @@ class PointFormula {
 
 template <>
 struct Value<PointFormula> {
-  static std::string type() { return "formula of x, y, z"; }
+  static Shape shape() {
+    return {.kind = Shape::Kind::either,
+            .words = "formula of x, y, z",
+            .items = {Value<double>::shape(), Value<std::string>::shape()}};
+  }
   static PointFormula read(const Config& c, const Rule&);
   static std::string yaml(const PointFormula& f) { return f.text(); }
 };

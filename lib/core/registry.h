@@ -18,9 +18,7 @@ namespace orthodyn {
 template <class Base>
 class Registry {
  public:
-  struct Entry {
-    std::string sentence;
-    std::vector<Key> keys;
+  struct Entry : Alternative {
     std::function<std::shared_ptr<const Base>(const Config&)> read;
   };
 
@@ -29,7 +27,7 @@ class Registry {
   template <class T>
   static bool add(const std::string& name, const std::string& sentence) {
     return mutable_entries()
-        .emplace(name, Entry{sentence, T::spec().keys(),
+        .emplace(name, Entry{{sentence, T::spec().keys()},
                              [](const Config& config) -> std::shared_ptr<const Base> {
                                auto item = std::make_shared<T>();
                                T::spec().read_into(config, *item, {"type"});
@@ -70,7 +68,12 @@ class Registry {
 
 template <class Base>
 struct Value<std::shared_ptr<const Base>> {
-  static std::string type() { return "section with type"; }
+  static Shape shape() {
+    return {.kind = Shape::Kind::choice, .title = type_title(typeid(Base).name()), .alternatives = [] {
+              const auto& entries = Registry<Base>::entries();
+              return std::map<std::string, Alternative>(entries.begin(), entries.end());
+            }};
+  }
   static std::shared_ptr<const Base> read(const Config& c, const Rule&) {
     return Registry<Base>::read(c);
   }

@@ -24,11 +24,6 @@
 
 namespace orthodyn {
 
-struct Key {
-  std::string name, type, unit, range, fallback, sentence;
-  bool required = false;
-};
-
 // Where a part of the input stands, for errors that show only later (an empty selection, a surface
 // that the mesh does not have). A struct with a member `Origin origin` has it filled by its Spec.
 struct Origin {
@@ -46,11 +41,10 @@ class Spec {
     requires std::derived_from<T, Owner>
   Spec& key(const std::string& name, V Owner::*member, const std::string& sentence, Rule rule = {}) {
     const T defaults{};
-    Key doc{name,     Value<V>::type(), rule.unit,
-            range_text(rule.range), rule.required            ? ""
-            : rule.fallback.empty() ? Value<V>::yaml(defaults.*member)
-                                    : rule.fallback,
-            sentence, rule.required};
+    const std::string fallback = rule.required            ? ""
+                                 : rule.fallback.empty() ? Value<V>::yaml(defaults.*member)
+                                                         : rule.fallback;
+    Key doc{name, Value<V>::shape(), rule.unit, rule.range, fallback, sentence, rule.required};
     fields_.push_back({doc, [=](const Config& section, T& target) {
                          read_field<V>(section, name, rule, target.*member);
                        }});
@@ -112,7 +106,7 @@ class Spec {
       if (!rule.fallback.empty()) complete_type(section.at(name), rule.fallback);
       target = Value<V>::read(section.at(name), rule);
     } else if (rule.required) {
-      section.fail("key '" + name + "' is missing (" + Value<V>::type() +
+      section.fail("key '" + name + "' is missing (" + type_text(Value<V>::shape()) +
                    (rule.unit.empty() ? "" : ", " + rule.unit) + ")");
     } else if (!rule.fallback.empty()) {
       target = Value<V>::read(section.fill(name, rule.fallback), rule);

@@ -1,21 +1,27 @@
 #include "lib/core/values.h"
 
-#include <cmath>
+#include <stdexcept>
+
+#include "lib/core/units.h"
 
 namespace orthodyn {
 
-std::string range_text(const Range& r) {
-  const bool low = std::isfinite(r.low), high = std::isfinite(r.high);
-  if (low && high)
-    return fmt::format("in {}{}, {}{}", r.low_open ? '(' : '[', r.low, r.high,
-                       r.high_open ? ')' : ']');
-  if (low) return fmt::format("{} {}", r.low_open ? ">" : ">=", r.low);
-  if (high) return fmt::format("{} {}", r.high_open ? "<" : "<=", r.high);
-  return "";
+namespace {
+
+double quantity(const Config& config, const std::string& unit) {
+  if (!config.is_scalar() || config.reads_as_number() || config.text().find_first_of("0123456789") == std::string::npos)
+    return config.number();
+  try {
+    return quantity_in(config.text(), unit);
+  } catch (const std::invalid_argument& e) {
+    config.fail(e.what());
+  }
 }
 
+}  // namespace
+
 double read_number(const Config& config, const Rule& rule) {
-  const double x = config.number();
+  const double x = quantity(config, rule.unit);
   if (!rule.range.contains(x))
     config.fail(fmt::format("must be {}{}{}, found {}", range_text(rule.range),
                             rule.unit.empty() ? "" : " ", rule.unit, number_text(x)));

@@ -1,4 +1,4 @@
-// How each type of value is read from and written to YAML: Value<V>::type(), read(), yaml().
+// How each type of value is read from and written to YAML: Value<V>::shape(), read(), yaml().
 // yaml() of a default that means "absent" is empty.
 #pragma once
 
@@ -9,29 +9,18 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
 #include "lib/core/config.h"
+#include "lib/core/shape.h"
 #include "lib/core/types.h"
 
 namespace orthodyn {
 
-struct Range {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool low_open = false, high_open = false;
-
-  bool contains(double x) const {
-    return (low_open ? x > low : x >= low) && (high_open ? x < high : x <= high);
-  }
-};
-
 inline constexpr Range kPositive{0, std::numeric_limits<double>::infinity(), true, false};
 inline constexpr Range kNonNegative{0, std::numeric_limits<double>::infinity(), false, false};
-
-// "> 0", ">= 0", "in (-1, 0.5)", or "" for any number.
-std::string range_text(const Range& range);
 
 struct Rule {
   bool required = false;
@@ -51,24 +40,29 @@ struct Words;
 template <class V>
 struct Value;
 
+// A plain number in the key's SI unit, or a text with a unit of the same dimension ("11.9 GPa").
 double read_number(const Config& config, const Rule& rule);
 std::string number_text(double x);
 std::vector<double> read_numbers(const Config& config, const Rule& rule, std::size_t count);
 
+inline Shape list_shape(Shape item, std::size_t count = 0, std::string words = "") {
+  return {.kind = Shape::Kind::list, .words = std::move(words), .items = {std::move(item)}, .count = count};
+}
+
 template <>
 struct Value<double> {
-  static std::string type() { return "number"; }
+  static Shape shape() { return {.kind = Shape::Kind::number}; }
   static double read(const Config& c, const Rule& r) { return read_number(c, r); }
   static std::string yaml(double x) { return number_text(x); }
 };
 
 template <std::integral V>
 struct Value<V> {
-  static std::string type() { return "integer"; }
+  static Shape shape() { return {.kind = Shape::Kind::integer}; }
   static V read(const Config& c, const Rule& r) {
     using Limits = std::numeric_limits<V>;
-    const double x = read_number(c, r);
     const long i = c.integer();
+    const double x = read_number(c, r);
     if (x > static_cast<double>(Limits::max()) || x < static_cast<double>(Limits::min()))
       c.fail(fmt::format("must be in [{}, {}], found {}", Limits::min(), Limits::max(), c.shown()));
     return static_cast<V>(i);
@@ -78,14 +72,14 @@ struct Value<V> {
 
 template <>
 struct Value<bool> {
-  static std::string type() { return "true|false"; }
+  static Shape shape() { return {.kind = Shape::Kind::boolean}; }
   static bool read(const Config& c, const Rule&) { return c.boolean(); }
   static std::string yaml(bool x) { return x ? "true" : "false"; }
 };
 
 template <>
 struct Value<std::string> {
-  static std::string type() { return "text"; }
+  static Shape shape() { return {.kind = Shape::Kind::text}; }
   static std::string read(const Config& c, const Rule&) { return c.text(); }
   static std::string yaml(const std::string& x) { return x; }
 };
@@ -98,14 +92,14 @@ struct FilePath {
 
 template <>
 struct Value<FilePath> {
-  static std::string type() { return "file"; }
+  static Shape shape() { return {.kind = Shape::Kind::file}; }
   static FilePath read(const Config& c, const Rule&) { return {c.file_path(), c.where()}; }
   static std::string yaml(const FilePath& x) { return x.path; }
 };
 
 template <>
 struct Value<Vec3> {
-  static std::string type() { return "[x, y, z]"; }
+  static Shape shape() { return list_shape(Value<double>::shape(), 3, "[x, y, z]"); }
   static Vec3 read(const Config& c, const Rule& r) {
     return Eigen::Map<const Vec3>(read_numbers(c, r, 3).data());
   }
@@ -116,7 +110,7 @@ struct Value<Vec3> {
 
 template <>
 struct Value<Mat3> {
-  static std::string type() { return "[[row], [row], [row]]"; }
+  static Shape shape() { return list_shape(Value<Vec3>::shape(), 3, "[[row], [row], [row]]"); }
   static Mat3 read(const Config& c, const Rule& r) {
     if (!c.is_sequence() || c.size() != 3) c.fail("expected three rows of three numbers, found " + c.shown());
     Mat3 m;
@@ -137,7 +131,7 @@ struct Value<E> {
     for (const auto& [value, word] : Words<E>::list) out.emplace_back(word);
     return out;
   }
-  static std::string type() { return join(words(), "|"); }
+  static Shape shape() { return {.kind = Shape::Kind::word, .names = words()}; }
   static E read(const Config& c, const Rule&) {
     const std::string given = c.text();
     for (const auto& [value, word] : Words<E>::list)
@@ -155,14 +149,14 @@ struct Value<E> {
 
 template <class V>
 struct Value<std::optional<V>> {
-  static std::string type() { return Value<V>::type(); }
+  static Shape shape() { return Value<V>::shape(); }
   static std::optional<V> read(const Config& c, const Rule& r) { return Value<V>::read(c, r); }
   static std::string yaml(const std::optional<V>& x) { return x ? Value<V>::yaml(*x) : ""; }
 };
 
 template <class V, std::size_t N>
 struct Value<std::array<V, N>> {
-  static std::string type() { return fmt::format("list of {} {}s", N, Value<V>::type()); }
+  static Shape shape() { return list_shape(Value<V>::shape(), N); }
   static std::array<V, N> read(const Config& c, const Rule& r) {
     if (!c.is_sequence() || c.size() != N)
       c.fail(fmt::format("expected a list of {}, found {}", N, c.shown()));
@@ -179,7 +173,7 @@ struct Value<std::array<V, N>> {
 
 template <class V>
 struct Value<std::vector<V>> {
-  static std::string type() { return "list of " + Value<V>::type(); }
+  static Shape shape() { return list_shape(Value<V>::shape()); }
   static std::vector<V> read(const Config& c, const Rule& r) {
     if (!c.is_sequence()) c.fail("expected a list, found " + c.shown());
     std::vector<V> out;
@@ -196,7 +190,7 @@ struct Value<std::vector<V>> {
 
 template <class V>
 struct Value<Named<V>> {
-  static std::string type() { return "name: " + Value<V>::type(); }
+  static Shape shape() { return {.kind = Shape::Kind::named, .items = {Value<V>::shape()}}; }
   static Named<V> read(const Config& c, const Rule& r) {
     if (!c.is_map()) c.fail("expected named sections, found " + c.shown());
     Named<V> out;
@@ -210,7 +204,9 @@ struct Value<Named<V>> {
 template <class V>
   requires requires { V::spec(); }
 struct Value<V> {
-  static std::string type() { return "section"; }
+  static Shape shape() {
+    return {.kind = Shape::Kind::section, .title = type_title(typeid(V).name()), .keys = [] { return V::spec().keys(); }};
+  }
   static V read(const Config& c, const Rule&) { return V::spec().read(c); }
   static std::string yaml(const V&) { return ""; }
 };

@@ -114,6 +114,26 @@ SceneEntry Value<SceneEntry>::read(const Config& c, const Rule&) {
   return entry;
 }
 
+Shape Value<IntegratorEntry>::shape() {
+  std::vector<std::string> names{"all"};
+  for (const auto& name : Registry<IntegratorChoice>::names()) names.push_back(name);
+  const auto alternatives = [] {
+    std::map<std::string, Alternative> out;
+    for (const auto& [name, entry] : Registry<IntegratorChoice>::entries()) {
+      Alternative one = entry;
+      std::erase_if(one.keys, [](const Key& key) { return key.name == "rtol" || key.name == "step"; });
+      one.keys.push_back({"label", Value<std::string>::shape(), "", {}, "", "Its name in the report.", false});
+      out.emplace(name, one);
+    }
+    return out;
+  };
+  return {.kind = Shape::Kind::either,
+          .items = {{.kind = Shape::Kind::word, .words = "name", .names = names},
+                    {.kind = Shape::Kind::choice, .title = "IntegratorEntry", .alternatives = alternatives}}};
+}
+
+Shape Value<ReferenceEntry>::shape() { return Value<std::shared_ptr<const IntegratorChoice>>::shape(); }
+
 IntegratorEntry Value<IntegratorEntry>::read(const Config& c, const Rule&) {
   if (!c.is_map()) {
     if (c.text() != "all") require_known_integrator(c, c.text());

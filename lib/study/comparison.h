@@ -17,7 +17,7 @@ struct YamlText {
 
 template <>
 struct Value<YamlText> {
-  static std::string type() { return "any value"; }
+  static Shape shape() { return {}; }
   static YamlText read(const Config& c, const Rule&) { return {c.yaml()}; }
   static std::string yaml(const YamlText& x) { return x.text; }
 };
@@ -78,21 +78,24 @@ Comparison read_comparison(const Config& config);
 // A section or a scalar in a list: `- beam.yaml` is short for `- {file: beam.yaml}`.
 template <>
 struct Value<SceneEntry> {
-  static std::string type() { return "file, or section"; }
+  static Shape shape() {
+    const Shape section{.kind = Shape::Kind::section, .title = "SceneEntry", .keys = [] { return SceneEntry::spec().keys(); }};
+    return {.kind = Shape::Kind::either, .items = {Value<FilePath>::shape(), section}};
+  }
   static SceneEntry read(const Config& c, const Rule&);
   static std::string yaml(const SceneEntry&) { return ""; }
 };
 
 template <>
 struct Value<IntegratorEntry> {
-  static std::string type() { return "name, or section with type"; }
+  static Shape shape();
   static IntegratorEntry read(const Config& c, const Rule&);
   static std::string yaml(const IntegratorEntry&) { return ""; }
 };
 
 template <>
 struct Value<ReferenceEntry> {
-  static std::string type() { return "section with type"; }
+  static Shape shape();
   static ReferenceEntry read(const Config& c, const Rule&);
   static std::string yaml(const ReferenceEntry&) { return ""; }
 };

@@ -71,7 +71,7 @@ std::vector<std::string> tables(const std::string& integrator) {
   std::vector<std::string> names;
   for (const auto& key : Registry<IntegratorChoice>::entries().at(integrator).keys) {
     if (key.name != "table") continue;
-    std::istringstream in(key.type);
+    std::istringstream in(type_text(key.shape));
     for (std::string name; std::getline(in, name, '|');) names.push_back(name);
   }
   return names;

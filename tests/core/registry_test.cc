@@ -78,7 +78,7 @@ TEST(Registry, KeysAreListedWithEachName) {
   EXPECT_EQ(entries.at("square").sentence, "Four equal sides.");
   ASSERT_EQ(entries.at("square").keys.size(), 1u);
   EXPECT_EQ(entries.at("square").keys[0].name, "side");
-  EXPECT_EQ(entries.at("square").keys[0].range, "> 0");
+  EXPECT_EQ(range_text(entries.at("square").keys[0].range), "> 0");
 }
 
 TEST(Registry, TheDefaultOfAChosenTypeIsFilledIn) {

@@ -121,8 +121,8 @@ TEST(Spec, TheOriginIsThePlaceOfTheSection) {
 
 TEST(Spec, KeysAreDescribedWithTypeUnitRangeAndDefault) {
   const auto& keys = Solver::spec().keys();
-  EXPECT_EQ(keys[0].type, "number");
-  EXPECT_EQ(keys[0].range, "in (0, 1)");
+  EXPECT_EQ(type_text(keys[0].shape), "number");
+  EXPECT_EQ(range_text(keys[0].range), "in (0, 1)");
   EXPECT_EQ(keys[0].fallback, "0.1");
   EXPECT_EQ(keys[0].sentence, "Tolerance.");
   EXPECT_TRUE(keys[1].required);

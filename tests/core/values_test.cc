@@ -62,7 +62,7 @@ TEST(ReadInteger, OutsideItsTypeIsRefused) {
 
 TEST(ReadEnum, TakesItsWords) {
   EXPECT_EQ(read<Split>("six"), Split::six);
-  EXPECT_EQ(Value<Split>::type(), "five|six");
+  EXPECT_EQ(type_text(Value<Split>::shape()), "five|six");
 }
 
 TEST(ReadEnum, RefusesOtherWordsWithTheNearestOne) {

@@ -15,9 +15,9 @@ namespace orthodyn {
 namespace {
 
 void print_key(const Key& key) {
-  std::string facts = key.type;
+  std::string facts = type_text(key.shape);
   if (!key.unit.empty()) facts += ", " + key.unit;
-  if (!key.range.empty()) facts += ", " + key.range;
+  if (const auto range = range_text(key.range); !range.empty()) facts += ", " + range;
   facts += key.required ? ", required" : key.fallback.empty() ? "" : ", default " + key.fallback;
   fmt::print("    {:<22} {} ({})\n", key.name, key.sentence, facts);
 }
@@ -96,7 +96,12 @@ const std::vector<std::pair<std::string, std::function<void()>>>& chapters() {
 
 }  // namespace
 
-int list_command(const std::string& what) {
+int list_command(const std::string& what, bool markdown) {
+  if (markdown) {
+    if (!what.empty()) throw ConfigError("--markdown prints everything; leave '" + what + "' out");
+    print_reference_page();
+    return 0;
+  }
   std::vector<std::string> names;
   bool found = false;
   for (const auto& [name, print] : chapters()) {

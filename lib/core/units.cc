@@ -1,0 +1,130 @@
+#include "lib/core/units.h"
+
+#include <fmt/format.h>
+#include <udunits2.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+namespace orthodyn {
+
+namespace {
+
+struct FreeUnit {
+  void operator()(ut_unit* unit) const { ut_free(unit); }
+};
+struct FreeConverter {
+  void operator()(cv_converter* converter) const { cv_free(converter); }
+};
+using Unit = std::unique_ptr<ut_unit, FreeUnit>;
+using Converter = std::unique_ptr<cv_converter, FreeConverter>;
+
+constexpr std::array<std::pair<const char*, const char*>, 14> kDimensions{{{"m", "length"},
+                                                                           {"s", "time"},
+                                                                           {"kg", "mass"},
+                                                                           {"Pa", "stress or stiffness"},
+                                                                           {"kg/m^3", "density"},
+                                                                           {"m/s", "velocity"},
+                                                                           {"m/s^2", "acceleration"},
+                                                                           {"N", "force"},
+                                                                           {"rad", "angle"},
+                                                                           {"rad/s", "angular velocity"},
+                                                                           {"1/s", "rate"},
+                                                                           {"J", "energy"},
+                                                                           {"m^2", "area"},
+                                                                           {"m^3", "volume"}}};
+
+// Read from its files when the first unit is met; lives as long as the program.
+ut_system* units() {
+  static ut_system* const system = [] {
+    ut_set_error_message_handler(ut_ignore);
+    ut_system* read = ut_read_xml(nullptr);
+    if (!read)
+      throw std::runtime_error("the table of units of UDUNITS-2 cannot be read (Debian: libudunits2-data); give "
+                               "plain numbers in SI units");
+    Unit degree(ut_get_unit_by_name(read, "degree"));
+    ut_map_name_to_unit("deg", UT_ASCII, degree.get());  // keeps a copy
+    return read;
+  }();
+  return system;
+}
+
+Unit parse(const std::string& text) { return Unit(ut_parse(units(), text.c_str(), UT_UTF8)); }
+
+// In base units, "kg.m-1.s-2".
+std::string base_units(const ut_unit* unit) {
+  std::array<char, 200> text{};
+  const int length = ut_format(unit, text.data(), text.size(), UT_ASCII | UT_DEFINITION);
+  return length < 0 ? "" : std::string(text.data(), static_cast<std::size_t>(length));
+}
+
+// UDUNITS takes a radian for the number one.
+bool has_angle(const ut_unit* unit) { return base_units(unit).find("rad") != std::string::npos; }
+
+// UDUNITS also converts between reciprocals, as of time and frequency.
+bool same_dimension(const ut_unit* a, const ut_unit* b) {
+  const Unit ratio(ut_divide(a, b));
+  return ratio && ut_is_dimensionless(ratio.get()) != 0 && has_angle(a) == has_angle(b);
+}
+
+// "GPa 3" would be a unit of its own.
+bool has_factor(const std::string& unit) {
+  for (std::size_t i = 0; i < unit.size(); ++i)
+    if (unit[i] >= '0' && unit[i] <= '9' && (i == 0 || unit[i - 1] == ' ')) return true;
+  return false;
+}
+
+// "length (m)" of a unit that the user gave.
+std::string describe(const ut_unit* unit) {
+  for (const auto& [known, word] : kDimensions)
+    if (same_dimension(unit, parse(known).get())) return fmt::format("{} ({})", word, known);
+  return "quantity of dimension " + base_units(unit);
+}
+
+std::string with_article(const std::string& words) {
+  return (std::string("aeiou").find(words.front()) == std::string::npos ? "a " : "an ") + words;
+}
+
+std::string expected(const std::string& unit) {
+  if (unit.empty()) return "a plain number";
+  return with_article(dimension_text(unit));
+}
+
+}  // namespace
+
+double quantity_in(const std::string& text, const std::string& unit) {
+  const auto fail = [&](const std::string& found) {
+    throw std::invalid_argument(fmt::format("expected {}, found {}", expected(unit), found));
+  };
+  double number = 0;
+  const char *begin = text.data(), *end = begin + text.size();
+  while (begin != end && (*begin == ' ' || *begin == '+')) ++begin;
+  const auto [rest, error] = std::from_chars(begin, end, number);
+  std::string name(rest, end);
+  name.erase(0, name.find_first_not_of(' '));
+  name.erase(name.find_last_not_of(' ') + 1);
+  if (error != std::errc{} || !std::isfinite(number) || name.empty()) fail("'" + text + "'");
+  const Unit given = has_factor(name) ? Unit() : parse(name);
+  if (!given) fail(fmt::format("'{}': the unit '{}' is not known", text, name));
+  if (unit.empty()) fail(fmt::format("'{}', {}", text, with_article(describe(given.get()))));
+  const Unit wanted = parse(unit);
+  if (!wanted) fail(fmt::format("'{}'; give a plain number", text));  // such as bytes
+  if (!same_dimension(given.get(), wanted.get()))
+    fail(fmt::format("'{}', {}", text, with_article(describe(given.get()))));
+  const Converter converter(ut_get_converter(given.get(), wanted.get()));
+  const double value = converter ? cv_convert_double(converter.get(), number) : NAN;
+  if (!std::isfinite(value)) fail("'" + text + "', which is too large");
+  return value;
+}
+
+std::string dimension_text(const std::string& unit) {
+  for (const auto& [known, word] : kDimensions)
+    if (unit == known) return fmt::format("{} ({})", word, unit);
+  return unit == "Hz" ? "frequency (Hz)" : unit;
+}
+
+}  // namespace orthodyn

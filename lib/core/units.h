@@ -1,0 +1,17 @@
+// Quantities with a unit, such as "11.9 GPa". The only door to UDUNITS-2, whose names are understood
+// (SI units with prefixes, inch, psi, degree, ...).
+#pragma once
+
+#include <string>
+
+namespace orthodyn {
+
+// The number that `text` stands for in `unit` (SI, such as "Pa" or "kg/m^3"; "" for a key without one).
+// An angle is a dimension of its own: Hz is no rad/s. Throws std::invalid_argument with a sentence that
+// names what was found and what is expected.
+double quantity_in(const std::string& text, const std::string& unit);
+
+// "stress or stiffness (Pa)"; the unit alone where there is no word for it.
+std::string dimension_text(const std::string& unit);
+
+}  // namespace orthodyn
