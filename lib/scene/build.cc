@@ -73,6 +73,7 @@ void add_loads(const Scene& scene, FemModel::Parts& parts) {
     const Vec3 traction = load.traction ? *load.traction : *load.force / surface_area(parts.mesh, triangles);
     parts.loads.push_back(std::make_unique<Traction>(load.surface, parts.mesh, triangles, traction, load.factor));
   }
+  for (const auto& term : scene.terms) parts.loads.push_back(term->make(parts));
 }
 
 Traits traits_of(const Scene& scene, const std::vector<const Region*>& regions) {
@@ -89,6 +90,7 @@ Traits traits_of(const Scene& scene, const std::vector<const Region*>& regions) 
   traits.loaded = !scene.loads.empty();
   const bool warped = scene.elasticity.corotation == Corotation::warped && !traits.linear;
   traits.conservative = !warped && !traits.dissipative && !traits.time_dependent;
+  for (const auto& term : scene.terms) term->declare(traits);
   return traits;
 }
 

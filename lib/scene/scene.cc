@@ -204,6 +204,7 @@ const Spec<Scene>& Scene::spec() {
           .key("damping", &Scene::damping, "Rayleigh damping.")
           .key("gravity", &Scene::gravity, "Acceleration of free fall.", {.unit = "m/s^2"})
           .key("loads", &Scene::loads, "Loads on surfaces.")
+          .key("terms", &Scene::terms, "Further terms by type; for those of your own see docs/extend.md.")
           .key("clamps", &Scene::clamps, "Nodes that do not move.")
           .key("initial", &Scene::initial, "Initial state; default at rest.")
           .key("time", &Scene::time, "Time span.", {.required = true})

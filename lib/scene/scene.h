@@ -17,6 +17,7 @@
 #include "lib/ode/integrator.h"
 #include "lib/scene/expectation.h"
 #include "lib/scene/mesh_source.h"
+#include "lib/scene/term_choice.h"
 
 namespace orthodyn {
 
@@ -119,6 +120,7 @@ struct Scene {
   std::optional<Damping> damping;
   std::optional<Vec3> gravity;  // m/s^2
   std::vector<Load> loads;
+  std::vector<std::shared_ptr<const TermChoice>> terms;
   std::vector<Clamp> clamps;
   std::optional<Initial> initial;
   TimeSpan time;
