@@ -4,23 +4,14 @@
 
 #include "lib/study/process.h"
 #include "tools/orthodyn/interrupt.h"
+#include "tools/orthodyn/places.h"
 
 namespace orthodyn {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-// Installed beside the program, or in the tree that it was built from.
-fs::path find_draw() {
-  const fs::path installed = fs::read_symlink("/proc/self/exe").parent_path() / ORTHODYN_DRAW_FROM_BIN;
-  return fs::exists(installed) ? installed : fs::path(ORTHODYN_DRAW_IN_SOURCE);
-}
-
-}  // namespace
-
 void draw_report(const fs::path& folder, bool quiet) {
-  const fs::path draw = find_draw(), log = folder / "report.log";
+  const fs::path draw = draw_tool(), log = folder / "report.log";
   const std::atomic<bool> never{false};
   const std::atomic<bool>& interrupt = interrupted() ? never : interrupted();  // a second Ctrl-C ends it all
   const bool drawn = fs::exists(draw) &&

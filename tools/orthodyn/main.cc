@@ -10,6 +10,7 @@
 #include "lib/core/errors.h"
 #include "lib/core/versions.h"
 #include "tools/orthodyn/commands.h"
+#include "tools/orthodyn/plugins.h"
 
 namespace {
 
@@ -18,6 +19,7 @@ Examples:
   orthodyn run configs/scenes/cantilever.yaml
   orthodyn run configs/scenes/free_flight.yaml --set elasticity.corotation=warped --out out/warped
   orthodyn check configs/scenes/laminate.yaml
+  orthodyn init scene my.yaml
   orthodyn list materials
   orthodyn compare configs/comparisons/damped_beam.yaml
   orthodyn verify configs/cases
@@ -46,6 +48,12 @@ int main(int argc, char** argv) {
   app.footer(kExamples);
   app.require_subcommand(1);
   app.set_version_flag("--version", orthodyn_version());
+
+  std::vector<std::string> plugins;
+  app.add_option("--plugin", plugins, "A shared library with materials, terms, integrators or meshes of your own.")
+      ->type_name("FILE.so")
+      ->expected(1)
+      ->take_all();
 
   RunArguments arguments;
   auto* run = app.add_subcommand("run", "Run a scene: frames for ParaView, energies, steps, a summary.");
@@ -86,6 +94,18 @@ int main(int argc, char** argv) {
   std::string what;
   auto* list = app.add_subcommand("list", "What can be named in a scene, each with its keys.");
   list->add_option("what", what, "scene, materials, integrators, solvers, meshes, terms, factors, expect, comparison, fields; all if left out.");
+  bool markdown = false;
+  list->add_flag("--markdown", markdown, "Every key of the input as one page in Markdown.");
+
+  std::string schema_kind;
+  auto* schema = app.add_subcommand("schema", "The JSON Schema of the input, for editors that complete and check YAML.");
+  schema->add_option("kind", schema_kind, "scene or comparison; both in one schema if left out.");
+
+  std::string start_kind;
+  std::optional<std::string> start_file;
+  auto* init = app.add_subcommand("init", "Write a commented file to start from.");
+  init->add_option("kind", start_kind, "scene or comparison.")->required();
+  init->add_option("file", start_file, "Its name; default KIND.yaml.")->type_name("FILE.yaml");
 
   try {
     app.parse(argc, argv);
@@ -95,12 +115,15 @@ int main(int argc, char** argv) {
   }
 
   try {
+    load_plugins(plugins);
     if (*run) return run_command(arguments);
     if (*check) return check_command(arguments);
     if (*compare) return compare_command(comparison);
     if (*measure) return measure_command(folder);
     if (*verify) return verify_command(cases);
-    return list_command(what);
+    if (*schema) return schema_command(schema_kind);
+    if (*init) return init_command(start_kind, start_file);
+    return list_command(what, markdown);
   } catch (const ConfigError& e) {
     fmt::print(stderr, "error: {}\n", e.what());
     return 2;

@@ -1,0 +1,35 @@
+// A material of one's own: cubic symmetry, as in many metals. Three constants.
+#include "lib/material/material.h"
+
+namespace {
+
+using namespace orthodyn;
+
+class Cubic : public Material {
+ public:
+  static const Spec<Cubic>& spec() {
+    const Rule modulus{.required = true, .unit = "Pa", .range = kPositive};
+    static const auto s =
+        Spec<Cubic>()
+            .key("density", &Cubic::density_, "Mass density.", {.required = true, .unit = "kg/m^3", .range = kPositive})
+            .key("c11", &Cubic::c11_, "Stiffness along a crystal axis at no lateral strain.", modulus)
+            .key("c12", &Cubic::c12_, "Its coupling to another axis.", {.required = true, .unit = "Pa"})
+            .key("c44", &Cubic::c44_, "Shear modulus in the planes of the axes.", modulus)
+            .check([](const Cubic& c, const Config& config) {
+              if (c.c11_ <= std::abs(c.c12_) || c.c11_ + 2 * c.c12_ <= 0)
+                config.at("c12").fail("must lie in (-c11/2, c11), else the stiffness is not positive definite");
+            });
+    return s;
+  }
+
+  Stiffness stiffness() const override {
+    return OrthotropicStiffness{c11_, c11_, c11_, c12_, c12_, c12_, c44_, c44_, c44_};
+  }
+
+ private:
+  double c11_ = 0, c12_ = 0, c44_ = 0;
+};
+
+const bool registered = Registry<Material>::add<Cubic>("cubic", "Cubic symmetry: c11, c12, c44.");
+
+}  // namespace

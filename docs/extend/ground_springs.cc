@@ -1,0 +1,69 @@
+// A term of one's own: every node within a sphere is tied to its place at rest by a spring.
+#include "lib/scene/term_choice.h"
+
+namespace {
+
+using namespace orthodyn;
+
+class GroundSprings : public Term {
+ public:
+  GroundSprings(double stiffness, std::vector<int> nodes, const FemModel::Parts& parts)
+      : k_(stiffness), nodes_(std::move(nodes)), rest_(*parts.rest), pattern_(*parts.pattern) {}
+
+  std::string description() const override { return "springs to ground at " + std::to_string(nodes_.size()) + " nodes"; }
+
+  void add_force(const NodalState& s, NodalVector& f) const override {
+    for (const int i : nodes_) f.col(i) -= k_ * (s.x.col(i) - rest_.col(i));
+  }
+
+  // -df/dx: k on the diagonal block of each node.
+  void add_tangent(const NodalState&, TangentKind, double* stiffness, double*) const override {
+    for (const int i : nodes_) pattern_.add(i, i, pattern_.offset(i, i), k_ * Mat3::Identity(), stiffness);
+  }
+
+  EnergyKind energy_kind() const override { return EnergyKind::elastic; }
+  double energy(const NodalState& s) const override {
+    double sum = 0;
+    for (const int i : nodes_) sum += 0.5 * k_ * (s.x.col(i) - rest_.col(i)).squaredNorm();
+    return sum;
+  }
+
+ private:
+  double k_;
+  std::vector<int> nodes_;
+  const NodalVector& rest_;
+  const BlockPattern& pattern_;
+};
+
+class GroundSpringsChoice : public TermChoice {
+ public:
+  static const Spec<GroundSpringsChoice>& spec() {
+    using G = GroundSpringsChoice;
+    static const auto s =
+        Spec<G>()
+            .key("center", &G::center_, "Centre of the sphere.", {.required = true, .unit = "m"})
+            .key("radius", &G::radius_, "Its radius.", {.required = true, .unit = "m", .range = kPositive})
+            .key("stiffness", &G::stiffness_, "Of the spring at each node.",
+                 {.required = true, .unit = "N/m", .range = kPositive});
+    return s;
+  }
+
+  std::unique_ptr<Term> make(const FemModel::Parts& parts) const override {
+    std::vector<int> nodes;
+    for (int i = 0; i < parts.rest->cols(); ++i)
+      if ((parts.rest->col(i) - center_).norm() <= radius_) nodes.push_back(i);
+    if (nodes.empty()) origin.fail("no node lies in the sphere; make the radius larger");
+    return std::make_unique<GroundSprings>(stiffness_, std::move(nodes), parts);
+  }
+
+  Origin origin;  // filled in: where it stands in the input
+
+ private:
+  Vec3 center_ = Vec3::Zero();
+  double radius_ = 0, stiffness_ = 0;
+};
+
+const bool registered =
+    Registry<TermChoice>::add<GroundSpringsChoice>("ground_springs", "Springs that tie nodes to their places at rest.");
+
+}  // namespace

@@ -1,0 +1,76 @@
+// An integrator of one's own: velocity Verlet (leapfrog), explicit, second order, with a fixed step.
+#include "lib/core/errors.h"
+#include "lib/ode/hermite.h"
+#include "lib/ode/integrator.h"
+
+namespace {
+
+using namespace orthodyn;
+
+class VelocityVerlet : public Integrator {
+ public:
+  VelocityVerlet(const Model& model, double step) : model_(model), step_(step) {}
+
+  void start(const State& state) override {
+    end_ = {state.t, state.q, state.v, acceleration(state.t, state.q, state.v)};
+    begin_ = end_;
+  }
+
+  StepInfo step(double t_stop) override {
+    const double h = std::min(step_, t_stop - end_.t);
+    begin_ = end_;
+    end_.t = h < step_ ? t_stop : begin_.t + h;
+    end_.q = begin_.q + h * begin_.v + 0.5 * h * h * begin_.a;
+    end_.a = acceleration(end_.t, end_.q, begin_.v);
+    end_.v = begin_.v + 0.5 * h * (begin_.a + end_.a);
+    if (!end_.q.allFinite())
+      throw RunError("velocity_verlet is unstable at t = " + std::to_string(end_.t) + " s; lower integrator.step",
+                     Reason::newton);
+    ++statistics_.steps;
+    return {end_.t, h, 2};
+  }
+
+  void interpolate(double t, State& out) const override {
+    out = {t, Vector(end_.q.size()), Vector(end_.q.size())};
+    orthodyn::interpolate(begin_, end_, t, out.q, out.v);
+  }
+
+  const Statistics& statistics() const override { return statistics_; }
+
+ private:
+  Vector acceleration(double t, const Vector& q, const Vector& v) {
+    const Measure measure(statistics_.force);
+    Vector a(q.size());
+    model_.force(t, q, v, a);
+    model_.solve_mass(a);
+    return a;
+  }
+
+  const Model& model_;
+  double step_;
+  Knot begin_, end_;
+  Statistics statistics_;
+};
+
+class VelocityVerletChoice : public IntegratorChoice {
+ public:
+  static const Spec<VelocityVerletChoice>& spec() {
+    static const auto s = Spec<VelocityVerletChoice>().key(
+        "step", &VelocityVerletChoice::step_, "Step.", {.required = true, .unit = "s", .range = kPositive});
+    return s;
+  }
+
+  std::unique_ptr<Integrator> make(const Model& model, const std::function<Scales()>&) const override {
+    if (model.traits().dissipative)
+      throw ConfigError("velocity_verlet takes no forces that depend on velocity; remove the damping");
+    return std::make_unique<VelocityVerlet>(model, step_);
+  }
+
+ private:
+  double step_ = 0;
+};
+
+const bool registered = Registry<IntegratorChoice>::add<VelocityVerletChoice>(
+    "velocity_verlet", "Leapfrog in velocity form: explicit, order 2, symplectic, fixed step.");
+
+}  // namespace

@@ -1,0 +1,157 @@
+"""The JSON Schema of the input, judged by an independent validator: it takes every shipped file and refuses
+what orthodyn refuses. ORTHODYN_EXECUTABLE names the program."""
+import json
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+
+import jsonschema
+import yaml
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+EXECUTABLE = os.environ["ORTHODYN_EXECUTABLE"]
+MODELINE = re.compile(r"^# yaml-language-server: \$schema=(\S+)$")
+
+
+class Loader(yaml.SafeLoader):
+    """YAML 1.2 numbers, as editors and orthodyn read them: 1e-3 is one."""
+
+
+Loader.yaml_implicit_resolvers = {c: [(tag, r) for tag, r in resolvers if tag != "tag:yaml.org,2002:float"]
+                                  for c, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()}
+Loader.add_implicit_resolver("tag:yaml.org,2002:float", re.compile(r"^[-+]?(\.\d+|\d+(\.\d*)?)([eE][-+]?\d+)?$"),
+                             list("-+.0123456789"))
+
+
+def output_of(*arguments):
+    return subprocess.run([EXECUTABLE, *arguments], check=True, capture_output=True, text=True).stdout
+
+
+def schema_of(kind):
+    return json.loads(output_of("schema", *([kind] if kind else [])))
+
+
+def errors(text, schema):
+    return list(jsonschema.Draft7Validator(schema).iter_errors(yaml.load(text, Loader)))
+
+
+def shipped(kind):
+    folders = {"scene": ["scenes", "cases", "benchmarks"], "comparison": ["comparisons"]}[kind]
+    return [p for folder in folders for p in sorted((ROOT / "configs" / folder).glob("*.yaml"))]
+
+
+SCENE = """
+mesh: {type: box, size: [1, 0.1, 0.1], cells: [4, 1, 1]}
+materials:
+  wood: {type: orthotropic_stable, density: 450, young: [10e9, 1e9, 1e9], nu: 0.3}
+clamps: [{surface: x0}]
+gravity: [0, 0, -9.81]
+time: {end: 1e-3}
+"""
+# What is changed in the scene, and the path at which an editor should mark it.
+BROKEN = {
+    "an unknown key": ("clamps:", "clmaps:", []),
+    "an unknown key within": ("cells: [4, 1, 1]", "cells: [4, 1, 1], spilt: six", ["mesh"]),
+    "an unknown type": ("type: box", "type: ball", ["mesh", "type"]),
+    "a text for a number": ("density: 450", "density: heavy", ["materials", "wood", "density"]),
+    "a number out of range": ("nu: 0.3", "nu: 0.5", ["materials", "wood", "nu"]),
+    "a list that is too short": ("size: [1, 0.1, 0.1]", "size: [1, 0.1]", ["mesh", "size"]),
+    "a fraction for a whole number": ("cells: [4, 1, 1]", "cells: [4.5, 1, 1]", ["mesh", "cells", 0]),
+    "a missing key": ("time: {end: 1e-3}", "time: {start: 0}", ["time"]),
+    "a missing section": ("time: {end: 1e-3}", "", []),
+    "a section for a list": ("clamps: [{surface: x0}]", "clamps: {surface: x0}", ["clamps"]),
+    "a word that is none of the allowed": ("time:", "mass: heavy\ntime:", ["mass"]),
+    "a key of another type": ("nu: 0.3", "nu: 0.3, nu12: 0.3", ["materials", "wood"]),
+}
+
+
+class Schema(unittest.TestCase):
+    def test_is_a_schema(self):
+        for kind in ("scene", "comparison", None):
+            jsonschema.Draft7Validator.check_schema(schema_of(kind))
+
+    def test_takes_every_shipped_file(self):
+        for kind in ("scene", "comparison"):
+            schema, both = schema_of(kind), schema_of(None)
+            for path in shipped(kind):
+                with self.subTest(path=path.name):
+                    for judge in (schema, both):
+                        self.assertEqual([e.message for e in errors(path.read_text(), judge)], [])
+
+    def test_shipped_files_are_many(self):
+        self.assertGreater(len(shipped("scene")), 30)
+        self.assertGreater(len(shipped("comparison")), 5)
+
+    def test_takes_units_where_a_key_has_one(self):
+        schema = schema_of("scene")
+        self.assertEqual(errors(SCENE.replace("450", "0.45 g/cm^3"), schema), [])
+        self.assertNotEqual(errors(SCENE.replace("nu: 0.3", "nu: 0.3 m"), schema), [])
+
+    def test_takes_keys_from_included_files(self):
+        self.assertEqual(errors(SCENE.replace("time: {end: 1e-3}", "include: time.yaml"), schema_of("scene")), [])
+
+    def test_refuses_broken_scenes_where_they_are_broken(self):
+        schema = schema_of("scene")
+        self.assertEqual(errors(SCENE, schema), [])
+        for name, (old, new, place) in BROKEN.items():
+            with self.subTest(name):
+                self.assertIn(old, SCENE)
+                found = errors(SCENE.replace(old, new), schema)
+                self.assertIn(place, [list(e.absolute_path) for e in found], [e.message for e in found])
+
+    def test_what_it_refuses_orthodyn_refuses(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder) / "scene.yaml"
+            scene.write_text(SCENE)
+            self.assertEqual(subprocess.run([EXECUTABLE, "check", scene], capture_output=True).returncode, 0)
+            for name, (old, new, _) in BROKEN.items():
+                with self.subTest(name):
+                    scene.write_text(SCENE.replace(old, new))
+                    self.assertEqual(subprocess.run([EXECUTABLE, "check", scene], capture_output=True).returncode, 2)
+
+
+class Committed(unittest.TestCase):
+    def test_schemas_are_up_to_date(self):
+        for kind in ("scene", "comparison"):
+            self.assertEqual((ROOT / "configs/schema" / f"{kind}.json").read_text(), output_of("schema", kind),
+                             f"run: orthodyn schema {kind} > configs/schema/{kind}.json")
+
+    def test_the_reference_page_is_up_to_date(self):
+        self.assertEqual((ROOT / "docs/reference.md").read_text(), output_of("list", "--markdown"),
+                         "run: orthodyn list --markdown > docs/reference.md")
+
+    def test_shipped_files_name_their_schema(self):
+        for kind in ("scene", "comparison"):
+            for path in shipped(kind):
+                with self.subTest(path=path.name):
+                    line = MODELINE.match(path.read_text().splitlines()[0])
+                    self.assertTrue(line, "the first line names no schema")
+                    self.assertEqual((path.parent / line.group(1)).resolve(), ROOT / "configs/schema" / f"{kind}.json")
+
+
+class Init(unittest.TestCase):
+    def test_start_files_are_valid(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for kind in ("scene", "comparison"):
+                path = pathlib.Path(folder) / f"{kind}.yaml"
+                output_of("init", kind, str(path))
+                self.assertEqual(errors(path.read_text(), schema_of(kind)), [])
+                named = MODELINE.match(path.read_text().splitlines()[0])
+                self.assertEqual(json.loads(pathlib.Path(named.group(1)).read_text())["title"], f"orthodyn {kind}")
+            output_of("check", f"{folder}/scene.yaml")
+
+    def test_an_existing_file_is_kept(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "mine.yaml"
+            path.write_text("mine")
+            again = subprocess.run([EXECUTABLE, "init", "scene", path], capture_output=True, text=True)
+            self.assertEqual(again.returncode, 2)
+            self.assertIn("exists already", again.stderr)
+            self.assertEqual(path.read_text(), "mine")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,118 @@
+// `orthodyn init`: a commented file to start from.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+
+#include "lib/core/errors.h"
+#include "lib/core/words.h"
+#include "lib/run/files.h"
+#include "tools/orthodyn/commands.h"
+#include "tools/orthodyn/places.h"
+
+namespace orthodyn {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kScene = R"(# What this scene shows, in a sentence.
+# Check it with `orthodyn check {file}`, run it with `orthodyn run {file}`.
+# Numbers are in SI units; where a key has a unit, "11.9 GPa" or "25 mm" will do too.
+
+mesh:                      # all kinds: orthodyn list meshes
+  type: box
+  size: [1, 0.05, 0.02]    # m
+  cells: [40, 4, 2]
+
+materials:                 # all kinds: orthodyn list materials
+  wood:                    # axis 1 along the grain, 2 radial, 3 tangential
+    type: orthotropic
+    density: 400 kg/m^3
+    young: [10.8 GPa, 0.84 GPa, 0.46 GPa]
+    nu12: 0.44
+    nu23: 0.44
+    nu13: 0.53
+    g12: 0.69 GPa
+    g23: 0.032 GPa
+    g13: 0.66 GPa
+
+regions:                   # which part of the mesh is what, and where its grain runs
+  all:
+    material: wood
+    axes: {first: [1, 0, 0], second: [0, 1, 0]}
+
+damping: {stiffness: 1e-3} # s, proportional to the stiffness; leave it out for none
+gravity: [0, 0, -9.81]     # m/s^2
+
+clamps:
+  - surface: x0            # a box has x0, x1, y0, y1, z0, z1
+
+loads:
+  - surface: x1
+    force: [0, 0, -5]      # N in total
+    factor: {type: ramp, end: 0.05}
+
+time: {end: 1}             # s
+
+integrator:                # all kinds: orthodyn list integrators
+  type: cvode_bdf
+  rtol: 1e-4               # local error, relative to the size of the motion
+
+output:
+  frames: 50
+  fields: [displacement, velocity, stress]
+  probes:
+    tip: {at: [1, 0.025, 0.01]}
+)";
+
+constexpr const char* kComparison = R"(# Which integrator reaches which error in which time?
+# Run it with `orthodyn compare {file}`; its report is an HTML page.
+title: What is compared
+description: What is compared and why, in a sentence or two.
+
+scenes:
+  - scene.yaml             # or {file: scene.yaml, label: a name, set: {mesh.cells: [20, 2, 1]}}
+
+integrators: [all]         # or names, or {type: cvode_bdf, max_order: 2}; see orthodyn list integrators
+
+tolerances: [1e-2, 1e-3, 1e-4]   # of the adaptive methods
+steps: [0.02 s, 0.01 s]          # of the fixed-step methods
+
+repeats: 3                 # timed integrations of each point
+samples: 100               # times at which errors are taken
+limits: {seconds: 60}      # of each integration
+)";
+
+const std::map<std::string, const char*>& starts() {
+  static const std::map<std::string, const char*> all = {{"scene", kScene}, {"comparison", kComparison}};
+  return all;
+}
+
+std::string with_file_name(std::string text, const std::string& file) {
+  for (std::size_t at; (at = text.find("{file}")) != std::string::npos;) text.replace(at, 6, file);
+  return text;
+}
+
+std::string modeline(const std::string& kind) {
+  const fs::path schema = schema_file(kind);
+  return fs::exists(schema) ? fmt::format("# yaml-language-server: $schema={}\n", schema.string()) : "";
+}
+
+}  // namespace
+
+int init_command(const std::string& kind, const std::optional<std::string>& file) {
+  const auto start = starts().find(kind);
+  if (start == starts().end()) {
+    std::vector<std::string> names;
+    for (const auto& [name, text] : starts()) names.push_back(name);
+    throw ConfigError(fmt::format("nothing to start '{}' from; known: {}", kind, join(names)));
+  }
+  const fs::path path = file.value_or(kind + ".yaml");
+  if (fs::exists(path)) throw ConfigError(path.string() + ": exists already; choose another name");
+  write_file(path, {modeline(kind), with_file_name(start->second, path.string())});
+  fmt::print("{}\n", path.string());
+  return 0;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,77 @@
+#include "tools/orthodyn/input_tree.h"
+
+#include <set>
+
+#include "lib/core/config.h"
+#include "lib/scene/scene.h"
+#include "lib/study/comparison.h"
+
+namespace orthodyn {
+
+namespace {
+
+class Walk {
+ public:
+  void visit(const std::string& path, const std::vector<Key>& keys) {
+    for (const Key& key : keys) visit(path.empty() ? key.name : path + "." + key.name, key.sentence, key.shape);
+  }
+
+  std::vector<InputSection> sections;
+
+ private:
+  void visit(const std::string& path, const std::string& sentence, const Shape& shape) {
+    switch (shape.kind) {
+      case Shape::Kind::list: return visit(path + ".<n>", sentence, shape.items.front());
+      case Shape::Kind::named: return visit(path + ".<name>", sentence, shape.items.front());
+      case Shape::Kind::either:
+        for (const Shape& item : shape.items) visit(path, sentence, item);
+        return;
+      case Shape::Kind::section: return visit_section(path, sentence, shape);
+      case Shape::Kind::choice: return visit_choice(path, shape);
+      default: return;
+    }
+  }
+
+  void visit_section(const std::string& path, const std::string& sentence, const Shape& shape) {
+    if (!seen_.insert(shape.title).second) return;
+    const auto keys = shape.keys();
+    sections.push_back({path, "", sentence, keys});
+    visit(path, keys);
+  }
+
+  void visit_choice(const std::string& path, const Shape& shape) {
+    if (!seen_.insert(shape.title).second) return;
+    for (const auto& [type, alternative] : shape.alternatives()) {
+      sections.push_back({path, type, alternative.sentence, alternative.keys});
+      visit(path, alternative.keys);
+    }
+  }
+
+  std::set<std::string> seen_;
+};
+
+}  // namespace
+
+const std::vector<InputKind>& input_kinds() {
+  static const std::vector<InputKind> all = {
+      {"scene", "One simulation, for `orthodyn run`; with `expect` also a case for `orthodyn verify`.",
+       Scene::spec().keys()},
+      {"comparison", "Integrators on scenes, error against time, for `orthodyn compare`.", Comparison::spec().keys()},
+  };
+  return all;
+}
+
+std::vector<InputSection> input_sections(const InputKind& kind) {
+  Walk walk;
+  walk.sections.push_back({"", "", kind.sentence, kind.keys});
+  walk.visit("", kind.keys);
+  return walk.sections;
+}
+
+std::string default_type(const Key& key) {
+  if (key.fallback.empty() || key.fallback.front() != '{') return "";
+  const Config usual = Config::from_text(key.fallback);
+  return usual.has("type") ? usual.at("type").text() : "";
+}
+
+}  // namespace orthodyn

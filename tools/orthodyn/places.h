@@ -1,0 +1,15 @@
+// Files that come with the program: beside it where it is installed, else in the tree that it was built
+// from.
+#pragma once
+
+#include <filesystem>
+
+namespace orthodyn {
+
+// The tool that draws; it may be missing.
+std::filesystem::path draw_tool();
+
+// The JSON Schema of a kind of input; it may be missing.
+std::filesystem::path schema_file(const std::string& kind);
+
+}  // namespace orthodyn

@@ -1,0 +1,182 @@
+// `orthodyn schema`: the input as JSON Schema (draft 7), by which editors complete and check YAML files.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "lib/core/config.h"
+#include "tools/orthodyn/commands.h"
+#include "tools/orthodyn/input_tree.h"
+
+namespace orthodyn {
+
+namespace {
+
+using Schema = nlohmann::ordered_json;
+
+// A number and the name of a unit. Whether the unit fits is left to orthodyn.
+constexpr const char* kQuantity = R"(^\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*[^\s\d].*$)";
+
+Schema reference_to(const std::string& title) { return {{"$ref", "#/definitions/" + title}}; }
+
+class SchemaWriter {
+ public:
+  Schema section(const std::vector<Key>& keys, const std::string& type = "") {
+    Schema out = {{"type", "object"}, {"properties", Schema::object()}, {"additionalProperties", false}};
+    auto& properties = out["properties"];
+    if (!type.empty()) properties["type"] = {{"const", type}};
+    std::vector<std::string> required;
+    for (const Key& key : keys) {
+      properties[key.name] = of_key(key);
+      if (key.required) required.push_back(key.name);
+    }
+    properties["include"] = include();
+    if (!required.empty()) {  // an included file may bring them
+      out["if"] = {{"not", {{"required", {"include"}}}}};
+      out["then"] = {{"required", required}};
+    }
+    return out;
+  }
+
+  const Schema& definitions() const { return definitions_; }
+
+ private:
+  static Schema include() {
+    const Schema file = {{"type", "string"}};
+    return {{"description", "Files whose keys stand here too; what the section says itself wins."},
+            {"anyOf", {file, {{"type", "array"}, {"items", file}}}}};
+  }
+
+  Schema of_key(const Key& key) {
+    Schema out = {{"description", description(key)}};
+    if (const Schema fallback = Schema::parse(key.fallback, nullptr, false); !fallback.is_discarded())
+      out["default"] = fallback;
+    const Schema shape = of(key.shape, key);
+    if (shape.contains("$ref")) out["allOf"] = {shape};  // draft 7 ignores what stands beside $ref
+    else out.update(shape);
+    return out;
+  }
+
+  static std::string description(const Key& key) {
+    std::string facts = key.unit;
+    if (const auto range = range_text(key.range); !range.empty()) facts += (facts.empty() ? "" : ", ") + range;
+    if (!key.fallback.empty()) facts += (facts.empty() ? "" : ", ") + ("default " + key.fallback);
+    return facts.empty() ? key.sentence : fmt::format("{} [{}]", key.sentence, facts);
+  }
+
+  Schema of(const Shape& shape, const Key& key) {
+    switch (shape.kind) {
+      case Shape::Kind::number: return quantity(key);
+      case Shape::Kind::integer: return number("integer", key.range);
+      case Shape::Kind::boolean: return {{"type", "boolean"}};
+      case Shape::Kind::text: return {{"type", {"string", "number", "boolean"}}};
+      case Shape::Kind::file: return {{"type", "string"}};
+      case Shape::Kind::word: return {{"enum", shape.names}};
+      case Shape::Kind::list: return list(shape, key);
+      case Shape::Kind::named: return named(shape, key);
+      case Shape::Kind::section:
+        return define(shape.title, [&] { return section(shape.keys()); });
+      case Shape::Kind::choice: return choice(shape, key);
+      case Shape::Kind::either: return either(shape, key);
+      case Shape::Kind::anything: break;
+    }
+    return Schema::object();
+  }
+
+  static Schema number(const char* type, const Range& range) {
+    Schema out = {{"type", type}};
+    if (std::isfinite(range.low)) out[range.low_open ? "exclusiveMinimum" : "minimum"] = range.low;
+    if (std::isfinite(range.high)) out[range.high_open ? "exclusiveMaximum" : "maximum"] = range.high;
+    return out;
+  }
+
+  static Schema quantity(const Key& key) {
+    Schema plain = number("number", key.range);
+    if (key.unit.empty()) return plain;
+    return {{"anyOf", {plain, {{"type", "string"}, {"pattern", kQuantity}}}}};
+  }
+
+  Schema list(const Shape& shape, const Key& key) {
+    Schema out = {{"type", "array"}, {"items", of(shape.items.front(), key)}};
+    if (shape.count > 0) out["minItems"] = out["maxItems"] = shape.count;
+    return out;
+  }
+
+  Schema named(const Shape& shape, const Key& key) {
+    return {{"type", "object"}, {"properties", {{"include", include()}}},
+            {"additionalProperties", of(shape.items.front(), key)}};
+  }
+
+  Schema either(const Shape& shape, const Key& key) {
+    Schema all = Schema::array();
+    for (const Shape& item : shape.items) all.push_back(of(item, key));
+    return {{"anyOf", all}};
+  }
+
+  // By `type`, so that editors complete the keys of that type and complain about those alone.
+  Schema choice(const Shape& shape, const Key& key) {
+    const std::string usual = default_type(key);
+    return define(shape.title + (usual.empty() ? "" : "Or" + usual), [&]() -> Schema {
+      Schema names = Schema::array(), cases = Schema::array();
+      for (const auto& [type, alternative] : shape.alternatives()) {
+        names.push_back(type);
+        const Schema one = define(shape.title + "." + type, [&, &t = type, &a = alternative] { return section(a.keys, t); });
+        cases.push_back({{"if", {{"properties", {{"type", {{"const", type}}}}}, {"required", {"type"}}}}, {"then", one}});
+        if (type == usual) cases.push_back({{"if", {{"not", {{"required", {"type"}}}}}}, {"then", one}});
+      }
+      Schema out = {{"type", "object"}};
+      if (cases.empty()) return out;  // all kinds are users' own
+      out["properties"] = {{"type", {{"enum", names}}}};
+      out["allOf"] = cases;
+      if (usual.empty()) out["anyOf"] = {{{"required", {"type"}}}, {{"required", {"include"}}}};
+      return out;
+    });
+  }
+
+  template <class Make>
+  Schema define(const std::string& title, Make&& make) {
+    if (started_.insert(title).second) definitions_[title] = make();
+    return reference_to(title);
+  }
+
+  Schema definitions_ = Schema::object();
+  std::set<std::string> started_;  // before they are made: a section may hold itself
+};
+
+Schema document(const std::vector<InputKind>& kinds) {
+  SchemaWriter writer;
+  Schema body;
+  if (kinds.size() == 1) {
+    body = writer.section(kinds.front().keys);
+  } else {  // a comparison has scenes
+    body = {{"if", {{"required", {"scenes"}}}},
+            {"then", writer.section(kinds[1].keys)},
+            {"else", writer.section(kinds[0].keys)}};
+  }
+  std::string title = "orthodyn";
+  for (const auto& kind : kinds) title += " " + kind.name;
+  Schema out = {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}};
+  out.update(body);
+  out["definitions"] = writer.definitions();
+  return out;
+}
+
+std::vector<InputKind> chosen(const std::string& name) {
+  std::vector<std::string> names;
+  for (const auto& kind : input_kinds()) {
+    if (kind.name == name) return {kind};
+    names.push_back(kind.name);
+  }
+  if (name.empty()) return input_kinds();
+  throw ConfigError(fmt::format("there is no schema of '{}'; known: {}", name, join(names)));
+}
+
+}  // namespace
+
+int schema_command(const std::string& kind) {
+  fmt::print("{}\n", document(chosen(kind)).dump(1));
+  return 0;
+}
+
+}  // namespace orthodyn
