@@ -57,7 +57,8 @@ class Axes:
         self.surface = Surface(self.points, frame.tets)
         self.colours = _CellColours(paler(direction_colours(self.axes[0]), 0.35))
         low, high = self.points[self.surface.nodes].min(axis=0), self.points[self.surface.nodes].max(axis=0)
-        self.at = (low + high) / 2 if at is None else np.array(at)
+        digit = 10.0 ** (np.floor(np.log10(high - low)) - 2)  # a middle that reads well
+        self.at = np.round((low + high) / 2 / digit) * digit if at is None else np.array(at)
         if not ((low <= self.at) & (self.at <= high)).all():
             raise DrawError(f"--at {','.join(f'{v:g}' for v in self.at)} is outside of the body, which extends from "
                             f"{','.join(f'{v:g}' for v in low)} to {','.join(f'{v:g}' for v in high)} m")
@@ -118,8 +119,9 @@ class _Cut:
         places, cells = places[found >= 0], self.section.cell[found[found >= 0]]
         for axis, colour, length, width, order in ((1, WHITE, 0.62, 1.0, 3), (0, INK, 0.80, 0.8, 4)):
             along = self.camera.flat(self.body.axes[axis][cells])
-            ends = places - along * (length * spacing / 2), places + along * (length * spacing / 2)
             on_end = (axis == 0) & (np.linalg.norm(along, axis=1) < END_GRAIN)
+            along = np.where(on_end[:, None], [[0.03, 0]], along) * (length * spacing / 2)  # no length, no dot
+            ends = places - along, places + along
             axes.add_collection(LineCollection(np.stack(ends, axis=1), colors=[colour], capstyle="round", zorder=order,
                                                linewidths=np.where(on_end, 1.6, width)), autolim=False)
 
