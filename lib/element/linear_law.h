@@ -10,30 +10,34 @@ template <class C>
 class LinearLaw {
  public:
   static constexpr const char* kName = "small strain";
+  static constexpr bool kBatchesNeedAxes = true;
 
   explicit LinearLaw(const C& stiffness) : C_(stiffness) {}
 
-  template <class T>
-  T energy(const Mat3T<T>& F, const Mat3& Q) const {
+  // Q: one rotation for all lanes of a batch (Mat3), or one for each (Mat3T<Batch>).
+  template <class T, class Axes>
+  T energy(const Mat3T<T>& F, const Axes& Q) const {
     const Mat3T<T> e = strain<T>(F, Q);
     return T(0.5) * contract<T>(C_.stress(e), e);
   }
 
-  template <class T>
-  Mat3T<T> stress(const Mat3T<T>& F, const Mat3& Q, const Mat3T<T>* F_rate = nullptr,
+  template <class T, class Axes>
+  Mat3T<T> stress(const Mat3T<T>& F, const Axes& Q, const Mat3T<T>* F_rate = nullptr,
                   double beta = 0) const {
     Mat3T<T> s = C_.stress(strain<T>(F, Q));
-    if (F_rate) s += T(beta) * C_.stress(Mat3T<T>(symmetric_part<T>(Q.transpose().cast<T>() * *F_rate)));
-    return Q.cast<T>() * s;
+    if (F_rate) s += T(beta) * C_.stress(Mat3T<T>(symmetric_part<T>(Q.transpose().template cast<T>() * *F_rate)));
+    return Q.template cast<T>() * s;
   }
 
-  Mat3T<Batch> batch_stress(const Mat3T<Batch>& F, const Mat3& Q, const Mat3T<Batch>* F_rate, double beta,
+  template <class Axes>
+  Mat3T<Batch> batch_stress(const Mat3T<Batch>& F, const Axes& Q, const Mat3T<Batch>* F_rate, double beta,
                             Batch::Mask& good) const {
     good = F(0, 0) <= F(0, 0);  // all but NaN
     return stress<Batch>(F, Q, F_rate, beta);
   }
 
-  Batch batch_energy(const Mat3T<Batch>& F, const Mat3& Q, Batch::Mask& good) const {
+  template <class Axes>
+  Batch batch_energy(const Mat3T<Batch>& F, const Axes& Q, Batch::Mask& good) const {
     good = F(0, 0) <= F(0, 0);  // all but NaN
     return energy<Batch>(F, Q);
   }
@@ -42,9 +46,10 @@ class LinearLaw {
     const Mat3 rate = symmetric_part<double>(Q.transpose() * F_rate);
     return beta * contract<double>(C_.stress(rate), rate);
   }
-  Batch batch_dissipation(const Mat3T<Batch>&, const Mat3& Q, const Mat3T<Batch>& F_rate, double beta,
+  template <class Axes>
+  Batch batch_dissipation(const Mat3T<Batch>&, const Axes& Q, const Mat3T<Batch>& F_rate, double beta,
                           Batch::Mask& good) const {
-    const Mat3T<Batch> rate = symmetric_part<Batch>(Q.transpose().cast<Batch>() * F_rate);
+    const Mat3T<Batch> rate = symmetric_part<Batch>(Q.transpose().template cast<Batch>() * F_rate);
     good = rate(0, 0) <= rate(0, 0);  // all but NaN
     return Batch(beta) * contract<Batch>(C_.stress(rate), rate);
   }
@@ -63,9 +68,9 @@ class LinearLaw {
 
  private:
   // In material axes; F is F Q.
-  template <class T>
-  static Mat3T<T> strain(const Mat3T<T>& F, const Mat3& Q) {
-    return symmetric_part<T>(Q.transpose().cast<T>() * F) - Mat3T<T>::Identity();
+  template <class T, class Axes>
+  static Mat3T<T> strain(const Mat3T<T>& F, const Axes& Q) {
+    return symmetric_part<T>(Q.transpose().template cast<T>() * F) - Mat3T<T>::Identity();
   }
 
   C C_;

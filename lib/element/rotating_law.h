@@ -26,6 +26,8 @@ Mat3T<T> viscous_stress(const Polar<T>& p, const C& stiffness, const T& beta_chi
 template <class Law, class C>
 class RotatingLaw {
  public:
+  static constexpr bool kBatchesNeedAxes = false;  // F Q tells all but how a tie of the polar decomposition is broken
+
   explicit RotatingLaw(const C& stiffness) : C_(stiffness) {}
 
   // Energy per volume of a batch; right in the lanes of `good`.

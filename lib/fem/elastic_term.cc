@@ -16,9 +16,9 @@ template <class Law>
 class Elastic final : public ElasticTerm {
  public:
   Elastic(std::string region, const TetMesh& mesh, std::vector<int> cells, const Law& law,
-          const OrthotropicStiffness& stiffness, const Mat3& Q, double beta, const BlockPattern& pattern)
-      : region_(std::move(region)), law_(law), C_(stiffness), Q_(Q), beta_(beta),
-        cells_(std::move(cells)), pattern_(pattern), elements_(mesh, cells_, Q) {
+          const OrthotropicStiffness& stiffness, const ElementAxes& axes, double beta, const BlockPattern& pattern)
+      : region_(std::move(region)), law_(law), C_(stiffness), axes_(axes), beta_(beta),
+        cells_(std::move(cells)), pattern_(pattern), elements_(mesh, cells_, axes) {
     offsets_.reserve(cells_.size());
     for (const int cell : cells_) offsets_.emplace_back(mesh.tets[static_cast<std::size_t>(cell)], pattern);
   }
@@ -31,7 +31,7 @@ class Elastic final : public ElasticTerm {
   std::string law() const override { return Law::kName; }
 
   std::size_t bytes() const override {
-    return elements_.bytes() + offsets_.capacity() * sizeof(ElementOffsets) + cells_.capacity() * sizeof(int);
+    return elements_.bytes() + axes_.bytes() + offsets_.capacity() * sizeof(ElementOffsets) + cells_.capacity() * sizeof(int);
   }
 
   void add_force(const NodalState& s, NodalVector& f) const override {
@@ -40,7 +40,7 @@ class Elastic final : public ElasticTerm {
       Mat3T<Batch> rate;
       if (beta_ > 0) rate = elements_.gradients(b, s.v);
       Batch::Mask good;
-      const Mat3T<Batch> P = law_.batch_stress(F, Q_, beta_ > 0 ? &rate : nullptr, beta_, good);
+      const Mat3T<Batch> P = law_.batch_stress(F, batch_axes(b), beta_ > 0 ? &rate : nullptr, beta_, good);
       if (all(good)) elements_.add_forces(b, P, f);
       else add_forces_one_by_one(b, s, f);
     }
@@ -54,7 +54,7 @@ class Elastic final : public ElasticTerm {
       const ElementOffsets& offsets = offsets_[static_cast<std::size_t>(k)];
       TangentForm damping;
       const TangentForm form =
-          law_.tangent(elements_.gradient(k, s.x), Q_, kind, beta_, damped ? &damping : nullptr);
+          law_.tangent(elements_.gradient(k, s.x), axes_.of(k), kind, beta_, damped ? &damping : nullptr);
       scatter(element_stiffness(form, shape, pattern_.symmetric()), tet, offsets, pattern_, K);
       if (damped) scatter(element_stiffness(damping, shape, pattern_.symmetric()), tet, offsets, pattern_, D);
     }
@@ -62,17 +62,17 @@ class Elastic final : public ElasticTerm {
 
   double energy(const NodalState& s) const override {
     return integrate(
-        [&](int b, Batch::Mask& good) { return law_.batch_energy(elements_.gradients(b, s.x), Q_, good); },
-        [&](int k) { return law_.template energy<double>(elements_.gradient(k, s.x), Q_); });
+        [&](int b, Batch::Mask& good) { return law_.batch_energy(elements_.gradients(b, s.x), batch_axes(b), good); },
+        [&](int k) { return law_.template energy<double>(elements_.gradient(k, s.x), axes_.of(k)); });
   }
 
   double dissipation(const NodalState& s) const override {
     if (beta_ == 0) return 0;
     return integrate(
         [&](int b, Batch::Mask& good) {
-          return law_.batch_dissipation(elements_.gradients(b, s.x), Q_, elements_.gradients(b, s.v), beta_, good);
+          return law_.batch_dissipation(elements_.gradients(b, s.x), batch_axes(b), elements_.gradients(b, s.v), beta_, good);
         },
-        [&](int k) { return law_.dissipation(elements_.gradient(k, s.x), Q_, elements_.gradient(k, s.v), beta_); });
+        [&](int k) { return law_.dissipation(elements_.gradient(k, s.x), axes_.of(k), elements_.gradient(k, s.v), beta_); });
   }
 
   int size() const override { return static_cast<int>(cells_.size()); }
@@ -81,7 +81,7 @@ class Elastic final : public ElasticTerm {
   double det_F(int k, const NodalState& s) const override { return elements_.gradient(k, s.x).determinant(); }
 
   PointObservation observe(int k, const NodalState& s) const override {
-    return law_.observe(elements_.gradient(k, s.x), Q_);
+    return law_.observe(elements_.gradient(k, s.x), axes_.of(k));
   }
 
   double max_frequency_squared(double density) const override {
@@ -96,6 +96,12 @@ class Elastic final : public ElasticTerm {
   }
 
  private:
+  // Laws that turn with the material do not look at it: F Q has it already.
+  decltype(auto) batch_axes(int b) const {
+    if constexpr (Law::kBatchesNeedAxes) return axes_.batch(b);
+    else return (kNotLookedAt);
+  }
+
   template <class Visit>
   void for_each_lane(int batch, Visit&& visit) const {
     for (int l = 0; l < elements_.lanes(batch); ++l) visit(batch * Batch::kLanes + l);
@@ -120,14 +126,16 @@ class Elastic final : public ElasticTerm {
       Mat3 rate;
       if (beta_ > 0) rate = elements_.gradient(k, s.v);
       elements_.add_force(
-          k, law_.template stress<double>(elements_.gradient(k, s.x), Q_, beta_ > 0 ? &rate : nullptr, beta_), f);
+          k, law_.template stress<double>(elements_.gradient(k, s.x), axes_.of(k), beta_ > 0 ? &rate : nullptr, beta_), f);
     });
   }
+
+  static inline const Mat3 kNotLookedAt = Mat3::Identity();
 
   std::string region_;
   Law law_;
   OrthotropicStiffness C_;
-  Mat3 Q_;
+  ElementAxes axes_;
   double beta_;
   std::vector<int> cells_;
   const BlockPattern& pattern_;
@@ -139,7 +147,7 @@ class Elastic final : public ElasticTerm {
 
 std::unique_ptr<ElasticTerm> make_elastic_term(const std::string& region, const TetMesh& mesh,
                                                std::vector<int> cells, const Stiffness& stiffness,
-                                               const Mat3& Q, double beta,
+                                               const ElementAxes& axes, double beta,
                                                const ElasticityOptions& options,
                                                const BlockPattern& pattern) {
   return std::visit(
@@ -147,7 +155,7 @@ std::unique_ptr<ElasticTerm> make_elastic_term(const std::string& region, const 
         using Form = std::decay_t<decltype(C)>;
         const auto make = [&](const auto& law) -> std::unique_ptr<ElasticTerm> {
           return std::make_unique<Elastic<std::decay_t<decltype(law)>>>(
-              region, mesh, std::move(cells), law, as_orthotropic(C), Q, beta, pattern);
+              region, mesh, std::move(cells), law, as_orthotropic(C), axes, beta, pattern);
         };
         if (options.kinematics == Kinematics::linear) return make(LinearLaw<Form>(C));
         if (options.corotation == Corotation::warped)

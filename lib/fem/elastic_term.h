@@ -7,6 +7,7 @@
 #include "lib/element/observation.h"
 #include "lib/element/warped_law.h"
 #include "lib/fem/block_pattern.h"
+#include "lib/fem/element_axes.h"
 #include "lib/fem/term.h"
 
 namespace orthodyn {
@@ -38,11 +39,11 @@ class ElasticTerm : public Term {
   virtual double max_frequency_squared(double density) const = 0;
 };
 
-// `cells` are indices into mesh.tets; Q the material axes; beta in seconds, 0 for none. The pattern
-// must outlive the term.
+// `cells` are indices into mesh.tets, `axes` those of these elements; beta in seconds, 0 for none. The
+// pattern must outlive the term.
 std::unique_ptr<ElasticTerm> make_elastic_term(const std::string& region, const TetMesh& mesh,
                                                std::vector<int> cells, const Stiffness& stiffness,
-                                               const Mat3& Q, double beta,
+                                               const ElementAxes& axes, double beta,
                                                const ElasticityOptions& options,
                                                const BlockPattern& pattern);
 

@@ -2,7 +2,7 @@
 
 namespace orthodyn {
 
-ElementBatches::ElementBatches(const TetMesh& mesh, const std::vector<int>& cells, const Mat3& Q)
+ElementBatches::ElementBatches(const TetMesh& mesh, const std::vector<int>& cells, const ElementAxes& axes)
     : size_(static_cast<int>(cells.size())),
       batches_((cells.size() + static_cast<std::size_t>(kLanes) - 1) / static_cast<std::size_t>(kLanes)) {
   for (int k = 0; k < num_batches() * kLanes; ++k) {
@@ -12,7 +12,7 @@ ElementBatches::ElementBatches(const TetMesh& mesh, const std::vector<int>& cell
     for (std::size_t a = 0; a < 3; ++a)
       e.col(static_cast<int>(a)) =
           mesh.nodes[static_cast<std::size_t>(tet[a + 1])] - mesh.nodes[static_cast<std::size_t>(tet[0])];
-    const Tet4 shape = Tet4::from_edges(e, Q);
+    const Tet4 shape = Tet4::from_edges(e, axes.of(filler ? 0 : k));
     One& one = batches_[static_cast<std::size_t>(k / kLanes)];
     one.tets[lane(k)] = tet;
     for (int i = 0; i < 9; ++i) one.B[i][lane(k)] = shape.B(i);

@@ -7,6 +7,7 @@
 #include "lib/element/batch.h"
 #include "lib/element/tet4.h"
 #include "lib/fem/dof_map.h"
+#include "lib/fem/element_axes.h"
 #include "lib/mesh/tet_mesh.h"
 
 namespace orthodyn {
@@ -15,8 +16,8 @@ class ElementBatches {
  public:
   static constexpr int kLanes = Batch::kLanes;
 
-  // Q: the material axes as columns.
-  ElementBatches(const TetMesh& mesh, const std::vector<int>& cells, const Mat3& Q);
+  // `axes` of the elements in the order of `cells`.
+  ElementBatches(const TetMesh& mesh, const std::vector<int>& cells, const ElementAxes& axes);
 
   int size() const { return size_; }
   int num_batches() const { return static_cast<int>(batches_.size()); }

@@ -76,7 +76,28 @@ void write_geometry(const Geometry& geometry, VtuFile& file) {
   file.text("</Cells>\n");
 }
 
+template <class Real>
+std::vector<std::string> whole_file(const Geometry& geometry, const std::vector<VtuField>& fields) {
+  VtuFile file;
+  file.text(fmt::format("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+                        geometry.points.size(), geometry.cells.size()));
+  for (const auto& [location, tag] : {std::pair{Location::node, "PointData"}, {Location::cell, "CellData"}}) {
+    file.text(fmt::format("<{}>\n", tag));
+    for (const auto& field : fields)
+      if (field.location == location)
+        file.array(field.name, field.components, std::vector<Real>(field.values.begin(), field.values.end()));
+    file.text(fmt::format("</{}>\n", tag));
+  }
+  write_geometry(geometry, file);
+  file.text("</Piece>\n</UnstructuredGrid>\n");
+  return file.finish();
+}
+
 }  // namespace
+
+void write_vtu(const std::filesystem::path& path, const Geometry& geometry, const std::vector<VtuField>& fields) {
+  write_file(path, whole_file<double>(geometry, fields));
+}
 
 VtuWriter::VtuWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields)
     : folder_(std::move(folder)), model_(model) {
@@ -85,23 +106,11 @@ VtuWriter::VtuWriter(std::filesystem::path folder, const Model& model, const std
 }
 
 void VtuWriter::write(const State& state) {
-  const Geometry geometry = model_.geometry();
-  VtuFile file;
-  file.text(fmt::format("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-                        geometry.points.size(), geometry.cells.size()));
-  for (const auto& [location, tag] : {std::pair{Location::node, "PointData"}, {Location::cell, "CellData"}}) {
-    file.text(fmt::format("<{}>\n", tag));
-    for (const auto& field : fields_) {
-      if (field.location != location) continue;
-      const auto values = model_.evaluate(field.name, state);
-      file.array(field.name, field.components, std::vector<float>(values.begin(), values.end()));
-    }
-    file.text(fmt::format("</{}>\n", tag));
-  }
-  write_geometry(geometry, file);
-  file.text("</Piece>\n</UnstructuredGrid>\n");
+  std::vector<VtuField> fields;
+  for (const auto& info : fields_)
+    fields.push_back({info.name, info.location, info.components, model_.evaluate(info.name, state)});
   const auto frame = folder_ / "frames" / fmt::format("frame_{:05}.vtu", times_.size());
-  write_file(frame, file.finish());
+  write_file(frame, whole_file<float>(model_.geometry(), fields));
   times_.push_back(state.t);
   try {
     write_collection();

@@ -9,6 +9,17 @@
 
 namespace orthodyn {
 
+// Values of all nodes or cells, one set of `components` after the other.
+struct VtuField {
+  std::string name;
+  Location location;
+  int components;
+  std::vector<double> values;
+};
+
+// Writes one .vtu file of tetrahedra, in double precision. Throws RunError.
+void write_vtu(const std::filesystem::path& path, const Geometry& geometry, const std::vector<VtuField>& fields);
+
 class VtuWriter : public Observer {
  public:
   // Writes <folder>/frames.pvd and <folder>/frames/frame_00000.vtu ... `fields` are node or cell

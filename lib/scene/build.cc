@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "lib/fem/gravity.h"
 #include "lib/fem/traction.h"
@@ -50,18 +51,22 @@ std::vector<double> densities(const Scene& scene, const TetMesh& mesh, const std
   return out;
 }
 
-void add_elasticity(const Scene& scene, const std::vector<const Region*>& regions, FemModel::Parts& parts) {
+void add_elasticity(const Scene& scene, const std::vector<const Region*>& regions, FemModel::Parts& parts,
+                    Warnings& notes) {
   const TetMesh& mesh = parts.mesh;
+  std::map<const Region*, AxesField> fields;  // one entry of the scene may describe several regions of the mesh
   for (std::size_t r = 0; r < regions.size(); ++r) {
     const Region& region = *regions[r];
     std::vector<int> cells;
     for (std::size_t e = 0; e < mesh.tets.size(); ++e)
       if (mesh.region_of[e] == static_cast<int>(r)) cells.push_back(static_cast<int>(e));
     if (cells.empty()) continue;
+    AxesField& field = fields[&region];
+    if (!field) field = region.axes->field(mesh, notes);
+    const ElementAxes axes = element_axes(*region.axes, field, mesh, cells);
     parts.elastic.push_back(make_elastic_term(
         mesh.region_names[r], mesh, std::move(cells), material_of(scene, region).stiffness(),
-        region.axes ? region.axes->rotation() : Mat3::Identity(), stiffness_damping(scene, region),
-        scene.elasticity, *parts.pattern));
+        axes, stiffness_damping(scene, region), scene.elasticity, *parts.pattern));
   }
 }
 
@@ -130,7 +135,7 @@ BuiltScene build(const Scene& scene) {
   parts.mass_damping = scene.damping ? scene.damping->mass : 0;
   parts.traits = traits_of(scene, regions);
   parts.stiffness_damping = parts.traits.damping_matrix;
-  add_elasticity(scene, regions, parts);
+  add_elasticity(scene, regions, parts, loaded.warnings);
   add_loads(scene, parts);
   BuiltScene built{std::make_unique<FemModel>(std::move(parts)), {}, std::move(loaded.warnings)};
   built.initial = initial_state(scene, built.model->parts());

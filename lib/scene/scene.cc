@@ -100,7 +100,8 @@ const Spec<Region>& Region::spec() {
   static const auto s =
       Spec<Region>()
           .key("material", &Region::material, "One of `materials`.", {.required = true})
-          .key("axes", &Region::axes, "Directions of the material axes; default x, y, z.")
+          .key("axes", &Region::axes, "Directions of the material axes, the same everywhere or following the shape.",
+               {.fallback = "{type: directions}"})
           .key("stiffness_damping", &Region::stiffness_damping, "Overrides damping.stiffness here.",
                {.unit = "s", .range = kNonNegative});
   return s;

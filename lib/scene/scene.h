@@ -12,9 +12,9 @@
 #include "lib/fem/elastic_term.h"
 #include "lib/fem/mass.h"
 #include "lib/fem/time_function.h"
-#include "lib/material/axes.h"
 #include "lib/material/material.h"
 #include "lib/ode/integrator.h"
+#include "lib/scene/axes/axes_source.h"
 #include "lib/scene/expectation.h"
 #include "lib/scene/mesh_source.h"
 #include "lib/scene/term_choice.h"
@@ -62,7 +62,7 @@ struct Damping {
 
 struct Region {
   std::string material;
-  std::optional<Axes> axes;
+  std::shared_ptr<const AxesSource> axes;
   std::optional<double> stiffness_damping;  // s; overrides damping.stiffness
   Origin origin;
   static const Spec<Region>& spec();

@@ -10,7 +10,7 @@ namespace orthodyn {
 namespace {
 
 struct Case {
-  std::string name, material, extra;
+  std::string name, material, extra, axes = kTurnedAxes;
 };
 void PrintTo(const Case& c, std::ostream* os) { *os << c.name; }
 
@@ -19,6 +19,10 @@ const Case kIsotropicCase{"isotropic", "{type: isotropic, density: 1, young: 2, 
 const Case kWarped{"warped_unsymmetric", fibre_material(10), "elasticity: {corotation: warped, warped_tangent: unsymmetric}"};
 const Case kLinear{"linear", fibre_material(10), "elasticity: {kinematics: linear}"};
 const Case kTwoRegions{"two_regions", fibre_material(10), ""};
+const std::string kCylinder = "{type: cylindrical, point: [0.3, 0.4, 0], axis: [0.2, 0.1, 1], spiral: 0.2}";
+const Case kGrain{"grain", fibre_material(10), "", kCylinder};
+const Case kLinearGrain{"linear_grain", fibre_material(10), "elasticity: {kinematics: linear}", kCylinder};
+const Case kWarpedGrain{"warped_grain", fibre_material(10), "elasticity: {corotation: warped, warped_tangent: unsymmetric}", kCylinder};
 
 // A clamped block of two by two by one cells, one corner of it free in x only. With `two_regions` the
 // half x > 0.5 is a softer material with more damping.
@@ -43,14 +47,14 @@ clamps: [{{surface: x0}}, {{nearest: [1, 1, 1], components: [y, z]}}]
 time: {{end: 1}}
 {}
 {}
-)", c.material, kTurnedAxes, soft, c.extra, more));
+)", c.material, c.axes, soft, c.extra, more));
 }
 
 class Derivatives : public testing::TestWithParam<Case> {};
 class ConservativeDerivatives : public Derivatives {};
 const auto name_of = [](const auto& tested) { return tested.param.name; };
-INSTANTIATE_TEST_SUITE_P(Models, Derivatives, testing::Values(kExact, kIsotropicCase, kWarped, kLinear, kTwoRegions), name_of);
-INSTANTIATE_TEST_SUITE_P(Models, ConservativeDerivatives, testing::Values(kExact, kIsotropicCase, kLinear, kTwoRegions), name_of);
+INSTANTIATE_TEST_SUITE_P(Models, Derivatives, testing::Values(kExact, kIsotropicCase, kWarped, kLinear, kTwoRegions, kGrain, kLinearGrain, kWarpedGrain), name_of);
+INSTANTIATE_TEST_SUITE_P(Models, ConservativeDerivatives, testing::Values(kExact, kIsotropicCase, kLinear, kTwoRegions, kGrain, kLinearGrain), name_of);
 
 constexpr double kStep = 4e-3;
 

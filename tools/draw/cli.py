@@ -18,7 +18,8 @@ examples:
   draw strip out/beam --times 0,0.1,0.4 --scale 20     deformation enlarged twenty times
   draw animate out/beam --every 4 --fps 20
   draw energy out/beam
-  draw report out/compare                              a comparison as one page, report.html"""
+  draw report out/compare                              a comparison as one page, report.html
+  draw axes out/axes/stem/axes.vtu                     material axes, which `orthodyn check --axes` wrote"""
 COLORS = """colours (--color FIELD[.COMPONENT]):
   displacement, velocity      .x .y .z .magnitude (default)
   stress                      .xx .yy .zz .xy .yz .zx .magnitude .von_mises (default)
@@ -119,6 +120,14 @@ def _parser():
                                  description="One HTML page and paper figures of a comparison, from compare.json.")
     report.add_argument("result", metavar="RESULT", help="folder that `orthodyn compare` wrote")
     report.add_argument("-o", "--out", type=Path, metavar="FILE", help="the page (default: RESULT/report.html)")
+    axes = commands.add_parser("axes", help="Material axes on the surface and in two sections, from axes.vtu.",
+                               description="Material axes on the surface and in two sections, as PNG.")
+    axes.add_argument("result", metavar="FILE", help="axes.vtu, which `orthodyn check --axes` wrote")
+    axes.add_argument("--out", type=Path, metavar="PNG", help="default: FILE with the ending .png")
+    axes.add_argument("--at", type=lambda s: _numbers(s, 3), metavar="X,Y,Z",
+                      help="point that the sections go through (default: the middle of the body)")
+    axes.add_argument("--view", type=lambda s: _numbers(s, 2), default=(-60.0, 20.0), metavar="AZIM,ELEV",
+                      help="where the eye is for the surface, degrees (default -60,20; z is up)")
     every = body("all", "Strip, animation and all curves into RESULT/pictures.")
     every.set_defaults(count=6, times=None, fps=15.0, every=None)
     return parser
@@ -185,7 +194,14 @@ def _report(args):
     yield from write_report(args.result, args.out)
 
 
-COMMANDS = {"report": _report, "frame": _frame, "strip": _strip, "animate": _animate, "all": _all}
+def _axes(args):
+    from .axes import draw_axes
+    from .vtu import read_vtu
+    path = Path(args.result)
+    yield draw_axes(path, read_vtu(path), args.out or path.with_suffix(".png"), args.at, args.view)
+
+
+COMMANDS = {"report": _report, "axes": _axes, "frame": _frame, "strip": _strip, "animate": _animate, "all": _all}
 
 
 def _joined(arguments):

@@ -3,12 +3,16 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "lib/material/stiffness.h"
+#include "tools/orthodyn/axes.h"
 #include "tools/orthodyn/commands.h"
 #include "tools/orthodyn/setup.h"
 
 namespace orthodyn {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -67,6 +71,7 @@ int check_command(const RunArguments& arguments) {
              parts.mass->total(), parts.mass->lumped() ? "lumped" : "consistent");
   fmt::print("materials\n");
   print_materials(setup.scene);
+  print_axes(setup);
   fmt::print("terms\n");
   for (const auto& term : parts.elastic) fmt::print("  {}\n", term->description());
   for (const auto& term : parts.loads) fmt::print("  {}\n", term->description());
@@ -79,6 +84,8 @@ int check_command(const RunArguments& arguments) {
   fmt::print("integrator\n  type {}\n", setup.config.at("integrator").at("type").text());
   for (const auto& [key, value] : setup.integrator->decisions()) fmt::print("  {} {}\n", key, value);
   print_memory(model, *setup.integrator);
+  if (arguments.axes)
+    write_axes(setup, arguments.out ? fs::path(*arguments.out) : fs::path("out") / "axes" / fs::path(arguments.scene).stem());
   return 0;
 }
 

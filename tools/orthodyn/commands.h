@@ -14,6 +14,7 @@ struct RunArguments {
   std::vector<std::string> set;
   std::optional<std::string> integrator;
   bool quiet = false, force = false;
+  bool axes = false;  // of check: write the material axes
 };
 
 struct VerifyArguments {

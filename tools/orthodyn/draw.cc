@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <string>
+#include <vector>
+
 #include "lib/study/process.h"
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/places.h"
@@ -10,17 +13,38 @@ namespace orthodyn {
 
 namespace fs = std::filesystem;
 
-void draw_report(const fs::path& folder, bool quiet) {
-  const fs::path draw = draw_tool(), log = folder / "report.log";
+namespace {
+
+// Whether `draw` with these arguments ended well; its messages go to `log`.
+bool draw(std::vector<std::string> arguments, const fs::path& log) {
+  const fs::path program = draw_tool();
+  if (!fs::exists(program)) return false;
+  arguments.insert(arguments.begin(), program.string());
   const std::atomic<bool> never{false};
   const std::atomic<bool>& interrupt = interrupted() ? never : interrupted();  // a second Ctrl-C ends it all
-  const bool drawn = fs::exists(draw) &&
-                     run_process({draw.string(), "report", folder.string()}, log, {600, 16e9}, interrupt).succeeded();
-  if (!drawn)
+  return run_process(arguments, log, {600, 16e9}, interrupt).succeeded();
+}
+
+}  // namespace
+
+void draw_report(const fs::path& folder, bool quiet) {
+  const fs::path log = folder / "report.log";
+  if (!draw({"report", folder.string()}, log))
     fmt::print(stderr, "warning: no report was drawn (see {}); by hand: tools/draw/draw report {}\n", log.string(),
                folder.string());
   else if (!quiet)
     fmt::print("report  {}\n", (folder / "report.html").string());
+}
+
+void draw_axes(const fs::path& file) {
+  const fs::path log = fs::path(file).replace_extension(".log"), picture = fs::path(file).replace_extension(".png");
+  if (!draw({"axes", file.string(), "--out", picture.string()}, log)) {
+    fmt::print(stderr, "warning: no picture was drawn (see {}); by hand: tools/draw/draw axes {}\n", log.string(),
+               file.string());
+    return;
+  }
+  fs::remove(log);
+  fmt::print("picture {}\n", picture.string());
 }
 
 }  // namespace orthodyn

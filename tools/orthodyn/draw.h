@@ -8,4 +8,7 @@ namespace orthodyn {
 // Has report.html drawn in a comparison's folder, and says where; a warning if that is not possible.
 void draw_report(const std::filesystem::path& folder, bool quiet);
 
+// Has <file>.png drawn beside a file of axes, <file>.vtu, and says where; a warning if that is not possible.
+void draw_axes(const std::filesystem::path& file);
+
 }  // namespace orthodyn

@@ -52,7 +52,6 @@ void print_scene() {
   print_entry("scene", "The keys of a scene.", Scene::spec().keys());
   print_entry("time", "Time span.", TimeSpan::spec().keys());
   print_entry("regions.<name>", "What a region consists of.", Region::spec().keys());
-  print_entry("regions.<name>.axes", "Directions of the material axes.", Axes::spec().keys());
   print_entry("output", "What is written.", Output::spec().keys());
   print_entry("output.probes.<name>", "A point whose fields are recorded.", Probe::spec().keys());
 }
@@ -83,6 +82,7 @@ const std::vector<std::pair<std::string, std::function<void()>>>& chapters() {
       {"scene", print_scene},
       {"materials", print_registry<Material>},
       {"meshes", print_registry<MeshSource>},
+      {"axes", print_registry<AxesSource>},
       {"terms", print_terms},
       {"factors", print_registry<TimeFunction>},
       {"integrators", print_registry<IntegratorChoice>},

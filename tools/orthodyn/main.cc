@@ -64,6 +64,8 @@ int main(int argc, char** argv) {
 
   auto* check = app.add_subcommand("check", "Read, validate and build a scene, and say what it consists of.");
   add_scene_options(*check, arguments);
+  auto* axes = check->add_flag("--axes", arguments.axes, "Also write the material axes: axes.vtu and a picture, axes.png.");
+  check->add_option("--out", arguments.out, "Folder for the axes; default out/axes/<scene>.")->type_name("DIR")->needs(axes);
 
   CompareArguments comparison;
   auto* compare = app.add_subcommand(
@@ -93,7 +95,7 @@ int main(int argc, char** argv) {
 
   std::string what;
   auto* list = app.add_subcommand("list", "What can be named in a scene, each with its keys.");
-  list->add_option("what", what, "scene, materials, integrators, solvers, meshes, terms, factors, expect, comparison, fields; all if left out.");
+  list->add_option("what", what, "scene, materials, meshes, axes, integrators, solvers, terms, factors, expect, comparison, fields; all if left out.");
   bool markdown = false;
   list->add_flag("--markdown", markdown, "Every key of the input as one page in Markdown.");
 
