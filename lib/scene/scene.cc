@@ -62,10 +62,12 @@ const Spec<Clamp>& Clamp::spec() {
           .key("box", &Clamp::box, "All nodes in a box (min, max).")
           .key("plane", &Clamp::plane, "All nodes on a plane (point, normal, tolerance).")
           .key("nearest", &Clamp::nearest, "The node nearest to a point.", {.unit = "m"})
+          .key("nodes", &Clamp::nodes, "A named node set of the mesh.")
           .key("components", &Clamp::components, "Which coordinates are held.")
           .check([](const Clamp& c, const Config& config) {
-            const int given = c.surface.has_value() + c.box.has_value() + c.plane.has_value() + c.nearest.has_value();
-            if (given != 1) config.fail("give exactly one of surface, box, plane, nearest");
+            const int given = c.surface.has_value() + c.box.has_value() + c.plane.has_value() + c.nearest.has_value() +
+                              c.nodes.has_value();
+            if (given != 1) config.fail("give exactly one of surface, box, plane, nearest, nodes");
             if (c.components.empty()) config.at("components").fail("is empty; give some of x, y, z");
           });
   return s;
