@@ -73,13 +73,13 @@ void check_indices(const TetMesh& mesh, const MeshOrigin& origin) {
   for (const auto& [surface, triangles] : mesh.surfaces) {
     for (int k = 0; k < count(triangles); ++k) {
       for (int n : triangles[static_cast<std::size_t>(k)]) {
-        check_node(n, [&] { return triangle_name(origin, surface, k); });
+        check_node(n, [&, &name = surface] { return triangle_name(origin, name, k); });
       }
     }
   }
   for (const auto& [set, nodes] : mesh.node_sets) {
     for (int n : nodes) {
-      check_node(n, [&] { return fmt::format("{}: node set \"{}\"", origin.source, set); });
+      check_node(n, [&, &name = set] { return fmt::format("{}: node set \"{}\"", origin.source, name); });
     }
   }
 }

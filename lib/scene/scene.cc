@@ -1,5 +1,7 @@
 #include "lib/scene/scene.h"
 
+#include "lib/scene/mesh_materials.h"
+
 namespace orthodyn {
 
 template <>
@@ -197,7 +199,7 @@ const Spec<Scene>& Scene::spec() {
   static const auto s =
       Spec<Scene>()
           .key("mesh", &Scene::mesh, "Where the mesh comes from.", {.required = true})
-          .key("materials", &Scene::materials, "Materials by name.", {.required = true})
+          .key("materials", &Scene::materials, "Materials by name; required unless the mesh file brings them (.veg).")
           .key("regions", &Scene::regions,
                "Material and axes of each region of the mesh by its name, or of `all`; default: the only "
                "material everywhere.")
@@ -242,6 +244,7 @@ Scene read_scene(const Config& config) {
   if (config.is_map() && config.has("scenes"))
     config.at("scenes").fail("a scene has no such key; a comparison of scenes is run by `orthodyn compare`");
   Scene scene = Scene::spec().read(config);
+  if (!config.has("materials")) fill_mesh_materials(config, scene);
   if (scene.materials.empty()) config.at("materials").fail("is empty; give at least one material");
   fill_regions(config, scene);
   check_materials_exist(scene);
