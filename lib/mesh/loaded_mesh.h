@@ -28,7 +28,7 @@ struct MeshMaterial {
 struct CellData {
   std::string name;
   int components = 1;
-  std::vector<double> values;
+  std::vector<double> values = {};
 };
 
 struct LoadedMesh {
