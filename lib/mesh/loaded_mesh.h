@@ -15,7 +15,7 @@ struct MeshMaterial {
   enum class Kind { isotropic, orthotropic };
 
   std::string name;
-  std::string where;  // "turtle.veg:1557"
+  std::string where = {};  // "turtle.veg:1557"
   Kind kind = Kind::isotropic;
   double density = 0;           // kg/m^3
   Vec3 young = Vec3::Zero();    // E1, E2, E3, Pa; isotropic: all the same

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "lib/core/errors.h"
 #include "lib/mesh/abaqus.h"
@@ -28,12 +29,13 @@ std::string ending_of(const std::string& path) {
 
 const std::vector<MeshFormat>& mesh_formats() {
   static const std::vector<MeshFormat> formats{
-      {"Gmsh", {".msh"}, [](const std::string& path) { return read_gmsh(path); }, false},
-      {"TetGen", {".node", ".ele"}, read_tetgen, false},
-      {"Abaqus", {".inp"}, read_abaqus, false},
-      {"VTK XML", {".vtu"}, read_vtu, false},
-      {"VTK legacy", {".vtk"}, read_vtk, false},
-      {"Vega", {".veg"}, [](const std::string& path) { return read_vega(path); }, true},
+      {"Gmsh", {".msh"}, [](const std::string& path) { return read_gmsh(path); }, false, write_gmsh41},
+      {"Gmsh 2.2", {".msh2"}, [](const std::string& path) { return read_gmsh(path); }, false, write_gmsh22},
+      {"TetGen", {".node", ".ele"}, read_tetgen, false, write_tetgen},
+      {"Abaqus", {".inp"}, read_abaqus, false, write_abaqus},
+      {"VTK XML", {".vtu"}, read_vtu, false, write_vtu},
+      {"VTK legacy", {".vtk"}, read_vtk, false, nullptr},
+      {"Vega", {".veg"}, [](const std::string& path) { return read_vega(path); }, true, write_vega},
   };
   return formats;
 }
@@ -51,6 +53,27 @@ const MeshFormat& mesh_format_of(const std::string& path) {
 }
 
 LoadedMesh read_mesh(const std::string& path) { return mesh_format_of(path).read(path); }
+
+Warnings write_mesh(const LoadedMesh& loaded, const std::string& path, bool replace) {
+  namespace fs = std::filesystem;
+  const MeshFormat& format = mesh_format_of(path);
+  if (!format.write) throw ConfigError(fmt::format("{}: {} files are only read; write .vtu instead", path, format.name));
+  const WrittenMesh written = format.write(loaded);
+  // The user's spelling for a single file, that of the format for several beside each other.
+  const auto place = [&](const MeshText& file) {
+    return written.files.size() == 1 ? path : fs::path(path).replace_extension(file.ending).string();
+  };
+  for (const MeshText& file : written.files) {
+    if (!replace && fs::exists(place(file))) throw ConfigError(place(file) + ": is there already; --force replaces it");
+  }
+  for (const MeshText& file : written.files) {
+    std::ofstream out(place(file), std::ios::binary);
+    out << file.text;
+    out.close();
+    if (!out) throw ConfigError(place(file) + ": cannot be written");
+  }
+  return written.losses;
+}
 
 void scale_mesh(TetMesh& mesh, double factor, const std::string& source) {
   for (Vec3& x : mesh.nodes) x *= factor;
