@@ -29,6 +29,8 @@ LIBRARIES = {
     r"(cholmod|klu)\.h": ["lib/linear/"],
     r"muParser": ["lib/core/formula.cc"],
     r"udunits2\.h": ["lib/core/units.cc"],
+    r"pugixml": ["lib/mesh/vtu"],
+    r"zlib\.h": ["lib/mesh/vtu"],
     r"CLI/": ["tools/"],
     r"nlohmann/": ["lib/study/", "tools/", "tests/"],
 }

@@ -29,12 +29,19 @@ struct CompareArguments {
   bool quiet = false, no_report = false;
 };
 
+struct ConvertArguments {
+  std::string in, out;
+  double scale = 1;
+  bool force = false;
+};
+
 int run_command(const RunArguments& arguments);
 int check_command(const RunArguments& arguments);
 int list_command(const std::string& what, bool markdown);
 void print_reference_page();
 int compare_command(const CompareArguments& arguments);
 int measure_command(const std::string& folder);  // one point of a comparison, in its own process
+int convert_command(const ConvertArguments& arguments);
 int verify_command(const VerifyArguments& arguments);
 int schema_command(const std::string& kind);  // of all kinds, if empty
 int init_command(const std::string& kind, const std::optional<std::string>& file);

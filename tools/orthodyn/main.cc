@@ -93,6 +93,14 @@ int main(int argc, char** argv) {
       ->take_all();
   verify->add_option("--integrator", cases.integrator, "Short for --set integrator.type=NAME.");
 
+  ConvertArguments conversion;
+  auto* convert = app.add_subcommand(
+      "convert", "A mesh from one format to another, by the endings: .msh .msh2 .veg .vtu .vtk .node .ele .inp.");
+  convert->add_option("in", conversion.in, "The mesh to read.")->required()->type_name("IN");
+  convert->add_option("out", conversion.out, "The mesh to write; what its format cannot hold is said.")->required()->type_name("OUT");
+  convert->add_option("--scale", conversion.scale, "Multiplies coordinates: 0.001 from mm to m.")->type_name("FACTOR");
+  convert->add_flag("--force", conversion.force, "Replace files that are there already.");
+
   std::string what;
   auto* list = app.add_subcommand("list", "What can be named in a scene, each with its keys.");
   list->add_option("what", what, "scene, materials, meshes, axes, integrators, solvers, terms, factors, expect, comparison, fields; all if left out.");
@@ -120,6 +128,7 @@ int main(int argc, char** argv) {
     load_plugins(plugins);
     if (*run) return run_command(arguments);
     if (*check) return check_command(arguments);
+    if (*convert) return convert_command(conversion);
     if (*compare) return compare_command(comparison);
     if (*measure) return measure_command(folder);
     if (*verify) return verify_command(cases);

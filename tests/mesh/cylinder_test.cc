@@ -1,0 +1,152 @@
+#include "lib/mesh/cylinder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "tests/mesh/refusal.h"
+
+namespace orthodyn {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+CylinderMesh cylinder_of(int around, double grading = 1) {
+  return {.radius = 2, .length = 3, .cells = {.around = around, .through = 3, .along = 5, .grading = grading}};
+}
+TubeMesh tube_of(int around, double grading = 1) {
+  return {.inner_radius = 1, .radius = 2, .length = 3, .cells = {.around = around, .through = 3, .along = 5, .grading = grading}};
+}
+
+double volume(const TetMesh& mesh) {
+  double sum = 0;
+  for (const Tet& tet : mesh.tets) sum += signed_volume6(mesh, tet) / 6;
+  return sum;
+}
+
+Vec3 area_vector(const TetMesh& mesh, const Triangle& t) {
+  const auto x = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(t[k])]; };
+  return (x(1) - x(0)).cross(x(2) - x(0)) / 2;
+}
+
+double area(const TetMesh& mesh, const std::string& surface) {
+  double sum = 0;
+  for (const Triangle& t : mesh.surfaces.at(surface)) sum += area_vector(mesh, t).norm();
+  return sum;
+}
+
+// A regular polygon of n corners on a circle of radius r.
+double polygon_area(int n, double r) { return n * r * r * std::sin(2 * kPi / n) / 2; }
+double polygon_length(int n, double r) { return 2 * n * r * std::sin(kPi / n); }
+
+// The smallest radius-ratio quality 3 r_in / r_circ of the tets, 1 for a regular one.
+double worst_quality(const TetMesh& mesh) {
+  double worst = 1;
+  for (const Tet& tet : mesh.tets) {
+    const auto x = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(tet[k])]; };
+    Mat3 edges;
+    Vec3 squares;
+    for (std::size_t k = 0; k < 3; ++k) {
+      edges.row(static_cast<int>(k)) = x(k + 1) - x(0);
+      squares[static_cast<int>(k)] = edges.row(static_cast<int>(k)).squaredNorm() / 2;
+    }
+    const double circumradius = edges.inverse().operator*(squares).norm();
+    double surface = 0;
+    for (const Triangle& f : {Triangle{tet[0], tet[1], tet[2]}, Triangle{tet[0], tet[1], tet[3]},
+                              Triangle{tet[0], tet[2], tet[3]}, Triangle{tet[1], tet[2], tet[3]}}) {
+      surface += area_vector(mesh, f).norm();
+    }
+    worst = std::min(worst, 3 * (signed_volume6(mesh, tet) / 2 / surface) / circumradius);
+  }
+  return worst;
+}
+
+TEST(Cylinder, HasExactlyTheVolumeAndAreasOfItsPolygon) {
+  for (const double grading : {1.0, 0.3, 4.0}) {
+    const TetMesh mesh = make_cylinder(cylinder_of(16, grading));
+    EXPECT_NEAR(volume(mesh), 3 * polygon_area(16, 2), 1e-12);
+    EXPECT_NEAR(area(mesh, "end0"), polygon_area(16, 2), 1e-12);
+    EXPECT_NEAR(area(mesh, "end1"), polygon_area(16, 2), 1e-12);
+    EXPECT_NEAR(area(mesh, "outer"), 3 * polygon_length(16, 2), 1e-12);
+  }
+}
+
+TEST(Tube, HasExactlyTheVolumeAndAreasOfItsPolygons) {
+  for (const double grading : {1.0, 0.3, 4.0}) {
+    const TetMesh mesh = make_tube(tube_of(10, grading));
+    EXPECT_NEAR(volume(mesh), 3 * (polygon_area(10, 2) - polygon_area(10, 1)), 1e-12);
+    EXPECT_NEAR(area(mesh, "inner"), 3 * polygon_length(10, 1), 1e-12);
+    EXPECT_NEAR(area(mesh, "outer"), 3 * polygon_length(10, 2), 1e-12);
+  }
+}
+
+TEST(Cylinder, ItsVolumeConvergesWithSecondOrder) {
+  const auto error = [](int around) { return 12 * kPi - volume(make_cylinder(cylinder_of(around))); };
+  const double order = std::log2(error(16) / error(32));
+  EXPECT_GT(order, 1.9);
+  EXPECT_LT(order, 2.1);
+}
+
+class RoundMeshes : public testing::TestWithParam<std::pair<const char*, TetMesh>> {};
+
+TEST_P(RoundMeshes, AreValid) {
+  TetMesh mesh = GetParam().second;
+  EXPECT_TRUE(validate(mesh, {"generator"}).empty());
+}
+
+// Every boundary triangle is in exactly one surface, and the area vectors of a closed surface add to 0.
+TEST_P(RoundMeshes, AreWatertight) {
+  const TetMesh& mesh = GetParam().second;
+  std::size_t count = 0;
+  Vec3 sum = Vec3::Zero();
+  for (const auto& [name, triangles] : mesh.surfaces) {
+    count += triangles.size();
+    for (const Triangle& t : triangles) sum += area_vector(mesh, t);
+  }
+  EXPECT_EQ(count, boundary_triangles(mesh).size());
+  EXPECT_LT(sum.norm(), 1e-12);
+}
+
+TEST_P(RoundMeshes, HaveNoSlivers) { EXPECT_GT(worst_quality(GetParam().second), 0.2); }
+
+INSTANTIATE_TEST_SUITE_P(
+    Generators, RoundMeshes,
+    testing::Values(std::pair{"cylinder8", make_cylinder(cylinder_of(8))},
+                    std::pair{"cylinder16", make_cylinder(cylinder_of(16))}, std::pair{"cylinder24", make_cylinder(cylinder_of(24))},
+                    std::pair{"graded", make_cylinder(cylinder_of(16, 0.5))}, std::pair{"tube12", make_tube(tube_of(12))},
+                    std::pair{"tube31", make_tube(tube_of(31))}, std::pair{"graded_tube", make_tube(tube_of(16, 2))}),
+    [](const auto& test) { return test.param.first; });
+
+TEST(Tube, GradingIsTheRatioOfOutermostToInnermostRing) {
+  const TetMesh mesh = make_tube(tube_of(8, 4));
+  std::vector<double> radii;
+  for (int ring = 0; ring < 4; ++ring) radii.push_back(mesh.nodes[static_cast<std::size_t>(8 * ring)][0]);
+  EXPECT_NEAR((radii[3] - radii[2]) / (radii[1] - radii[0]), 4, 1e-12);
+  EXPECT_NEAR(radii[2] - radii[1], 2 * (radii[1] - radii[0]), 1e-12);
+}
+
+TEST(Cylinder, LiesAlongItsAxisFromItsOrigin) {
+  CylinderMesh cylinder = cylinder_of(8);
+  cylinder.origin = {1, 2, 3};
+  cylinder.axis = {0, -5, 0};
+  const Box box = bounding_box(make_cylinder(cylinder));
+  EXPECT_NEAR(box.min[1], -1, 1e-12);
+  EXPECT_NEAR(box.max[1], 2, 1e-12);
+  EXPECT_NEAR(make_cylinder(cylinder).nodes[static_cast<std::size_t>(make_cylinder(cylinder).surfaces.at("end0")[0][0])][1], 2, 1e-12);
+}
+
+TEST(Cylinder, RefusesWhatMakesNoMesh) {
+  EXPECT_CONTAINS(refusal_of([] { make_cylinder(cylinder_of(10)); }), "must be a multiple of 4, such as 12");
+  EXPECT_CONTAINS(refusal_of([] { make_cylinder(cylinder_of(8, 0)); }), "grading 0; it must lie in");
+  TubeMesh tube = tube_of(8);
+  tube.inner_radius = 2;
+  EXPECT_CONTAINS(refusal_of([&] { make_tube(tube); }), "the inner one must be the smaller");
+  tube = tube_of(8);
+  tube.axis.setZero();
+  EXPECT_CONTAINS(refusal_of([&] { make_tube(tube); }), "the axis is zero");
+}
+
+}  // namespace
+}  // namespace orthodyn

@@ -1,0 +1,107 @@
+// Damaged files of every format: each loads or is refused with its name, nothing else happens.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <exception>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <random>
+#include <string>
+#include <string_view>
+
+#include "lib/core/errors.h"
+#include "lib/mesh/abaqus.h"
+#include "lib/mesh/gmsh.h"
+#include "lib/mesh/tetgen.h"
+#include "lib/mesh/vega.h"
+#include "lib/mesh/vtk.h"
+#include "lib/mesh/vtu.h"
+
+namespace orthodyn {
+namespace {
+
+// One to four changes of bytes: to any byte, to one that means something, or cut off.
+std::string mutated(std::string text, std::mt19937& random) {
+  const std::string meaningful = "0123456789-+.eE$*,#<>_= \n\r\t\"";
+  for (std::size_t changes = 1 + random() % 4; changes > 0 && !text.empty(); --changes) {
+    const std::size_t at = random() % text.size();
+    switch (random() % 6) {
+      case 0:
+        text[at] = static_cast<char>(random() % 256);
+        break;
+      case 1:
+        text[at] = meaningful[random() % meaningful.size()];
+        break;
+      case 2:
+        text.insert(at, 1, meaningful[random() % meaningful.size()]);
+        break;
+      case 3:
+        text.erase(at, 1 + random() % 8);
+        break;
+      case 4:
+        text.insert(at, text.substr(random() % text.size(), random() % 40));
+        break;
+      default:
+        if (random() % 4 == 0) text.resize(at);
+    }
+  }
+  return text;
+}
+
+std::string content_of(const std::string& name) {
+  std::ifstream file(std::string(ORTHODYN_SOURCE_DIR) + "/tests/mesh/data/" + name, std::ios::binary);
+  EXPECT_TRUE(file) << name;
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+struct Format {
+  const char* seed;  // a file of tests/mesh/data
+  std::function<void(const std::string& path, std::string_view text)> read;
+};
+
+class AnyMutation : public testing::TestWithParam<Format> {};
+
+TEST_P(AnyMutation, LoadsOrIsRefused) {
+  const std::string seed = content_of(GetParam().seed);
+  std::mt19937 random(20240229);  // its sequence is fixed by the standard
+  int loaded = 0;
+  constexpr int kFiles = 500;
+  for (int i = 0; i < kFiles; ++i) {
+    const std::string content = mutated(seed, random);
+    try {
+      GetParam().read("beam", content);
+      ++loaded;
+    } catch (const ConfigError& error) {
+      EXPECT_TRUE(std::string(error.what()).starts_with("beam")) << error.what();
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << "mutation " << i << ": " << error.what() << "\n" << content;
+    }
+  }
+  EXPECT_GT(loaded, 0);
+  EXPECT_LT(loaded, kFiles);
+}
+
+// Two of the three files stay whole.
+void read_damaged_nodes(const std::string& stem, std::string_view node) {
+  read_tetgen_text(stem, {node, content_of("cube.ele"), content_of("cube.face")});
+}
+void read_damaged_elements(const std::string& stem, std::string_view ele) {
+  read_tetgen_text(stem, {content_of("cube.node"), ele, content_of("cube.face")});
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Formats, AnyMutation,
+    testing::Values(Format{"two_boxes_22.msh", read_gmsh_text}, Format{"two_boxes_41.msh", read_gmsh_text},
+                    Format{"two_tets.veg", read_vega_text}, Format{"two_boxes_gmsh.inp", read_abaqus_text},
+                    Format{"two_boxes_meshio_ascii.vtu", read_vtu_text}, Format{"two_boxes_meshio_zlib.vtu", read_vtu_text},
+                    Format{"two_boxes_meshio_ascii.vtk", read_vtk_text}, Format{"two_boxes_meshio_binary.vtk", read_vtk_text},
+                    Format{"cube.node", read_damaged_nodes}, Format{"cube.ele", read_damaged_elements}),
+    [](const auto& test) {
+      std::string name = test.param.seed;
+      for (char& c : name) c = c == '.' ? '_' : c;
+      return name;
+    });
+
+}  // namespace
+}  // namespace orthodyn

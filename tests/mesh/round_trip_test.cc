@@ -1,0 +1,116 @@
+// What is written and read again is the same, as far as the format can hold it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lib/mesh/box.h"
+#include "lib/mesh/mesh_file.h"
+#include "tests/mesh/refusal.h"
+
+namespace orthodyn {
+namespace {
+
+// Two regions that alternate, a surface, an inner one, a node set, and coordinates of all digits.
+LoadedMesh sample() {
+  LoadedMesh loaded;
+  loaded.mesh = make_box({.size = Vec3(1, 2, 3) / 3, .cells = {2, 1, 1}});
+  TetMesh& mesh = loaded.mesh;
+  mesh.region_names = {"region1", "region2"};
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e) mesh.region_of[e] = static_cast<int>(e % 2);
+  const auto x0 = mesh.surfaces.at("x0");
+  const Tet& central = mesh.tets[0];
+  mesh.surfaces = {{"marker1", x0}, {"marker2", {{central[0], central[1], central[2]}}}};
+  mesh.node_sets = {{"marker3", {0, 3, 4}}};
+  validate(mesh, {"sample"});
+  return loaded;
+}
+
+LoadedMesh through(const std::string& ending, const LoadedMesh& loaded, Warnings* losses = nullptr) {
+  const TemporaryFolder folder;
+  const Warnings lost = write_mesh(loaded, folder.path("mesh" + ending), false);
+  if (losses) *losses = lost;
+  return read_mesh(folder.path("mesh" + ending));
+}
+
+class RoundTrip : public testing::TestWithParam<const char*> {};
+
+TEST_P(RoundTrip, KeepsNodesElementsAndRegionsToTheLastDigit) {
+  const LoadedMesh loaded = sample();
+  const TetMesh mesh = through(GetParam(), loaded).mesh;
+  EXPECT_EQ(mesh.nodes, loaded.mesh.nodes);
+  EXPECT_EQ(mesh.tets, loaded.mesh.tets);
+  EXPECT_EQ(mesh.region_names, loaded.mesh.region_names);
+  EXPECT_EQ(mesh.region_of, loaded.mesh.region_of);
+}
+
+TEST_P(RoundTrip, KeepsOrNamesSurfacesAndNodeSets) {
+  const LoadedMesh loaded = sample();
+  Warnings losses;
+  const TetMesh mesh = through(GetParam(), loaded, &losses).mesh;
+  std::string said;
+  for (const std::string& loss : losses) said += loss + "\n";
+  for (const auto& [name, triangles] : loaded.mesh.surfaces) {
+    if (!mesh.surfaces.contains(name)) {
+      EXPECT_CONTAINS(said, name);
+      continue;
+    }
+    ASSERT_EQ(mesh.surfaces.at(name).size(), triangles.size()) << name;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {  // the same nodes, the same way round
+      Triangle read = mesh.surfaces.at(name)[t];
+      for (int turn = 0; turn < 3 && read != triangles[t]; ++turn) std::rotate(read.begin(), read.begin() + 1, read.end());
+      EXPECT_EQ(read, triangles[t]) << name;
+    }
+  }
+  if (mesh.node_sets.contains("marker3")) {
+    EXPECT_EQ(mesh.node_sets, loaded.mesh.node_sets);
+  } else {
+    EXPECT_CONTAINS(said, "marker3");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip, testing::Values(".msh", ".msh2", ".veg", ".vtu", ".node", ".inp"));
+
+TEST(WrittenVega, KeepsMaterialsAxesAndTheFixedNodes) {
+  LoadedMesh loaded = sample();
+  MeshMaterial wood{.name = "wood", .kind = MeshMaterial::Kind::orthotropic, .density = 400, .young = {3, 2, 1}, .nu12 = .1,
+                    .nu23 = .2, .nu31 = .3, .g12 = 12, .g23 = 23, .g31 = 31};
+  wood.axes << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  MeshMaterial steel{.name = "steel", .density = 7800, .young = Vec3::Constant(2e11), .nu12 = .3, .nu23 = .3, .nu31 = .3};
+  loaded.materials = {{"region1", wood}, {"region2", steel}};
+  const LoadedMesh read = through(".veg", loaded);
+  EXPECT_EQ(read.materials.at("region1").axes, wood.axes);
+  EXPECT_EQ(read.materials.at("region1").nu31, 0.3);
+  EXPECT_EQ(read.materials.at("region1").g23, 23);
+  EXPECT_EQ(read.materials.at("region2").young[0], 2e11);
+  EXPECT_EQ(read.materials.at("region2").kind, MeshMaterial::Kind::isotropic);
+}
+
+TEST(WrittenVtu, KeepsNamesAndCellData) {
+  LoadedMesh loaded = sample();
+  loaded.mesh.region_names = {"soft wood", "<\"&>"};
+  loaded.cell_data = {{"axis 1", 3, std::vector<double>(3 * loaded.mesh.tets.size(), 0.1)}};
+  const LoadedMesh read = through(".vtu", loaded);
+  EXPECT_EQ(read.mesh.region_names, loaded.mesh.region_names);
+  ASSERT_TRUE(find_cell_data(read, "axis 1"));
+  EXPECT_EQ(find_cell_data(read, "axis 1")->values, loaded.cell_data[0].values);
+}
+
+TEST(WriteMesh, ReplacesNothingUnasked) {
+  const TemporaryFolder folder;
+  folder.write("mesh.ele", "mine");
+  EXPECT_CONTAINS(refusal_of([&] { write_mesh(sample(), folder.path("mesh.node"), false); }), "mesh.ele: is there already; --force");
+  EXPECT_FALSE(std::filesystem::exists(folder.path("mesh.node")));
+  write_mesh(sample(), folder.path("mesh.node"), true);
+  EXPECT_EQ(read_mesh(folder.path("mesh.ele")).mesh.tets, sample().mesh.tets);
+}
+
+TEST(WriteMesh, ScalingMultipliesLengthsAndRefusesWhatCannotBeRepresented) {
+  TetMesh mesh = sample().mesh;
+  const double volume = signed_volume6(mesh, mesh.tets[0]);
+  scale_mesh(mesh, 2, "m");
+  EXPECT_NEAR(signed_volume6(mesh, mesh.tets[0]), 8 * volume, 1e-15);
+  EXPECT_CONTAINS(refusal_of([&] { scale_mesh(mesh, 1e-110, "m"); }), "cannot be represented; check the scale");
+}
+
+}  // namespace
+}  // namespace orthodyn

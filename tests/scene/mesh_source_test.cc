@@ -1,0 +1,125 @@
+// Mesh files and generators as a scene names them, and materials that come with a mesh.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/scene/scenes.h"
+
+namespace orthodyn {
+namespace {
+
+const std::string kTet = R"(*VERTICES
+4 3 0 0
+1 0 0 0
+2 1 0 0
+3 0 1 0
+4 0 0 1
+*ELEMENTS
+TET
+1 4 0
+1 1 2 3 4
+)";
+
+class VegaScene : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / "orthodyn_vega_scene_test";
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string file(const std::string& name, const std::string& content) const {
+    std::ofstream(folder_ / name) << content;
+    return (folder_ / name).string();
+  }
+  // A scene on the tet with this end of the .veg file, and further keys.
+  std::string scene(const std::string& veg, const std::string& keys, const std::string& more = "") const {
+    return "mesh: {type: vega, file: " + file("body.veg", kTet + veg) + more + "}\ntime: {end: 1}\n" + keys;
+  }
+
+  std::filesystem::path folder_;
+};
+
+const std::string kWood = "*MATERIAL wood\nORTHOTROPIC, 400, 3e9, 2e9, 1e9, .1, .2, .06, 1e8, 2e8, 3e8, 0,-1,0, 1,0,0, 0,0,1\n"
+                          "*REGION\nallElements, wood\n";
+
+// The same numbers typed: nu31 of the file is nu31, R has the axes as columns.
+TEST_F(VegaScene, MaterialsOfTheFileAreThoseTypedInAScene) {
+  const Scene from_file = read_scene(Config::from_text(scene(kWood, ""), "scene.yaml"));
+  const Scene typed = read_scene(Config::from_text(
+      scene(kWood, "materials: {wood: {type: orthotropic, density: 400, young: [3e9, 2e9, 1e9], nu12: 0.1, nu23: 0.2, nu31: "
+                   "0.06, g12: 1e8, g23: 2e8, g13: 3e8}}\nregions: {all: {material: wood, axes: {first: [0, 1, 0], second: "
+                   "[-1, 0, 0]}}}\n"), "scene.yaml"));
+  const auto C = [](const Scene& s) {
+    return std::visit([](const auto& c) { return voigt(as_orthotropic(c)); }, s.materials.at(0).second->stiffness());
+  };
+  EXPECT_EQ(C(from_file), C(typed));
+  EXPECT_EQ(from_file.materials[0].second->density(), 400);
+  EXPECT_EQ(from_file.regions.at(0).second.axes->rotation(), typed.regions.at(0).second.axes->rotation());
+  EXPECT_EQ(build(from_file).model->num_dofs(), 12);
+}
+
+TEST_F(VegaScene, TheResolvedSceneSpellsOutTheMaterialsOfTheFile) {
+  Config once = Config::from_text(scene(kWood, ""), "scene.yaml");
+  read_scene(once);
+  EXPECT_NE(once.dump().find("wood"), std::string::npos);
+  Config twice = Config::from_text(once.dump(), "scene.yaml");
+  read_scene(twice);
+  EXPECT_EQ(once.dump(), twice.dump());
+}
+
+TEST_F(VegaScene, UnstableMaterialsOfTheFileAreRefusedLikeTypedOnes) {
+  const std::string veg = kWood;
+  const std::string message = refusal(scene(replaced(veg, ".2, .06", "1.5, .06"), ""));
+  for (const char* part : {"body.veg:12: material of the mesh", "nu23=1.5", "indefinite", "Nearest stable set"})
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+}
+
+TEST_F(VegaScene, MissingMaterialsAreAskedForIfTheFileHasNone) {
+  EXPECT_NE(refusal(scene("", "")).find("'materials' is missing, and the mesh file brings none; give materials and regions (body)"),
+            std::string::npos);
+  EXPECT_NE(refusal(replaced(kValidScene, "materials:\n  soft: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}\n", ""))
+                .find("key 'materials' is missing"), std::string::npos);
+}
+
+TEST_F(VegaScene, FixedVerticesCanBeClampedByName) {
+  const std::string fixed = ", fixed: " + file("body.bou", "1,3\n");
+  EXPECT_EQ(build_text(scene(kWood, "clamps: [{nodes: fixed}]\n", fixed)).model->num_dofs(), 6);
+  const std::string message = refusal(scene(kWood, "clamps: [{nodes: fixe}]\n", fixed));
+  EXPECT_NE(message.find("scene.yaml:3:10: clamps.0: the mesh has no node set 'fixe'; did you mean 'fixed'? It has fixed"),
+            std::string::npos) << message;
+}
+
+TEST_F(VegaScene, FileChoosesTheFormatByTheEndingAndScales) {
+  const std::string yaml = "mesh: {type: file, file: " + file("body.veg", kTet + kWood) + ", scale: 0.001}\ntime: {end: 1}\n";
+  EXPECT_EQ(bounding_box(build_text(yaml).model->parts().mesh).max, Vec3::Constant(0.001));
+  const std::string message = refusal(replaced(replaced(yaml, "body.veg", file("body.stl", "").substr(folder_.string().size() + 1)), ", scale: 0.001", ""));
+  EXPECT_NE(message.find("no mesh format has the ending \".stl\""), std::string::npos) << message;
+}
+
+const std::string kRound = R"(mesh: {type: tube, inner_radius: 0.5, radius: 1, length: 4, cells: [12, 2, 6], axis: [1, 0, 0]}
+materials:
+  soft: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}
+clamps:
+  - surface: end0
+time: {end: 0.1}
+)";
+
+TEST(RoundScene, ATubeHasItsSurfacesAndItsMass) {
+  const BuiltScene built = build_text(kRound);
+  const auto& parts = built.model->parts();
+  for (const char* surface : {"end0", "end1", "inner", "outer"}) EXPECT_TRUE(parts.mesh.surfaces.contains(surface)) << surface;
+  const double polygons = 12 * std::sin(M_PI / 6) / 2 * (1 - 0.25);
+  EXPECT_NEAR(parts.mass->total(), 1000 * 4 * polygons, 1e-9 * parts.mass->total());
+}
+
+TEST(RoundScene, WhatMakesNoMeshIsRefusedWithItsKey) {
+  EXPECT_NE(refusal(replaced(kRound, "inner_radius: 0.5", "inner_radius: 2")).find("mesh.inner_radius: must be smaller"), std::string::npos);
+  const std::string cylinder = replaced(replaced(kRound, "type: tube", "type: cylinder"), "inner_radius: 0.5, ", "");
+  EXPECT_NE(refusal(replaced(cylinder, "[12, 2", "[10, 2")).find("mesh.cells.0: must be a multiple of 4"), std::string::npos);
+  EXPECT_NE(refusal(replaced(cylinder, "[1, 0, 0]", "[0, 0, 0]")).find("mesh.axis: is zero"), std::string::npos);
+  EXPECT_GT(build_text(cylinder).model->num_dofs(), 0);
+}
+
+}  // namespace
+}  // namespace orthodyn
