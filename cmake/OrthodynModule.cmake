@@ -43,7 +43,7 @@ function(orthodyn_library)
   # Eigen's alignment depends on it: users of the headers must have the same.
   target_compile_options(orthodyn PUBLIC ${ORTHODYN_ARCH_OPTION})
   target_link_libraries(orthodyn PUBLIC Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json PRIVATE
-    yaml-cpp muparser::muparser SuiteSparse::cholmod SuiteSparse::klu ${CMAKE_DL_LIBS}
+    yaml-cpp muparser::muparser pugixml::pugixml ZLIB::ZLIB SuiteSparse::cholmod SuiteSparse::klu ${CMAKE_DL_LIBS}
     SUNDIALS::arkode SUNDIALS::cvode SUNDIALS::ida SUNDIALS::nvecserial SUNDIALS::sunlinsolklu
     SUNDIALS::sunmatrixsparse)
   if(ORTHODYN_SANITIZE)

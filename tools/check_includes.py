@@ -28,6 +28,8 @@ LIBRARIES = {
     r"(sundials|cvode|ida|arkode|kinsol|nvector|sunmatrix|sunlinsol)/": ["integrators/"],
     r"(cholmod|klu)\.h": ["lib/linear/"],
     r"muParser": ["lib/core/formula.cc"],
+    r"pugixml": ["lib/mesh/vtu"],
+    r"zlib\.h": ["lib/mesh/vtu"],
     r"CLI/": ["tools/"],
     r"nlohmann/": ["lib/study/", "tools/", "tests/"],
 }

@@ -1,46 +1,16 @@
 #include "lib/mesh/gmsh.h"
 
-#include <fmt/format.h>
-
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <system_error>
-
-#include "lib/core/errors.h"
 #include "lib/mesh/gmsh_build.h"
 #include "lib/mesh/gmsh_file.h"
-#include "lib/mesh/gmsh_tokens.h"
+#include "lib/mesh/text_file.h"
+#include "lib/mesh/text_tokens.h"
 
 namespace orthodyn {
-namespace {
 
-std::string read_text(const std::string& path) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    throw ConfigError(fmt::format("{}: cannot be opened: {}", path, error.message()));
-  }
-  if (!std::filesystem::is_regular_file(status)) {  // a pipe might never end
-    throw ConfigError(path + ": a directory or device, where a Gmsh mesh file is expected");
-  }
-  std::ifstream stream(path, std::ios::binary | std::ios::ate);
-  const std::streamoff size = stream ? std::streamoff(stream.tellg()) : -1;
-  if (size < 0)
-    throw ConfigError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
-  std::string text(static_cast<std::size_t>(size), '\0');
-  stream.seekg(0);
-  stream.read(text.data(), size);
-  if (!stream) throw ConfigError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-  return text;
-}
+LoadedMesh read_gmsh(const std::string& path) { return read_gmsh_text(path, read_text_file(path)); }
 
-}  // namespace
-
-LoadedMesh read_gmsh(const std::string& path) {
-  const std::string text = read_text(path);
-  GmshTokens tokens(path, text);
+LoadedMesh read_gmsh_text(const std::string& path, std::string_view text) {
+  TextTokens tokens(path, text);
   GmshFile file = read_gmsh_sections(tokens);
   return build_gmsh_mesh(file, tokens);
 }

@@ -5,18 +5,14 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/loaded_mesh.h"
 
 namespace orthodyn {
 
-struct LoadedMesh {
-  TetMesh mesh;
-  Warnings warnings;
-};
-
-// Physical volumes become regions and physical surfaces become surfaces, under their names or else
-// as "volume<tag>" and "surface<tag>". Tets in no physical volume form the region "body". Nodes are
+// Physical volumes become regions, physical surfaces become surfaces and physical points become node
+// sets, under their names or else as "volume<tag>", "surface<tag>" and "points<tag>". Tets in no physical volume form the region "body". Nodes are
 // numbered by ascending tag, regions by ascending physical tag, elements in the order of the file,
 // so that both formats of one mesh give the same. Coordinates are taken as metres.
 //
@@ -24,5 +20,8 @@ struct LoadedMesh {
 // of linear tets (see validate()). Memory use is bounded by the size of the file, whatever counts
 // it announces.
 LoadedMesh read_gmsh(const std::string& path);
+
+// The same from a text; `path` is for messages.
+LoadedMesh read_gmsh_text(const std::string& path, std::string_view text);
 
 }  // namespace orthodyn

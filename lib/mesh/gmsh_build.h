@@ -3,13 +3,13 @@
 
 #include "lib/mesh/gmsh.h"
 #include "lib/mesh/gmsh_file.h"
-#include "lib/mesh/gmsh_tokens.h"
+#include "lib/mesh/text_tokens.h"
 
 namespace orthodyn {
 
-// Sorts the nodes of the file by tag. The tokens name the file in messages. Throws ConfigError for
+// Takes the nodes out of the file. The tokens name the file in messages. Throws ConfigError for
 // tags that are not defined or defined twice, for sections or tets that are missing, and for what
 // validate() refuses.
-LoadedMesh build_gmsh_mesh(GmshFile& file, const GmshTokens& tokens);
+LoadedMesh build_gmsh_mesh(GmshFile& file, const TextTokens& tokens);
 
 }  // namespace orthodyn

@@ -12,19 +12,19 @@ namespace {
 constexpr const char* kConvert =
     "save it as ASCII 2.2 or 4.1: \"gmsh in.msh -save -format msh22 -o out.msh\"";
 
-GmshSection begin_section(GmshTokens& tokens) {
+GmshSection begin_section(TextTokens& tokens) {
   const int line = tokens.line();
   const std::string_view word = tokens.word("a section");
   if (word.size() < 2 || word[0] != '$') {
     tokens.fail(
-        fmt::format("expected the start of a section ($...), found {}", GmshTokens::quoted(word)));
+        fmt::format("expected the start of a section ($...), found {}", TextTokens::quoted(word)));
   }
   GmshSection section{std::string(word.substr(1)), line};
   tokens.finish_line();
   return section;
 }
 
-void skip_section(GmshTokens& tokens, const GmshSection& section) {
+void skip_section(TextTokens& tokens, const GmshSection& section) {
   const std::string end = "$End" + section.name;
   while (!tokens.at_end()) {
     const bool ended = tokens.word("a word") == end;
@@ -32,23 +32,23 @@ void skip_section(GmshTokens& tokens, const GmshSection& section) {
     if (ended) return;
   }
   tokens.fail(fmt::format("the file ends inside {} (line {}); is it truncated?",
-                          GmshTokens::quoted("$" + section.name), section.line));
+                          TextTokens::quoted("$" + section.name), section.line));
 }
 
 // The text between the first and the last quote: names may hold blanks and quotes.
-std::string read_name(GmshTokens& tokens) {
+std::string read_name(TextTokens& tokens) {
   tokens.peek();
   std::string_view rest = tokens.rest_of_line();
   const std::size_t last = rest.find_last_not_of(" \t\r");
   rest = rest.substr(0, last == std::string_view::npos ? 0 : last + 1);
   if (rest.size() < 2 || rest.front() != '"' || rest.back() != '"') {
-    tokens.fail(fmt::format("expected a name in quotes, found {}", GmshTokens::quoted(rest)));
+    tokens.fail(fmt::format("expected a name in quotes, found {}", TextTokens::quoted(rest)));
   }
   return std::string(rest.substr(1, rest.size() - 2));
 }
 
-void read_physical_names(GmshTokens& tokens, const GmshSection& section, GmshFile& file) {
-  const std::int64_t announced = read_count(tokens, "the number of physical names");
+void read_physical_names(TextTokens& tokens, const GmshSection& section, GmshFile& file) {
+  const std::int64_t announced = tokens.count("the number of physical names");
   tokens.finish_line();
   for (std::int64_t i = 0; i < announced; ++i) {
     expect_record(tokens, section, i, announced, "names");
@@ -64,13 +64,13 @@ void read_physical_names(GmshTokens& tokens, const GmshSection& section, GmshFil
   end_section(tokens, section);
 }
 
-[[noreturn]] void refuse_version(const GmshTokens& tokens, int line, const std::string& version) {
+[[noreturn]] void refuse_version(const TextTokens& tokens, int line, const std::string& version) {
   tokens.fail_at(line,
                  fmt::format("Gmsh format {}; only 2.2 and 4.1 are read; {}", version, kConvert));
 }
 
 // Leaves the cursor behind $EndMeshFormat.
-GmshSectionReaders read_format(GmshTokens& tokens, const GmshSection& section) {
+GmshSectionReaders read_format(TextTokens& tokens, const GmshSection& section) {
   const double version = tokens.real("the version of the format");
   const std::int64_t binary = tokens.integer("the file type (0 = ASCII)");
   if (version != 2.2 && version != 4.1) {
@@ -84,7 +84,7 @@ GmshSectionReaders read_format(GmshTokens& tokens, const GmshSection& section) {
 }
 
 // Gmsh allows $Comments before $MeshFormat.
-GmshSection find_format(GmshTokens& tokens) {
+GmshSection find_format(TextTokens& tokens) {
   while (!tokens.at_end()) {
     if (tokens.peek() != '$') break;
     GmshSection section = begin_section(tokens);
@@ -97,7 +97,7 @@ GmshSection find_format(GmshTokens& tokens) {
 
 }  // namespace
 
-GmshFile read_gmsh_sections(GmshTokens& tokens) {
+GmshFile read_gmsh_sections(TextTokens& tokens) {
   GmshSectionReaders readers = read_format(tokens, find_format(tokens));
   readers["PhysicalNames"] = read_physical_names;
   GmshFile file;
@@ -118,13 +118,7 @@ GmshFile read_gmsh_sections(GmshTokens& tokens) {
   return file;
 }
 
-std::int64_t read_count(GmshTokens& tokens, const char* what) {
-  const std::int64_t count = tokens.integer(what);
-  if (count < 0) tokens.fail(fmt::format("{} is {}; it cannot be negative", what, count));
-  return count;
-}
-
-int read_tag(GmshTokens& tokens, const char* what) {
+int read_tag(TextTokens& tokens, const char* what) {
   const std::int64_t tag = tokens.integer(what);
   constexpr std::int64_t kMax = std::numeric_limits<int>::max();
   if (tag < -kMax || tag > kMax) {
@@ -133,7 +127,7 @@ int read_tag(GmshTokens& tokens, const char* what) {
   return static_cast<int>(tag);
 }
 
-void expect_record(GmshTokens& tokens, const GmshSection& section, std::int64_t done,
+void expect_record(TextTokens& tokens, const GmshSection& section, std::int64_t done,
                    std::int64_t announced, const char* records) {
   if (tokens.at_end()) {
     tokens.fail(fmt::format("the file ends after {} of {} {} (${} in line {}); is it truncated?",
@@ -141,19 +135,19 @@ void expect_record(GmshTokens& tokens, const GmshSection& section, std::int64_t 
   }
   if (tokens.peek() == '$') {
     tokens.fail(fmt::format("found {} after {} of the {} {} announced (${} in line {})",
-                            GmshTokens::quoted(tokens.word("a word")), done, announced, records,
+                            TextTokens::quoted(tokens.word("a word")), done, announced, records,
                             section.name, section.line));
   }
 }
 
-void end_section(GmshTokens& tokens, const GmshSection& section) {
+void end_section(TextTokens& tokens, const GmshSection& section) {
   const std::string end = "$End" + section.name;
   const std::string_view found = tokens.word(end.c_str());
   if (found != end) {
     tokens.fail(
         fmt::format("expected {}, found {}; the count at the start of the section (line {}) "
                     "may be too small",
-                    end, GmshTokens::quoted(found), section.line));
+                    end, TextTokens::quoted(found), section.line));
   }
   tokens.finish_line();
 }
@@ -167,15 +161,16 @@ int intern_groups(GmshFile& file, std::vector<int> groups) {
   return entry->second;
 }
 
-GmshKind check_element_type(const GmshTokens& tokens, std::int64_t type) {
+GmshKind check_element_type(const TextTokens& tokens, std::int64_t type) {
   switch (type) {
     case 1:
     case 8:
-    case 15:
     case 26:
     case 27:
-    case 28:  // points, lines of any order
+    case 28:  // lines of any order
       return GmshKind::ignored;
+    case 15:
+      return GmshKind::point;
     case 2:
       return GmshKind::triangle;
     case 4:
@@ -208,7 +203,7 @@ GmshKind check_element_type(const GmshTokens& tokens, std::int64_t type) {
   }
 }
 
-void read_element_nodes(GmshTokens& tokens, GmshKind kind, std::int64_t tag, int groups,
+void read_element_nodes(TextTokens& tokens, GmshKind kind, std::int64_t tag, int groups,
                         GmshFile& file) {
   const int line = tokens.line();
   const auto read = [&]<std::size_t N>(std::vector<GmshElement<N>>& elements) {
@@ -218,10 +213,10 @@ void read_element_nodes(GmshTokens& tokens, GmshKind kind, std::int64_t tag, int
     elements.push_back(element);
   };
   if (kind == GmshKind::tet) return read(file.tets);
-  // A triangle of no surface is of no use.
-  if (kind == GmshKind::triangle && !file.group_sets[static_cast<std::size_t>(groups)].empty()) {
-    return read(file.triangles);
-  }
+  // A triangle of no surface, or a point of no set, is of no use.
+  const bool grouped = !file.group_sets[static_cast<std::size_t>(groups)].empty();
+  if (kind == GmshKind::triangle && grouped) return read(file.triangles);
+  if (kind == GmshKind::point && grouped) return read(file.points);
   tokens.skip_line();
 }
 

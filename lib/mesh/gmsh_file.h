@@ -11,16 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "lib/core/types.h"
-#include "lib/mesh/gmsh_tokens.h"
+#include "lib/mesh/mesh_draft.h"
+#include "lib/mesh/text_tokens.h"
 
 namespace orthodyn {
-
-struct GmshNode {
-  std::int64_t tag = 0;
-  int line = 0;
-  Vec3 x = Vec3::Zero();
-};
 
 template <std::size_t N>
 struct GmshElement {
@@ -34,7 +28,8 @@ struct GmshFile {
   using DimTag = std::pair<int, int>;
 
   std::map<DimTag, std::string> names;  // of physical groups
-  std::vector<GmshNode> nodes;
+  std::vector<FileNode> nodes;
+  std::vector<GmshElement<1>> points;     // only those in a physical point
   std::vector<GmshElement<3>> triangles;  // only those in a physical surface
   std::vector<GmshElement<4>> tets;
   // Sets of physical tags that elements refer to; ascending, no duplicates. The first is empty.
@@ -53,7 +48,7 @@ struct GmshSection {
   int line;
 };
 
-using GmshSectionReader = std::function<void(GmshTokens&, const GmshSection&, GmshFile&)>;
+using GmshSectionReader = std::function<void(TextTokens&, const GmshSection&, GmshFile&)>;
 using GmshSectionReaders = std::map<std::string, GmshSectionReader>;
 
 GmshSectionReaders gmsh_v2_sections();
@@ -61,32 +56,30 @@ GmshSectionReaders gmsh_v4_sections();
 
 // Reads $MeshFormat, chooses the readers by version, and reads all sections; unknown ones are
 // skipped.
-GmshFile read_gmsh_sections(GmshTokens& tokens);
+GmshFile read_gmsh_sections(TextTokens& tokens);
 
 // Of use to both formats. ---------------------------------------------------------------------
 
-std::int64_t read_count(GmshTokens& tokens, const char* what);
-
 // The tag of a model entity or physical group.
-int read_tag(GmshTokens& tokens, const char* what);
+int read_tag(TextTokens& tokens, const char* what);
 
 // Before each record of a list: the section must not be over while `done` of `announced` are read.
-void expect_record(GmshTokens& tokens, const GmshSection& section, std::int64_t done,
+void expect_record(TextTokens& tokens, const GmshSection& section, std::int64_t done,
                    std::int64_t announced, const char* records);
 
 // The line `$End<name>`.
-void end_section(GmshTokens& tokens, const GmshSection& section);
+void end_section(TextTokens& tokens, const GmshSection& section);
 
 // The index of this set of physical tags in group_sets.
 int intern_groups(GmshFile& file, std::vector<int> groups);
 
-enum class GmshKind { ignored, triangle, tet };
+enum class GmshKind { ignored, point, triangle, tet };
 
 // Refuses everything but points, lines, triangles and linear tets.
-GmshKind check_element_type(const GmshTokens& tokens, std::int64_t type);
+GmshKind check_element_type(const TextTokens& tokens, std::int64_t type);
 
 // Reads the nodes of an element up to the end of the line.
-void read_element_nodes(GmshTokens& tokens, GmshKind kind, std::int64_t tag, int groups,
+void read_element_nodes(TextTokens& tokens, GmshKind kind, std::int64_t tag, int groups,
                         GmshFile& file);
 
 }  // namespace orthodyn

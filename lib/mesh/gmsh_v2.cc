@@ -6,13 +6,13 @@
 namespace orthodyn {
 namespace {
 
-void read_nodes(GmshTokens& tokens, const GmshSection& section, GmshFile& file) {
-  const std::int64_t announced = read_count(tokens, "the number of nodes");
+void read_nodes(TextTokens& tokens, const GmshSection& section, GmshFile& file) {
+  const std::int64_t announced = tokens.count("the number of nodes");
   tokens.finish_line();
   for (std::int64_t i = 0; i < announced; ++i) {
     expect_record(tokens, section, i, announced, "nodes");
-    GmshNode node;
-    node.line = tokens.line();
+    FileNode node;
+    node.place.line = tokens.line();
     node.tag = tokens.integer("a node tag");
     for (double& x : node.x) x = tokens.real("a coordinate");
     tokens.finish_line();
@@ -22,8 +22,8 @@ void read_nodes(GmshTokens& tokens, const GmshSection& section, GmshFile& file) 
 }
 
 // The first tag is the physical group, 0 for none; the others (entity, partitions) do not matter.
-int read_groups(GmshTokens& tokens, GmshFile& file) {
-  const std::int64_t tags = read_count(tokens, "the number of element tags");
+int read_groups(TextTokens& tokens, GmshFile& file) {
+  const std::int64_t tags = tokens.count("the number of element tags");
   int groups = 0;
   for (std::int64_t i = 0; i < tags; ++i) {
     if (i > 0) {
@@ -35,8 +35,8 @@ int read_groups(GmshTokens& tokens, GmshFile& file) {
   return groups;
 }
 
-void read_elements(GmshTokens& tokens, const GmshSection& section, GmshFile& file) {
-  const std::int64_t announced = read_count(tokens, "the number of elements");
+void read_elements(TextTokens& tokens, const GmshSection& section, GmshFile& file) {
+  const std::int64_t announced = tokens.count("the number of elements");
   tokens.finish_line();
   for (std::int64_t i = 0; i < announced; ++i) {
     expect_record(tokens, section, i, announced, "elements");
@@ -47,7 +47,7 @@ void read_elements(GmshTokens& tokens, const GmshSection& section, GmshFile& fil
   end_section(tokens, section);
 }
 
-void refuse_parametric(GmshTokens& tokens, const GmshSection& section, GmshFile&) {
+void refuse_parametric(TextTokens& tokens, const GmshSection& section, GmshFile&) {
   tokens.fail_at(section.line, "$ParametricNodes is not read; save with Mesh.SaveParametric = 0");
 }
 

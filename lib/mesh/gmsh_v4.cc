@@ -10,17 +10,17 @@
 namespace orthodyn {
 namespace {
 
-int read_dimension(GmshTokens& tokens) {
+int read_dimension(TextTokens& tokens) {
   const std::int64_t dim = tokens.integer("the dimension of an entity");
   if (dim < 0 || dim > 3) tokens.fail(fmt::format("dimension {}; expected 0 to 3", dim));
   return static_cast<int>(dim);
 }
 
-void read_entity(GmshTokens& tokens, int dim, GmshFile& file) {
+void read_entity(TextTokens& tokens, int dim, GmshFile& file) {
   const int tag = read_tag(tokens, "the tag of an entity");
   const int coordinates = dim == 0 ? 3 : 6;  // a point, or else a bounding box
   for (int i = 0; i < coordinates; ++i) tokens.word("a coordinate");  // may be infinite if empty
-  const std::int64_t count = read_count(tokens, "the number of physical groups");
+  const std::int64_t count = tokens.count("the number of physical groups");
   std::vector<int> groups;
   for (std::int64_t i = 0; i < count; ++i) groups.push_back(read_tag(tokens, "a physical tag"));
   if (!file.entity_groups.emplace(GmshFile::DimTag(dim, tag), intern_groups(file, groups)).second) {
@@ -29,12 +29,12 @@ void read_entity(GmshTokens& tokens, int dim, GmshFile& file) {
   tokens.skip_line();  // the bounding entities do not matter
 }
 
-void read_entities(GmshTokens& tokens, const GmshSection& section, GmshFile& file) {
+void read_entities(TextTokens& tokens, const GmshSection& section, GmshFile& file) {
   if (file.section_lines.contains("Elements")) {
     tokens.fail_at(section.line, "$Entities must come before $Elements");
   }
   std::array<std::int64_t, 4> announced{};
-  for (std::int64_t& count : announced) count = read_count(tokens, "the number of entities");
+  for (std::int64_t& count : announced) count = tokens.count("the number of entities");
   tokens.finish_line();
   for (int dim = 0; dim < 4; ++dim) {
     const std::int64_t count = announced[static_cast<std::size_t>(dim)];
@@ -51,17 +51,17 @@ struct Totals {
   std::int64_t blocks, records;
 };
 
-Totals read_totals(GmshTokens& tokens) {
+Totals read_totals(TextTokens& tokens) {
   Totals totals{};
-  totals.blocks = read_count(tokens, "the number of blocks");
-  totals.records = read_count(tokens, "the number of records");
+  totals.blocks = tokens.count("the number of blocks");
+  totals.records = tokens.count("the number of records");
   tokens.integer("the lowest tag");
   tokens.integer("the highest tag");
   tokens.finish_line();
   return totals;
 }
 
-void check_total(const GmshTokens& tokens, const GmshSection& section, std::int64_t announced,
+void check_total(const TextTokens& tokens, const GmshSection& section, std::int64_t announced,
                  std::size_t found, const char* records) {
   if (static_cast<std::size_t>(announced) == found) return;
   tokens.fail_at(section.line, fmt::format("${} announces {} {}, but its blocks hold {}",
@@ -69,28 +69,29 @@ void check_total(const GmshTokens& tokens, const GmshSection& section, std::int6
 }
 
 // All tags of a block come first, one per line, then all coordinates.
-void read_node_block(GmshTokens& tokens, const GmshSection& section, GmshFile& file) {
+void read_node_block(TextTokens& tokens, const GmshSection& section, GmshFile& file) {
   const int dim = read_dimension(tokens);
   tokens.integer("the tag of an entity");
   const std::int64_t parametric = tokens.integer("0 or 1 (parametric coordinates)");
-  const std::int64_t count = read_count(tokens, "the number of nodes");
+  const std::int64_t count = tokens.count("the number of nodes");
   tokens.finish_line();
   const std::size_t first = file.nodes.size();
   for (std::int64_t i = 0; i < count; ++i) {
     expect_record(tokens, section, i, count, "node tags");
-    file.nodes.push_back({.tag = tokens.integer("a node tag")});
+    file.nodes.emplace_back();
+    file.nodes.back().tag = tokens.integer("a node tag");
     tokens.finish_line();
   }
   for (std::size_t n = first; n < file.nodes.size(); ++n) {
     expect_record(tokens, section, static_cast<std::int64_t>(n - first), count, "coordinates");
-    file.nodes[n].line = tokens.line();
+    file.nodes[n].place.line = tokens.line();
     for (double& x : file.nodes[n].x) x = tokens.real("a coordinate");
     for (int i = 0; parametric != 0 && i < dim; ++i) tokens.real("a parametric coordinate");
     tokens.finish_line();
   }
 }
 
-void read_nodes(GmshTokens& tokens, const GmshSection& section, GmshFile& file) {
+void read_nodes(TextTokens& tokens, const GmshSection& section, GmshFile& file) {
   const Totals totals = read_totals(tokens);
   for (std::int64_t b = 0; b < totals.blocks; ++b) {
     expect_record(tokens, section, b, totals.blocks, "blocks");
@@ -100,7 +101,7 @@ void read_nodes(GmshTokens& tokens, const GmshSection& section, GmshFile& file) 
   end_section(tokens, section);
 }
 
-int groups_of_entity(const GmshTokens& tokens, const GmshFile& file, int dim, int tag) {
+int groups_of_entity(const TextTokens& tokens, const GmshFile& file, int dim, int tag) {
   if (!file.section_lines.contains("Entities")) return 0;
   const auto entity = file.entity_groups.find({dim, tag});
   if (entity == file.entity_groups.end()) {
@@ -109,7 +110,7 @@ int groups_of_entity(const GmshTokens& tokens, const GmshFile& file, int dim, in
   return entity->second;
 }
 
-std::int64_t read_element_block(GmshTokens& tokens, const GmshSection& section, GmshFile& file) {
+std::int64_t read_element_block(TextTokens& tokens, const GmshSection& section, GmshFile& file) {
   const int dim = read_dimension(tokens);
   const int entity = read_tag(tokens, "the tag of an entity");
   const GmshKind kind = check_element_type(tokens, tokens.integer("an element type"));
@@ -117,7 +118,7 @@ std::int64_t read_element_block(GmshTokens& tokens, const GmshSection& section, 
     tokens.fail(fmt::format("{} in an entity of dimension {}",
                             kind == GmshKind::tet ? "tetrahedra" : "triangles", dim));
   }
-  const std::int64_t count = read_count(tokens, "the number of elements");
+  const std::int64_t count = tokens.count("the number of elements");
   const int groups = groups_of_entity(tokens, file, dim, entity);
   tokens.finish_line();
   for (std::int64_t i = 0; i < count; ++i) {
@@ -128,7 +129,7 @@ std::int64_t read_element_block(GmshTokens& tokens, const GmshSection& section, 
   return count;
 }
 
-void read_elements(GmshTokens& tokens, const GmshSection& section, GmshFile& file) {
+void read_elements(TextTokens& tokens, const GmshSection& section, GmshFile& file) {
   const Totals totals = read_totals(tokens);
   std::size_t found = 0;
   for (std::int64_t b = 0; b < totals.blocks; ++b) {
@@ -139,7 +140,7 @@ void read_elements(GmshTokens& tokens, const GmshSection& section, GmshFile& fil
   end_section(tokens, section);
 }
 
-void refuse_partitions(GmshTokens& tokens, const GmshSection& section, GmshFile&) {
+void refuse_partitions(TextTokens& tokens, const GmshSection& section, GmshFile&) {
   tokens.fail_at(
       section.line,
       "a partitioned mesh ($PartitionedEntities); mesh again without -part, or open it in "

@@ -1,5 +1,5 @@
-// A mesh of linear tetrahedra with regions (named groups of cells) and surfaces (named groups of
-// boundary triangles). Lengths in metres.
+// A mesh of linear tetrahedra with regions (named groups of cells), surfaces (named groups of
+// boundary triangles) and named sets of nodes. Lengths in metres.
 #pragma once
 
 #include <array>
@@ -21,6 +21,7 @@ struct TetMesh {
   std::vector<int> region_of;             // for each tet an index into region_names
   std::vector<std::string> region_names;  // at least one
   std::map<std::string, std::vector<Triangle>> surfaces;
+  std::map<std::string, std::vector<int>> node_sets;  // ascending, each node once
 };
 
 struct Box {
@@ -54,8 +55,8 @@ using Warnings = std::vector<std::string>;
 // coordinates finite, no element that is inverted or degenerate (six volumes below 1e-14 of its
 // longest edge cubed), no two elements that overlap at a common face, no two nodes of elements at
 // exactly the same place (a crack by mistake), no surface triangle that is not a face of an
-// element. Nodes that no element uses and triangles that a surface lists twice are removed, with a
-// warning. Surface triangles on the outer boundary are turned outward; those between two elements
+// element. Nodes that no element uses (also from the node sets) and triangles that a surface lists
+// twice are removed, with a warning; node sets are sorted. Surface triangles on the outer boundary are turned outward; those between two elements
 // keep their side. Throws ConfigError naming the element and its origin.
 Warnings validate(TetMesh& mesh, const MeshOrigin& origin);
 

@@ -73,8 +73,13 @@ void check_indices(const TetMesh& mesh, const MeshOrigin& origin) {
   for (const auto& [surface, triangles] : mesh.surfaces) {
     for (int k = 0; k < count(triangles); ++k) {
       for (int n : triangles[static_cast<std::size_t>(k)]) {
-        check_node(n, [&] { return triangle_name(origin, surface, k); });
+        check_node(n, [&, &name = surface] { return triangle_name(origin, name, k); });
       }
+    }
+  }
+  for (const auto& [set, nodes] : mesh.node_sets) {
+    for (int n : nodes) {
+      check_node(n, [&, &name = set] { return fmt::format("{}: node set \"{}\"", origin.source, name); });
     }
   }
 }
@@ -266,6 +271,17 @@ void remove_unused_nodes(TetMesh& mesh, const std::vector<char>& used, const Mes
   for (auto& [surface, triangles] : mesh.surfaces) {
     for (Triangle& t : triangles) std::for_each(t.begin(), t.end(), renumber);
   }
+  for (auto& [set, nodes] : mesh.node_sets) {
+    std::erase_if(nodes, [&](int n) { return !used[static_cast<std::size_t>(n)]; });
+    std::for_each(nodes.begin(), nodes.end(), renumber);
+  }
+}
+
+void sort_node_sets(TetMesh& mesh) {
+  for (auto& [set, nodes] : mesh.node_sets) {
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  }
 }
 
 }  // namespace
@@ -284,6 +300,7 @@ Warnings validate(TetMesh& mesh, const MeshOrigin& origin) {
   for (auto& [surface, triangles] : mesh.surfaces) {
     settle_surface(surface, triangles, faces, origin, warnings);
   }
+  sort_node_sets(mesh);
   remove_unused_nodes(mesh, used, origin, warnings);
   return warnings;
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lib/core/registry.h"
-#include "lib/mesh/gmsh.h"
+#include "lib/mesh/loaded_mesh.h"
 
 namespace orthodyn {
 
@@ -10,6 +10,9 @@ class MeshSource {
  public:
   virtual ~MeshSource() = default;
   virtual LoadedMesh load() const = 0;  // throws ConfigError
+
+  // False if load() never says anything about materials.
+  virtual bool may_bring_materials() const { return false; }
 };
 
 }  // namespace orthodyn

@@ -1,5 +1,7 @@
 #include "lib/scene/scene.h"
 
+#include "lib/scene/mesh_materials.h"
+
 namespace orthodyn {
 
 template <>
@@ -62,10 +64,12 @@ const Spec<Clamp>& Clamp::spec() {
           .key("box", &Clamp::box, "All nodes in a box (min, max).")
           .key("plane", &Clamp::plane, "All nodes on a plane (point, normal, tolerance).")
           .key("nearest", &Clamp::nearest, "The node nearest to a point.", {.unit = "m"})
+          .key("nodes", &Clamp::nodes, "A named node set of the mesh.")
           .key("components", &Clamp::components, "Which coordinates are held.")
           .check([](const Clamp& c, const Config& config) {
-            const int given = c.surface.has_value() + c.box.has_value() + c.plane.has_value() + c.nearest.has_value();
-            if (given != 1) config.fail("give exactly one of surface, box, plane, nearest");
+            const int given = c.surface.has_value() + c.box.has_value() + c.plane.has_value() + c.nearest.has_value() +
+                              c.nodes.has_value();
+            if (given != 1) config.fail("give exactly one of surface, box, plane, nearest, nodes");
             if (c.components.empty()) config.at("components").fail("is empty; give some of x, y, z");
           });
   return s;
@@ -196,7 +200,7 @@ const Spec<Scene>& Scene::spec() {
   static const auto s =
       Spec<Scene>()
           .key("mesh", &Scene::mesh, "Where the mesh comes from.", {.required = true})
-          .key("materials", &Scene::materials, "Materials by name.", {.required = true})
+          .key("materials", &Scene::materials, "Materials by name; required unless the mesh file brings them (.veg).")
           .key("regions", &Scene::regions,
                "Material and axes of each region of the mesh by its name, or of `all`; default: the only "
                "material everywhere.")
@@ -241,6 +245,7 @@ Scene read_scene(const Config& config) {
   if (config.is_map() && config.has("scenes"))
     config.at("scenes").fail("a scene has no such key; a comparison of scenes is run by `orthodyn compare`");
   Scene scene = Scene::spec().read(config);
+  if (!config.has("materials")) fill_mesh_materials(config, scene);
   if (scene.materials.empty()) config.at("materials").fail("is empty; give at least one material");
   fill_regions(config, scene);
   check_materials_exist(scene);

@@ -23,7 +23,7 @@ namespace orthodyn {
 enum class Component { x, y, z };
 enum class OutputTimes { interpolated, exact };
 
-// A set of nodes: exactly one of the four.
+// A set of nodes: exactly one of the five.
 struct BoxSelection {
   Vec3 min = Vec3::Zero(), max = Vec3::Zero();
   static const Spec<BoxSelection>& spec();
@@ -39,6 +39,7 @@ struct Clamp {
   std::optional<BoxSelection> box;
   std::optional<PlaneSelection> plane;
   std::optional<Vec3> nearest;
+  std::optional<std::string> nodes;  // a node set of the mesh
   std::vector<Component> components{Component::x, Component::y, Component::z};
   Origin origin;
   static const Spec<Clamp>& spec();

@@ -10,6 +10,17 @@ namespace orthodyn {
 
 namespace {
 
+// `found` is a map by name; `remedy` says where such things come from.
+[[noreturn]] void fail_unknown(const Origin& origin, const char* kind, const std::string& name, const auto& found,
+                               const char* remedy) {
+  std::vector<std::string> names;
+  for (const auto& [known, members] : found) names.push_back(known);
+  const auto near = nearest_name(name, names);
+  origin.fail(fmt::format("the mesh has no {} '{}'{} It has {}", kind, name,
+                          near.empty() ? "." : "; did you mean '" + near + "'?",
+                          names.empty() ? fmt::format("none ({})", remedy) : join(names)));
+}
+
 template <class Predicate>
 std::set<int> nodes_where(const TetMesh& mesh, Predicate&& inside) {
   std::set<int> out;
@@ -18,7 +29,14 @@ std::set<int> nodes_where(const TetMesh& mesh, Predicate&& inside) {
   return out;
 }
 
+std::set<int> node_set(const TetMesh& mesh, const std::string& name, const Origin& origin) {
+  const auto it = mesh.node_sets.find(name);
+  if (it != mesh.node_sets.end()) return {it->second.begin(), it->second.end()};
+  fail_unknown(origin, "node set", name, mesh.node_sets, "a .bou file, *NSET, physical points");
+}
+
 std::set<int> select(const Clamp& clamp, const TetMesh& mesh) {
+  if (clamp.nodes) return node_set(mesh, *clamp.nodes, clamp.origin);
   if (clamp.nearest) return {nearest_node(mesh, *clamp.nearest)};
   if (clamp.surface) {
     std::set<int> out;
@@ -46,12 +64,7 @@ std::string extent(const TetMesh& mesh) {
 const std::vector<Triangle>& find_surface(const TetMesh& mesh, const std::string& name, const Origin& origin) {
   const auto it = mesh.surfaces.find(name);
   if (it != mesh.surfaces.end() && !it->second.empty()) return it->second;
-  std::vector<std::string> names;
-  for (const auto& [known, triangles] : mesh.surfaces) names.push_back(known);
-  const auto near = nearest_name(name, names);
-  origin.fail(fmt::format("the mesh has no surface '{}'{} It has {}", name,
-                          near.empty() ? "." : "; did you mean '" + near + "'?",
-                          names.empty() ? "none (in Gmsh, make a Physical Surface)" : join(names)));
+  fail_unknown(origin, "surface", name, mesh.surfaces, "in Gmsh, make a Physical Surface");
 }
 
 std::vector<bool> clamped_coordinates(const std::vector<Clamp>& clamps, const TetMesh& mesh) {

@@ -21,7 +21,7 @@ void expect_same(const TetMesh& a, const TetMesh& b) {
 }
 
 TEST(Gmsh, ReadsNodesTetsRegionsAndSurfaces) {
-  const auto [mesh, warnings] = load(kFile22);
+  const auto [mesh, warnings, materials, cell_data] = load(kFile22);
   EXPECT_TRUE(warnings.empty());
   EXPECT_EQ(mesh.nodes, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}));
   EXPECT_EQ(mesh.tets, (std::vector<Tet>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
@@ -109,7 +109,7 @@ TEST(Gmsh, TetsWithoutAnyPhysicalVolumeFormTheBody) {
   std::string file = replaced(kFile22, "4 4 2 1 1", "4 4 0");
   file = replaced(file, "5 4 2 2 2", "5 4 2 0 2");
   file = replaced(file, "3\n2 5 \"load\"\n3 1 \"left\"\n3 2 \"right side\"", "1\n2 5 \"load\"");
-  const auto [mesh, warnings] = load(file);
+  const auto [mesh, warnings, materials, cell_data] = load(file);
   EXPECT_EQ(mesh.region_names, std::vector<std::string>{"body"});
   EXPECT_TRUE(warnings.empty());
 }
@@ -117,7 +117,7 @@ TEST(Gmsh, TetsWithoutAnyPhysicalVolumeFormTheBody) {
 TEST(Gmsh, WarnsIfOnlySomeTetsHaveAPhysicalVolume) {
   for (const std::string& file : {replaced(kFile22, "5 4 2 2 2", "5 4 2 0 2"),
                                   replaced(kFile41, "2 0 0 0 1 1 1 1 2 0", "2 0 0 0 1 1 1 0 0")}) {
-    const auto [mesh, warnings] =
+    const auto [mesh, warnings, materials, cell_data] =
         load(replaced(file, "3\n2 5 \"load\"\n3 1 \"left\"\n3 2 \"right side\"",
                       "2\n2 5 \"load\"\n3 1 \"left\""));
     EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"body", "left"}));
@@ -128,13 +128,13 @@ TEST(Gmsh, WarnsIfOnlySomeTetsHaveAPhysicalVolume) {
 }
 
 TEST(Gmsh, WarnsOfNamedGroupsWithoutElements) {
-  const auto [mesh, warnings] = load(replaced(kFile22, "3\n2 5", "4\n2 8 \"hole\"\n2 5"));
+  const auto [mesh, warnings, materials, cell_data] = load(replaced(kFile22, "3\n2 5", "4\n2 8 \"hole\"\n2 5"));
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("physical surface \"hole\" has no triangles"), std::string::npos);
 }
 
 TEST(Gmsh, WarnsOfNodesThatNoElementUses) {
-  const auto [mesh, warnings] = load(replaced(kFile22, "5\n1 0 0 0\n", "6\n77 9 9 9\n1 0 0 0\n"));
+  const auto [mesh, warnings, materials, cell_data] = load(replaced(kFile22, "5\n1 0 0 0\n", "6\n77 9 9 9\n1 0 0 0\n"));
   EXPECT_EQ(mesh.nodes.size(), 5u);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("beam.msh:12: node 77"), std::string::npos) << warnings[0];
@@ -143,6 +143,15 @@ TEST(Gmsh, WarnsOfNodesThatNoElementUses) {
 TEST(Gmsh, ATriangleBelongsToAllPhysicalSurfacesOfItsEntity) {
   const TetMesh mesh = load(replaced(kFile41, "1 0 1 5 1 1", "1 0 2 5 6 1 1")).mesh;
   EXPECT_EQ(mesh.surfaces.at("load"), mesh.surfaces.at("surface6"));
+}
+
+TEST(Gmsh, PhysicalPointsBecomeNodeSets) {
+  const std::string v22 = replaced(kFile22, "1 15 2 0 1 1", "1 15 2 7 1 3");
+  const std::string v41 = replaced(replaced(kFile41, "1 0 0 0 0\n", "1 0 0 0 1 7\n"), "\n1 1\n", "\n1 3\n");
+  for (const std::string& file : {v22, v41}) {
+    EXPECT_EQ(load(file).mesh.node_sets.at("points7"), std::vector<int>{2});
+    EXPECT_TRUE(load(replaced(file, "3\n2 5", "4\n0 7 \"tip\"\n2 5")).mesh.node_sets.contains("tip"));
+  }
 }
 
 // Format 2.2 has such a triangle reversed, 4.1 marks the group by a negative tag.

@@ -265,5 +265,22 @@ TEST(Validate, RefusesRegionsOutOfRange) {
   EXPECT_STARTS_WITH(refusal(mesh), "beam: 1 elements but a region for 0");
 }
 
+TEST(TetMesh, NodeSetsFollowTheNodesThatRemain) {
+  TetMesh mesh = two_tets();
+  mesh.nodes.insert(mesh.nodes.begin() + 1, Vec3(9, 9, 9));
+  mesh.tets = {{0, 2, 3, 4}, {2, 3, 4, 5}};
+  mesh.node_sets["ends"] = {5, 1, 0, 5};
+  const Vec3 last = mesh.nodes[5];
+  EXPECT_EQ(validate(mesh, {"beam"}).size(), 1u);
+  EXPECT_EQ(mesh.node_sets.at("ends"), (std::vector<int>{0, 4}));
+  EXPECT_EQ(mesh.nodes[4], last);
+}
+
+TEST(TetMesh, ANodeSetMayOnlyNameNodesOfTheMesh) {
+  TetMesh mesh = one_tet();
+  mesh.node_sets["ends"] = {0, 4};
+  EXPECT_CONTAINS(refusal(mesh), "node set \"ends\": uses node 4, but there are 4 nodes");
+}
+
 }  // namespace
 }  // namespace orthodyn

@@ -1,6 +1,4 @@
-// Where meshes come from: box, gmsh.
-#include <filesystem>
-
+// The mesh source `box`.
 #include "lib/mesh/box.h"
 #include "lib/scene/mesh_source.h"
 
@@ -75,36 +73,8 @@ class BoxSource : public MeshSource, public BoxMesh {
   Named<BoxRegion> parts_;
 };
 
-class GmshSource : public MeshSource {
- public:
-  static const Spec<GmshSource>& spec() {
-    static const auto s =
-        Spec<GmshSource>()
-            .key("file", &GmshSource::file_, "A .msh file, ASCII, version 2.2 or 4.1; relative to the scene.",
-                 {.required = true})
-            .key("scale", &GmshSource::scale_, "Multiplies coordinates: 0.001 if they are in mm.",
-                 {.range = kPositive});
-    return s;
-  }
-  LoadedMesh load() const override {
-    if (!std::filesystem::is_regular_file(file_.path))
-      throw ConfigError(file_.where + ": no such file: " + file_.path);
-    LoadedMesh loaded = read_gmsh(file_.path);
-    for (Vec3& x : loaded.mesh.nodes) x *= scale_;
-    return loaded;
-  }
-
- private:
-  FilePath file_;
-  double scale_ = 1;
-};
-
-const bool registered[] = {
-    Registry<MeshSource>::add<BoxSource>(
-        "box", "A box of tetrahedra. Region: body, and `parts`. Surfaces: x0, x1, y0, y1, z0, z1."),
-    Registry<MeshSource>::add<GmshSource>(
-        "gmsh", "A Gmsh file. Physical volumes become regions, physical surfaces surfaces."),
-};
+const bool registered = Registry<MeshSource>::add<BoxSource>(
+    "box", "A box of tetrahedra. Region: body, and `parts`. Surfaces: x0, x1, y0, y1, z0, z1.");
 
 }  // namespace
 }  // namespace orthodyn

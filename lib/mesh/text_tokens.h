@@ -7,11 +7,17 @@
 
 namespace orthodyn {
 
+// What else than blanks and ends of lines has a meaning.
+struct Punctuation {
+  bool commas = false;           // separate words, as blanks do
+  std::string_view comment = {};  // where a word begins with it, the rest of the line is a comment
+};
+
 // Between calls the cursor is on a line that is not blank, or at the end of the file. Lines end
 // with \n or \r\n. The text must outlive the tokens. Whatever does not fit throws ConfigError.
-class GmshTokens {
+class TextTokens {
  public:
-  GmshTokens(std::string path, std::string_view text);
+  TextTokens(std::string path, std::string_view text, Punctuation punctuation = {});
 
   bool at_end() const { return position_ == text_.size(); }
   int line() const { return line_; }
@@ -23,10 +29,17 @@ class GmshTokens {
   // The next word of this line; `what` is named if there is none or it does not read as a number.
   std::string_view word(const char* what);
   std::int64_t integer(const char* what);
-  double real(const char* what);  // finite
+  std::int64_t count(const char* what);  // not negative
+  double real(const char* what);         // finite
 
   // What is left of this line. The cursor stays.
   std::string_view rest_of_line() const;
+
+  // The bytes from the cursor to the end of the file, for binary sections.
+  std::string_view rest_of_file() const { return text_.substr(position_); }
+
+  // Goes to a later place in the text; lines between are counted.
+  void skip_bytes(std::size_t bytes);
 
   void finish_line();  // nothing may be left on it
   void skip_line();
@@ -38,10 +51,13 @@ class GmshTokens {
   static std::string quoted(std::string_view word);
 
  private:
+  bool is_blank(char c) const;
+  bool at_comment(std::size_t position) const;
   void skip_blank_lines();
 
   std::string path_;
   std::string_view text_;
+  Punctuation punctuation_;
   std::size_t position_ = 0;
   int line_ = 1;
 };

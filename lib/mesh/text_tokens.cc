@@ -1,4 +1,4 @@
-#include "lib/mesh/gmsh_tokens.h"
+#include "lib/mesh/text_tokens.h"
 
 #include <fmt/format.h>
 
@@ -12,8 +12,6 @@
 
 namespace orthodyn {
 namespace {
-
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 // from_chars knows no plus sign, but some writers do.
 std::string_view without_plus(std::string_view word) {
@@ -30,26 +28,34 @@ bool parse(std::string_view word, Number& value) {
 
 }  // namespace
 
-GmshTokens::GmshTokens(std::string path, std::string_view text)
-    : path_(std::move(path)), text_(text) {
+TextTokens::TextTokens(std::string path, std::string_view text, Punctuation punctuation)
+    : path_(std::move(path)), text_(text), punctuation_(punctuation) {
   skip_blank_lines();
 }
 
-char GmshTokens::peek() {
-  while (!at_end() && is_blank(text_[position_])) ++position_;
-  return at_end() || text_[position_] == '\n' ? '\0' : text_[position_];
+bool TextTokens::is_blank(char c) const {
+  return c == ' ' || c == '\t' || c == '\r' || (c == ',' && punctuation_.commas);
 }
 
-std::string_view GmshTokens::word(const char* what) {
+bool TextTokens::at_comment(std::size_t position) const {
+  return !punctuation_.comment.empty() && text_.substr(position).starts_with(punctuation_.comment);
+}
+
+char TextTokens::peek() {
+  while (!at_end() && is_blank(text_[position_])) ++position_;
+  return at_end() || text_[position_] == '\n' || at_comment(position_) ? '\0' : text_[position_];
+}
+
+std::string_view TextTokens::word(const char* what) {
   if (at_end()) fail(fmt::format("the file ends where {} is expected; is it truncated?", what));
   peek();
   const std::size_t begin = position_;
-  while (!at_end() && text_[position_] != '\n' && !is_blank(text_[position_])) ++position_;
+  while (!at_end() && !at_comment(begin) && text_[position_] != '\n' && !is_blank(text_[position_])) ++position_;
   if (position_ == begin) fail(fmt::format("expected {}, found the end of the line", what));
   return text_.substr(begin, position_ - begin);
 }
 
-std::int64_t GmshTokens::integer(const char* what) {
+std::int64_t TextTokens::integer(const char* what) {
   const std::string_view found = word(what);
   std::int64_t value = 0;
   if (!parse(found, value)) {
@@ -58,7 +64,13 @@ std::int64_t GmshTokens::integer(const char* what) {
   return value;
 }
 
-double GmshTokens::real(const char* what) {
+std::int64_t TextTokens::count(const char* what) {
+  const std::int64_t found = integer(what);
+  if (found < 0) fail(fmt::format("{} is {}; it cannot be negative", what, found));
+  return found;
+}
+
+double TextTokens::real(const char* what) {
   const std::string_view found = word(what);
   double value = 0;
   if (!parse(found, value) || !std::isfinite(value)) {
@@ -67,27 +79,31 @@ double GmshTokens::real(const char* what) {
   return value;
 }
 
-std::string_view GmshTokens::rest_of_line() const {
+std::string_view TextTokens::rest_of_line() const {
   const std::string_view rest = text_.substr(position_);
   return rest.substr(0, std::min(rest.find('\n'), rest.size()));
 }
 
-void GmshTokens::finish_line() {
+void TextTokens::finish_line() {
   if (peek() != '\0') {
     fail(fmt::format("expected the end of the line, found {}", quoted(word("a word"))));
   }
   skip_line();
 }
 
-void GmshTokens::skip_line() {
+void TextTokens::skip_line() {
   position_ = std::min(text_.find('\n', position_), text_.size());
   skip_blank_lines();
 }
 
-void GmshTokens::skip_blank_lines() {
+void TextTokens::skip_blank_lines() {
   std::size_t p = position_;
   int line = line_;
-  while (p < text_.size() && (is_blank(text_[p]) || text_[p] == '\n')) {
+  while (p < text_.size() && (is_blank(text_[p]) || text_[p] == '\n' || at_comment(p))) {
+    if (at_comment(p)) {
+      p = std::min(text_.find('\n', p), text_.size());
+      continue;
+    }
     line += text_[p] == '\n';
     ++p;
   }
@@ -96,13 +112,21 @@ void GmshTokens::skip_blank_lines() {
   position_ = p;
 }
 
-void GmshTokens::fail(const std::string& message) const { fail_at(line_, message); }
+void TextTokens::skip_bytes(std::size_t bytes) {
+  const std::size_t end = position_ + std::min(bytes, text_.size() - position_);
+  line_ += static_cast<int>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(position_),
+                                       text_.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+  position_ = end;
+  skip_blank_lines();
+}
 
-void GmshTokens::fail_at(int line, const std::string& message) const {
+void TextTokens::fail(const std::string& message) const { fail_at(line_, message); }
+
+void TextTokens::fail_at(int line, const std::string& message) const {
   throw ConfigError(fmt::format("{}:{}: {}", path_, line, message));
 }
 
-std::string GmshTokens::quoted(std::string_view word) {
+std::string TextTokens::quoted(std::string_view word) {
   constexpr std::size_t kLongest = 40;
   std::string shown(word.substr(0, kLongest));
   std::replace_if(

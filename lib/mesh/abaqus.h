@@ -1,0 +1,26 @@
+// Reads the mesh out of an Abaqus input file (.inp).
+//
+// Format: Abaqus keywords reference; numbering of the faces of C3D4: Abaqus elements guide,
+// "three-dimensional solid element library".
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "lib/mesh/loaded_mesh.h"
+
+namespace orthodyn {
+
+// Reads *NODE, *ELEMENT (C3D4, C3D4H), *NSET and *ELSET (also GENERATE), *SURFACE of type ELEMENT
+// with faces S1 to S4, and *SOLID SECTION; keywords and names in any case. The element sets of solid
+// sections are the regions; without sections every element belongs to the last set that names it.
+// Sets of three-node shells or plane elements (CPS3, S3, ...), as Gmsh writes them, become surfaces.
+// A single part and instance is taken as flat. Other solid elements, *INCLUDE, several parts, and
+// keywords that generate or transform nodes are refused; all other keywords are skipped, with a
+// warning that lists them. Throws ConfigError "file:line: found, remedy", as read_gmsh() does.
+LoadedMesh read_abaqus(const std::string& path);
+
+// The same from a text; `path` is for messages.
+LoadedMesh read_abaqus_text(const std::string& path, std::string_view text);
+
+}  // namespace orthodyn

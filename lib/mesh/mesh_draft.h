@@ -1,0 +1,66 @@
+// What a mesh file says, before it becomes a TetMesh: numbers of the file instead of indices, and
+// the place of everything. Filled by the readers of the formats.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lib/core/types.h"
+#include "lib/mesh/loaded_mesh.h"
+
+namespace orthodyn {
+
+struct FilePlace {
+  int line = 0;  // 0: in a file without lines, the number is enough
+  int file = 0;  // index into MeshDraft::files
+};
+
+struct FileNode {
+  std::int64_t tag = 0;
+  FilePlace place;
+  Vec3 x = Vec3::Zero();
+};
+
+struct FileTet {
+  std::int64_t tag = 0;
+  std::array<std::int64_t, 4> nodes{};
+  FilePlace place;
+  int region = 0;  // index into MeshDraft::region_names
+};
+
+struct FileTriangle {
+  std::int64_t tag = 0;
+  std::array<std::int64_t, 3> nodes{};
+  FilePlace place;
+};
+
+// A node that a set names.
+struct FileNodeUse {
+  std::int64_t tag = 0;
+  FilePlace place;
+};
+
+struct MeshDraft {
+  std::vector<std::string> files;  // the first is the one that the user named
+  std::vector<FileNode> nodes;     // in any order
+  std::vector<FileTet> tets;
+  std::vector<std::string> region_names;
+  std::map<std::string, std::vector<FileTriangle>> surfaces;
+  std::map<std::string, std::vector<FileNodeUse>> node_sets;
+  std::string nodes_section;  // what defines nodes, for messages: "$Nodes"
+  Warnings warnings;
+
+  std::string where(FilePlace place) const;  // "beam.msh:120", or "beam.vtu"
+  [[noreturn]] void fail(FilePlace place, const std::string& message) const;
+};
+
+// Nodes are numbered by ascending tag; elements keep their order. A mesh whose elements are all
+// inverted was written by a program that counts the nodes of a tet the other way round: they are
+// turned, with a warning. Throws ConfigError for tags that are not defined or defined twice, for a
+// mesh without elements, and for what validate() refuses.
+LoadedMesh build_mesh(MeshDraft draft);
+
+}  // namespace orthodyn

@@ -1,0 +1,26 @@
+// Reads TetGen's meshes: .node and .ele, and .face if it is there.
+//
+// Format: Hang Si, TetGen 1.5 user's manual, "file formats".
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "lib/mesh/loaded_mesh.h"
+
+namespace orthodyn {
+
+// `path` names the .node or the .ele file; the others are beside it. Elements belong to the region
+// "region<attribute>", or "body" without attributes. Triangles of the .face file with a marker other
+// than zero make surfaces "marker<k>", nodes likewise node sets "marker<k>". Numbers count from 0 or
+// 1. Throws ConfigError "file:line: found, remedy", as read_gmsh() does.
+LoadedMesh read_tetgen(const std::string& path);
+
+struct TetgenTexts {
+  std::string_view node, ele, face;  // the last may be empty
+};
+
+// The same from texts; `stem` is the path without its ending, for messages.
+LoadedMesh read_tetgen_text(const std::string& stem, const TetgenTexts& texts);
+
+}  // namespace orthodyn

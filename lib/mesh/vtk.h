@@ -1,0 +1,21 @@
+// Reads tetrahedral meshes from VTK's legacy files of unstructured grids (.vtk), ASCII or binary,
+// with cells as up to version 4.2 or as from 5.0.
+//
+// Format: Kitware, VTK file formats, "simple legacy formats".
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "lib/mesh/loaded_mesh.h"
+
+namespace orthodyn {
+
+// What becomes of cells and arrays: see build_vtk_mesh(). Throws ConfigError "file:line: found,
+// remedy". Memory use is bounded by the size of the file, whatever counts it announces.
+LoadedMesh read_vtk(const std::string& path);
+
+// The same from a text; `path` is for messages.
+LoadedMesh read_vtk_text(const std::string& path, std::string_view text);
+
+}  // namespace orthodyn

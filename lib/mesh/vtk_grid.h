@@ -1,0 +1,29 @@
+// What both kinds of VTK files say: an unstructured grid with values per cell and per point.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lib/mesh/loaded_mesh.h"
+
+namespace orthodyn {
+
+// Numbers as read; nothing is checked yet.
+struct VtkGrid {
+  std::string path;
+  std::vector<double> points = {};        // x, y, z of each
+  std::vector<double> connectivity = {};  // points of all cells
+  std::vector<double> offsets = {};       // for each cell where its points end in `connectivity`
+  std::vector<double> types = {};         // of each cell, vtkCellType.h
+  std::vector<CellData> cell_data = {}, point_data = {};
+  std::vector<std::string> region_names = {};  // by number, of field data "region_names"; may be empty
+};
+
+// Tets become the mesh; vertices, lines and triangles are ignored with a warning; other cells are
+// refused by name. The integer cell data "region" (or "gmsh:physical", as meshio names it) makes
+// regions "region<k>", in ascending order; point data "nodes:NAME" makes the node set NAME of the
+// points where it is not zero. All cell data are kept, for the tets. Throws ConfigError "file: found,
+// remedy" with the number of the cell or point, counted from 0.
+LoadedMesh build_vtk_mesh(VtkGrid grid);
+
+}  // namespace orthodyn

@@ -1,0 +1,23 @@
+// Reads tetrahedral meshes from VTK's XML files of unstructured grids (.vtu): ASCII, base64, and
+// appended data (raw or base64), uncompressed or by zlib, either byte order.
+//
+// Format: Kitware, VTK file formats, "XML file formats". The frames of a run are such files.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "lib/mesh/loaded_mesh.h"
+
+namespace orthodyn {
+
+// What becomes of cells and arrays: see build_vtk_mesh(). The field data array of strings
+// "region_names" names the regions by their number. Throws ConfigError "file:line: array, found,
+// remedy". Memory use is bounded by the size of the file, whatever counts it announces (for
+// compressed arrays by the highest ratio that zlib reaches).
+LoadedMesh read_vtu(const std::string& path);
+
+// The same from a text; `path` is for messages.
+LoadedMesh read_vtu_text(const std::string& path, std::string_view text);
+
+}  // namespace orthodyn

@@ -1,0 +1,96 @@
+// Files as Gmsh, TetGen and meshio write them: see data/README.md.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "lib/mesh/mesh_file.h"
+#include "tests/mesh/refusal.h"
+
+namespace orthodyn {
+namespace {
+
+LoadedMesh load(const std::string& name) { return read_mesh(std::string(ORTHODYN_SOURCE_DIR) + "/tests/mesh/data/" + name); }
+
+double volume(const TetMesh& mesh) {
+  double sum = 0;
+  for (const Tet& tet : mesh.tets) sum += signed_volume6(mesh, tet) / 6;
+  return sum;
+}
+
+double area(const TetMesh& mesh, const std::vector<Triangle>& triangles) {
+  double sum = 0;
+  for (const auto& [a, b, c] : triangles) {
+    const auto x = [&](int n) { return mesh.nodes[static_cast<std::size_t>(n)]; };
+    sum += (x(b) - x(a)).cross(x(c) - x(a)).norm() / 2;
+  }
+  return sum;
+}
+
+class TwoBoxes : public testing::TestWithParam<const char*> {};
+
+TEST_P(TwoBoxes, AreTwoCubesWideAndSplitInHalf) {
+  const TetMesh mesh = load(GetParam()).mesh;
+  EXPECT_EQ(mesh.nodes.size(), 23u);
+  EXPECT_NEAR(volume(mesh), 2, 1e-12);
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
+    double x = 0;
+    for (const int n : mesh.tets[e]) x += mesh.nodes[static_cast<std::size_t>(n)][0] / 4;
+    if (mesh.region_names.size() == 2) {
+      EXPECT_EQ(mesh.region_of[e], x < 1 ? 0 : 1);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Written, TwoBoxes,
+                         testing::Values("two_boxes_22.msh", "two_boxes_41.msh", "two_boxes_gmsh.inp", "two_boxes_gmsh.vtk",
+                                         "two_boxes_meshio_ascii.vtu", "two_boxes_meshio_zlib.vtu",
+                                         "two_boxes_meshio_ascii.vtk", "two_boxes_meshio_binary.vtk"));
+
+TEST(OwnerFiles, EveryKindOfVtkFileGivesTheSameMeshAndCellData) {
+  const LoadedMesh first = load("two_boxes_meshio_ascii.vtu");
+  EXPECT_EQ(first.mesh.region_names, (std::vector<std::string>{"region1", "region2"}));
+  for (const char* name : {"two_boxes_meshio_zlib.vtu", "two_boxes_meshio_ascii.vtk", "two_boxes_meshio_binary.vtk"}) {
+    const LoadedMesh other = load(name);
+    EXPECT_EQ(other.mesh.nodes, first.mesh.nodes) << name;
+    EXPECT_EQ(other.mesh.tets, first.mesh.tets) << name;
+    EXPECT_EQ(other.mesh.region_of, first.mesh.region_of) << name;
+    ASSERT_TRUE(find_cell_data(other, "gmsh:physical")) << name;
+    EXPECT_EQ(find_cell_data(other, "gmsh:physical")->values, find_cell_data(first, "gmsh:physical")->values) << name;
+  }
+}
+
+TEST(OwnerFiles, PhysicalGroupsOfGmshComeThroughItsAbaqusFile) {
+  const TetMesh msh = load("two_boxes_41.msh").mesh;
+  const TetMesh inp = load("two_boxes_gmsh.inp").mesh;
+  EXPECT_EQ(inp.region_names, msh.region_names);
+  EXPECT_EQ(inp.region_of, msh.region_of);
+  EXPECT_EQ(inp.surfaces.at("clamped"), msh.surfaces.at("clamped"));
+  EXPECT_NEAR(area(inp, inp.surfaces.at("clamped")), 1, 1e-14);
+}
+
+TEST(OwnerFiles, TetGensMarkersAndAttributesAreSurfacesNodeSetsAndRegions) {
+  const TetMesh mesh = load("cube.ele").mesh;
+  EXPECT_NEAR(volume(mesh), 1, 1e-14);
+  EXPECT_EQ(mesh.region_names, std::vector<std::string>{"region7"});
+  EXPECT_NEAR(area(mesh, mesh.surfaces.at("marker1")), 1, 1e-14);
+  EXPECT_NEAR(area(mesh, mesh.surfaces.at("marker3")), 4, 1e-14);
+  for (const int n : mesh.node_sets.at("marker2")) EXPECT_EQ(mesh.nodes[static_cast<std::size_t>(n)][0], 1);
+  EXPECT_EQ(mesh.node_sets.at("marker2").size(), 4u);
+  EXPECT_EQ(load("cube.node").mesh.tets, mesh.tets);
+}
+
+TEST(OwnerFiles, MeshioKeepsTheMeshOfTetGen) {
+  const TetMesh mesh = load("cube.ele").mesh;
+  for (const char* name : {"cube_meshio.inp", "cube_meshio_binary.vtu"}) {
+    EXPECT_EQ(load(name).mesh.nodes, mesh.nodes) << name;
+    EXPECT_EQ(load(name).mesh.tets, mesh.tets) << name;
+  }
+}
+
+TEST(MeshFile, AnUnknownEndingIsRefusedWithTheKnownOnes) {
+  EXPECT_CONTAINS(refusal_of([] { read_mesh("body.stl"); }), "body.stl: no mesh format has the ending \".stl\"; known: .msh (Gmsh)");
+}
+
+}  // namespace
+}  // namespace orthodyn
