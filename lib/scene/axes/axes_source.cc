@@ -2,15 +2,11 @@
 
 namespace orthodyn {
 
-namespace {
-
 Vec3 centroid(const TetMesh& mesh, int cell) {
   Vec3 sum = Vec3::Zero();
   for (const int node : mesh.tets[static_cast<std::size_t>(cell)]) sum += mesh.nodes[static_cast<std::size_t>(node)];
   return sum / 4;
 }
-
-}  // namespace
 
 ElementAxes element_axes(const AxesSource& source, const AxesField& field, const TetMesh& mesh,
                          const std::vector<int>& cells) {

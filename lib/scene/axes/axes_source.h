@@ -26,6 +26,9 @@ class AxesSource {
   virtual AxesField field(const TetMesh& mesh, Warnings& notes) const = 0;
 };
 
+// The mean of an element's corners, m.
+Vec3 centroid(const TetMesh& mesh, int cell);
+
 // The axes of the elements `cells` of a mesh.
 ElementAxes element_axes(const AxesSource& source, const AxesField& field, const TetMesh& mesh,
                          const std::vector<int>& cells);

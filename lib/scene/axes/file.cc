@@ -14,7 +14,8 @@ class AxesFile : public AxesSource {
         Spec<AxesFile>()
             .key("file", &AxesFile::file_,
                  "CSV with the columns a1x,a1y,a1z,a2x,a2y,a2z and, if wanted, a3x,a3y,a3z and element (index from 0). "
-                 "Without element there is one row for each element of the mesh, in its order; relative to the scene.",
+                 "Without element there is one row for each element of the mesh, in its order. Or VTU of the same mesh with the "
+                 "cell data axis_1, axis_2 and, if wanted, axis_3, or axes (9 components); relative to the scene.",
                  {.required = true})
             .key("repair", &AxesFile::repair_, kRepairSentence);
     return s;
@@ -26,6 +27,7 @@ class AxesFile : public AxesSource {
     if (given.every && given.rows.size() != num_elements)
       throw ConfigError(fmt::format("{}: {} rows for a mesh of {} elements; give one for each, or a column 'element'",
                                     given.path, given.rows.size(), num_elements));
+    if (given.mesh) check_same_mesh(given, mesh);
     auto axes = std::make_shared<std::vector<Mat3>>(num_elements, Mat3::Zero());
     for (const auto& row : given.rows) {
       if (static_cast<std::size_t>(row.element) >= num_elements)
@@ -44,6 +46,28 @@ class AxesFile : public AxesSource {
   }
 
  private:
+  // That elements lie in the same places up to a shift and a scale (`scale: 0.001` of a mesh in mm).
+  static void check_same_mesh(const AxesRows& given, const TetMesh& mesh) {
+    const int count = static_cast<int>(mesh.tets.size());
+    const auto extent = [&](const TetMesh& m) {
+      Box box{centroid(m, 0), centroid(m, 0)};
+      for (int e = 1; e < count; ++e) {
+        const Vec3 c = centroid(m, e);
+        box = {box.min.cwiseMin(c), box.max.cwiseMax(c)};
+      }
+      return box;
+    };
+    const Box there = extent(*given.mesh), here = extent(mesh);
+    if (count < 2) return;
+    for (int e = 0; e < count; ++e) {
+      const Vec3 a = (centroid(*given.mesh, e) - there.min) / there.diagonal(), b = (centroid(mesh, e) - here.min) / here.diagonal();
+      if (!((a - b).norm() < 1e-4))
+        throw ConfigError(fmt::format("{}: cell {} is not where element {} of the scene's mesh is; the axes are of another "
+                                      "mesh, or its elements have another order",
+                                      given.path, e, e));
+    }
+  }
+
   // Of unit length, with the third filled in.
   static Mat3 columns(const AxesRows& given, const AxesRows::Row& row) {
     Mat3 m;

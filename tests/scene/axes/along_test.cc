@@ -225,7 +225,9 @@ TEST_F(AxesFromFiles, BadTextIsRefusedWithItsLine) {
   EXPECT_TRUE(holds(refused(write("a1x,a1y,a1z,a2x,a2y,a2z,a3x\n1,0,0,0,1,0,0\n")), "axis 3 needs all of"));
   EXPECT_TRUE(holds(refused(write("element,a1x,a1y,a1z,a2x,a2y,a2z\n0.5,1,0,0,0,1,0\n")), "expected a whole number from 0, found 0.5"));
   EXPECT_TRUE(holds(refused("/nowhere.csv"), "no such file: /nowhere.csv"));
-  EXPECT_TRUE(holds(refused("axes.txt"), "'.txt' is not a kind of file"));
+  const auto unknown = std::filesystem::path(testing::TempDir()) / "axes.txt";
+  std::ofstream(unknown) << header;
+  EXPECT_TRUE(holds(refused(unknown.string()), "'.txt' is not a kind of file"));
 }
 
 }  // namespace
