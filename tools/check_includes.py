@@ -29,7 +29,7 @@ LIBRARIES = {
     r"(cholmod|klu)\.h": ["lib/linear/"],
     r"muParser": ["lib/core/formula.cc"],
     r"CLI/": ["tools/"],
-    r"nlohmann/": ["lib/study/", "tools/", "tests/"],
+    r"nlohmann/": ["lib/run/checkpoint.cc", "lib/study/", "tools/", "tests/"],
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 VERSION_SWITCH = re.compile(r"^\s*#\s*(?:el)?if.*SUNDIALS_VERSION")
