@@ -17,6 +17,7 @@ constexpr const char* kExamples = R"(
 Examples:
   orthodyn run configs/scenes/cantilever.yaml
   orthodyn run configs/scenes/free_flight.yaml --set elasticity.corotation=warped --out out/warped
+  orthodyn run configs/scenes/laminate.yaml --set checkpoint={} --resume
   orthodyn check configs/scenes/laminate.yaml
   orthodyn list materials
   orthodyn compare configs/comparisons/damped_beam.yaml
@@ -52,7 +53,10 @@ int main(int argc, char** argv) {
   add_scene_options(*run, arguments);
   run->add_option("--out", arguments.out, "Folder for the results; default out/<scene>.")->type_name("DIR");
   run->add_flag("--quiet", arguments.quiet, "No progress and no summary.");
-  run->add_flag("--force", arguments.force, "Replace an earlier result in the folder.");
+  auto* force = run->add_flag("--force", arguments.force, "Replace an earlier result in the folder.");
+  run->add_flag("--resume", arguments.resume,
+                "Go on from the checkpoint in the folder, or begin if there is no result yet. SCENE may be the folder.")
+      ->excludes(force);
 
   auto* check = app.add_subcommand("check", "Read, validate and build a scene, and say what it consists of.");
   add_scene_options(*check, arguments);

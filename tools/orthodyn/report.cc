@@ -52,12 +52,14 @@ Json decisions(const Integrator& integrator) {
 
 }  // namespace
 
-std::string run_json(const RunArguments& arguments, const RunReport* report) {
+std::string run_json(const RunArguments& arguments, const std::vector<Restart>& restarts, const RunReport* report) {
   Json out{{"status", report ? status_word(report->outcome.status) : "running"},
                    {"scene", arguments.scene},
                    {"set", arguments.set},
                    {"versions", versions_json()},
                    {"machine", machine_json()}};
+  for (const auto& r : restarts)
+    out["restarts"].push_back({{"time", r.time}, {"at", r.at}, {"after", r.after}, {"changed", r.changed}});
   if (!report) return out.dump(2) + "\n";
   const auto& model = *report->setup.built.model;
   out["model"] = {{"nodes", model.parts().mesh.nodes.size()},
@@ -66,9 +68,9 @@ std::string run_json(const RunArguments& arguments, const RunReport* report) {
                   {"terms", terms(model)}};
   out["integrator"] = decisions(*report->setup.integrator);
   out["time_reached"] = report->outcome.last.t;
-  out["wall_seconds"] = report->outcome.wall_seconds;
-  out["cpu_seconds"] = report->outcome.cpu_seconds;
-  out["statistics"] = to_json(report->setup.integrator->statistics());
+  out["wall_seconds"] = report->effort.wall_seconds;
+  out["cpu_seconds"] = report->effort.cpu_seconds;
+  out["statistics"] = to_json(report->effort.statistics);
   out["factor_bytes"] = report->setup.integrator->factor_bytes();
   out["smallest_det_f"] = {{"value", report->inversion.smallest()},
                            {"element", report->inversion.element()},
@@ -85,12 +87,12 @@ std::string run_json(const RunArguments& arguments, const RunReport* report) {
 }
 
 void print_summary(const RunReport& report, const std::filesystem::path& folder) {
-  const auto& s = report.setup.integrator->statistics();
+  const auto& s = report.effort.statistics;
   const auto& outcome = report.outcome;
   const auto type = report.setup.config.at("integrator").at("type").text();
   fmt::print("{} with {}: {} unknowns, {} at t = {:.6g} s after {:.2f} s ({:.2f} s CPU)\n", report.arguments.scene,
              type, report.setup.built.model->num_dofs(), status_word(outcome.status), outcome.last.t,
-             outcome.wall_seconds, outcome.cpu_seconds);
+             report.effort.wall_seconds, report.effort.cpu_seconds);
   const auto& elastic = *report.setup.built.model->parts().elastic.front();
   fmt::print("  {:<15} {}\n", "elasticity", elastic.law());
   for (const auto& [key, value] : report.setup.integrator->decisions()) fmt::print("  {:<15} {}\n", key, value);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "lib/run/checkpoint.h"
 #include "lib/run/curves.h"
 #include "lib/run/run.h"
 #include "tools/orthodyn/setup.h"
@@ -14,13 +15,14 @@ struct RunReport {
   const RunArguments& arguments;
   const Setup& setup;
   const Outcome& outcome;
+  const Effort& effort;  // over all restarts
   const InversionWatch& inversion;
   const EnergyWriter* energy;      // null if not written
   const MomentumWriter* momentum;  // likewise
 };
 
 // `report` null: the run has begun.
-std::string run_json(const RunArguments& arguments, const RunReport* report);
+std::string run_json(const RunArguments& arguments, const std::vector<Restart>& restarts, const RunReport* report);
 
 void print_summary(const RunReport& report, const std::filesystem::path& folder);
 
