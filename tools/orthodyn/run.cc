@@ -22,7 +22,8 @@ namespace {
 std::string resolved_scene(const Setup& setup, const RunArguments& arguments, const fs::path& folder) {
   const Config mesh = setup.config.at("mesh");
   if (mesh.has("file"))
-    mesh.fill_text("file", fs::proximate(mesh.at("file").file_path(), folder).string());
+    // Absolute: of a folder that does not exist yet nothing else can be told.
+    mesh.fill_text("file", fs::proximate(fs::absolute(mesh.at("file").file_path()), fs::absolute(folder)).string());
   return fmt::format("# {} with every default spelled out, by orthodyn {}.\n{}", arguments.scene,
                      orthodyn_version(), setup.config.dump());
 }
@@ -84,7 +85,10 @@ class Run {
     const bool resumes = earlier_ && earlier_->begun;
     Checkpoint begin = resumes ? continued(std::move(*earlier_), setup, resolved, folder_)
                                : first_checkpoint(setup, resolved);
-    if (resumes && is_complete(begin, setup.scene)) return say_complete(begin.state.t);
+    // One that was killed after its last step still lacks its record.
+    if (resumes && is_complete(begin, setup.scene) && begin.restarts.back().after == "completed")
+      return say_complete(begin.state.t);
+    if (arguments_.estimate_error) estimator_.emplace(setup, plan_of(setup.scene, begin.rhythm));
     return resumes ? go_on(setup, std::move(begin)) : start(setup, std::move(begin));
   }
 
@@ -116,20 +120,35 @@ class Run {
                               *setup.integrator);
     Plan plan = plan_of(setup.scene, begin.rhythm);
     if (begin.begun) plan.delivered = begin.last_output;
+    auto all = observers.all(checkpointer);
+    if (estimator_) all.push_back(&estimator_->recorder());
     heed_interrupts();
-    const Outcome outcome = run(*setup.built.model, *setup.integrator, begin.state, plan, observers.all(checkpointer),
-                                interrupted());
+    const Outcome outcome = run(*setup.built.model, *setup.integrator, begin.state, plan, all, interrupted());
     const bool kept = keeps_last_state(setup.scene, outcome, begin.begun) && keep_last_state(checkpointer, outcome);
     const Effort effort =
         begin.effort + Effort{setup.integrator->statistics(), outcome.wall_seconds, outcome.cpu_seconds};
-    const RunReport report{arguments_, setup, outcome, effort, observers.inversion,
+    RunReport report{arguments_, setup, outcome, effort, observers.inversion,
                            observers.energy ? &*observers.energy : nullptr,
                            observers.momentum ? &*observers.momentum : nullptr};
     if (outcome.status == Outcome::Status::failed) fmt::print(stderr, "error: {}\n", outcome.message);
     record.rewrite(run_json(arguments_, begin.restarts, &report));
     if (!arguments_.quiet) print_summary(report, folder_.path());
     tell_what_remains(report, kept || setup.scene.checkpoint);
-    return exit_code(outcome.status);
+    if (!estimator_ || outcome.status != Outcome::Status::completed) return exit_code(outcome.status);
+    report.error = repeat(setup.scene);
+    record.rewrite(run_json(arguments_, begin.restarts, &report));
+    print_error(*report.error);
+    return report.error->completed ? 0 : interrupted() ? 130 : 3;
+  }
+
+  // The run once more, for the estimate of its error.
+  ErrorEstimate repeat(const Scene& scene) const {
+    std::optional<Progress> progress;
+    if (!arguments_.quiet) {
+      fmt::print(stderr, "repeats with {} to estimate the error\n", join(estimator_->refinement()));
+      progress.emplace(scene.time.start, scene.time.end, stderr);
+    }
+    return estimator_->estimate(progress ? std::vector<Observer*>{&*progress} : std::vector<Observer*>{}, interrupted());
   }
 
   void tell_what_remains(const RunReport& report, bool resumable) const {
@@ -163,6 +182,7 @@ class Run {
   RunArguments arguments_;
   ResultFolder folder_;
   std::optional<Checkpoint> earlier_;
+  std::optional<ErrorEstimator> estimator_;
 };
 
 }  // namespace
