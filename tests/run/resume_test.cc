@@ -295,6 +295,39 @@ TEST_F(Resume, ARunKilledAfterItsLastStepGetsItsRecord) {
   EXPECT_EQ(read_text(folder_ / "out/beam/frames.pvd"), frames);
 }
 
+TEST_F(Resume, ARunThatFilledTheDiskGoesOnWhenThereIsRoom) {
+  write("beam.yaml", kBeam + std::string(kFixedStep));
+  // No file may grow past 8 kB: steps.csv does, in the middle of the run.
+  const auto full = shell("cd " + folder_.string() + " && trap '' XFSZ; ulimit -f 16; " ORTHODYN_EXECUTABLE
+                          " run beam.yaml --quiet --set output.fields=[region]");
+  ASSERT_EQ(full.exit_code, 3) << full.output;
+  EXPECT_NE(full.output.find("cannot write"), std::string::npos) << full.output;
+  const auto result = orthodyn("run beam.yaml --quiet --resume --set output.fields=[region]");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_EQ(read_rows(folder_ / "out/beam/steps.csv").size(), 200u);
+  EXPECT_EQ(read_times(folder_ / "out/beam/frames.pvd").size(), 41u);
+}
+
+TEST_F(Resume, TheErrorIsEstimatedOnRequestAndRecorded) {
+  write("swing.yaml", kSwing);
+  const auto result = orthodyn("run swing.yaml --estimate-error");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_NE(result.output.find("integrator.rtol=0.0001"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("displacements are off by about"), std::string::npos) << result.output;
+  const auto error = record("out/swing").at("estimated_error");
+  EXPECT_EQ(error.at("samples"), 6);
+  EXPECT_GT(error.at("displacement").at("largest"), 0);
+  EXPECT_LT(error.at("displacement").at("largest"), 0.1);
+}
+
+TEST_F(Resume, AnEstimateThatCannotBeMadeIsRefusedBeforeTheEarlierResultIsTouched) {
+  write("swing.yaml", kSwing);
+  ASSERT_EQ(orthodyn("run swing.yaml --quiet").exit_code, 0);
+  const auto result = orthodyn("run swing.yaml --quiet --force --estimate-error --set output.frames=0");
+  EXPECT_EQ(result.exit_code, 2) << result.output;
+  EXPECT_TRUE(fs::exists(folder_ / "out/swing/frames/frame_00005.vtu"));
+}
+
 TEST_F(Resume, AMeshFileThatHasChangedIsRefused) {
   const auto mesh = [&](const char* height) {
     write("tet.msh", std::string("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 ") +
