@@ -32,7 +32,7 @@ LIBRARIES = {
     r"pugixml": ["lib/mesh/vtu"],
     r"zlib\.h": ["lib/mesh/vtu"],
     r"CLI/": ["tools/"],
-    r"nlohmann/": ["lib/study/", "tools/", "tests/"],
+    r"nlohmann/": ["lib/run/checkpoint.cc", "lib/study/", "tools/", "tests/"],
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 VERSION_SWITCH = re.compile(r"^\s*#\s*(?:el)?if.*SUNDIALS_VERSION")

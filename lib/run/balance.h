@@ -4,6 +4,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "lib/run/observer.h"
 
@@ -17,6 +18,8 @@ class PowerIntegral {
   // To a time within the integrator's last step.
   double advance(const State& to, const Integrator& integrator);
   double value() const { return sum_; }
+  std::vector<double> kept() const { return {t_, last_, sum_}; }
+  void restore(const std::vector<double>& kept);
 
  private:
   const Model& model_;
@@ -38,6 +41,8 @@ class EnergyMeter : public Observer {
   void on_start(const State& state) override;
   void on_output(const State& state) override { look(state); }
   void on_step(const StepInfo&, const State& state, const Integrator&) override { look(state); }
+  void save(Archive& archive) override;
+  void restore(const Archive& archive) override;
 
   const EnergyBalance& last() const { return last_; }
   // Of the last state looked at, J.
@@ -65,6 +70,8 @@ class MomentumMeter : public Observer {
   void on_start(const State& state) override;
   void on_output(const State& state) override { look(state); }
   void on_step(const StepInfo&, const State& state, const Integrator&) override { look(state); }
+  void save(Archive& archive) override;
+  void restore(const Archive& archive) override;
 
   // Of the last state looked at.
   const Vec3& linear() const { return linear_; }
@@ -91,6 +98,8 @@ class InversionWatch : public Observer {
   explicit InversionWatch(const Model& model) : model_(model) {}
   void on_start(const State& state) override { look(state); }
   void on_step(const StepInfo&, const State& state, const Integrator&) override { look(state); }
+  void save(Archive& archive) override;
+  void restore(const Archive& archive) override;
 
   double smallest() const { return smallest_; }
   int element() const { return element_; }

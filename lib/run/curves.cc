@@ -14,12 +14,23 @@ EnergyWriter::EnergyWriter(const std::filesystem::path& path, const Model& model
 
 void EnergyWriter::on_start(const State& state) {
   EnergyMeter::on_start(state);
+  file_.begin();
   write(state.t);
 }
 
 void EnergyWriter::on_output(const State& state) {
   EnergyMeter::on_output(state);
   write(state.t);
+}
+
+void EnergyWriter::save(Archive& archive) {
+  EnergyMeter::save(archive);
+  file_.save(archive);
+}
+
+void EnergyWriter::restore(const Archive& archive) {
+  EnergyMeter::restore(archive);
+  file_.restore(archive);
 }
 
 void EnergyWriter::write(double t) {
@@ -34,12 +45,23 @@ MomentumWriter::MomentumWriter(const std::filesystem::path& path, const Model& m
 
 void MomentumWriter::on_start(const State& state) {
   MomentumMeter::on_start(state);
+  file_.begin();
   write(state.t);
 }
 
 void MomentumWriter::on_output(const State& state) {
   MomentumMeter::on_output(state);
   write(state.t);
+}
+
+void MomentumWriter::save(Archive& archive) {
+  MomentumMeter::save(archive);
+  file_.save(archive);
+}
+
+void MomentumWriter::restore(const Archive& archive) {
+  MomentumMeter::restore(archive);
+  file_.restore(archive);
 }
 
 void MomentumWriter::write(double t) {
@@ -86,6 +108,11 @@ std::vector<std::string> probe_header(const Model& model, const std::vector<Prob
 
 ProbeWriter::ProbeWriter(const std::filesystem::path& path, const Model& model, std::vector<ProbeColumn> columns)
     : model_(model), columns_(with_components(model, std::move(columns))), file_(path, probe_header(model, columns_)) {}
+
+void ProbeWriter::on_start(const State& state) {
+  file_.begin();
+  record(state);
+}
 
 void ProbeWriter::record(const State& state) {
   std::map<std::string, std::vector<double>> fields;

@@ -1,4 +1,5 @@
-// Curves over time as CSV: energies, momenta, probes, steps. Headers name the units.
+// Curves over time as CSV: energies, momenta, probes, steps. Headers name the units. Files are made
+// when a run starts.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +16,10 @@ class EnergyWriter : public EnergyMeter {
  public:
   EnergyWriter(const std::filesystem::path& path, const Model& model, const Integrator& integrator);
   void on_start(const State& state) override;
+  void on_resume(const State&) override { file_.go_on(); }
   void on_output(const State& state) override;
+  void save(Archive& archive) override;
+  void restore(const Archive& archive) override;
 
  private:
   void write(double t);
@@ -27,7 +31,10 @@ class MomentumWriter : public MomentumMeter {
  public:
   MomentumWriter(const std::filesystem::path& path, const Model& model);
   void on_start(const State& state) override;
+  void on_resume(const State&) override { file_.go_on(); }
   void on_output(const State& state) override;
+  void save(Archive& archive) override;
+  void restore(const Archive& archive) override;
 
  private:
   void write(double t);
@@ -38,11 +45,15 @@ class MomentumWriter : public MomentumMeter {
 class StepWriter : public Observer {
  public:
   explicit StepWriter(const std::filesystem::path& path);
+  void on_start(const State&) override { file_.begin(); }
+  void on_resume(const State&) override { file_.go_on(); }
+  void save(Archive& archive) override { file_.save(archive); }
+  void restore(const Archive& archive) override { file_.restore(archive); }
   void on_step(const StepInfo& info, const State& state, const Integrator& integrator) override;
 
  private:
   CsvFile file_;
-  Statistics before_;
+  Statistics before_;  // of this process, as the integrator's own
 };
 
 // probes.csv: fields at named nodes.
@@ -56,8 +67,11 @@ struct ProbeColumn {
 class ProbeWriter : public Observer {
  public:
   ProbeWriter(const std::filesystem::path& path, const Model& model, std::vector<ProbeColumn> columns);
-  void on_start(const State& state) override { record(state); }
+  void on_start(const State& state) override;
+  void on_resume(const State&) override { file_.go_on(); }
   void on_output(const State& state) override { record(state); }
+  void save(Archive& archive) override { file_.save(archive); }
+  void restore(const Archive& archive) override { file_.restore(archive); }
 
  private:
   void record(const State& state);

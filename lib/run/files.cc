@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 
 #include "lib/core/errors.h"
 
@@ -19,7 +23,9 @@ namespace {
 
 }  // namespace
 
-void write_file(const std::filesystem::path& path, const std::vector<std::string>& parts) {
+namespace {
+
+void write_whole_file(const std::filesystem::path& path, const std::vector<std::string>& parts, bool lasting) {
   std::error_code ignored;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
   const std::filesystem::path part = path.string() + ".part";
@@ -34,9 +40,32 @@ void write_file(const std::filesystem::path& path, const std::vector<std::string
       fail(path);
     }
   }
+  if (lasting) make_lasting(part);
   std::error_code ec;
   std::filesystem::rename(part, path, ec);
   if (ec) fail(path);
+  if (lasting) make_lasting(path.has_parent_path() ? path.parent_path() : ".");  // the new name
+}
+
+}  // namespace
+
+void write_file(const std::filesystem::path& path, const std::vector<std::string>& parts) {
+  write_whole_file(path, parts, false);
+}
+
+void write_lasting_file(const std::filesystem::path& path, const std::vector<std::string>& parts) {
+  write_whole_file(path, parts, true);
+}
+
+void make_lasting(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) fail(path);
+  const int status = ::fsync(file);
+  const int error = errno;
+  ::close(file);
+  errno = error;
+  // Some file systems cannot sync a folder, or anything, and say so.
+  if (status != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS) fail(path);
 }
 
 namespace {
@@ -61,15 +90,80 @@ void ReservedFile::rewrite(const std::string& content) const {
   std::filesystem::resize_file(path_, content.size());
 }
 
-CsvFile::CsvFile(const std::filesystem::path& path, const std::vector<std::string>& header)
-    : path_(path), out_(path) {
-  out_ << fmt::format("{}\n", fmt::join(header, ",")) << std::flush;
-  if (!out_) fail(path_);
+GrowingFile::GrowingFile(std::filesystem::path path, std::string head, std::string tail)
+    : path_(std::move(path)), head_(std::move(head)), tail_(std::move(tail)) {}
+
+GrowingFile::~GrowingFile() {
+  if (file_ >= 0) ::close(file_);
 }
 
-void CsvFile::row(const std::vector<double>& values) {
-  out_ << fmt::format("{}\n", fmt::join(values, ",")) << std::flush;
-  if (!out_) fail(path_);
+void GrowingFile::open(int flags) {
+  if (file_ >= 0) ::close(file_);
+  file_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666);
+  if (file_ < 0) fail(path_);
+}
+
+void GrowingFile::begin() {
+  std::error_code ignored;
+  if (path_.has_parent_path()) std::filesystem::create_directories(path_.parent_path(), ignored);
+  open(O_CREAT | O_TRUNC);
+  size_ = 0;
+  append(head_);
+}
+
+// One call to the system: somebody who reads, or a signal that ends us, finds the old end or the new one.
+void GrowingFile::append(const std::string& entry) {
+  write_at_end(entry + tail_);
+  size_ += entry.size();
+}
+
+void GrowingFile::write_at_end(const std::string& text) {
+  const auto written = ::pwrite(file_, text.data(), text.size(), static_cast<off_t>(size_));
+  if (written == static_cast<ssize_t>(text.size())) return;
+  const int error = written < 0 ? errno : ENOSPC;
+  // Back to the end mark, for which there was room before.
+  if (::pwrite(file_, tail_.data(), tail_.size(), static_cast<off_t>(size_)) == static_cast<ssize_t>(tail_.size()) &&
+      ::ftruncate(file_, static_cast<off_t>(size_ + tail_.size())) != 0)
+    errno = error;
+  errno = error;
+  fail(path_);
+}
+
+void GrowingFile::require(std::size_t size) const {
+  std::error_code ec;
+  const auto found = std::filesystem::file_size(path_, ec);
+  if (ec)
+    throw ConfigError(fmt::format("{}: cannot be read ({}), but the checkpoint goes on writing to it; put it back, or "
+                                  "start anew with --force in place of --resume",
+                                  path_.string(), ec.message()));
+  if (found < size)
+    throw ConfigError(fmt::format("{}: has {} bytes, but the checkpoint knows of {}: the end is lost; start anew with "
+                                  "--force in place of --resume",
+                                  path_.string(), found, size));
+}
+
+void GrowingFile::go_on(std::size_t size) {
+  open(0);
+  size_ = size;
+  write_at_end(tail_);
+  if (::ftruncate(file_, static_cast<off_t>(size_ + tail_.size())) != 0) fail(path_);
+}
+
+void GrowingFile::make_lasting() const { orthodyn::make_lasting(path_); }
+
+CsvFile::CsvFile(const std::filesystem::path& path, const std::vector<std::string>& header)
+    : file_(path, fmt::format("{}\n", fmt::join(header, ",")), "") {}
+
+void CsvFile::row(const std::vector<double>& values) { file_.append(fmt::format("{}\n", fmt::join(values, ","))); }
+
+void CsvFile::save(Archive& archive) const {
+  file_.make_lasting();
+  archive.put_count("bytes", file_.size());
+}
+
+void CsvFile::restore(const Archive& archive) {
+  kept_ = archive.count("bytes");
+  file_.require(kept_);
 }
 
 }  // namespace orthodyn

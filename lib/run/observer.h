@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lib/ode/integrator.h"
+#include "lib/run/archive.h"
 
 namespace orthodyn {
 
@@ -12,6 +13,9 @@ class Observer {
   // At the initial state.
   virtual void on_start(const State&) {}
 
+  // In place of on_start where a run goes on from a checkpoint, after restore().
+  virtual void on_resume(const State&) {}
+
   // At each output time, within the last step.
   virtual void on_output(const State&) {}
 
@@ -21,6 +25,15 @@ class Observer {
 
   // When the run is over, however it ended.
   virtual void on_end() noexcept {}
+
+  // Puts down what is needed to go on from here in another process: sums, extremes, lengths of files.
+  // What has been written so far is on the disk afterwards, as far as it matters then. Asked between
+  // steps only. Throws RunError.
+  virtual void save(Archive&) {}
+
+  // Takes that back, and sees that the files are at least as long as then. Changes nothing on the
+  // disk. Throws ConfigError.
+  virtual void restore(const Archive&) {}
 };
 
 }  // namespace orthodyn

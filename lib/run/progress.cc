@@ -23,7 +23,7 @@ std::string duration_text(double seconds) {
 }  // namespace
 
 Progress::Progress(double start, double end, std::FILE* out)
-    : start_(start), end_(end), out_(out), terminal_(isatty(fileno(out)) != 0), begin_(Clock::now()), last_(begin_) {}
+    : start_(start), end_(end), from_(start), out_(out), terminal_(isatty(fileno(out)) != 0), begin_(Clock::now()), last_(begin_) {}
 
 void Progress::on_step(const StepInfo& info, const State&, const Integrator&) {
   const auto now = Clock::now();
@@ -34,7 +34,7 @@ void Progress::on_step(const StepInfo& info, const State&, const Integrator&) {
 
 void Progress::show(const StepInfo& info, double elapsed) {
   const double done = std::clamp((info.t - start_) / (end_ - start_), 0.0, 1.0);
-  const std::string left = done > 0 ? duration_text(elapsed * (1 - done) / done) : "?";
+  const std::string left = info.t > from_ ? duration_text(elapsed * (end_ - info.t) / (info.t - from_)) : "?";
   const std::string line = fmt::format("{:3.0f} %  t = {:.4g} of {:.4g} s  h = {:.2e} s  order {}  {} left",
                                        100 * done, info.t, end_, info.h, info.order, left);
   if (terminal_) {

@@ -11,6 +11,7 @@ namespace orthodyn {
 class Progress : public Observer {
  public:
   Progress(double start, double end, std::FILE* out);
+  void on_resume(const State& state) override { from_ = state.t; }
   void on_step(const StepInfo& info, const State&, const Integrator&) override;
   void on_end() noexcept override;
 
@@ -18,7 +19,7 @@ class Progress : public Observer {
   using Clock = std::chrono::steady_clock;
   void show(const StepInfo& info, double elapsed);
 
-  double start_, end_;
+  double start_, end_, from_;  // of the run, and of this process
   std::FILE* out_;
   bool terminal_, shown_ = false;
   Clock::time_point begin_, last_;

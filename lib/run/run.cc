@@ -24,10 +24,13 @@ class Driver {
     for (double& t : outputs_)
       for (const double stop : stops_)
         if (std::abs(t - stop) <= tiny_) t = stop;
+    if (plan.delivered) skip_delivered(*plan.delivered);
   }
 
   void advance() {
-    for (auto* o : observers_) o->on_start(outcome_.last);
+    outcome_.between_steps = false;
+    for (auto* o : observers_) plan_.delivered ? o->on_resume(outcome_.last) : o->on_start(outcome_.last);
+    outcome_.between_steps = true;
     integrator_.start(outcome_.last);
     for (const double stop : stops_) {
       if (!advance_to(stop)) return;
@@ -36,6 +39,12 @@ class Driver {
   }
 
  private:
+  void skip_delivered(double last) {
+    while (next_ < outputs_.size() && outputs_[next_] <= last + tiny_) ++next_;
+    // A plan that differs by round-off from the earlier one must not ask for what lies behind.
+    for (double& t : outputs_) t = std::max(t, outcome_.last.t);
+  }
+
   // False if interrupted.
   bool advance_to(double stop) {
     while (outcome_.last.t < stop) {
@@ -45,6 +54,7 @@ class Driver {
       }
       const double limit = plan_.exact_times && next_ < outputs_.size() ? std::min(stop, outputs_[next_]) : stop;
       const StepInfo info = integrator_.step(limit);
+      outcome_.between_steps = false;
       while (next_ < outputs_.size() && outputs_[next_] <= info.t) {
         State state;
         integrator_.interpolate(outputs_[next_++], state);
@@ -52,6 +62,7 @@ class Driver {
       }
       integrator_.interpolate(info.t, outcome_.last);
       for (auto* o : observers_) o->on_step(info, outcome_.last, integrator_);
+      outcome_.between_steps = true;
     }
     return true;
   }
@@ -66,9 +77,9 @@ class Driver {
   std::size_t next_ = 0;
 };
 
-double cpu_now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
 }  // namespace
+
+double cpu_seconds_now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 std::vector<double> evenly_spaced(double start, double end, int frames) {
   std::vector<double> times;
@@ -92,7 +103,7 @@ Outcome run(const Model& model, Integrator& integrator, const State& initial, co
   Outcome outcome;
   outcome.last = initial;
   const auto wall = std::chrono::steady_clock::now();
-  const double cpu = cpu_now();
+  const double cpu = cpu_seconds_now();
   try {
     Driver(model, integrator, plan, observers, interrupt, outcome).advance();
   } catch (const std::bad_alloc&) {
@@ -111,7 +122,7 @@ Outcome run(const Model& model, Integrator& integrator, const State& initial, co
   }
   for (auto* o : observers) o->on_end();
   outcome.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
-  outcome.cpu_seconds = cpu_now() - cpu;
+  outcome.cpu_seconds = cpu_seconds_now() - cpu;
   return outcome;
 }
 

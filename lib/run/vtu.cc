@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <cstdio>
 #include <type_traits>
 
 #include "lib/core/errors.h"
-#include "lib/run/files.h"
 
 namespace orthodyn {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -100,7 +102,10 @@ void write_vtu(const std::filesystem::path& path, const Geometry& geometry, cons
 }
 
 VtuWriter::VtuWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields)
-    : folder_(std::move(folder)), model_(model) {
+    : folder_(std::move(folder)), model_(model),
+      collection_(folder_ / "frames.pvd",
+                  "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n",
+                  "</Collection>\n</VTKFile>\n") {
   for (const auto& info : model.outputs())
     if (std::find(fields.begin(), fields.end(), info.name) != fields.end()) fields_.push_back(info);
 }
@@ -109,23 +114,61 @@ void VtuWriter::write(const State& state) {
   std::vector<VtuField> fields;
   for (const auto& info : fields_)
     fields.push_back({info.name, info.location, info.components, model_.evaluate(info.name, state)});
-  const auto frame = folder_ / "frames" / fmt::format("frame_{:05}.vtu", times_.size());
-  write_file(frame, whole_file<float>(model_.geometry(), fields));
-  times_.push_back(state.t);
+  const fs::path path = frame(frames_);
+  write_file(path, whole_file<float>(model_.geometry(), fields));
   try {
-    write_collection();
+    collection_.append(fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"frames/{}\"/>\n", state.t,
+                                   path.filename().string()));
   } catch (const RunError&) {  // no frame without its time
-    times_.pop_back();
-    std::filesystem::remove(frame);
+    fs::remove(path);
     throw;
   }
+  ++frames_;
 }
 
-void VtuWriter::write_collection() const {
-  std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n";
-  for (std::size_t k = 0; k < times_.size(); ++k)
-    xml += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"frames/frame_{:05}.vtu\"/>\n", times_[k], k);
-  write_file(folder_ / "frames.pvd", {xml + "</Collection>\n</VTKFile>\n"});
+fs::path VtuWriter::frame(std::size_t k) const { return folder_ / "frames" / fmt::format("frame_{:05}.vtu", k); }
+
+void VtuWriter::on_start(const State& state) {
+  collection_.begin();
+  write(state);
+}
+
+void VtuWriter::save(Archive& archive) {
+  for (; lasting_ < frames_; ++lasting_) make_lasting(frame(lasting_));
+  collection_.make_lasting();
+  archive.put_count("frames", frames_);
+  archive.put_count("bytes", collection_.size());
+}
+
+void VtuWriter::restore(const Archive& archive) {
+  frames_ = lasting_ = archive.count("frames");
+  kept_ = archive.count("bytes");
+  collection_.require(kept_);
+  for (std::size_t k = 0; k < frames_; ++k)
+    if (std::error_code ec; !fs::exists(frame(k), ec))
+      throw ConfigError(fmt::format("{}: is missing, but the checkpoint knows of {} frames; put it back, or start anew "
+                                    "with --force in place of --resume",
+                                    frame(k).string(), frames_));
+}
+
+void VtuWriter::on_resume(const State&) {
+  collection_.go_on(kept_);
+  remove_frames_from(frames_);
+}
+
+// They are computed again. What was being written when the run was killed is removed too.
+void VtuWriter::remove_frames_from(std::size_t count) const {
+  std::error_code ec;
+  std::vector<fs::path> surplus;
+  for (const auto& entry : fs::directory_iterator(folder_ / "frames", ec)) {
+    const std::string name = entry.path().filename().string();
+    unsigned long k = 0;
+    if (std::sscanf(name.c_str(), "frame_%lu.vtu", &k) != 1) continue;
+    if (k >= count || entry.path().extension() == ".part") surplus.push_back(entry.path());
+  }
+  for (const auto& path : surplus)
+    if (!fs::remove(path, ec) && ec)
+      throw RunError(fmt::format("cannot remove {}: {}", path.string(), ec.message()));
 }
 
 }  // namespace orthodyn

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/run/files.h"
 #include "lib/run/observer.h"
 
 namespace orthodyn {
@@ -26,17 +27,23 @@ class VtuWriter : public Observer {
   // outputs of the model, which must outlive the writer.
   VtuWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields);
 
-  void on_start(const State& state) override { write(state); }
+  void on_start(const State& state) override;
+  void on_resume(const State& state) override;
   void on_output(const State& state) override { write(state); }
+  void save(Archive& archive) override;
+  void restore(const Archive& archive) override;
 
  private:
   void write(const State& state);
-  void write_collection() const;
+  std::filesystem::path frame(std::size_t k) const;
+  void remove_frames_from(std::size_t count) const;
 
   std::filesystem::path folder_;
   const Model& model_;
   std::vector<OutputInfo> fields_;
-  std::vector<double> times_;
+  GrowingFile collection_;
+  std::size_t frames_ = 0, lasting_ = 0;  // written, and known to be on the disk
+  std::size_t kept_ = 0;                  // bytes of the collection, of a checkpoint
 };
 
 }  // namespace orthodyn

@@ -196,6 +196,14 @@ const Spec<Output>& Output::spec() {
   return s;
 }
 
+const Spec<CheckpointSchedule>& CheckpointSchedule::spec() {
+  static const auto s =
+      Spec<CheckpointSchedule>()
+          .key("every", &CheckpointSchedule::every, "Wall time between checkpoints.", {.unit = "s", .range = kPositive})
+          .key("frames", &CheckpointSchedule::frames, "Also after every so many frames.", {.range = {1, 1e6}});
+  return s;
+}
+
 const Spec<Scene>& Scene::spec() {
   static const auto s =
       Spec<Scene>()
@@ -215,6 +223,9 @@ const Spec<Scene>& Scene::spec() {
           .key("time", &Scene::time, "Time span.", {.required = true})
           .key("integrator", &Scene::integrator, "The integrator.", {.fallback = "{type: cvode_bdf}"})
           .key("output", &Scene::output, "What is written.")
+          .key("checkpoint", &Scene::checkpoint,
+               "Keep the state every so often, so that `orthodyn run --resume` can go on after a crash; {} for "
+               "every minute.")
           .key("expect", &Scene::expect, "Known figures, which `orthodyn verify` checks.");
   return s;
 }

@@ -112,6 +112,13 @@ struct Output {
   static const Spec<Output>& spec();
 };
 
+// When the state is kept for `orthodyn run --resume`: whichever comes first.
+struct CheckpointSchedule {
+  double every = 60;          // s of wall time
+  std::optional<int> frames;  // after so many frames
+  static const Spec<CheckpointSchedule>& spec();
+};
+
 struct Scene {
   std::shared_ptr<const MeshSource> mesh;
   Named<std::shared_ptr<const Material>> materials;
@@ -127,6 +134,7 @@ struct Scene {
   TimeSpan time;
   std::shared_ptr<const IntegratorChoice> integrator;
   Output output;
+  std::optional<CheckpointSchedule> checkpoint;
   std::vector<Expectation> expect;
 
   static const Spec<Scene>& spec();

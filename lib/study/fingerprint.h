@@ -1,23 +1,11 @@
-// What a result depends on, as a short text: equal inputs, equal fingerprints.
+// Fingerprints of what figures depend on besides their input: the program and the machine.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
 #include <string>
 
+#include "lib/core/fingerprint.h"
+
 namespace orthodyn {
-
-// FNV-1a, 64 bits: enough to tell a few thousand points apart; no defence against malice.
-class Fingerprint {
- public:
-  Fingerprint& add(const std::string& text);
-  // The file's content. Throws RunError if it cannot be read.
-  Fingerprint& add_file(const std::filesystem::path& path);
-  std::string text() const;  // 16 hexadecimal digits
-
- private:
-  std::uint64_t hash_ = 0xcbf29ce484222325;
-};
 
 // Of the code that integrates: the file that holds this function, and the versions of the libraries.
 std::string code_fingerprint();

@@ -1,7 +1,9 @@
 // The driver and its files, on small scenes.
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
+#include "lib/run/checkpoint.h"
 #include "lib/run/curves.h"
 #include "lib/run/run.h"
 #include "lib/run/vtu.h"
@@ -127,6 +129,47 @@ TEST_F(Files, AVtuHoldsAsManyBytesAsItsOffsetsSay) {
     expected += sizeof bytes + bytes;
   }
   EXPECT_EQ(text.substr(base + expected), "\n</AppendedData>\n</VTKFile>\n");
+}
+
+TEST_F(Files, AGrowingFileIsWholeAfterEachEntryAndCanBeCutBack) {
+  GrowingFile file(folder_ / "list", "<a>\n", "</a>\n");
+  file.begin();
+  EXPECT_EQ(read_text(folder_ / "list"), "<a>\n</a>\n");
+  file.append("first\n");
+  const auto size = file.size();
+  file.append("a longer second entry\n");
+  EXPECT_EQ(read_text(folder_ / "list"), "<a>\nfirst\na longer second entry\n</a>\n");
+  GrowingFile again(folder_ / "list", "<a>\n", "</a>\n");
+  again.go_on(size);
+  EXPECT_EQ(read_text(folder_ / "list"), "<a>\nfirst\n</a>\n");
+  again.append("2\n");
+  EXPECT_EQ(read_text(folder_ / "list"), "<a>\nfirst\n2\n</a>\n");
+  EXPECT_THROW(again.require(1000), ConfigError);
+}
+
+TEST_F(Files, ACheckpointComesBackBitByBit) {
+  Checkpoint written;
+  written.scene = "time: {end: 1}\n";
+  written.begun = true;
+  written.state = {0.1, Vector::Random(50) * 1e-300, Vector::Random(50)};
+  written.state.v[3] = std::numeric_limits<double>::infinity();
+  written.rhythm = {0, 1.0 / 3, 1e-9};
+  written.effort.statistics.newton_iterations = 123456789;
+  written.effort.statistics.solve = {7, 0.3};
+  written.restarts = {{0.05, "2026-01-31T12:00:00Z", "killed", {"time.end"}}};
+  written.observers["energy"].put("last", {0.1, -2e300, 5});
+  written.save(folder_ / "c");
+  const auto read = Checkpoint::load(folder_ / "c");
+  EXPECT_EQ(read.scene, written.scene);
+  EXPECT_EQ(read.state.t, written.state.t);
+  EXPECT_EQ(read.state.q, written.state.q);
+  EXPECT_EQ(read.state.v, written.state.v);
+  EXPECT_EQ(read.rhythm.end, written.rhythm.end);
+  EXPECT_EQ(read.effort.statistics.newton_iterations, 123456789);
+  EXPECT_EQ(read.effort.statistics.solve.seconds, 0.3);
+  EXPECT_EQ(read.restarts.at(0).changed, written.restarts[0].changed);
+  EXPECT_EQ(read.observers.at("energy").numbers("last", 3), (std::vector<double>{0.1, -2e300, 5}));
+  EXPECT_THROW(read.observers.at("energy").number("last"), ConfigError);
 }
 
 TEST_F(Files, TheEnergyBalanceClosesAsTheToleranceFalls) {

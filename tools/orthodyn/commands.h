@@ -13,7 +13,7 @@ struct RunArguments {
   std::optional<std::string> out;
   std::vector<std::string> set;
   std::optional<std::string> integrator;
-  bool quiet = false, force = false;
+  bool quiet = false, force = false, resume = false, estimate_error = false;
   bool axes = false;  // of check: write the material axes
 };
 

@@ -18,6 +18,7 @@ constexpr const char* kExamples = R"(
 Examples:
   orthodyn run configs/scenes/cantilever.yaml
   orthodyn run configs/scenes/free_flight.yaml --set elasticity.corotation=warped --out out/warped
+  orthodyn run configs/scenes/laminate.yaml --set checkpoint={} --resume
   orthodyn check configs/scenes/laminate.yaml
   orthodyn init scene my.yaml
   orthodyn list materials
@@ -60,7 +61,14 @@ int main(int argc, char** argv) {
   add_scene_options(*run, arguments);
   run->add_option("--out", arguments.out, "Folder for the results; default out/<scene>.")->type_name("DIR");
   run->add_flag("--quiet", arguments.quiet, "No progress and no summary.");
-  run->add_flag("--force", arguments.force, "Replace an earlier result in the folder.");
+  auto* force = run->add_flag("--force", arguments.force, "Replace an earlier result in the folder.");
+  auto* resume = run->add_flag(
+      "--resume", arguments.resume,
+      "Go on from the checkpoint in the folder, or begin if there is no result yet. SCENE may be the folder.");
+  resume->excludes(force);
+  run->add_flag("--estimate-error", arguments.estimate_error,
+                "Then repeat the run at rtol / 10 (or half the fixed step) and print the difference.")
+      ->excludes(resume);
 
   auto* check = app.add_subcommand("check", "Read, validate and build a scene, and say what it consists of.");
   add_scene_options(*check, arguments);

@@ -2,11 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "lib/study/machine.h"
 
 namespace orthodyn {
 
 namespace {
+
+// An error of a tenth of the motion: curves no longer lie over each other.
+constexpr double kUnresolved = 0.1;
 
 const char* status_word(Outcome::Status status) {
   switch (status) {
@@ -50,14 +55,30 @@ Json decisions(const Integrator& integrator) {
   return out;
 }
 
+Json to_json(const ErrorNorms& e) { return {{"final", e.final}, {"rms", e.l2}, {"largest", e.max}}; }
+
+Json to_json(const ErrorEstimate& e) {
+  Json out{{"against", e.against}, {"wall_seconds", e.wall_seconds}};
+  if (!e.completed) {
+    out["trouble"] = e.trouble;
+    return out;
+  }
+  out["samples"] = e.samples;
+  out["displacement"] = to_json(e.displacement);
+  out["velocity"] = to_json(e.velocity);
+  return out;
+}
+
 }  // namespace
 
-std::string run_json(const RunArguments& arguments, const RunReport* report) {
+std::string run_json(const RunArguments& arguments, const std::vector<Restart>& restarts, const RunReport* report) {
   Json out{{"status", report ? status_word(report->outcome.status) : "running"},
                    {"scene", arguments.scene},
                    {"set", arguments.set},
                    {"versions", versions_json()},
                    {"machine", machine_json()}};
+  for (const auto& r : restarts)
+    out["restarts"].push_back({{"time", r.time}, {"at", r.at}, {"after", r.after}, {"changed", r.changed}});
   if (!report) return out.dump(2) + "\n";
   const auto& model = *report->setup.built.model;
   out["model"] = {{"nodes", model.parts().mesh.nodes.size()},
@@ -66,9 +87,9 @@ std::string run_json(const RunArguments& arguments, const RunReport* report) {
                   {"terms", terms(model)}};
   out["integrator"] = decisions(*report->setup.integrator);
   out["time_reached"] = report->outcome.last.t;
-  out["wall_seconds"] = report->outcome.wall_seconds;
-  out["cpu_seconds"] = report->outcome.cpu_seconds;
-  out["statistics"] = to_json(report->setup.integrator->statistics());
+  out["wall_seconds"] = report->effort.wall_seconds;
+  out["cpu_seconds"] = report->effort.cpu_seconds;
+  out["statistics"] = to_json(report->effort.statistics);
   out["factor_bytes"] = report->setup.integrator->factor_bytes();
   out["smallest_det_f"] = {{"value", report->inversion.smallest()},
                            {"element", report->inversion.element()},
@@ -77,6 +98,7 @@ std::string run_json(const RunArguments& arguments, const RunReport* report) {
   if (report->momentum)
     out["momentum"] = {{"angular_drift", report->momentum->angular_drift()},
                        {"angular_scale", report->momentum->angular_scale()}};
+  if (report->error) out["estimated_error"] = to_json(*report->error);
   if (report->outcome.status == Outcome::Status::failed)
     out["failure"] = {{"reason", reason_name(report->outcome.reason)},
                       {"message", report->outcome.message},
@@ -85,12 +107,12 @@ std::string run_json(const RunArguments& arguments, const RunReport* report) {
 }
 
 void print_summary(const RunReport& report, const std::filesystem::path& folder) {
-  const auto& s = report.setup.integrator->statistics();
+  const auto& s = report.effort.statistics;
   const auto& outcome = report.outcome;
   const auto type = report.setup.config.at("integrator").at("type").text();
   fmt::print("{} with {}: {} unknowns, {} at t = {:.6g} s after {:.2f} s ({:.2f} s CPU)\n", report.arguments.scene,
              type, report.setup.built.model->num_dofs(), status_word(outcome.status), outcome.last.t,
-             outcome.wall_seconds, outcome.cpu_seconds);
+             report.effort.wall_seconds, report.effort.cpu_seconds);
   const auto& elastic = *report.setup.built.model->parts().elastic.front();
   fmt::print("  {:<15} {}\n", "elasticity", elastic.law());
   for (const auto& [key, value] : report.setup.integrator->decisions()) fmt::print("  {:<15} {}\n", key, value);
@@ -118,6 +140,26 @@ void print_summary(const RunReport& report, const std::filesystem::path& folder)
              report.inversion.element(), report.inversion.time(),
              report.inversion.smallest() <= 0 ? ": INVERTED" : "");
   fmt::print("  {:<15} {}\n", "results", folder.string());
+}
+
+void print_error(const ErrorEstimate& error) {
+  if (!error.completed) {
+    fmt::print(stderr, "warning: no estimate of the error: the run with {} did not complete: {}\n", error.against,
+               error.trouble);
+    return;
+  }
+  fmt::print("  {:<15} against {} ({:.2f} s), mass norm relative to the largest value:\n", "estimated error",
+             error.against, error.wall_seconds);
+  fmt::print("  {:<15} {:>10} {:>10} {:>10}\n", "", "at the end", "rms", "largest");
+  for (const auto& [name, e] : {std::pair{"displacement", error.displacement}, {"velocity", error.velocity}})
+    fmt::print("    {:<13} {:>10.2g} {:>10.2g} {:>10.2g}\n", name, e.final, e.l2, e.max);
+  const auto& u = error.displacement;
+  if (std::isnan(u.max)) fmt::print("  nothing moves: there is nothing to compare with\n");
+  else
+    fmt::print("  displacements are off by about {:.2g} % of the largest, {:.2g} % at worst; velocities by {:.2g} %, "
+               "{:.2g} % at worst{}\n",
+               100 * u.l2, 100 * u.max, 100 * error.velocity.l2, 100 * error.velocity.max,
+               u.max > kUnresolved ? ": the motion is NOT resolved, lower integrator.rtol or step" : "");
 }
 
 }  // namespace orthodyn

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
+#include "lib/run/checkpoint.h"
 #include "lib/run/curves.h"
 #include "lib/run/run.h"
+#include "lib/study/error_estimate.h"
 #include "tools/orthodyn/setup.h"
 
 namespace orthodyn {
@@ -14,13 +17,18 @@ struct RunReport {
   const RunArguments& arguments;
   const Setup& setup;
   const Outcome& outcome;
+  const Effort& effort;  // over all restarts
   const InversionWatch& inversion;
   const EnergyWriter* energy;      // null if not written
   const MomentumWriter* momentum;  // likewise
+  std::optional<ErrorEstimate> error = std::nullopt;  // if it was asked for
 };
 
 // `report` null: the run has begun.
-std::string run_json(const RunArguments& arguments, const RunReport* report);
+std::string run_json(const RunArguments& arguments, const std::vector<Restart>& restarts, const RunReport* report);
+
+// What the estimate says about the run, as a table and in a sentence.
+void print_error(const ErrorEstimate& error);
 
 void print_summary(const RunReport& report, const std::filesystem::path& folder);
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
+#include <nlohmann/json.hpp>
+
 #include "lib/core/errors.h"
 
 namespace orthodyn {
@@ -13,11 +16,23 @@ namespace {
 // run.json is written first: a folder with it is a result of ours.
 constexpr const char* kMark = "run.json";
 constexpr const char* kOurs[] = {"frames", "frames.pvd", "probes.csv", "energy.csv", "momentum.csv",
-                                 "steps.csv", "scene.yaml", "pictures", kMark};
+                                 "steps.csv", "checkpoint.cbor", "scene.yaml", "pictures", kMark};
+
+constexpr const char* kCheckpoint = "checkpoint.cbor";
+
+// Killed before anything was computed: only what is written first is there.
+bool has_just_begun(const fs::path& folder) {
+  std::error_code ec;
+  for (const auto& entry : fs::directory_iterator(folder, ec)) {
+    const auto name = entry.path().filename();
+    if (name != kMark && name != "scene.yaml" && name.extension() != ".part") return false;
+  }
+  return true;
+}
 
 }  // namespace
 
-ResultFolder::ResultFolder(fs::path path, bool force) : path_(std::move(path)) {
+ResultFolder::ResultFolder(fs::path path, Earlier earlier) : path_(std::move(path)) {
   std::error_code ec;
   if (!fs::exists(path_, ec)) return;
   if (!fs::is_directory(path_, ec))
@@ -26,10 +41,32 @@ ResultFolder::ResultFolder(fs::path path, bool force) : path_(std::move(path)) {
   if (!fs::exists(path_ / kMark, ec))
     throw ConfigError(fmt::format("{}: holds files that are no result of a run; use --out with another folder",
                                   path_.string()));
-  if (!force)
-    throw ConfigError(fmt::format("{}: holds an earlier result; use --force to replace it, or --out with another "
-                                  "folder",
+  if (earlier == Earlier::resume) consider_resuming();
+  if (earlier == Earlier::keep)
+    throw ConfigError(fmt::format("{}: holds an earlier result; use --force to replace it, --resume to go on "
+                                  "from its checkpoint, or --out with another folder",
                                   path_.string()));
+}
+
+void ResultFolder::consider_resuming() {
+  std::error_code ec;
+  resumes_ = fs::exists(checkpoint(), ec);
+  if (resumes_ || has_just_begun(path_)) return;
+  completed_ = earlier_status() == "completed";
+  if (!completed_)
+    throw ConfigError(fmt::format("{}: holds a result without a checkpoint, so that nothing can be resumed; start it anew "
+                                  "with --force in place of --resume, and with 'checkpoint: {{every: 60}}' in the scene",
+                                  path_.string()));
+}
+
+fs::path ResultFolder::checkpoint() const { return path_ / kCheckpoint; }
+
+std::string ResultFolder::earlier_status() const {
+  std::ifstream in(path_ / kMark);
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  const std::string status = json.is_object() && json.contains("status") && json["status"].is_string()
+                                 ? json["status"].get<std::string>() : "running";
+  return status == "running" ? "killed" : status;
 }
 
 void ResultFolder::prepare() const {

@@ -6,19 +6,31 @@
 
 namespace orthodyn {
 
+enum class Earlier { keep, replace, resume };  // what to do about an earlier result
+
 class ResultFolder {
  public:
-  // Throws ConfigError if the folder holds an earlier result and `force` is not set, or holds
-  // anything else. Touches nothing yet.
-  ResultFolder(std::filesystem::path path, bool force);
+  // Throws ConfigError if the folder holds an earlier result that is to be kept, one that cannot be
+  // resumed, or anything else. Touches nothing yet.
+  ResultFolder(std::filesystem::path path, Earlier earlier);
 
   // Makes the folder and removes an earlier result from it. Throws RunError.
   void prepare() const;
 
   const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path checkpoint() const;
+  // There is a checkpoint, and it is to be used.
+  bool resumes() const { return resumes_; }
+  // It was to be resumed, completed, and has no checkpoint.
+  bool is_completed_without_checkpoint() const { return completed_; }
+  // How the earlier run ended: "completed", "interrupted", "failed", or "killed" if it cannot tell.
+  std::string earlier_status() const;
 
  private:
+  void consider_resuming();
+
   std::filesystem::path path_;
+  bool resumes_ = false, completed_ = false;
 };
 
 }  // namespace orthodyn

@@ -12,10 +12,14 @@ Config read_config(const std::string& file, const std::optional<std::string>& in
   return config;
 }
 
-Setup set_up(const RunArguments& arguments) {
-  Setup setup = set_up(read_config(arguments.scene, arguments.integrator, arguments.set));
+Setup set_up_and_warn(Config config) {
+  Setup setup = set_up(std::move(config));
   for (const auto& warning : setup.built.warnings) fmt::print(stderr, "warning: {}\n", warning);
   return setup;
+}
+
+Setup set_up(const RunArguments& arguments) {
+  return set_up_and_warn(read_config(arguments.scene, arguments.integrator, arguments.set));
 }
 
 }  // namespace orthodyn

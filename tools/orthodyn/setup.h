@@ -10,7 +10,8 @@ namespace orthodyn {
 Config read_config(const std::string& file, const std::optional<std::string>& integrator,
                    const std::vector<std::string>& assignments);
 
-// Reads, validates and builds; prints warnings to stderr. Throws ConfigError.
+// Validates and builds; prints warnings to stderr. Both throw ConfigError.
+Setup set_up_and_warn(Config config);
 Setup set_up(const RunArguments& arguments);
 
 }  // namespace orthodyn

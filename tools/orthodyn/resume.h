@@ -1,0 +1,31 @@
+// Going on from a checkpoint: whether it fits the scene, and what follows from it.
+#pragma once
+
+#include "lib/run/checkpoint.h"
+#include "lib/run/run.h"
+#include "lib/scene/setup.h"
+#include "tools/orthodyn/result_folder.h"
+
+namespace orthodyn {
+
+// Integrators estimate these from the scene where it leaves them open; a longer run must not change them.
+void keep_scales(const Checkpoint& checkpoint, Config& scene);
+
+// Fingerprint of nodes and elements.
+std::string geometry_fingerprint(const Model& model);
+
+// A checkpoint for a run that begins.
+Checkpoint first_checkpoint(const Setup& setup, const std::string& resolved);
+
+// The same run, continued: with the scene as it is now and one restart more. Throws ConfigError, naming
+// what differs, if the checkpoint is that of another simulation.
+Checkpoint continued(Checkpoint checkpoint, const Setup& setup, const std::string& resolved,
+                     const ResultFolder& folder);
+
+// The end was reached before.
+bool is_complete(const Checkpoint& checkpoint, const Scene& scene);
+
+// Output times in the rhythm with which the run began.
+Plan plan_of(const Scene& scene, const OutputRhythm& rhythm);
+
+}  // namespace orthodyn

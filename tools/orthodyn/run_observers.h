@@ -1,0 +1,40 @@
+// Everything that looks on while a scene is run, as the scene asks.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "lib/run/checkpointer.h"
+#include "lib/run/curves.h"
+#include "lib/run/progress.h"
+#include "lib/run/vtu.h"
+#include "lib/scene/setup.h"
+
+namespace orthodyn {
+
+class RunObservers {
+ public:
+  // Touches no file. `setup` must outlive it.
+  RunObservers(const Setup& setup, const std::filesystem::path& folder, bool quiet);
+
+  // Those that a checkpoint keeps, by name.
+  NamedObservers kept();
+  // In the order in which they look on.
+  std::vector<Observer*> all(Checkpointer& checkpointer);
+
+  // Throws ConfigError, before anything is changed on the disk.
+  void restore(const Checkpoint& checkpoint);
+
+  InversionWatch inversion;
+  std::optional<EnergyWriter> energy;
+  std::optional<MomentumWriter> momentum;
+
+ private:
+  std::optional<VtuWriter> frames_;
+  std::optional<StepWriter> steps_;
+  std::optional<ProbeWriter> probes_;
+  std::optional<Progress> progress_;
+};
+
+}  // namespace orthodyn
