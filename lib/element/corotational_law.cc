@@ -25,6 +25,8 @@ Mat63 times(const OrthotropicStiffness& C, const Mat63& N) {
   return out;
 }
 
+Mat63 times(const AnisotropicStiffness& C, const Mat63& N) { return C.c * N; }
+
 }  // namespace
 
 Mat63 stretch_rate_matrix(const Mat3& S) {
@@ -38,8 +40,9 @@ Mat63 stretch_rate_matrix(const Mat3& S) {
   return N;
 }
 
-TangentForm gauss_newton_form(const Polar<double>& p, const OrthotropicStiffness& C, double chi) {
-  TangentForm form;
+template <class C>
+TangentFormOf<C> gauss_newton_form(const Polar<double>& p, const C& stiffness, double chi) {
+  TangentFormOf<C> form;
   form.R = p.R;
   if (chi == 0) {  // G may be singular: nothing to weigh
     form.Hee = {};
@@ -48,7 +51,7 @@ TangentForm gauss_newton_form(const Polar<double>& p, const OrthotropicStiffness
     form.Haa.setZero();
     return form;
   }
-  form.Hee = chi * C;
+  form.Hee = chi * stiffness;
   const Mat63 N = stretch_rate_matrix(p.S) * p.G_inverse;
   const Mat63 CN = times(form.Hee, N);
   form.Hea = -CN;
@@ -57,12 +60,13 @@ TangentForm gauss_newton_form(const Polar<double>& p, const OrthotropicStiffness
   return form;
 }
 
-TangentForm exact_form(const Polar<double>& p, const OrthotropicStiffness& C, const Mat3& T) {
-  TangentForm form;
+template <class C>
+TangentFormOf<C> exact_form(const Polar<double>& p, const C& stiffness, const Mat3& T) {
+  TangentFormOf<C> form;
   form.R = p.R;
-  form.Hee = C;
+  form.Hee = stiffness;
   const Mat63 N = stretch_rate_matrix(p.S);
-  const Mat63 CN = times(C, N);
+  const Mat63 CN = times(stiffness, N);
   const Mat36 A = axial_of_product(T);
   const Mat3 AN = A * N;
   const Mat3 tau = symmetric_part<double>(T * p.S);
@@ -72,5 +76,10 @@ TangentForm exact_form(const Polar<double>& p, const OrthotropicStiffness& C, co
   form.Haa = p.G_inverse * Hww * p.G_inverse;
   return form;
 }
+
+template TangentForm gauss_newton_form(const Polar<double>&, const OrthotropicStiffness&, double);
+template TangentForm exact_form(const Polar<double>&, const OrthotropicStiffness&, const Mat3&);
+template TangentFormOf<AnisotropicStiffness> gauss_newton_form(const Polar<double>&, const AnisotropicStiffness&, double);
+template TangentFormOf<AnisotropicStiffness> exact_form(const Polar<double>&, const AnisotropicStiffness&, const Mat3&);
 
 }  // namespace orthodyn

@@ -10,6 +10,7 @@ template <class C>
 class LinearLaw {
  public:
   static constexpr const char* kName = "small strain";
+  using Form = TangentFormOf<TangentStiffness<C>>;
 
   explicit LinearLaw(const C& stiffness) : C_(stiffness) {}
 
@@ -49,9 +50,9 @@ class LinearLaw {
     return Batch(beta) * contract<Batch>(C_.stress(rate), rate);
   }
 
-  TangentForm tangent(const Mat3&, const Mat3& Q, TangentKind, double beta, TangentForm* damping) const {
-    const auto form = [&](double factor) -> TangentForm {
-      return {Q, factor * as_orthotropic(C_), Mat63::Zero(), Mat36::Zero(), Mat3::Zero()};
+  Form tangent(const Mat3&, const Mat3& Q, TangentKind, double beta, Form* damping) const {
+    const auto form = [&](double factor) -> Form {
+      return {Q, factor * as_tangent(C_), Mat63::Zero(), Mat36::Zero(), Mat3::Zero()};
     };
     if (damping) *damping = form(beta);
     return form(1);

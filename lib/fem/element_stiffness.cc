@@ -30,7 +30,8 @@ void complete(ElementBlocks& K, bool symmetric) {
 
 }  // namespace
 
-ElementBlocks element_stiffness(const TangentForm& form, const Tet4& shape, bool symmetric) {
+template <class C>
+ElementBlocks element_stiffness(const TangentFormOf<C>& form, const Tet4& shape, bool symmetric) {
   const Mat9 H = shape.volume * expand(form);
   ElementBlocks K;
   for (int b = 1; b < 4; ++b) {
@@ -45,6 +46,9 @@ ElementBlocks element_stiffness(const TangentForm& form, const Tet4& shape, bool
   complete(K, symmetric);
   return K;
 }
+
+template ElementBlocks element_stiffness(const TangentForm&, const Tet4&, bool);
+template ElementBlocks element_stiffness(const TangentFormOf<AnisotropicStiffness>&, const Tet4&, bool);
 
 ElementOffsets::ElementOffsets(const Tet& tet, const BlockPattern& pattern) {
   for (std::size_t k = 0; k < kPairs.size(); ++k) {

@@ -18,6 +18,7 @@ const Case kExact{"exact", fibre_material(10), ""};
 const Case kIsotropicCase{"isotropic", "{type: isotropic, density: 1, young: 2, nu: 0.3}", ""};
 const Case kWarped{"warped_unsymmetric", fibre_material(10), "elasticity: {corotation: warped, warped_tangent: unsymmetric}"};
 const Case kLinear{"linear", fibre_material(10), "elasticity: {kinematics: linear}"};
+const Case kAnisotropic{"anisotropic", turned_fibre_material(10, Random(109).rotation()), ""};
 const Case kTwoRegions{"two_regions", fibre_material(10), ""};
 
 // A clamped block of two by two by one cells, one corner of it free in x only. With `two_regions` the
@@ -49,8 +50,8 @@ time: {{end: 1}}
 class Derivatives : public testing::TestWithParam<Case> {};
 class ConservativeDerivatives : public Derivatives {};
 const auto name_of = [](const auto& tested) { return tested.param.name; };
-INSTANTIATE_TEST_SUITE_P(Models, Derivatives, testing::Values(kExact, kIsotropicCase, kWarped, kLinear, kTwoRegions), name_of);
-INSTANTIATE_TEST_SUITE_P(Models, ConservativeDerivatives, testing::Values(kExact, kIsotropicCase, kLinear, kTwoRegions), name_of);
+INSTANTIATE_TEST_SUITE_P(Models, Derivatives, testing::Values(kExact, kIsotropicCase, kAnisotropic, kWarped, kLinear, kTwoRegions), name_of);
+INSTANTIATE_TEST_SUITE_P(Models, ConservativeDerivatives, testing::Values(kExact, kIsotropicCase, kAnisotropic, kLinear, kTwoRegions), name_of);
 
 constexpr double kStep = 4e-3;
 

@@ -16,7 +16,7 @@ double mebibytes(std::size_t bytes) { return static_cast<double>(bytes) / (1024 
 
 void print_materials(const Scene& scene) {
   for (const auto& [name, material] : scene.materials) {
-    const Mat6 C = std::visit([](const auto& c) { return voigt(as_orthotropic(c)); }, material->stiffness());
+    const Mat6 C = voigt(material->stiffness());
     const Vec6 lambda = Eigen::SelfAdjointEigenSolver<Mat6>(C).eigenvalues();
     fmt::print("  {}: density {} kg/m^3, eigenvalues of C {:.4g} Pa\n", name, material->density(),
                fmt::join(lambda, ", "));
