@@ -4,8 +4,9 @@ namespace orthodyn {
 
 namespace {
 
-// a(dS T^T) as a 3x6 matrix on the Voigt form of dS.
-Mat36 axial_of_product(const Mat3& T) {
+// a(dS T^T) as a 3x6 matrix on the Voigt form of dS. Inlined by order: with two kinds of stiffness the
+// compiler would not, and tangents cost 4 % more instructions.
+[[gnu::always_inline]] inline Mat36 axial_of_product(const Mat3& T) {
   const Mat3 h = 0.5 * T;
   Mat36 A;
   A << 0, -T(2, 1), T(1, 2), -h(2, 0), h(1, 1) - h(2, 2), h(1, 0),  //
@@ -14,7 +15,7 @@ Mat36 axial_of_product(const Mat3& T) {
   return A;
 }
 
-Mat63 times(const OrthotropicStiffness& C, const Mat63& N) {
+[[gnu::always_inline]] inline Mat63 times(const OrthotropicStiffness& C, const Mat63& N) {
   Mat63 out;
   out.row(0) = C.c11 * N.row(0) + C.c12 * N.row(1) + C.c31 * N.row(2);
   out.row(1) = C.c12 * N.row(0) + C.c22 * N.row(1) + C.c23 * N.row(2);

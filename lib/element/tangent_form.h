@@ -30,7 +30,7 @@ using TangentForm = TangentFormOf<OrthotropicStiffness>;
 
 // The form as a 9x9 matrix acting on X in column-major order (X11, X21, X31, X12, ...).
 template <class C>
-Mat9 expand(const TangentFormOf<C>& form) {
+[[gnu::always_inline]] inline Mat9 expand(const TangentFormOf<C>& form) {
   Eigen::Matrix<double, 9, 9> H;  // on (e, a)
   H.topLeftCorner<6, 6>() = voigt(form.Hee);
   H.topRightCorner<6, 3>() = form.Hea;

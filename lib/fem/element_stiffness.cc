@@ -11,7 +11,7 @@ constexpr std::array<std::pair<int, int>, 6> kPairs{{{1, 0}, {2, 0}, {3, 0}, {2,
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
 // sum_n g[n] H(m, n), the three 3x3 blocks of H contracted with the gradient of one node.
-std::array<Mat3, 3> contract_right(const Mat9& H, const Vec3& g) {
+[[gnu::always_inline]] inline std::array<Mat3, 3> contract_right(const Mat9& H, const Vec3& g) {
   std::array<Mat3, 3> out;
   for (int m = 0; m < 3; ++m)
     out[idx(m)] = g[0] * H.block<3, 3>(3 * m, 0) + g[1] * H.block<3, 3>(3 * m, 3) +
@@ -20,7 +20,7 @@ std::array<Mat3, 3> contract_right(const Mat9& H, const Vec3& g) {
 }
 
 // The rows and columns of node 0, whose shape function is 1 minus the sum of the others.
-void complete(ElementBlocks& K, bool symmetric) {
+[[gnu::always_inline]] inline void complete(ElementBlocks& K, bool symmetric) {
   for (int a = 1; a < 4; ++a) {
     K[idx(a)][0] = -(K[idx(a)][1] + K[idx(a)][2] + K[idx(a)][3]);
     if (!symmetric) K[0][idx(a)] = -(K[1][idx(a)] + K[2][idx(a)] + K[3][idx(a)]);

@@ -32,8 +32,7 @@ void need_finite(const char* name, double x) {
 std::shared_ptr<const Material> make_isotropic(double density, double young, double nu) {
   need_positive("the density", density);
   need_positive("Young's modulus", young);
-  if (!(nu > -1 && nu < 0.5))
-    throw ConfigError(fmt::format("Poisson's ratio must be in (-1, 0.5), found {}", nu));
+  if (!(nu > -1 && nu < 0.5)) throw ConfigError(fmt::format("Poisson's ratio must be in (-1, 0.5), found {}", nu));
   return std::make_shared<OfStiffness>(density, isotropic_stiffness(young, nu));
 }
 

@@ -15,9 +15,9 @@ namespace {
 
 // One Poisson's ratio and its reverse, of which the user gives one or both.
 struct Pair {
-  std::string ij, ji;            // "nu12", "nu21"
+  std::string ij, ji;  // "nu12", "nu21"
   std::optional<double> nu_ij, nu_ji;
-  double root;                   // sqrt(E_i / E_j)
+  double root;  // sqrt(E_i / E_j)
   std::string i, j;
 
   // nu_ij by the mean of nu_ij / E_i and nu_ji / E_j, which symmetry wants equal.
@@ -37,8 +37,7 @@ class Orthotropic : public Material {
     const Rule modulus{.required = true, .unit = "Pa", .range = kPositive};
     static const auto s =
         Spec<O>()
-            .key("density", &O::density_, "Mass density.",
-                 {.required = true, .unit = "kg/m^3", .range = kPositive})
+            .key("density", &O::density_, "Mass density.", {.required = true, .unit = "kg/m^3", .range = kPositive})
             .key("young", &O::young_, "Young's moduli E1, E2, E3 along the material axes.", modulus)
             .key("nu12", &O::nu12_, "Contraction along 2 when stretched along 1 (or give nu21).")
             .key("nu21", &O::nu21_, "Contraction along 1 when stretched along 2; nu21 = nu12 E2/E1.")
@@ -86,9 +85,10 @@ class Orthotropic : public Material {
     for (const Pair& p : pairs()) {
       if (!p.nu_ij && !p.nu_ji) config.fail(fmt::format("a Poisson's ratio is missing: give {} or {}", p.ij, p.ji));
       if (p.nu_ij && p.nu_ji && !symmetrise_)
-        config.fail(fmt::format("{} and {} are the same constant ({} {} = {} {}); give one, or symmetrise: true to "
-                                "use their mean",
-                                p.ij, p.ji, p.ij, p.j, p.ji, p.i));
+        config.fail(
+            fmt::format("{} and {} are the same constant ({} {} = {} {}); give one, or symmetrise: true to "
+                        "use their mean",
+                        p.ij, p.ji, p.ij, p.j, p.ji, p.i));
     }
   }
 

@@ -20,9 +20,10 @@ class PresetMaterial : public Material {
             .check([](const P& p, const Config& config) {
               const auto& preset = p.preset();
               if (!p.own_density_ && !preset.density)
-                config.fail(fmt::format("'density' is missing: {} has no measured density in its source ({}); give the "
-                                        "one of your material in kg/m^3",
-                                        preset.name, preset.source));
+                config.fail(
+                    fmt::format("'density' is missing: {} has no measured density in its source ({}); give the "
+                                "one of your material in kg/m^3",
+                                preset.name, preset.source));
               if (!p.own_density_) config.fill("density", number_text(*preset.density));
             });
     return s;
@@ -38,8 +39,8 @@ class PresetMaterial : public Material {
   std::optional<double> own_density_;
 };
 
-const bool registered = Registry<Material>::add<PresetMaterial>(
-    "preset", "Measured constants by name: woods and composites.");
+const bool registered =
+    Registry<Material>::add<PresetMaterial>("preset", "Measured constants by name: woods and composites.");
 
 }  // namespace
 }  // namespace orthodyn

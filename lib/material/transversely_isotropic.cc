@@ -21,8 +21,7 @@ class TransverselyIsotropic : public Material {
     const Rule modulus{.required = true, .unit = "Pa", .range = kPositive};
     static const auto s =
         Spec<M>()
-            .key("density", &M::density_, "Mass density.",
-                 {.required = true, .unit = "kg/m^3", .range = kPositive})
+            .key("density", &M::density_, "Mass density.", {.required = true, .unit = "kg/m^3", .range = kPositive})
             .key("young_axial", &M::young_axial_, "Young's modulus E1 along the fibre, which is material axis 1.",
                  modulus)
             .key("young_transverse", &M::young_transverse_, "Young's modulus E2 = E3 across the fibre.", modulus)
@@ -45,16 +44,14 @@ class TransverselyIsotropic : public Material {
     return s;
   }
 
-  Stiffness stiffness() const override {
-    return orthodyn::stiffness(constants(is_given_stable() ? 1 : factor()));
-  }
+  Stiffness stiffness() const override { return orthodyn::stiffness(constants(is_given_stable() ? 1 : factor())); }
 
   std::vector<std::string> notes() const override {
     if (is_given_stable()) return {};
-    return {fmt::format("nu_axial={:.4g}, nu_transverse={:.4g} make the stiffness indefinite ({}); both were multiplied "
-                        "by {:.4g}, used are nu_axial={:.6g}, nu_transverse={:.6g}",
-                        nu_axial_, nu_transverse_, violated(), factor(), factor() * nu_axial_,
-                        factor() * nu_transverse_)};
+    return {
+        fmt::format("nu_axial={:.4g}, nu_transverse={:.4g} make the stiffness indefinite ({}); both were multiplied "
+                    "by {:.4g}, used are nu_axial={:.6g}, nu_transverse={:.6g}",
+                    nu_axial_, nu_transverse_, violated(), factor(), factor() * nu_axial_, factor() * nu_transverse_)};
   }
 
  private:
@@ -72,9 +69,7 @@ class TransverselyIsotropic : public Material {
   double factor() const { return stabilising_factor(constants(1)); }
 
   // G23 need not be looked at: nu23 > -1 is among the conditions.
-  bool is_given_stable() const {
-    return nu_transverse_ > -1 && is_stable(constants(1));
-  }
+  bool is_given_stable() const { return nu_transverse_ > -1 && is_stable(constants(1)); }
 
   double determinant() const {
     return 1 - nu_transverse_ - 2 * nu_axial_ * nu_axial_ * young_transverse_ / young_axial_;

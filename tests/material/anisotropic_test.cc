@@ -52,9 +52,10 @@ TEST(Anisotropic, InTheUsualOrderHasItsComponentsWhereTheTableSays) {
 }
 
 TEST(Anisotropic, HasNoDefaultForTheOrderOfItsIndices) {
-  EXPECT_TRUE(holds(refusal_of("{type: anisotropic, density: 1, c11: 1, c22: 1, c33: 1, c12: 0, c13: 0, c23: 0, c44: 1, "
-                               "c55: 1, c66: 1}"),
-                    "key 'voigt_order' is missing"));
+  EXPECT_TRUE(
+      holds(refusal_of("{type: anisotropic, density: 1, c11: 1, c22: 1, c33: 1, c12: 0, c13: 0, c23: 0, c44: 1, "
+                       "c55: 1, c66: 1}"),
+            "key 'voigt_order' is missing"));
 }
 
 TEST(Anisotropic, NeedsTheNineConstantsOfAnOrthotropicMaterialAndNoMore) {

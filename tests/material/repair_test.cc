@@ -83,7 +83,8 @@ TEST(Symmetrise, MustBeAskedForAndIsSpelledOut) {
 }
 
 TEST(Symmetrise, GoesBeforeTheRepair) {
-  const std::string yaml = orthotropic("nu12: 5, nu21: 0.3, nu23: 0.44, nu31: 0.0225, symmetrise: true, repair: shrink");
+  const std::string yaml =
+      orthotropic("nu12: 5, nu21: 0.3, nu23: 0.44, nu31: 0.0225, symmetrise: true, repair: shrink");
   EXPECT_EQ(read(yaml)->notes().size(), 2u);
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Mat6>(stiffness_of(yaml)).eigenvalues()[0], 0);
 }

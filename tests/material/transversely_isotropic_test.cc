@@ -10,9 +10,10 @@ namespace orthodyn {
 namespace {
 
 std::string fibre_with(double nu_axial, double nu_transverse, const std::string& more = "") {
-  return fmt::format("{{type: transversely_isotropic, density: 1, young_axial: 100, young_transverse: 4, nu_axial: {}, "
-                     "nu_transverse: {}, shear_axial: 3{}}}",
-                     nu_axial, nu_transverse, more);
+  return fmt::format(
+      "{{type: transversely_isotropic, density: 1, young_axial: 100, young_transverse: 4, nu_axial: {}, "
+      "nu_transverse: {}, shear_axial: 3{}}}",
+      nu_axial, nu_transverse, more);
 }
 
 std::shared_ptr<const Material> read(const std::string& yaml) {
