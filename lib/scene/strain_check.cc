@@ -64,7 +64,7 @@ std::string warning(const std::string& region, const ElasticTerm& term, const Ex
                 "from the mesh, not from the material",
                 describe(e.limit, e.axis));
   return fmt::format(
-      "region {}: {} loads {} of {} elements along material axis {} up to the stress of a strain of {:+.3g} "
+      "region {}: {} puts {} of {} elements along material axis {} under the stress of a strain of {:+.3g} "
       "%; beyond {:+.3g} % {}. Lower the load, or look for a mistake in the constants and axes.",
       region, cause, e.count, term.size(), e.axis + 1, 100 * e.worst, 100 * e.limit.strain, means);
 }

@@ -21,7 +21,7 @@ std::string bar(const std::string& more, const std::string& axes = "") {
 }
 
 const std::string kFree =
-    "mesh: {type: box, cells: [2, 1, 1]}\n"
+    "mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1]}\n"
     "materials: {m: {type: orthotropic_stable, density: 1, young: [100, 1, 1], nu: 0.3}}\ntime: {end: 1}\n";
 
 // The warnings about strains.
@@ -41,7 +41,7 @@ TEST(StrainCheck, WarnsOfACompressionThatKinksTheFibre) {
   const auto warnings = warnings_of(bar(pulled_by(-3.34)));
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_TRUE(
-      holds(warnings[0], "loads 12 of 12 elements along material axis 1 up to the stress of a strain of -6.68 %"));
+      holds(warnings[0], "puts 10 of 10 elements along material axis 1 under the stress of a strain of -6.68 %"));
   EXPECT_TRUE(holds(warnings[0], "beyond -6.64 %"));
   EXPECT_TRUE(holds(warnings[0], "kinks in the plane 1-"));
 }
@@ -50,7 +50,7 @@ TEST(StrainCheck, WarnsOfATensionThatSlidesTheLayers) {
   EXPECT_TRUE(warnings_of(bar(pulled_by(9.0))).empty());
   const auto warnings = warnings_of(bar(pulled_by(9.2)));
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_TRUE(holds(warnings[0], "up to the stress of a strain of +18.4 %; beyond +18.2 %"));
+  EXPECT_TRUE(holds(warnings[0], "under the stress of a strain of +18.4 %; beyond +18.2 %"));
 }
 
 TEST(StrainCheck, LooksAlongTheMaterialAxes) {
@@ -82,7 +82,7 @@ TEST(StrainCheck, WarnsOfAnInitialDeformationBeyondTheLimit) {
   EXPECT_TRUE(deformed("[[0.94, 0, 0], [0, 1.18, 0], [0, 0, 1.18]]").empty());
   const auto warnings = deformed("[[0, -1.3, 0], [0.9, 0, 0], [0, 0, 1.3]]");  // turned, too
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_TRUE(holds(warnings[0], "the initial deformation loads 12 of 12"));
+  EXPECT_TRUE(holds(warnings[0], "the initial deformation puts 10 of 10"));
   EXPECT_TRUE(holds(warnings[0], "a strain of -10 %"));
 }
 
@@ -92,9 +92,9 @@ TEST(StrainCheck, DoesNotTakeARotationForAStrain) {
 
 TEST(MaterialNotes, AreWarningsOfTheScene) {
   const std::string repaired =
-      "mesh: {type: box}\nmaterials: {odd: {type: orthotropic, density: 1, young: [1, 1, 1], nu12: 0.8, nu23: 0.8, "
+      "mesh: {type: box, size: [1, 1, 1], cells: [1, 1, 1]}\nmaterials: {odd: {type: orthotropic, density: 1, young: [1, 1, 1], nu12: 0.8, nu23: 0.8, "
       "nu13: 0.8, g12: 1, g23: 1, g13: 1, repair: shrink}}\ntime: {end: 1}\n";
-  const Setup setup = set_up(Config::from_text(repaired));
+  const auto setup = set_up(Config::from_text(repaired));
   ASSERT_FALSE(setup.built.warnings.empty());
   EXPECT_TRUE(
       starts(setup.built.warnings[0], "material odd: nu12=0.8, nu23=0.8, nu13=0.8 make the stiffness indefinite"));
