@@ -22,17 +22,20 @@ namespace orthodyn {
 Mat63 stretch_rate_matrix(const Mat3& S);
 
 // The positive semidefinite form dS : C : dS, weighted by chi.
-TangentForm gauss_newton_form(const Polar<double>& p, const OrthotropicStiffness& C, double chi);
+template <class C>
+TangentFormOf<C> gauss_newton_form(const Polar<double>& p, const C& stiffness, double chi);
 
 // The form of d2Psi where chi = 1; T = sigma + [c].
-TangentForm exact_form(const Polar<double>& p, const OrthotropicStiffness& C, const Mat3& T);
+template <class C>
+TangentFormOf<C> exact_form(const Polar<double>& p, const C& stiffness, const Mat3& T);
 
 template <class C>
 class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
  public:
   static constexpr const char* kName = "corotational, exact gradient";
+  using Form = TangentFormOf<TangentStiffness<C>>;
 
-  explicit CorotationalLaw(const C& stiffness) : RotatingLaw<CorotationalLaw, C>(stiffness), sparse_(as_orthotropic(stiffness)) {
+  explicit CorotationalLaw(const C& stiffness) : RotatingLaw<CorotationalLaw, C>(stiffness), sparse_(as_tangent(stiffness)) {
     if constexpr (!C::kIsotropic) isotropic_ = nearest_isotropic(stiffness);
   }
 
@@ -75,8 +78,7 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
 
   // The elastic tangent and, if asked for, the damping tangent dP/dF_rate. Where the energy is
   // blended, `exact` too is a positive semidefinite approximation: the Hessian is unbounded there.
-  TangentForm tangent(const Mat3& F, const Mat3& Q, TangentKind kind, double beta,
-                      TangentForm* damping) const {
+  Form tangent(const Mat3& F, const Mat3& Q, TangentKind kind, double beta, Form* damping) const {
     const auto p = polar(F, Q);
     const auto b = blend<double>(p.S, p.det_G);
     if (damping) *damping = gauss_newton_form(p, beta * sparse_, b.chi);
@@ -123,16 +125,15 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
   }
 
   // chi times the Gauss-Newton part and 1 - chi times the isotropic law at fixed rotation.
-  TangentForm blended_form(const Polar<double>& p, double chi) const {
-    TangentForm form = gauss_newton_form(p, sparse_, chi);
-    OrthotropicStiffness rest = sparse_;
-    if constexpr (!C::kIsotropic) rest = as_orthotropic(isotropic_);
-    form.Hee = form.Hee + (1 - chi) * rest;
+  Form blended_form(const Polar<double>& p, double chi) const {
+    Form form = gauss_newton_form(p, sparse_, chi);
+    if constexpr (C::kIsotropic) form.Hee = form.Hee + (1 - chi) * sparse_;
+    else form.Hee = form.Hee + (1 - chi) * as_orthotropic(isotropic_);
     return form;
   }
 
   using RotatingLaw<CorotationalLaw, C>::C_;
-  OrthotropicStiffness sparse_;
+  TangentStiffness<C> sparse_;
   IsotropicStiffness isotropic_;  // the nearest one; used by anisotropic C only
 };
 

@@ -11,6 +11,7 @@ class LinearLaw {
  public:
   static constexpr const char* kName = "small strain";
   static constexpr bool kBatchesNeedAxes = true;
+  using Form = TangentFormOf<TangentStiffness<C>>;
 
   explicit LinearLaw(const C& stiffness) : C_(stiffness) {}
 
@@ -54,9 +55,9 @@ class LinearLaw {
     return Batch(beta) * contract<Batch>(C_.stress(rate), rate);
   }
 
-  TangentForm tangent(const Mat3&, const Mat3& Q, TangentKind, double beta, TangentForm* damping) const {
-    const auto form = [&](double factor) -> TangentForm {
-      return {Q, factor * as_orthotropic(C_), Mat63::Zero(), Mat36::Zero(), Mat3::Zero()};
+  Form tangent(const Mat3&, const Mat3& Q, TangentKind, double beta, Form* damping) const {
+    const auto form = [&](double factor) -> Form {
+      return {Q, factor * as_tangent(C_), Mat63::Zero(), Mat36::Zero(), Mat3::Zero()};
     };
     if (damping) *damping = form(beta);
     return form(1);

@@ -2,7 +2,7 @@
 //
 // For a change dF let X = R^T dF, e = sym(X) in Voigt form (engineering shear), a = a(X). Then
 //     d2Psi = e . Hee e + 2 e . Hea a + a . Haa a.
-// Every corotational tangent has this form; Hee is a material stiffness, so nine numbers.
+// Every corotational tangent has this form; Hee is a material stiffness: nine numbers if orthotropic.
 // A tangent that is not symmetric has its own Hae (3x6) in place of Hea^T.
 #pragma once
 
@@ -17,16 +17,20 @@ using Mat63 = Eigen::Matrix<double, 6, 3>;
 using Mat36 = Eigen::Matrix<double, 3, 6>;
 using Mat9 = Eigen::Matrix<double, 9, 9>;
 
-struct TangentForm {
+template <class C>
+struct TangentFormOf {
   Mat3 R;
-  OrthotropicStiffness Hee;
+  C Hee;
   Mat63 Hea;
   Mat36 Hae;
   Mat3 Haa;
 };
 
+using TangentForm = TangentFormOf<OrthotropicStiffness>;
+
 // The form as a 9x9 matrix acting on X in column-major order (X11, X21, X31, X12, ...).
-inline Mat9 expand(const TangentForm& form) {
+template <class C>
+[[gnu::always_inline]] inline Mat9 expand(const TangentFormOf<C>& form) {
   Eigen::Matrix<double, 9, 9> H;  // on (e, a)
   H.topLeftCorner<6, 6>() = voigt(form.Hee);
   H.topRightCorner<6, 3>() = form.Hea;

@@ -15,6 +15,7 @@ template <class C>
 class WarpedLaw : public RotatingLaw<WarpedLaw<C>, C> {
  public:
   static constexpr const char* kName = "WARPED force R sigma (no energy, net torque)";
+  using Form = TangentFormOf<TangentStiffness<C>>;
 
   WarpedLaw(const C& stiffness, WarpedTangent tangent)
       : RotatingLaw<WarpedLaw, C>(stiffness), exact_(stiffness), tangent_(tangent) {}
@@ -48,8 +49,7 @@ class WarpedLaw : public RotatingLaw<WarpedLaw<C>, C> {
     return P;
   }
 
-  TangentForm tangent(const Mat3& F, const Mat3& Q, TangentKind kind, double beta,
-                      TangentForm* damping) const {
+  Form tangent(const Mat3& F, const Mat3& Q, TangentKind kind, double beta, Form* damping) const {
     const auto p = polar(F, Q);
     if (damping) exact_.tangent(F, Q, TangentKind::gauss_newton, beta, damping);
     return kind == TangentKind::exact && tangent_ == WarpedTangent::unsymmetric && p.det_G > kBlendG0
@@ -63,13 +63,13 @@ class WarpedLaw : public RotatingLaw<WarpedLaw<C>, C> {
   }
 
  private:
-  TangentForm rotated_form(const Polar<double>& p) const {
-    return {p.R, as_orthotropic(C_), Mat63::Zero(), Mat36::Zero(), Mat3::Zero()};
+  Form rotated_form(const Polar<double>& p) const {
+    return {p.R, as_tangent(C_), Mat63::Zero(), Mat36::Zero(), Mat3::Zero()};
   }
 
   // d(R sigma) = R ([w] sigma + C : dS), dS = e - N w, w = G^-1 a.
-  TangentForm unsymmetric_form(const Polar<double>& p) const {
-    TangentForm form = gauss_newton_form(p, as_orthotropic(C_), 1);
+  Form unsymmetric_form(const Polar<double>& p) const {
+    Form form = gauss_newton_form(p, as_tangent(C_), 1);
     double chi = 1;
     const Mat3 sigma = rotated_stress(p, chi);
     for (int k = 0; k < 3; ++k) {

@@ -16,7 +16,7 @@ template <class Law>
 class Elastic final : public ElasticTerm {
  public:
   Elastic(std::string region, const TetMesh& mesh, std::vector<int> cells, const Law& law,
-          const OrthotropicStiffness& stiffness, const ElementAxes& axes, double beta, const BlockPattern& pattern)
+          const Mat6& stiffness, const ElementAxes& axes, double beta, const BlockPattern& pattern)
       : region_(std::move(region)), law_(law), C_(stiffness), axes_(axes), beta_(beta),
         cells_(std::move(cells)), pattern_(pattern), elements_(mesh, cells_, axes) {
     offsets_.reserve(cells_.size());
@@ -52,8 +52,8 @@ class Elastic final : public ElasticTerm {
       const Tet4 shape = elements_.shape(k);
       const Tet tet = elements_.tet(k);
       const ElementOffsets& offsets = offsets_[static_cast<std::size_t>(k)];
-      TangentForm damping;
-      const TangentForm form =
+      typename Law::Form damping;
+      const typename Law::Form form =
           law_.tangent(elements_.gradient(k, s.x), axes_.of(k), kind, beta_, damped ? &damping : nullptr);
       scatter(element_stiffness(form, shape, pattern_.symmetric()), tet, offsets, pattern_, K);
       if (damped) scatter(element_stiffness(damping, shape, pattern_.symmetric()), tet, offsets, pattern_, D);
@@ -78,6 +78,10 @@ class Elastic final : public ElasticTerm {
   int size() const override { return static_cast<int>(cells_.size()); }
   int cell(int k) const override { return cells_[static_cast<std::size_t>(k)]; }
 
+  Mat3 small_strain(int k, const NodalVector& u) const override {
+    return symmetric_part<double>(Q_.transpose() * elements_.gradient(k, u));
+  }
+
   double det_F(int k, const NodalState& s) const override { return elements_.gradient(k, s.x).determinant(); }
 
   PointObservation observe(int k, const NodalState& s) const override {
@@ -86,7 +90,7 @@ class Elastic final : public ElasticTerm {
 
   double max_frequency_squared(double density) const override {
     // K_e = V G^T C G; with masses rho V / 4 its largest eigenvalue is that of C^(1/2) G G^T C^(1/2).
-    const Mat6 root = Mat6(Eigen::LLT<Mat6>(voigt(C_)).matrixL());
+    const Mat6 root = Mat6(Eigen::LLT<Mat6>(C_).matrixL());
     double largest = 0;
     for (int k = 0; k < size(); ++k) {
       const Mat6 A = root.transpose() * strain_gram(elements_.shape(k)) * root;
@@ -134,7 +138,7 @@ class Elastic final : public ElasticTerm {
 
   std::string region_;
   Law law_;
-  OrthotropicStiffness C_;
+  Mat6 C_;  // Voigt
   ElementAxes axes_;
   double beta_;
   std::vector<int> cells_;
@@ -155,7 +159,7 @@ std::unique_ptr<ElasticTerm> make_elastic_term(const std::string& region, const 
         using Form = std::decay_t<decltype(C)>;
         const auto make = [&](const auto& law) -> std::unique_ptr<ElasticTerm> {
           return std::make_unique<Elastic<std::decay_t<decltype(law)>>>(
-              region, mesh, std::move(cells), law, as_orthotropic(C), axes, beta, pattern);
+              region, mesh, std::move(cells), law, voigt(C), axes, beta, pattern);
         };
         if (options.kinematics == Kinematics::linear) return make(LinearLaw<Form>(C));
         if (options.corotation == Corotation::warped)

@@ -32,6 +32,8 @@ class ElasticTerm : public Term {
   virtual int size() const = 0;
   virtual int cell(int k) const = 0;
   virtual PointObservation observe(int k, const NodalState& s) const = 0;
+  // sym(grad u) in material axes, of a small displacement u (m).
+  virtual Mat3 small_strain(int k, const NodalVector& u) const = 0;
   virtual double det_F(int k, const NodalState& s) const = 0;
 
   // Upper bound of the squared angular frequency of any element about rest, for lumped masses

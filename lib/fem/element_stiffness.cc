@@ -11,7 +11,7 @@ constexpr std::array<std::pair<int, int>, 6> kPairs{{{1, 0}, {2, 0}, {3, 0}, {2,
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
 // sum_n g[n] H(m, n), the three 3x3 blocks of H contracted with the gradient of one node.
-std::array<Mat3, 3> contract_right(const Mat9& H, const Vec3& g) {
+[[gnu::always_inline]] inline std::array<Mat3, 3> contract_right(const Mat9& H, const Vec3& g) {
   std::array<Mat3, 3> out;
   for (int m = 0; m < 3; ++m)
     out[idx(m)] = g[0] * H.block<3, 3>(3 * m, 0) + g[1] * H.block<3, 3>(3 * m, 3) +
@@ -20,7 +20,7 @@ std::array<Mat3, 3> contract_right(const Mat9& H, const Vec3& g) {
 }
 
 // The rows and columns of node 0, whose shape function is 1 minus the sum of the others.
-void complete(ElementBlocks& K, bool symmetric) {
+[[gnu::always_inline]] inline void complete(ElementBlocks& K, bool symmetric) {
   for (int a = 1; a < 4; ++a) {
     K[idx(a)][0] = -(K[idx(a)][1] + K[idx(a)][2] + K[idx(a)][3]);
     if (!symmetric) K[0][idx(a)] = -(K[1][idx(a)] + K[2][idx(a)] + K[3][idx(a)]);
@@ -30,7 +30,8 @@ void complete(ElementBlocks& K, bool symmetric) {
 
 }  // namespace
 
-ElementBlocks element_stiffness(const TangentForm& form, const Tet4& shape, bool symmetric) {
+template <class C>
+ElementBlocks element_stiffness(const TangentFormOf<C>& form, const Tet4& shape, bool symmetric) {
   const Mat9 H = shape.volume * expand(form);
   ElementBlocks K;
   for (int b = 1; b < 4; ++b) {
@@ -45,6 +46,9 @@ ElementBlocks element_stiffness(const TangentForm& form, const Tet4& shape, bool
   complete(K, symmetric);
   return K;
 }
+
+template ElementBlocks element_stiffness(const TangentForm&, const Tet4&, bool);
+template ElementBlocks element_stiffness(const TangentFormOf<AnisotropicStiffness>&, const Tet4&, bool);
 
 ElementOffsets::ElementOffsets(const Tet& tet, const BlockPattern& pattern) {
   for (std::size_t k = 0; k < kPairs.size(); ++k) {

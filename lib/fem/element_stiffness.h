@@ -13,7 +13,8 @@ namespace orthodyn {
 using ElementBlocks = std::array<std::array<Mat3, 4>, 4>;
 
 // K_ab = V g_a : H : g_b.
-ElementBlocks element_stiffness(const TangentForm& form, const Tet4& shape, bool symmetric);
+template <class C>
+ElementBlocks element_stiffness(const TangentFormOf<C>& form, const Tet4& shape, bool symmetric);
 
 // Where the off-diagonal blocks of an element lie in a symmetric pattern. A general pattern is
 // searched at each use: it serves comparisons only, and is not worth the memory.

@@ -18,9 +18,7 @@ class Isotropic : public Material {
     return s;
   }
 
-  Stiffness stiffness() const override {
-    return IsotropicStiffness{young_ * nu_ / ((1 + nu_) * (1 - 2 * nu_)), young_ / (2 * (1 + nu_))};
-  }
+  Stiffness stiffness() const override { return isotropic_stiffness(young_, nu_); }
 
  private:
   double young_ = 0, nu_ = 0;

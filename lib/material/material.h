@@ -2,6 +2,9 @@
 // by `type` through Registry<Material>.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "lib/core/registry.h"
 #include "lib/material/stiffness.h"
 
@@ -10,8 +13,11 @@ namespace orthodyn {
 class Material {
  public:
   virtual ~Material() = default;
-  double density() const { return density_; }  // kg/m^3
-  virtual Stiffness stiffness() const = 0;     // positive definite
+  virtual double density() const { return density_; }  // kg/m^3
+  virtual Stiffness stiffness() const = 0;             // positive definite
+
+  // What of the input was changed to make it usable, one sentence each; empty if nothing was.
+  virtual std::vector<std::string> notes() const { return {}; }
 
  protected:
   double density_ = 0;

@@ -1,11 +1,13 @@
 #include "lib/material/orthotropy.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace orthodyn {
 
@@ -30,6 +32,12 @@ Ratios ratios(const OrthotropicConstants& c, const std::array<bool, 3>& reversed
             fmt::format("E{}/E{}", i + 1, j + 1)};
   };
   return {ratio(0, 1, c.nu12, reversed[0]), ratio(1, 2, c.nu23, reversed[1]), ratio(0, 2, c.nu13, reversed[2])};
+}
+
+std::string listed(const Ratios& all, const char* each, double factor = 1) {
+  std::vector<std::string> parts;
+  for (const Ratio& ratio : all) parts.push_back(fmt::format(fmt::runtime(each), ratio.name, factor * ratio.nu));
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 double rho_determinant(const Vec3& r) { return 1 - r.squaredNorm() - 2 * r.prod(); }
@@ -139,15 +147,18 @@ std::string explain_instability(const OrthotropicConstants& c, const std::array<
   const Vec3 r = scaled_ratios(c);
   const Ratios all = ratios(c, reversed);
   const double factor = stabilising_factor(c);
-  std::string given, stable;
-  for (const Ratio& ratio : all) {
-    const char* separator = given.empty() ? "" : ", ";
-    given += fmt::format("{}{}={:.4g}", separator, ratio.name, ratio.nu);
-    stable += fmt::format("{}{}: {:.6g}", separator, ratio.name, factor * ratio.nu);
-  }
   return fmt::format(
-      "{} make the stiffness indefinite: {} ({}). {} Nearest stable set (all ratios times {:.4g}): {}", given,
-      violated_inequality(all, r), smallest_eigenvalue(c, r), allowed_range(all, r), factor, stable);
+      "{} make the stiffness indefinite: {} ({}). {} Nearest stable set (all ratios times {:.4g}): {}",
+      listed(all, "{}={:.4g}"), violated_inequality(all, r), smallest_eigenvalue(c, r), allowed_range(all, r), factor,
+      listed(all, "{}: {:.6g}", factor));
+}
+
+std::string explain_shrinking(const OrthotropicConstants& c, const std::array<bool, 3>& reversed) {
+  const Ratios all = ratios(c, reversed);
+  const double factor = stabilising_factor(c);
+  return fmt::format("{} make the stiffness indefinite ({}); all ratios were multiplied by {:.4g}, used are {}",
+                     listed(all, "{}={:.4g}"), smallest_eigenvalue(c, scaled_ratios(c)), factor,
+                     listed(all, "{}={:.6g}", factor));
 }
 
 }  // namespace orthodyn

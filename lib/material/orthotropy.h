@@ -46,4 +46,7 @@ OrthotropicStiffness stiffness(const OrthotropicConstants& c);
 // speaks of these. Precondition: !is_stable(c), with positive moduli.
 std::string explain_instability(const OrthotropicConstants& c, const std::array<bool, 3>& reversed = {});
 
+// The same for a set that was repaired: what was given, by which factor it was shrunk, what is used.
+std::string explain_shrinking(const OrthotropicConstants& c, const std::array<bool, 3>& reversed = {});
+
 }  // namespace orthodyn

@@ -15,6 +15,16 @@ OrthotropicStiffness operator*(double s, const OrthotropicStiffness& c) {
           s * c.c31, s * c.g12, s * c.g23, s * c.g31};
 }
 
+AnisotropicStiffness operator+(const AnisotropicStiffness& a, const AnisotropicStiffness& b) {
+  return {a.c + b.c};
+}
+
+AnisotropicStiffness operator+(const AnisotropicStiffness& a, const OrthotropicStiffness& b) {
+  return {a.c + voigt(b)};
+}
+
+AnisotropicStiffness operator*(double s, const AnisotropicStiffness& c) { return {s * c.c}; }
+
 OrthotropicStiffness as_orthotropic(const IsotropicStiffness& c) {
   OrthotropicStiffness out;
   out.c11 = out.c22 = out.c33 = c.lambda + 2 * c.mu;
@@ -30,9 +40,19 @@ Mat6 voigt(const OrthotropicStiffness& c) {
   return m;
 }
 
+Mat6 voigt(const IsotropicStiffness& c) { return voigt(as_orthotropic(c)); }
+
+Mat6 voigt(const Stiffness& c) {
+  return std::visit([](const auto& form) -> Mat6 { return voigt(form); }, c);
+}
+
 IsotropicStiffness nearest_isotropic(const OrthotropicStiffness& c) {
-  const double iijj = c.c11 + c.c22 + c.c33 + 2 * (c.c12 + c.c23 + c.c31);
-  const double ijij = c.c11 + c.c22 + c.c33 + 2 * (c.g12 + c.g23 + c.g31);
+  return nearest_isotropic(AnisotropicStiffness{voigt(c)});
+}
+
+IsotropicStiffness nearest_isotropic(const AnisotropicStiffness& c) {
+  const double iijj = c.c.topLeftCorner<3, 3>().sum();
+  const double ijij = c.c.diagonal().head<3>().sum() + 2 * c.c.diagonal().tail<3>().sum();
   const double bulk = iijj / 9;
   const double mu = (ijij - iijj / 3) / 10;
   return {bulk - 2 * mu / 3, mu};

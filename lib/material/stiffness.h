@@ -4,6 +4,8 @@
 // (2014) eq. (1)-(2). Units: Pa. Each form stores only what it needs.
 #pragma once
 
+#include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "lib/core/types.h"
@@ -43,20 +45,59 @@ struct OrthotropicStiffness {
   }
 };
 
+// All 21 constants.
+struct AnisotropicStiffness {
+  static constexpr bool kIsotropic = false;
+  Mat6 c = Mat6::Zero();  // symmetric, in the Voigt order above
+
+  template <class T>
+  Mat3T<T> stress(const Mat3T<T>& e) const {
+    const T strain[6] = {e(0, 0), e(1, 1), e(2, 2), T(2.0) * e(0, 1), T(2.0) * e(1, 2), T(2.0) * e(2, 0)};
+    T sigma[6];
+    for (int i = 0; i < 6; ++i) {
+      sigma[i] = c(i, 0) * strain[0];
+      for (int j = 1; j < 6; ++j) sigma[i] += c(i, j) * strain[j];
+    }
+    Mat3T<T> s;
+    s << sigma[0], sigma[3], sigma[5], sigma[3], sigma[1], sigma[4], sigma[5], sigma[4], sigma[2];
+    return s;
+  }
+};
+
+// Precondition: young > 0, -1 < nu < 1/2.
+inline IsotropicStiffness isotropic_stiffness(double young, double nu) {
+  return {young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))};
+}
+
 OrthotropicStiffness operator+(const OrthotropicStiffness& a, const OrthotropicStiffness& b);
 OrthotropicStiffness operator*(double factor, const OrthotropicStiffness& c);
 
-using Stiffness = std::variant<IsotropicStiffness, OrthotropicStiffness>;
+AnisotropicStiffness operator+(const AnisotropicStiffness& a, const AnisotropicStiffness& b);
+AnisotropicStiffness operator+(const AnisotropicStiffness& a, const OrthotropicStiffness& b);
+AnisotropicStiffness operator*(double factor, const AnisotropicStiffness& c);
+
+using Stiffness = std::variant<IsotropicStiffness, OrthotropicStiffness, AnisotropicStiffness>;
 
 OrthotropicStiffness as_orthotropic(const IsotropicStiffness& c);
 inline const OrthotropicStiffness& as_orthotropic(const OrthotropicStiffness& c) { return c; }
 
+// What tangents are made of: the form that C keeps in its own axes under sums and multiples.
+inline OrthotropicStiffness as_tangent(const IsotropicStiffness& c) { return as_orthotropic(c); }
+inline const OrthotropicStiffness& as_tangent(const OrthotropicStiffness& c) { return c; }
+inline const AnisotropicStiffness& as_tangent(const AnisotropicStiffness& c) { return c; }
+template <class C>
+using TangentStiffness = std::decay_t<decltype(as_tangent(std::declval<C>()))>;
+
 // The 6x6 Voigt matrix.
+Mat6 voigt(const IsotropicStiffness& c);
 Mat6 voigt(const OrthotropicStiffness& c);
+inline const Mat6& voigt(const AnisotropicStiffness& c) { return c.c; }
+Mat6 voigt(const Stiffness& c);
 
 // The isotropic tensor nearest to c in the Euclidean norm of fourth-order tensors (Fedorov 1968):
 // kappa = C_iijj / 9, mu = (C_ijij - C_iijj / 3) / 10.
 IsotropicStiffness nearest_isotropic(const OrthotropicStiffness& c);
+IsotropicStiffness nearest_isotropic(const AnisotropicStiffness& c);
 
 // Matrix K with sigma' = K sigma for sigma' = Q sigma Q^T, where the columns of Q are the material
 // axes: then C' = K C K^T (Li & Barbic 2014, section 3).

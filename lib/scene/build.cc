@@ -99,13 +99,23 @@ Traits traits_of(const Scene& scene, const std::vector<const Region*>& regions) 
   return traits;
 }
 
+// What the materials had to change of the input.
+void add_notes(const Scene& scene, Warnings& warnings) {
+  for (const auto& [name, material] : scene.materials)
+    for (const auto& note : material->notes()) warnings.push_back(fmt::format("material {}: {}", name, note));
+}
+
 }  // namespace
 
-double density_of(const Scene& scene, const std::string& mesh_region) {
+const Material& material_in(const Scene& scene, const std::string& mesh_region) {
   const Region* found = nullptr;
   for (const auto& [name, region] : scene.regions)
     if (name == mesh_region || (name == "all" && !found)) found = &region;
-  return material_of(scene, *found).density();
+  return material_of(scene, *found);
+}
+
+double density_of(const Scene& scene, const std::string& mesh_region) {
+  return material_in(scene, mesh_region).density();
 }
 
 int nearest_node(const TetMesh& mesh, const Vec3& point) {
@@ -138,6 +148,7 @@ BuiltScene build(const Scene& scene) {
   add_elasticity(scene, regions, parts, loaded.warnings);
   add_loads(scene, parts);
   BuiltScene built{std::make_unique<FemModel>(std::move(parts)), {}, std::move(loaded.warnings)};
+  add_notes(scene, built.warnings);
   built.initial = initial_state(scene, built.model->parts());
   return built;
 }

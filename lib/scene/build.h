@@ -18,7 +18,8 @@ struct BuiltScene {
 // Loads the mesh and makes the terms that the scene names. Throws ConfigError.
 BuiltScene build(const Scene& scene);
 
-// The density of a region of the mesh, kg/m^3.
+// The material of a region of the mesh, and its density, kg/m^3.
+const Material& material_in(const Scene& scene, const std::string& mesh_region);
 double density_of(const Scene& scene, const std::string& mesh_region);
 
 // The node nearest to a point of the rest shape.

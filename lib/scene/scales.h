@@ -7,9 +7,12 @@
 #pragma once
 
 #include "lib/scene/build.h"
+#include "lib/scene/static_response.h"
 
 namespace orthodyn {
 
+// `statics` is the response of this very model, where the caller has it.
+Scales estimate_scales(const Scene& scene, const BuiltScene& built, const StaticResponse& statics);
 Scales estimate_scales(const Scene& scene, const BuiltScene& built);
 
 }  // namespace orthodyn

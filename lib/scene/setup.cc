@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "lib/linear/blas.h"
 #include "lib/scene/quantity.h"
 #include "lib/scene/scales.h"
+#include "lib/scene/strain_check.h"
 
 namespace orthodyn {
 
@@ -49,9 +51,16 @@ Setup set_up(Config config) {
   BuiltScene built = build(scene);
   check_outputs(scene, *built.model);
   check_expectations(scene, *built.model);
+  std::optional<StaticResponse> statics;  // made once, for whoever asks first
+  const auto response = [&]() -> const StaticResponse& {
+    if (!statics) statics = static_response(*built.model);
+    return *statics;
+  };
+  if (needs_strain_check(scene, built))
+    for (auto& warning : strain_warnings(scene, built, response())) built.warnings.push_back(std::move(warning));
   std::unique_ptr<Integrator> integrator;
   try {
-    integrator = scene.integrator->make(*built.model, [&] { return estimate_scales(scene, built); });
+    integrator = scene.integrator->make(*built.model, [&] { return estimate_scales(scene, built, response()); });
   } catch (const ConfigError& e) {
     config.at("integrator").fail(e.what());
   }

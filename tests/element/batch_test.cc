@@ -63,6 +63,17 @@ TEST(Batch, OfTheCorotationalLawEqualsItsElements) {
   expect_lanes_equal(CorotationalLaw(IsotropicStiffness{2, 1}), 0.2);
 }
 
+TEST(Batch, OfAnAnisotropicMaterialEqualsItsElements) {
+  Mat6 C = voigt(kStiff);
+  C(0, 3) = C(3, 0) = 0.5;
+  C(2, 4) = C(4, 2) = -0.3;
+  C(4, 5) = C(5, 4) = 0.2;
+  const AnisotropicStiffness full{C};
+  for (const double strain : {0.0, 0.05, 0.3}) expect_lanes_equal(CorotationalLaw(full), strain);
+  expect_lanes_equal(WarpedLaw(full, WarpedTangent::rotated), 0.2);
+  expect_lanes_equal(LinearLaw(full), 0.2);
+}
+
 TEST(Batch, OfTheWarpedAndTheLinearLawEqualTheirElements) {
   expect_lanes_equal(WarpedLaw(kStiff, WarpedTangent::rotated), 0.2);
   expect_lanes_equal(LinearLaw(kStiff), 0.2);

@@ -30,6 +30,12 @@ inline State random_strain(Random& random, double strain) {
 // Young's moduli ratio, 1, 1.
 inline OrthotropicStiffness fibre(double ratio) { return stiffness(stable_family({ratio, 1, 1}, 0.3)); }
 
+// The same material in axes of which A are its own: all 21 constants.
+inline AnisotropicStiffness turned(const OrthotropicStiffness& C, const Mat3& A) {
+  const Mat6 K = stress_rotation(A);
+  return {K * voigt(C) * K.transpose()};
+}
+
 inline constexpr IsotropicStiffness kIsotropic{0.6, 0.4};
 
 inline constexpr double kComplexStep = 1e-60;
@@ -72,7 +78,8 @@ Mat3 energy_gradient(const Law& law, const Mat3& F, const Mat3& Q) {
 }
 
 // The form as a matrix on dF instead of R^T dF.
-inline Mat9 in_space(const TangentForm& form) {
+template <class C>
+Mat9 in_space(const TangentFormOf<C>& form) {
   Mat9 R = Mat9::Zero();
   for (int k = 0; k < 3; ++k) R.block<3, 3>(3 * k, 3 * k) = form.R;
   return R * expand(form) * R.transpose();

@@ -62,6 +62,11 @@ TEST(ExactTangent, IsTheSymmetricDerivativeOfTheStress) {
 
 TEST(ExactTangent, OfAnIsotropicMaterialIsTheDerivativeOfTheStress) { expect_tangent_is_the_derivative(kIsotropic); }
 
+TEST(ExactTangent, OfAnAnisotropicMaterialIsTheSymmetricDerivativeOfTheStress) {
+  expect_tangent_is_the_derivative(turned(fibre(10), Random(43).rotation()));
+  expect_tangent_is_the_derivative(turned(stiffness(spruce()), Random(44).rotation()));
+}
+
 TEST(ExactTangent, AtARotationIsTheRotatedStiffness) {
   Random random(36);
   const Mat3 R = random.rotation();

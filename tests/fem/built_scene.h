@@ -1,6 +1,8 @@
 // A scene from YAML text, built, with what tests ask of its model.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 
 #include "lib/core/registry.h"
@@ -94,6 +96,19 @@ inline const std::string kTurnedAxes =
 inline std::string fibre_material(double ratio, double density = 1) {
   return "{type: orthotropic_stable, density: " + std::to_string(density) + ", young: [" + std::to_string(ratio) +
          ", 1, 1], nu: 0.3}";
+}
+
+inline std::string anisotropic_material(const Mat6& C, double density = 1) {
+  std::string yaml = fmt::format("{{type: anisotropic, density: {}, voigt_order: 11-22-33-12-23-31", density);
+  for (int i = 0; i < 6; ++i)
+    for (int j = i; j < 6; ++j) yaml += fmt::format(", c{}{}: {}", i + 1, j + 1, C(i, j));
+  return yaml + "}";
+}
+
+// The fibre material above as 21 constants in axes of which A are the fibre's.
+inline std::string turned_fibre_material(double ratio, const Mat3& A, double density = 1) {
+  const Mat6 K = stress_rotation(A);
+  return anisotropic_material(K * voigt(stiffness(stable_family({ratio, 1, 1}, 0.3))) * K.transpose(), density);
 }
 
 }  // namespace orthodyn

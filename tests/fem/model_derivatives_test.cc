@@ -18,6 +18,7 @@ const Case kExact{"exact", fibre_material(10), ""};
 const Case kIsotropicCase{"isotropic", "{type: isotropic, density: 1, young: 2, nu: 0.3}", ""};
 const Case kWarped{"warped_unsymmetric", fibre_material(10), "elasticity: {corotation: warped, warped_tangent: unsymmetric}"};
 const Case kLinear{"linear", fibre_material(10), "elasticity: {kinematics: linear}"};
+const Case kAnisotropic{"anisotropic", turned_fibre_material(10, Random(109).rotation()), ""};
 const Case kTwoRegions{"two_regions", fibre_material(10), ""};
 const std::string kCylinder = "{type: cylindrical, point: [0.3, 0.4, 0], axis: [0.2, 0.1, 1], spiral: 0.2}";
 const Case kGrain{"grain", fibre_material(10), "", kCylinder};
@@ -53,8 +54,13 @@ time: {{end: 1}}
 class Derivatives : public testing::TestWithParam<Case> {};
 class ConservativeDerivatives : public Derivatives {};
 const auto name_of = [](const auto& tested) { return tested.param.name; };
-INSTANTIATE_TEST_SUITE_P(Models, Derivatives, testing::Values(kExact, kIsotropicCase, kWarped, kLinear, kTwoRegions, kGrain, kLinearGrain, kWarpedGrain), name_of);
-INSTANTIATE_TEST_SUITE_P(Models, ConservativeDerivatives, testing::Values(kExact, kIsotropicCase, kLinear, kTwoRegions, kGrain, kLinearGrain), name_of);
+INSTANTIATE_TEST_SUITE_P(Models, Derivatives,
+                         testing::Values(kExact, kIsotropicCase, kAnisotropic, kWarped, kLinear, kTwoRegions, kGrain,
+                                         kLinearGrain, kWarpedGrain),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(Models, ConservativeDerivatives,
+                         testing::Values(kExact, kIsotropicCase, kAnisotropic, kLinear, kTwoRegions, kGrain, kLinearGrain),
+                         name_of);
 
 constexpr double kStep = 4e-3;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "lib/material/anisotropy.h"
 #include "lib/material/orthotropy.h"
 
 namespace orthodyn {
@@ -75,12 +76,6 @@ inline OrthotropicConstants random_stable(Random& random, double margin = 0.05) 
 inline double component(const Mat6& C, int i, int j, int k, int l) {
   constexpr int voigt_index[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
   return C(voigt_index[i][j], voigt_index[k][l]);
-}
-
-// The matrix on symmetric tensors with an orthonormal basis: its eigenvalues are those of C.
-inline Mat6 mandel(const Mat6& C) {
-  const Vec6 scale = (Vec6() << 1, 1, 1, std::sqrt(2), std::sqrt(2), std::sqrt(2)).finished();
-  return scale.asDiagonal() * C * scale.asDiagonal();
 }
 
 }  // namespace orthodyn

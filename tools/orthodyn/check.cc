@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "lib/material/stiffness.h"
+#include "lib/element/strain_limits.h"
 #include "tools/orthodyn/axes.h"
 #include "tools/orthodyn/commands.h"
 #include "tools/orthodyn/setup.h"
@@ -18,12 +18,28 @@ namespace {
 
 double mebibytes(std::size_t bytes) { return static_cast<double>(bytes) / (1024 * 1024); }
 
+std::string side(const std::optional<StrainLimit>& limit, int axis, const char* otherwise) {
+  if (!limit) return otherwise;
+  return fmt::format("{:+.3g} % ({})", 100 * limit->strain, describe(*limit, axis));
+}
+
+// Where the corotational law gives way, by the axis along which it is strained.
+void print_strain_limits(const Stiffness& stiffness) {
+  const auto limits = strain_limits(stiffness);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto& [compression, tension] = limits[static_cast<std::size_t>(axis)];
+    fmt::print("    strain along axis {} from {} to {}\n", axis + 1, side(compression, axis, "-100 %"),
+               side(tension, axis, "any"));
+  }
+}
+
 void print_materials(const Scene& scene) {
   for (const auto& [name, material] : scene.materials) {
-    const Mat6 C = std::visit([](const auto& c) { return voigt(as_orthotropic(c)); }, material->stiffness());
+    const Mat6 C = voigt(material->stiffness());
     const Vec6 lambda = Eigen::SelfAdjointEigenSolver<Mat6>(C).eigenvalues();
     fmt::print("  {}: density {} kg/m^3, eigenvalues of C {:.4g} Pa\n", name, material->density(),
                fmt::join(lambda, ", "));
+    if (scene.elasticity.kinematics == Kinematics::corotational) print_strain_limits(material->stiffness());
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "lib/core/registry.h"
 #include "lib/linear/solver.h"
+#include "lib/material/presets.h"
 #include "lib/scene/build.h"
 #include "lib/scene/scene.h"
 #include "lib/study/comparison.h"
@@ -30,6 +31,20 @@ void print_entry(const std::string& name, const std::string& sentence, const std
 template <class Base>
 void print_registry() {
   for (const auto& [name, entry] : Registry<Base>::entries()) print_entry(name, entry.sentence, entry.keys);
+}
+
+void print_presets() {
+  for (const auto& p : presets()) {
+    const auto& c = p.constants;
+    const auto reverse = [&](double nu, int i, int j) { return nu * c.young[j] / c.young[i]; };
+    constexpr double kGiga = 1e9;
+    fmt::print("  {}\n    {}. {}\n", p.name, p.source, p.axes);
+    fmt::print("    density {}\n", p.density ? fmt::format("{} kg/m^3", *p.density) : "to be given: not in the source");
+    fmt::print("    E1 {:.4g}, E2 {:.4g}, E3 {:.4g}, G12 {:.4g}, G23 {:.4g}, G13 {:.4g} GPa\n", c.young[0] / kGiga,
+               c.young[1] / kGiga, c.young[2] / kGiga, c.g12 / kGiga, c.g23 / kGiga, c.g13 / kGiga);
+    fmt::print("    nu12 {}, nu23 {}, nu13 {} (nu21 {:.3g}, nu32 {:.3g}, nu31 {:.3g})\n", c.nu12, c.nu23, c.nu13,
+               reverse(c.nu12, 0, 1), reverse(c.nu23, 1, 2), reverse(c.nu13, 0, 2));
+  }
 }
 
 void print_solvers() {
@@ -81,6 +96,7 @@ const std::vector<std::pair<std::string, std::function<void()>>>& chapters() {
   static const std::vector<std::pair<std::string, std::function<void()>>> all = {
       {"scene", print_scene},
       {"materials", print_registry<Material>},
+      {"presets", print_presets},
       {"meshes", print_registry<MeshSource>},
       {"axes", print_registry<AxesSource>},
       {"terms", print_terms},

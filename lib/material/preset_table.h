@@ -1,0 +1,51 @@
+// Measured orthotropic constants, as their sources print them. Converted and named in presets.h.
+//
+// Wood: USDA Forest Service, Wood Handbook, FPL-GTR-282 (2021), tables 5-1 (ratios of moduli), 5-2
+// (Poisson's ratios) and 5-3a (modulus of elasticity in bending, increased by 10 % as the book says, and
+// specific gravity), at 12 % moisture content. Axes: 1 = L, along the grain; 2 = R, radial; 3 = T,
+// tangential. Of each pair of Poisson's ratios the larger: the book's nu_RL, nu_TL, nu_TR are the less
+// accurate ones and break the symmetry of the compliance by up to 113 %.
+#pragma once
+
+#include <array>
+
+namespace orthodyn {
+
+struct WoodRow {
+  const char* name;
+  double E_L;                             // GPa
+  double E_R, E_T, G_LR, G_LT, G_RT;      // over E_L
+  double nu_LR, nu_LT, nu_RT;
+  double density;                         // kg/m^3; 0: not in the tables
+};
+
+inline constexpr std::array<WoodRow, 10> kWoodRows{{
+    {"sitka_spruce", 11.88, 0.078, 0.043, 0.064, 0.061, 0.003, 0.372, 0.467, 0.435, 448},
+    {"douglas_fir", 14.74, 0.068, 0.050, 0.064, 0.078, 0.007, 0.292, 0.449, 0.390, 537.6},
+    {"engelmann_spruce", 9.79, 0.128, 0.059, 0.124, 0.120, 0.010, 0.422, 0.462, 0.530, 392},
+    {"yellow_poplar", 11.99, 0.092, 0.043, 0.075, 0.069, 0.011, 0.318, 0.392, 0.703, 470.4},
+    {"yellow_birch", 15.29, 0.078, 0.050, 0.074, 0.068, 0.017, 0.426, 0.451, 0.697, 694.4},
+    {"black_walnut", 12.76, 0.106, 0.056, 0.085, 0.062, 0.021, 0.495, 0.632, 0.718, 616},
+    {"sweetgum", 12.43, 0.115, 0.050, 0.089, 0.061, 0.021, 0.325, 0.403, 0.682, 582.4},
+    {"balsa", 3.74, 0.046, 0.015, 0.054, 0.037, 0.005, 0.229, 0.488, 0.665, 0},
+    {"honduras_mahogany", 11.33, 0.107, 0.064, 0.066, 0.086, 0.028, 0.314, 0.533, 0.600, 0},
+    {"african_mahogany", 10.67, 0.111, 0.050, 0.088, 0.059, 0.021, 0.297, 0.641, 0.604, 0},
+}};
+
+struct CompositeRow {
+  const char* name;
+  double E1, E2, E3, G12, G23, G13;  // GPa
+  double nu12, nu23, nu13;
+  double density;  // kg/m^3; 0: not given
+  const char* axes;
+  const char* source;
+};
+
+inline constexpr std::array<CompositeRow, 2> kCompositeRows{{
+    {"cfrp_ud", 109, 8.819, 8.819, 4.315, 3.200, 4.315, 0.342, 0.380, 0.342, 0, "1 along the fibres",
+     "Manufacturing Review 2020, article 190034, table 2"},
+    {"nafems_hoop_winding", 130, 5, 5, 10, 5, 10, 0.25, 0, 0.25, 0, "1 along the winding (hoop)",
+     "NAFEMS R0031/2, wrapped cylinder (data of a benchmark)"},
+}};
+
+}  // namespace orthodyn

@@ -1,0 +1,51 @@
+#include "lib/material/presets.h"
+
+namespace orthodyn {
+
+namespace {
+
+constexpr double kGiga = 1e9;
+
+std::optional<double> given(double density) { return density > 0 ? std::optional(density) : std::nullopt; }
+
+Preset wood(const WoodRow& row) {
+  const double E = row.E_L * kGiga;
+  OrthotropicConstants c;
+  c.young = {E, row.E_R * E, row.E_T * E};
+  c.nu12 = row.nu_LR;
+  c.nu23 = row.nu_RT;
+  c.nu13 = row.nu_LT;
+  c.g12 = row.G_LR * E;
+  c.g23 = row.G_RT * E;
+  c.g13 = row.G_LT * E;
+  return {row.name, c, given(row.density), "1 = L along the grain, 2 = R radial, 3 = T tangential",
+          "USDA Wood Handbook FPL-GTR-282, tables 5-1, 5-2, 5-3a, 12 % moisture"};
+}
+
+Preset composite(const CompositeRow& row) {
+  OrthotropicConstants c;
+  c.young = kGiga * Vec3(row.E1, row.E2, row.E3);
+  c.nu12 = row.nu12;
+  c.nu23 = row.nu23;
+  c.nu13 = row.nu13;
+  c.g12 = row.G12 * kGiga;
+  c.g23 = row.G23 * kGiga;
+  c.g13 = row.G13 * kGiga;
+  return {row.name, c, given(row.density), row.axes, row.source};
+}
+
+std::vector<Preset> convert() {
+  std::vector<Preset> all;
+  for (const auto& row : kWoodRows) all.push_back(wood(row));
+  for (const auto& row : kCompositeRows) all.push_back(composite(row));
+  return all;
+}
+
+}  // namespace
+
+const std::vector<Preset>& presets() {
+  static const std::vector<Preset> all = convert();
+  return all;
+}
+
+}  // namespace orthodyn
