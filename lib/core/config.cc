@@ -259,7 +259,8 @@ std::string Config::dump_for(const std::string& folder) const {
   for (const auto& [path, file] : place_->document->files) {
     before.emplace_back(file.first, file.first.Scalar());
     YAML::Node node = file.first;
-    node = folder.empty() ? fs::absolute(file.second).string() : fs::proximate(file.second, folder).string();
+    const fs::path whole = fs::absolute(file.second).lexically_normal();  // the folder need not exist yet
+    node = folder.empty() ? whole.string() : whole.lexically_proximate(fs::absolute(folder).lexically_normal()).string();
   }
   const std::string text = dump();
   for (auto& [node, value] : before) node = value;

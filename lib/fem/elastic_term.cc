@@ -79,7 +79,7 @@ class Elastic final : public ElasticTerm {
   int cell(int k) const override { return cells_[static_cast<std::size_t>(k)]; }
 
   Mat3 small_strain(int k, const NodalVector& u) const override {
-    return symmetric_part<double>(Q_.transpose() * elements_.gradient(k, u));
+    return symmetric_part<double>(axes_.of(k).transpose() * elements_.gradient(k, u));
   }
 
   double det_F(int k, const NodalState& s) const override { return elements_.gradient(k, s.x).determinant(); }

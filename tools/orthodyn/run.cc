@@ -20,12 +20,8 @@ namespace {
 
 // The scene with every default, so placed that it can be run from the result's folder.
 std::string resolved_scene(const Setup& setup, const RunArguments& arguments, const fs::path& folder) {
-  const Config mesh = setup.config.at("mesh");
-  if (mesh.has("file"))
-    // Absolute: of a folder that does not exist yet nothing else can be told.
-    mesh.fill_text("file", fs::proximate(fs::absolute(mesh.at("file").file_path()), fs::absolute(folder)).string());
   return fmt::format("# {} with every default spelled out, by orthodyn {}.\n{}", arguments.scene,
-                     orthodyn_version(), setup.config.dump());
+                     orthodyn_version(), setup.config.dump_for(folder.string()));
 }
 
 CheckpointTimes checkpoint_times(const Scene& scene) {
