@@ -79,7 +79,7 @@ struct Config::Place {
 
 Config::Config(std::shared_ptr<const Place> place) : place_(std::move(place)) {}
 
-Config Config::from_file(const std::string& path) { return from_text(read_text_file(path), path); }
+Config Config::from_file(const std::string& path) { return from_text(read_yaml_file(path), path); }
 
 Config Config::from_text(const std::string& text, const std::string& name) {
   auto document = std::make_shared<Document>();

@@ -97,7 +97,7 @@ class Inclusion {
     if (std::find(open_.begin(), open_.end(), identity) != open_.end())
       fail(named, file, other + " includes itself");
     open_.push_back(identity);
-    const YAML::Node content = parse_yaml(read_text_file(other), other);
+    const YAML::Node content = parse_yaml(read_yaml_file(other), other);
     if (!content.IsMap()) fail(named, file, other + " holds no section of keys");
     const YAML::Node outer = root_;
     root_.reset(content);
@@ -134,7 +134,7 @@ std::string mark_text(const std::string& file, const YAML::Mark& mark) {
   return fmt::format("{}:{}:{}", file, mark.line + 1, mark.column + 1);
 }
 
-std::string read_text_file(const std::string& path) {
+std::string read_yaml_file(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code ec;
   if (!fs::exists(path, ec)) throw ConfigError(path + ": no such file");

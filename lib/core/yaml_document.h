@@ -10,7 +10,7 @@
 namespace orthodyn {
 
 // Throws ConfigError, also for folders.
-std::string read_text_file(const std::string& path);
+std::string read_yaml_file(const std::string& path);
 
 // One document, without duplicate keys, merge keys and tags. Throws ConfigError; `file` is for messages.
 YAML::Node parse_yaml(const std::string& text, const std::string& file);

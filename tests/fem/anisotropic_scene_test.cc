@@ -1,18 +1,14 @@
 // A scene whose material has 21 constants is the scene of the orthotropic material that they describe.
 #include <gtest/gtest.h>
 
+#include "lib/scene/axes/frame.h"
 #include "tests/fem/built_scene.h"
 
 namespace orthodyn {
 namespace {
 
 // kTurnedAxes as a matrix.
-Mat3 turned_axes() {
-  Axes axes;
-  axes.first = {0.781639, 0.550117, -0.293958};
-  axes.second = {-0.482929, 0.832030, 0.272956};
-  return axes.rotation();
-}
+Mat3 turned_axes() { return frame({0.781639, 0.550117, -0.293958}, {-0.482929, 0.832030, 0.272956}); }
 
 BuiltTestScene scene_with(const std::string& material, const std::string& axes, const std::string& elasticity) {
   return BuiltTestScene("mesh: {type: box, size: [1, 1, 1], cells: [2, 1, 1]}\nmaterials: {m: " + material +
