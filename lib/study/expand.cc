@@ -206,6 +206,7 @@ std::string head_comment(const std::string& yaml) {
   std::string text;
   for (std::string line; std::getline(in, line) && line.starts_with('#');) {
     line.erase(0, line.find_first_not_of("# "));
+    if (line.starts_with("yaml-language-server:")) continue;  // meant for editors
     if (line.empty()) break;
     text += (text.empty() ? "" : " ") + line;
   }

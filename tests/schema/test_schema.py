@@ -39,7 +39,7 @@ def errors(text, schema):
 
 
 def shipped(kind):
-    folders = {"scene": ["scenes", "cases", "benchmarks"], "comparison": ["comparisons"]}[kind]
+    folders = {"scene": ["scenes", "cases", "benchmarks", "vega"], "comparison": ["comparisons"]}[kind]
     return [p for folder in folders for p in sorted((ROOT / "configs" / folder).glob("*.yaml"))]
 
 

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <numbers>
-#include <ranges>
 
 #include "lib/scene/axes/frame.h"
 #include "lib/scene/axes/given_axes.h"
@@ -139,8 +138,7 @@ Mat3 turn(int axis, double angle) { return Eigen::AngleAxisd(angle, Vec3::Unit(a
 
 TEST(EulerAxes, TurnAboutTheAxesOfTheConventionOneAfterTheOther) {
   const Vec3 angles(0.3, -0.7, 1.1);
-  for (const auto& word : Registry<AxesSource>::entries().at("euler").keys[1].type | std::views::split('|')) {
-    const std::string convention(word.begin(), word.end());
+  for (const auto& convention : Registry<AxesSource>::entries().at("euler").keys[1].shape.names) {
     Mat3 Q = Mat3::Identity();  // each turn about an axis of the frame as it stands
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3 about = Q.col(convention[i] - 'x');
