@@ -17,9 +17,11 @@ class VelocityVerlet : public Integrator {
   }
 
   StepInfo step(double t_stop) override {
-    const double h = std::min(step_, t_stop - end_.t);
+    const double left = t_stop - end_.t;
+    const bool last = left < step_ * (1 + 1e-9);  // no tiny step at the end
+    const double h = last ? left : step_;
     begin_ = end_;
-    end_.t = h < step_ ? t_stop : begin_.t + h;
+    end_.t = last ? t_stop : begin_.t + h;
     end_.q = begin_.q + h * begin_.v + 0.5 * h * h * begin_.a;
     end_.a = acceleration(end_.t, end_.q, begin_.v);
     end_.v = begin_.v + 0.5 * h * (begin_.a + end_.a);

@@ -12,11 +12,11 @@ namespace orthodyn {
 
 namespace {
 
-std::string plural(const std::string& type) { return type.ends_with("|false") ? type : type + "s"; }
-
 std::string list_text(const Shape& shape) {
   const std::string item = type_text(shape.items.front());
-  return shape.count == 0 ? "list of " + item : fmt::format("list of {} {}", shape.count, plural(item));
+  if (shape.count == 0) return "list of " + item;
+  return item == "number" || item == "integer" ? fmt::format("list of {} {}s", shape.count, item)
+                                               : fmt::format("list of {}: {}", shape.count, item);
 }
 
 std::string either_text(const Shape& shape) {

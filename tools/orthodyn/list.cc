@@ -59,6 +59,7 @@ void print_terms() {
   print_entry("clamps", "Nodes that do not move; eliminated from the system.", Clamp::spec().keys());
   print_entry("clamps.<n>.box", "Nodes in a box.", BoxSelection::spec().keys());
   print_entry("clamps.<n>.plane", "Nodes on a plane.", PlaneSelection::spec().keys());
+  print_registry<TermChoice>();
   print_entry("initial", "The state at the start.", Initial::spec().keys());
   print_entry("initial.noise", "Random offsets of the free coordinates.", Noise::spec().keys());
 }
