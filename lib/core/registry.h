@@ -15,6 +15,9 @@
 
 namespace orthodyn {
 
+// Names that were to be registered although they were taken: a plugin's mistake.
+std::vector<std::string>& registry_conflicts();
+
 template <class Base>
 class Registry {
  public:
@@ -26,7 +29,7 @@ class Registry {
 
   template <class T>
   static bool add(const std::string& name, const std::string& sentence) {
-    return mutable_entries()
+    const bool is_new = mutable_entries()
         .emplace(name, Entry{{sentence, T::spec().keys()},
                              [](const Config& config) -> std::shared_ptr<const Base> {
                                auto item = std::make_shared<T>();
@@ -34,6 +37,8 @@ class Registry {
                                return item;
                              }})
         .second;
+    if (!is_new) registry_conflicts().push_back(name);
+    return is_new;
   }
 
   // Reads a section by its key `type`. Throws ConfigError.

@@ -108,7 +108,7 @@ double quantity_in(const std::string& text, const std::string& unit) {
   name.erase(0, name.find_first_not_of(' '));
   name.erase(name.find_last_not_of(' ') + 1);
   if (error != std::errc{} || !std::isfinite(number) || name.empty()) fail("'" + text + "'");
-  const Unit given = has_factor(name) ? Unit() : parse(name);
+  const Unit given = has_factor(name.starts_with("1/") ? name.substr(2) : name) ? Unit() : parse(name);
   if (!given) fail(fmt::format("'{}': the unit '{}' is not known", text, name));
   if (unit.empty()) fail(fmt::format("'{}', {}", text, with_article(describe(given.get()))));
   const Unit wanted = parse(unit);

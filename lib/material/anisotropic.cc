@@ -79,7 +79,7 @@ class Anisotropic : public Material {
           "that makes it stable, with a warning.");
     s.check([](const A& a, const Config& config) {
       if (is_stable(a.given())) return;
-      if (a.repair_ == Repair::none) config.fail(a.explained());
+      if (a.repair_ == RatioRepair::none) config.fail(a.explained());
       for (const Entry& e : entries())
         if (!e.diagonal() && a.*e.value != 0) config.fill(e.name, number_text(a.factor() * (a.*e.value)));
     });
@@ -119,7 +119,7 @@ class Anisotropic : public Material {
   VoigtOrder order_ = VoigtOrder::s23_13_12;
   double c11_ = 0, c12_ = 0, c13_ = 0, c14_ = 0, c15_ = 0, c16_ = 0, c22_ = 0, c23_ = 0, c24_ = 0, c25_ = 0, c26_ = 0,
          c33_ = 0, c34_ = 0, c35_ = 0, c36_ = 0, c44_ = 0, c45_ = 0, c46_ = 0, c55_ = 0, c56_ = 0, c66_ = 0;
-  Repair repair_ = Repair::none;
+  RatioRepair repair_ = RatioRepair::none;
 };
 
 const bool registered = Registry<Material>::add<Anisotropic>(

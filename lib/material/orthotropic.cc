@@ -55,7 +55,7 @@ class Orthotropic : public Material {
                  "it stable, with a warning.")
             .check([](const O& o, const Config& config) {
               o.refuse_unpaired(config);
-              if (!is_stable(o.given()) && o.repair_ == Repair::none)
+              if (!is_stable(o.given()) && o.repair_ == RatioRepair::none)
                 config.fail(explain_instability(o.given(), o.reversed()) + ". Or set repair: shrink.");
               o.write_used(config);
             });
@@ -129,7 +129,7 @@ class Orthotropic : public Material {
   Given nu12_, nu21_, nu23_, nu32_, nu13_, nu31_;
   double g12_ = 0, g23_ = 0, g13_ = 0;
   bool symmetrise_ = false;
-  Repair repair_ = Repair::none;
+  RatioRepair repair_ = RatioRepair::none;
 };
 
 const bool registered = Registry<Material>::add<Orthotropic>(

@@ -6,12 +6,12 @@
 
 namespace orthodyn {
 
-enum class Repair { none, shrink };
+enum class RatioRepair { none, shrink };
 
 template <>
-struct Words<Repair> {
-  static constexpr std::array<std::pair<Repair, const char*>, 2> list{
-      {{Repair::none, "none"}, {Repair::shrink, "shrink"}}};
+struct Words<RatioRepair> {
+  static constexpr std::array<std::pair<RatioRepair, const char*>, 2> list{
+      {{RatioRepair::none, "none"}, {RatioRepair::shrink, "shrink"}}};
 };
 
 }  // namespace orthodyn

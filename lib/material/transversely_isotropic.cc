@@ -37,7 +37,7 @@ class TransverselyIsotropic : public Material {
                  "it stable, with a warning.")
             .check([](const M& m, const Config& config) {
               if (m.is_given_stable()) return;
-              if (m.repair_ == Repair::none) config.fail(m.explained());
+              if (m.repair_ == RatioRepair::none) config.fail(m.explained());
               config.fill("nu_axial", number_text(m.factor() * m.nu_axial_));
               config.fill("nu_transverse", number_text(m.factor() * m.nu_transverse_));
             });
@@ -93,7 +93,7 @@ class TransverselyIsotropic : public Material {
   }
 
   double young_axial_ = 0, young_transverse_ = 0, nu_axial_ = 0, nu_transverse_ = 0, shear_axial_ = 0;
-  Repair repair_ = Repair::none;
+  RatioRepair repair_ = RatioRepair::none;
 };
 
 const bool registered = Registry<Material>::add<TransverselyIsotropic>(

@@ -17,9 +17,9 @@ Scales estimate_scales(const Scene& scene, const BuiltScene& built, const Static
   const FemModel& model = *built.model;
   const double extent = bounding_box(model.parts().mesh).size().maxCoeff();
   const double mass = model.parts().mass->total();
-  const double energy = initial_energy(model, built.initial);
-  if (!std::isfinite(energy)) throw ConfigError("the initial state has no finite energy; check `initial`");
   const bool at_rest = built.initial.q.isZero(0) && built.initial.v.isZero(0);
+  const double energy = at_rest ? 0 : initial_energy(model, built.initial);  // not round-off
+  if (!std::isfinite(energy)) throw ConfigError("the initial state has no finite energy; check `initial`");
   const double work = statics.exists() ? statics.work : extent * statics.load.lpNorm<1>();
   Scales scales{0.1 * extent, 3 * std::sqrt(2 * (energy + work) / mass)};
   if (statics.exists() && at_rest)

@@ -34,6 +34,19 @@ void check_outputs(const Scene& scene, const Model& model) {
     check_fields(model, probe.fields, {Location::node}, probe.origin);
 }
 
+// A probe far from the body is a slip of units, most often.
+void warn_of_distant_probes(const Scene& scene, BuiltScene& built) {
+  const TetMesh& mesh = built.model->parts().mesh;
+  const Box box = bounding_box(mesh);
+  for (const auto& [name, probe] : scene.output.probes) {
+    const double outside = (probe.at - probe.at.cwiseMax(box.min).cwiseMin(box.max)).norm();
+    if (outside <= 0.01 * box.diagonal()) continue;
+    const Vec3& node = mesh.nodes[static_cast<std::size_t>(nearest_node(mesh, probe.at))];
+    built.warnings.push_back(fmt::format("{}: probe '{}' is {:.3g} m outside of the body; it records the nearest node, at {}",
+                                         probe.origin.where, name, outside, Value<Vec3>::yaml(node)));
+  }
+}
+
 void check_expectations(const Scene& scene, const FemModel& model) {
   for (const auto& e : scene.expect) {
     const Quantity quantity = find_quantity(e.quantity, scene, model, e.origin);
@@ -51,6 +64,7 @@ Setup set_up(Config config) {
   BuiltScene built = build(scene);
   check_outputs(scene, *built.model);
   check_expectations(scene, *built.model);
+  warn_of_distant_probes(scene, built);
   std::optional<StaticResponse> statics;  // made once, for whoever asks first
   const auto response = [&]() -> const StaticResponse& {
     if (!statics) statics = static_response(*built.model);

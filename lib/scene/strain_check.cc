@@ -12,7 +12,7 @@ namespace orthodyn {
 namespace {
 
 constexpr double kOvershoot = 2;        // of a load applied at once, over its static response
-constexpr int kLargestSystem = 300000;  // unknowns that are factorised for a warning's sake
+constexpr int kLargestSystem = 30000;   // unknowns that are factorised for a warning's sake
 
 std::string region_of(const FemModel& model, const ElasticTerm& term) {
   const auto& mesh = model.parts().mesh;

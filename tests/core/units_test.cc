@@ -78,6 +78,7 @@ TEST(Units, EachNumberOfAListMayHaveItsOwn) {
 TEST(Units, ARateOfChangeIsToldApartFromItsInverse) {
   EXPECT_TRUE(holds(refusal_of("2 s", {.unit = "1/s"}), "found '2 s', a time (s)"));
   EXPECT_EQ(read("2 s^-1", {.unit = "1/s"}), 2);
+  EXPECT_EQ(read("2 1/s", {.unit = "1/s"}), 2);
 }
 
 }  // namespace

@@ -73,6 +73,16 @@ class Schema(unittest.TestCase):
         for kind in ("scene", "comparison", None):
             jsonschema.Draft7Validator.check_schema(schema_of(kind))
 
+    def test_a_default_is_among_the_allowed_words(self):
+        found = 0
+        for kind in ("scene", "comparison"):
+            for section in schema_of(kind)["definitions"].values():
+                for name, key in section.get("properties", {}).items():
+                    if "enum" in key and "default" in key:
+                        found += 1
+                        self.assertIn(key["default"], key["enum"], name)
+        self.assertGreater(found, 2)
+
     def test_takes_every_shipped_file(self):
         for kind in ("scene", "comparison"):
             schema, both = schema_of(kind), schema_of(None)

@@ -1,13 +1,19 @@
-"""Orthographic view from a direction given by azimuth and elevation in degrees; z is up."""
+"""Orthographic view from a direction given by azimuth and elevation in degrees about the axis that is up."""
 import numpy as np
 
 
+# Each turns the body so that this axis points to z.
+TURNS = {"x": np.array([[0, 0, -1], [0, 1, 0], [1, 0, 0]]), "y": np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]]),
+         "z": np.eye(3)}
+
+
 class Camera:
-    def __init__(self, azimuth=-60.0, elevation=20.0):
+    def __init__(self, azimuth=-60.0, elevation=20.0, up="z"):
         a, e = np.radians([azimuth, elevation])
         self.right = np.array([-np.sin(a), np.cos(a), 0.0])
         self.toward = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
         self.up = np.cross(self.toward, self.right)
+        self.right, self.toward, self.up = (axis @ TURNS[up] for axis in (self.right, self.toward, self.up))
         light = -0.45 * self.right + 0.62 * self.up + 0.80 * self.toward
         self.light = light / np.linalg.norm(light)
 

@@ -89,7 +89,8 @@ def _parser():
         sub.add_argument("--color", metavar="FIELD[.COMPONENT]", help="what colours the body, see below")
         sub.add_argument("--range", type=lambda s: _numbers(s, 2), metavar="LOW,HIGH", help="colour range, SI units")
         sub.add_argument("--view", type=lambda s: _numbers(s, 2), default=(-60.0, 20.0), metavar="AZIM,ELEV",
-                         help="where the eye is, degrees (default -60,20; z is up)")
+                         help="where the eye is, degrees about the axis that is up (default -60,20)")
+        sub.add_argument("--up", choices="xyz", default="z", help="the axis that is up (default z)")
         sub.add_argument("--scale", type=lambda s: _numbers(s, 1)[0], default=1.0, metavar="S",
                          help="enlarges the deformation (default 1: true shape)")
         sub.add_argument("--grain", action="store_true", help="material axis 1 as strokes on the surface")
@@ -134,7 +135,7 @@ def _parser():
 
 
 def _wish(args):
-    return {"color": args.color, "view": args.view, "scale": args.scale, "grain": args.grain,
+    return {"color": args.color, "view": args.view, "up": args.up, "scale": args.scale, "grain": args.grain,
             "ghost": args.ghost, "limits": args.range}
 
 

@@ -18,6 +18,7 @@ class Wish:
     """What the user may choose about a picture of the body."""
     color: str = None
     view: tuple = (-60.0, 20.0)
+    up: str = "z"
     scale: float = 1.0
     grain: bool = False
     ghost: bool = False
@@ -28,7 +29,7 @@ class Scene:
     """Made from all frames that will be drawn, so that they can be compared with each other."""
 
     def __init__(self, series, indices, wish):
-        self.series, self.wish, self.camera = series, wish, Camera(*wish.view)
+        self.series, self.wish, self.camera = series, wish, Camera(*wish.view, wish.up)
         first = series.frame(indices[0])
         if not len(first.tets):
             raise DrawError(f"{series.paths[indices[0]]}: no tetrahedra to draw")

@@ -88,6 +88,9 @@ int check_command(const RunArguments& arguments) {
   fmt::print("materials\n");
   print_materials(setup.scene);
   print_axes(setup);
+  const auto coordinates = 3 * parts.mesh.nodes.size(), held = coordinates - static_cast<std::size_t>(model.num_dofs());
+  if (held == 0) fmt::print("clamps\n  none: the body is free\n");
+  else fmt::print("clamps\n  {} of {} coordinates are held\n", held, coordinates);
   fmt::print("terms\n");
   for (const auto& term : parts.elastic) fmt::print("  {}\n", term->description());
   for (const auto& term : parts.loads) fmt::print("  {}\n", term->description());

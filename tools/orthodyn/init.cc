@@ -23,7 +23,7 @@ constexpr const char* kScene = R"(# What this scene shows, in a sentence.
 mesh:                      # all kinds: orthodyn list meshes
   type: box
   size: [1, 0.05, 0.02]    # m
-  cells: [40, 4, 2]
+  cells: [80, 6, 4]        # linear elements are stiff in bending: several cells through the thickness
 
 materials:                 # all kinds: orthodyn list materials
   wood:                    # axis 1 along the grain, 2 radial, 3 tangential
@@ -90,7 +90,8 @@ const std::map<std::string, const char*>& starts() {
 }
 
 std::string with_file_name(std::string text, const std::string& file) {
-  for (std::size_t at; (at = text.find("{file}")) != std::string::npos;) text.replace(at, 6, file);
+  for (std::size_t at = 0; (at = text.find("{file}", at)) != std::string::npos; at += file.size())
+    text.replace(at, 6, file);
   return text;
 }
 

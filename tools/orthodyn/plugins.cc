@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "lib/core/errors.h"
-#include "lib/core/words.h"
+#include "lib/core/registry.h"
 
 namespace orthodyn {
 
@@ -26,7 +26,7 @@ std::vector<std::string> from_environment() {
 
 void load(const std::string& file) {
   if (!dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL))
-    throw ConfigError("--plugin " + file + ": cannot be loaded: " + dlerror());
+    throw ConfigError("plugin " + file + " cannot be loaded: " + dlerror());
 }
 
 }  // namespace
@@ -37,7 +37,11 @@ void load_plugins(const std::vector<std::string>& files) {
     if (!std::filesystem::exists(file)) throw ConfigError("--plugin " + file + ": no such file");
     all.push_back(std::filesystem::absolute(file).string());
   }
-  for (const auto& file : all) load(file);
+  for (const auto& file : all) {
+    load(file);
+    if (!registry_conflicts().empty())
+      throw ConfigError("plugin " + file + ": the name '" + registry_conflicts().front() + "' is taken; choose another");
+  }
   if (!all.empty()) setenv(kVariable, join(all, ":").c_str(), 1);
 }
 

@@ -52,6 +52,8 @@ class SchemaWriter {
     Schema out = {{"description", description(key)}};
     if (const Schema fallback = Schema::parse(key.fallback, nullptr, false); !fallback.is_discarded())
       out["default"] = fallback;
+    else if (key.shape.kind == Shape::Kind::word && !key.fallback.empty())
+      out["default"] = key.fallback;
     const Schema shape = of(key.shape, key);
     if (shape.contains("$ref")) out["allOf"] = {shape};  // draft 7 ignores what stands beside $ref
     else out.update(shape);

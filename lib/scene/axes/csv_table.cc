@@ -83,6 +83,7 @@ CsvTable read_csv(const FilePath& file, const std::vector<std::string>& required
   CsvTable table{file.path, {}, {}, {}};
   std::string text;
   for (int line = 1; std::getline(in, text); ++line) {
+    if (line == 1 && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // a byte order mark
     const std::string content = trimmed(text);
     if (content.empty() || content[0] == '#') continue;
     if (table.names.empty()) {

@@ -37,7 +37,7 @@ class Directions : public AxesSource {
   void check(const Config& config) const {
     if (!are_independent(first_, second_))
       config.fail("'first' and 'second' are zero or parallel; give two different directions");
-    if (!third_ && repair_ != Repair::refuse)
+    if (!third_ && repair_ != AxesRepair::refuse)
       config.at("repair").fail("has nothing to repair without 'third': axis 2 is the part of 'second' normal to axis 1");
     if (third_) check_axes(columns(), repair_, [&](const std::string& sentence) { config.fail(sentence); });
   }
@@ -51,7 +51,7 @@ class Directions : public AxesSource {
 
   Vec3 first_{1, 0, 0}, second_{0, 1, 0};
   std::optional<Vec3> third_;
-  Repair repair_ = Repair::refuse;
+  AxesRepair repair_ = AxesRepair::refuse;
 };
 
 const bool registered = Registry<AxesSource>::add<Directions>(

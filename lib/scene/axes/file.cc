@@ -15,7 +15,7 @@ class AxesFile : public AxesSource {
             .key("file", &AxesFile::file_,
                  "CSV with the columns a1x,a1y,a1z,a2x,a2y,a2z and, if wanted, a3x,a3y,a3z and element (index from 0). "
                  "Without element there is one row for each element of the mesh, in its order. Or VTU of the same mesh with the "
-                 "cell data axis_1, axis_2 and, if wanted, axis_3, or axes (9 components); relative to the scene.",
+                 "cell data axis_1, axis_2 and, if wanted, axis_3, or axes (9 components: axis 1, axis 2, axis 3); relative to the scene.",
                  {.required = true})
             .key("repair", &AxesFile::repair_, kRepairSentence);
     return s;
@@ -83,7 +83,7 @@ class AxesFile : public AxesSource {
   }
 
   void note_repairs(const AxesRows& given, Warnings& notes) const {
-    if (repair_ == Repair::refuse) return;
+    if (repair_ == AxesRepair::refuse) return;
     std::size_t count = 0;
     std::string first;
     for (const auto& row : given.rows) {
@@ -95,7 +95,7 @@ class AxesFile : public AxesSource {
   }
 
   FilePath file_;
-  Repair repair_ = Repair::refuse;
+  AxesRepair repair_ = AxesRepair::refuse;
 };
 
 const bool registered = Registry<AxesSource>::add<AxesFile>("file", "The axes of each element from a file.");

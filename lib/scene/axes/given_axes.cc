@@ -45,10 +45,10 @@ Mat3 nearest_axes(const Mat3& columns) {
   return svd.matrixU() * svd.matrixV().transpose();
 }
 
-void check_axes(const Mat3& columns, Repair repair, const Refuse& refuse) {
+void check_axes(const Mat3& columns, AxesRepair repair, const Refuse& refuse) {
   const std::string defect = defect_of_axes(columns);
   if (!span_space(columns)) refuse("the three directions lie (nearly) in one plane or are zero: " + defect);
-  else if (!defect.empty() && repair == Repair::refuse)
+  else if (!defect.empty() && repair == AxesRepair::refuse)
     refuse(defect + "; correct them, or let them be turned into the nearest axes by 'repair: orthonormalise'");
 }
 

@@ -9,12 +9,12 @@
 
 namespace orthodyn {
 
-enum class Repair { refuse, orthonormalise };
+enum class AxesRepair { refuse, orthonormalise };
 
 template <>
-struct Words<Repair> {
-  static constexpr std::array<std::pair<Repair, const char*>, 2> list{
-      {{Repair::refuse, "refuse"}, {Repair::orthonormalise, "orthonormalise"}}};
+struct Words<AxesRepair> {
+  static constexpr std::array<std::pair<AxesRepair, const char*>, 2> list{
+      {{AxesRepair::refuse, "refuse"}, {AxesRepair::orthonormalise, "orthonormalise"}}};
 };
 
 inline constexpr const char* kRepairSentence =
@@ -34,7 +34,7 @@ Mat3 nearest_axes(const Mat3& columns);
 
 // Calls `refuse` with a sentence if the columns are no axes and may not, or cannot, be repaired.
 using Refuse = std::function<void(const std::string& sentence)>;
-void check_axes(const Mat3& columns, Repair repair, const Refuse& refuse);
+void check_axes(const Mat3& columns, AxesRepair repair, const Refuse& refuse);
 
 // What nearest_axes() changes of a set that has a defect: "<what was found>; repaired, ...", or "".
 std::string repair_note(const Mat3& columns);

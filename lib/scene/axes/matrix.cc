@@ -32,7 +32,7 @@ class MatrixAxes : public AxesSource {
 
  private:
   Mat3 matrix_ = Mat3::Identity();
-  Repair repair_ = Repair::refuse;
+  AxesRepair repair_ = AxesRepair::refuse;
 };
 
 const bool registered = Registry<AxesSource>::add<MatrixAxes>(
