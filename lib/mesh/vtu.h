@@ -11,8 +11,8 @@
 
 namespace orthodyn {
 
-// What becomes of cells and arrays: see build_vtk_mesh(). The field data array of strings
-// "region_names" names the regions by their number. Throws ConfigError "file:line: array, found,
+// What becomes of cells and arrays: see build_vtk_mesh(). The field data array "region_names"
+// (strings, or codes of characters, each name ended by a zero) names the regions by their number. Throws ConfigError "file:line: array, found,
 // remedy". Memory use is bounded by the size of the file, whatever counts it announces (for
 // compressed arrays by the highest ratio that zlib reaches).
 LoadedMesh read_vtu(const std::string& path);

@@ -40,9 +40,12 @@ class Arrays {
   std::string text_;
 };
 
+// As codes of characters, each name ended by a zero: not every reader takes arrays of strings.
 void add_region_names(Arrays& arrays, const std::vector<std::string>& names) {
-  arrays.tag(fmt::format("<FieldData>\n<DataArray type=\"String\" Name=\"region_names\" NumberOfTuples=\"{}\" "
-                         "format=\"ascii\">\n", names.size()));
+  std::size_t codes = names.size();
+  for (const std::string& name : names) codes += name.size();
+  arrays.tag(fmt::format("<FieldData>\n<DataArray type=\"UInt8\" Name=\"region_names\" NumberOfTuples=\"{}\" "
+                         "format=\"ascii\">\n", codes));
   for (const std::string& name : names) {
     for (const char c : name) arrays.tag(fmt::format("{} ", static_cast<int>(static_cast<unsigned char>(c))));
     arrays.tag("0\n");
