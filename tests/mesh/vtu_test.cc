@@ -178,5 +178,17 @@ TEST(Vtk, RefusesWhatIsNoLegacyFileOfTets) {
   EXPECT_CONTAINS(refused(replaced(good, "\n10\n", "\n12\n")), "hexahedron");
 }
 
+// The table of colours may be left out; then numbers begin in the next line.
+TEST(Vtk, ScalarsMayHaveNoLookupTable) {
+  const std::string mesh = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n"
+                           "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
+  const std::string data = "CELL_DATA 1\nSCALARS a float 1\n7\nSCALARS b float\nLOOKUP_TABLE default\n8\nSCALARS c int 2\n3 4\n";
+  const LoadedMesh loaded = read_vtk_text("body.vtk", mesh + data);
+  ASSERT_EQ(loaded.cell_data.size(), 3u);
+  EXPECT_EQ(loaded.cell_data[0].values, std::vector<double>{7});
+  EXPECT_EQ(loaded.cell_data[1].values, std::vector<double>{8});
+  EXPECT_EQ(loaded.cell_data[2].values, (std::vector<double>{3, 4}));
+}
+
 }  // namespace
 }  // namespace orthodyn
