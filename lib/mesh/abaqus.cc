@@ -58,12 +58,21 @@ class AbaqusMesh {
   template <class Use>
   std::size_t each(const AbaqusMembers& m, const Numbers& numbers, Use&& use) {
     std::size_t found = 0;
-    for (auto it = std::lower_bound(numbers.begin(), numbers.end(), std::pair(m.first, std::size_t{0}));
-         it != numbers.end() && it->first <= m.last; ++it) {
-      if ((static_cast<std::uint64_t>(it->first) - static_cast<std::uint64_t>(m.first)) % static_cast<std::uint64_t>(m.step) != 0) continue;
+    const auto from = [&](Numbers::const_iterator begin, std::int64_t number) {
+      return std::lower_bound(begin, numbers.end(), std::pair(number, std::size_t{0}));
+    };
+    for (auto it = from(numbers.begin(), m.first); it != numbers.end() && it->first <= m.last;) {
       spend(m.place);
-      use(it->second);
-      ++found;
+      const std::int64_t behind = (it->first - m.first) % m.step;  // neither is negative, see read_range()
+      if (behind == 0) {
+        use(it->second);
+        ++found;
+        ++it;
+      } else if (const std::int64_t ahead = m.step - behind; ahead <= m.last - it->first) {
+        it = from(it, it->first + ahead);
+      } else {
+        break;
+      }
     }
     return found;
   }

@@ -19,10 +19,22 @@ std::string stripped(std::string_view text) {
   return std::string(text);
 }
 
+// The next comma that does not stand in quotes; a quote that nothing closes is a character like others.
+std::size_t next_comma(std::string_view line) {
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    if (line[k] == ',') return k;
+    if (line[k] != '"') continue;
+    const std::size_t close = line.find('"', k + 1);
+    if (close == std::string_view::npos) return std::min(line.find(',', k), line.size());
+    k = close;
+  }
+  return line.size();
+}
+
 std::vector<std::string> fields_of(std::string_view line) {
   std::vector<std::string> fields;
   for (;;) {
-    const std::size_t comma = std::min(line.find(','), line.size());
+    const std::size_t comma = next_comma(line);
     fields.push_back(stripped(line.substr(0, comma)));
     if (comma == line.size()) return fields;
     line.remove_prefix(comma + 1);

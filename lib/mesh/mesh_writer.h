@@ -1,6 +1,7 @@
 // Writes meshes in the formats that can be read. Each function makes texts; nothing touches a disk.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,15 @@ WrittenMesh write_abaqus(const LoadedMesh& loaded);
 
 // The sentence for what is lost, if there is any: "surfaces left, right".
 void note_loss(WrittenMesh& written, const std::string& what, const std::vector<std::string>& names);
+
+// Names that were given so far, as the format compares them.
+struct TakenNames {
+  bool capitals_differ = true;
+  std::set<std::string> names = {};
+};
+
+// `cleaned`, or with "_2", "_3", ... behind it where that is taken; what becomes of `name` is noted.
+std::string unique_name(TakenNames& taken, const std::string& name, const std::string& cleaned, WrittenMesh& written);
 
 template <class Map>
 std::vector<std::string> names_of(const Map& map) {

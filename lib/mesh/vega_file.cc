@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <set>
+#include <system_error>
 #include <utility>
 
 #include "lib/mesh/text_file.h"
@@ -15,8 +18,18 @@ namespace {
 
 constexpr Punctuation kPunctuation{.commas = true, .comment = "#"};
 constexpr std::size_t kMostIncludes = 1000;
+// One file may be included at several places, but not so often that a small one fills the memory.
+constexpr std::uintmax_t kMostReadings = 10;  // of all bytes, on average
+constexpr std::uintmax_t kFreeBytes = 1'000'000;
 
 enum class Section { none, vertices, element_type, elements, set, material, region };
+
+// One spelling for each file: without "./", "..", and links.
+std::string spelled_alike(const std::string& path) {
+  std::error_code error;
+  const std::string alike = std::filesystem::weakly_canonical(path, error).string();
+  return error ? path : alike;
+}
 
 // Vega ignores blanks in names.
 std::string name_on_line(TextTokens& tokens) {
@@ -42,7 +55,9 @@ class VegaReader {
   void read_lines(const std::string& path, std::string_view text) {
     const int number = static_cast<int>(file_.draft.files.size());
     file_.draft.files.push_back(path);
-    open_files_.push_back(path);
+    const std::string alike = spelled_alike(path);
+    open_files_.push_back(alike);
+    if (known_files_.insert(alike).second) known_bytes_ += text.size();
     TextTokens tokens(path, text, kPunctuation);
     while (!tokens.at_end()) {
       last_ = {tokens.line(), number};
@@ -93,17 +108,25 @@ class VegaReader {
     namespace fs = std::filesystem;
     const std::string name(tokens.word("a file name"));
     const std::string path = (fs::path(tokens.path()).parent_path() / name).string();
-    if (std::count(open_files_.begin(), open_files_.end(), path) > 0) {
+    if (std::count(open_files_.begin(), open_files_.end(), spelled_alike(path)) > 0) {
       tokens.fail(fmt::format("{} includes itself", TextTokens::quoted(name)));
     }
     if (file_.draft.files.size() >= kMostIncludes) {
       tokens.fail(fmt::format("more than {} included files", kMostIncludes));
     }
-    if (!fs::is_regular_file(path)) {
+    std::error_code error;  // a name may be too long, too
+    if (!fs::is_regular_file(path, error)) {
       tokens.fail(fmt::format("*INCLUDE {}: no such file: {}", TextTokens::quoted(name), path));
     }
     tokens.finish_line();
-    read_lines(path, read_text_file(path));
+    const std::string text = read_text_file(path);
+    included_bytes_ += text.size();
+    if (included_bytes_ > kFreeBytes + kMostReadings * (known_bytes_ + text.size())) {
+      tokens.fail(fmt::format("*INCLUDE {}: what is included so far is more than {} times the size of the files; "
+                              "include each once",
+                              TextTokens::quoted(name), kMostReadings));
+    }
+    read_lines(path, text);
   }
 
   void read_data(TextTokens& tokens) {
@@ -217,6 +240,8 @@ class VegaReader {
 
   VegaFile file_;
   std::vector<std::string> open_files_;
+  std::set<std::string> known_files_;
+  std::uintmax_t known_bytes_ = 0, included_bytes_ = 0;  // each file once; each as often as it is read
   Section section_ = Section::none;
   FilePlace section_place_, last_;
   bool has_vertices_ = false, has_elements_ = false;

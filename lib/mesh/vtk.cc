@@ -78,14 +78,18 @@ class VtkReader {
 
   std::uint64_t count(const char* what) { return static_cast<std::uint64_t>(tokens_.count(what)); }
 
+  bool next_line_begins(std::string_view word) const {
+    const std::string_view rest = tokens_.rest_of_file();
+    const std::size_t end = rest.find('\n');
+    return end != std::string_view::npos && rest.substr(end + 1).starts_with(word);
+  }
+
   // Up to 4.2 "count size" and for each cell its number of points and these; later "offsets entries"
   // and two arrays.
   void read_cells() {
     const std::uint64_t first = count("the number of cells");
     const std::uint64_t size = count("the number of entries");
-    const std::string_view rest = tokens_.rest_of_file();
-    const std::size_t line = std::min(rest.find('\n'), rest.size() - 1);
-    if (rest.substr(line + 1).starts_with("OFFSETS")) {
+    if (next_line_begins("OFFSETS")) {
       tokens_.finish_line();
       keyword();
       grid_.offsets = read_array(first, 1);
@@ -118,7 +122,7 @@ class VtkReader {
     const VtkType type = read_type();
     data.components = kind == "SCALARS" ? 1 : kind == "TENSORS" ? 9 : 3;
     if (kind == "SCALARS" && tokens_.peek()) data.components = read_components();
-    if (kind == "SCALARS" && tokens_.rest_of_file().find("LOOKUP_TABLE") < 200) {
+    if (kind == "SCALARS" && next_line_begins("LOOKUP_TABLE")) {
       tokens_.finish_line();
       tokens_.word("LOOKUP_TABLE");
       tokens_.word("the name of a table");

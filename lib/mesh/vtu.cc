@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
+#include <optional>
 #include <pugixml.hpp>
 #include <stdexcept>
 #include <utility>
@@ -19,9 +20,14 @@
 namespace orthodyn {
 namespace {
 
+// Zlib packs zeros 1:1000, but no file is all zeros. Arrays may share their bytes, so each alone is no bound.
+constexpr std::uint64_t kHighestRatio = 1000;
+constexpr std::uint64_t kFreeBytes = 1'000'000;
+
 class VtuReader {
  public:
-  VtuReader(const std::string& path, std::string_view text) : path_(path), text_(text) {}
+  VtuReader(const std::string& path, std::string_view text)
+      : path_(path), text_(text), budget_(kFreeBytes + kHighestRatio * text.size()) {}
 
   VtkGrid read() {
     split_appended_data();
@@ -85,9 +91,11 @@ class VtuReader {
     grid.types = read_array(named(cells, "types")).values;
     check_count(piece, "NumberOfPoints", grid.points.size() / 3);
     check_count(piece, "NumberOfCells", grid.types.size());
-    for (const pugi::xml_node& array : piece.child("CellData").children("DataArray")) grid.cell_data.push_back(read_array(array));
+    for (const pugi::xml_node& array : piece.child("CellData").children("DataArray")) grid.cell_data.push_back(read_array(array, grid.types.size()));
     for (const pugi::xml_node& array : piece.child("PointData").children("DataArray")) {
-      if (std::string_view(array.attribute("Name").value()).starts_with("nodes:")) grid.point_data.push_back(read_array(array));
+      if (std::string_view(array.attribute("Name").value()).starts_with("nodes:")) {
+        grid.point_data.push_back(read_array(array, grid.points.size() / 3));
+      }
     }
     for (const pugi::xml_node& array : grid_node.child("FieldData").children()) {
       if (std::string_view(array.attribute("Name").value()) == "region_names") read_region_names(array, grid);
@@ -114,34 +122,49 @@ class VtuReader {
     }
   }
 
-  CellData read_array(const pugi::xml_node& array) const {
+  // With this number of tuples, if it is known.
+  CellData read_array(const pugi::xml_node& array, std::optional<std::size_t> tuples = {}) {
     const std::string name = array.attribute("Name").value();
     CellData data{.name = name, .components = array.attribute("NumberOfComponents").as_int(1)};
     if (data.components < 1) fail(array, fmt::format("array {}: {} components", TextTokens::quoted(name), data.components));
     try {
-      data.values = read_values(array);
+      data.values = read_values(array, data.components, tuples);
     } catch (const std::runtime_error& error) {
       fail(array, fmt::format("array {}: {}", TextTokens::quoted(name), error.what()));
     }
     return data;
   }
 
-  std::vector<double> read_values(const pugi::xml_node& array) const {
+  void admit(std::uint64_t values, int components, std::optional<std::size_t> tuples) {
+    const auto width = static_cast<std::uint64_t>(components);
+    if (tuples && (values % width != 0 || values / width != *tuples)) {
+      throw std::runtime_error(fmt::format("{} values; expected {} with {} components", values, *tuples, components));
+    }
+    if (values > budget_ / sizeof(double)) {
+      throw std::runtime_error(fmt::format("the arrays unpack to more than {} times the size of the file; "
+                                           "do several stand at one offset? Write each by itself",
+                                           kHighestRatio));
+    }
+    budget_ -= values * sizeof(double);
+  }
+
+  std::vector<double> read_values(const pugi::xml_node& array, int components, std::optional<std::size_t> tuples) {
     const std::string type_name = array.attribute("type").value();
     const auto type = vtk_type(type_name);
     if (!type) throw std::runtime_error("unknown type " + TextTokens::quoted(type_name));
     const std::string format = array.attribute("format").as_string("ascii");
     if (format == "ascii") return vtk_numbers(std::string_view(array.child_value()));
+    const auto admit_bytes = [&](std::uint64_t bytes) { admit(bytes / type->width, components, tuples); };
     VtuEncoding encoding = encoding_;
     std::string bytes;
     if (format == "appended") {
       encoding.base64 = appended_base64_;
       const std::uint64_t offset = array.attribute("offset").as_ullong();
       if (offset >= appended_.size()) throw std::runtime_error(fmt::format("offset {} lies behind the end of the file; is it truncated?", offset));
-      bytes = vtu_bytes(appended_.substr(static_cast<std::size_t>(offset)), encoding);
+      bytes = vtu_bytes(appended_.substr(static_cast<std::size_t>(offset)), encoding, admit_bytes);
     } else if (format == "binary") {
       encoding.base64 = true;
-      bytes = vtu_bytes(array.child_value(), encoding);
+      bytes = vtu_bytes(array.child_value(), encoding, admit_bytes);
     } else {
       throw std::runtime_error("unknown format " + TextTokens::quoted(format));
     }
@@ -177,6 +200,7 @@ class VtuReader {
   pugi::xml_document document_;
   VtuEncoding encoding_;
   bool appended_base64_ = false;
+  std::uint64_t budget_;  // bytes that packed arrays may still fill
 };
 
 }  // namespace

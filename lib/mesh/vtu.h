@@ -11,10 +11,11 @@
 
 namespace orthodyn {
 
-// What becomes of cells and arrays: see build_vtk_mesh(). The field data array "region_names"
-// (strings, or codes of characters, each name ended by a zero) names the regions by their number. Throws ConfigError "file:line: array, found,
-// remedy". Memory use is bounded by the size of the file, whatever counts it announces (for
-// compressed arrays by the highest ratio that zlib reaches).
+// What becomes of cells and arrays: see build_vtk_mesh(). The field data array "region_names" (strings,
+// or codes of characters, each name ended by a zero) names the regions by their number. Throws ConfigError
+// "file:line: array, found, remedy". Memory use is bounded by the size of the file, whatever counts it
+// announces: the numbers of all packed arrays together, 8 bytes each, must not exceed 1000 times that size
+// and 1 MB.
 LoadedMesh read_vtu(const std::string& path);
 
 // The same from a text; `path` is for messages.

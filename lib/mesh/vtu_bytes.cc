@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -29,10 +30,15 @@ class ByteSource {
  public:
   ByteSource(std::string_view text, bool base64) : text_(text), base64_(base64) {}
 
-  std::string take(std::uint64_t count) {
-    if (count > text_.size()) {  // base64 is longer than its bytes, too
+  // Refuses what cannot be there: base64 is longer than its bytes, too.
+  void expect(std::uint64_t count) const {
+    if (count > text_.size() + buffer_.size()) {
       throw std::runtime_error(fmt::format("{} bytes announced, but the file ends before; is it truncated?", count));
     }
+  }
+
+  std::string take(std::uint64_t count) {
+    expect(count);
     const auto n = static_cast<std::size_t>(count);
     if (!base64_) {
       std::string bytes(text_.substr(0, n));
@@ -70,7 +76,7 @@ class ByteSource {
 
   std::string_view text_;
   bool base64_;
-  std::string buffer_;
+  std::string buffer_;  // decoded with what was taken, but behind it
 };
 
 std::uint64_t take_length(ByteSource& source, const VtuEncoding& encoding) {
@@ -99,11 +105,22 @@ void append_inflated(const std::string& compressed, std::uint64_t size, std::str
   out.resize(begin + static_cast<std::size_t>(size));
 }
 
+// At most 2^64 - 1.
+std::uint64_t sum_of_blocks(std::uint64_t blocks, std::uint64_t size, std::uint64_t last) {
+  constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+  if (blocks == 0) return 0;
+  if (size > 0 && blocks - 1 > kMost / size) return kMost;
+  const std::uint64_t before = (blocks - 1) * size, end = last != 0 ? last : size;
+  return end > kMost - before ? kMost : before + end;
+}
+
 // Number of blocks, size of each, size of the last if it is smaller, compressed sizes; then the blocks.
-std::string take_compressed(ByteSource& source, const VtuEncoding& encoding) {
+std::string take_compressed(ByteSource& source, const VtuEncoding& encoding, const AdmitBytes& admit) {
   const std::uint64_t blocks = take_length(source, encoding);
   const std::uint64_t size = take_length(source, encoding);
   const std::uint64_t last = take_length(source, encoding);
+  source.expect(blocks);  // each has a length
+  admit(sum_of_blocks(blocks, size, last));
   std::vector<std::uint64_t> compressed;
   for (std::uint64_t b = 0; b < blocks; ++b) compressed.push_back(take_length(source, encoding));
   std::string out;
@@ -121,10 +138,13 @@ void swap_bytes(std::string& bytes, std::size_t width) {
   }
 }
 
-std::string vtu_bytes(std::string_view text, const VtuEncoding& encoding) {
+std::string vtu_bytes(std::string_view text, const VtuEncoding& encoding, const AdmitBytes& admit) {
   ByteSource source(text, encoding.base64);
-  if (encoding.zlib) return take_compressed(source, encoding);
-  return source.take(take_length(source, encoding));
+  if (encoding.zlib) return take_compressed(source, encoding, admit);
+  const std::uint64_t length = take_length(source, encoding);
+  source.expect(length);
+  admit(length);
+  return source.take(length);
 }
 
 }  // namespace orthodyn

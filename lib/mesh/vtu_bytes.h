@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -15,9 +16,12 @@ struct VtuEncoding {
   std::size_t header_width = 4;  // bytes of each length: 4 or 8
 };
 
+// Is told how many bytes will come, and throws std::runtime_error if these are too many or too few.
+using AdmitBytes = std::function<void(std::uint64_t bytes)>;
+
 // What stands at the start of `text`: a length and its bytes, resp. the table of compressed blocks
-// and these. Throws std::runtime_error with what is wrong.
-std::string vtu_bytes(std::string_view text, const VtuEncoding& encoding);
+// and these. Nothing is unpacked before it is admitted. Throws std::runtime_error with what is wrong.
+std::string vtu_bytes(std::string_view text, const VtuEncoding& encoding, const AdmitBytes& admit);
 
 // Reverses the bytes of each number of this width.
 void swap_bytes(std::string& bytes, std::size_t width);

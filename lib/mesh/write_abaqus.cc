@@ -12,6 +12,14 @@ namespace {
 
 constexpr std::size_t kFaces[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};  // S1 to S4 of C3D4
 
+// Within quotes only these cannot stand, and blanks at the edges are none of the name.
+std::string abaqus_name(std::string name) {
+  std::replace_if(name.begin(), name.end(), [](char c) { return (c >= '\0' && c < ' ') || c == '"'; }, '_');
+  if (!name.empty() && name.front() == ' ') name.front() = '_';
+  if (!name.empty() && name.back() == ' ') name.back() = '_';
+  return name;
+}
+
 void add_list(std::string& text, const std::string& keyword, const std::string& name, const std::vector<int>& numbers) {
   text += fmt::format("*{}, {}=\"{}\"\n", keyword, keyword, name);
   for (std::size_t k = 0; k < numbers.size(); ++k) {
@@ -66,27 +74,33 @@ WrittenMesh write_abaqus(const LoadedMesh& loaded) {
     const Tet& t = mesh.tets[e];
     fmt::format_to(std::back_inserter(text), "{}, {}, {}, {}, {}\n", e + 1, t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1);
   }
+  WrittenMesh written;
   std::vector<std::vector<int>> members(mesh.region_names.size());
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
     members[static_cast<std::size_t>(mesh.region_of[e])].push_back(static_cast<int>(e) + 1);
   }
-  for (std::size_t r = 0; r < members.size(); ++r) add_list(text, "ELSET", mesh.region_names[r], members[r]);
+  const auto named = [&](TakenNames& taken, const std::string& name) {
+    return unique_name(taken, name, abaqus_name(name), written);
+  };
+  TakenNames element_sets{.capitals_differ = false}, node_sets = element_sets, surfaces = element_sets;
+  for (std::size_t r = 0; r < members.size(); ++r) {
+    add_list(text, "ELSET", named(element_sets, mesh.region_names[r]), members[r]);
+  }
   for (const auto& [name, nodes] : mesh.node_sets) {
     std::vector<int> tags;
     for (const int n : nodes) tags.push_back(n + 1);
-    add_list(text, "NSET", name, tags);
+    add_list(text, "NSET", named(node_sets, name), tags);
   }
   if (!mesh.surfaces.empty()) {
     const std::vector<TetFace> faces = sorted_faces(mesh);
     for (const auto& [name, triangles] : mesh.surfaces) {
-      text += fmt::format("*SURFACE, TYPE=ELEMENT, NAME=\"{}\"\n", name);
+      text += fmt::format("*SURFACE, TYPE=ELEMENT, NAME=\"{}\"\n", named(surfaces, name));
       for (const Triangle& t : triangles) {
         const auto [element, side] = element_and_side(mesh, faces, t);
         text += fmt::format("{}, S{}\n", element, side);
       }
     }
   }
-  WrittenMesh written;
   written.files.push_back({".inp", std::move(text)});
   note_lost_materials_and_data(written, loaded);
   return written;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "lib/mesh/mesh_writer.h"
 
@@ -10,12 +11,10 @@ namespace orthodyn {
 namespace {
 
 // Blanks and commas have another meaning there.
-std::string vega_name(const std::string& name, WrittenMesh& written) {
-  std::string out = name;
-  std::replace_if(
-      out.begin(), out.end(), [](char c) { return c <= ' ' || c == ',' || c == '#' || c == '*'; }, '_');
-  if (out != name) written.losses.push_back(fmt::format("the name \"{}\" became \"{}\"", name, out));
-  return out;
+std::string vega_name(std::string name) {
+  const auto has_meaning = [](char c) { return (c >= '\0' && c <= ' ') || c == ',' || c == '#' || c == '*'; };
+  std::replace_if(name.begin(), name.end(), has_meaning, '_');
+  return name;
 }
 
 std::string material_line(const MeshMaterial& m) {
@@ -47,10 +46,13 @@ WrittenMesh write_vega(const LoadedMesh& loaded) {
     const Tet& t = mesh.tets[e];
     fmt::format_to(std::back_inserter(text), "{} {} {} {} {}\n", e + 1, t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1);
   }
-  std::map<std::string, std::string> materials, regions;
+  using NameAndLine = std::pair<std::string, std::string>;
+  std::map<NameAndLine, std::string> materials;  // and the name in the file
+  std::map<std::string, std::string> regions;
+  TakenNames set_names, material_names;
   for (std::size_t r = 0; r < mesh.region_names.size(); ++r) {
     const std::string& region = mesh.region_names[r];
-    const std::string name = vega_name(region, written);
+    const std::string name = unique_name(set_names, region, vega_name(region), written);
     std::vector<std::size_t> members;
     for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
       if (mesh.region_of[e] == static_cast<int>(r)) members.push_back(e + 1);
@@ -60,12 +62,14 @@ WrittenMesh write_vega(const LoadedMesh& loaded) {
       add_list(text, members);
     }
     if (const auto m = loaded.materials.find(region); m != loaded.materials.end()) {
-      const std::string material = vega_name(m->second.name, written);
-      materials[material] = material_line(m->second);
-      regions[name] = material;
+      const NameAndLine material{m->second.name, material_line(m->second)};
+      if (!materials.contains(material)) {
+        materials[material] = unique_name(material_names, material.first, vega_name(material.first), written);
+      }
+      regions[name] = materials[material];
     }
   }
-  for (const auto& [name, line] : materials) text += fmt::format("\n*MATERIAL {}\n{}", name, line);
+  for (const auto& [material, name] : materials) text += fmt::format("\n*MATERIAL {}\n{}", name, material.second);
   for (const auto& [name, material] : regions) text += fmt::format("\n*REGION\n{}, {}\n", name, material);
   written.files.push_back({".veg", std::move(text)});
   std::vector<std::string> lost;

@@ -125,5 +125,22 @@ TEST(Abaqus, AHugeRangeCostsNoMoreThanItsNodes) {
   EXPECT_EQ(load(replaced(kDeck, "10, 50, 20", "10, 9000000000000000000, 20")).mesh.node_sets.at("every second").size(), 3u);
 }
 
+// Otherwise a short line costs a walk through all nodes and is free.
+TEST(Abaqus, NumbersThatARangeMissesAreNotFree) {
+  std::string nodes = "50, 1, 1, 1\n", sets;
+  for (int k = 1000; k < 7000; k += 2) nodes += std::to_string(k) + ", 2, 2, 2\n";
+  nodes += "7001, 2, 2, 2\n";
+  for (int k = 0; k < 200; ++k) sets += "*Nset, nset=odd, generate\n1001, 7001, 2\n";
+  EXPECT_CONTAINS(refusal(replaced(kDeck, "50, 1, 1, 1\n", nodes) + sets), "more than 100 times");
+}
+
+TEST(Abaqus, ARangeOfLargeStepsCostsNoMoreThanWhatItNames) {
+  std::string nodes = "50, 1, 1, 1\n", sets;
+  for (int k = 1000; k < 4000; ++k) nodes += std::to_string(k) + ", 2, 2, 2\n";
+  for (int k = 0; k < 200; ++k) sets += "*Nset, nset=sparse, generate\n10, 4000, 40\n";
+  const TetMesh mesh = load(replaced(kDeck, "50, 1, 1, 1\n", nodes) + sets).mesh;
+  EXPECT_EQ(mesh.node_sets.at("sparse"), (std::vector<int>{0, 4}));
+}
+
 }  // namespace
 }  // namespace orthodyn

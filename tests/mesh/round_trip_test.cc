@@ -95,6 +95,54 @@ TEST(WrittenVtu, KeepsNamesAndCellData) {
   EXPECT_EQ(find_cell_data(read, "axis 1")->values, loaded.cell_data[0].values);
 }
 
+// A format may spell names otherwise; it then says so, and regions stay apart.
+class NamesThatAreAlike : public testing::TestWithParam<const char*> {};
+
+TEST_P(NamesThatAreAlike, AreStillSeveralRegions) {
+  LoadedMesh loaded = sample();
+  TetMesh& mesh = loaded.mesh;
+  mesh.region_names = {"a b", "a_b", "A_B", "x, y=1", "x", "\"x\"", " x "};
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e) mesh.region_of[e] = static_cast<int>(e % mesh.region_names.size());
+  mesh.node_sets.clear();
+  Warnings losses;
+  const TetMesh read = through(GetParam(), loaded, &losses).mesh;
+  ASSERT_EQ(read.region_names.size(), mesh.region_names.size());
+  EXPECT_EQ(read.region_of, mesh.region_of);
+  std::string said;
+  for (const std::string& loss : losses) said += loss + "\n";
+  for (std::size_t r = 0; r < mesh.region_names.size(); ++r) {
+    if (read.region_names[r] == mesh.region_names[r]) continue;
+    EXPECT_CONTAINS(said, "the name \"" + mesh.region_names[r] + "\" became \"" + read.region_names[r] + "\"");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, NamesThatAreAlike, testing::Values(".veg", ".inp"));
+
+TEST(WrittenAbaqus, KeepsNamesWithCommasAndSetsThatDifferInCapitals) {
+  LoadedMesh loaded = sample();
+  loaded.mesh.region_names = {"x, y=1", "rest"};
+  loaded.mesh.node_sets = {{"Tip", {0}}, {"tip", {1}}};
+  const TetMesh read = through(".inp", loaded).mesh;
+  EXPECT_EQ(read.region_names, loaded.mesh.region_names);
+  ASSERT_EQ(read.node_sets.size(), 2u);
+  EXPECT_EQ(read.node_sets.at("Tip"), std::vector<int>{0});
+  EXPECT_EQ(read.node_sets.at("tip_2"), std::vector<int>{1});
+}
+
+TEST(WrittenVega, MaterialsWhoseNamesAreAlikeStayTwo) {
+  LoadedMesh loaded = sample();
+  MeshMaterial soft{.name = "a b", .density = 1, .young = Vec3::Constant(1), .nu12 = .3, .nu23 = .3, .nu31 = .3};
+  MeshMaterial hard = soft;
+  hard.young = Vec3::Constant(2);
+  for (const char* name : {"a_b", "a b"}) {  // another spelling, and even the same
+    hard.name = name;
+    loaded.materials = {{"region1", soft}, {"region2", hard}};
+    const LoadedMesh read = through(".veg", loaded);
+    EXPECT_EQ(read.materials.at("region1").young[0], 1) << name;
+    EXPECT_EQ(read.materials.at("region2").young[0], 2) << name;
+  }
+}
+
 TEST(WriteMesh, ReplacesNothingUnasked) {
   const TemporaryFolder folder;
   folder.write("mesh.ele", "mine");

@@ -166,6 +166,30 @@ TEST(Vega, IncludesFilesRelativeToTheirOwnPlace) {
   EXPECT_CONTAINS(refusal_of([&] { read_vega(folder.path("body.veg")); }), "list.txt:1: \"list.txt\" includes itself");
 }
 
+TEST(Vega, AFileThatIncludesItselfUnderAnotherSpellingIsRefusedAtOnce) {
+  const TemporaryFolder folder;
+  folder.write("body.veg", kTwoTets + "*INCLUDE ./body.veg\n");
+  EXPECT_CONTAINS(refusal_of([&] { read_vega(folder.path("body.veg")); }), "\"./body.veg\" includes itself");
+  std::filesystem::create_symlink(folder.path("body.veg"), folder.path("link.veg"));
+  folder.write("body.veg", kTwoTets + "*INCLUDE link.veg\n");
+  EXPECT_CONTAINS(refusal_of([&] { read_vega(folder.path("body.veg")); }), "\"link.veg\" includes itself");
+}
+
+TEST(Vega, FilesIncludedAgainAndAgainAreBoundedByTheirSize) {
+  const TemporaryFolder folder;
+  std::string many;
+  for (int k = 0; k < 50; ++k) many += "*INCLUDE list.txt\n";
+  folder.write("list.txt", std::string(200'000, ' ') + "1\n");
+  folder.write("body.veg", kTwoTets + "*SET part\n" + many);
+  EXPECT_CONTAINS(refusal_of([&] { read_vega(folder.path("body.veg")); }), "10 times the size of the files");
+  folder.write("list.txt", "1\n");
+  EXPECT_EQ(read_vega(folder.path("body.veg")).mesh.region_names.front(), "part");
+}
+
+TEST(Vega, NamesThatNoFileCanHaveAreRefused) {
+  EXPECT_CONTAINS(refusal(kTwoTets + "*INCLUDE " + std::string(5000, 'a') + "\n"), "no such file");
+}
+
 struct BadVega {
   const char *name, *from, *to, *message;
 };

@@ -109,6 +109,66 @@ TEST(Vtu, TruncatedAppendedDataAreRefused) {
   }
 }
 
+// Lengths and data as one base64 text, as some writers do: the last group holds bytes of both.
+TEST(Vtu, AHeaderAndASingleByteMayShareAGroupOfBase64) {
+  std::string one = replaced(kAscii, "NumberOfCells=\"2\"", "NumberOfCells=\"1\"");
+  one = replaced(replaced(one, "7 -3", "7"), "1 0 0 0 0.5 nan", "1 0 0");
+  one = replaced(replaced(one, "0 1 2 3 1 2 3 4", "0 1 2 3"), "4 8", "4");
+  one = replaced(one, "format=\"ascii\">10 10<", "format=\"binary\">AQAAAAo=<");  // 1 0 0 0, 10
+  one = replaced(one, "0 0 0 1 1 1 1<", "0 0 0 1<");
+  one = replaced(one, "NumberOfPoints=\"5\"", "NumberOfPoints=\"4\"");
+  one = replaced(one, "type=\"UnstructuredGrid\"", "type=\"UnstructuredGrid\" byte_order=\"LittleEndian\"");
+  EXPECT_EQ(load(one).mesh.tets, (std::vector<Tet>{{0, 1, 2, 3}}));
+  EXPECT_CONTAINS(refusal(replaced(one, "AQAAAAo=", "AgAAAAo=")), "is it truncated?");
+}
+
+// A zlib stream of this many zeros (at least one), about 1:159: one block of fixed codes (RFC 1951, 3.2.6).
+std::string packed_zeros(std::uint32_t count) {
+  std::string bits = "110";  // the last block; fixed codes
+  const std::uint32_t literals = 1 + (count - 1) % 258;
+  for (std::uint32_t k = 0; k < literals; ++k) bits += "00110000";               // a zero
+  for (std::uint32_t k = literals; k < count; k += 258) bits += "1100010100000";  // 258 bytes as the one before
+  bits += "0000000";                                                             // the end
+  std::string bytes = "\x78\x9c";
+  for (std::size_t b = 0; b < bits.size(); b += 8) {
+    int byte = 0;
+    for (std::size_t k = b; k < std::min(b + 8, bits.size()); ++k) byte |= (bits[k] - '0') << (k - b);
+    bytes += static_cast<char>(byte);
+  }
+  const std::uint32_t sum = (count % 65521) << 16 | 1;  // Adler-32
+  for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>((sum >> shift) & 0xff);
+  return bytes;
+}
+
+// Two cells with `arrays` arrays of zeros, all of them the same compressed block.
+std::string zeros(int arrays, int components, std::string (*change)(std::string) = nullptr) {
+  const auto size = static_cast<std::uint32_t>(2 * 8 * components);
+  std::string block = packed_zeros(size);
+  if (change) block = change(block);
+  const std::uint32_t header[] = {1, size, size, static_cast<std::uint32_t>(block.size())};
+  const std::string order = std::endian::native == std::endian::big ? "Big" : "Little";
+  std::string text = replaced(kAscii, "version=\"0.1\"", "compressor=\"vtkZLibDataCompressor\" byte_order=\"" + order + "Endian\"");
+  std::string cells = "<CellData>\n";
+  for (int a = 0; a < arrays; ++a) {
+    cells += "<DataArray type=\"Float64\" Name=\"z" + std::to_string(a) + "\" NumberOfComponents=\"" + std::to_string(components) +
+             "\" format=\"appended\" offset=\"0\"/>\n";
+  }
+  return replaced(replaced(text, "<CellData>\n", cells), "</VTKFile>\n", "<AppendedData encoding=\"raw\">_") +
+         std::string(reinterpret_cast<const char*>(header), sizeof header) + block + "\n</AppendedData></VTKFile>";
+}
+
+TEST(Vtu, ArraysThatShareTheirBytesAreBoundedByTheSizeOfTheFile) {
+  EXPECT_EQ(load(zeros(2, 50'000)).cell_data.size(), 4u);
+  EXPECT_CONTAINS(refusal(zeros(40, 50'000)), "the arrays unpack to more than 1000 times the size of the file");
+}
+
+TEST(Vtu, ArraysOfTheWrongLengthAreRefusedBeforeTheyAreUnpacked) {
+  const auto damaged = [](std::string block) { return block.substr(0, 2) + std::string(block.size() - 2, '?'); };
+  EXPECT_CONTAINS(refusal(zeros(1, 100, damaged)), "a damaged compressed block");
+  EXPECT_CONTAINS(refusal(replaced(zeros(1, 100, damaged), "Components=\"100\"", "Components=\"90\"")),
+                  "array \"z0\": 200 values; expected 2 with 90 components");
+}
+
 TEST(Vtu, IntegersOfTheCellDataRegionAreTheRegions) {
   const LoadedMesh loaded = load(kAscii);
   EXPECT_EQ(loaded.mesh.region_names, (std::vector<std::string>{"region-3", "region7"}));
@@ -176,6 +236,18 @@ TEST(Vtk, RefusesWhatIsNoLegacyFileOfTets) {
   EXPECT_CONTAINS(refused(replaced(good, "POINTS 4", "POINTS 5")), "body.vtk:7: expected a number (a finite number), found \"CELLS\"");
   EXPECT_CONTAINS(refused(good.substr(0, good.find("CELL_TYPES"))), "0 types and 1 offsets");
   EXPECT_CONTAINS(refused(replaced(good, "\n10\n", "\n12\n")), "hexahedron");
+}
+
+// The table of colours may be left out; then numbers begin in the next line.
+TEST(Vtk, ScalarsMayHaveNoLookupTable) {
+  const std::string mesh = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n"
+                           "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
+  const std::string data = "CELL_DATA 1\nSCALARS a float 1\n7\nSCALARS b float\nLOOKUP_TABLE default\n8\nSCALARS c int 2\n3 4\n";
+  const LoadedMesh loaded = read_vtk_text("body.vtk", mesh + data);
+  ASSERT_EQ(loaded.cell_data.size(), 3u);
+  EXPECT_EQ(loaded.cell_data[0].values, std::vector<double>{7});
+  EXPECT_EQ(loaded.cell_data[1].values, std::vector<double>{8});
+  EXPECT_EQ(loaded.cell_data[2].values, (std::vector<double>{3, 4}));
 }
 
 }  // namespace
