@@ -344,6 +344,28 @@ TEST_F(Resume, AMeshFileThatHasChangedIsRefused) {
   EXPECT_NE(result.output.find("the mesh is not the one"), std::string::npos) << result.output;
 }
 
+TEST_F(Resume, OneRunAtATimeWorksInAFolder) {
+  write("swing.yaml", kSwing + std::string("checkpoint: {every: 0.01}\n"));
+  const std::string run = ORTHODYN_EXECUTABLE " run swing.yaml --quiet --set time.end=1e3 --set integrator.h_max=1e-5 ";
+  const auto tried = shell("cd " + folder_.string() + " && { " + run +
+                           "& pid=$!; for i in $(seq 200); do [ -s out/swing/steps.csv ] && break; sleep 0.05; done; "
+                           "for how in --resume --force ''; do timeout 5 " + run +
+                           "$how; echo \"code $?\"; done; kill -TERM $pid; wait $pid; }");
+  EXPECT_EQ(tried.exit_code, 130);
+  std::size_t refused = 0;
+  for (std::size_t at = 0; (at = tried.output.find("another run is at work there", at)) != std::string::npos; ++at) ++refused;
+  EXPECT_EQ(refused, 3u) << tried.output;
+  EXPECT_EQ(tried.output.find("code 0"), std::string::npos) << tried.output;
+}
+
+TEST_F(Resume, AFolderWithNothingButALockIsEmpty) {
+  write("swing.yaml", kSwing);
+  fs::create_directories(folder_ / "out/swing");
+  write("out/swing/.orthodyn-run", "");
+  const auto result = orthodyn("run swing.yaml --quiet");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+}
+
 TEST_F(Resume, ItDoesNotGoTogetherWithForce) {
   write("beam.yaml", kBeam + std::string(kBdf));
   EXPECT_EQ(orthodyn("run beam.yaml --resume --force").exit_code, 2);
