@@ -19,7 +19,7 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 constexpr const char* kMark = "orthodyn checkpoint ";
 constexpr std::size_t kHeadSize = 2 + 20 + 3 + 1 + 16;  // CBOR's own, mark, version, space, fingerprint
 
@@ -64,7 +64,8 @@ Json to_json(const Checkpoint& c) {
   for (const auto& [name, kept] : c.observers) observers[name] = kept.entries();
   return {{"program", orthodyn_version()},
           {"scene", c.scene},
-          {"geometry", c.geometry},
+          {"mesh", c.mesh},
+          {"files", c.files},
           {"begun", c.begun},
           {"t", c.state.t},
           {"q", numbers(c.state.q)},
@@ -79,7 +80,8 @@ Json to_json(const Checkpoint& c) {
 Checkpoint from_json(const Json& json) {
   Checkpoint c;
   c.scene = json.at("scene");
-  c.geometry = json.at("geometry");
+  c.mesh = json.at("mesh");
+  c.files = json.at("files").get<std::map<std::string, std::string>>();
   c.begun = json.at("begun");
   c.state = {json.at("t"), vector(json.at("q")), vector(json.at("v"))};
   c.last_output = json.at("last_output");

@@ -32,7 +32,8 @@ struct OutputRhythm {
 
 struct Checkpoint {
   std::string scene;     // resolved, as YAML
-  std::string geometry;  // fingerprint of nodes and elements
+  std::string mesh;      // its fingerprint
+  std::map<std::string, std::string> files;  // fingerprints of those that the scene names, by their paths in it
   bool begun = false;    // false: nothing has been computed or written yet
   State state;           // at the end of a step
   double last_output = 0;  // s

@@ -10,6 +10,27 @@
 
 namespace orthodyn {
 
+namespace {
+
+// Of plain numbers.
+template <class T>
+std::string bytes(const std::vector<T>& list) {
+  return {reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T)};
+}
+
+}  // namespace
+
+std::string mesh_fingerprint(const TetMesh& mesh) {
+  Fingerprint print;
+  print.add(bytes(mesh.nodes)).add(bytes(mesh.tets)).add(bytes(mesh.region_of));
+  print.add(std::to_string(mesh.region_names.size()));
+  for (const auto& name : mesh.region_names) print.add(name);
+  print.add(std::to_string(mesh.surfaces.size()));
+  for (const auto& [name, triangles] : mesh.surfaces) print.add(name).add(bytes(triangles));
+  for (const auto& [name, nodes] : mesh.node_sets) print.add(name).add(bytes(nodes));
+  return print.text();
+}
+
 std::string code_fingerprint() {
   Fingerprint print;
   Dl_info info{};

@@ -235,9 +235,9 @@ TEST_F(Stopped, ADamagedCheckpointIsRefusedAndNothingDestroyed) {
 
 TEST_F(Stopped, ACheckpointOfAnotherVersionIsNamed) {
   std::string text = read_text(checkpoint_);
-  text.replace(text.find(" 001 "), 5, " 002 ");
+  text.replace(text.find(" 002 "), 5, " 001 ");
   std::ofstream(checkpoint_, std::ios::binary) << text;
-  expect_refused("beam.yaml", "version 2");
+  expect_refused("beam.yaml", "version 1 of the format");
 }
 
 TEST_F(Stopped, ALostFrameOrTableIsNamedAndNothingElseTouched) {
@@ -341,7 +341,72 @@ TEST_F(Resume, AMeshFileThatHasChangedIsRefused) {
   mesh("1.1");
   const auto result = orthodyn("run tet.yaml --quiet --resume --set time.end=0.2");
   EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.output.find("tet.msh: is not the file"), std::string::npos) << result.output;
+}
+
+// Two tetrahedra; `regions` are the attributes of the two.
+class TetgenMesh : public Resume {
+ protected:
+  TetgenMesh() {
+    write("two.node", "5 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 0 0 -1\n");
+    write_elements("1", "2");
+    write("two.yaml",
+          "mesh: {type: file, file: two.node}\nmaterials: {m: {type: isotropic, density: 1, young: 1e3, nu: 0.3}}\n"
+          "initial: {spin: [1, 0, 0]}\ntime: {end: 0.1}\ncheckpoint: {every: 1}\n");
+  }
+  void write_elements(const std::string& first, const std::string& second) const {
+    write("two.ele", "2 4 1\n1 1 2 3 4 " + first + "\n2 1 3 2 5 " + second + "\n");
+  }
+};
+
+TEST_F(TetgenMesh, ElementsThatChangedTheirRegionsAreRefused) {
+  const auto first = orthodyn("run two.yaml --quiet");
+  ASSERT_EQ(first.exit_code, 0) << first.output;
+  write_elements("2", "1");
+  const auto result = orthodyn("run two.yaml --quiet --resume --set time.end=0.2");
+  EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.output.find("the mesh is not the one"), std::string::npos) << result.output;
+}
+
+TEST_F(TetgenMesh, AFileOfTheInputThatHasChangedIsRefusedByItsName) {
+  const auto axes = [&](const char* first) {
+    write("axes.csv", "a1x,a1y,a1z,a2x,a2y,a2z\n" + std::string(first) + "\n1,0,0,0,1,0\n");
+  };
+  axes("1,0,0,0,1,0");
+  write("grain.yaml",
+        "mesh: {type: file, file: two.node}\nmaterials: {m: {type: orthotropic_stable, density: 1, young: [3e3, 2e3, "
+        "1e3], nu: 0.3}}\nregions: {all: {material: m, axes: {type: file, file: axes.csv}}}\n"
+        "initial: {spin: [1, 0, 0]}\ntime: {end: 0.1}\ncheckpoint: {every: 1}\n");
+  const auto first = orthodyn("run grain.yaml --quiet");
+  ASSERT_EQ(first.exit_code, 0) << first.output;
+  const auto same = orthodyn("run out/grain --quiet --resume --set time.end=0.2");  // named from another folder
+  ASSERT_EQ(same.exit_code, 0) << same.output;
+  axes("0,1,0,1,0,0");
+  const auto result = orthodyn("run grain.yaml --quiet --resume --set time.end=0.3");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.output.find("axes.csv"), std::string::npos) << result.output;
+}
+
+TEST_F(Resume, OneRunAtATimeWorksInAFolder) {
+  write("swing.yaml", kSwing + std::string("checkpoint: {every: 0.01}\n"));
+  const std::string run = ORTHODYN_EXECUTABLE " run swing.yaml --quiet --set time.end=1e3 --set integrator.h_max=1e-5 ";
+  const auto tried = shell("cd " + folder_.string() + " && { " + run +
+                           "& pid=$!; for i in $(seq 200); do [ -s out/swing/steps.csv ] && break; sleep 0.05; done; "
+                           "for how in --resume --force ''; do timeout 5 " + run +
+                           "$how; echo \"code $?\"; done; kill -TERM $pid; wait $pid; }");
+  EXPECT_EQ(tried.exit_code, 130);
+  std::size_t refused = 0;
+  for (std::size_t at = 0; (at = tried.output.find("another run is at work there", at)) != std::string::npos; ++at) ++refused;
+  EXPECT_EQ(refused, 3u) << tried.output;
+  EXPECT_EQ(tried.output.find("code 0"), std::string::npos) << tried.output;
+}
+
+TEST_F(Resume, AFolderWithNothingButALockIsEmpty) {
+  write("swing.yaml", kSwing);
+  fs::create_directories(folder_ / "out/swing");
+  write("out/swing/.orthodyn-run", "");
+  const auto result = orthodyn("run swing.yaml --quiet");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
 }
 
 TEST_F(Resume, ItDoesNotGoTogetherWithForce) {

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+
+#include "tools/orthodyn/folder_lock.h"
 
 namespace orthodyn {
 
@@ -11,15 +14,12 @@ class ComparisonFolder {
   // if another process works there. Finished points are known by their fingerprints, so any comparison may
   // go on in the folder of another.
   explicit ComparisonFolder(std::filesystem::path path);
-  ~ComparisonFolder();
-  ComparisonFolder(const ComparisonFolder&) = delete;
-  ComparisonFolder& operator=(const ComparisonFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
 
  private:
   std::filesystem::path path_;
-  int lock_ = -1;  // open file of the mark
+  std::optional<FolderLock> lock_;  // on the mark; taken once the folder is known to be ours
 };
 
 }  // namespace orthodyn

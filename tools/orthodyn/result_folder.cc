@@ -19,33 +19,48 @@ constexpr const char* kOurs[] = {"frames", "frames.pvd", "probes.csv", "energy.c
                                  "steps.csv", "checkpoint.cbor", "scene.yaml", "pictures", kMark};
 
 constexpr const char* kCheckpoint = "checkpoint.cbor";
+constexpr const char* kLock = ".orthodyn-run";  // not run.json, which is renamed over
+
+// A lock is left behind by every run, also by one that was refused.
+bool is_unused(const fs::path& folder) {
+  std::error_code ec;
+  for (const auto& entry : fs::directory_iterator(folder, ec))
+    if (entry.path().filename() != kLock) return false;
+  return true;
+}
 
 // Killed before anything was computed: only what is written first is there.
 bool has_just_begun(const fs::path& folder) {
   std::error_code ec;
   for (const auto& entry : fs::directory_iterator(folder, ec)) {
     const auto name = entry.path().filename();
-    if (name != kMark && name != "scene.yaml" && name.extension() != ".part") return false;
+    if (name != kMark && name != kLock && name != "scene.yaml" && name.extension() != ".part") return false;
   }
   return true;
 }
 
 }  // namespace
 
-ResultFolder::ResultFolder(fs::path path, Earlier earlier) : path_(std::move(path)) {
+ResultFolder::ResultFolder(fs::path path, Earlier earlier) : path_(std::move(path)), earlier_(earlier) {
   std::error_code ec;
   if (!fs::exists(path_, ec)) return;
   if (!fs::is_directory(path_, ec))
     throw ConfigError(fmt::format("{}: is a file, expected a folder for the results; use --out", path_.string()));
-  if (fs::is_empty(path_, ec)) return;
-  if (!fs::exists(path_ / kMark, ec))
+  if (!is_unused(path_) && !fs::exists(path_ / kMark, ec))
     throw ConfigError(fmt::format("{}: holds files that are no result of a run; use --out with another folder",
                                   path_.string()));
-  if (earlier == Earlier::resume) consider_resuming();
-  if (earlier == Earlier::keep)
-    throw ConfigError(fmt::format("{}: holds an earlier result; use --force to replace it, --resume to go on "
-                                  "from its checkpoint, or --out with another folder",
-                                  path_.string()));
+  lock();
+  if (is_unused(path_)) return;
+  if (earlier_ == Earlier::resume) consider_resuming();
+  if (earlier_ == Earlier::keep) refuse_earlier_result();
+}
+
+void ResultFolder::lock() { lock_.emplace(path_, kLock, "run"); }
+
+void ResultFolder::refuse_earlier_result() const {
+  throw ConfigError(fmt::format("{}: holds an earlier result; use --force to replace it, --resume to go on "
+                                "from its checkpoint, or --out with another folder",
+                                path_.string()));
 }
 
 void ResultFolder::consider_resuming() {
@@ -69,11 +84,14 @@ std::string ResultFolder::earlier_status() const {
   return status == "running" ? "killed" : status;
 }
 
-void ResultFolder::prepare() const {
+void ResultFolder::prepare() {
   std::error_code ec;
-  fs::create_directories(path_, ec);
-  if (!ec)
-    for (const char* name : kOurs) fs::remove_all(path_ / name, ec);
+  if (!lock_) {
+    lock();
+    if (earlier_ != Earlier::replace && !is_unused(path_)) refuse_earlier_result();  // one that was faster
+  }
+  for (const char* name : kOurs)
+    if (!ec) fs::remove_all(path_ / name, ec);
   if (ec) throw RunError(fmt::format("cannot prepare the folder {}: {}", path_.string(), ec.message()));
 }
 

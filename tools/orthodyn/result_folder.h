@@ -1,8 +1,12 @@
-// The folder that a run writes to. An earlier result is never touched without being asked to.
+// The folder that a run writes to, alone for as long as this lives. An earlier result is never touched
+// without being asked to.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+
+#include "tools/orthodyn/folder_lock.h"
 
 namespace orthodyn {
 
@@ -11,11 +15,12 @@ enum class Earlier { keep, replace, resume };  // what to do about an earlier re
 class ResultFolder {
  public:
   // Throws ConfigError if the folder holds an earlier result that is to be kept, one that cannot be
-  // resumed, or anything else. Touches nothing yet.
+  // resumed, or anything else, and if another run is at work there. Touches nothing yet.
   ResultFolder(std::filesystem::path path, Earlier earlier);
 
-  // Makes the folder and removes an earlier result from it. Throws RunError.
-  void prepare() const;
+  // Makes the folder and removes an earlier result from it. Throws RunError, and ConfigError if another
+  // run has been there since.
+  void prepare();
 
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path checkpoint() const;
@@ -27,9 +32,13 @@ class ResultFolder {
   std::string earlier_status() const;
 
  private:
+  void lock();
+  void refuse_earlier_result() const;
   void consider_resuming();
 
   std::filesystem::path path_;
+  Earlier earlier_;
+  std::optional<FolderLock> lock_;  // none while there is no folder
   bool resumes_ = false, completed_ = false;
 };
 

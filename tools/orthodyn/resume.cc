@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 
-#include "lib/core/fingerprint.h"
+#include "lib/study/fingerprint.h"
 #include "lib/study/machine.h"
 #include "tools/orthodyn/scene_changes.h"
 
@@ -19,9 +20,32 @@ OutputRhythm rhythm_of(const Scene& scene) {
           scene.output.interval ? *scene.output.interval : frames > 0 ? span / frames : 0};
 }
 
+// By paths from the result's folder, as in the scene that is kept there: the same for a run that is named
+// by its scene and by its folder.
+std::map<std::string, std::string> file_fingerprints(const Config& scene, const ResultFolder& folder) {
+  namespace fs = std::filesystem;
+  std::map<std::string, std::string> out;
+  for (const auto& file : scene.file_paths()) {
+    const fs::path whole = fs::absolute(file).lexically_normal();
+    out[whole.lexically_proximate(fs::absolute(folder.path()).lexically_normal()).string()] =
+        Fingerprint().add_file(file).text();
+  }
+  return out;
+}
+
+void require_same_files(const Checkpoint& checkpoint, const Setup& setup, const ResultFolder& folder) {
+  for (const auto& [file, print] : file_fingerprints(setup.config, folder)) {
+    const auto before = checkpoint.files.find(file);
+    if (before != checkpoint.files.end() && before->second == print) continue;
+    throw ConfigError(fmt::format("{}: is not the file that {} was computed with; put it back, or start anew with "
+                                  "--force in place of --resume",
+                                  (folder.path() / file).lexically_normal().string(), folder.checkpoint().string()));
+  }
+}
+
 void require_same_model(const Checkpoint& checkpoint, const Setup& setup, const ResultFolder& folder) {
   const FemModel& model = *setup.built.model;
-  if (checkpoint.geometry == geometry_fingerprint(model) && checkpoint.state.q.size() == model.num_dofs() &&
+  if (checkpoint.mesh == mesh_fingerprint(model.parts().mesh) && checkpoint.state.q.size() == model.num_dofs() &&
       checkpoint.state.v.size() == model.num_dofs())
     return;
   throw ConfigError(fmt::format("{}: the mesh is not the one that the checkpoint was computed with; put it back, or "
@@ -47,18 +71,11 @@ void keep_scales(const Checkpoint& checkpoint, Config& scene) {
   }
 }
 
-std::string geometry_fingerprint(const Model& model) {
-  const Geometry geometry = model.geometry();
-  const auto bytes = [](const auto& list) {
-    return std::string(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(list[0]));
-  };
-  return Fingerprint().add(bytes(geometry.points)).add(bytes(geometry.cells)).text();
-}
-
-Checkpoint first_checkpoint(const Setup& setup, const std::string& resolved) {
+Checkpoint first_checkpoint(const Setup& setup, const std::string& resolved, const ResultFolder& folder) {
   Checkpoint checkpoint;
   checkpoint.scene = resolved;
-  checkpoint.geometry = geometry_fingerprint(*setup.built.model);
+  checkpoint.mesh = mesh_fingerprint(setup.built.model->parts().mesh);
+  checkpoint.files = file_fingerprints(setup.config, folder);
   checkpoint.state = setup.built.initial;
   checkpoint.last_output = setup.built.initial.t;
   checkpoint.rhythm = rhythm_of(setup.scene);
@@ -74,6 +91,7 @@ Checkpoint continued(Checkpoint checkpoint, const Setup& setup, const std::strin
                                   "time.end, checkpoint, expect and the integrator's limits max_steps, h_min, "
                                   "max_newton_iterations; for all else choose another folder with --out",
                                   folder.checkpoint().string(), join(refused), refused.size() == 1 ? "s" : ""));
+  require_same_files(checkpoint, setup, folder);
   require_same_model(checkpoint, setup, folder);
   require_time_left(checkpoint, setup);
   checkpoint.scene = resolved;

@@ -11,11 +11,8 @@ namespace orthodyn {
 // Integrators estimate these from the scene where it leaves them open; a longer run must not change them.
 void keep_scales(const Checkpoint& checkpoint, Config& scene);
 
-// Fingerprint of nodes and elements.
-std::string geometry_fingerprint(const Model& model);
-
-// A checkpoint for a run that begins.
-Checkpoint first_checkpoint(const Setup& setup, const std::string& resolved);
+// A checkpoint for a run that begins. Throws RunError if a file that the scene names is gone by now.
+Checkpoint first_checkpoint(const Setup& setup, const std::string& resolved, const ResultFolder& folder);
 
 // The same run, continued: with the scene as it is now and one restart more. Throws ConfigError, naming
 // what differs, if the checkpoint is that of another simulation.

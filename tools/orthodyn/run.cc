@@ -80,7 +80,7 @@ class Run {
     if (folder_.is_completed_without_checkpoint()) return decline_completed(resolved);
     const bool resumes = earlier_ && earlier_->begun;
     Checkpoint begin = resumes ? continued(std::move(*earlier_), setup, resolved, folder_)
-                               : first_checkpoint(setup, resolved);
+                               : first_checkpoint(setup, resolved, folder_);
     // One that was killed after its last step still lacks its record.
     if (resumes && is_complete(begin, setup.scene) && begin.restarts.back().after == "completed")
       return say_complete(begin.state.t);

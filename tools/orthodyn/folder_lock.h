@@ -1,0 +1,23 @@
+// Keeps a folder to one process at a time, for as long as it lives; a process that is killed lets go too.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace orthodyn {
+
+class FolderLock {
+ public:
+  // Makes the folder, and in it the file that is locked (flock), which stays: it must never be renamed or
+  // replaced. Throws ConfigError if another process holds it ("another <work> is at work there"), RunError
+  // if the file cannot be made. Where the file system has no locks, it warns and holds nothing.
+  FolderLock(const std::filesystem::path& folder, const std::string& file, const std::string& work);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int file_ = -1;
+};
+
+}  // namespace orthodyn
