@@ -156,10 +156,10 @@ void print_error(const ErrorEstimate& error) {
   const auto& u = error.displacement;
   if (std::isnan(u.max)) fmt::print("  nothing moves: there is nothing to compare with\n");
   else
-    fmt::print("  displacements are off by about {:.2g} % of the largest, {:.2g} % at worst; velocities by {:.2g} %, "
-               "{:.2g} % at worst{}\n",
+    fmt::print("  the integration puts displacements off by about {:.2g} % of the largest, {:.2g} % at worst; velocities "
+               "by {:.2g} %, {:.2g} % at worst; the mesh's error comes on top{}\n",
                100 * u.l2, 100 * u.max, 100 * error.velocity.l2, 100 * error.velocity.max,
-               u.max > kUnresolved ? ": the motion is NOT resolved, lower integrator.rtol or step" : "");
+               u.max > kUnresolved ? ". The motion is NOT resolved: lower integrator.rtol or step" : "");
 }
 
 }  // namespace orthodyn
