@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <functional>
+#include <system_error>
 
 #include "lib/core/errors.h"
+#include "lib/core/write_file.h"
 #include "lib/mesh/abaqus.h"
 #include "lib/mesh/gmsh.h"
 #include "lib/mesh/tetgen.h"
@@ -23,6 +27,29 @@ std::string ending_of(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return ending;
+}
+
+// Files of one mesh belong together: none takes its place before all are on the disk.
+void replace_together(const std::vector<MeshText>& files, const std::function<std::string(const MeshText&)>& place) {
+  namespace fs = std::filesystem;
+  const auto beside = [&](const MeshText& file) { return place(file) + ".new"; };
+  for (const MeshText& file : files) {
+    std::string reason;
+    try {
+      write_file(beside(file), {file.text});
+      continue;
+    } catch (const RunError&) {
+      reason = std::strerror(errno);
+    }
+    std::error_code ignored;
+    for (const MeshText& f : files) fs::remove(beside(f), ignored);
+    throw ConfigError(fmt::format("{}: cannot be written: {}", place(file), reason));
+  }
+  for (const MeshText& file : files) {
+    std::error_code error;
+    fs::rename(beside(file), place(file), error);
+    if (error) throw ConfigError(fmt::format("{}: cannot be written: {}; the mesh is in {}", place(file), error.message(), beside(file)));
+  }
 }
 
 }  // namespace
@@ -66,12 +93,7 @@ Warnings write_mesh(const LoadedMesh& loaded, const std::string& path, bool repl
   for (const MeshText& file : written.files) {
     if (!replace && fs::exists(place(file))) throw ConfigError(place(file) + ": is there already; --force replaces it");
   }
-  for (const MeshText& file : written.files) {
-    std::ofstream out(place(file), std::ios::binary);
-    out << file.text;
-    out.close();
-    if (!out) throw ConfigError(place(file) + ": cannot be written");
-  }
+  replace_together(written.files, place);
   return written.losses;
 }
 

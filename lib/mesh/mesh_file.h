@@ -27,7 +27,7 @@ LoadedMesh read_mesh(const std::string& path);
 
 // Writes what the ending of `path` says, beside each other if there are several files, and returns what the
 // format could not hold. Throws ConfigError if a file is there already and `replace` is false (nothing
-// is written then), if the format cannot be written, or if a file cannot.
+// is written then), if the format cannot be written, or if a file cannot (what was there stays then).
 Warnings write_mesh(const LoadedMesh& loaded, const std::string& path, bool replace);
 
 // Multiplies all coordinates. Throws ConfigError, beginning with `source`, if a volume can then no longer be

@@ -7,66 +7,11 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 
 #include "lib/core/errors.h"
 
 namespace orthodyn {
-
-namespace {
-
-[[noreturn]] void fail(const std::filesystem::path& path) {
-  throw RunError(fmt::format("cannot write {}: {}; free some space or choose another folder with --out",
-                             path.string(), std::strerror(errno)));
-}
-
-}  // namespace
-
-namespace {
-
-void write_whole_file(const std::filesystem::path& path, const std::vector<std::string>& parts, bool lasting) {
-  std::error_code ignored;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
-  const std::filesystem::path part = path.string() + ".part";
-  {
-    std::ofstream out(part, std::ios::binary);
-    for (const auto& text : parts) out.write(text.data(), static_cast<std::streamsize>(text.size()));
-    out.close();
-    if (!out) {
-      const int error = errno;
-      std::filesystem::remove(part, ignored);
-      errno = error;
-      fail(path);
-    }
-  }
-  if (lasting) make_lasting(part);
-  std::error_code ec;
-  std::filesystem::rename(part, path, ec);
-  if (ec) fail(path);
-  if (lasting) make_lasting(path.has_parent_path() ? path.parent_path() : ".");  // the new name
-}
-
-}  // namespace
-
-void write_file(const std::filesystem::path& path, const std::vector<std::string>& parts) {
-  write_whole_file(path, parts, false);
-}
-
-void write_lasting_file(const std::filesystem::path& path, const std::vector<std::string>& parts) {
-  write_whole_file(path, parts, true);
-}
-
-void make_lasting(const std::filesystem::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) fail(path);
-  const int status = ::fsync(file);
-  const int error = errno;
-  ::close(file);
-  errno = error;
-  // Some file systems cannot sync a folder, or anything, and say so.
-  if (status != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS) fail(path);
-}
 
 namespace {
 constexpr std::size_t kReserved = 16384;
@@ -86,7 +31,7 @@ void ReservedFile::rewrite(const std::string& content) const {
   const std::string text = padded(content);
   out.write(text.data(), static_cast<std::streamsize>(text.size()));
   out.close();
-  if (!out) fail(path_);
+  if (!out) fail_to_write(path_);
   std::filesystem::resize_file(path_, content.size());
 }
 
@@ -100,7 +45,7 @@ GrowingFile::~GrowingFile() {
 void GrowingFile::open(int flags) {
   if (file_ >= 0) ::close(file_);
   file_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666);
-  if (file_ < 0) fail(path_);
+  if (file_ < 0) fail_to_write(path_);
 }
 
 void GrowingFile::begin() {
@@ -126,7 +71,7 @@ void GrowingFile::write_at_end(const std::string& text) {
       ::ftruncate(file_, static_cast<off_t>(size_ + tail_.size())) != 0)
     errno = error;
   errno = error;
-  fail(path_);
+  fail_to_write(path_);
 }
 
 void GrowingFile::require(std::size_t size) const {
@@ -146,7 +91,7 @@ void GrowingFile::go_on(std::size_t size) {
   open(0);
   size_ = size;
   write_at_end(tail_);
-  if (::ftruncate(file_, static_cast<off_t>(size_ + tail_.size())) != 0) fail(path_);
+  if (::ftruncate(file_, static_cast<off_t>(size_ + tail_.size())) != 0) fail_to_write(path_);
 }
 
 void GrowingFile::make_lasting() const { orthodyn::make_lasting(path_); }

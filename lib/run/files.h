@@ -6,19 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/write_file.h"
 #include "lib/run/archive.h"
 
 namespace orthodyn {
-
-// Writes the parts one after the other. To a neighbouring name first, then renamed: the file is
-// whole or absent. Its folder is made.
-void write_file(const std::filesystem::path& path, const std::vector<std::string>& parts);
-
-// The same; it survives a power cut once this has returned.
-void write_lasting_file(const std::filesystem::path& path, const std::vector<std::string>& parts);
-
-// Waits until what was written to a file is on the disk.
-void make_lasting(const std::filesystem::path& path);
 
 // A small file that can be rewritten although the disk is full: the first write reserves room.
 class ReservedFile {

@@ -1,7 +1,9 @@
 // What is written and read again is the same, as far as the format can hold it.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cmath>
+#include <csignal>
 
 #include "lib/mesh/box.h"
 #include "lib/mesh/mesh_file.h"
@@ -150,6 +152,55 @@ TEST(WriteMesh, ReplacesNothingUnasked) {
   EXPECT_FALSE(std::filesystem::exists(folder.path("mesh.node")));
   write_mesh(sample(), folder.path("mesh.node"), true);
   EXPECT_EQ(read_mesh(folder.path("mesh.ele")).mesh.tets, sample().mesh.tets);
+}
+
+// While it lives no file can grow beyond `bytes`, as on a disk that is full.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST(WriteMesh, AFullDiskCostsNoneOfTheFilesThatAreThere) {
+  LoadedMesh loaded;
+  loaded.mesh = make_box({.size = Vec3(4, 4, 4), .cells = {4, 4, 4}});
+  for (const char* name : {"mesh.msh", "mesh.node"}) {
+    const TemporaryFolder folder;
+    write_mesh(loaded, folder.path(name), false);
+    const auto files = [&] {
+      std::map<std::string, std::string> all;
+      for (const auto& entry : std::filesystem::directory_iterator(folder.path(""))) {
+        std::ifstream stream(entry.path(), std::ios::binary);
+        all[entry.path().filename()] = std::string(std::istreambuf_iterator<char>(stream), {});
+      }
+      return all;
+    };
+    const auto before = files();
+    std::string message;
+    {
+      const FullDisk full(4000);  // room for the .node file, not for the .ele file
+      message = refusal_of([&] {
+        LoadedMesh scaled = loaded;
+        scale_mesh(scaled.mesh, 2, "m");
+        write_mesh(scaled, folder.path(name), true);
+      });
+    }
+    EXPECT_CONTAINS(message, "cannot be written");
+    EXPECT_TRUE(files() == before) << name;
+  }
 }
 
 TEST(WriteMesh, ScalingMultipliesLengthsAndRefusesWhatCannotBeRepresented) {

@@ -1,3 +1,5 @@
+#include "lib/mesh/box.h"
+#include "lib/mesh/mesh_file.h"
 #include "tests/run/command.h"
 
 namespace orthodyn {
@@ -24,6 +26,17 @@ TEST_F(CommandLine, TheResolvedSceneRunsToTheSameResult) {
   const auto again = orthodyn("run out/swing/scene.yaml --quiet --out again");
   ASSERT_EQ(again.exit_code, 0) << again.output;
   EXPECT_EQ(read_text(folder_ / "out/swing/probes.csv"), read_text(folder_ / "again/probes.csv"));
+}
+
+TEST_F(CommandLine, FramesConvertBackToTheMesh) {
+  write("swing.yaml", kSwing);
+  ASSERT_EQ(orthodyn("run swing.yaml --quiet").exit_code, 0);
+  const auto converted = orthodyn("convert out/swing/frames/frame_00000.vtu back.msh");
+  ASSERT_EQ(converted.exit_code, 0) << converted.output;
+  const TetMesh back = read_mesh((folder_ / "back.msh").string()).mesh;
+  const TetMesh box = make_box({.size = Vec3(1, 0.2, 0.2), .cells = {4, 1, 1}});
+  EXPECT_EQ(back.nodes, box.nodes);
+  EXPECT_EQ(back.tets, box.tets);
 }
 
 TEST_F(CommandLine, AnEarlierResultIsKeptUnlessForced) {

@@ -1,4 +1,6 @@
 // Mesh files and generators as a scene names them, and materials that come with a mesh.
+#include <stdlib.h>  // mkdtemp
+
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -23,10 +25,13 @@ TET
 class VegaScene : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() / "orthodyn_vega_scene_test";
-    std::filesystem::create_directories(folder_);
+    std::string name = (std::filesystem::temp_directory_path() / "vega_scene_test_XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);  // tests that run beside each other do not share it
+    folder_ = name;
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  void TearDown() override {
+    if (!folder_.empty()) std::filesystem::remove_all(folder_);
+  }
 
   std::string file(const std::string& name, const std::string& content) const {
     std::ofstream(folder_ / name) << content;

@@ -1,0 +1,66 @@
+#include "lib/core/write_file.h"
+
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "lib/core/errors.h"
+
+namespace orthodyn {
+
+void fail_to_write(const std::filesystem::path& path) {
+  throw RunError(fmt::format("cannot write {}: {}; free some space or choose another folder with --out",
+                             path.string(), std::strerror(errno)));
+}
+
+namespace {
+
+void write_whole_file(const std::filesystem::path& path, const std::vector<std::string>& parts, bool lasting) {
+  std::error_code ignored;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
+  const std::filesystem::path part = path.string() + ".part";
+  {
+    std::ofstream out(part, std::ios::binary);
+    for (const auto& text : parts) out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    out.close();
+    if (!out) {
+      const int error = errno;
+      std::filesystem::remove(part, ignored);
+      errno = error;
+      fail_to_write(path);
+    }
+  }
+  if (lasting) make_lasting(part);
+  std::error_code ec;
+  std::filesystem::rename(part, path, ec);
+  if (ec) fail_to_write(path);
+  if (lasting) make_lasting(path.has_parent_path() ? path.parent_path() : ".");  // the new name
+}
+
+}  // namespace
+
+void write_file(const std::filesystem::path& path, const std::vector<std::string>& parts) {
+  write_whole_file(path, parts, false);
+}
+
+void write_lasting_file(const std::filesystem::path& path, const std::vector<std::string>& parts) {
+  write_whole_file(path, parts, true);
+}
+
+void make_lasting(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) fail_to_write(path);
+  const int status = ::fsync(file);
+  const int error = errno;
+  ::close(file);
+  errno = error;
+  // Some file systems cannot sync a folder, or anything, and say so.
+  if (status != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS) fail_to_write(path);
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,23 @@
+// Files that are whole or absent. All throw RunError with the reason of the system.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace orthodyn {
+
+// Writes the parts one after the other. To a neighbouring name first, then renamed: the file is
+// whole or absent. Its folder is made.
+void write_file(const std::filesystem::path& path, const std::vector<std::string>& parts);
+
+// The same; it survives a power cut once this has returned.
+void write_lasting_file(const std::filesystem::path& path, const std::vector<std::string>& parts);
+
+// Waits until what was written to a file is on the disk.
+void make_lasting(const std::filesystem::path& path);
+
+// What the three throw, with the reason in errno.
+[[noreturn]] void fail_to_write(const std::filesystem::path& path);
+
+}  // namespace orthodyn
