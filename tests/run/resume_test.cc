@@ -409,6 +409,17 @@ TEST_F(Resume, AFolderWithNothingButALockIsEmpty) {
   EXPECT_EQ(result.exit_code, 0) << result.output;
 }
 
+TEST_F(Stopped, OnlyFramesOfTheRunAreRemovedWhenItGoesOn) {
+  const auto frames = folder_ / "out/beam/frames";
+  const std::vector<std::string> others{"frame_99999.png", "frame_99999.vtu.bak", "frame_99999.vtu.part.txt", "frame_7.vtu"};
+  const std::vector<std::string> ours{"frame_99999.vtu", "frame_99998.vtu.part", "frame_00000.vtu.part"};
+  for (const auto& name : others) std::ofstream(frames / name) << "x";
+  for (const auto& name : ours) std::ofstream(frames / name) << "x";
+  ASSERT_EQ(orthodyn("run beam.yaml --quiet --resume").exit_code, 0);
+  for (const auto& name : others) EXPECT_TRUE(fs::exists(frames / name)) << name;
+  for (const auto& name : ours) EXPECT_FALSE(fs::exists(frames / name)) << name;
+}
+
 TEST_F(Resume, ItDoesNotGoTogetherWithForce) {
   write("beam.yaml", kBeam + std::string(kBdf));
   EXPECT_EQ(orthodyn("run beam.yaml --resume --force").exit_code, 2);
