@@ -1,10 +1,15 @@
 #include "lib/run/checkpointer.h"
 
+#include <algorithm>
+
 #include "lib/run/run.h"
 
 namespace orthodyn {
 
 namespace {
+
+// By the clock, none is written for so many times as long as the last one took: a slow disk takes a tenth of the run at most.
+constexpr double kRest = 10;
 
 double seconds_between(std::chrono::steady_clock::time_point a, std::chrono::steady_clock::time_point b) {
   return std::chrono::duration<double>(b - a).count();
@@ -40,11 +45,13 @@ void Checkpointer::on_output(const State& state) {
 
 void Checkpointer::on_step(const StepInfo&, const State& state, const Integrator&) {
   if (times_.never) return;
+  const double since = seconds_between(written_, Clock::now());
   const bool enough_outputs = times_.frames > 0 && outputs_ >= times_.frames;
-  if (enough_outputs || seconds_between(written_, Clock::now()) >= times_.every) write(state);
+  if (enough_outputs || since >= std::max(times_.every, kRest * last_took_)) write(state);
 }
 
 void Checkpointer::write(const State& state) {
+  const auto begin = Clock::now();
   checkpoint_.state = state;
   checkpoint_.effort = effort();
   for (const auto& [name, observer] : others_) {
@@ -55,6 +62,7 @@ void Checkpointer::write(const State& state) {
   checkpoint_.save(path_);
   outputs_ = 0;
   written_ = Clock::now();
+  last_took_ = seconds_between(begin, written_);
 }
 
 Effort Checkpointer::effort() const {

@@ -1,4 +1,5 @@
-// Writes a checkpoint at the start, every so often, and when it is told to.
+// Writes a checkpoint at the start, every so often (where writing is slow, less often: that it takes no
+// more than about a tenth of the time), and when it is told to.
 #pragma once
 
 #include <chrono>
@@ -50,6 +51,7 @@ class Checkpointer : public Observer {
   const Integrator& integrator_;
   Clock::time_point begin_, written_;
   double begin_cpu_ = 0;
+  double last_took_ = 0;  // s, to write
   int outputs_ = 0;  // since the last one
 };
 

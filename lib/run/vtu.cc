@@ -120,7 +120,8 @@ void VtuWriter::write(const State& state) {
     collection_.append(fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"frames/{}\"/>\n", state.t,
                                    path.filename().string()));
   } catch (const RunError&) {  // no frame without its time
-    fs::remove(path);
+    std::error_code ignored;
+    fs::remove(path, ignored);
     throw;
   }
   ++frames_;
@@ -134,7 +135,9 @@ void VtuWriter::on_start(const State& state) {
 }
 
 void VtuWriter::save(Archive& archive) {
+  const bool any_new = lasting_ < frames_;
   for (; lasting_ < frames_; ++lasting_) make_lasting(frame(lasting_));
+  if (any_new) make_lasting(folder_ / "frames");  // their names
   collection_.make_lasting();
   archive.put_count("frames", frames_);
   archive.put_count("bytes", collection_.size());
@@ -164,7 +167,8 @@ void VtuWriter::remove_frames_from(std::size_t count) const {
     const std::string name = entry.path().filename().string();
     unsigned long k = 0;
     if (std::sscanf(name.c_str(), "frame_%lu.vtu", &k) != 1) continue;
-    if (k >= count || entry.path().extension() == ".part") surplus.push_back(entry.path());
+    const std::string whole = frame(k).filename().string();
+    if ((name == whole && k >= count) || name == whole + ".part") surplus.push_back(entry.path());
   }
   for (const auto& path : surplus)
     if (!fs::remove(path, ec) && ec)

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "lib/run/files.h"
+#include "lib/scene/scene.h"
 #include "lib/study/fingerprint.h"
 #include "lib/study/measure.h"
 
@@ -77,7 +78,7 @@ bool Campaign::measure_points(std::size_t problem, const std::atomic<bool>& inte
             : fs::absolute(options_.folder / reference->second.folder).string();
     const Task task{title(design_, point), "points", point_scene(design_, point),
                     {comparison_.repeats, comparison_.samples, comparison_.limits.seconds, measured_against, false,
-                     false, code_}};
+                     false, code_}, problem};
     Json result = perform(task, interrupt, point_folders_[i]);
     if (result.is_null()) return false;
     results_[i] = std::move(result);
@@ -95,7 +96,7 @@ Job Campaign::reference_job() const {
 bool Campaign::find_reference(std::size_t problem, const std::atomic<bool>& interrupt) {
   const Problem& p = design_.problems[problem];
   ReferenceResult reference{"", design_.reference.label, design_.check.label, nullptr, nullptr};
-  Task task{p.label + ", reference", "references", reference_scene(p, design_.reference), reference_job()};
+  Task task{p.label + ", reference", "references", reference_scene(p, design_.reference), reference_job(), problem};
   std::string folder;
   reference.result = perform(task, interrupt, folder);
   if (reference.result.is_null()) return false;
@@ -116,13 +117,29 @@ bool Campaign::find_reference(std::size_t problem, const std::atomic<bool>& inte
   return true;
 }
 
-std::string Campaign::folder_of(const Task& task) const {
+// With what the named files bring along: elements beside .node, files that a .veg includes. Not loaded
+// twice for a problem, whose points differ in their integrators only.
+const std::string& Campaign::mesh_of(const Task& task) {
+  std::string& print = meshes_[task.problem];
+  if (!print.empty()) return print;
+  try {
+    // A copy: reading fills in defaults.
+    const LoadedMesh loaded = read_scene(Config::from_text(task.scene.dump(), task.scene.file())).mesh->load();
+    print = mesh_fingerprint(loaded);
+  } catch (const ConfigError& e) {
+    print = e.what();  // every run of this problem will say so itself
+  }
+  return print;
+}
+
+std::string Campaign::folder_of(const Task& task) {
   Fingerprint print;
   Json job = task.job.json();
   job["reference"] = fs::path(task.job.reference).filename().string();  // a fingerprint itself
   print.add(machine_fingerprint()).add(task.scene.dump()).add(job.dump());
   print.add(fmt::format("{}", comparison_.limits.memory));
   for (const auto& file : task.scene.file_paths()) print.add_file(file);
+  print.add(mesh_of(task));
   return task.kind + "/" + print.text();
 }
 

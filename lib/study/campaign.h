@@ -56,10 +56,12 @@ class Campaign {
     std::string title, kind;  // kind: "points" or "references"
     Config scene;
     Job job;
+    std::size_t problem = 0;
   };
   // The result, from disk if it is there; null if interrupted. Sets `folder`.
   Json perform(const Task& task, const std::atomic<bool>& interrupt, std::string& folder);
-  std::string folder_of(const Task& task) const;
+  std::string folder_of(const Task& task);
+  const std::string& mesh_of(const Task& task);
   Json execute(const std::filesystem::path& folder, const Task& task, const std::atomic<bool>& interrupt);
   bool find_reference(std::size_t problem, const std::atomic<bool>& interrupt);
   bool measure_points(std::size_t problem, const std::atomic<bool>& interrupt, const std::function<void()>& after_each);
@@ -72,6 +74,7 @@ class Campaign {
   std::map<std::size_t, ReferenceResult> references_;
   std::map<std::size_t, Json> results_;
   std::map<std::size_t, std::string> point_folders_;
+  std::map<std::size_t, std::string> meshes_;  // fingerprints by problem
   std::size_t number_ = 0, count_ = 0;
 };
 

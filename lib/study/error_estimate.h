@@ -25,10 +25,14 @@ struct ErrorEstimate {
   double wall_seconds = 0;
 };
 
+// How many states of two runs fit into so many bytes: 200, which tell as much as thousands, or fewer of a
+// large model; 2 at least.
+std::size_t samples_within(double bytes, std::size_t unknowns);
+
 class ErrorEstimator {
  public:
   // `setup` must outlive it. Throws ConfigError if the plan has no outputs to compare at, or the
-  // integrator has neither rtol nor step.
+  // integrator has neither rtol nor step or refuses the second run's values.
   ErrorEstimator(const Setup& setup, Plan plan);
 
   // Looks on at the run whose error is asked for.
@@ -41,10 +45,10 @@ class ErrorEstimator {
   ErrorEstimate estimate(std::vector<Observer*> observers, const std::atomic<bool>& interrupt) const;
 
  private:
-  // Of every so many outputs and the last one: a few hundred samples tell as much as thousands.
+  // Of every so many outputs and the last one.
   class SampleRecorder : public Observer {
    public:
-    explicit SampleRecorder(std::size_t outputs);
+    SampleRecorder(std::size_t outputs, std::size_t samples);
     void on_start(const State& state) override { samples_.on_start(state); }
     void on_output(const State& state) override;
     void on_step(const StepInfo& info, const State&, const Integrator&) override { order_ = info.order; }
@@ -60,8 +64,10 @@ class ErrorEstimator {
   const Setup& setup_;
   Plan plan_;
   Config refined_;
+  Scene refined_scene_;
   bool fixed_step_ = false;
   std::vector<std::string> refinement_;
+  std::size_t samples_;
   SampleRecorder first_;
 };
 

@@ -3,6 +3,8 @@
 #include <dlfcn.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <sstream>
 
 #include "lib/core/versions.h"
 #include "lib/linear/blas.h"
@@ -31,11 +33,33 @@ std::string mesh_fingerprint(const TetMesh& mesh) {
   return print.text();
 }
 
+std::string mesh_fingerprint(const LoadedMesh& loaded) {
+  Fingerprint print;
+  print.add(mesh_fingerprint(loaded.mesh));
+  for (const auto& [region, m] : loaded.materials) {
+    print.add(region).add(m.name).add(m.kind == MeshMaterial::Kind::isotropic ? "isotropic" : "orthotropic");
+    std::vector<double> constants{m.density, m.nu12, m.nu23, m.nu31, m.g12, m.g23, m.g31};
+    constants.insert(constants.end(), m.young.begin(), m.young.end());
+    constants.insert(constants.end(), m.axes.data(), m.axes.data() + m.axes.size());
+    print.add(bytes(constants));
+  }
+  for (const auto& data : loaded.cell_data)
+    print.add(data.name).add(std::to_string(data.components)).add(bytes(data.values));
+  return print.text();
+}
+
 std::string code_fingerprint() {
   Fingerprint print;
   Dl_info info{};
   if (dladdr(reinterpret_cast<const void*>(&code_fingerprint), &info) != 0 && info.dli_fname)
     print.add_file(info.dli_fname);
+  const char* plugins = std::getenv("ORTHODYN_PLUGINS");
+  std::istringstream listed(plugins ? plugins : "");
+  for (std::string file; std::getline(listed, file, ':');) {
+    print.add(file);
+    // One that the loader finds by itself is known by its name only.
+    if (std::error_code ec; std::filesystem::is_regular_file(file, ec)) print.add_file(file);
+  }
   print.add(orthodyn_version()).add(blas_name());
   for (const auto& [library, version] : library_versions()) print.add(library + " " + version);
   return print.text();

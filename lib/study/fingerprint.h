@@ -12,7 +12,11 @@ namespace orthodyn {
 // Of nodes, elements, regions, surfaces and sets of nodes, whatever files they came from.
 std::string mesh_fingerprint(const TetMesh& mesh);
 
-// Of the code that integrates: the file that holds this function, and the versions of the libraries.
+// The same with what the files say of materials and of elements.
+std::string mesh_fingerprint(const LoadedMesh& loaded);
+
+// Of the code that integrates: the file that holds this function, plugins (of the environment variable
+// ORTHODYN_PLUGINS), and the versions of the libraries.
 std::string code_fingerprint();
 
 // Of what times depend on besides: processor, number of cores, threads of BLAS.

@@ -1,9 +1,12 @@
 // The driver and its files, on small scenes.
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <limits>
+#include <thread>
 
 #include "lib/run/checkpoint.h"
+#include "lib/run/checkpointer.h"
 #include "lib/run/curves.h"
 #include "lib/run/run.h"
 #include "lib/run/vtu.h"
@@ -185,6 +188,26 @@ TEST_F(Files, TheEnergyBalanceClosesAsTheToleranceFalls) {
   const double loose = drift("1e-4"), tight = drift("1e-7");
   EXPECT_LT(loose, 1e-2);
   EXPECT_LT(tight, loose / 30);
+}
+
+// Keeping its part takes a while, as for a large model on a slow disk.
+struct SlowKeeper : Observer {
+  void save(Archive&) override {
+    ++saved;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  int saved = 0;
+};
+
+class CheckpointTime : public InFolder {};
+
+TEST_F(CheckpointTime, IsSpentOnATenthOfTheRunAtMost) {
+  Case swing(kSwing);
+  SlowKeeper slow;
+  Checkpointer checkpointer(folder_ / "checkpoint.cbor", {}, {.every = 1e-9}, {{"slow", &slow}}, *swing.integrator);
+  checkpointer.on_start(swing.built.initial);
+  for (int step = 0; step < 5; ++step) checkpointer.on_step({}, swing.built.initial, *swing.integrator);
+  EXPECT_EQ(slow.saved, 1);
 }
 
 }  // namespace

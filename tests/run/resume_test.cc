@@ -409,6 +409,35 @@ TEST_F(Resume, AFolderWithNothingButALockIsEmpty) {
   EXPECT_EQ(result.exit_code, 0) << result.output;
 }
 
+TEST_F(Stopped, OnlyFramesOfTheRunAreRemovedWhenItGoesOn) {
+  const auto frames = folder_ / "out/beam/frames";
+  const std::vector<std::string> others{"frame_99999.png", "frame_99999.vtu.bak", "frame_99999.vtu.part.txt", "frame_7.vtu"};
+  const std::vector<std::string> ours{"frame_99999.vtu", "frame_99998.vtu.part", "frame_00000.vtu.part"};
+  for (const auto& name : others) std::ofstream(frames / name) << "x";
+  for (const auto& name : ours) std::ofstream(frames / name) << "x";
+  ASSERT_EQ(orthodyn("run beam.yaml --quiet --resume").exit_code, 0);
+  for (const auto& name : others) EXPECT_TRUE(fs::exists(frames / name)) << name;
+  for (const auto& name : ours) EXPECT_FALSE(fs::exists(frames / name)) << name;
+}
+
+TEST_F(Resume, TimesWithAUnitAreUnderstoodWhereARunIsComplete) {
+  write("swing.yaml", kSwing);
+  ASSERT_EQ(orthodyn("run swing.yaml --quiet --set 'time.end=500 ms'").exit_code, 0);
+  const auto result = orthodyn("run swing.yaml --resume --set 'time.end=500 ms'");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_NE(result.output.find("complete at t = 0.5 s"), std::string::npos) << result.output;
+}
+
+TEST_F(Resume, TheSameValueInAnotherUnitIsNoChange) {
+  write("swing.yaml", kSwing + std::string("checkpoint: {every: 60}\n"));
+  ASSERT_EQ(orthodyn("run swing.yaml --quiet --set 'materials.soft.young=0.1 MPa'").exit_code, 0);
+  const auto result = orthodyn("run swing.yaml --quiet --resume --set time.end=0.6");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  const auto other = orthodyn("run swing.yaml --quiet --resume --set time.end=0.7 --set 'materials.soft.young=0.2 MPa'");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.output.find("materials.soft.young differs"), std::string::npos) << other.output;
+}
+
 TEST_F(Resume, ItDoesNotGoTogetherWithForce) {
   write("beam.yaml", kBeam + std::string(kBdf));
   EXPECT_EQ(orthodyn("run beam.yaml --resume --force").exit_code, 2);

@@ -275,6 +275,32 @@ repeats: 1
   }
 }
 
+TEST_F(Compare, PointsAreMeasuredAgainWhenAFileBesideTheMeshHasChanged) {
+  const auto elements = [&](const std::string& first) { write("two.ele", "2 4 1\n" + first + "\n2 1 3 2 5 1\n"); };
+  write("two.node", "5 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 0 0 -1\n");
+  elements("1 1 2 3 4 1");
+  write("two.yaml", "mesh: {type: file, file: two.node}\nmaterials: {m: {type: isotropic, density: 1, young: 1e3, nu: "
+                    "0.3}}\ninitial: {spin: [1, 0, 0]}\ntime: {end: 0.1}\n");
+  write("c.yaml", "scenes: [two.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-3]\nrepeats: 1\nreference: {kind: none}\n");
+  ASSERT_EQ(compare().exit_code, 0);
+  EXPECT_NE(compare().output.find("done before"), std::string::npos);
+  elements("1 1 2 3 4 2");
+  const auto again = compare();
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_EQ(again.output.find("done before"), std::string::npos) << again.output;
+}
+
+TEST_F(Compare, AMeshThatCannotBeReadFailsThePointsOfItsSceneOnly) {
+  write("bad.msh", "no mesh");
+  write("bad.yaml", std::string(kSwing).replace(std::string(kSwing).find("{type: box"), 50, "{type: gmsh, file: bad.msh}"));
+  write("c.yaml", "scenes: [bad.yaml, swing.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-3]\nrepeats: 1\n"
+                  "reference: {kind: none}\n");
+  const auto done = compare();
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  EXPECT_EQ(table().at("points")[0].at("reason"), "refused");
+  EXPECT_EQ(table().at("points")[1].at("status"), "completed");
+}
+
 TEST_F(Compare, NeverWritesIntoAFolderOfSomethingElse) {
   fs::create_directories(folder_ / "mine");
   write("mine/thesis.tex", "precious");

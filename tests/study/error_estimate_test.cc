@@ -82,6 +82,29 @@ TEST(ErrorEstimate, ThousandsOfOutputsAreSampledUpToTheLast) {
               1, 0.05);
 }
 
+TEST(ErrorEstimate, StepsMayHaveAUnit) {
+  const Estimated plain("{type: arkode_dirk, step: 0.01, rtol: 1e-8}"), with_unit("{type: arkode_dirk, step: 10 ms, rtol: 1e-8}");
+  EXPECT_EQ(with_unit.estimate.against, "integrator.step=0.005");
+  EXPECT_EQ(with_unit.estimate.displacement.l2, plain.estimate.displacement.l2);
+}
+
+// Two runs with q and v each, in doubles.
+TEST(ErrorEstimate, TakesFewerSamplesOfALargeModel) {
+  EXPECT_EQ(samples_within(1e9, 600), 200u);
+  for (const std::size_t dofs : {200'000u, 600'000u, 5'000'000u}) {
+    const double bytes = 2.0 * 2 * 8 * static_cast<double>(dofs) * static_cast<double>(samples_within(1e9, dofs));
+    EXPECT_LE(bytes, 1e9);
+    EXPECT_GT(bytes, 0.8e9);
+  }
+  EXPECT_EQ(samples_within(1e9, 1'000'000'000), 2u);  // some, whatever it takes
+}
+
+TEST(ErrorEstimate, ARefinedValueThatIsRefusedIsRefusedBeforeTheRun) {
+  // A tenth of the smallest number is zero.
+  const auto setup = set_up(Config::from_text(kLinear + "integrator: {type: arkode_dirk, step: 0.01, rtol: 5e-324}\n"));
+  EXPECT_THROW(ErrorEstimator(setup, Plan{1, {0.5, 1}, false}), ConfigError);
+}
+
 TEST(ErrorEstimate, HasNothingToSayWithoutOutputs) {
   const auto setup = set_up(Config::from_text(kLinear));
   EXPECT_THROW(ErrorEstimator(setup, Plan{1, {}, false}), ConfigError);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "lib/core/values.h"
 #include "lib/core/versions.h"
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/report.h"
@@ -169,7 +170,8 @@ class Run {
     const auto earlier = Config::from_file((folder_.path() / "scene.yaml").string());
     const auto changed = changed_keys(earlier, Config::from_text(resolved));
     const bool longer = std::find(changed.begin(), changed.end(), "time.end") != changed.end();
-    if (!longer && refused_changes(changed).empty()) return say_complete(earlier.at("time").at("end").number());
+    if (!longer && refused_changes(changed).empty())
+      return say_complete(read_number(earlier.at("time").at("end"), {.unit = "s"}));
     throw ConfigError(fmt::format("{}: holds a completed run without a checkpoint, which cannot be resumed with other "
                                   "values ({}); start anew with --force in place of --resume",
                                   folder_.path().string(), join(changed)));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "lib/core/values.h"
+
 namespace orthodyn {
 
 namespace {
@@ -10,18 +12,26 @@ namespace {
 constexpr const char* kAllowed[] = {"time.end", "checkpoint", "expect", "integrator.max_steps", "integrator.h_min",
                                     "integrator.max_newton_iterations"};
 
-std::optional<double> number(const Config& value) {
+// The units of keys, one for each dimension.
+constexpr const char* kUnits[] = {"m", "s", "Pa", "kg/m^3", "m/s", "m/s^2", "rad", "rad/s", "N", "Hz", "bytes"};
+
+std::optional<double> number(const Config& value, const char* unit) {
   try {
-    return value.number();
+    return read_number(value, {.unit = unit});
   } catch (const ConfigError&) {
     return std::nullopt;
   }
 }
 
+// "25 mm" and 0.025 are the same in the only unit that both can be read in; of two plain numbers the unit
+// does not matter.
 bool same_scalar(const Config& a, const Config& b) {
   if (a.text() == b.text()) return true;
-  const auto x = number(a), y = number(b);
-  return x && y && *x == *y;
+  for (const char* unit : kUnits) {
+    const auto x = number(a, unit), y = number(b, unit);
+    if (x && y) return *x == *y;
+  }
+  return false;
 }
 
 bool is_given(const Config& section, const std::string& key) {

@@ -8,7 +8,7 @@
 
 namespace orthodyn {
 
-// Paths of values that differ, in the order of `now`. Numbers are compared as numbers, a key without a
+// Paths of values that differ, in the order of `now`. Numbers are compared as numbers, with their units; a key without a
 // value counts as absent.
 std::vector<std::string> changed_keys(const Config& before, const Config& now);
 
