@@ -26,7 +26,7 @@ std::string unique_name(TakenNames& taken, const std::string& name, const std::s
 }
 
 void note_lost_materials_and_data(WrittenMesh& written, const LoadedMesh& loaded) {
-  note_loss(written, "materials", names_of(loaded.materials));
+  note_loss(written, "the materials of regions", names_of(loaded.materials));
   std::vector<std::string> arrays;
   for (const CellData& data : loaded.cell_data) {
     if (data.name != "region") arrays.push_back(data.name);  // its numbers are the regions themselves

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <iterator>
 
 #include "lib/mesh/mesh_writer.h"
@@ -20,8 +21,16 @@ std::string abaqus_name(std::string name) {
   return name;
 }
 
+// In quotes only where it must be: some readers take the quotes for a part of the name.
+std::string quoted_if_needed(const std::string& name) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == '.'; };
+  const bool is_plain = !name.empty() && std::isalpha(static_cast<unsigned char>(name.front())) &&
+                        std::all_of(name.begin(), name.end(), plain);
+  return is_plain ? name : "\"" + name + "\"";
+}
+
 void add_list(std::string& text, const std::string& keyword, const std::string& name, const std::vector<int>& numbers) {
-  text += fmt::format("*{}, {}=\"{}\"\n", keyword, keyword, name);
+  text += fmt::format("*{}, {}={}\n", keyword, keyword, quoted_if_needed(name));
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const bool last = k % 16 == 15 || k + 1 == numbers.size();
     text += fmt::format("{}{}", numbers[k], last ? "\n" : ", ");
@@ -94,7 +103,7 @@ WrittenMesh write_abaqus(const LoadedMesh& loaded) {
   if (!mesh.surfaces.empty()) {
     const std::vector<TetFace> faces = sorted_faces(mesh);
     for (const auto& [name, triangles] : mesh.surfaces) {
-      text += fmt::format("*SURFACE, TYPE=ELEMENT, NAME=\"{}\"\n", named(surfaces, name));
+      text += fmt::format("*SURFACE, TYPE=ELEMENT, NAME={}\n", quoted_if_needed(named(surfaces, name)));
       for (const Triangle& t : triangles) {
         const auto [element, side] = element_and_side(mesh, faces, t);
         text += fmt::format("{}, S{}\n", element, side);

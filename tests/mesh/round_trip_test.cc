@@ -131,6 +131,15 @@ TEST(WrittenAbaqus, KeepsNamesWithCommasAndSetsThatDifferInCapitals) {
   EXPECT_EQ(read.node_sets.at("tip_2"), std::vector<int>{1});
 }
 
+// Other readers take the quotes for a part of the name.
+TEST(WrittenAbaqus, QuotesOnlyTheNamesThatNeedIt) {
+  LoadedMesh loaded = sample();
+  loaded.mesh.region_names = {"oak-2", "x, y=1"};
+  const std::string text = write_abaqus(loaded).files.at(0).text;
+  EXPECT_NE(text.find("ELSET=oak-2\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("ELSET=\"x, y=1\"\n"), std::string::npos) << text;
+}
+
 TEST(WrittenVega, MaterialsWhoseNamesAreAlikeStayTwo) {
   LoadedMesh loaded = sample();
   MeshMaterial soft{.name = "a b", .density = 1, .young = Vec3::Constant(1), .nu12 = .3, .nu23 = .3, .nu31 = .3};
