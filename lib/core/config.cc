@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +10,7 @@
 #include <set>
 #include <sstream>
 
+#include "lib/core/parse_number.h"
 #include "lib/core/yaml_document.h"
 
 namespace orthodyn {
@@ -25,18 +25,6 @@ struct Document {
   std::set<std::string> filled;      // paths of defaults: they stand on no line
   std::map<std::string, std::pair<YAML::Node, std::string>> files;  // by path: values that name files
 };
-
-bool parse_number(std::string_view text, double& value) {
-  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  const auto [end, ec] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return ec == std::errc{} && end == text.data() + text.size();
-}
-
-// yaml-cpp makes a map of a scalar and a null of a missing entry; we want to be asked first.
-bool parse_index(const std::string& text, std::size_t& index) {
-  const auto [end, ec] = std::from_chars(text.data(), text.data() + text.size(), index);
-  return ec == std::errc{} && end == text.data() + text.size();
-}
 
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -58,7 +46,7 @@ YAML::Node entry(YAML::Node& parent, const std::string& step, const std::string&
     throw ConfigError(fmt::format("{}: there is nothing below '{}', which is a value", origin,
                                   path.substr(0, path.size() - step.size() - 1)));
   std::size_t index = 0;
-  if (!parse_index(step, index) || index >= parent.size())
+  if (!parse_number(step, index) || index >= parent.size())
     throw ConfigError(fmt::format("{}: '{}' is not an index below {}", origin, step, parent.size()));
   return parent[index];
 }

@@ -3,28 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <system_error>
 #include <utility>
 
 #include "lib/core/errors.h"
+#include "lib/core/parse_number.h"
 
 namespace orthodyn {
 namespace {
-
-// from_chars knows no plus sign, but some writers do.
-std::string_view without_plus(std::string_view word) {
-  const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
-  return plus ? word.substr(1) : word;
-}
-
-template <class Number>
-bool parse(std::string_view word, Number& value) {
-  word = without_plus(word);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size();
-}
 
 }  // namespace
 
@@ -58,7 +44,7 @@ std::string_view TextTokens::word(const char* what) {
 std::int64_t TextTokens::integer(const char* what) {
   const std::string_view found = word(what);
   std::int64_t value = 0;
-  if (!parse(found, value)) {
+  if (!parse_number(found, value)) {
     fail(fmt::format("expected {} (an integer), found {}", what, quoted(found)));
   }
   return value;
@@ -73,7 +59,7 @@ std::int64_t TextTokens::count(const char* what) {
 double TextTokens::real(const char* what) {
   const std::string_view found = word(what);
   double value = 0;
-  if (!parse(found, value) || !std::isfinite(value)) {
+  if (!parse_number(found, value) || !std::isfinite(value)) {
     fail(fmt::format("expected {} (a finite number), found {}", what, quoted(found)));
   }
   return value;

@@ -1,12 +1,12 @@
 #include "lib/mesh/vtk_numbers.h"
 
-#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <map>
 #include <stdexcept>
 #include <system_error>
 
+#include "lib/core/parse_number.h"
 #include "lib/mesh/text_tokens.h"
 
 namespace orthodyn {
@@ -57,10 +57,7 @@ std::vector<double> vtk_numbers(std::string_view text) {
     const std::size_t end = std::min(text.find_first_of(kBlanks, p), text.size());
     const std::string_view word = text.substr(p, end - p);
     double value = 0;
-    const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || stop != word.data() + word.size()) {
-      throw std::runtime_error("expected a number, found " + TextTokens::quoted(word));
-    }
+    if (!parse_number(word, value)) throw std::runtime_error("expected a number, found " + TextTokens::quoted(word));
     out.push_back(value);
     p = end;
   }

@@ -1,11 +1,11 @@
 #include "lib/scene/axes/csv_table.h"
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 
 #include "lib/core/errors.h"
+#include "lib/core/parse_number.h"
 
 namespace orthodyn {
 
@@ -28,11 +28,7 @@ std::vector<std::string> entries(const std::string& line) {
   }
 }
 
-bool parse(const std::string& text, double& value) {
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), end, value);
-  return error == std::errc() && stop == end && std::isfinite(value);
-}
+bool parse(const std::string& text, double& value) { return parse_number(text, value) && std::isfinite(value); }
 
 void check_names(const CsvTable& table, const std::string& where, const std::vector<std::string>& required,
                  const std::vector<std::string>& optional) {
