@@ -35,10 +35,13 @@ void check_all_regions_have_one(const Config& config, const LoadedMesh& loaded) 
 
 }  // namespace
 
+LoadedMesh load_mesh(const Scene& scene) { return scene.loaded ? *scene.loaded : scene.mesh->load(); }
+
 void fill_mesh_materials(const Config& config, Scene& scene) {
   if (!scene.mesh->may_bring_materials())
     config.fail("key 'materials' is missing (name: section with type)");
-  const LoadedMesh loaded = scene.mesh->load();
+  scene.loaded = std::make_shared<const LoadedMesh>(scene.mesh->load());
+  const LoadedMesh& loaded = *scene.loaded;
   check_all_regions_have_one(config, loaded);
   const Config materials = config.fill("materials", "{}");
   for (const auto& [region, material] : loaded.materials) {

@@ -11,4 +11,7 @@ namespace orthodyn {
 // of those of some of its regions.
 void fill_mesh_materials(const Config& config, Scene& scene);
 
+// The scene's mesh, which is read here if it was not for its materials. Throws ConfigError.
+LoadedMesh load_mesh(const Scene& scene);
+
 }  // namespace orthodyn

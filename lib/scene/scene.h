@@ -121,6 +121,7 @@ struct CheckpointSchedule {
 
 struct Scene {
   std::shared_ptr<const MeshSource> mesh;
+  std::shared_ptr<const LoadedMesh> loaded;  // where the mesh had to be read for its materials already
   Named<std::shared_ptr<const Material>> materials;
   Named<Region> regions;
   Elasticity elasticity;

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "lib/run/files.h"
-#include "lib/scene/scene.h"
+#include "lib/scene/mesh_materials.h"
 #include "lib/study/fingerprint.h"
 #include "lib/study/measure.h"
 
@@ -124,8 +124,7 @@ const std::string& Campaign::mesh_of(const Task& task) {
   if (!print.empty()) return print;
   try {
     // A copy: reading fills in defaults.
-    const LoadedMesh loaded = read_scene(Config::from_text(task.scene.dump(), task.scene.file())).mesh->load();
-    print = mesh_fingerprint(loaded);
+    print = mesh_fingerprint(load_mesh(read_scene(Config::from_text(task.scene.dump(), task.scene.file()))));
   } catch (const ConfigError& e) {
     print = e.what();  // every run of this problem will say so itself
   }
