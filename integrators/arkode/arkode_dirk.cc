@@ -212,8 +212,12 @@ class ArkodeDirkChoice : public IntegratorChoice, public DirkOptions {
             });
     return s;
   }
-  std::unique_ptr<Integrator> make(const Model& model, const std::function<Scales()>& estimate) const override {
-    return std::make_unique<ArkodeDirk>(model, Settings::complete(*this, estimate), *this);
+  static MethodFacts facts() {
+    return method_facts("2-5, by `table`", "L-stable, stiffly accurate", "linear invariants (momentum)",
+                        "Reynolds et al., ACM TOMS 49, 2023; Kennedy & Carpenter, NASA TM-2016-219173");
+  }
+  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+    return std::make_unique<ArkodeDirk>(model, Settings::complete(*this, task), *this);
   }
 };
 

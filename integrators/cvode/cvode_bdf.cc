@@ -131,8 +131,13 @@ class CvodeBdfChoice : public IntegratorChoice, public MultistepOptions {
     static const auto s = MultistepOptions::spec_for<CvodeBdfChoice>();
     return s;
   }
-  std::unique_ptr<Integrator> make(const Model& model, const std::function<Scales()>& estimate) const override {
-    return std::make_unique<CvodeBdf>(model, MultistepSettings::complete(*this, model, estimate));
+  static MethodFacts facts() {
+    return method_facts("1-5, variable", "A-stable and damping at order 1-2, A(alpha) at 3-5 (alpha 86 to 51 degrees)",
+                        "linear invariants (momentum); energy of oscillations is damped",
+                        "Hindmarsh et al., ACM TOMS 31, 2005; Curtiss & Hirschfelder 1952");
+  }
+  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+    return std::make_unique<CvodeBdf>(model, MultistepSettings::complete(*this, model, task));
   }
 };
 

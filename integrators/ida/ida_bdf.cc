@@ -160,8 +160,13 @@ class IdaBdfChoice : public IntegratorChoice, public MultistepOptions {
     static const auto s = MultistepOptions::spec_for<IdaBdfChoice>();
     return s;
   }
-  std::unique_ptr<Integrator> make(const Model& model, const std::function<Scales()>& estimate) const override {
-    return std::make_unique<IdaBdf>(model, MultistepSettings::complete(*this, model, estimate));
+  static MethodFacts facts() {
+    return method_facts("1-5, variable", "as cvode_bdf, with a fixed leading coefficient",
+                        "linear invariants (momentum); energy of oscillations is damped",
+                        "Hindmarsh et al., ACM TOMS 31, 2005; Brenan, Campbell & Petzold 1996");
+  }
+  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+    return std::make_unique<IdaBdf>(model, MultistepSettings::complete(*this, model, task));
   }
 };
 

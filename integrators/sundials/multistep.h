@@ -21,8 +21,8 @@ struct MultistepSettings : Settings {
 
   // Orders above 2 stall on undamped oscillations: part of the imaginary axis is unstable for them.
   static MultistepSettings complete(const MultistepOptions& options, const Model& model,
-                                    const std::function<Scales()>& estimate) {
-    MultistepSettings s{Settings::complete(options, estimate),
+                                    const Task& task) {
+    MultistepSettings s{Settings::complete(options, task),
                         options.max_order.value_or(model.traits().damped ? 5 : 2)};
     s.decisions.emplace_back("max_order", std::to_string(s.max_order));
     return s;

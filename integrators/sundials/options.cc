@@ -36,9 +36,9 @@ void check_options(const Options& options, const Config& config) {
             (near.empty() ? "" : "; did you mean '" + near + "'?"));
 }
 
-Settings Settings::complete(const Options& options, const std::function<Scales()>& estimate) {
+Settings Settings::complete(const Options& options, const Task& task) {
   const bool given = options.position_scale && options.velocity_scale;
-  const Scales estimated = given ? Scales{} : estimate();
+  const Scales estimated = given ? Scales{} : task.scales();
   const Scales scales = {options.position_scale.value_or(estimated.position),
                          options.velocity_scale.value_or(estimated.velocity)};
   return {options,

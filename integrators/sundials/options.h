@@ -40,7 +40,7 @@ struct Settings {
     return options.gauss_newton ? TangentKind::gauss_newton : TangentKind::exact;
   }
 
-  static Settings complete(const Options& options, const std::function<Scales()>& estimate);
+  static Settings complete(const Options& options, const Task& task);
 
   // Block weights: 1/(rtol * position) for q, 1/(rtol * velocity) for v. Relative tolerances on
   // positions would depend on the frame.

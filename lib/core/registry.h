@@ -2,7 +2,7 @@
 //
 //   const bool registered = Registry<MeshSource>::add<BoxSource>("box", "A box of tetrahedra.");
 //
-// T derives from Base and has a static spec().
+// T derives from Base and has a static spec(); a static facts() may tell more about it, for lists.
 #pragma once
 
 #include <functional>
@@ -29,14 +29,13 @@ class Registry {
 
   template <class T>
   static bool add(const std::string& name, const std::string& sentence) {
-    const bool is_new = mutable_entries()
-        .emplace(name, Entry{{sentence, T::spec().keys()},
-                             [](const Config& config) -> std::shared_ptr<const Base> {
-                               auto item = std::make_shared<T>();
-                               T::spec().read_into(config, *item, {"type"});
-                               return item;
-                             }})
-        .second;
+    Entry entry{{sentence, T::spec().keys()}, [](const Config& config) -> std::shared_ptr<const Base> {
+                  auto item = std::make_shared<T>();
+                  T::spec().read_into(config, *item, {"type"});
+                  return item;
+                }};
+    if constexpr (requires { T::facts(); }) entry.facts = T::facts();
+    const bool is_new = mutable_entries().emplace(name, std::move(entry)).second;
     if (!is_new) registry_conflicts().push_back(name);
     return is_new;
   }

@@ -28,6 +28,7 @@ struct Key;
 struct Alternative {
   std::string sentence;
   std::vector<Key> keys;  // beside `type`
+  std::vector<std::pair<std::string, std::string>> facts = {};  // ("source", "Newmark 1959"), for lists
 };
 
 struct Shape {

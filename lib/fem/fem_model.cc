@@ -1,6 +1,7 @@
 #include "lib/fem/fem_model.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace orthodyn {
 
@@ -48,6 +49,15 @@ void FemModel::combine(const Weights& w, const Linearization& at, double* values
   A = w.stiffness * Eigen::Map<const Vector>(at.stiffness.data(), size);
   if (!at.damping.empty()) A += w.damping * Eigen::Map<const Vector>(at.damping.data(), size);
   if (const double m = w.mass + w.damping * parts_.mass_damping; m != 0) parts_.mass->add_to(m, values);
+}
+
+// The largest frequency of any element bounds that of the mesh (Irons 1971).
+double FemModel::frequency_bound() const {
+  double largest = 0;
+  for (std::size_t k = 0; k < parts_.elastic.size(); ++k)
+    largest = std::max(largest, parts_.elastic[k]->max_frequency_squared(parts_.densities[k]));
+  // A consistent element mass is at worst five times smaller in a mode than the lumped one.
+  return std::sqrt((parts_.mass->lumped() ? 1 : 5) * largest);
 }
 
 std::vector<double> FemModel::breakpoints(double start, double end) const {

@@ -23,6 +23,7 @@ class FemModel : public Model {
     std::unique_ptr<Mass> mass;
     std::unique_ptr<NodalVector> rest;                  // node positions
     std::vector<std::unique_ptr<ElasticTerm>> elastic;  // one per region
+    std::vector<double> densities;                      // kg/m^3, of each of these
     std::vector<std::unique_ptr<Term>> loads;           // everything else
     double mass_damping = 0;                            // 1/s
     bool stiffness_damping = false;                     // in any region
@@ -40,6 +41,7 @@ class FemModel : public Model {
   void combine(const Weights& w, const Linearization& at, double* values) const override;
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { parts_.mass->multiply(x, y); }
   void solve_mass(VectorRef x) const override { parts_.mass->solve(x); }
+  double frequency_bound() const override;
   std::vector<double> breakpoints(double start, double end) const override;
 
   std::vector<OutputInfo> outputs() const override;

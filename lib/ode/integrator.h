@@ -50,14 +50,27 @@ struct Scales {
   double position = 1, velocity = 1;
 };
 
+// What an integrator is wanted for.
+struct Task {
+  std::function<Scales()> scales;  // an estimate, asked for only if the input gives none
+  State initial;
+  double end = 0;              // s
+  double output_interval = 0;  // s, about
+};
+
+// What a reader wants to know of a method before choosing it; a choice tells it by a static facts().
+using MethodFacts = std::vector<std::pair<std::string, std::string>>;
+inline MethodFacts method_facts(const std::string& order, const std::string& stability, const std::string& conserves,
+                                const std::string& source) {
+  return {{"order", order}, {"stability", stability}, {"conserves", conserves}, {"source", source}};
+}
+
 // The options of one integrator, read from the input; makes the integrator for a model.
 class IntegratorChoice {
  public:
   virtual ~IntegratorChoice() = default;
-  // `estimate` is asked only if the input gives no scales. Throws ConfigError if the integrator
-  // cannot serve the model, which must outlive it.
-  virtual std::unique_ptr<Integrator> make(const Model& model,
-                                           const std::function<Scales()>& estimate) const = 0;
+  // Throws ConfigError if the integrator cannot serve the model, which must outlive it.
+  virtual std::unique_ptr<Integrator> make(const Model& model, const Task& task) const = 0;
 };
 
 }  // namespace orthodyn

@@ -4,6 +4,7 @@
 // scheme solves A = w_m M + w_d D + w_k K with its own three weights.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,15 @@ struct Linearization {
   std::vector<double> stiffness, damping;
 };
 
+// Of a conservative model: a force between two states, which makes energy and momentum of a step exact.
+class DiscreteGradient {
+ public:
+  virtual ~DiscreteGradient() = default;
+  // f with f . (q1 - q0) = U(q0) - U(q1) to round-off, no net force or torque of its own about the midpoint,
+  // and the limit f(q) as q1 -> q0; N.
+  virtual void force(double t0, const ConstVectorRef& q0, double t1, const ConstVectorRef& q1, VectorRef f) const = 0;
+};
+
 class Model : public OutputSource {
  public:
   virtual int num_dofs() const = 0;
@@ -53,6 +63,17 @@ class Model : public OutputSource {
   virtual void multiply_mass(const ConstVectorRef& x, VectorRef y) const = 0;
   // x <- M^-1 x
   virtual void solve_mass(VectorRef x) const = 0;
+
+  // An upper bound of the largest angular frequency about rest, rad/s; 0 if there is none at hand.
+  virtual double frequency_bound() const { return 0; }
+
+  // Null if the model has none.
+  virtual const DiscreteGradient* discrete_gradient() const { return nullptr; }
+
+  // The parts that the force consists of, by name ("gravity"), and the model that has the same mass and only
+  // some of them; this model must outlive it. Precondition: the names are among force_parts().
+  virtual std::vector<std::string> force_parts() const { return {}; }
+  virtual std::unique_ptr<Model> only(const std::vector<std::string>& parts) const;
 
   // Times in (start, end) where f is not smooth: multistep methods restart there. Ascending.
   virtual std::vector<double> breakpoints(double start, double end) const;

@@ -8,6 +8,7 @@
 #include "lib/fem/gravity.h"
 #include "lib/fem/traction.h"
 #include "lib/scene/initial_state.h"
+#include "lib/scene/mesh_materials.h"
 #include "lib/scene/selection.h"
 
 namespace orthodyn {
@@ -67,6 +68,7 @@ void add_elasticity(const Scene& scene, const std::vector<const Region*>& region
     parts.elastic.push_back(make_elastic_term(
         mesh.region_names[r], mesh, std::move(cells), material_of(scene, region).stiffness(),
         axes, stiffness_damping(scene, region), scene.elasticity, *parts.pattern));
+    parts.densities.push_back(material_of(scene, region).density());
   }
 }
 
@@ -126,7 +128,7 @@ int nearest_node(const TetMesh& mesh, const Vec3& point) {
 }
 
 BuiltScene build(const Scene& scene) {
-  LoadedMesh loaded = scene.mesh->load();
+  LoadedMesh loaded = load_mesh(scene);
   FemModel::Parts parts;
   parts.mesh = std::move(loaded.mesh);
   const auto regions = assign_regions(scene, parts.mesh);

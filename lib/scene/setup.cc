@@ -59,6 +59,13 @@ void check_expectations(const Scene& scene, const FemModel& model) {
 
 }  // namespace
 
+Task task_of(const Scene& scene, const BuiltScene& built) {
+  const auto& [start, end] = scene.time;
+  const double frames = scene.output.frames.value_or(50);
+  const double interval = scene.output.interval.value_or((end - start) / std::max(frames, 1.0));
+  return {[&] { return estimate_scales(scene, built); }, built.initial, end, interval};
+}
+
 Setup set_up(Config config) {
   Scene scene = read_scene(config);
   BuiltScene built = build(scene);
@@ -74,7 +81,9 @@ Setup set_up(Config config) {
     for (auto& warning : strain_warnings(scene, built, response())) built.warnings.push_back(std::move(warning));
   std::unique_ptr<Integrator> integrator;
   try {
-    integrator = scene.integrator->make(*built.model, [&] { return estimate_scales(scene, built, response()); });
+    Task task = task_of(scene, built);
+    task.scales = [&] { return estimate_scales(scene, built, response()); };
+    integrator = scene.integrator->make(*built.model, task);
   } catch (const ConfigError& e) {
     config.at("integrator").fail(e.what());
   }

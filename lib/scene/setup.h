@@ -16,6 +16,9 @@ struct Setup {
   std::unique_ptr<Integrator> integrator;
 };
 
+// What the scene wants of its integrator. Both must outlive the task.
+Task task_of(const Scene& scene, const BuiltScene& built);
+
 // Reads, validates and builds. Throws ConfigError.
 Setup set_up(Config config);
 

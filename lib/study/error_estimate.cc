@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "lib/core/values.h"
-#include "lib/scene/scales.h"
+#include "lib/scene/setup.h"
 
 namespace orthodyn {
 
@@ -76,7 +76,7 @@ ErrorEstimate ErrorEstimator::estimate(std::vector<Observer*> observers, const s
   ErrorEstimate estimate;
   estimate.against = refinement_.front();
   const auto integrator =
-      refined_scene_.integrator->make(model, [&] { return estimate_scales(setup_.scene, setup_.built); });
+      refined_scene_.integrator->make(model, task_of(setup_.scene, setup_.built));
   SampleRecorder second(plan_.output_times.size(), samples_);
   observers.push_back(&second);
   const Outcome outcome = run(model, *integrator, setup_.built.initial, plan_, observers, interrupt);

@@ -132,7 +132,9 @@ bool Measurement::run_once(const std::vector<Observer*>& observers, const Plan& 
 }
 
 std::unique_ptr<Integrator> Measurement::fresh_integrator() const {
-  return integrator_->make(*setup_.built.model, []() -> Scales { throw std::logic_error("scales are known"); });
+  Task task = task_of(setup_.scene, setup_.built);
+  task.scales = []() -> Scales { throw std::logic_error("scales are known"); };
+  return integrator_->make(*setup_.built.model, task);
 }
 
 bool Measurement::time_runs() {

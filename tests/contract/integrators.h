@@ -56,7 +56,7 @@ inline std::unique_ptr<Integrator> make_integrator(const Pair& pair, const Small
   if (has_key(pair.integrator, "table") && o.more.find("table:") == std::string::npos)
     yaml += ", table: " + table_of(o.max_order);
   const auto choice = Registry<IntegratorChoice>::read(Config::from_text(yaml + o.more + "}"));
-  return choice->make(model, [&] { return model.scales(); });
+  return choice->make(model, {[&] { return model.scales(); }, model.initial(), model.end(), model.end() / 50});
 }
 
 using OnStep = std::function<void(const StepInfo&, const Integrator&)>;

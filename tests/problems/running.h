@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "lib/run/run.h"
-#include "lib/scene/scales.h"
+#include "lib/scene/setup.h"
 #include "tests/fem/built_scene.h"
 
 namespace orthodyn {
@@ -18,7 +18,7 @@ struct Watch : Observer {
 
 // To the scene's end; `look` sees the start and `frames` evenly spaced states.
 inline Outcome run_scene(const BuiltTestScene& s, int frames, std::function<void(const State&)> look) {
-  const auto integrator = s.scene.integrator->make(s.model(), [&] { return estimate_scales(s.scene, s.built); });
+  const auto integrator = s.scene.integrator->make(s.model(), task_of(s.scene, s.built));
   const Plan plan{s.scene.time.end, evenly_spaced(s.scene.time.start, s.scene.time.end, frames)};
   Watch watch(std::move(look));
   return run(s.model(), *integrator, s.built.initial, plan, {&watch}, {false});

@@ -28,7 +28,7 @@ struct Recorder : Observer {
 struct Case {
   explicit Case(const std::string& yaml)
       : scene(read_scene(Config::from_text(yaml))), built(build(scene)),
-        integrator(scene.integrator->make(*built.model, [] { return Scales{0.1, 1}; })) {}
+        integrator(scene.integrator->make(*built.model, {[] { return Scales{0.1, 1}; }, built.initial, scene.time.end, 0})) {}
   Outcome run_with(Plan plan, std::vector<Observer*> observers) {
     plan.end = scene.time.end;
     return run(*built.model, *integrator, built.initial, plan, observers, never);

@@ -1,6 +1,6 @@
 #include <filesystem>
 
-#include "lib/scene/scales.h"
+#include "lib/scene/setup.h"
 #include "tests/scene/scenes.h"
 
 namespace orthodyn {
@@ -27,7 +27,7 @@ TEST(ShippedScenes, EachLoadsBuildsAndMakesItsIntegrator) {
     const Scene scene = read_scene(Config::from_file(file));
     const BuiltScene built = build(scene);
     EXPECT_GT(built.model->num_dofs(), 0) << file;
-    EXPECT_TRUE(scene.integrator->make(*built.model, [&] { return estimate_scales(scene, built); })) << file;
+    EXPECT_TRUE(scene.integrator->make(*built.model, task_of(scene, built))) << file;
   }
 }
 

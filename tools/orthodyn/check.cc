@@ -43,19 +43,6 @@ void print_materials(const Scene& scene) {
   }
 }
 
-// 2 / omega_max, by the largest element frequency (Irons 1971): a lower bound of the critical step.
-double critical_step(const Scene& scene, const FemModel& model) {
-  double largest = 0;
-  for (const auto& term : model.parts().elastic) {
-    const int region = model.parts().mesh.region_of[static_cast<std::size_t>(term->cell(0))];
-    const auto& region_name = model.parts().mesh.region_names[static_cast<std::size_t>(region)];
-    largest = std::max(largest, term->max_frequency_squared(density_of(scene, region_name)));
-  }
-  // A consistent element mass is at worst five times smaller in a mode than the lumped one.
-  const double factor = model.traits().lumped_mass ? 1 : 5;
-  return 2 / std::sqrt(factor * largest);
-}
-
 void print_memory(const FemModel& model, const Integrator& integrator) {
   std::size_t sum = 0;
   fmt::print("memory\n");
@@ -97,7 +84,7 @@ int check_command(const RunArguments& arguments) {
   if (parts.mass_damping > 0) fmt::print("  mass-proportional damping\n");
   fmt::print("system\n  {} unknowns, {} non-zeros ({})\n", model.num_dofs(), model.pattern().non_zeros(),
              model.pattern().symmetric ? "symmetric, lower triangle" : "general");
-  fmt::print("  critical step of an explicit scheme at least {:.4g} s\n", critical_step(setup.scene, model));
+  fmt::print("  critical step of an explicit scheme at least {:.4g} s\n", 2 / model.frequency_bound());
   const auto breakpoints = model.breakpoints(setup.scene.time.start, setup.scene.time.end);
   if (!breakpoints.empty()) fmt::print("  restarts at kinks of the loads: {} s\n", fmt::join(breakpoints, ", "));
   fmt::print("integrator\n  type {}\n", setup.config.at("integrator").at("type").text());

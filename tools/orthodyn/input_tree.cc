@@ -42,7 +42,7 @@ class Walk {
   void visit_choice(const std::string& path, const Shape& shape) {
     if (!seen_.insert(shape.title).second) return;
     for (const auto& [type, alternative] : shape.alternatives()) {
-      sections.push_back({path, type, alternative.sentence, alternative.keys});
+      sections.push_back({path, type, alternative.sentence, alternative.keys, alternative.facts});
       visit(path, alternative.keys);
     }
   }

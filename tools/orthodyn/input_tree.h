@@ -24,6 +24,7 @@ struct InputSection {
   std::string type;      // the word of `type`, or ""
   std::string sentence;  // of the key that it stands at, or of the type
   std::vector<Key> keys;
+  std::vector<std::pair<std::string, std::string>> facts = {};  // of the type: ("source", "Newmark 1959")
 };
 
 // All sections of a file, each before those within it; what can stand in several places is listed once.

@@ -30,7 +30,11 @@ void print_entry(const std::string& name, const std::string& sentence, const std
 
 template <class Base>
 void print_registry() {
-  for (const auto& [name, entry] : Registry<Base>::entries()) print_entry(name, entry.sentence, entry.keys);
+  for (const auto& [name, entry] : Registry<Base>::entries()) {
+    std::string sentence = entry.sentence;
+    for (const auto& [fact, text] : entry.facts) sentence += fmt::format("\n    {}: {}", fact, text);
+    print_entry(name, sentence, entry.keys);
+  }
 }
 
 void print_presets() {

@@ -1,16 +1,15 @@
-#include "integrators/sundials/reduced_solve.h"
+#include "integrators/newton_matrix.h"
 
 #include "lib/core/errors.h"
 
-namespace orthodyn::sundials {
+namespace orthodyn {
 
 namespace {
 constexpr int kGaussNewtonSetups = 10;
 }
 
-ReducedSolve::ReducedSolve(const Model& model, const std::string& solver, TangentKind tangent,
-                           Statistics& statistics)
-    : model_(model), statistics_(statistics), tangent_(tangent), work_(model.num_dofs()) {
+NewtonMatrix::NewtonMatrix(const Model& model, const std::string& solver, TangentKind tangent, Statistics& statistics)
+    : model_(model), statistics_(statistics), tangent_(tangent) {
   const auto& kind = solver_registry().at(solver);
   if (!model.pattern().symmetric && !kind.takes_general)
     throw ConfigError("linear solver '" + solver + "' needs a symmetric tangent; use klu or klu_full, or " +
@@ -20,12 +19,12 @@ ReducedSolve::ReducedSolve(const Model& model, const std::string& solver, Tangen
   values_.resize(model.pattern().row.size());
 }
 
-std::size_t ReducedSolve::bytes() const {
+std::size_t NewtonMatrix::bytes() const {
   const auto matrices = model_.traits().damping_matrix ? 3u : 2u;  // K, A and perhaps D
-  return (matrices * values_.size() + 3 * static_cast<std::size_t>(work_.size())) * sizeof(double);
+  return (matrices * values_.size() + 2 * static_cast<std::size_t>(model_.num_dofs())) * sizeof(double);
 }
 
-void ReducedSolve::linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v) {
+void NewtonMatrix::linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v) {
   at_.t = t;
   at_.q = q;
   at_.v = v;
@@ -33,35 +32,36 @@ void ReducedSolve::linearize(double t, const ConstVectorRef& q, const ConstVecto
   if (gauss_newton_left_ > 0) --gauss_newton_left_;
 }
 
-void ReducedSolve::assemble(TangentKind kind) {
+void NewtonMatrix::assemble(TangentKind kind) {
   const Measure measure(statistics_.tangent);
   model_.linearize(at_.t, at_.q, at_.v, kind, linearization_);
 }
 
-FactorStatus ReducedSolve::try_factor(double gamma) {
+FactorStatus NewtonMatrix::try_factor() {
   const Measure measure(statistics_.factorization);
-  gamma_ = gamma;
-  model_.combine({1, gamma, gamma * gamma}, linearization_, values_.data());
+  model_.combine(weights_, linearization_, values_.data());
   return solver_->factor(values_.data());
 }
 
-bool ReducedSolve::factor(double gamma) {
-  auto status = try_factor(gamma);
+bool NewtonMatrix::factor(const Weights& weights) {
+  weights_ = weights;
+  auto status = try_factor();
   if (status == FactorStatus::not_positive_definite && !model_.traits().linear) {
     ++statistics_.gauss_newton_fallbacks;
     gauss_newton_left_ = kGaussNewtonSetups;
     assemble(TangentKind::gauss_newton);
-    status = try_factor(gamma);
+    status = try_factor();
   }
   return status == FactorStatus::ok;
 }
 
-void ReducedSolve::solve(const ConstVectorRef& r_q, const ConstVectorRef& p, VectorRef dq, VectorRef dv) {
+void NewtonMatrix::solve(const ConstVectorRef& b, VectorRef x) {
   const Measure measure(statistics_.solve);
-  model_.pattern().multiply(linearization_.stiffness.data(), r_q, work_);
-  work_ = p - gamma_ * work_;
-  solver_->solve(work_, dv);
-  dq = r_q + gamma_ * dv;
+  solver_->solve(b, x);
 }
 
-}  // namespace orthodyn::sundials
+void NewtonMatrix::multiply_stiffness(const ConstVectorRef& x, VectorRef y) const {
+  model_.pattern().multiply(linearization_.stiffness.data(), x, y);
+}
+
+}  // namespace orthodyn

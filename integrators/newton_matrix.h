@@ -1,0 +1,54 @@
+// The symmetric n x n matrix of every implicit scheme, A = w_m M + w_d D + w_k K, and its factor.
+//
+// When the exact tangent makes A indefinite, K is rebuilt from the Gauss-Newton part, which is
+// positive semidefinite, and stays so for the next few set-ups.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "lib/linear/solver.h"
+#include "lib/ode/model.h"
+#include "lib/ode/statistics.h"
+
+namespace orthodyn {
+
+class NewtonMatrix {
+ public:
+  // Throws ConfigError if the solver does not take the model's matrices. `model` and `statistics`
+  // must outlive this.
+  NewtonMatrix(const Model& model, const std::string& solver, TangentKind tangent, Statistics& statistics);
+
+  // K and D at a state; factor() then may be called for any weights.
+  void linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v);
+
+  // False if no factor could be had: a smaller step may help.
+  bool factor(const Weights& weights);
+
+  // x = A^-1 b. b and x may be the same.
+  void solve(const ConstVectorRef& b, VectorRef x);
+
+  // y = K x
+  void multiply_stiffness(const ConstVectorRef& x, VectorRef y) const;
+
+  const Weights& weights() const { return weights_; }  // of the last factor()
+  std::size_t factor_bytes() const { return solver_->factor_bytes(); }
+  std::size_t bytes() const;
+  std::string description() const { return solver_->description(); }
+
+ private:
+  void assemble(TangentKind kind);
+  FactorStatus try_factor();
+
+  const Model& model_;
+  Statistics& statistics_;
+  std::unique_ptr<LinearSolver> solver_;
+  TangentKind tangent_;
+  int gauss_newton_left_ = 0;  // set-ups for which the Gauss-Newton part is used
+  State at_;                   // where K and D were taken
+  Linearization linearization_;
+  std::vector<double> values_;  // of A
+  Weights weights_;
+};
+
+}  // namespace orthodyn
