@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <muParser.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "lib/core/versions.h"
 
@@ -18,20 +18,23 @@ const bool version_registered =
 
 }  // namespace
 
-struct PointFormula::Parsed {
-  mutable Vec3 x = Vec3::Ones();  // where muParser looks the variables up
+struct Formula::Parsed {
+  std::vector<std::string> names;
+  mutable std::vector<double> variables;  // where muParser looks them up
   mu::Parser parser;
 };
 
-PointFormula::PointFormula(const std::string& text, std::string where) : text_(text), where_(std::move(where)) {
+Formula::Formula(const std::string& text, const std::vector<std::string>& variables, std::string where)
+    : text_(text), where_(std::move(where)) {
   auto parsed = std::make_shared<Parsed>();
+  parsed->names = variables;
+  parsed->variables.assign(variables.size(), 1);
   try {
     auto& parser = parsed->parser;
     parser.ClearConst();
     parser.DefineConst("pi", std::numbers::pi);
     parser.DefineConst("e", std::numbers::e);
-    const char* const names[] = {"x", "y", "z"};
-    for (int i = 0; i < 3; ++i) parser.DefineVar(names[i], &parsed->x[i]);
+    for (std::size_t i = 0; i < variables.size(); ++i) parser.DefineVar(variables[i], &parsed->variables[i]);
     parser.SetExpr(text);
     parser.Eval();
   } catch (const mu::Parser::exception_type& e) {
@@ -40,24 +43,23 @@ PointFormula::PointFormula(const std::string& text, std::string where) : text_(t
   parsed_ = std::move(parsed);
 }
 
-double PointFormula::at(const Vec3& x) const {
-  parsed_->x = x;
+double Formula::evaluate(const double* values) const {
+  std::copy_n(values, parsed_->variables.size(), parsed_->variables.begin());
   double value = std::nan("");
   try {
     value = parsed_->parser.Eval();
   } catch (const mu::Parser::exception_type&) {  // no std::exception; the value stays what it is
   }
   if (std::isfinite(value)) return value;
-  throw ConfigError(fmt::format("{}: '{}' is {} at x = {}, y = {}, z = {}", where_, text_, value, x[0], x[1], x[2]));
+  std::vector<std::string> place;
+  for (std::size_t i = 0; i < parsed_->names.size(); ++i)
+    place.push_back(fmt::format("{} = {}", parsed_->names[i], values[i]));
+  throw ConfigError(fmt::format("{}: '{}' is {} at {}", where_, text_, value, join(place)));
 }
 
-PointFormula Value<PointFormula>::read(const Config& c, const Rule&) {
-  try {
-    return PointFormula(c.text(), c.where());
-  } catch (const std::invalid_argument& e) {
-    c.fail(fmt::format("cannot read the formula {}: {} Known: x, y, z, pi, e, and functions such as sin, exp, sqrt.",
-                       c.shown(), e.what()));
-  }
+void fail_formula(const Config& c, const std::string& known, const std::string& complaint) {
+  c.fail(fmt::format("cannot read the formula {}: {} Known: {}, pi, e, and functions such as sin, exp, sqrt.", c.shown(),
+                     complaint, known));
 }
 
 }  // namespace orthodyn
