@@ -1,13 +1,10 @@
-// Loads, their factors in time, and damping.
+// Loads and damping.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
-#include "lib/core/errors.h"
-#include "lib/fem/time_function.h"
 #include "tests/fem/built_scene.h"
 
 namespace orthodyn {
@@ -73,49 +70,6 @@ TEST(Gravity, HasTheEnergyOfTheHeight) {
   const auto s = box("gravity: [0, 0, -9]");
   const Vector q = s.dofs([](const Vec3&) { return Vec3(5, 0, 2); });
   EXPECT_NEAR(s.scalar("energy.gravitational", q, s.zero()), 3 * 9 * 2, 1e-12);
-}
-
-std::shared_ptr<const TimeFunction> factor(const std::string& yaml) {
-  return Registry<TimeFunction>::read(Config::from_text(yaml));
-}
-
-TEST(TimeFunction, ConstantIsConstant) {
-  const auto f = factor("{type: constant, value: -2}");
-  EXPECT_EQ(f->value(-1), -2);
-  EXPECT_EQ(f->value(1e9), -2);
-  EXPECT_TRUE(f->constant());
-  EXPECT_TRUE(f->kinks().empty());
-  EXPECT_EQ(f->peak(), 2);
-}
-
-TEST(TimeFunction, RampRisesBetweenItsKinks) {
-  const auto f = factor("{type: ramp, start: 1, end: 3, value: -4}");
-  for (const auto& [t, expected] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {1.5, -1.0}, {3.0, -4.0}, {9.0, -4.0}})
-    EXPECT_EQ(f->value(t), expected) << t;
-  EXPECT_EQ(f->kinks(), (std::vector<double>{1, 3}));
-  EXPECT_EQ(f->peak(), 4);
-  EXPECT_FALSE(f->constant());
-}
-
-TEST(TimeFunction, SineHasFrequencyAmplitudeAndPhase) {
-  const auto f = factor("{type: sine, frequency: 2, amplitude: 3, phase: 0.5}");
-  EXPECT_NEAR(f->value(0.3), 3 * std::sin(2 * std::numbers::pi * 2 * 0.3 + 0.5), 1e-14);
-  EXPECT_TRUE(f->kinks().empty());
-  EXPECT_EQ(f->peak(), 3);
-}
-
-TEST(TimeFunction, TableIsLinearBetweenItsPointsAndConstantBeyond) {
-  const auto f = factor("{type: table, points: [[1, 2], [2, -6], [4, 0]]}");
-  for (const auto& [t, expected] : {std::pair{0.0, 2.0}, {1.0, 2.0}, {1.25, 0.0}, {2.0, -6.0}, {3.0, -3.0}, {4.0, 0.0}, {7.0, 0.0}})
-    EXPECT_EQ(f->value(t), expected) << t;
-  EXPECT_EQ(f->kinks(), (std::vector<double>{1, 2, 4}));
-  EXPECT_EQ(f->peak(), 6);
-}
-
-TEST(TimeFunction, RefusesTimesThatDoNotAscend) {
-  EXPECT_THROW(factor("{type: table, points: [[1, 2], [1, 3]]}"), ConfigError);
-  EXPECT_THROW(factor("{type: table, points: []}"), ConfigError);
-  EXPECT_THROW(factor("{type: ramp, start: 1, end: 1}"), ConfigError);
 }
 
 TEST(Breakpoints, AreTheKinksOfAllLoadsWithinTheTimeSpanSortedOnce) {
