@@ -21,6 +21,11 @@ class GroundSprings : public Term {
     for (const int i : nodes_) pattern_.add(i, i, pattern_.offset(i, i), k_ * Mat3::Identity(), stiffness);
   }
 
+  // For the step of explicit schemes.
+  void add_stiffness_bound(Vector& row_sums) const override {
+    for (const int i : nodes_) row_sums[i] += k_;
+  }
+
   EnergyKind energy_kind() const override { return EnergyKind::elastic; }
   double energy(const NodalState& s) const override {
     double sum = 0;

@@ -1,6 +1,7 @@
 // The sparsity pattern of a mesh, and where the 3x3 block of two nodes lies in it.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "lib/core/pattern.h"
@@ -9,10 +10,12 @@
 
 namespace orthodyn {
 
+using NodePairs = std::vector<std::pair<int, int>>;
+
 class BlockPattern {
  public:
-  // Couples the nodes of each tet. `dofs` must outlive the pattern.
-  BlockPattern(const std::vector<Tet>& tets, const DofMap& dofs, bool symmetric);
+  // Couples the nodes of each tet, and the further pairs. `dofs` must outlive the pattern.
+  BlockPattern(const std::vector<Tet>& tets, const DofMap& dofs, bool symmetric, const NodePairs& further = {});
 
   const Pattern& pattern() const { return pattern_; }
   bool symmetric() const { return pattern_.symmetric; }

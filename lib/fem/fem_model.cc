@@ -10,24 +10,43 @@ NodalExpansion::NodalExpansion(const FemModel::Parts& parts, double time, const 
     : t(time), x(*parts.rest), u_rate(NodalVector::Zero(3, parts.rest->cols())) {
   parts.dofs->add_to(q, x);
   parts.dofs->add_to(v, u_rate);
+  if (parts.moved) parts.moved->place(t, x, u_rate);
 }
 
+namespace {
+
 template <class F>
-void FemModel::for_each_term(F&& f) const {
-  for (const auto& term : parts_.elastic) f(static_cast<const Term&>(*term));
-  for (const auto& term : parts_.loads) f(static_cast<const Term&>(*term));
+void for_each_term(const FemModel::Parts& parts, F&& f) {
+  for (const auto& term : parts.elastic) f(static_cast<const Term&>(*term));
+  for (const auto& term : parts.loads) f(static_cast<const Term&>(*term));
+}
+
+}  // namespace
+
+NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& nodal) {
+  NodalVector sum = NodalVector::Zero(3, nodal.x.cols());
+  for_each_term(parts, [&](const Term& term) { term.add_force(nodal.state(), sum); });
+  return sum;
+}
+
+void free_forces(const FemModel::Parts& parts, const NodalExpansion& nodal, const ConstVectorRef& v,
+                 const NodalVector& forces, VectorRef out) {
+  parts.dofs->restrict_to(forces, out);
+  if (parts.mass_damping > 0) {
+    Vector momentum(out.size());
+    parts.mass->multiply(v, momentum);
+    out -= parts.mass_damping * momentum;
+  }
+  if (!parts.moved || parts.mass->lumped()) return;
+  const NodalVector a = parts.moved->accelerations(nodal.t) + parts.mass_damping * held_part(*parts.dofs, nodal.u_rate);
+  Vector pull(out.size());
+  parts.dofs->restrict_to(parts.support_mass->times(a), pull);
+  out -= pull;
 }
 
 void FemModel::force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const {
   const NodalExpansion nodal(parts_, t, q, v);
-  NodalVector sum = NodalVector::Zero(3, nodal.x.cols());
-  for_each_term([&](const Term& term) { term.add_force(nodal.state(), sum); });
-  parts_.dofs->restrict_to(sum, f);
-  if (parts_.mass_damping > 0) {
-    Vector momentum(v.size());
-    parts_.mass->multiply(v, momentum);
-    f -= parts_.mass_damping * momentum;
-  }
+  free_forces(parts_, nodal, v, term_forces(parts_, nodal), f);
 }
 
 void FemModel::linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
@@ -36,10 +55,10 @@ void FemModel::linearize(double t, const ConstVectorRef& q, const ConstVectorRef
   if (parts_.traits.linear && out.stiffness.size() == size) return;  // constant: assembled once
   const NodalExpansion nodal(parts_, t, q, v);
   out.stiffness.assign(size, 0);
-  if (parts_.stiffness_damping) out.damping.assign(size, 0);
-  for_each_term([&](const Term& term) {
+  if (parts_.traits.damping_matrix) out.damping.assign(size, 0);
+  for_each_term(parts_, [&](const Term& term) {
     term.add_tangent(nodal.state(), kind, out.stiffness.data(),
-                     parts_.stiffness_damping ? out.damping.data() : nullptr);
+                     parts_.traits.damping_matrix ? out.damping.data() : nullptr);
   });
 }
 
@@ -51,21 +70,31 @@ void FemModel::combine(const Weights& w, const Linearization& at, double* values
   if (const double m = w.mass + w.damping * parts_.mass_damping; m != 0) parts_.mass->add_to(m, values);
 }
 
-// The largest frequency of any element bounds that of the mesh (Irons 1971).
+// The largest frequency of any element bounds that of the mesh (Irons 1971); Gershgorin's circles bound what
+// other terms add.
 double FemModel::frequency_bound() const {
   double largest = 0;
   for (std::size_t k = 0; k < parts_.elastic.size(); ++k)
     largest = std::max(largest, parts_.elastic[k]->max_frequency_squared(parts_.densities[k]));
+  if (!parts_.loads.empty()) {
+    Vector row_sums = Vector::Zero(parts_.mass->nodal().size());
+    for (const auto& term : parts_.loads) term->add_stiffness_bound(row_sums);
+    largest += row_sums.cwiseQuotient(parts_.mass->nodal()).maxCoeff();
+  }
   // A consistent element mass is at worst five times smaller in a mode than the lumped one.
   return std::sqrt((parts_.mass->lumped() ? 1 : 5) * largest);
 }
 
 std::vector<double> FemModel::breakpoints(double start, double end) const {
   std::vector<double> times;
-  for_each_term([&](const Term& term) {
+  for_each_term(parts_, [&](const Term& term) {
     const auto more = term.breakpoints(start, end);
     times.insert(times.end(), more.begin(), more.end());
   });
+  if (parts_.moved) {
+    const auto more = parts_.moved->breakpoints(start, end);
+    times.insert(times.end(), more.begin(), more.end());
+  }
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
@@ -75,15 +104,19 @@ std::vector<std::pair<std::string, std::size_t>> FemModel::memory() const {
   const auto& mesh = parts_.mesh;
   const auto nodes = mesh.nodes.size();
   std::size_t elements = 0;
-  for_each_term([&](const Term& term) { elements += term.bytes(); });
+  for_each_term(parts_, [&](const Term& term) { elements += term.bytes(); });
   const auto& pattern = parts_.pattern->pattern();
   // Positions, velocities and forces of all nodes, while a force is computed.
   const std::size_t expansion = 3 * nodes * sizeof(Vec3);
-  return {{"mesh", nodes * (2 * sizeof(Vec3) + 3 * sizeof(int)) + mesh.tets.size() * (sizeof(Tet) + sizeof(int))},
-          {"elements", elements},
-          {"pattern", (pattern.row.size() + pattern.column_start.size()) * sizeof(int)},
-          {"mass", parts_.mass->bytes()},
-          {"nodal vectors", expansion}};
+  std::vector<std::pair<std::string, std::size_t>> all = {
+      {"mesh", nodes * (2 * sizeof(Vec3) + 3 * sizeof(int)) + mesh.tets.size() * (sizeof(Tet) + sizeof(int))},
+      {"elements", elements},
+      {"pattern", (pattern.row.size() + pattern.column_start.size()) * sizeof(int)},
+      {"mass", parts_.mass->bytes()},
+      {"nodal vectors", expansion}};
+  if (parts_.support_mass)
+    all.emplace_back("supports", parts_.support_mass->bytes() + (parts_.moved ? parts_.moved->bytes() : 0));
+  return all;
 }
 
 }  // namespace orthodyn

@@ -1,18 +1,29 @@
-// A finite element model: mass, terms and clamps of one body, as the Model that integrators see.
-// q are the displacements of the free coordinates from the rest shape, m.
+// A finite element model: mass, terms, clamps and moved supports of one body, as the Model that integrators see.
+// q are the displacements of the free coordinates from the rest shape, m. With a consistent mass the moved
+// coordinates c pull at the free ones f: M_ff a_f = f_f - M_fc a_c.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "lib/fem/elastic_term.h"
 #include "lib/fem/mass.h"
+#include "lib/fem/moved_nodes.h"
+#include "lib/fem/support_mass.h"
 #include "lib/fem/term.h"
 #include "lib/mesh/tet_mesh.h"
 #include "lib/ode/model.h"
 
 namespace orthodyn {
+
+// Held or moved coordinates that have a name, for their reaction.
+struct Support {
+  std::string name;
+  std::vector<int> nodes;
+  std::vector<std::array<bool, 3>> held;  // of each node the coordinates
+};
 
 class FemModel : public Model {
  public:
@@ -26,7 +37,9 @@ class FemModel : public Model {
     std::vector<double> densities;                      // kg/m^3, of each of these
     std::vector<std::unique_ptr<Term>> loads;           // everything else
     double mass_damping = 0;                            // 1/s
-    bool stiffness_damping = false;                     // in any region
+    std::unique_ptr<MovedNodes> moved;                  // null if none
+    std::vector<Support> supports;                      // those whose reactions are wanted
+    std::unique_ptr<SupportMass> support_mass;          // null without either
     Traits traits;
   };
 
@@ -54,9 +67,6 @@ class FemModel : public Model {
   std::vector<std::pair<std::string, std::size_t>> memory() const;
 
  private:
-  template <class F>
-  void for_each_term(F&& f) const;
-
   Parts parts_;
 };
 
@@ -67,5 +77,13 @@ struct NodalExpansion {
   double t;
   NodalVector x, u_rate;
 };
+
+// The forces of all terms on all nodes, N.
+NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& nodal);
+
+// What accelerates the free coordinates: their part of these forces, less mass-proportional damping and the
+// pull of moved nodes. v: free velocities.
+void free_forces(const FemModel::Parts& parts, const NodalExpansion& nodal, const ConstVectorRef& v,
+                 const NodalVector& forces, VectorRef out);
 
 }  // namespace orthodyn

@@ -1,9 +1,10 @@
 // The named fields and scalars of a FemModel.
 #include <functional>
 #include <map>
+#include <optional>
 #include <stdexcept>
 
-#include "lib/fem/fem_model.h"
+#include "lib/fem/reactions.h"
 
 namespace orthodyn {
 
@@ -76,16 +77,23 @@ Vector momentum_dofs(const Parts& parts, const NodalExpansion& nodal) {
   return p;
 }
 
+// v_f M_ff v_f/2 + v_f M_fc v_c + v_c M_cc v_c/2 for free coordinates f and moved ones c.
 double kinetic_energy(const Parts& parts, const NodalExpansion& nodal) {
   Vector v(parts.dofs->num_dofs());
   parts.dofs->restrict_to(nodal.u_rate, v);
-  return 0.5 * v.dot(momentum_dofs(parts, nodal));
+  const double free = 0.5 * v.dot(momentum_dofs(parts, nodal));
+  if (!parts.moved) return free;
+  const NodalVector moved = held_part(*parts.dofs, nodal.u_rate);
+  return free + (nodal.u_rate - 0.5 * moved).cwiseProduct(parts.support_mass->times(moved)).sum();
 }
 
+// M_ff v_f, and with moved nodes M v.
 NodalVector nodal_momentum(const Parts& parts, const NodalExpansion& nodal) {
   NodalVector p = NodalVector::Zero(3, nodal.x.cols());
   parts.dofs->add_to(momentum_dofs(parts, nodal), p);
-  return p;
+  if (!parts.moved) return p;
+  const NodalVector moved = held_part(*parts.dofs, nodal.u_rate), free = nodal.u_rate - moved;
+  return p + parts.support_mass->times(moved) + held_part(*parts.dofs, parts.support_mass->times(free));
 }
 
 Values angular_momentum(const Parts& parts, const NodalExpansion& nodal) {
@@ -103,7 +111,7 @@ double dissipated_power(const Parts& parts, const NodalExpansion& nodal) {
 }
 
 double load_power(const Parts& parts, const NodalExpansion& nodal) {
-  double power = 0;
+  double power = support_power(parts, nodal);
   for (const auto& term : parts.loads) power += term->load_power(nodal.state());
   return power;
 }
@@ -142,12 +150,12 @@ const std::vector<Output>& all_outputs() {
                        "Elastic Cauchy stress in the rotated material axes: 11, 22, 33, 12, 23, 31.",
                        [](const PointObservation& o) { return Mat3(o.axes.transpose() * o.cauchy * o.axes); }),
       scalar("energy.kinetic", "J", "Kinetic energy.", kinetic_energy),
-      scalar("energy.elastic", "J", "Elastic energy.",
+      scalar("energy.elastic", "J", "Elastic energy, that of springs and of contact included.",
              [](const Parts& p, const NodalExpansion& n) { return energy_of(EnergyKind::elastic, p, n); }),
       scalar("energy.gravitational", "J", "Energy in the gravity field, zero at rest.",
              [](const Parts& p, const NodalExpansion& n) { return energy_of(EnergyKind::gravitational, p, n); }),
       scalar("power.dissipated", "W", "Power taken by damping.", dissipated_power),
-      scalar("power.loads", "W", "Power of loads.", load_power),
+      scalar("power.loads", "W", "Power of loads and of moved supports.", load_power),
       {{"det_f.smallest", Location::global, 2, "1", "The smallest det F, and the element that has it."},
        [](const Parts& p, const NodalExpansion& n) {
          Values out{std::numeric_limits<double>::infinity(), -1};
@@ -163,7 +171,7 @@ const std::vector<Output>& all_outputs() {
          const double speed = std::sqrt(n.u_rate.colwise().squaredNorm().maxCoeff(&node));
          return Values{speed, static_cast<double>(node)};
        }},
-      {{"momentum.linear", Location::global, 3, "kg m/s", "Linear momentum of the free coordinates."},
+      {{"momentum.linear", Location::global, 3, "kg m/s", "Linear momentum of the free coordinates, and of moved ones."},
        [](const Parts& p, const NodalExpansion& n) { return flat(Vec3(nodal_momentum(p, n).rowwise().sum())); }},
       {{"momentum.angular", Location::global, 3, "kg m^2/s", "Angular momentum about the origin."},
        angular_momentum},
@@ -171,18 +179,39 @@ const std::vector<Output>& all_outputs() {
   return all;
 }
 
+// Of the supports whose reactions are wanted.
+std::vector<Output> reaction_outputs(const std::vector<Support>& supports) {
+  std::vector<Output> out;
+  for (const Support& support : supports) {
+    out.push_back({{"reaction." + support.name, Location::global, 3, "N", "Force of the support on the body."},
+                   [&support](const Parts& p, const NodalExpansion& n) {
+                     return flat(reaction(support, support_forces(p, n)));
+                   }});
+    out.push_back({{"torque." + support.name, Location::global, 3, "N m", "Its torque about the middle of its nodes."},
+                   [&support](const Parts& p, const NodalExpansion& n) {
+                     return flat(reaction_torque(support, support_forces(p, n), n.x));
+                   }});
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<OutputInfo> FemModel::outputs() const {
   std::vector<OutputInfo> infos;
   for (const auto& output : all_outputs()) infos.push_back(output.info);
+  for (const auto& output : reaction_outputs(parts_.supports)) infos.push_back(output.info);
   return infos;
 }
 
 std::vector<double> FemModel::evaluate(const std::string& name, const State& state) const {
-  for (const auto& output : all_outputs())
-    if (output.info.name == name)
-      return output.compute(parts_, NodalExpansion(parts_, state.t, state.q, state.v));
+  const auto find_in = [&](const std::vector<Output>& outputs) -> std::optional<Values> {
+    for (const auto& output : outputs)
+      if (output.info.name == name) return output.compute(parts_, NodalExpansion(parts_, state.t, state.q, state.v));
+    return {};
+  };
+  if (const auto found = find_in(all_outputs())) return *found;
+  if (const auto found = find_in(reaction_outputs(parts_.supports))) return *found;
   throw std::logic_error("no output named " + name);
 }
 

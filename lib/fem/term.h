@@ -35,6 +35,9 @@ class Term {
   // Adds -df/dx to `stiffness` and -df/dv to `damping` (null if the model has no D).
   virtual void add_tangent(const NodalState&, TangentKind, double* /*stiffness*/, double* /*damping*/) const {}
 
+  // Adds to each node an upper bound of the row sums of its stiffness, N/m; elasticity has its own bound.
+  virtual void add_stiffness_bound(Vector& /*row_sums*/) const {}
+
   virtual EnergyKind energy_kind() const { return EnergyKind::none; }
   virtual double energy(const NodalState&) const { return 0; }     // J
   virtual double dissipation(const NodalState&) const { return 0; }  // W, >= 0

@@ -98,7 +98,7 @@ std::vector<std::string> probe_header(const Model& model, const std::vector<Prob
   for (const auto& column : columns) {
     const auto info = info_of(model, column.field);
     for (int c = 0; c < info.components; ++c)
-      header.push_back(fmt::format("{}.{}{} [{}]", column.name, column.field,
+      header.push_back(fmt::format("{}{}{} [{}]", column.name.empty() ? "" : column.name + ".", column.field,
                                    info.components == 3 ? axis[c] : "", info.unit));
   }
   return header;

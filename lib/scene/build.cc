@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <map>
 
+#include "lib/fem/dead_load.h"
 #include "lib/fem/gravity.h"
-#include "lib/fem/traction.h"
 #include "lib/scene/initial_state.h"
 #include "lib/scene/mesh_materials.h"
-#include "lib/scene/selection.h"
+#include "lib/scene/supports.h"
 
 namespace orthodyn {
 
@@ -78,9 +78,17 @@ void add_loads(const Scene& scene, FemModel::Parts& parts) {
   for (const Load& load : scene.loads) {
     const auto& triangles = find_surface(parts.mesh, load.surface, load.origin);
     const Vec3 traction = load.traction ? *load.traction : *load.force / surface_area(parts.mesh, triangles);
-    parts.loads.push_back(std::make_unique<Traction>(load.surface, parts.mesh, triangles, traction, load.factor));
+    parts.loads.push_back(std::make_unique<DeadLoad>("traction on " + load.surface,
+                                                     surface_forces(parts.mesh, triangles, traction), load.factor));
   }
   for (const auto& term : scene.terms) parts.loads.push_back(term->make(parts));
+}
+
+void add_supports(Supports supports, const std::vector<double>& density, FemModel::Parts& parts) {
+  if (!supports.moved.empty()) parts.moved = std::make_unique<MovedNodes>(std::move(supports.moved), *parts.rest);
+  parts.supports = std::move(supports.named);
+  if (parts.moved || !parts.supports.empty())
+    parts.support_mass = std::make_unique<SupportMass>(*parts.mass, parts.mesh, density, *parts.dofs);
 }
 
 Traits traits_of(const Scene& scene, const std::vector<const Region*>& regions) {
@@ -93,12 +101,20 @@ Traits traits_of(const Scene& scene, const std::vector<const Region*>& regions) 
   traits.time_dependent = std::any_of(scene.loads.begin(), scene.loads.end(), [](const Load& load) {
     return !load.factor->constant();
   });
+  traits.time_dependent |= !scene.motions.empty();
   traits.dissipative = traits.damping_matrix || (scene.damping && scene.damping->mass > 0);
-  traits.loaded = !scene.loads.empty();
+  traits.loaded = !scene.loads.empty() || !scene.motions.empty();
   const bool warped = scene.elasticity.corotation == Corotation::warped && !traits.linear;
   traits.conservative = !warped && !traits.dissipative && !traits.time_dependent;
   for (const auto& term : scene.terms) term->declare(traits);
   return traits;
+}
+
+NodePairs couplings(const Scene& scene, const TetMesh& mesh) {
+  NodePairs all;
+  for (const auto& term : scene.terms)
+    for (const auto& pair : term->couplings(mesh)) all.push_back(pair);
+  return all;
 }
 
 // What the materials had to change of the input.
@@ -120,33 +136,28 @@ double density_of(const Scene& scene, const std::string& mesh_region) {
   return material_in(scene, mesh_region).density();
 }
 
-int nearest_node(const TetMesh& mesh, const Vec3& point) {
-  const auto nearer = [&](const Vec3& a, const Vec3& b) {
-    return (a - point).squaredNorm() < (b - point).squaredNorm();
-  };
-  return static_cast<int>(std::min_element(mesh.nodes.begin(), mesh.nodes.end(), nearer) - mesh.nodes.begin());
-}
-
 BuiltScene build(const Scene& scene) {
   LoadedMesh loaded = load_mesh(scene);
   FemModel::Parts parts;
   parts.mesh = std::move(loaded.mesh);
   const auto regions = assign_regions(scene, parts.mesh);
+  Supports supports = make_supports(scene, parts.mesh);
   const int num_nodes = static_cast<int>(parts.mesh.nodes.size());
-  parts.dofs = std::make_unique<DofMap>(num_nodes, clamped_coordinates(scene.clamps, parts.mesh));
+  parts.dofs = std::make_unique<DofMap>(num_nodes, supports.held);
   if (parts.dofs->num_dofs() == 0)
-    scene.clamps.front().origin.fail("all nodes are clamped: nothing can move");
+    (scene.clamps.empty() ? scene.motions.front().origin : scene.clamps.front().origin)
+        .fail("all nodes are held: nothing can move");
   const bool symmetric = !(scene.elasticity.kinematics == Kinematics::corotational &&
                            scene.elasticity.corotation == Corotation::warped &&
                            scene.elasticity.warped_tangent == WarpedTangent::unsymmetric);
-  parts.pattern = std::make_unique<BlockPattern>(parts.mesh.tets, *parts.dofs, symmetric);
-  parts.mass = std::make_unique<Mass>(scene.mass, parts.mesh, densities(scene, parts.mesh, regions), *parts.dofs,
-                                      *parts.pattern);
+  parts.pattern = std::make_unique<BlockPattern>(parts.mesh.tets, *parts.dofs, symmetric, couplings(scene, parts.mesh));
+  const auto density = densities(scene, parts.mesh, regions);
+  parts.mass = std::make_unique<Mass>(scene.mass, parts.mesh, density, *parts.dofs, *parts.pattern);
   parts.rest = std::make_unique<NodalVector>(3, num_nodes);
   for (int i = 0; i < num_nodes; ++i) parts.rest->col(i) = parts.mesh.nodes[static_cast<std::size_t>(i)];
+  add_supports(std::move(supports), density, parts);
   parts.mass_damping = scene.damping ? scene.damping->mass : 0;
   parts.traits = traits_of(scene, regions);
-  parts.stiffness_damping = parts.traits.damping_matrix;
   add_elasticity(scene, regions, parts, loaded.warnings);
   add_loads(scene, parts);
   BuiltScene built{std::make_unique<FemModel>(std::move(parts)), {}, std::move(loaded.warnings)};

@@ -22,7 +22,4 @@ BuiltScene build(const Scene& scene);
 const Material& material_in(const Scene& scene, const std::string& mesh_region);
 double density_of(const Scene& scene, const std::string& mesh_region);
 
-// The node nearest to a point of the rest shape.
-int nearest_node(const TetMesh& mesh, const Vec3& point);
-
 }  // namespace orthodyn

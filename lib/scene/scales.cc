@@ -11,6 +11,25 @@ double initial_energy(const FemModel& model, const State& state) {
   return model.evaluate("energy.kinetic", state)[0] + model.evaluate("energy.elastic", state)[0];
 }
 
+// How far and how fast moved nodes go; zero if there are none.
+struct Reach {
+  double distance = 0, speed = 0;  // m, m/s
+};
+
+Reach reach_of_supports(const FemModel& model, const TimeSpan& time) {
+  constexpr int kSamples = 200;
+  const auto& parts = model.parts();
+  Reach reach;
+  if (!parts.moved) return reach;
+  for (int k = 0; k <= kSamples; ++k) {
+    NodalVector x = *parts.rest, v = NodalVector::Zero(3, x.cols());
+    parts.moved->place(time.start + (time.end - time.start) * k / kSamples, x, v);
+    reach.distance = std::max(reach.distance, (x - *parts.rest).colwise().norm().maxCoeff());
+    reach.speed = std::max(reach.speed, v.colwise().norm().maxCoeff());
+  }
+  return reach;
+}
+
 }  // namespace
 
 Scales estimate_scales(const Scene& scene, const BuiltScene& built, const StaticResponse& statics) {
@@ -21,9 +40,11 @@ Scales estimate_scales(const Scene& scene, const BuiltScene& built, const Static
   const double energy = at_rest ? 0 : initial_energy(model, built.initial);  // not round-off
   if (!std::isfinite(energy)) throw ConfigError("the initial state has no finite energy; check `initial`");
   const double work = statics.exists() ? statics.work : extent * statics.load.lpNorm<1>();
-  Scales scales{0.1 * extent, 3 * std::sqrt(2 * (energy + work) / mass)};
-  if (statics.exists() && at_rest)
-    scales.position = std::min(scales.position, 2 * statics.displacement.cwiseAbs().maxCoeff());
+  const Reach reach = reach_of_supports(model, scene.time);
+  Scales scales{0.1 * extent, 3 * std::sqrt(2 * (energy + work) / mass + reach.speed * reach.speed)};
+  const double deflection = statics.exists() ? statics.displacement.cwiseAbs().maxCoeff() : 0;
+  const bool known = statics.exists() || (reach.distance > 0 && statics.load.isZero(0));
+  if (known && at_rest) scales.position = std::min(scales.position, 2 * std::max(deflection, reach.distance));
   if (scales.velocity == 0) scales.velocity = extent / (scene.time.end - scene.time.start);
   return scales;
 }

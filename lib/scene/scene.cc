@@ -5,11 +5,6 @@
 namespace orthodyn {
 
 template <>
-struct Words<Component> {
-  static constexpr std::array<std::pair<Component, const char*>, 3> list{
-      {{Component::x, "x"}, {Component::y, "y"}, {Component::z, "z"}}};
-};
-template <>
 struct Words<OutputTimes> {
   static constexpr std::array<std::pair<OutputTimes, const char*>, 2> list{
       {{OutputTimes::interpolated, "interpolated"}, {OutputTimes::exact, "exact"}}};
@@ -35,43 +30,14 @@ struct Words<WarpedTangent> {
       {{WarpedTangent::rotated, "rotated"}, {WarpedTangent::unsymmetric, "unsymmetric"}}};
 };
 
-const Spec<BoxSelection>& BoxSelection::spec() {
-  static const auto s =
-      Spec<BoxSelection>()
-          .key("min", &BoxSelection::min, "Lowest coordinates.", {.required = true, .unit = "m"})
-          .key("max", &BoxSelection::max, "Highest coordinates.", {.required = true, .unit = "m"});
-  return s;
-}
-
-const Spec<PlaneSelection>& PlaneSelection::spec() {
-  static const auto s =
-      Spec<PlaneSelection>()
-          .key("point", &PlaneSelection::point, "A point of the plane.", {.required = true, .unit = "m"})
-          .key("normal", &PlaneSelection::normal, "Its normal, of any length.", {.required = true})
-          .key("tolerance", &PlaneSelection::tolerance,
-               "Nodes nearer than this belong to it; default 1e-6 of the mesh's diagonal.",
-               {.unit = "m", .range = kNonNegative})
-          .check([](const PlaneSelection& p, const Config& config) {
-            if (p.normal.norm() == 0) config.at("normal").fail("is zero; give a direction");
-          });
-  return s;
-}
-
 const Spec<Clamp>& Clamp::spec() {
-  static const auto s =
-      Spec<Clamp>()
-          .key("surface", &Clamp::surface, "All nodes of a named surface.")
-          .key("box", &Clamp::box, "All nodes in a box (min, max).")
-          .key("plane", &Clamp::plane, "All nodes on a plane (point, normal, tolerance).")
-          .key("nearest", &Clamp::nearest, "The node nearest to a point.", {.unit = "m"})
-          .key("nodes", &Clamp::nodes, "A named node set of the mesh.")
-          .key("components", &Clamp::components, "Which coordinates are held.")
-          .check([](const Clamp& c, const Config& config) {
-            const int given = c.surface.has_value() + c.box.has_value() + c.plane.has_value() + c.nearest.has_value() +
-                              c.nodes.has_value();
-            if (given != 1) config.fail("give exactly one of surface, box, plane, nearest, nodes");
-            if (c.components.empty()) config.at("components").fail("is empty; give some of x, y, z");
-          });
+  static const auto s = selection_spec<Clamp>()
+                            .key("name", &Clamp::name, "For its reaction; default clamp_1, clamp_2 and so on.")
+                            .key("components", &Clamp::components, "Which coordinates are held.")
+                            .check([](const Clamp& clamp, const Config& config) {
+                              clamp.check(config);
+                              if (clamp.components.empty()) config.at("components").fail("is empty; give some of x, y, z");
+                            });
   return s;
 }
 
@@ -187,6 +153,8 @@ const Spec<Output>& Output::spec() {
                "interpolated: frames from the integrator's own polynomial; exact: steps end on them.")
           .key("fields", &Output::fields, "Node and cell fields of the frames (see `orthodyn list fields`).")
           .key("probes", &Output::probes, "Named points whose fields go to probes.csv.")
+          .key("reactions", &Output::reactions,
+               "Record force and torque of every clamp and motion on the body in probes.csv.")
           .key("energy", &Output::energy, "Write energy.csv.")
           .key("steps", &Output::steps, "Write steps.csv.")
           .key("momentum", &Output::momentum, "Write momentum.csv.")
@@ -219,6 +187,7 @@ const Spec<Scene>& Scene::spec() {
           .key("loads", &Scene::loads, "Loads on surfaces.")
           .key("terms", &Scene::terms, "Further terms by type; for those of your own see docs/extend.md.")
           .key("clamps", &Scene::clamps, "Nodes that do not move.")
+          .key("motions", &Scene::motions, "Nodes whose motion is prescribed.")
           .key("initial", &Scene::initial, "Initial state; default at rest.")
           .key("time", &Scene::time, "Time span.", {.required = true})
           .key("integrator", &Scene::integrator, "The integrator.", {.fallback = "{type: cvode_bdf}"})

@@ -17,32 +17,16 @@
 #include "lib/scene/axes/axes_source.h"
 #include "lib/scene/expectation.h"
 #include "lib/scene/mesh_source.h"
+#include "lib/scene/support_motion.h"
 #include "lib/scene/term_choice.h"
 
 namespace orthodyn {
 
-enum class Component { x, y, z };
 enum class OutputTimes { interpolated, exact };
 
-// A set of nodes: exactly one of the five.
-struct BoxSelection {
-  Vec3 min = Vec3::Zero(), max = Vec3::Zero();
-  static const Spec<BoxSelection>& spec();
-};
-struct PlaneSelection {
-  Vec3 point = Vec3::Zero(), normal{0, 0, 1};
-  std::optional<double> tolerance;  // m; default 1e-6 of the mesh's diagonal
-  static const Spec<PlaneSelection>& spec();
-};
-
-struct Clamp {
-  std::optional<std::string> surface;
-  std::optional<BoxSelection> box;
-  std::optional<PlaneSelection> plane;
-  std::optional<Vec3> nearest;
-  std::optional<std::string> nodes;  // a node set of the mesh
+struct Clamp : Selection {
+  std::string name;
   std::vector<Component> components{Component::x, Component::y, Component::z};
-  Origin origin;
   static const Spec<Clamp>& spec();
 };
 
@@ -107,7 +91,7 @@ struct Output {
   OutputTimes times = OutputTimes::interpolated;
   std::vector<std::string> fields{"displacement", "velocity"};
   Named<Probe> probes;
-  bool energy = true, steps = true, momentum = false;
+  bool reactions = false, energy = true, steps = true, momentum = false;
   Origin origin;
   static const Spec<Output>& spec();
 };
@@ -131,6 +115,7 @@ struct Scene {
   std::vector<Load> loads;
   std::vector<std::shared_ptr<const TermChoice>> terms;
   std::vector<Clamp> clamps;
+  std::vector<SupportMotion> motions;
   std::optional<Initial> initial;
   TimeSpan time;
   std::shared_ptr<const IntegratorChoice> integrator;

@@ -2,11 +2,40 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
-#include "lib/scene/build.h"
-
 namespace orthodyn {
+
+const Spec<BoxSelection>& BoxSelection::spec() {
+  static const auto s =
+      Spec<BoxSelection>()
+          .key("min", &BoxSelection::min, "Lowest coordinates.", {.required = true, .unit = "m"})
+          .key("max", &BoxSelection::max, "Highest coordinates.", {.required = true, .unit = "m"});
+  return s;
+}
+
+const Spec<PlaneSelection>& PlaneSelection::spec() {
+  static const auto s =
+      Spec<PlaneSelection>()
+          .key("point", &PlaneSelection::point, "A point of the plane.", {.required = true, .unit = "m"})
+          .key("normal", &PlaneSelection::normal, "Its normal, of any length.", {.required = true})
+          .key("tolerance", &PlaneSelection::tolerance,
+               "Nodes nearer than this belong to it; default 1e-6 of the mesh's diagonal.",
+               {.unit = "m", .range = kNonNegative})
+          .check([](const PlaneSelection& p, const Config& config) {
+            if (p.normal.norm() == 0) config.at("normal").fail("is zero; give a direction");
+          });
+  return s;
+}
+
+int Selection::count() const {
+  return surface.has_value() + box.has_value() + plane.has_value() + nearest.has_value() + nodes.has_value();
+}
+
+void Selection::check(const Config& config) const {
+  if (count() != 1) config.fail("give exactly one of surface, box, plane, nearest, nodes");
+}
 
 namespace {
 
@@ -35,22 +64,22 @@ std::set<int> node_set(const TetMesh& mesh, const std::string& name, const Origi
   fail_unknown(origin, "node set", name, mesh.node_sets, "a .bou file, *NSET, physical points");
 }
 
-std::set<int> select(const Clamp& clamp, const TetMesh& mesh) {
-  if (clamp.nodes) return node_set(mesh, *clamp.nodes, clamp.origin);
-  if (clamp.nearest) return {nearest_node(mesh, *clamp.nearest)};
-  if (clamp.surface) {
+std::set<int> select(const Selection& selection, const TetMesh& mesh) {
+  if (selection.nodes) return node_set(mesh, *selection.nodes, selection.origin);
+  if (selection.nearest) return {nearest_node(mesh, *selection.nearest)};
+  if (selection.surface) {
     std::set<int> out;
-    for (const Triangle& t : find_surface(mesh, *clamp.surface, clamp.origin)) out.insert(t.begin(), t.end());
+    for (const Triangle& t : find_surface(mesh, *selection.surface, selection.origin)) out.insert(t.begin(), t.end());
     return out;
   }
-  if (clamp.box)
+  if (selection.box)
     return nodes_where(mesh, [&](const Vec3& x) {
-      return (x.array() >= clamp.box->min.array()).all() && (x.array() <= clamp.box->max.array()).all();
+      return (x.array() >= selection.box->min.array()).all() && (x.array() <= selection.box->max.array()).all();
     });
-  const double tolerance = clamp.plane->tolerance.value_or(1e-6 * bounding_box(mesh).diagonal());
-  const Vec3 normal = clamp.plane->normal.normalized();
+  const double tolerance = selection.plane->tolerance.value_or(1e-6 * bounding_box(mesh).diagonal());
+  const Vec3 normal = selection.plane->normal.normalized();
   return nodes_where(mesh, [&](const Vec3& x) {
-    return std::abs(normal.dot(x - clamp.plane->point)) <= tolerance;
+    return std::abs(normal.dot(x - selection.plane->point)) <= tolerance;
   });
 }
 
@@ -67,17 +96,17 @@ const std::vector<Triangle>& find_surface(const TetMesh& mesh, const std::string
   fail_unknown(origin, "surface", name, mesh.surfaces, "in Gmsh, make a Physical Surface");
 }
 
-std::vector<bool> clamped_coordinates(const std::vector<Clamp>& clamps, const TetMesh& mesh) {
-  std::vector<bool> clamped(3 * mesh.nodes.size(), false);
-  for (const Clamp& clamp : clamps) {
-    const auto nodes = select(clamp, mesh);
-    if (nodes.empty())
-      clamp.origin.fail("selects no node; the mesh extends " + extent(mesh) + " m");
-    for (const int node : nodes)
-      for (const Component c : clamp.components)
-        clamped[3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(c)] = true;
-  }
-  return clamped;
+std::vector<int> selected_nodes(const Selection& selection, const TetMesh& mesh) {
+  const auto nodes = select(selection, mesh);
+  if (nodes.empty()) selection.origin.fail("selects no node; the mesh extends " + extent(mesh) + " m");
+  return {nodes.begin(), nodes.end()};
+}
+
+int nearest_node(const TetMesh& mesh, const Vec3& point) {
+  const auto nearer = [&](const Vec3& a, const Vec3& b) {
+    return (a - point).squaredNorm() < (b - point).squaredNorm();
+  };
+  return static_cast<int>(std::min_element(mesh.nodes.begin(), mesh.nodes.end(), nearer) - mesh.nodes.begin());
 }
 
 }  // namespace orthodyn

@@ -1,5 +1,6 @@
 #include <filesystem>
 
+#include "lib/scene/scales.h"
 #include "lib/scene/setup.h"
 #include "tests/scene/scenes.h"
 

@@ -58,6 +58,17 @@ void print_memory(const FemModel& model, const Integrator& integrator) {
   if (integrator.factor_bytes() > 0) line("factorisation", integrator.factor_bytes());
 }
 
+void print_supports(const FemModel& model) {
+  const auto& parts = model.parts();
+  const auto coordinates = 3 * parts.mesh.nodes.size();
+  const auto moved = parts.moved ? parts.moved->num_coordinates() : 0;
+  const auto held = coordinates - static_cast<std::size_t>(model.num_dofs()) - moved;
+  fmt::print("clamps\n");
+  if (held == 0) fmt::print("  none{}\n", moved > 0 ? "" : ": the body is free");
+  else fmt::print("  {} of {} coordinates are held\n", held, coordinates);
+  if (moved > 0) fmt::print("motions\n  {} of {} coordinates are moved\n", moved, coordinates);
+}
+
 }  // namespace
 
 int check_command(const RunArguments& arguments) {
@@ -75,9 +86,7 @@ int check_command(const RunArguments& arguments) {
   fmt::print("materials\n");
   print_materials(setup.scene);
   print_axes(setup);
-  const auto coordinates = 3 * parts.mesh.nodes.size(), held = coordinates - static_cast<std::size_t>(model.num_dofs());
-  if (held == 0) fmt::print("clamps\n  none: the body is free\n");
-  else fmt::print("clamps\n  {} of {} coordinates are held\n", held, coordinates);
+  print_supports(model);
   fmt::print("terms\n");
   for (const auto& term : parts.elastic) fmt::print("  {}\n", term->description());
   for (const auto& term : parts.loads) fmt::print("  {}\n", term->description());
@@ -86,7 +95,7 @@ int check_command(const RunArguments& arguments) {
              model.pattern().symmetric ? "symmetric, lower triangle" : "general");
   fmt::print("  critical step of an explicit scheme at least {:.4g} s\n", 2 / model.frequency_bound());
   const auto breakpoints = model.breakpoints(setup.scene.time.start, setup.scene.time.end);
-  if (!breakpoints.empty()) fmt::print("  restarts at kinks of the loads: {} s\n", fmt::join(breakpoints, ", "));
+  if (!breakpoints.empty()) fmt::print("  restarts at kinks of loads and motions: {} s\n", fmt::join(breakpoints, ", "));
   fmt::print("integrator\n  type {}\n", setup.config.at("integrator").at("type").text());
   for (const auto& [key, value] : setup.integrator->decisions()) fmt::print("  {} {}\n", key, value);
   print_memory(model, *setup.integrator);

@@ -63,6 +63,8 @@ void print_terms() {
   print_entry("clamps", "Nodes that do not move; eliminated from the system.", Clamp::spec().keys());
   print_entry("clamps.<n>.box", "Nodes in a box.", BoxSelection::spec().keys());
   print_entry("clamps.<n>.plane", "Nodes on a plane.", PlaneSelection::spec().keys());
+  print_entry("motions", "Nodes whose motion is prescribed; eliminated from the system.", SupportMotion::spec().keys());
+  print_entry("motions.<n>.rotation", "A rotation of any size about an axis.", Rotation::spec().keys());
   print_registry<TermChoice>();
   print_entry("initial", "The state at the start.", Initial::spec().keys());
   print_entry("initial.noise", "Random offsets of the free coordinates.", Noise::spec().keys());

@@ -6,10 +6,13 @@ namespace orthodyn {
 
 namespace {
 
-std::vector<ProbeColumn> probe_columns(const Scene& scene, const TetMesh& mesh) {
+std::vector<ProbeColumn> probe_columns(const Scene& scene, const FemModel& model) {
   std::vector<ProbeColumn> columns;
   for (const auto& [name, probe] : scene.output.probes)
-    for (const auto& field : probe.fields) columns.push_back({name, nearest_node(mesh, probe.at), field});
+    for (const auto& field : probe.fields) columns.push_back({name, nearest_node(model.parts().mesh, probe.at), field});
+  if (scene.output.reactions)
+    for (const auto& support : model.parts().supports)
+      for (const char* what : {"reaction.", "torque."}) columns.push_back({"", 0, what + support.name});
   return columns;
 }
 
@@ -23,8 +26,8 @@ RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& fold
   if (scene.output.energy) energy.emplace(folder / "energy.csv", model, *setup.integrator);
   if (scene.output.momentum) momentum.emplace(folder / "momentum.csv", model);
   if (scene.output.steps) steps_.emplace(folder / "steps.csv");
-  if (!scene.output.probes.empty())
-    probes_.emplace(folder / "probes.csv", model, probe_columns(scene, model.parts().mesh));
+  if (const auto columns = probe_columns(scene, model); !columns.empty())
+    probes_.emplace(folder / "probes.csv", model, columns);
   if (!quiet) progress_.emplace(scene.time.start, scene.time.end, stderr);
 }
 

@@ -1,0 +1,29 @@
+// A motion by three formulas of the displacement, u(t, X); velocity and acceleration are differences of order
+// eight and seven (differences.h), which do not reach across a kink.
+#pragma once
+
+#include <array>
+
+#include "lib/core/formula.h"
+#include "lib/fem/motion.h"
+
+namespace orthodyn {
+
+class FormulaMotion : public Motion {
+ public:
+  // u in m; the step of the differences and the kinks in s.
+  FormulaMotion(std::array<TimePointFormula, 3> displacement, double resolution, std::vector<double> kinks)
+      : u_(std::move(displacement)), resolution_(resolution), kinks_(std::move(kinks)) {}
+
+  // Throws ConfigError where a formula has no value.
+  Moved at(double t, const NodalVector& X) const override;
+  std::vector<double> kinks() const override { return kinks_; }
+  bool has_continuous_velocity() const override { return kinks_.empty(); }
+
+ private:
+  std::array<TimePointFormula, 3> u_;
+  double resolution_;
+  std::vector<double> kinks_;
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,25 @@
+// How the points of a support move: position, velocity and acceleration as functions of time and of the place
+// at rest.
+#pragma once
+
+#include <vector>
+
+#include "lib/fem/dof_map.h"
+
+namespace orthodyn {
+
+// A column per point; m, m/s, m/s^2.
+struct Moved {
+  NodalVector x, v, a;
+};
+
+class Motion {
+ public:
+  virtual ~Motion() = default;
+  // Of the points that are at X at rest. Velocity and acceleration are those from the right at a kink.
+  virtual Moved at(double t, const NodalVector& X) const = 0;
+  virtual std::vector<double> kinks() const = 0;  // where it is not smooth
+  virtual bool has_continuous_velocity() const = 0;
+};
+
+}  // namespace orthodyn

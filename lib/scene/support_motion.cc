@@ -1,0 +1,67 @@
+#include "lib/scene/support_motion.h"
+
+#include "lib/fem/differences.h"
+#include "lib/fem/formula_motion.h"
+#include "lib/fem/rigid_motion.h"
+
+namespace orthodyn {
+
+const Spec<Rotation>& Rotation::spec() {
+  static const auto s =
+      Spec<Rotation>()
+          .key("point", &Rotation::point, "A point of the axis, at rest; a translation takes it along.", {.unit = "m"})
+          .key("axis", &Rotation::axis, "Its direction, of any length.", {.required = true})
+          .key("angle", &Rotation::angle, "At factor 1, by the right-hand rule; more than a turn is possible.",
+               {.required = true, .unit = "rad"})
+          .check([](const Rotation& r, const Config& config) {
+            if (r.axis.norm() == 0) config.at("axis").fail("is zero; give a direction");
+          });
+  return s;
+}
+
+namespace {
+
+void check_motion(const SupportMotion& m, const Config& config) {
+  m.check(config);
+  if (m.components.empty()) config.at("components").fail("is empty; give some of x, y, z");
+  const bool rigid = m.translation || m.rotation;
+  if (rigid == m.displacement.has_value())
+    config.fail("give either translation and rotation (one or both), or three formulas as displacement");
+  if (rigid && !m.factor)
+    config.fail("key 'factor' is missing: how the motion goes in time, such as factor: {type: smooth_step, end: 1}");
+  if (!rigid && m.factor) config.at("factor").fail("goes with translation and rotation; a formula has its own t");
+  if (rigid && !m.kinks.empty()) config.at("kinks").fail("goes with displacement; a factor knows its own");
+  if (rigid && m.resolution) config.at("resolution").fail("goes with displacement; a factor has exact rates");
+}
+
+}  // namespace
+
+const Spec<SupportMotion>& SupportMotion::spec() {
+  static const auto s =
+      selection_spec<SupportMotion>()
+          .key("name", &SupportMotion::name, "For its reaction; default motion_1, motion_2 and so on.")
+          .key("components", &SupportMotion::components, "Which coordinates are moved; the others stay free.")
+          .key("translation", &SupportMotion::translation, "At factor 1.", {.unit = "m"})
+          .key("rotation", &SupportMotion::rotation, "About an axis.")
+          .key("factor", &SupportMotion::factor, "Factor of translation and angle in time.")
+          .key("displacement", &SupportMotion::displacement,
+               "From the place at rest, in m: three formulas of the time t and the rest position x, y, z.")
+          .key("kinks", &SupportMotion::kinks, "Times where the formulas are not smooth; integrators restart there.",
+               {.unit = "s"})
+          .key("resolution", &SupportMotion::resolution,
+               "Step of the differences that velocity and acceleration of the formulas are taken by: a sixtieth of their "
+               "shortest period, or less; default 1e-3 s.",
+               {.unit = "s", .range = kPositive})
+          .check(check_motion);
+  return s;
+}
+
+std::shared_ptr<const Motion> SupportMotion::motion() const {
+  if (displacement)
+    return std::make_shared<FormulaMotion>(*displacement, resolution.value_or(kUsualResolution), kinks);
+  const Rotation turn = rotation.value_or(Rotation{});
+  return std::make_shared<RigidMotion>(translation.value_or(Vec3::Zero()), turn.point, turn.axis.normalized(), turn.angle,
+                                       factor);
+}
+
+}  // namespace orthodyn

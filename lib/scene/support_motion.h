@@ -1,0 +1,44 @@
+// A prescribed motion in the words of the input: nodes, which of their coordinates, and how they move.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "lib/core/formula.h"
+#include "lib/fem/motion.h"
+#include "lib/fem/time_function.h"
+#include "lib/scene/selection.h"
+
+namespace orthodyn {
+
+enum class Component { x, y, z };
+
+template <>
+struct Words<Component> {
+  static constexpr std::array<std::pair<Component, const char*>, 3> list{
+      {{Component::x, "x"}, {Component::y, "y"}, {Component::z, "z"}}};
+};
+
+struct Rotation {
+  Vec3 point = Vec3::Zero(), axis{0, 0, 1};
+  double angle = 0;  // rad
+  static const Spec<Rotation>& spec();
+};
+
+// Either a rigid motion by one factor in time, or formulas of the displacement.
+struct SupportMotion : Selection {
+  std::string name;
+  std::vector<Component> components{Component::x, Component::y, Component::z};
+  std::optional<Vec3> translation;  // m
+  std::optional<Rotation> rotation;
+  std::shared_ptr<const TimeFunction> factor;
+  std::optional<std::array<TimePointFormula, 3>> displacement;  // m
+  std::vector<double> kinks;                                    // s
+  std::optional<double> resolution;                             // s
+  static const Spec<SupportMotion>& spec();
+
+  std::shared_ptr<const Motion> motion() const;
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,104 @@
+#include "lib/scene/supports.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace orthodyn {
+
+namespace {
+
+bool wants_reactions(const Scene& scene) {
+  return scene.output.reactions || std::any_of(scene.expect.begin(), scene.expect.end(), [](const Expectation& e) {
+           return e.quantity.starts_with("reaction.") || e.quantity.starts_with("torque.");
+         });
+}
+
+std::array<bool, 3> mask(const std::vector<Component>& components) {
+  std::array<bool, 3> out{};
+  for (const Component c : components) out[static_cast<std::size_t>(c)] = true;
+  return out;
+}
+
+// Who holds which coordinate.
+class Register {
+ public:
+  explicit Register(const TetMesh& mesh) : mesh_(mesh), owner_(3 * mesh.nodes.size(), -1) {}
+
+  // Clamps may share coordinates; motions may not.
+  void add(const std::string& name, const Selection& selection, const std::vector<int>& nodes,
+           const std::array<bool, 3>& components, bool moves) {
+    check_name(name, selection.origin);
+    const int index = static_cast<int>(supports_.size());
+    Support support{name, nodes, std::vector<std::array<bool, 3>>(nodes.size())};
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (!components[c]) continue;
+        int& owner = owner_[3 * static_cast<std::size_t>(nodes[i]) + c];
+        if (owner >= 0 && moves) fail_twice(selection.origin, nodes[i], c, supports_[static_cast<std::size_t>(owner)].name);
+        support.held[i][c] = owner < 0;
+        if (owner < 0) owner = index;
+      }
+    supports_.push_back(std::move(support));
+  }
+
+  std::vector<bool> held() const {
+    std::vector<bool> out;
+    for (const int owner : owner_) out.push_back(owner >= 0);
+    return out;
+  }
+
+  std::vector<Support> take() { return std::move(supports_); }
+
+ private:
+  void check_name(const std::string& name, const Origin& origin) const {
+    const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
+    if (name.empty() || !std::all_of(name.begin(), name.end(), plain))
+      origin.fail(fmt::format("name: '{}' is no name; use letters, digits, _ and -", name));
+    for (const Support& other : supports_)
+      if (other.name == name) origin.fail(fmt::format("name: '{}' stands twice among clamps and motions", name));
+  }
+
+  [[noreturn]] void fail_twice(const Origin& origin, int node, std::size_t component, const std::string& other) const {
+    origin.fail(fmt::format("moves {} of the node at {} m, which belongs to {} already; select nodes that do not "
+                            "overlap, or other components",
+                            "xyz"[component], Value<Vec3>::yaml(mesh_.nodes[static_cast<std::size_t>(node)]), other));
+  }
+
+  const TetMesh& mesh_;
+  std::vector<int> owner_;  // index of the support, -1 for none
+  std::vector<Support> supports_;
+};
+
+std::string named(const std::string& given, const char* kind, std::size_t index) {
+  return given.empty() ? fmt::format("{}_{}", kind, index + 1) : given;
+}
+
+void check_velocity(const Scene& scene, const SupportMotion& given, const Motion& motion) {
+  if (scene.mass == MassKind::lumped || motion.has_continuous_velocity()) return;
+  given.origin.fail("its velocity may jump at a kink, which a consistent mass answers by an infinite force on the "
+                    "neighbours; use a smooth_step, or mass: lumped");
+}
+
+}  // namespace
+
+Supports make_supports(const Scene& scene, const TetMesh& mesh) {
+  Supports out;
+  Register held(mesh);
+  for (std::size_t k = 0; k < scene.clamps.size(); ++k) {
+    const Clamp& clamp = scene.clamps[k];
+    held.add(named(clamp.name, "clamp", k), clamp, selected_nodes(clamp, mesh), mask(clamp.components), false);
+  }
+  for (std::size_t k = 0; k < scene.motions.size(); ++k) {
+    const SupportMotion& given = scene.motions[k];
+    out.moved.push_back({given.motion(), selected_nodes(given, mesh), mask(given.components)});
+    check_velocity(scene, given, *out.moved.back().motion);
+    held.add(named(given.name, "motion", k), given, out.moved.back().nodes, out.moved.back().components, true);
+  }
+  out.held = held.held();
+  if (wants_reactions(scene)) out.named = held.take();
+  return out;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,45 @@
+#include <fmt/format.h>
+
+#include "lib/fem/dead_load.h"
+#include "lib/scene/selection.h"
+#include "lib/scene/term_choice.h"
+
+namespace orthodyn {
+namespace {
+
+class PointLoadChoice : public TermChoice, public Selection {
+ public:
+  static const Spec<PointLoadChoice>& spec() {
+    using P = PointLoadChoice;
+    static const auto s =
+        selection_spec<P>()
+            .key("force", &P::force_, "In total, shared evenly by the selected nodes.", {.required = true, .unit = "N"})
+            .key("factor", &P::factor_, "Factor in time.", {.fallback = "{type: constant}"})
+            .check([](const P& load, const Config& config) { load.check(config); });
+    return s;
+  }
+
+  std::unique_ptr<Term> make(const FemModel::Parts& parts) const override {
+    const auto selected = selected_nodes(*this, parts.mesh);
+    DeadLoad::NodalForces forces;
+    for (const int node : selected) forces.emplace_back(node, force_ / static_cast<double>(selected.size()));
+    return std::make_unique<DeadLoad>(fmt::format("point load on {} nodes", selected.size()), std::move(forces), factor_);
+  }
+
+  void declare(Traits& traits) const override {
+    traits.loaded = true;
+    if (factor_->constant()) return;
+    traits.time_dependent = true;
+    traits.conservative = false;
+  }
+
+ private:
+  Vec3 force_ = Vec3::Zero();
+  std::shared_ptr<const TimeFunction> factor_;
+};
+
+const bool registered =
+    Registry<TermChoice>::add<PointLoadChoice>("point_load", "A force on a node, or shared by several, that keeps its direction.");
+
+}  // namespace
+}  // namespace orthodyn

@@ -1,0 +1,237 @@
+// Springs, dashpots, point loads, pressure and ground: force against energy, K and D against the force by the
+// observed order of differences, what they dissipate, and what must vanish.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "tests/fem/built_scene.h"
+#include "tests/fem/derivatives.h"
+
+namespace orthodyn {
+namespace {
+
+struct Case {
+  std::string name, term;
+};
+void PrintTo(const Case& c, std::ostream* os) { *os << c.name; }
+const auto name_of = [](const auto& tested) { return tested.param.name; };
+
+const Case kSpring{"spring_between_nodes_of_no_element", "{type: spring, between: [[1, 0, 0], [0, 1, 1]], stiffness: 3, rest_length: 0.7}"};
+const Case kToAnchor{"springs_to_an_anchor", "{type: spring, surface: x1, anchor: [2, 0.4, 0.3], stiffness: 3, rest_length: 1.5}"};
+const Case kInPlace{"springs_in_place", "{type: spring, surface: x1, stiffness: 3}"};
+const Case kNoLength{"spring_without_rest_length", "{type: spring, between: [[1, 0, 0], [0, 1, 1]], stiffness: 3, rest_length: 0}"};
+const Case kOnset{"ground_in_its_onset", "{type: ground, point: [0, 0, 0.3], normal: [0.1, 0.2, 1], stiffness: 5, onset: 1.5}"};
+const Case kDeep{"ground_beyond_its_onset", "{type: ground, point: [0, 0, 0.5], stiffness: 5, onset: 0.01, surface: z0}"};
+const Case kClosed{"pressure_on_a_closed_surface", "{type: pressure, pressure: 0.4, factor: {type: constant, value: 1.5}}"};
+const Case kBetween{"dashpot_between_nodes_of_no_element", "{type: dashpot, between: [[1, 0, 0], [0, 1, 1]], coefficient: 3}"};
+const Case kDragged{"dashpots_to_an_anchor", "{type: dashpot, surface: x1, anchor: [2, 0.4, 0.3], coefficient: 3}"};
+const Case kDrag{"dashpots_in_place", "{type: dashpot, surface: x1, coefficient: 3}"};
+
+BuiltTestScene block(const std::string& terms, const std::string& more = "") {
+  return BuiltTestScene(fmt::format(R"(
+mesh: {{type: box, size: [1, 1, 1], cells: [2, 2, 1]}}
+materials: {{m: {}}}
+regions: {{body: {{material: m, axes: {}}}}}
+terms: [{}]
+time: {{end: 1}}
+{})", fibre_material(10), kTurnedAxes, terms, more));
+}
+const std::string kClamps = "clamps: [{surface: x0, components: [x, y]}, {nearest: [1, 1, 1], components: [y]}]";
+
+class StoringTerms : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(Terms, StoringTerms,
+                         testing::Values(kSpring, kToAnchor, kInPlace, kNoLength, kOnset, kDeep), name_of);
+class StiffTerms : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(Terms, StiffTerms,
+                         testing::Values(kSpring, kToAnchor, kInPlace, kNoLength, kOnset, kDeep, kClosed), name_of);
+class DampingTerms : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(Terms, DampingTerms, testing::Values(kBetween, kDragged, kDrag), name_of);
+class InnerTerms : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(Terms, InnerTerms, testing::Values(kSpring, kNoLength, kClosed, kBetween), name_of);
+
+TEST_P(StoringTerms, ForceIsMinusTheGradientOfTheEnergy) {
+  Random random(301);
+  const auto s = block(GetParam().term, kClamps);
+  for (int sample = 0; sample < 3; ++sample) {
+    const Vector q = random_dofs(random, s.size(), 0.05), d = random_dofs(random, s.size(), 1);
+    expect_derivative([&](double h) { return one(s.potential(q + h * d)); }, one(-s.force(q).dot(d)));
+  }
+}
+
+TEST_P(StiffTerms, StiffnessIsMinusTheDerivativeOfTheForce) {
+  Random random(302);
+  const auto s = block(GetParam().term, kClamps), without = block("", kClamps);
+  const Vector q = random_dofs(random, s.size(), 0.05);
+  const Eigen::MatrixXd K = s.stiffness(q) - without.stiffness(q);
+  EXPECT_GT(K.norm(), 0.1);
+  for (int sample = 0; sample < 3; ++sample) {
+    const Vector d = random_dofs(random, s.size(), 1);
+    expect_derivative([&](double h) { return Vector(s.force(q + h * d) - without.force(q + h * d)); }, -K * d);
+  }
+}
+
+TEST_P(StoringTerms, GaussNewtonTangentIsPositiveSemidefinite) {
+  Random random(303);
+  const auto s = block(GetParam().term, kClamps);
+  for (const double amplitude : {0.05, 0.6}) {
+    const Eigen::MatrixXd K = s.matrix({0, 0, 1}, random_dofs(random, s.size(), amplitude), s.zero(), TangentKind::gauss_newton);
+    EXPECT_GE(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues()[0], -1e-13 * K.norm()) << amplitude;
+  }
+}
+
+TEST_P(StoringTerms, AreWithinTheFrequencyBound) {
+  for (const char* mass : {"lumped", "consistent"}) {
+    const auto s = block(GetParam().term, kClamps + fmt::format("\nmass: {}\nelasticity: {{kinematics: linear}}", mass));
+    const auto modes = Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(s.stiffness(s.zero()), s.mass());
+    EXPECT_LE(std::sqrt(modes.eigenvalues().maxCoeff()), s.model().frequency_bound()) << mass;
+  }
+}
+
+TEST(FrequencyBound, CountsSpringsThatAreStifferThanTheBody) {
+  const auto s = block("{type: spring, between: [[1, 0, 0], [0, 1, 1]], stiffness: 1e6, rest_length: 0}");
+  const auto modes = Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(s.stiffness(s.zero()), s.mass());
+  const double largest = std::sqrt(modes.eigenvalues().maxCoeff()), bound = s.model().frequency_bound();
+  EXPECT_LE(largest, bound);
+  EXPECT_GE(largest, 0.5 * bound);
+}
+
+TEST_P(DampingTerms, DampingIsMinusTheDerivativeOfTheForceByVelocityWhichIsLinear) {
+  Random random(304);
+  const auto s = block(GetParam().term, kClamps);
+  const Vector q = random_dofs(random, s.size(), 0.05), v = random_dofs(random, s.size(), 1);
+  const Eigen::MatrixXd D = s.matrix({0, 1, 0}, q, v);
+  const Vector drag = s.force(q, v) - s.force(q);
+  EXPECT_GT(drag.norm(), 0.1);
+  EXPECT_LE((drag + D * v).norm(), 1e-13 * (s.force(q).norm() + drag.norm()));
+  EXPECT_TRUE(s.model().traits().damping_matrix);
+}
+
+TEST_P(DampingTerms, PowerIsThatOfItsForceAndNeverNegative) {
+  Random random(305);
+  const auto s = block(GetParam().term, kClamps);
+  for (const double amplitude : {0.05, 0.6}) {
+    const Vector q = random_dofs(random, s.size(), amplitude), v = random_dofs(random, s.size(), 1);
+    const double power = s.scalar("power.dissipated", q, v);
+    EXPECT_GE(power, 0);
+    EXPECT_NEAR(power, -(s.force(q, v) - s.force(q)).dot(v), 1e-12 * (power + s.force(q).norm() * v.norm()));
+  }
+}
+
+TEST_P(InnerTerms, ExertNoNetForceAndNoTorqueOnAFreeBody) {
+  Random random(306);
+  const auto s = block(GetParam().term), without = block("");
+  const Vector q = random_dofs(random, s.size(), 0.2), v = random_dofs(random, s.size(), 1);
+  const NodalVector f = s.nodal(s.force(q, v) - without.force(q, v)), x = s.positions(q);
+  Vec3 moment = Vec3::Zero();
+  for (Eigen::Index i = 0; i < f.cols(); ++i) moment += x.col(i).cross(f.col(i));
+  EXPECT_GT(f.norm(), 0.05);
+  EXPECT_LE(Vec3(f.rowwise().sum()).norm(), 1e-13 * s.force(q, v).norm());
+  EXPECT_LE(moment.norm(), 1e-13 * s.force(q, v).norm());
+}
+
+TEST(Spring, PullsAlongItselfByStiffnessTimesStretch) {
+  const auto s = block("{type: spring, nearest: [1, 1, 1], anchor: [4, 1, 1], stiffness: 2, rest_length: 1}"), without = block("");
+  const NodalVector f = s.nodal(s.force(s.zero()) - without.force(s.zero()));
+  EXPECT_LE((f.rowwise().sum() - Vec3(2 * (3 - 1), 0, 0)).norm(), 1e-14);
+}
+
+TEST(Spring, KeepsItsForceWhenTheBodyTurnsWithTheAnchorInTheMiddle) {
+  const auto s = block("{type: spring, surface: x1, anchor: [0, 0, 0], stiffness: 2}");
+  const Mat3 R = Random(307).rotation();
+  EXPECT_LE(s.force(s.dofs([&](const Vec3& X) { return Vec3(R * X - X); })).norm(), 1e-13);
+}
+
+// V = sum of det F over the elements.
+double volume(const BuiltTestScene& s, const Vector& q) {
+  const NodalVector x = s.positions(q);
+  double sum = 0;
+  for (const Tet& t : s.mesh().tets) {
+    Mat3 edges;
+    for (int k = 0; k < 3; ++k) edges.col(k) = x.col(t[static_cast<std::size_t>(k) + 1]) - x.col(t[0]);
+    sum += edges.determinant() / 6;
+  }
+  return sum;
+}
+
+TEST(Pressure, OnAClosedSurfaceIsMinusTheGradientOfPressureTimesVolume) {
+  Random random(308);
+  const auto s = block("{type: pressure, pressure: 0.4}"), without = block("");
+  const Vector q = random_dofs(random, s.size(), 0.1), d = random_dofs(random, s.size(), 1);
+  const double slope = (s.force(q) - without.force(q)).dot(d);
+  expect_derivative([&](double h) { return one(-0.4 * volume(s, q + h * d)); }, one(slope));
+}
+
+TEST(Pressure, HasThePowerOfItsForce) {
+  Random random(309);
+  const auto s = block("{type: pressure, surface: x1, pressure: 0.4}"), without = block("");
+  const Vector q = random_dofs(random, s.size(), 0.1), v = random_dofs(random, s.size(), 1);
+  EXPECT_NEAR(s.scalar("power.loads", q, v), (s.force(q) - without.force(q)).dot(v), 1e-13 * v.norm());
+}
+
+TEST(Pressure, FollowsTheSurface) {
+  const auto s = block("{type: pressure, surface: x1, pressure: 0.4}");
+  const Mat3 R = Random(310).rotation();
+  const NodalVector f = s.nodal(s.force(s.dofs([&](const Vec3& X) { return Vec3(R * X - X); })));
+  EXPECT_LE((f.rowwise().sum() - R * Vec3(-0.4, 0, 0)).norm(), 1e-13);
+}
+
+TEST(Pressure, OnAnOpenSurfaceGivesTheSymmetricPartOfItsDerivative) {
+  Random random(311);
+  const std::string term = "{type: pressure, surface: x1, pressure: 0.4}";
+  const std::string general = "elasticity: {corotation: warped, warped_tangent: unsymmetric}";
+  const auto s = block(term), without = block(""), s_general = block(term, general), without_general = block("", general);
+  const Vector q = random_dofs(random, s.size(), 0.1);
+  const Eigen::MatrixXd K = s.stiffness(q) - without.stiffness(q);
+  const Eigen::MatrixXd exact = s_general.stiffness(q) - without_general.stiffness(q);
+  EXPECT_LE((K - 0.5 * (exact + exact.transpose())).norm(), 1e-13 * s.stiffness(q).norm());
+  EXPECT_GE((K - exact).norm(), 0.1 * exact.norm());
+  const Vector d = random_dofs(random, s.size(), 1);
+  expect_derivative([&](double h) { return Vector(s.force(q + h * d) - without.force(q + h * d)); }, -exact * d);
+}
+
+TEST(Ground, PushesByStiffnessTimesAreaTimesDepthLessHalfTheOnset) {
+  const auto at = [](double depth, double onset) {
+    const auto s = block(fmt::format("{{type: ground, point: [0, 0, {}], stiffness: 5, onset: {}, surface: z0}}", depth, onset));
+    return Vec3(s.nodal(s.force(s.zero())).rowwise().sum());
+  };
+  EXPECT_LE((at(0.3, 0.1) - Vec3(0, 0, 5 * (0.3 - 0.05))).norm(), 1e-13);
+  EXPECT_LE((at(0.05, 0.1) - Vec3(0, 0, 5 * 0.05 * 0.05 / 0.2)).norm(), 1e-13);
+  EXPECT_EQ(at(-0.01, 0.1).norm(), 0);
+}
+
+TEST(Ground, HasAContinuousTangentWhereContactSetsInAndWhereTheOnsetEnds) {
+  const auto stiffness = [](double depth) {
+    const auto s = block(fmt::format("{{type: ground, point: [0, 0, {:.17g}], stiffness: 5, onset: 0.1, surface: z0}}", depth));
+    return s.stiffness(s.zero());
+  };
+  for (const double depth : {0.0, 0.1}) EXPECT_LE((stiffness(depth + 1e-9) - stiffness(depth - 1e-9)).norm(), 5e-7) << depth;
+}
+
+TEST(PointLoad, IsSharedBySelectedNodesAndFollowsItsFactor) {
+  const auto s = block("{type: point_load, surface: x1, force: [1, 2, -3], factor: {type: ramp, end: 2, value: 4}}");
+  const NodalVector f = s.nodal(s.force(s.zero(), s.zero(), 1));
+  EXPECT_LE((f.rowwise().sum() - 2 * Vec3(1, 2, -3)).norm(), 1e-14);
+  for (Eigen::Index i = 0; i < f.cols(); ++i)
+    if (s.model().parts().rest->col(i)[0] == 1) {
+      EXPECT_LE((f.col(i) - Vec3(1, 2, -3) / 3).norm(), 1e-14);
+    }
+  EXPECT_TRUE(s.model().traits().time_dependent);
+  EXPECT_EQ(s.model().breakpoints(-1, 1), (std::vector<double>{0}));
+}
+
+TEST(Terms, WithALinearForceLeaveALinearModelLinear) {
+  const std::string linear = "elasticity: {kinematics: linear}";
+  EXPECT_TRUE(block(kInPlace.term, linear).model().traits().linear);
+  EXPECT_TRUE(block(kDrag.term, linear).model().traits().linear);
+  for (const Case& c : {kSpring, kToAnchor, kOnset, kClosed, kBetween})
+    EXPECT_FALSE(block(c.term, linear).model().traits().linear) << c.name;
+}
+
+TEST(Terms, ThatAreAbsentLeaveThePatternAlone) {
+  const auto none = block(""), in_place = block(kInPlace.term), between = block(kSpring.term);
+  EXPECT_EQ(in_place.model().pattern().non_zeros(), none.model().pattern().non_zeros());
+  EXPECT_EQ(between.model().pattern().non_zeros(), none.model().pattern().non_zeros() + 9);
+}
+
+}  // namespace
+}  // namespace orthodyn
