@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/fem/mean_force.h"
+
 namespace orthodyn {
 
 NodalExpansion::NodalExpansion(const FemModel::Parts& parts, double time, const ConstVectorRef& q,
@@ -22,6 +24,13 @@ void for_each_term(const FemModel::Parts& parts, F&& f) {
 }
 
 }  // namespace
+
+FemModel::FemModel(Parts parts) : parts_(std::move(parts)) {
+  const auto has_energy = [](const auto& term) { return term->has_energy(); };
+  const bool inertia_pulls = parts_.moved && !parts_.mass->lumped();  // it has no energy
+  if (!inertia_pulls && std::all_of(parts_.elastic.begin(), parts_.elastic.end(), has_energy))
+    mean_force_ = std::make_unique<MeanForce>(parts_);
+}
 
 NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& nodal) {
   NodalVector sum = NodalVector::Zero(3, nodal.x.cols());
@@ -76,11 +85,9 @@ double FemModel::frequency_bound() const {
   double largest = 0;
   for (std::size_t k = 0; k < parts_.elastic.size(); ++k)
     largest = std::max(largest, parts_.elastic[k]->max_frequency_squared(parts_.densities[k]));
-  if (!parts_.loads.empty()) {
-    Vector row_sums = Vector::Zero(parts_.mass->nodal().size());
-    for (const auto& term : parts_.loads) term->add_stiffness_bound(row_sums);
-    largest += row_sums.cwiseQuotient(parts_.mass->nodal()).maxCoeff();
-  }
+  Vector row_sums = Vector::Zero(parts_.mass->nodal().size());
+  for (const auto& term : parts_.loads) term->add_stiffness_bound(row_sums);
+  largest += row_sums.cwiseQuotient(parts_.mass->nodal()).maxCoeff();
   // A consistent element mass is at worst five times smaller in a mode than the lumped one.
   return std::sqrt((parts_.mass->lumped() ? 1 : 5) * largest);
 }

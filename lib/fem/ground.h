@@ -1,7 +1,7 @@
 // A rigid plane that pushes back nodes that are below it. With the depth d = (point - x) . n of a node and its
 // share A of the surface, the energy k A psi(d) is twice continuously differentiable:
 //   psi'(d) = 0 for d <= 0,  d^2/(2 w) for d < w,  d - w/2 beyond;
-// force k A psi'(d) n, stiffness k A psi''(d) n n^T. w is the depth over which contact sets in. Neither friction
+// force k A psi'(d) n, stiffness k A psi''(d) n n^T; between two states psi' is its mean over the depths passed. w is the depth over which contact sets in. Neither friction
 // nor damping: the plane gives back all energy that it takes.
 #pragma once
 
@@ -27,6 +27,7 @@ class Ground : public Term {
   std::string description() const override;
   std::size_t bytes() const override { return areas_.capacity() * sizeof(areas_[0]); }
   void add_force(const NodalState& s, NodalVector& f) const override;
+  void add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const override;
   void add_tangent(const NodalState& s, TangentKind kind, double* stiffness, double* damping) const override;
   EnergyKind energy_kind() const override { return EnergyKind::elastic; }
   double energy(const NodalState& s) const override;

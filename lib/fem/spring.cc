@@ -28,6 +28,13 @@ void Springs::add_force(const NodalState& s, NodalVector& f) const {
   }
 }
 
+void Springs::add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const {
+  for (const SpringLink& link : links_) {
+    const Vec3 d0 = link.span(s0.x), d1 = link.span(s1.x);
+    link.add_force(-k_ / 2 * (1 - contraction(link, (d0.norm() + d1.norm()) / 2)) * (d0 + d1), f);
+  }
+}
+
 void Springs::add_tangent(const NodalState& s, TangentKind kind, double* stiffness, double*) const {
   for (const SpringLink& link : links_) {
     const Vec3 d = link.span(s.x);

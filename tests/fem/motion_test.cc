@@ -194,6 +194,13 @@ TEST(MovedBody, CanBeMovedInSomeCoordinatesAndClampedInOthers) {
   EXPECT_TRUE(s.model().traits().time_dependent);
 }
 
+TEST(MovedBody, WhoseInertiaPullsHasNoForceBetweenTwoStates) {
+  for (const char* mass : {"lumped", "consistent"}) {
+    const BuiltTestScene s(scene(fmt::format("mass: {}\nmotions:\n  - {}", mass, kTurnAndShift)));
+    EXPECT_EQ(s.model().discrete_gradient() != nullptr, s.scene.mass == MassKind::lumped);
+  }
+}
+
 TEST(MovedBody, StopsAtTheKinksOfItsMotions) {
   const BuiltTestScene s(scene("motions:\n  - {surface: x0, translation: [1, 0, 0], factor: {type: ramp, start: 0.5, end: 1}}\n"
                                "  - {surface: x1, displacement: [t, 0, 0], kinks: [0.2, 5]}"));

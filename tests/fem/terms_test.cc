@@ -87,6 +87,29 @@ TEST_P(StoringTerms, AreWithinTheFrequencyBound) {
   }
 }
 
+TEST_P(StoringTerms, ForceBetweenTwoStatesDoesTheWorkThatTheEnergyLoses) {
+  Random random(312);
+  const auto s = block(GetParam().term, kClamps);
+  for (const double amplitude : {0.05, 0.6}) {
+    const Vector q0 = random_dofs(random, s.size(), amplitude), q1 = random_dofs(random, s.size(), amplitude);
+    Vector f(s.size());
+    s.model().discrete_gradient()->force(0, q0, 0.1, q1, f);
+    const double scale = s.potential(q0) + s.potential(q1) + (f.array() * (q1 - q0).array()).abs().sum();
+    EXPECT_NEAR(f.dot(q1 - q0), s.potential(q0) - s.potential(q1), 1e-13 * scale) << amplitude;
+  }
+}
+
+TEST_P(StoringTerms, ForceBetweenTwoStatesThatAreCloseIsThatInTheMiddle) {
+  Random random(313);
+  const auto s = block(GetParam().term, kClamps);
+  const Vector q = random_dofs(random, s.size(), 0.2), d = random_dofs(random, s.size(), 1);
+  for (const double h : {1e-4, 1e-7, 1e-10}) {
+    Vector f(s.size());
+    s.model().discrete_gradient()->force(0, q, 0.1, q + h * d, f);
+    EXPECT_LE((f - s.force(q + h / 2 * d)).norm(), (100 * h * h + 1e-13) * f.norm()) << h;
+  }
+}
+
 TEST(FrequencyBound, CountsSpringsThatAreStifferThanTheBody) {
   const auto s = block("{type: spring, between: [[1, 0, 0], [0, 1, 1]], stiffness: 1e6, rest_length: 0}");
   const auto modes = Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(s.stiffness(s.zero()), s.mass());
