@@ -26,7 +26,8 @@ double surface_area(const TetMesh& mesh, const std::vector<Triangle>& triangles)
   return sum;
 }
 
-DeadLoad::NodalForces surface_forces(const TetMesh& mesh, const std::vector<Triangle>& triangles, const Vec3& traction) {
+DeadLoad::NodalForces surface_forces(const TetMesh& mesh, const std::vector<Triangle>& triangles,
+                                     const Vec3& traction) {
   std::map<int, Vec3> sums;
   for (const auto& t : triangles)
     for (const int node : t) sums.try_emplace(node, Vec3::Zero()).first->second += area(mesh, t) / 3 * traction;

@@ -187,7 +187,7 @@ std::vector<Output> reaction_outputs(const std::vector<Support>& supports) {
                    [&support](const Parts& p, const NodalExpansion& n) {
                      return flat(reaction(support, support_forces(p, n)));
                    }});
-    out.push_back({{"torque." + support.name, Location::global, 3, "N m", "Its torque about the middle of its nodes."},
+    out.push_back({{"torque." + support.name, Location::global, 3, "N m", "Its torque about the middle of the nodes."},
                    [&support](const Parts& p, const NodalExpansion& n) {
                      return flat(reaction_torque(support, support_forces(p, n), n.x));
                    }});

@@ -1,8 +1,8 @@
 // A rigid plane that pushes back nodes that are below it. With the depth d = (point - x) . n of a node and its
 // share A of the surface, the energy k A psi(d) is twice continuously differentiable:
 //   psi'(d) = 0 for d <= 0,  d^2/(2 w) for d < w,  d - w/2 beyond;
-// force k A psi'(d) n, stiffness k A psi''(d) n n^T; between two states psi' is its mean over the depths passed. w is the depth over which contact sets in. Neither friction
-// nor damping: the plane gives back all energy that it takes.
+// force k A psi'(d) n, stiffness k A psi''(d) n n^T; between two states psi' is its mean over the depths passed.
+// w is the depth over which contact sets in. Neither friction nor damping: the plane gives back all energy.
 #pragma once
 
 #include <vector>

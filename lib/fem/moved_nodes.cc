@@ -1,7 +1,5 @@
 #include "lib/fem/moved_nodes.h"
 
-#include <algorithm>
-
 #include "lib/fem/dead_load.h"
 
 namespace orthodyn {
@@ -38,7 +36,7 @@ NodalVector MovedNodes::accelerations(double t) const {
 std::size_t MovedNodes::num_coordinates() const {
   std::size_t sum = 0;
   for (const Part& part : parts_)
-    sum += part.nodes.size() * static_cast<std::size_t>(std::count(part.components.begin(), part.components.end(), true));
+    for (const bool moved : part.components) sum += moved ? part.nodes.size() : 0;
   return sum;
 }
 

@@ -146,7 +146,7 @@ BuiltScene build(const Scene& scene) {
   parts.dofs = std::make_unique<DofMap>(num_nodes, supports.held);
   if (parts.dofs->num_dofs() == 0)
     (scene.clamps.empty() ? scene.motions.front().origin : scene.clamps.front().origin)
-        .fail("all nodes are held: nothing can move");
+        .fail("all nodes are clamped or moved: nothing is left to compute");
   const bool symmetric = !(scene.elasticity.kinematics == Kinematics::corotational &&
                            scene.elasticity.corotation == Corotation::warped &&
                            scene.elasticity.warped_tangent == WarpedTangent::unsymmetric);

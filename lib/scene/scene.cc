@@ -36,7 +36,8 @@ const Spec<Clamp>& Clamp::spec() {
                             .key("components", &Clamp::components, "Which coordinates are held.")
                             .check([](const Clamp& clamp, const Config& config) {
                               clamp.check(config);
-                              if (clamp.components.empty()) config.at("components").fail("is empty; give some of x, y, z");
+                              if (clamp.components.empty())
+                                config.at("components").fail("is empty; give some of x, y, z");
                             });
   return s;
 }

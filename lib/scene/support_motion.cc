@@ -49,8 +49,8 @@ const Spec<SupportMotion>& SupportMotion::spec() {
           .key("kinks", &SupportMotion::kinks, "Times where the formulas are not smooth; integrators restart there.",
                {.unit = "s"})
           .key("resolution", &SupportMotion::resolution,
-               "Step of the differences that velocity and acceleration of the formulas are taken by: a sixtieth of their "
-               "shortest period, or less; default 1e-3 s.",
+               "Step of the differences that give the formulas' velocity and acceleration: a sixtieth of their shortest "
+               "period, or less; default 1e-3 s.",
                {.unit = "s", .range = kPositive})
           .check(check_motion);
   return s;
@@ -60,8 +60,8 @@ std::shared_ptr<const Motion> SupportMotion::motion() const {
   if (displacement)
     return std::make_shared<FormulaMotion>(*displacement, resolution.value_or(kUsualResolution), kinks);
   const Rotation turn = rotation.value_or(Rotation{});
-  return std::make_shared<RigidMotion>(translation.value_or(Vec3::Zero()), turn.point, turn.axis.normalized(), turn.angle,
-                                       factor);
+  return std::make_shared<RigidMotion>(translation.value_or(Vec3::Zero()), turn.point, turn.axis.normalized(),
+                                       turn.angle, factor);
 }
 
 }  // namespace orthodyn

@@ -36,7 +36,7 @@ class Register {
       for (std::size_t c = 0; c < 3; ++c) {
         if (!components[c]) continue;
         int& owner = owner_[3 * static_cast<std::size_t>(nodes[i]) + c];
-        if (owner >= 0 && moves) fail_twice(selection.origin, nodes[i], c, supports_[static_cast<std::size_t>(owner)].name);
+        if (owner >= 0 && moves) fail_twice(selection.origin, nodes[i], c, owner);
         support.held[i][c] = owner < 0;
         if (owner < 0) owner = index;
       }
@@ -60,10 +60,11 @@ class Register {
       if (other.name == name) origin.fail(fmt::format("name: '{}' stands twice among clamps and motions", name));
   }
 
-  [[noreturn]] void fail_twice(const Origin& origin, int node, std::size_t component, const std::string& other) const {
+  [[noreturn]] void fail_twice(const Origin& origin, int node, std::size_t component, int owner) const {
     origin.fail(fmt::format("moves {} of the node at {} m, which belongs to {} already; select nodes that do not "
                             "overlap, or other components",
-                            "xyz"[component], Value<Vec3>::yaml(mesh_.nodes[static_cast<std::size_t>(node)]), other));
+                            "xyz"[component], Value<Vec3>::yaml(mesh_.nodes[static_cast<std::size_t>(node)]),
+                            supports_[static_cast<std::size_t>(owner)].name));
   }
 
   const TetMesh& mesh_;

@@ -16,14 +16,21 @@ struct Case {
 void PrintTo(const Case& c, std::ostream* os) { *os << c.name; }
 const auto name_of = [](const auto& tested) { return tested.param.name; };
 
-const Case kSpring{"spring_between_nodes_of_no_element", "{type: spring, between: [[1, 0, 0], [0, 1, 1]], stiffness: 3, rest_length: 0.7}"};
-const Case kToAnchor{"springs_to_an_anchor", "{type: spring, surface: x1, anchor: [2, 0.4, 0.3], stiffness: 3, rest_length: 1.5}"};
+const Case kSpring{"spring_between_nodes_of_no_element",
+    "{type: spring, between: [[1, 0, 0], [0, 1, 1]], stiffness: 3, rest_length: 0.7}"};
+const Case kToAnchor{"springs_to_an_anchor",
+    "{type: spring, surface: x1, anchor: [2, 0.4, 0.3], stiffness: 3, rest_length: 1.5}"};
 const Case kInPlace{"springs_in_place", "{type: spring, surface: x1, stiffness: 3}"};
-const Case kNoLength{"spring_without_rest_length", "{type: spring, between: [[1, 0, 0], [0, 1, 1]], stiffness: 3, rest_length: 0}"};
-const Case kOnset{"ground_in_its_onset", "{type: ground, point: [0, 0, 0.3], normal: [0.1, 0.2, 1], stiffness: 5, onset: 1.5}"};
-const Case kDeep{"ground_beyond_its_onset", "{type: ground, point: [0, 0, 0.5], stiffness: 5, onset: 0.01, surface: z0}"};
-const Case kClosed{"pressure_on_a_closed_surface", "{type: pressure, pressure: 0.4, factor: {type: constant, value: 1.5}}"};
-const Case kBetween{"dashpot_between_nodes_of_no_element", "{type: dashpot, between: [[1, 0, 0], [0, 1, 1]], coefficient: 3}"};
+const Case kNoLength{"spring_without_rest_length",
+    "{type: spring, between: [[1, 0, 0], [0, 1, 1]], stiffness: 3, rest_length: 0}"};
+const Case kOnset{"ground_in_its_onset",
+    "{type: ground, point: [0, 0, 0.3], normal: [0.1, 0.2, 1], stiffness: 5, onset: 1.5}"};
+const Case kDeep{"ground_beyond_its_onset",
+    "{type: ground, point: [0, 0, 0.5], stiffness: 5, onset: 0.01, surface: z0}"};
+const Case kClosed{"pressure_on_a_closed_surface",
+    "{type: pressure, pressure: 0.4, factor: {type: constant, value: 1.5}}"};
+const Case kBetween{"dashpot_between_nodes_of_no_element",
+    "{type: dashpot, between: [[1, 0, 0], [0, 1, 1]], coefficient: 3}"};
 const Case kDragged{"dashpots_to_an_anchor", "{type: dashpot, surface: x1, anchor: [2, 0.4, 0.3], coefficient: 3}"};
 const Case kDrag{"dashpots_in_place", "{type: dashpot, surface: x1, coefficient: 3}"};
 
@@ -74,7 +81,8 @@ TEST_P(StoringTerms, GaussNewtonTangentIsPositiveSemidefinite) {
   Random random(303);
   const auto s = block(GetParam().term, kClamps);
   for (const double amplitude : {0.05, 0.6}) {
-    const Eigen::MatrixXd K = s.matrix({0, 0, 1}, random_dofs(random, s.size(), amplitude), s.zero(), TangentKind::gauss_newton);
+    const Vector q = random_dofs(random, s.size(), amplitude);
+    const Eigen::MatrixXd K = s.matrix({0, 0, 1}, q, s.zero(), TangentKind::gauss_newton);
     EXPECT_GE(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues()[0], -1e-13 * K.norm()) << amplitude;
   }
 }
@@ -89,13 +97,14 @@ TEST_P(StoringTerms, AreWithinTheFrequencyBound) {
 
 TEST_P(StoringTerms, ForceBetweenTwoStatesDoesTheWorkThatTheEnergyLoses) {
   Random random(312);
-  const auto s = block(GetParam().term, kClamps);
-  for (const double amplitude : {0.05, 0.6}) {
-    const Vector q0 = random_dofs(random, s.size(), amplitude), q1 = random_dofs(random, s.size(), amplitude);
+  const auto s = block(GetParam().term);
+  for (const double shift : {0.0, 0.01, 0.3, 2.0}) {  // also from one zone of the contact to another
+    const Vector q0 = random_dofs(random, s.size(), 0.05);
+    const Vector q1 = random_dofs(random, s.size(), 0.05) + Vector::Constant(s.size(), shift);
     Vector f(s.size());
     s.model().discrete_gradient()->force(0, q0, 0.1, q1, f);
     const double scale = s.potential(q0) + s.potential(q1) + (f.array() * (q1 - q0).array()).abs().sum();
-    EXPECT_NEAR(f.dot(q1 - q0), s.potential(q0) - s.potential(q1), 1e-13 * scale) << amplitude;
+    EXPECT_NEAR(f.dot(q1 - q0), s.potential(q0) - s.potential(q1), 1e-13 * scale) << shift;
   }
 }
 
@@ -153,7 +162,8 @@ TEST_P(InnerTerms, ExertNoNetForceAndNoTorqueOnAFreeBody) {
 }
 
 TEST(Spring, PullsAlongItselfByStiffnessTimesStretch) {
-  const auto s = block("{type: spring, nearest: [1, 1, 1], anchor: [4, 1, 1], stiffness: 2, rest_length: 1}"), without = block("");
+  const auto s = block("{type: spring, nearest: [1, 1, 1], anchor: [4, 1, 1], stiffness: 2, rest_length: 1}");
+  const auto without = block("");
   const NodalVector f = s.nodal(s.force(s.zero()) - without.force(s.zero()));
   EXPECT_LE((f.rowwise().sum() - Vec3(2 * (3 - 1), 0, 0)).norm(), 1e-14);
 }
@@ -202,7 +212,8 @@ TEST(Pressure, OnAnOpenSurfaceGivesTheSymmetricPartOfItsDerivative) {
   Random random(311);
   const std::string term = "{type: pressure, surface: x1, pressure: 0.4}";
   const std::string general = "elasticity: {corotation: warped, warped_tangent: unsymmetric}";
-  const auto s = block(term), without = block(""), s_general = block(term, general), without_general = block("", general);
+  const auto s = block(term), without = block("");
+  const auto s_general = block(term, general), without_general = block("", general);
   const Vector q = random_dofs(random, s.size(), 0.1);
   const Eigen::MatrixXd K = s.stiffness(q) - without.stiffness(q);
   const Eigen::MatrixXd exact = s_general.stiffness(q) - without_general.stiffness(q);
@@ -214,20 +225,23 @@ TEST(Pressure, OnAnOpenSurfaceGivesTheSymmetricPartOfItsDerivative) {
 
 TEST(Ground, PushesByStiffnessTimesAreaTimesDepthLessHalfTheOnset) {
   const auto at = [](double depth, double onset) {
-    const auto s = block(fmt::format("{{type: ground, point: [0, 0, {}], stiffness: 5, onset: {}, surface: z0}}", depth, onset));
+    const auto s = block(
+        fmt::format("{{type: ground, point: [0, 0, {}], stiffness: 5, onset: {}, surface: z0}}", depth, onset));
     return Vec3(s.nodal(s.force(s.zero())).rowwise().sum());
   };
   EXPECT_LE((at(0.3, 0.1) - Vec3(0, 0, 5 * (0.3 - 0.05))).norm(), 1e-13);
   EXPECT_LE((at(0.05, 0.1) - Vec3(0, 0, 5 * 0.05 * 0.05 / 0.2)).norm(), 1e-13);
-  EXPECT_EQ(at(-0.01, 0.1).norm(), 0);
+  EXPECT_LE(at(-0.01, 0.1).norm(), 1e-14);
 }
 
 TEST(Ground, HasAContinuousTangentWhereContactSetsInAndWhereTheOnsetEnds) {
   const auto stiffness = [](double depth) {
-    const auto s = block(fmt::format("{{type: ground, point: [0, 0, {:.17g}], stiffness: 5, onset: 0.1, surface: z0}}", depth));
+    const auto s = block(
+        fmt::format("{{type: ground, point: [0, 0, {:.17g}], stiffness: 5, onset: 0.1, surface: z0}}", depth));
     return s.stiffness(s.zero());
   };
-  for (const double depth : {0.0, 0.1}) EXPECT_LE((stiffness(depth + 1e-9) - stiffness(depth - 1e-9)).norm(), 5e-7) << depth;
+  for (const double depth : {0.0, 0.1})
+    EXPECT_LE((stiffness(depth + 1e-9) - stiffness(depth - 1e-9)).norm(), 5e-7) << depth;
 }
 
 TEST(PointLoad, IsSharedBySelectedNodesAndFollowsItsFactor) {

@@ -28,6 +28,16 @@ TEST_F(CommandLine, TheResolvedSceneRunsToTheSameResult) {
   EXPECT_EQ(read_text(folder_ / "out/swing/probes.csv"), read_text(folder_ / "again/probes.csv"));
 }
 
+TEST_F(CommandLine, ReactionsAreRecordedWhereTheSceneAsksForThem) {
+  write("swing.yaml", kSwing);
+  ASSERT_EQ(orthodyn("run swing.yaml --quiet --set output.reactions=true --set clamps.0.name=wall").exit_code, 0);
+  const std::string probes = read_text(folder_ / "out/swing/probes.csv"), header = probes.substr(0, probes.find('\n'));
+  EXPECT_EQ(header, "t [s],tip.displacement.x [m],tip.displacement.y [m],tip.displacement.z [m],reaction.wall.x [N],"
+                    "reaction.wall.y [N],reaction.wall.z [N],torque.wall.x [N m],torque.wall.y [N m],torque.wall.z [N m]");
+  ASSERT_EQ(orthodyn("run swing.yaml --quiet --force").exit_code, 0);
+  EXPECT_EQ(read_text(folder_ / "out/swing/probes.csv").find("reaction"), std::string::npos);
+}
+
 TEST_F(CommandLine, FramesConvertBackToTheMesh) {
   write("swing.yaml", kSwing);
   ASSERT_EQ(orthodyn("run swing.yaml --quiet").exit_code, 0);

@@ -12,11 +12,12 @@ class Expression : public TimeFunction {
     static const auto s =
         Spec<Expression>()
             .key("formula", &Expression::formula_, "The factor.", {.required = true})
-            .key("kinks", &Expression::kinks_, "Times where it is not smooth; integrators restart there.", {.unit = "s"})
+            .key("kinks", &Expression::kinks_, "Times where it is not smooth; integrators restart there.",
+                 {.unit = "s"})
             .key("peak", &Expression::peak_, "The largest magnitude it reaches, for default scales of errors.",
                  {.range = kNonNegative})
             .key("resolution", &Expression::resolution_,
-                 "Step of the differences that rate and curvature are taken by: a sixtieth of its shortest period, or less.",
+                 "Step of the differences that give rate and curvature: a sixtieth of its shortest period, or less.",
                  {.unit = "s", .range = kPositive});
     return s;
   }

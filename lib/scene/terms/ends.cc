@@ -3,7 +3,8 @@
 namespace orthodyn {
 
 void Ends::check(const Config& config) const {
-  if (count() + between.has_value() != 1) config.fail("give exactly one of surface, box, plane, nearest, nodes, between");
+  if (count() + between.has_value() != 1)
+    config.fail("give exactly one of surface, box, plane, nearest, nodes, between");
   if (between && anchor) config.at("anchor").fail("goes with selected nodes; remove it, or 'between'");
 }
 

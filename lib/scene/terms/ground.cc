@@ -17,7 +17,8 @@ class GroundChoice : public TermChoice {
         Spec<G>()
             .key("point", &G::point_, "A point of the plane.", {.unit = "m"})
             .key("normal", &G::normal_, "Away from the ground, of any length.")
-            .key("stiffness", &G::stiffness_, "Pressure per depth.", {.required = true, .unit = "Pa/m", .range = kPositive})
+            .key("stiffness", &G::stiffness_, "Pressure per depth.",
+                 {.required = true, .unit = "Pa/m", .range = kPositive})
             .key("onset", &G::onset_, "Depth over which contact sets in; default 1e-3 of the mesh's diagonal.",
                  {.unit = "m", .range = kPositive})
             .key("surface", &G::surface_, "What can touch it: a named surface; default the whole outer surface.")
@@ -30,7 +31,8 @@ class GroundChoice : public TermChoice {
   std::unique_ptr<Term> make(const FemModel::Parts& parts) const override {
     const auto triangles = surface_or_all(parts.mesh, surface_, origin);
     std::vector<std::pair<int, double>> areas;
-    for (const auto& [node, share] : surface_forces(parts.mesh, triangles, Vec3::UnitX())) areas.emplace_back(node, share[0]);
+    for (const auto& [node, share] : surface_forces(parts.mesh, triangles, Vec3::UnitX()))
+      areas.emplace_back(node, share[0]);
     const double onset = onset_.value_or(kUsualOnset * bounding_box(parts.mesh).diagonal());
     return std::make_unique<Ground>(GroundPlane{point_, normal_.normalized(), stiffness_, onset}, std::move(areas),
                                     *parts.pattern);

@@ -23,7 +23,8 @@ class PointLoadChoice : public TermChoice, public Selection {
     const auto selected = selected_nodes(*this, parts.mesh);
     DeadLoad::NodalForces forces;
     for (const int node : selected) forces.emplace_back(node, force_ / static_cast<double>(selected.size()));
-    return std::make_unique<DeadLoad>(fmt::format("point load on {} nodes", selected.size()), std::move(forces), factor_);
+    return std::make_unique<DeadLoad>(fmt::format("point load: {} nodes", selected.size()), std::move(forces),
+                                      factor_);
   }
 
   void declare(Traits& traits) const override {
@@ -38,8 +39,8 @@ class PointLoadChoice : public TermChoice, public Selection {
   std::shared_ptr<const TimeFunction> factor_;
 };
 
-const bool registered =
-    Registry<TermChoice>::add<PointLoadChoice>("point_load", "A force on a node, or shared by several, that keeps its direction.");
+const bool registered = Registry<TermChoice>::add<PointLoadChoice>(
+    "point_load", "A force on a node, or shared by several, that keeps its direction.");
 
 }  // namespace
 }  // namespace orthodyn

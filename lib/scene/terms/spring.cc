@@ -19,7 +19,7 @@ class SpringChoice : public TermChoice, public Ends {
             .check([](const S& spring, const Config& config) {
               spring.Ends::check(config);
               if (spring.in_place() && spring.rest_length_.value_or(0) > 0)
-                config.at("rest_length").fail("has no direction: the nodes are tied to their own places; give an 'anchor'");
+                config.at("rest_length").fail("has no direction: a node is tied to its own place; give an 'anchor'");
             });
     return s;
   }
@@ -32,7 +32,8 @@ class SpringChoice : public TermChoice, public Ends {
       if (length == 0 && rest_length > 0) origin.fail("a node lies on the anchor, so that its spring has no direction");
       springs.push_back({link, rest_length});
     }
-    return std::make_unique<Springs>(stiffness_ / static_cast<double>(springs.size()), std::move(springs), *parts.pattern);
+    const double each = stiffness_ / static_cast<double>(springs.size());
+    return std::make_unique<Springs>(each, std::move(springs), *parts.pattern);
   }
 
   NodePairs couplings(const TetMesh& mesh) const override { return Ends::couplings(mesh); }
@@ -47,7 +48,8 @@ class SpringChoice : public TermChoice, public Ends {
 };
 
 const bool registered = Registry<TermChoice>::add<SpringChoice>(
-    "spring", "Springs between two nodes, or from nodes to the ground: k (l - l0) along the spring, for any displacement.");
+    "spring",
+    "Springs between two nodes, or from nodes to the ground: k (l - l0) along the spring, for any displacement.");
 
 }  // namespace
 }  // namespace orthodyn
