@@ -188,7 +188,9 @@ TEST_P(Contract, SaysWhatItDecided) {
   for (const auto& [key, value] : make(model)->decisions()) decided[key] = value;
   EXPECT_EQ(decided["position_scale"], "1");
   EXPECT_EQ(decided["velocity_scale"], "3");
-  if (solves_systems(GetParam().integrator)) EXPECT_TRUE(contains(decided["linear_solver"], GetParam().solver));
+  if (solves_systems(GetParam().integrator)) {
+    EXPECT_TRUE(contains(decided["linear_solver"], GetParam().solver));
+  }
 }
 
 TEST_P(Contract, TooManyStepsEndInARunErrorThatNamesTheLimit) {

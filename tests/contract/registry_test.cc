@@ -38,8 +38,9 @@ TEST(IntegratorRegistry, HasNoTwoNamesForOneMap) {
   for (const auto& name : Registry<IntegratorChoice>::names()) {
     const State state = moved(name);
     for (const auto& [other, theirs] : states)
-      if (has_key(name, "step") == has_key(other, "step"))
+      if (has_key(name, "step") == has_key(other, "step")) {
         EXPECT_GT(distance(state, theirs, {1, 20}), 1e-9) << name << " and " << other;
+      }
     states[name] = state;
   }
 }

@@ -1,0 +1,58 @@
+// The energy-momentum method keeps its invariants where the step is far beyond an explicit method's limit.
+#include "lib/scene/setup.h"
+#include "tests/contract/integrators.h"
+#include "tests/fem/built_scene.h"
+
+namespace orthodyn {
+namespace {
+
+// A free block, ten times stiffer along oblique fibres, that spins and is stretched a little.
+BuiltTestScene spinning_block(const std::string& more = "") {
+  return BuiltTestScene("mesh: {type: box, size: [1, 1, 1], cells: [2, 2, 1]}\nmaterials: {m: " + fibre_material(10) +
+                        "}\nregions: {all: {material: m, axes: " + kTurnedAxes + "}}\n" +
+                        "initial: {spin: [0.5, 1, 2], deformation_gradient: [[1.05, 0, 0], [0, 1, 0], [0, 0, 1]]}\n" +
+                        "time: {end: 1000}\n" + more);
+}
+
+struct Drift {
+  double energy = 0, linear = 0, angular = 0;  // relative to kinetic + elastic energy and to spin's momentum
+};
+
+Drift drift(const BuiltTestScene& s, double step, int steps) {
+  const auto choice = Registry<IntegratorChoice>::read(
+      Config::from_text(fmt::format("{{type: energy_momentum, step: {}}}", step)));
+  const auto integrator = choice->make(s.model(), task_of(s.scene, s.built));
+  const auto vector = [&](const char* name, const State& state) {
+    const auto values = s.model().evaluate(name, state);
+    return Vec3(values[0], values[1], values[2]);
+  };
+  const auto energy = [&](const State& state) {
+    return s.model().evaluate("energy.kinetic", state)[0] + s.model().evaluate("energy.elastic", state)[0];
+  };
+  State state = s.built.initial;
+  const double first_energy = energy(state);
+  const Vec3 first_linear = vector("momentum.linear", state), first_angular = vector("momentum.angular", state);
+  integrator->start(state);
+  Drift largest;
+  for (int k = 1; k <= steps; ++k) {
+    integrator->interpolate(integrator->step(1e9).t, state);
+    if (k % 50 != 0) continue;
+    const auto keep_largest = [](double& most, double value) { most = std::max(most, value); };
+    keep_largest(largest.energy, std::abs(energy(state) - first_energy) / first_energy);
+    keep_largest(largest.linear, (vector("momentum.linear", state) - first_linear).norm() / first_angular.norm());
+    keep_largest(largest.angular, (vector("momentum.angular", state) - first_angular).norm() / first_angular.norm());
+  }
+  return largest;
+}
+
+// 2 / frequency_bound() is a lower bound of the critical step of central differences.
+TEST(EnergyMomentum, KeepsEnergyAndMomentumOverTenThousandStepsOfTwentyTimesTheExplicitLimit) {
+  const auto block = spinning_block();
+  const Drift d = drift(block, 20 * 2 / block.model().frequency_bound(), 10'000);
+  EXPECT_LE(d.energy, 1e-10);
+  EXPECT_LE(d.linear, 1e-10);
+  EXPECT_LE(d.angular, 1e-10);
+}
+
+}  // namespace
+}  // namespace orthodyn
