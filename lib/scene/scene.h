@@ -15,14 +15,18 @@
 #include "lib/material/material.h"
 #include "lib/ode/integrator.h"
 #include "lib/scene/axes/axes_source.h"
+#include "lib/scene/event_spec.h"
 #include "lib/scene/expectation.h"
 #include "lib/scene/mesh_source.h"
+#include "lib/scene/statics.h"
 #include "lib/scene/term_choice.h"
 
 namespace orthodyn {
 
 enum class Component { x, y, z };
 enum class OutputTimes { interpolated, exact };
+enum class Analysis { dynamic, statical };
+enum class Start { rest, equilibrium };
 
 // A set of nodes: exactly one of the five.
 struct BoxSelection {
@@ -120,6 +124,7 @@ struct CheckpointSchedule {
 };
 
 struct Scene {
+  Analysis analysis = Analysis::dynamic;
   std::shared_ptr<const MeshSource> mesh;
   std::shared_ptr<const LoadedMesh> loaded;  // where the mesh had to be read for its materials already
   Named<std::shared_ptr<const Material>> materials;
@@ -132,8 +137,11 @@ struct Scene {
   std::vector<std::shared_ptr<const TermChoice>> terms;
   std::vector<Clamp> clamps;
   std::optional<Initial> initial;
+  Start start = Start::rest;
   TimeSpan time;
-  std::shared_ptr<const IntegratorChoice> integrator;
+  std::shared_ptr<const IntegratorChoice> integrator;  // null in statics
+  std::optional<Statics> statics;  // of a static analysis and a start from equilibrium
+  std::vector<EventSpec> events;
   Output output;
   std::optional<CheckpointSchedule> checkpoint;
   std::vector<Expectation> expect;

@@ -4,8 +4,6 @@
 
 namespace orthodyn {
 
-namespace {
-
 std::vector<ProbeColumn> probe_columns(const Scene& scene, const TetMesh& mesh) {
   std::vector<ProbeColumn> columns;
   for (const auto& [name, probe] : scene.output.probes)
@@ -13,10 +11,8 @@ std::vector<ProbeColumn> probe_columns(const Scene& scene, const TetMesh& mesh) 
   return columns;
 }
 
-}  // namespace
-
 RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& folder, bool quiet)
-    : inversion(*setup.built.model) {
+    : inversion(*setup.built.model), finder_(setup.events) {
   const auto& model = *setup.built.model;
   const auto& scene = setup.scene;
   if (!scene.output.fields.empty()) frames_.emplace(folder, model, scene.output.fields);
@@ -25,6 +21,7 @@ RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& fold
   if (scene.output.steps) steps_.emplace(folder / "steps.csv");
   if (!scene.output.probes.empty())
     probes_.emplace(folder / "probes.csv", model, probe_columns(scene, model.parts().mesh));
+  if (!finder_.empty()) events_.emplace(folder / "events.csv", finder_);
   if (!quiet) progress_.emplace(scene.time.start, scene.time.end, stderr);
 }
 
@@ -36,6 +33,7 @@ NamedObservers RunObservers::kept() {
   add("momentum", momentum);
   add("steps", steps_);
   add("probes", probes_);
+  add("events", events_);
   return out;
 }
 
