@@ -30,6 +30,16 @@ Mat63 times(const AnisotropicStiffness& C, const Mat63& N) { return C.c * N; }
 
 }  // namespace
 
+Mat3 solve_lyapunov(const Mat3& S, const Mat3& B) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> modes(S);
+  const Mat3& V = modes.eigenvectors();
+  const Vec3& s = modes.eigenvalues();
+  Mat3 X = V.transpose() * B * V;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) X(i, j) /= s[i] + s[j];
+  return V * X * V.transpose();
+}
+
 Mat63 stretch_rate_matrix(const Mat3& S) {
   Mat63 N;
   N << 0, S(0, 2), -S(0, 1),                       //

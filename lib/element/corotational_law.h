@@ -13,10 +13,14 @@
 // whose first term is the Gauss-Newton part.
 #pragma once
 
+#include "lib/core/errors.h"
 #include "lib/element/rotating_law.h"
 #include "lib/element/tangent_form.h"
 
 namespace orthodyn {
+
+// X with S X + X S = B; S and B symmetric, S positive definite.
+Mat3 solve_lyapunov(const Mat3& S, const Mat3& B);
 
 // dS/dF in the rotated frame: dS = sym(X) - N w, in Voigt form with engineering shear.
 Mat63 stretch_rate_matrix(const Mat3& S);
@@ -33,6 +37,7 @@ template <class C>
 class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
  public:
   static constexpr const char* kName = "corotational, exact gradient";
+  static constexpr bool kHasEnergy = true;
   using Form = TangentFormOf<TangentStiffness<C>>;
 
   explicit CorotationalLaw(const C& stiffness) : RotatingLaw<CorotationalLaw, C>(stiffness), sparse_(as_tangent(stiffness)) {
@@ -86,6 +91,20 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
     if (kind == TangentKind::gauss_newton) return gauss_newton_form(p, sparse_, 1);
     double chi = 1;
     return exact_form(p, sparse_, rotated_stress(p, chi));
+  }
+
+  // The stress of two states, P Q, with P : (F1 - F0) = Psi(F1) - Psi(F0) and P (F0 + F1)^T symmetric, which is
+  // the discrete derivative in C = F^T F (Simo & Tarnow 1992; Gonzalez 2000): P = (F0 + F1)/2 X, X symmetric.
+  // Psi is quadratic in S and S^2 = C, so that X needs no quotient of differences: with the means s of S and
+  // sigma, Psi1 - Psi0 = sigma : (S1 - S0) and s (S1 - S0) + (S1 - S0) s = C1 - C0 give s X + X s = 2 sigma.
+  // Throws RecoverableError where an end is inverted or blended: C does not know the sign of det F.
+  Mat3 mean_stress(const Mat3& F0, const Mat3& F1, const Mat3& Q) const {
+    const auto p0 = polar(F0, Q), p1 = polar(F1, Q);
+    for (const auto* p : {&p0, &p1})
+      if (!(p->S.determinant() > 0) || !is_regular<double>(p->S, p->det_G))
+        throw RecoverableError("an element is inverted or flattened, where steps that keep the energy have no force");
+    const Mat3 S = 0.5 * (p0.S + p1.S);
+    return 0.5 * (F0 + F1) * solve_lyapunov(S, 2 * C_.stress(Mat3(S - Mat3::Identity())));
   }
 
   // The stress in the rotated frame, T = sigma + [c] with P = R T, where chi = 1.

@@ -11,6 +11,7 @@ class LinearLaw {
  public:
   static constexpr const char* kName = "small strain";
   static constexpr bool kBatchesNeedAxes = true;
+  static constexpr bool kHasEnergy = true;
   using Form = TangentFormOf<TangentStiffness<C>>;
 
   explicit LinearLaw(const C& stiffness) : C_(stiffness) {}
@@ -28,6 +29,11 @@ class LinearLaw {
     Mat3T<T> s = C_.stress(strain<T>(F, Q));
     if (F_rate) s += T(beta) * C_.stress(Mat3T<T>(symmetric_part<T>(Q.transpose().template cast<T>() * *F_rate)));
     return Q.template cast<T>() * s;
+  }
+
+  // With P : (F1 - F0) = Psi(F1) - Psi(F0): Psi is quadratic.
+  Mat3 mean_stress(const Mat3& F0, const Mat3& F1, const Mat3& Q) const {
+    return stress<double>(0.5 * (F0 + F1), Q);
   }
 
   template <class Axes>

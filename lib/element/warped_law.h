@@ -15,6 +15,7 @@ template <class C>
 class WarpedLaw : public RotatingLaw<WarpedLaw<C>, C> {
  public:
   static constexpr const char* kName = "WARPED force R sigma (no energy, net torque)";
+  static constexpr bool kHasEnergy = false;
   using Form = TangentFormOf<TangentStiffness<C>>;
 
   WarpedLaw(const C& stiffness, WarpedTangent tangent)

@@ -46,6 +46,15 @@ class Elastic final : public ElasticTerm {
     }
   }
 
+  bool has_energy() const override { return Law::kHasEnergy; }
+
+  void add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const override {
+    if constexpr (Law::kHasEnergy)
+      for (int k = 0; k < size(); ++k)
+        elements_.add_force(
+            k, law_.mean_stress(elements_.gradient(k, s0.x), elements_.gradient(k, s1.x), axes_.of(k)), f);
+  }
+
   void add_tangent(const NodalState& s, TangentKind kind, double* K, double* D) const override {
     const bool damped = D && beta_ > 0;
     for (int k = 0; k < size(); ++k) {

@@ -34,6 +34,8 @@ class ElasticTerm : public Term {
   virtual PointObservation observe(int k, const NodalState& s) const = 0;
   // sym(grad u) in material axes, of a small displacement u (m).
   virtual Mat3 small_strain(int k, const NodalVector& u) const = 0;
+  // False for the warped force: then there is no discrete gradient.
+  virtual bool has_energy() const = 0;
   virtual double det_F(int k, const NodalState& s) const = 0;
 
   // Upper bound of the squared angular frequency of any element about rest, for lumped masses

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/fem/mean_force.h"
+
 namespace orthodyn {
 
 NodalExpansion::NodalExpansion(const FemModel::Parts& parts, double time, const ConstVectorRef& q,
@@ -10,6 +12,12 @@ NodalExpansion::NodalExpansion(const FemModel::Parts& parts, double time, const 
     : t(time), x(*parts.rest), u_rate(NodalVector::Zero(3, parts.rest->cols())) {
   parts.dofs->add_to(q, x);
   parts.dofs->add_to(v, u_rate);
+}
+
+FemModel::FemModel(Parts parts) : parts_(std::move(parts)) {
+  const auto has_energy = [](const auto& term) { return term->has_energy(); };
+  if (std::all_of(parts_.elastic.begin(), parts_.elastic.end(), has_energy))
+    mean_force_ = std::make_unique<MeanForce>(parts_);
 }
 
 template <class F>

@@ -30,7 +30,7 @@ class FemModel : public Model {
     Traits traits;
   };
 
-  explicit FemModel(Parts parts) : parts_(std::move(parts)) {}
+  explicit FemModel(Parts parts);
 
   int num_dofs() const override { return parts_.dofs->num_dofs(); }
   const Traits& traits() const override { return parts_.traits; }
@@ -42,6 +42,7 @@ class FemModel : public Model {
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { parts_.mass->multiply(x, y); }
   void solve_mass(VectorRef x) const override { parts_.mass->solve(x); }
   double frequency_bound() const override;
+  const DiscreteGradient* discrete_gradient() const override { return mean_force_.get(); }
   std::vector<double> breakpoints(double start, double end) const override;
 
   std::vector<OutputInfo> outputs() const override;
@@ -58,6 +59,7 @@ class FemModel : public Model {
   void for_each_term(F&& f) const;
 
   Parts parts_;
+  std::unique_ptr<const DiscreteGradient> mean_force_;  // null where a term has no energy
 };
 
 // All nodes' positions and velocities at a state of the free coordinates.

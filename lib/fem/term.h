@@ -32,6 +32,13 @@ class Term {
   // What it exerts at the peak of its factor in time, on the body in state s.
   virtual void add_peak_force(const NodalState& s, NodalVector& f) const { add_force(s, f); }
 
+  // The force between two states (DiscreteGradient in lib/ode/model.h): by default that of the middle, at rest,
+  // which is exact where the energy is at most quadratic.
+  virtual void add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const {
+    const NodalVector x = 0.5 * (s0.x + s1.x), still = NodalVector::Zero(3, x.cols());
+    add_force({0.5 * (s0.t + s1.t), x, still}, f);
+  }
+
   // Adds -df/dx to `stiffness` and -df/dv to `damping` (null if the model has no D).
   virtual void add_tangent(const NodalState&, TangentKind, double* /*stiffness*/, double* /*damping*/) const {}
 

@@ -34,12 +34,12 @@ struct Linearization {
   std::vector<double> stiffness, damping;
 };
 
-// Of a conservative model: a force between two states, which makes energy and momentum of a step exact.
+// The forces that have an energy U, between two states: f . (q1 - q0) = U(q0) - U(q1) to round-off, where U
+// is invariant under rotation without a torque about (x0 + x1) / 2, and f -> -grad U as q1 -> q0.
 class DiscreteGradient {
  public:
   virtual ~DiscreteGradient() = default;
-  // f with f . (q1 - q0) = U(q0) - U(q1) to round-off, no net force or torque of its own about the midpoint,
-  // and the limit f(q) as q1 -> q0; N.
+  // Loads are taken at the middle of the times. Throws RecoverableError where it does not exist. N.
   virtual void force(double t0, const ConstVectorRef& q0, double t1, const ConstVectorRef& q1, VectorRef f) const = 0;
 };
 

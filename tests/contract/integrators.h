@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "lib/linear/solver.h"
+#include "tests/contract/methods.h"
 #include "tests/contract/models.h"
 #include "tests/contract/order.h"
 
@@ -19,24 +19,20 @@ inline std::string pair_name(const testing::TestParamInfo<Pair>& tested) {
   return tested.param.integrator + "_" + tested.param.solver;
 }
 
-inline bool has_key(const std::string& integrator, const std::string& key) {
-  for (const auto& k : Registry<IntegratorChoice>::entries().at(integrator).keys)
-    if (k.name == key) return true;
-  return false;
-}
-
 inline std::vector<Pair> all_pairs() {
   std::vector<Pair> pairs;
-  for (const auto& name : Registry<IntegratorChoice>::names()) {
-    if (!has_key(name, "linear_solver")) pairs.push_back({name, "none"});
-    else
-      for (const auto& [solver, kind] : solver_registry()) pairs.push_back({name, solver});
-  }
+  for (const auto& [name, method] : tested_methods())
+    for (const auto& solver : tried_solvers(name)) pairs.push_back({name, solver});
   return pairs;
 }
 
-// The table of a Runge-Kutta method of that order.
-inline std::string table_of(int order) { return order == 2 ? "TRBDF2_3_3_2" : "ESDIRK547L2SA_7_4_5"; }
+// Those whose integrator has the key.
+inline std::vector<Pair> pairs_with(const std::string& key) {
+  std::vector<Pair> pairs;
+  for (const auto& pair : all_pairs())
+    if (has_key(pair.integrator, key)) pairs.push_back(pair);
+  return pairs;
+}
 
 // klu_full of a method for y' = (v, M^-1 f) would need the inverse of a consistent mass, which is dense.
 inline bool refuses_consistent_mass(const Pair& pair) {
@@ -45,16 +41,24 @@ inline bool refuses_consistent_mass(const Pair& pair) {
 
 struct Options {
   double rtol = 1e-5;
-  int max_order = 2;
+  int order = 2;          // the first variant where the method has none of this order
   std::string more = "";  // ", key: value"
 };
 
+inline const Variant& variant(const std::string& integrator, int order) {
+  const auto& all = tested(integrator).variants;
+  for (const auto& one : all)
+    if (one.order == order) return one;
+  return all.front();
+}
+
+// Without error control a step of 0.01 is taken, unless `more` says another.
 inline std::unique_ptr<Integrator> make_integrator(const Pair& pair, const SmallModel& model, const Options& o = {}) {
-  std::string yaml = fmt::format("{{type: {}, rtol: {}", pair.integrator, o.rtol);
+  std::string yaml = "{type: " + pair.integrator;
+  if (controls_its_error(pair.integrator)) yaml += fmt::format(", rtol: {}", o.rtol);
+  else if (o.more.find("step:") == std::string::npos) yaml += ", step: 0.01";
   if (pair.solver != "none") yaml += ", linear_solver: " + pair.solver;
-  if (has_key(pair.integrator, "max_order")) yaml += fmt::format(", max_order: {}", o.max_order);
-  if (has_key(pair.integrator, "table") && o.more.find("table:") == std::string::npos)
-    yaml += ", table: " + table_of(o.max_order);
+  if (o.more.find("table:") == std::string::npos) yaml += variant(pair.integrator, o.order).options;
   const auto choice = Registry<IntegratorChoice>::read(Config::from_text(yaml + o.more + "}"));
   return choice->make(model, {[&] { return model.scales(); }, model.initial(), model.end(), model.end() / 50});
 }

@@ -179,6 +179,21 @@ inline LinearModel kinked_oscillator() {
                       .factor = {{1, 0}, {2, 1}}, .end = 4, .velocity_scale = 3});
 }
 
+// Two masses between springs, suddenly loaded (Bathe, Finite Element Procedures, 1996, example 9.1).
+inline LinearModel bathes_two_masses() {
+  const Matrix M = Vector{{2, 1}}.asDiagonal();
+  const Matrix K{{6, -2}, {-2, 4}};
+  return LinearModel({.mass = M, .stiffness = K, .load = Vector{{0, 10}}, .end = 3.36, .velocity_scale = 5});
+}
+
+// A slow motion beside a fast one with eigenvalues -10 +- 100i, on which multistep methods of high order stall
+// (Enright, Hull & Lindberg 1975, problem B5; Shampine 1994). The fast one is small at the start.
+inline LinearModel fast_ringing() {
+  const Matrix K = Vector{{1, 10'100}}.asDiagonal();
+  return LinearModel({.mass = Matrix::Identity(2, 2), .stiffness = K, .beta = 20.0 / 10'100, .start = Vector{{1, 0.01}},
+                      .end = 3});
+}
+
 // Eight masses in a row between walls, damped; the first is drawn aside. With `consistent` the mass
 // matrix of linear finite elements, else a diagonal one.
 inline LinearModel chain(bool consistent) {

@@ -1,0 +1,61 @@
+// What the suite must know of each integrator that its keys do not tell.
+#pragma once
+
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "lib/core/registry.h"
+#include "lib/linear/solver.h"
+#include "lib/ode/integrator.h"
+
+namespace orthodyn {
+
+// An order that a method can have, and the options that give it, as ", key: value".
+struct Variant {
+  int order;
+  std::string options = "";
+};
+
+struct TestedMethod {
+  std::vector<Variant> variants;  // at least one
+  bool stiff = true;              // steps may be far longer than a stiff time scale
+  bool full_path = false;         // takes linear_solver: klu_full
+};
+
+inline const std::map<std::string, TestedMethod>& tested_methods() {
+  static const std::map<std::string, TestedMethod> all = {
+      {"arkode_dirk", {{{2, ", table: TRBDF2_3_3_2"}, {5, ", table: ESDIRK547L2SA_7_4_5"}}, true, true}},
+      {"cvode_bdf", {{{2, ", max_order: 2"}, {5, ", max_order: 5"}}, true, true}},
+      {"ida_bdf", {{{2, ", max_order: 2"}, {5, ", max_order: 5"}}, true, true}},
+  };
+  return all;
+}
+
+inline const TestedMethod& tested(const std::string& integrator) {
+  const auto found = tested_methods().find(integrator);
+  if (found == tested_methods().end()) throw std::logic_error("tests/contract/methods.h has no " + integrator);
+  return found->second;
+}
+
+inline bool has_key(const std::string& integrator, const std::string& key) {
+  for (const auto& k : Registry<IntegratorChoice>::entries().at(integrator).keys)
+    if (k.name == key) return true;
+  return false;
+}
+
+inline bool controls_its_error(const std::string& integrator) { return has_key(integrator, "rtol"); }
+inline bool solves_systems(const std::string& integrator) { return has_key(integrator, "linear_solver"); }
+
+// The solvers of which it is tried: all where SUNDIALS' own path is one of them, else a symmetric and a
+// general one.
+inline std::vector<std::string> tried_solvers(const std::string& integrator) {
+  if (!solves_systems(integrator)) return {"none"};
+  if (!tested(integrator).full_path) return {"cholmod", "klu"};
+  std::vector<std::string> names;
+  for (const auto& [name, kind] : solver_registry()) names.push_back(name);
+  return names;
+}
+
+}  // namespace orthodyn
