@@ -31,6 +31,8 @@ LIBRARIES = {
     r"udunits2\.h": ["lib/core/units.cc"],
     r"pugixml": ["lib/mesh/vtu"],
     r"zlib\.h": ["lib/mesh/vtu"],
+    r"Spectra/": ["lib/linear/eigenmodes.cc"],
+    r"boost/": ["lib/run/event_finder.cc"],
     r"CLI/": ["tools/"],
     r"nlohmann/": ["lib/run/checkpoint.cc", "lib/study/", "tools/", "tests/"],
 }

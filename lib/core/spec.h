@@ -102,7 +102,9 @@ class Spec {
   template <class V>
   static void read_field(const Config& section, const std::string& name, const Rule& rule,
                          V& target) {
-    if (section.has(name) && !section.at(name).is_null()) {
+    if (!rule.with.key.empty() && section.at(rule.with.key).text() != rule.with.word)
+      refuse_meaningless(section, name, rule.with);
+    else if (section.has(name) && !section.at(name).is_null()) {
       if (!rule.fallback.empty()) complete_type(section.at(name), rule.fallback);
       target = Value<V>::read(section.at(name), rule);
     } else if (rule.required) {
@@ -115,6 +117,12 @@ class Spec {
     } else if (const std::string text = Value<V>::yaml(target); !text.empty()) {
       section.fill(name, text);
     }
+  }
+
+  static void refuse_meaningless(const Config& section, const std::string& name, const Condition& with) {
+    if (!section.has(name) || section.at(name).is_null()) return;
+    section.at(name).fail("has a meaning only with " + with.key + ": " + with.word + ", found " + with.key + ": " +
+                          section.at(with.key).text() + "; remove it (--set " + name + "=null)");
   }
 
   // `integrator: {rtol: 1e-5}` keeps the type of the fallback "{type: cvode_bdf}".

@@ -22,11 +22,17 @@ namespace orthodyn {
 inline constexpr Range kPositive{0, std::numeric_limits<double>::infinity(), true, false};
 inline constexpr Range kNonNegative{0, std::numeric_limits<double>::infinity(), false, false};
 
+// Where a key means something: only if another one of the section, read before it, has this word.
+struct Condition {
+  std::string key, word;
+};
+
 struct Rule {
   bool required = false;
   std::string unit = "";
   Range range = {};           // of a number, and of each number of a list
   std::string fallback = "";  // YAML that stands for an absent section, such as "{type: box}"
+  Condition with = {};        // elsewhere it is refused, and its default not filled in
 };
 
 // Named entries in the order of the file.

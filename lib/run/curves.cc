@@ -92,9 +92,10 @@ std::vector<ProbeColumn> with_components(const Model& model, std::vector<ProbeCo
   return columns;
 }
 
-std::vector<std::string> probe_header(const Model& model, const std::vector<ProbeColumn>& columns) {
+std::vector<std::string> probe_header(const Model& model, const std::vector<ProbeColumn>& columns,
+                                      const std::string& t) {
   constexpr const char* axis[] = {".x", ".y", ".z"};
-  std::vector<std::string> header{"t [s]"};
+  std::vector<std::string> header{t};
   for (const auto& column : columns) {
     const auto info = info_of(model, column.field);
     for (int c = 0; c < info.components; ++c)
@@ -106,8 +107,10 @@ std::vector<std::string> probe_header(const Model& model, const std::vector<Prob
 
 }  // namespace
 
-ProbeWriter::ProbeWriter(const std::filesystem::path& path, const Model& model, std::vector<ProbeColumn> columns)
-    : model_(model), columns_(with_components(model, std::move(columns))), file_(path, probe_header(model, columns_)) {}
+ProbeWriter::ProbeWriter(const std::filesystem::path& path, const Model& model, std::vector<ProbeColumn> columns,
+                         const std::string& axis)
+    : model_(model), columns_(with_components(model, std::move(columns))),
+      file_(path, probe_header(model, columns_, axis)) {}
 
 void ProbeWriter::on_start(const State& state) {
   file_.begin();

@@ -66,7 +66,9 @@ struct ProbeColumn {
 
 class ProbeWriter : public Observer {
  public:
-  ProbeWriter(const std::filesystem::path& path, const Model& model, std::vector<ProbeColumn> columns);
+  // `axis` heads the column of State::t.
+  ProbeWriter(const std::filesystem::path& path, const Model& model, std::vector<ProbeColumn> columns,
+              const std::string& axis = "t [s]");
   void on_start(const State& state) override;
   void on_resume(const State&) override { file_.go_on(); }
   void on_output(const State& state) override { record(state); }

@@ -1,6 +1,7 @@
 // Something that looks on while a model is integrated: writes frames, curves, progress.
 #pragma once
 
+#include "lib/ode/event.h"
 #include "lib/ode/integrator.h"
 #include "lib/run/archive.h"
 
@@ -18,6 +19,9 @@ class Observer {
 
   // At each output time, within the last step.
   virtual void on_output(const State&) {}
+
+  // At each event, within the last step, in the order of time with the outputs.
+  virtual void on_event(const Crossing&) {}
 
   // After each step, and after the outputs that fell into it: the state at its end.
   // `integrator.interpolate` works for times within the step.

@@ -1,11 +1,9 @@
 #include "lib/run/run.h"
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <ctime>
+#include <fmt/format.h>
 
-#include "lib/core/errors.h"
+#include <algorithm>
+#include <cmath>
 
 namespace orthodyn {
 
@@ -30,6 +28,7 @@ class Driver {
   void advance() {
     outcome_.between_steps = false;
     for (auto* o : observers_) plan_.delivered ? o->on_resume(outcome_.last) : o->on_start(outcome_.last);
+    if (plan_.events && !plan_.delivered) plan_.events->start(outcome_.last);
     outcome_.between_steps = true;
     integrator_.start(outcome_.last);
     for (const double stop : stops_) {
@@ -45,7 +44,7 @@ class Driver {
     for (double& t : outputs_) t = std::max(t, outcome_.last.t);
   }
 
-  // False if interrupted.
+  // False if interrupted or stopped by an event.
   bool advance_to(double stop) {
     while (outcome_.last.t < stop) {
       if (interrupt_) {
@@ -53,19 +52,54 @@ class Driver {
         return false;
       }
       const double limit = plan_.exact_times && next_ < outputs_.size() ? std::min(stop, outputs_[next_]) : stop;
-      const StepInfo info = integrator_.step(limit);
+      const double begin = outcome_.last.t;
+      StepInfo info = integrator_.step(limit);
       outcome_.between_steps = false;
-      while (next_ < outputs_.size() && outputs_[next_] <= info.t) {
-        State state;
-        integrator_.interpolate(outputs_[next_++], state);
-        for (auto* o : observers_) o->on_output(state);
-      }
+      const Event* stopper = deliver_events(begin, info);
+      deliver_outputs(info.t);
+      if (stopper) deliver_last_output(info.t);
       integrator_.interpolate(info.t, outcome_.last);
       for (auto* o : observers_) o->on_step(info, outcome_.last, integrator_);
       outcome_.between_steps = true;
+      if (stopper) {
+        outcome_.remark = fmt::format("stopped by the event '{}' at t = {:.9g} s", stopper->name, info.t);
+        return false;
+      }
     }
     return true;
   }
+
+  // The event that stops the run, if any: the step then is taken to end there.
+  const Event* deliver_events(double begin, StepInfo& info) {
+    if (!plan_.events || plan_.events->empty()) return nullptr;
+    const auto interpolate = [&](double t, State& out) { integrator_.interpolate(t, out); };
+    for (const Crossing& crossing : plan_.events->find(begin, info.t, interpolate)) {
+      deliver_outputs(crossing.state.t);
+      for (auto* o : observers_) o->on_event(crossing);
+      if (!crossing.event->stops) continue;
+      info.t = crossing.state.t;
+      info.h = info.t - begin;
+      return crossing.event;
+    }
+    return nullptr;
+  }
+
+  void deliver_outputs(double until) {
+    while (next_ < outputs_.size() && outputs_[next_] <= until) deliver_output(outputs_[next_++]);
+  }
+
+  void deliver_output(double t) {
+    State state;
+    integrator_.interpolate(t, state);
+    for (auto* o : observers_) o->on_output(state);
+    last_output_ = t;
+  }
+
+  // Where outputs are wanted at all, there is one at the end.
+  void deliver_last_output(double t) {
+    if (!outputs_.empty() && last_output_ != t) deliver_output(t);
+  }
+
 
   Integrator& integrator_;
   const Plan& plan_;
@@ -74,12 +108,11 @@ class Driver {
   Outcome& outcome_;
   double tiny_;                          // times closer than this are one
   std::vector<double> outputs_, stops_;
+  std::optional<double> last_output_;
   std::size_t next_ = 0;
 };
 
 }  // namespace
-
-double cpu_seconds_now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 std::vector<double> evenly_spaced(double start, double end, int frames) {
   std::vector<double> times;
@@ -100,30 +133,9 @@ std::vector<double> by_interval(double start, double end, double interval) {
 
 Outcome run(const Model& model, Integrator& integrator, const State& initial, const Plan& plan,
             const std::vector<Observer*>& observers, const std::atomic<bool>& interrupt) {
-  Outcome outcome;
-  outcome.last = initial;
-  const auto wall = std::chrono::steady_clock::now();
-  const double cpu = cpu_seconds_now();
-  try {
+  return supervise(initial, observers, [&](Outcome& outcome) {
     Driver(model, integrator, plan, observers, interrupt, outcome).advance();
-  } catch (const std::bad_alloc&) {
-    outcome.status = Outcome::Status::failed;
-    outcome.message = "out of memory; use a coarser mesh or another linear solver";
-    outcome.reason = Reason::out_of_memory;
-  } catch (const ConfigError&) {
-    throw;
-  } catch (const RunError& e) {
-    outcome.status = Outcome::Status::failed;
-    outcome.message = e.what();
-    outcome.reason = e.reason();
-  } catch (const std::exception& e) {
-    outcome.status = Outcome::Status::failed;
-    outcome.message = e.what();
-  }
-  for (auto* o : observers) o->on_end();
-  outcome.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
-  outcome.cpu_seconds = cpu_seconds_now() - cpu;
-  return outcome;
+  });
 }
 
 }  // namespace orthodyn

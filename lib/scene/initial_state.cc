@@ -15,6 +15,20 @@ Vec3 center_of_mass(const FemModel::Parts& parts) {
   return *parts.rest * parts.mass->nodal() / parts.mass->total();
 }
 
+// Of each node, for a body displaced by u.
+NodalVector initial_velocity(const Initial& initial, const FemModel::Parts& parts, const NodalVector& u) {
+  const Vec3 center = initial.center.value_or(center_of_mass(parts));
+  NodalVector v(3, u.cols());
+  for (Eigen::Index i = 0; i < u.cols(); ++i) {
+    const Vec3 arm = parts.rest->col(i) + u.col(i) - center;
+    v.col(i) = initial.velocity + initial.spin.cross(arm);
+    if (initial.velocity_field)
+      for (std::size_t c = 0; c < 3; ++c)
+        v(static_cast<Eigen::Index>(c), i) += (*initial.velocity_field)[c].at(parts.rest->col(i));
+  }
+  return v;
+}
+
 }  // namespace
 
 State initial_state(const Scene& scene, const FemModel::Parts& parts) {
@@ -29,16 +43,17 @@ State initial_state(const Scene& scene, const FemModel::Parts& parts) {
     std::mt19937_64 generator(static_cast<std::uint64_t>(initial.noise->seed));
     for (double& x : u.reshaped()) x += initial.noise->amplitude * symmetric_uniform(generator);
   }
-  NodalVector v(3, u.cols());
-  for (Eigen::Index i = 0; i < u.cols(); ++i) {
-    const Vec3 arm = parts.rest->col(i) + u.col(i) - center;
-    v.col(i) = initial.velocity + initial.spin.cross(arm);
-    if (initial.velocity_field)
-      for (std::size_t c = 0; c < 3; ++c)
-        v(static_cast<Eigen::Index>(c), i) += (*initial.velocity_field)[c].at(parts.rest->col(i));
-  }
   parts.dofs->restrict_to(u, state.q);
-  parts.dofs->restrict_to(v, state.v);
+  parts.dofs->restrict_to(initial_velocity(initial, parts, u), state.v);
+  return state;
+}
+
+State initial_state_at(const Vector& q, const Scene& scene, const FemModel::Parts& parts) {
+  State state{scene.time.start, q, Vector::Zero(q.size())};
+  if (!scene.initial) return state;
+  NodalVector u = NodalVector::Zero(3, parts.rest->cols());
+  parts.dofs->add_to(q, u);
+  parts.dofs->restrict_to(initial_velocity(*scene.initial, parts, u), state.v);
   return state;
 }
 

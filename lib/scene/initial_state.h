@@ -8,4 +8,7 @@ namespace orthodyn {
 
 State initial_state(const Scene& scene, const FemModel::Parts& parts);
 
+// The same velocities, of a body whose free coordinates are at q.
+State initial_state_at(const Vector& q, const Scene& scene, const FemModel::Parts& parts);
+
 }  // namespace orthodyn

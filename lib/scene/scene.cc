@@ -30,6 +30,17 @@ struct Words<WarpedTangent> {
       {{WarpedTangent::rotated, "rotated"}, {WarpedTangent::unsymmetric, "unsymmetric"}}};
 };
 
+template <>
+struct Words<Analysis> {
+  static constexpr std::array<std::pair<Analysis, const char*>, 2> list{
+      {{Analysis::dynamic, "dynamic"}, {Analysis::statical, "static"}}};
+};
+template <>
+struct Words<Start> {
+  static constexpr std::array<std::pair<Start, const char*>, 2> list{
+      {{Start::rest, "rest"}, {Start::equilibrium, "equilibrium"}}};
+};
+
 const Spec<Clamp>& Clamp::spec() {
   static const auto s = selection_spec<Clamp>()
                             .key("name", &Clamp::name, "For its reaction; default clamp_1, clamp_2 and so on.")
@@ -128,10 +139,7 @@ const Spec<Initial>& Initial::spec() {
 const Spec<TimeSpan>& TimeSpan::spec() {
   static const auto s = Spec<TimeSpan>()
                             .key("start", &TimeSpan::start, "Initial time.", {.unit = "s"})
-                            .key("end", &TimeSpan::end, "Final time.", {.required = true, .unit = "s"})
-                            .check([](const TimeSpan& time, const Config& config) {
-                              if (!(time.end > time.start)) config.fail("'end' must be after 'start'");
-                            });
+                            .key("end", &TimeSpan::end, "Final time.", {.required = true, .unit = "s"});
   return s;
 }
 
@@ -174,8 +182,11 @@ const Spec<CheckpointSchedule>& CheckpointSchedule::spec() {
 }
 
 const Spec<Scene>& Scene::spec() {
+  const Condition kDynamic{"analysis", "dynamic"};
   static const auto s =
       Spec<Scene>()
+          .key("analysis", &Scene::analysis,
+               "dynamic: the motion over time. static: the equilibrium under all loads, which grow step by step.")
           .key("mesh", &Scene::mesh, "Where the mesh comes from.", {.required = true})
           .key("materials", &Scene::materials, "Materials by name; required unless the mesh file brings them (.veg).")
           .key("regions", &Scene::regions,
@@ -189,13 +200,22 @@ const Spec<Scene>& Scene::spec() {
           .key("terms", &Scene::terms, "Further terms by type; for those of your own see docs/extend.md.")
           .key("clamps", &Scene::clamps, "Nodes that do not move.")
           .key("motions", &Scene::motions, "Nodes whose motion is prescribed.")
-          .key("initial", &Scene::initial, "Initial state; default at rest.")
-          .key("time", &Scene::time, "Time span.", {.required = true})
-          .key("integrator", &Scene::integrator, "The integrator.", {.fallback = "{type: cvode_bdf}"})
+          .key("start", &Scene::start,
+               "rest: from the rest shape. equilibrium: from the static equilibrium under the loads at the start.",
+               {.with = kDynamic})
+          .key("initial", &Scene::initial, "Initial state; default at rest.", {.with = kDynamic})
+          .key("time", &Scene::time,
+               "Time span; in statics may be left out: its end is when factors of loads are taken.",
+               {.fallback = "{end: 0}"})
+          .key("integrator", &Scene::integrator, "The integrator.", {.fallback = "{type: cvode_bdf}", .with = kDynamic})
+          .key("statics", &Scene::statics, "How equilibrium is found, by analysis: static and start: equilibrium.")
+          .key("events", &Scene::events, "Values that quantities cross: logged to events.csv, or the end of the run.",
+               {.with = kDynamic})
           .key("output", &Scene::output, "What is written.")
           .key("checkpoint", &Scene::checkpoint,
                "Keep the state every so often, so that `orthodyn run --resume` can go on after a crash; {} for "
-               "every minute.")
+               "every minute.",
+               {.with = kDynamic})
           .key("expect", &Scene::expect, "Known figures, which `orthodyn verify` checks.");
   return s;
 }
@@ -221,12 +241,37 @@ void check_materials_exist(const Scene& scene) {
       region.origin.fail("material '" + region.material + "' is not among the materials: " + join(names));
 }
 
+void check_dynamic(const Config& config, Scene& scene, bool is_timed) {
+  if (!is_timed) config.fail("key 'time' is missing (section, with the key 'end' in s)");
+  if (!(scene.time.end > scene.time.start)) config.at("time").fail("'end' must be after 'start'");
+  const bool needs_statics = scene.start == Start::equilibrium;
+  if (scene.statics && !needs_statics)
+    config.at("statics").fail("has no meaning in a run that starts from rest; remove it, or say start: equilibrium");
+  if (needs_statics && !scene.statics) scene.statics = Statics::spec().read(config.fill("statics", "{}"));
+  if (needs_statics && scene.initial && (scene.initial->deformation_gradient || scene.initial->noise))
+    config.at("initial").fail("the shape is that of equilibrium (start); remove deformation_gradient and noise");
+}
+
+void check_static(const Config& config, Scene& scene, bool is_timed) {
+  if (!scene.statics) scene.statics = Statics::spec().read(config.fill("statics", "{}"));
+  for (const Load& load : scene.loads)
+    if (!is_timed && !load.factor->constant())
+      load.origin.fail("its factor varies in time: say by time: {end: ...} at which time the statics take it");
+  const Config output = config.at("output");
+  for (const char* key : {"interval", "frames"})
+    if (output.has(key)) output.at(key).fail("has no meaning in statics: there is a frame of each load step; remove it");
+  if (scene.output.times == OutputTimes::exact) output.at("times").fail("has no meaning in statics; remove it");
+  if (scene.output.momentum) output.at("momentum").fail("nothing moves in statics; remove it");
+}
+
 }  // namespace
 
 Scene read_scene(const Config& config) {
   if (config.is_map() && config.has("scenes"))
     config.at("scenes").fail("a scene has no such key; a comparison of scenes is run by `orthodyn compare`");
+  const bool is_timed = config.is_map() && config.has("time") && !config.at("time").is_null();
   Scene scene = Scene::spec().read(config);
+  scene.analysis == Analysis::statical ? check_static(config, scene, is_timed) : check_dynamic(config, scene, is_timed);
   if (!config.has("materials")) fill_mesh_materials(config, scene);
   if (scene.materials.empty()) config.at("materials").fail("is empty; give at least one material");
   fill_regions(config, scene);

@@ -15,14 +15,18 @@
 #include "lib/material/material.h"
 #include "lib/ode/integrator.h"
 #include "lib/scene/axes/axes_source.h"
+#include "lib/scene/event_spec.h"
 #include "lib/scene/expectation.h"
 #include "lib/scene/mesh_source.h"
+#include "lib/scene/statics.h"
 #include "lib/scene/support_motion.h"
 #include "lib/scene/term_choice.h"
 
 namespace orthodyn {
 
 enum class OutputTimes { interpolated, exact };
+enum class Analysis { dynamic, statical };
+enum class Start { rest, equilibrium };
 
 struct Clamp : Selection {
   std::string name;
@@ -104,6 +108,7 @@ struct CheckpointSchedule {
 };
 
 struct Scene {
+  Analysis analysis = Analysis::dynamic;
   std::shared_ptr<const MeshSource> mesh;
   std::shared_ptr<const LoadedMesh> loaded;  // where the mesh had to be read for its materials already
   Named<std::shared_ptr<const Material>> materials;
@@ -117,8 +122,11 @@ struct Scene {
   std::vector<Clamp> clamps;
   std::vector<SupportMotion> motions;
   std::optional<Initial> initial;
+  Start start = Start::rest;
   TimeSpan time;
-  std::shared_ptr<const IntegratorChoice> integrator;
+  std::shared_ptr<const IntegratorChoice> integrator;  // null in statics
+  std::optional<Statics> statics;  // of a static analysis and a start from equilibrium
+  std::vector<EventSpec> events;
   Output output;
   std::optional<CheckpointSchedule> checkpoint;
   std::vector<Expectation> expect;

@@ -6,6 +6,9 @@
 #include <optional>
 
 #include "lib/linear/blas.h"
+#include "lib/scene/equilibrium.h"
+#include "lib/scene/events.h"
+#include "lib/scene/initial_state.h"
 #include "lib/scene/quantity.h"
 #include "lib/scene/scales.h"
 #include "lib/scene/strain_check.h"
@@ -52,8 +55,31 @@ void check_expectations(const Scene& scene, const FemModel& model) {
     const Quantity quantity = find_quantity(e.quantity, scene, model, e.origin);
     if (quantity.components == 3 && (e.at || e.take != Take::drift))
       e.origin.fail(fmt::format("'{}' is a vector: choose .x, .y, .z or .magnitude", e.quantity));
+    if (scene.analysis == Analysis::statical && (e.at || e.take != Take::end || !quantity.values))
+      e.origin.fail("of a static analysis only values in equilibrium are known: remove 'take' and 'at'" +
+                    std::string(quantity.values ? "" : ", choose another quantity than energy.balance"));
     if (e.at && (*e.at < scene.time.start || *e.at > scene.time.end))
       e.origin.fail(fmt::format("at: {} s is outside of the time span", *e.at));
+  }
+}
+
+std::unique_ptr<Integrator> make_integrator(Config& config, const Scene& scene, const Task& task, const Model& model) {
+  std::unique_ptr<Integrator> integrator;
+  try {
+    integrator = scene.integrator->make(model, task);
+  } catch (const ConfigError& e) {
+    config.at("integrator").fail(e.what());
+  }
+  for (const auto& [key, value] : integrator->decisions())
+    if (key != "linear_solver") config.at("integrator").fill(key, value);
+  return integrator;
+}
+
+void start_from_equilibrium(const Scene& scene, BuiltScene& built) {
+  try {
+    built.initial = initial_state_at(equilibrium(scene, built), scene, built.model->parts());
+  } catch (const RunError& e) {
+    throw RunError(std::string("start: equilibrium: ") + e.what(), e.reason());
   }
 }
 
@@ -79,20 +105,18 @@ Setup set_up(Config config) {
   };
   if (needs_strain_check(scene, built))
     for (auto& warning : strain_warnings(scene, built, response())) built.warnings.push_back(std::move(warning));
+  std::vector<Event> events = make_events(scene, *built.model);
   std::unique_ptr<Integrator> integrator;
-  try {
+  if (scene.analysis == Analysis::dynamic) {
+    if (scene.start == Start::equilibrium) start_from_equilibrium(scene, built);
     Task task = task_of(scene, built);
     task.scales = [&] { return estimate_scales(scene, built, response()); };
-    integrator = scene.integrator->make(*built.model, task);
-  } catch (const ConfigError& e) {
-    config.at("integrator").fail(e.what());
+    integrator = make_integrator(config, scene, task, *built.model);
   }
-  for (const auto& [key, value] : integrator->decisions())
-    if (key != "linear_solver") config.at("integrator").fill(key, value);
   if (!blas_is_openblas())
     built.warnings.push_back("the BLAS in use is not OpenBLAS; large factorisations will be several times slower "
                              "(Debian: libopenblas0-pthread)");
-  return {std::move(config), std::move(scene), std::move(built), std::move(integrator)};
+  return {std::move(config), std::move(scene), std::move(built), std::move(integrator), std::move(events)};
 }
 
 }  // namespace orthodyn

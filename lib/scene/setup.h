@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "lib/core/config.h"
+#include "lib/ode/event.h"
 #include "lib/ode/integrator.h"
 #include "lib/scene/build.h"
 
@@ -13,7 +14,8 @@ struct Setup {
   Config config;  // resolved: every default filled in, the integrator's decisions too
   Scene scene;
   BuiltScene built;  // with warnings for the user
-  std::unique_ptr<Integrator> integrator;
+  std::unique_ptr<Integrator> integrator;  // null in statics
+  std::vector<Event> events;               // of the model
 };
 
 // What the scene wants of its integrator. Both must outlive the task.

@@ -6,6 +6,8 @@
 #include <set>
 
 #include "lib/run/run.h"
+#include "lib/run/statics.h"
+#include "lib/scene/equilibrium.h"
 #include "lib/scene/setup.h"
 #include "lib/study/series.h"
 
@@ -47,6 +49,17 @@ std::vector<double> times_asked_for(const std::vector<Expectation>& expectations
   return {times.begin(), times.end()};
 }
 
+CaseResult verify_equilibrium(const std::string& file, const Setup& setup, const std::vector<Quantity>& quantities) {
+  const StaticProblem problem = static_problem(setup.scene, setup.built);
+  const Outcome outcome = run_static(*problem.stepper, {}, {false});
+  CaseResult result{file, outcome.message, outcome.wall_seconds, {}};
+  const State state{problem.path->time(), outcome.last.q, outcome.last.v};
+  for (std::size_t q = 0; q < quantities.size(); ++q)
+    result.checks.push_back(
+        {setup.scene.expect[q], problem.stepper->done() ? quantities[q].values(state)[0] : std::nan("")});
+  return result;
+}
+
 }  // namespace
 
 bool Check::passed() const { return std::abs(difference()) <= expectation.limit(); }
@@ -82,8 +95,12 @@ CaseResult verify(const Config& scene) {
   for (const auto& e : expectations)
     quantities.push_back(find_quantity(e.quantity, setup.scene, *setup.built.model, origin));
 
+  if (setup.scene.analysis == Analysis::statical) return verify_equilibrium(scene.file(), setup, quantities);
+
   SeriesRecorder recorder(*setup.built.model, *setup.integrator, std::move(quantities));
-  const Plan plan{setup.scene.time.end, times_asked_for(expectations, setup.scene.time.start), false};
+  Plan plan{setup.scene.time.end, times_asked_for(expectations, setup.scene.time.start), false};
+  EventFinder events(setup.events);
+  if (!events.empty()) plan.events = &events;
   const std::atomic<bool> never{false};
   const Outcome outcome = run(*setup.built.model, *setup.integrator, setup.built.initial, plan, {&recorder}, never);
   CaseResult result{scene.file(), outcome.message, outcome.wall_seconds, {}};

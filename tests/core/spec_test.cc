@@ -151,5 +151,27 @@ TEST(Spec, ARequiredKeyOfAnAbsentSectionIsReportedWithoutAFalseLine) {
             "a.yaml: a.b.inner: key 'value' is missing (number)");
 }
 
+struct Journey {
+  std::string by = "train";
+  double fuel = 40;
+  static const Spec<Journey>& spec() {
+    static const auto s = Spec<Journey>()
+                              .key("by", &Journey::by, "How.")
+                              .key("fuel", &Journey::fuel, "Litres.", {.with = {"by", "car"}});
+    return s;
+  }
+};
+
+TEST(Spec, AKeyThatMeansSomethingWithAnotherAloneIsNeitherTakenNorFilledInElsewhere) {
+  const Config car = Config::from_text("by: car"), train = Config::from_text("by: train");
+  Journey::spec().read(car);
+  Journey::spec().read(train);
+  EXPECT_TRUE(car.has("fuel"));
+  EXPECT_FALSE(train.has("fuel"));
+  EXPECT_EQ(Journey::spec().read(Config::from_text("{by: car, fuel: 3}")).fuel, 3);
+  const std::string message = refusal([] { Journey::spec().read(Config::from_text("{fuel: 3}", "a.yaml")); });
+  EXPECT_TRUE(starts(message, "a.yaml:1:8: fuel: has a meaning only with by: car, found by: train")) << message;
+}
+
 }  // namespace
 }  // namespace orthodyn

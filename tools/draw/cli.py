@@ -19,7 +19,8 @@ examples:
   draw animate out/beam --every 4 --fps 20
   draw energy out/beam
   draw report out/compare                              a comparison as one page, report.html
-  draw axes out/axes/stem/axes.vtu                     material axes, which `orthodyn check --axes` wrote"""
+  draw axes out/axes/stem/axes.vtu                     material axes, which `orthodyn check --axes` wrote
+  draw modes out/modes/tuning_fork                     natural modes, which `orthodyn modes` wrote"""
 COLORS = """colours (--color FIELD[.COMPONENT]):
   displacement, velocity      .x .y .z .magnitude (default)
   stress                      .xx .yy .zz .xy .yz .zx .magnitude .von_mises (default)
@@ -129,6 +130,14 @@ def _parser():
                       help="point that the sections go through (default: the middle of the body)")
     axes.add_argument("--view", type=lambda s: _numbers(s, 2), default=(-60.0, 20.0), metavar="AZIM,ELEV",
                       help="where the eye is for the surface, degrees (default -60,20; z is up)")
+    modes = commands.add_parser("modes", help="Natural modes side by side, from modes.pvd and modes.csv.",
+                                description="Natural modes side by side as PNG, with the rest shape's outline.")
+    modes.add_argument("result", metavar="RESULT", help="folder that `orthodyn modes` wrote")
+    modes.add_argument("--out", type=Path, metavar="PNG", help="default: RESULT/modes.png")
+    modes.add_argument("--count", type=_count, default=12, metavar="N", help="the N lowest that bend the body (default 12)")
+    modes.add_argument("--view", type=lambda s: _numbers(s, 2), default=(-60.0, 20.0), metavar="AZIM,ELEV",
+                       help="where the eye is, degrees about the axis that is up (default -60,20)")
+    modes.add_argument("--up", choices="xyz", default="z", help="the axis that is up (default z)")
     every = body("all", "Strip, animation and all curves into RESULT/pictures.")
     every.set_defaults(count=6, times=None, fps=15.0, every=None)
     return parser
@@ -202,7 +211,12 @@ def _axes(args):
     yield draw_axes(path, read_vtu(path), args.out or path.with_suffix(".png"), args.at, args.view)
 
 
-COMMANDS = {"report": _report, "axes": _axes, "frame": _frame, "strip": _strip, "animate": _animate, "all": _all}
+def _modes(args):
+    from .modes import draw_modes
+    yield draw_modes(args.result, args.out or Path(args.result) / "modes.png", args.count, args.view, args.up)
+
+
+COMMANDS = {"report": _report, "axes": _axes, "modes": _modes, "frame": _frame, "strip": _strip, "animate": _animate, "all": _all}
 
 
 def _joined(arguments):

@@ -19,9 +19,9 @@ def result_folder(name):
 class Series:
     """Times and frames of one run; frames are read when asked for."""
 
-    def __init__(self, name):
+    def __init__(self, name, collection="frames.pvd"):
         self.folder = result_folder(name)
-        listed = self._listed(self.folder / "frames.pvd")
+        listed = self._listed(self.folder / collection)
         self.times = np.array([t for t, _ in listed])
         self.paths = [path for _, path in listed]
 

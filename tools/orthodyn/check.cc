@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "lib/element/strain_limits.h"
+#include "lib/scene/equilibrium.h"
 #include "tools/orthodyn/axes.h"
 #include "tools/orthodyn/commands.h"
 #include "tools/orthodyn/setup.h"
@@ -43,7 +44,8 @@ void print_materials(const Scene& scene) {
   }
 }
 
-void print_memory(const FemModel& model, const Integrator& integrator) {
+// `solver_bytes` without its factorisation.
+void print_memory(const FemModel& model, const std::string& solver, std::size_t solver_bytes, std::size_t factor_bytes) {
   std::size_t sum = 0;
   fmt::print("memory\n");
   const auto line = [&](const std::string& name, std::size_t bytes) {
@@ -51,11 +53,33 @@ void print_memory(const FemModel& model, const Integrator& integrator) {
     sum += bytes;
   };
   for (const auto& [name, bytes] : model.memory()) line(name, bytes);
-  line("integrator", integrator.bytes());
+  if (solver_bytes > 0) line(solver, solver_bytes);
   const auto cells = static_cast<double>(model.parts().mesh.tets.size());
   fmt::print("  {:<20} {:8.2f} MiB, {:.0f} bytes per element\n", "without factor", mebibytes(sum),
              static_cast<double>(sum) / cells);
-  if (integrator.factor_bytes() > 0) line("factorisation", integrator.factor_bytes());
+  if (factor_bytes > 0) line("factorisation", factor_bytes);
+}
+
+void print_dynamics(Setup& setup) {
+  const FemModel& model = *setup.built.model;
+  setup.integrator->start(setup.built.initial);
+  fmt::print("  critical step of an explicit scheme at least {:.4g} s\n", 2 / model.frequency_bound());
+  const auto breakpoints = model.breakpoints(setup.scene.time.start, setup.scene.time.end);
+  if (!breakpoints.empty()) fmt::print("  restarts at kinks of loads and motions: {} s\n", fmt::join(breakpoints, ", "));
+  if (setup.scene.start == Start::equilibrium)
+    fmt::print("start\n  from the static equilibrium, displaced by at most {:.4g} m\n",
+               setup.built.initial.q.lpNorm<Eigen::Infinity>());
+  fmt::print("integrator\n  type {}\n", setup.config.at("integrator").at("type").text());
+  for (const auto& [key, value] : setup.integrator->decisions()) fmt::print("  {} {}\n", key, value);
+  print_memory(model, "integrator", setup.integrator->bytes(), setup.integrator->factor_bytes());
+}
+
+void print_statics(const Setup& setup) {
+  const StaticProblem problem = static_problem(setup.scene, setup.built);
+  fmt::print("statics\n  all rigid motions are held\n  solver {}\n", problem.solver->description());
+  fmt::print("  loads at t = {:.6g} s, the largest {:.4g} N on a coordinate\n", problem.path->time(),
+             problem.path->load().lpNorm<Eigen::Infinity>());
+  print_memory(*setup.built.model, "", 0, problem.solver->factor_bytes());
 }
 
 void print_supports(const FemModel& model) {
@@ -75,8 +99,6 @@ int check_command(const RunArguments& arguments) {
   Setup setup = set_up(arguments);
   const FemModel& model = *setup.built.model;
   const auto& parts = model.parts();
-  setup.integrator->start(setup.built.initial);
-
   fmt::print("{}: valid\n", arguments.scene);
   fmt::print("mesh\n  {} nodes, {} elements, regions {}\n", parts.mesh.nodes.size(), parts.mesh.tets.size(),
              join(parts.mesh.region_names));
@@ -93,12 +115,7 @@ int check_command(const RunArguments& arguments) {
   if (parts.mass_damping > 0) fmt::print("  mass-proportional damping\n");
   fmt::print("system\n  {} unknowns, {} non-zeros ({})\n", model.num_dofs(), model.pattern().non_zeros(),
              model.pattern().symmetric ? "symmetric, lower triangle" : "general");
-  fmt::print("  critical step of an explicit scheme at least {:.4g} s\n", 2 / model.frequency_bound());
-  const auto breakpoints = model.breakpoints(setup.scene.time.start, setup.scene.time.end);
-  if (!breakpoints.empty()) fmt::print("  restarts at kinks of loads and motions: {} s\n", fmt::join(breakpoints, ", "));
-  fmt::print("integrator\n  type {}\n", setup.config.at("integrator").at("type").text());
-  for (const auto& [key, value] : setup.integrator->decisions()) fmt::print("  {} {}\n", key, value);
-  print_memory(model, *setup.integrator);
+  setup.integrator ? print_dynamics(setup) : print_statics(setup);
   if (arguments.axes)
     write_axes(setup, arguments.out ? fs::path(*arguments.out) : fs::path("out") / "axes" / fs::path(arguments.scene).stem());
   return 0;

@@ -17,6 +17,14 @@ struct RunArguments {
   bool axes = false;  // of check: write the material axes
 };
 
+struct ModesArguments {
+  std::string scene;
+  std::vector<std::string> set;
+  std::optional<std::string> out;
+  int count = 20;
+  bool equilibrium = false, quiet = false;
+};
+
 struct VerifyArguments {
   std::vector<std::string> places;  // files and folders
   std::vector<std::string> set;
@@ -37,6 +45,7 @@ struct ConvertArguments {
 
 int run_command(const RunArguments& arguments);
 int check_command(const RunArguments& arguments);
+int modes_command(const ModesArguments& arguments);
 int list_command(const std::string& what, bool markdown);
 void print_reference_page();
 int compare_command(const CompareArguments& arguments);

@@ -47,4 +47,15 @@ void draw_axes(const fs::path& file) {
   fmt::print("picture {}\n", picture.string());
 }
 
+void draw_modes(const fs::path& folder) {
+  const fs::path log = folder / "modes.log", picture = folder / "modes.png";
+  if (!draw({"modes", folder.string(), "--out", picture.string()}, log)) {
+    fmt::print(stderr, "warning: no picture was drawn (see {}); by hand: tools/draw/draw modes {}\n", log.string(),
+               folder.string());
+    return;
+  }
+  fs::remove(log);
+  fmt::print("picture {}\n", picture.string());
+}
+
 }  // namespace orthodyn

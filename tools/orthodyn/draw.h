@@ -11,4 +11,7 @@ void draw_report(const std::filesystem::path& folder, bool quiet);
 // Has <file>.png drawn beside a file of axes, <file>.vtu, and says where; a warning if that is not possible.
 void draw_axes(const std::filesystem::path& file);
 
+// Has modes.png drawn in a folder that `orthodyn modes` wrote, and says where; a warning if that is not possible.
+void draw_modes(const std::filesystem::path& folder);
+
 }  // namespace orthodyn

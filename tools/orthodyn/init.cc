@@ -66,6 +66,52 @@ output:
     tip: {at: [1, 0.025, 0.01]}
 )";
 
+constexpr const char* kStatic = R"(# What this scene shows, in a sentence.
+# Check it with `orthodyn check {file}`, run it with `orthodyn run {file}`.
+# Numbers are in SI units; where a key has a unit, "11.9 GPa" or "25 mm" will do too.
+analysis: static           # the equilibrium under all loads, which grow step by step
+
+mesh:                      # all kinds: orthodyn list meshes
+  type: box
+  size: [1, 0.05, 0.02]    # m
+  cells: [80, 6, 4]        # linear elements are stiff in bending: several cells through the thickness
+
+materials:                 # all kinds: orthodyn list materials
+  wood:                    # axis 1 along the grain, 2 radial, 3 tangential
+    type: orthotropic
+    density: 400 kg/m^3
+    young: [10.8 GPa, 0.84 GPa, 0.46 GPa]
+    nu12: 0.44
+    nu23: 0.44
+    nu13: 0.53
+    g12: 0.69 GPa
+    g23: 0.032 GPa
+    g13: 0.66 GPa
+
+regions:                   # which part of the mesh is what, and where its grain runs
+  all:
+    material: wood
+    axes: {first: [1, 0, 0], second: [0, 1, 0]}
+
+gravity: [0, 0, -9.81]     # m/s^2
+
+clamps:                    # must hold all six rigid motions
+  - surface: x0            # a box has x0, x1, y0, y1, z0, z1
+
+loads:
+  - surface: x1
+    force: [0, 0, -5]      # N in total
+
+statics:
+  first_step: 0.25         # of the load factor, which grows from 0 to 1
+  min_step: 1e-4           # how closely the end of a branch (snap-through, buckling) is found
+
+output:                    # a frame and a row for each load step
+  fields: [displacement, stress]
+  probes:
+    tip: {at: [1, 0.025, 0.01]}
+)";
+
 constexpr const char* kComparison = R"(# Which integrator reaches which error in which time?
 # Run it with `orthodyn compare {file}`; its report is an HTML page.
 title: What is compared
@@ -85,7 +131,7 @@ limits: {seconds: 60}      # of each integration
 )";
 
 const std::map<std::string, const char*>& starts() {
-  static const std::map<std::string, const char*> all = {{"scene", kScene}, {"comparison", kComparison}};
+  static const std::map<std::string, const char*> all = {{"scene", kScene}, {"static", kStatic}, {"comparison", kComparison}};
   return all;
 }
 
@@ -96,7 +142,7 @@ std::string with_file_name(std::string text, const std::string& file) {
 }
 
 std::string modeline(const std::string& kind) {
-  const fs::path schema = schema_file(kind);
+  const fs::path schema = schema_file(kind == "static" ? "scene" : kind);
   return fs::exists(schema) ? fmt::format("# yaml-language-server: $schema={}\n", schema.string()) : "";
 }
 

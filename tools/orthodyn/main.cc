@@ -20,6 +20,7 @@ Examples:
   orthodyn run configs/scenes/free_flight.yaml --set elasticity.corotation=warped --out out/warped
   orthodyn run configs/scenes/laminate.yaml --set checkpoint={} --resume
   orthodyn check configs/scenes/laminate.yaml
+  orthodyn modes configs/scenes/tuning_fork.yaml -n 8
   orthodyn init scene my.yaml
   orthodyn list materials
   orthodyn compare configs/comparisons/damped_beam.yaml
@@ -75,6 +76,17 @@ int main(int argc, char** argv) {
   auto* axes = check->add_flag("--axes", arguments.axes, "Also write the material axes: axes.vtu and a picture, axes.png.");
   check->add_option("--out", arguments.out, "Folder for the axes; default out/axes/<scene>.")->type_name("DIR")->needs(axes);
 
+  ModesArguments vibration;
+  auto* modes = app.add_subcommand("modes", "Natural frequencies and shapes of a scene's body, without damping.");
+  modes->add_option("scene", vibration.scene, "A scene in YAML.")->required()->type_name("SCENE.yaml");
+  modes->add_option("-n,--count", vibration.count, "How many, the lowest first, rigid ones included.")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  modes->add_flag("--equilibrium", vibration.equilibrium, "About the static equilibrium under the scene's loads, not about rest.");
+  modes->add_option("--out", vibration.out, "Folder for the results; default out/modes/<scene>.")->type_name("DIR");
+  modes->add_flag("--quiet", vibration.quiet, "No table and no picture.");
+  modes->add_option("--set", vibration.set, "Change a value by its path.")->type_name("PATH=VALUE")->expected(1)->take_all();
+
   CompareArguments comparison;
   auto* compare = app.add_subcommand(
       "compare", "Compare integrators on scenes: error against time, as a report, CSV and JSON. Run again, it goes on.");
@@ -122,7 +134,7 @@ int main(int argc, char** argv) {
   std::string start_kind;
   std::optional<std::string> start_file;
   auto* init = app.add_subcommand("init", "Write a commented file to start from.");
-  init->add_option("kind", start_kind, "scene or comparison.")->required();
+  init->add_option("kind", start_kind, "scene, static or comparison.")->required();
   init->add_option("file", start_file, "Its name; default KIND.yaml.")->type_name("FILE.yaml");
 
   try {
@@ -136,6 +148,7 @@ int main(int argc, char** argv) {
     load_plugins(plugins);
     if (*run) return run_command(arguments);
     if (*check) return check_command(arguments);
+    if (*modes) return modes_command(vibration);
     if (*convert) return convert_command(conversion);
     if (*compare) return compare_command(comparison);
     if (*measure) return measure_command(folder);

@@ -13,15 +13,6 @@ namespace {
 // An error of a tenth of the motion: curves no longer lie over each other.
 constexpr double kUnresolved = 0.1;
 
-const char* status_word(Outcome::Status status) {
-  switch (status) {
-    case Outcome::Status::completed: return "completed";
-    case Outcome::Status::interrupted: return "interrupted";
-    case Outcome::Status::failed: return "failed";
-  }
-  return "";
-}
-
 // Where a run came to its end: the places that are likely to be at fault.
 Json whereabouts(const RunReport& report) {
   const auto& last = report.outcome.last;
@@ -42,12 +33,20 @@ Json energies(const EnergyWriter& energy) {
           {"scale", energy.scale()}};
 }
 
-Json terms(const FemModel& model) {
+}  // namespace
+
+Json terms_json(const FemModel& model) {
   Json out = Json::array();
   for (const auto& term : model.parts().elastic) out.push_back(term->description());
   for (const auto& term : model.parts().loads) out.push_back(term->description());
   return out;
 }
+
+int exit_code(Outcome::Status status) {
+  return status == Outcome::Status::completed ? 0 : status == Outcome::Status::interrupted ? 130 : 3;
+}
+
+namespace {
 
 Json decisions(const Integrator& integrator) {
   Json out;
@@ -84,7 +83,7 @@ std::string run_json(const RunArguments& arguments, const std::vector<Restart>& 
   out["model"] = {{"nodes", model.parts().mesh.nodes.size()},
                   {"elements", model.parts().mesh.tets.size()},
                   {"unknowns", model.num_dofs()},
-                  {"terms", terms(model)}};
+                  {"terms", terms_json(model)}};
   out["integrator"] = decisions(*report->setup.integrator);
   out["time_reached"] = report->outcome.last.t;
   out["wall_seconds"] = report->effort.wall_seconds;
@@ -99,6 +98,7 @@ std::string run_json(const RunArguments& arguments, const std::vector<Restart>& 
     out["momentum"] = {{"angular_drift", report->momentum->angular_drift()},
                        {"angular_scale", report->momentum->angular_scale()}};
   if (report->error) out["estimated_error"] = to_json(*report->error);
+  if (!report->outcome.remark.empty()) out["remark"] = report->outcome.remark;
   if (report->outcome.status == Outcome::Status::failed)
     out["failure"] = {{"reason", reason_name(report->outcome.reason)},
                       {"message", report->outcome.message},
@@ -113,6 +113,7 @@ void print_summary(const RunReport& report, const std::filesystem::path& folder)
   fmt::print("{} with {}: {} unknowns, {} at t = {:.6g} s after {:.2f} s ({:.2f} s CPU)\n", report.arguments.scene,
              type, report.setup.built.model->num_dofs(), status_word(outcome.status), outcome.last.t,
              report.effort.wall_seconds, report.effort.cpu_seconds);
+  if (!outcome.remark.empty()) fmt::print("  {}\n", outcome.remark);
   const auto& elastic = *report.setup.built.model->parts().elastic.front();
   fmt::print("  {:<15} {}\n", "elasticity", elastic.law());
   for (const auto& [key, value] : report.setup.integrator->decisions()) fmt::print("  {:<15} {}\n", key, value);

@@ -9,6 +9,7 @@
 #include "lib/run/curves.h"
 #include "lib/run/run.h"
 #include "lib/study/error_estimate.h"
+#include "lib/study/point_result.h"
 #include "tools/orthodyn/setup.h"
 
 namespace orthodyn {
@@ -23,6 +24,11 @@ struct RunReport {
   const MomentumWriter* momentum;  // likewise
   std::optional<ErrorEstimate> error = std::nullopt;  // if it was asked for
 };
+
+// What the model consists of, in words.
+Json terms_json(const FemModel& model);
+
+int exit_code(Outcome::Status status);
 
 // `report` null: the run has begun.
 std::string run_json(const RunArguments& arguments, const std::vector<Restart>& restarts, const RunReport* report);

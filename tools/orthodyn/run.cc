@@ -12,6 +12,7 @@
 #include "tools/orthodyn/resume.h"
 #include "tools/orthodyn/run_observers.h"
 #include "tools/orthodyn/scene_changes.h"
+#include "tools/orthodyn/static_run.h"
 
 namespace orthodyn {
 
@@ -28,10 +29,6 @@ std::string resolved_scene(const Setup& setup, const RunArguments& arguments, co
 CheckpointTimes checkpoint_times(const Scene& scene) {
   if (!scene.checkpoint) return {.never = true};
   return {scene.checkpoint->every, scene.checkpoint->frames.value_or(0), false};
-}
-
-int exit_code(Outcome::Status status) {
-  return status == Outcome::Status::completed ? 0 : status == Outcome::Status::interrupted ? 130 : 3;
 }
 
 // `run DIR --resume` is the scene in that folder.
@@ -78,6 +75,7 @@ class Run {
     if (earlier_) keep_scales(*earlier_, config);
     const Setup setup = set_up_and_warn(std::move(config));
     const std::string resolved = resolved_scene(setup, arguments_, folder_.path());
+    if (setup.scene.analysis == Analysis::statical) return run_static(arguments_, setup, folder_, resolved);
     if (folder_.is_completed_without_checkpoint()) return decline_completed(resolved);
     const bool resumes = earlier_ && earlier_->begun;
     Checkpoint begin = resumes ? continued(std::move(*earlier_), setup, resolved, folder_)
@@ -85,11 +83,20 @@ class Run {
     // One that was killed after its last step still lacks its record.
     if (resumes && is_complete(begin, setup.scene) && begin.restarts.back().after == "completed")
       return say_complete(begin.state.t);
+    if (arguments_.estimate_error) require_whole_run(setup);
     if (arguments_.estimate_error) estimator_.emplace(setup, plan_of(setup.scene, begin.rhythm));
     return resumes ? go_on(setup, std::move(begin)) : start(setup, std::move(begin));
   }
 
  private:
+  static void require_whole_run(const Setup& setup) {
+    for (const auto& event : setup.events)
+      if (event.stops)
+        throw ConfigError(fmt::format("--estimate-error compares two runs over the whole time, and the event '{}' stops "
+                                      "them: remove one of the two",
+                                      event.name));
+  }
+
   int start(const Setup& setup, Checkpoint begin) {
     if (arguments_.resume && !arguments_.quiet)
       fmt::print(stderr, "nothing to resume in {}: starts from the beginning\n", folder_.path().string());
@@ -116,6 +123,7 @@ class Run {
     Checkpointer checkpointer(folder_.checkpoint(), begin, checkpoint_times(setup.scene), observers.kept(),
                               *setup.integrator);
     Plan plan = plan_of(setup.scene, begin.rhythm);
+    plan.events = observers.events();
     if (begin.begun) plan.delivered = begin.last_output;
     auto all = observers.all(checkpointer);
     if (estimator_) all.push_back(&estimator_->recorder());

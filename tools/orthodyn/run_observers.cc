@@ -4,8 +4,6 @@
 
 namespace orthodyn {
 
-namespace {
-
 std::vector<ProbeColumn> probe_columns(const Scene& scene, const FemModel& model) {
   std::vector<ProbeColumn> columns;
   for (const auto& [name, probe] : scene.output.probes)
@@ -16,10 +14,8 @@ std::vector<ProbeColumn> probe_columns(const Scene& scene, const FemModel& model
   return columns;
 }
 
-}  // namespace
-
 RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& folder, bool quiet)
-    : inversion(*setup.built.model) {
+    : inversion(*setup.built.model), finder_(setup.events) {
   const auto& model = *setup.built.model;
   const auto& scene = setup.scene;
   if (!scene.output.fields.empty()) frames_.emplace(folder, model, scene.output.fields);
@@ -28,6 +24,7 @@ RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& fold
   if (scene.output.steps) steps_.emplace(folder / "steps.csv");
   if (const auto columns = probe_columns(scene, model); !columns.empty())
     probes_.emplace(folder / "probes.csv", model, columns);
+  if (!finder_.empty()) events_.emplace(folder / "events.csv", finder_);
   if (!quiet) progress_.emplace(scene.time.start, scene.time.end, stderr);
 }
 
@@ -39,6 +36,7 @@ NamedObservers RunObservers::kept() {
   add("momentum", momentum);
   add("steps", steps_);
   add("probes", probes_);
+  add("events", events_);
   return out;
 }
 

@@ -7,16 +7,23 @@
 
 #include "lib/run/checkpointer.h"
 #include "lib/run/curves.h"
+#include "lib/run/event_writer.h"
 #include "lib/run/progress.h"
 #include "lib/run/vtu.h"
 #include "lib/scene/setup.h"
 
 namespace orthodyn {
 
+// The columns of probes.csv that a scene asks for.
+std::vector<ProbeColumn> probe_columns(const Scene& scene, const FemModel& model);
+
 class RunObservers {
  public:
   // Touches no file. `setup` must outlive it.
   RunObservers(const Setup& setup, const std::filesystem::path& folder, bool quiet);
+
+  // What the run is to look for; null if nothing.
+  EventFinder* events() { return finder_.empty() ? nullptr : &finder_; }
 
   // Those that a checkpoint keeps, by name.
   NamedObservers kept();
@@ -34,6 +41,8 @@ class RunObservers {
   std::optional<VtuWriter> frames_;
   std::optional<StepWriter> steps_;
   std::optional<ProbeWriter> probes_;
+  EventFinder finder_;
+  std::optional<EventWriter> events_;
   std::optional<Progress> progress_;
 };
 

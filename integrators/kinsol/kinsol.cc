@@ -1,0 +1,232 @@
+// KINSOL's Newton iteration (Hindmarsh et al. 2005) for -f(t, q, 0) = 0, with the stiffness K factored anew each time.
+//
+// Nearby: full steps, which must contract, |dq_1| <= |dq_0|/2 and |dq_k+1| <= |dq_k|, else a solution is not one that the
+// guess leads to (natural monotonicity: Deuflhard, Newton Methods for Nonlinear Problems, 2004, 3.3 and 5.2), and K must
+// be positive definite. That the residual falls is not asked for: in thin bodies that bend it rises first, by the
+// stretching that a straight step brings.
+// Anywhere: line search on the residual (Dennis & Schnabel 1983, A6.3.1), with the positive semidefinite part of K where K
+// is indefinite.
+//
+// Round-off of large internal forces may keep the residual from falling below the tolerance; a solution then is
+// where Newton's next correction is below the tolerance of the motion.
+#include <fmt/format.h>
+#include <kinsol/kinsol.h>
+#include <kinsol/kinsol_ls.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "integrators/newton_matrix.h"
+#include "integrators/sundials/callbacks.h"
+#include "integrators/sundials/plug.h"
+#include "lib/core/words.h"
+#include "lib/ode/equilibrium.h"
+#include "lib/ode/integrator.h"
+
+namespace orthodyn::sundials {
+namespace {
+
+struct KinsolOptions {
+  double rtol = 1e-8;
+  long max_iterations = 50;
+  std::string linear_solver = "cholmod";
+};
+
+struct FreeMemory {
+  void operator()(void* memory) const { KINFree(&memory); }
+};
+
+class Kinsol : public EquilibriumSolver {
+ public:
+  Kinsol(const Model& model, const EquilibriumTask& task, const KinsolOptions& options)
+      : model_(model), task_(task), options_(options), still_(Vector::Zero(model.num_dofs())),
+        matrix_(model, options.linear_solver, TangentKind::exact, statistics_), q_(make_vector(model.num_dofs(), context_)),
+        position_weights_(make_vector(model.num_dofs(), context_)), force_weights_(make_vector(model.num_dofs(), context_)),
+        memory_(KINCreate(context_)) {
+    if (!memory_) throw RunError("KINSOL could not be created");
+    view(position_weights_.get()).setConstant(1 / task.length);
+    view(force_weights_.get()).setConstant(1 / task.force);
+    initialise();
+  }
+
+  Attempt solve(double t, Vector& q, Where where) override {
+    t_ = t;
+    where_ = where;
+    border_ = {};
+    indefinite_ = false;
+    corrections_.clear();
+    view(q_.get()) = q;
+    const int flag = KINSol(memory_.get(), q_.get(), where == Where::nearby ? KIN_NONE : KIN_LINESEARCH,
+                            position_weights_.get(), force_weights_.get());
+    if (border_.failure) std::rethrow_exception(border_.failure);
+    Attempt attempt;
+    KINGetNumNonlinSolvIters(memory_.get(), &attempt.iterations);
+    statistics_.newton_iterations += attempt.iterations;
+    attempt.indefinite = indefinite_;
+    attempt.found = flag == KIN_SUCCESS || flag == KIN_INITIAL_GUESS_OK || (!indefinite_ && is_settled());
+    if (attempt.found) {
+      q = view(q_.get());
+      attempt.residual = residual();
+    } else {
+      attempt.trouble = sentence(flag);
+    }
+    return attempt;
+  }
+
+  const Statistics& statistics() const override { return statistics_; }
+  std::size_t factor_bytes() const override { return matrix_.factor_bytes(); }
+  std::string description() const override { return options_.linear_solver + " (" + matrix_.description() + ")"; }
+
+ private:
+  void initialise() {
+    void* m = memory_.get();
+    ORTHODYN_CAPTURE_ERRORS(KINSetErrHandlerFn, context_, m, &border_.library_message);
+    require(KINInit(m, [](N_Vector q, N_Vector f, void* user) { return self(user).evaluate(q, f); }, q_.get()));
+    require(KINSetUserData(m, this));
+    functions_.setup = [this] { return factor(); };
+    functions_.solve = [this](N_Vector dq, N_Vector b) {
+      const int thrown = guarded(border_, [&] { matrix_.solve(view(b), view(dq)); });
+      return thrown ? thrown : contracts(view(dq).lpNorm<Eigen::Infinity>()) ? 0 : 1;
+    };
+    plug_ = make_matrix_plug(context_);
+    solver_ = make_solver_plug(functions_, context_);
+    require(KINSetLinearSolver(m, solver_.get(), plug_.get()));
+    require(KINSetJacFn(m, [](N_Vector q, N_Vector, SUNMatrix, void* user, N_Vector, N_Vector) {
+      return self(user).linearize(q);
+    }));
+    require(KINSetMaxSetupCalls(m, 1));
+    require(KINSetNumMaxIters(m, options_.max_iterations));
+    require(KINSetFuncNormTol(m, options_.rtol));
+    require(KINSetScaledStepTol(m, 1e-3 * options_.rtol));
+    constexpr double kUnlimited = 1e12;  // of the motion's size: the line search alone shortens steps
+    require(KINSetMaxNewtonStep(m, kUnlimited));
+  }
+
+  static Kinsol& self(void* user) { return *static_cast<Kinsol*>(user); }
+
+  void require(int flag) const {
+    if (flag < 0) throw RunError("kinsol refused its set-up: " + border_.library_message);
+  }
+
+  int evaluate(N_Vector q, N_Vector minus_f) {
+    return guarded(border_, [&] {
+      const Measure measure(statistics_.force);
+      auto out = view(minus_f);
+      model_.force(t_, view(q), still_, out);
+      require_finite(out);
+      out = -out;
+    });
+  }
+
+  int linearize(N_Vector q) {
+    return guarded(border_, [&] { matrix_.linearize(t_, view(q), still_); });
+  }
+
+  bool contracts(double correction) {
+    corrections_.push_back(correction);
+    const auto k = corrections_.size() - 1;
+    if (where_ == Where::anywhere || k == 0) return std::isfinite(correction);
+    return correction <= (k == 1 ? 0.5 : 1.0) * corrections_[k - 1];
+  }
+
+  int factor() {
+    bool factored = false;
+    const long before = statistics_.gauss_newton_fallbacks;
+    const int thrown = guarded(border_, [&] { factored = matrix_.factor({0, 0, 1}); });
+    if (thrown) return thrown;
+    if (!factored || (where_ == Where::nearby && statistics_.gauss_newton_fallbacks > before)) indefinite_ = true;
+    return indefinite_ ? 1 : 0;
+  }
+
+  double residual() {
+    Vector f(model_.num_dofs());
+    model_.force(t_, view(q_.get()), still_, f);
+    return f.lpNorm<Eigen::Infinity>();
+  }
+
+  // Whether one more Newton step would change nothing.
+  bool is_settled() {
+    try {
+      Vector f(model_.num_dofs()), correction(f.size());
+      model_.force(t_, view(q_.get()), still_, f);
+      matrix_.linearize(t_, view(q_.get()), still_);
+      if (factor() != 0) return false;
+      matrix_.solve(f, correction);
+      const double motion = std::max(view(q_.get()).lpNorm<Eigen::Infinity>(), 1e-3 * task_.length);
+      return correction.lpNorm<Eigen::Infinity>() <= options_.rtol * motion;
+    } catch (const RecoverableError&) {
+      return false;
+    }
+  }
+
+  std::string sentence(int flag) const {
+    const std::string cause = border_.recoverable_cause.empty() ? "" : " (" + border_.recoverable_cause + ")";
+    switch (flag) {
+      case KIN_MAXITER_REACHED:
+        return fmt::format("Newton's method did not converge within {} iterations (statics.solver.max_iterations)",
+                           options_.max_iterations);
+      case KIN_LINSOLV_NO_RECOVERY: return "Newton's corrections do not contract";
+      case KIN_LSETUP_FAIL: return "the stiffness could not be factored";
+      case KIN_FIRST_SYSFUNC_ERR:
+      case KIN_SYSFUNC_FAIL:
+      case KIN_REPTD_SYSFUNC_ERR: return "the forces could not be evaluated" + cause;
+      case KIN_STEP_LT_STPTOL:
+      case KIN_LINESEARCH_NONCONV:
+      case KIN_LINESEARCH_BCFAIL: return "the residual does not fall along Newton's direction" + cause;
+      default: return "KINSOL says: " + border_.library_message;
+    }
+  }
+
+  const Model& model_;
+  EquilibriumTask task_;
+  KinsolOptions options_;
+  Statistics statistics_;
+  Vector still_;  // velocities
+  double t_ = 0;
+  Where where_ = Where::nearby;
+  bool indefinite_ = false;
+  std::vector<double> corrections_;  // the largest of each iteration
+  Border border_;
+  NewtonMatrix matrix_;
+  SolverFunctions functions_;
+  Context context_;
+  OwnedVector q_, position_weights_, force_weights_;
+  OwnedMatrix plug_;
+  OwnedSolver solver_;
+  std::unique_ptr<void, FreeMemory> memory_;
+};
+
+void check(const KinsolOptions& options, const Config& config) {
+  std::vector<std::string> names;
+  for (const auto& [name, kind] : solver_registry())
+    if (kind.make) names.push_back(name);
+  if (std::find(names.begin(), names.end(), options.linear_solver) != names.end()) return;
+  config.at("linear_solver").fail("expected one of " + join(names) + ", found '" + options.linear_solver + "'");
+}
+
+class KinsolChoice : public EquilibriumChoice, public KinsolOptions {
+ public:
+  static const Spec<KinsolChoice>& spec() {
+    static const auto s =
+        Spec<KinsolChoice>()
+            .key("rtol", &KinsolChoice::rtol, "Largest residual, relative to the largest load on a coordinate.",
+                 {.range = {0, 1e-2, true, false}})
+            .key("max_iterations", &KinsolChoice::max_iterations, "Newton iterations per load step.",
+                 {.range = {1, 10'000}})
+            .key("linear_solver", &KinsolChoice::linear_solver, "One of `orthodyn list solvers`, klu_full aside.")
+            .check([](const KinsolChoice& options, const Config& config) { sundials::check(options, config); });
+    return s;
+  }
+  static MethodFacts facts() {
+    return {{"source", "Hindmarsh et al., ACM TOMS 31, 2005; Dennis & Schnabel 1983"}};
+  }
+  std::unique_ptr<EquilibriumSolver> make(const Model& model, const EquilibriumTask& task) const override {
+    return std::make_unique<Kinsol>(model, task, *this);
+  }
+};
+
+const bool registered =
+    Registry<EquilibriumChoice>::add<KinsolChoice>("kinsol", "KINSOL: Newton's method, K factored anew each time; line search where a branch was lost.");
+
+}  // namespace
+}  // namespace orthodyn::sundials

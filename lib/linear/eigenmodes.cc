@@ -1,0 +1,144 @@
+#include "lib/linear/eigenmodes.h"
+
+#include <Spectra/SymGEigsShiftSolver.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "lib/core/errors.h"
+#include "lib/linear/solver.h"
+
+namespace orthodyn {
+
+namespace {
+
+constexpr int kDense = 300;          // unknowns up to which the dense problem is solved
+constexpr double kZero = 2.5e-14;    // of the largest eigenvalue
+constexpr double kFirstShift = 1e-10;  // likewise
+constexpr double kMostShift = 10;
+constexpr int kRigid = 6;
+
+class Problem {
+ public:
+  Problem(const Pattern& pattern, const std::vector<double>& K, const std::vector<double>& M)
+      : pattern_(pattern), K_(K), M_(M), shifted_(K.size()), solver_(solver_registry().at("cholmod").make()) {
+    solver_->analyze(pattern);
+  }
+
+  int size() const { return pattern_.n; }
+  void multiply_mass(const ConstVectorRef& x, VectorRef y) const { pattern_.multiply(M_.data(), x, y); }
+  void solve_shifted(const ConstVectorRef& b, VectorRef x) const { solver_->solve(b, x); }
+
+  // Factors K + s M; false if it is not positive definite.
+  bool shift(double s) {
+    for (std::size_t k = 0; k < K_.size(); ++k) shifted_[k] = K_[k] + s * M_[k];
+    return solver_->factor(shifted_.data()) == FactorStatus::ok;
+  }
+
+  Eigen::MatrixXd dense(const std::vector<double>& values) const {
+    const Eigen::MatrixXd stored(pattern_.matrix(values.data()));
+    return stored.selfadjointView<Eigen::Lower>();
+  }
+  const std::vector<double>& K() const { return K_; }
+  const std::vector<double>& M() const { return M_; }
+
+  // The size of the largest eigenvalue, from below: of the stiffest coordinate on its own.
+  double largest() const {
+    double largest = 0;
+    for (const int diagonal : pattern_.column_start) {  // of each lower triangle's column the first entry
+      const auto at = static_cast<std::size_t>(diagonal);
+      if (at < K_.size()) largest = std::max(largest, std::abs(K_[at] / M_[at]));
+    }
+    return largest;
+  }
+
+ private:
+  const Pattern& pattern_;
+  const std::vector<double>&K_, &M_;
+  std::vector<double> shifted_;
+  std::unique_ptr<LinearSolver> solver_;
+};
+
+// As Spectra wants its operators.
+struct Inverse {
+  using Scalar = double;
+  Problem& problem;
+  Eigen::Index rows() const { return problem.size(); }
+  Eigen::Index cols() const { return problem.size(); }
+  void set_shift(double sigma) { problem.shift(-sigma); }
+  void perform_op(const double* in, double* out) const {
+    problem.solve_shifted(Eigen::Map<const Vector>(in, rows()), Eigen::Map<Vector>(out, rows()));
+  }
+};
+struct MassProduct {
+  using Scalar = double;
+  const Problem& problem;
+  Eigen::Index rows() const { return problem.size(); }
+  Eigen::Index cols() const { return problem.size(); }
+  void perform_op(const double* in, double* out) const {
+    problem.multiply_mass(Eigen::Map<const Vector>(in, rows()), Eigen::Map<Vector>(out, rows()));
+  }
+};
+
+EigenPairs lanczos(Problem& problem, double shift, int count) {
+  Inverse inverse{problem};
+  MassProduct mass{problem};
+  const int basis = std::min(problem.size(), std::max(2 * count + 10, 30));
+  Spectra::SymGEigsShiftSolver<Inverse, MassProduct, Spectra::GEigsMode::ShiftInvert> solver(inverse, mass, count, basis,
+                                                                                            -shift);
+  solver.init();
+  constexpr int kRestarts = 1000;
+  const auto found = solver.compute(Spectra::SortRule::LargestMagn, kRestarts, 1e-12, Spectra::SortRule::SmallestAlge);
+  if (solver.info() != Spectra::CompInfo::Successful)
+    throw RunError(fmt::format("{} of {} modes converged in {} restarts of the Lanczos iteration; ask for fewer modes",
+                               found, count, kRestarts));
+  return {solver.eigenvalues(), solver.eigenvectors(), 0};
+}
+
+EigenPairs dense(const Problem& problem, int count) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(problem.dense(problem.K()),
+                                                                        problem.dense(problem.M()));
+  return {eigen.eigenvalues().head(count), eigen.eigenvectors().leftCols(count), 0};
+}
+
+int zeros_among(const Vector& values, double largest) {
+  return static_cast<int>((values.array().abs() <= kZero * largest).count());
+}
+
+// With the smallest shift that makes K + s M positive definite.
+EigenPairs first_pass(Problem& problem, double largest, int count, double& shift) {
+  for (shift = kFirstShift * largest; shift <= kMostShift * largest; shift *= 100)
+    if (problem.shift(shift)) return lanczos(problem, shift, count);
+  throw RunError("the stiffness is far from positive definite: no modes can be had about this state");
+}
+
+EigenPairs sparse(Problem& problem, double largest, int count) {
+  double shift = 0;
+  const int wanted = std::min(problem.size() - 1, count + kRigid + 1);
+  EigenPairs pairs = first_pass(problem, largest, wanted, shift);
+  const int zeros = zeros_among(pairs.values, largest);
+  if (zeros == 0 || zeros == wanted) return pairs;
+  const double lowest = pairs.values.tail(pairs.values.size() - zeros).cwiseAbs().minCoeff();
+  return lowest > shift && problem.shift(lowest) ? lanczos(problem, lowest, wanted) : pairs;
+}
+
+}  // namespace
+
+EigenPairs lowest_eigenpairs(const Pattern& pattern, const std::vector<double>& K, const std::vector<double>& M, int count) {
+  if (!pattern.symmetric) throw ConfigError("modes need a symmetric stiffness");
+  if (count > pattern.n)
+    throw ConfigError(fmt::format("{} modes were asked for, but there are {} unknowns and as many modes", count, pattern.n));
+  Problem problem(pattern, K, M);
+  const double largest = problem.largest();
+  const bool small = pattern.n <= kDense || count + kRigid + 1 >= pattern.n / 2;
+  EigenPairs pairs = small ? dense(problem, count) : sparse(problem, largest, count);
+  pairs.values.conservativeResize(count);
+  pairs.shapes.conservativeResize(Eigen::NoChange, count);
+  pairs.zeros = zeros_among(pairs.values, largest);
+  for (double& value : pairs.values)
+    if (std::abs(value) <= kZero * largest) value = 0;
+  return pairs;
+}
+
+}  // namespace orthodyn

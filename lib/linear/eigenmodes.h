@@ -1,0 +1,25 @@
+// The lowest pairs (lambda, x) of K x = lambda M x with symmetric K and M on one pattern, M positive definite:
+// Lanczos iteration on (K + s M)^-1 M (Ericsson & Ruhe 1980, through Spectra), dense for small matrices.
+//
+// The shift s > 0 makes K + s M positive definite where K alone is not, as that of a body that nothing holds. Zeros
+// are what round-off leaves of them: eigenvalues within eps times a hundred of the largest; as soon as there are some,
+// a second pass with a shift of the size of the lowest other eigenvalue finds that to full accuracy.
+#pragma once
+
+#include <vector>
+
+#include "lib/core/pattern.h"
+
+namespace orthodyn {
+
+struct EigenPairs {
+  Vector values;           // ascending; zeros are exactly 0
+  Eigen::MatrixXd shapes;  // a column each, M-orthonormal
+  int zeros = 0;
+};
+
+// K and M by their values on `pattern`. Throws ConfigError if the pattern is not symmetric or there are fewer
+// unknowns than modes, RunError if the iteration fails or K is so indefinite that no shift of a moderate size helps.
+EigenPairs lowest_eigenpairs(const Pattern& pattern, const std::vector<double>& K, const std::vector<double>& M, int count);
+
+}  // namespace orthodyn

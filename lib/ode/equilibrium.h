@@ -1,0 +1,49 @@
+// An equilibrium solver finds where a model can rest: q with f(t, q, 0) = 0. One kind per file, chosen in
+// the input by `type` through Registry<EquilibriumChoice>.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "lib/core/registry.h"
+#include "lib/ode/model.h"
+#include "lib/ode/statistics.h"
+
+namespace orthodyn {
+
+class EquilibriumSolver {
+ public:
+  struct Attempt {
+    bool found = false;
+    bool indefinite = false;  // given up since the stiffness was not positive definite on the way
+    long iterations = 0;
+    double residual = 0;  // N, the largest component of f
+    std::string trouble;  // why not found
+  };
+
+  virtual ~EquilibriumSolver() = default;
+
+  // What may be found: an equilibrium to which the guess leads without doubt, or any.
+  enum class Where { nearby, anywhere };
+
+  // From a guess, which it replaces if it finds something. Throws RunError for what a better guess cannot mend.
+  virtual Attempt solve(double t, Vector& q, Where where) = 0;
+
+  virtual const Statistics& statistics() const = 0;
+  virtual std::size_t factor_bytes() const = 0;
+  virtual std::string description() const = 0;  // of its linear solver
+};
+
+struct EquilibriumTask {
+  double force = 1;   // N, the size of the loads: what residuals are relative to
+  double length = 1;  // m, the size of the motion
+};
+
+class EquilibriumChoice {
+ public:
+  virtual ~EquilibriumChoice() = default;
+  // Throws ConfigError if the solver cannot serve the model, which must outlive it.
+  virtual std::unique_ptr<EquilibriumSolver> make(const Model& model, const EquilibriumTask& task) const = 0;
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,49 @@
+// A body at rest while its loads grow, as a model whose time is the load factor lambda in [0, 1]:
+//
+//     f_lambda(q) = f(t, q, 0) - (1 - lambda) f(t, q0, 0)
+//
+// At 0 the starting shape q0 is in equilibrium, at 1 all of f acts. Dead loads on a stress-free shape thus
+// grow in proportion to lambda; of all else (follower loads, prestress, moved boundaries) what is out of
+// balance in q0 does. The stiffness is the model's own. Functions of time are taken at t.
+#pragma once
+
+#include "lib/ode/model.h"
+
+namespace orthodyn {
+
+class LoadPath : public Model {
+ public:
+  // `model` must outlive it.
+  LoadPath(const Model& model, double t, Vector start);
+
+  const Vector& start() const { return start_; }
+  const Vector& load() const { return load_; }  // f(t, q0, 0), N
+  double time() const { return t_; }
+
+  int num_dofs() const override { return model_.num_dofs(); }
+  const Traits& traits() const override { return model_.traits(); }
+  void force(double lambda, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override;
+  const Pattern& pattern() const override { return model_.pattern(); }
+  void linearize(double, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
+                 Linearization& out) const override {
+    model_.linearize(t_, q, v, kind, out);
+  }
+  void combine(const Weights& w, const Linearization& at, double* values) const override {
+    model_.combine(w, at, values);
+  }
+  void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { model_.multiply_mass(x, y); }
+  void solve_mass(VectorRef x) const override { model_.solve_mass(x); }
+
+  std::vector<OutputInfo> outputs() const override { return model_.outputs(); }
+  std::vector<double> evaluate(const std::string& name, const State& state) const override {
+    return model_.evaluate(name, {t_, state.q, state.v});
+  }
+  Geometry geometry() const override { return model_.geometry(); }
+
+ private:
+  const Model& model_;
+  double t_;
+  Vector start_, load_;
+};
+
+}  // namespace orthodyn

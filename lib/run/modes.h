@@ -1,0 +1,33 @@
+// Natural modes of a model about a state: K phi = omega^2 M phi with the exact K there, no damping.
+//
+// Shapes are M-orthonormal, so that with r a rigid translation along an axis Gamma = r' M phi is the participation
+// factor and Gamma^2 the effective modal mass, kg; these of all modes add up to the mass of the free coordinates.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "lib/ode/model.h"
+
+namespace orthodyn {
+
+struct Mode {
+  double lambda = 0;      // omega^2, rad^2/s^2; negative where the state is unstable
+  Vector shape;           // M-orthonormal
+  Vec3 participation = Vec3::Zero();  // sqrt(kg); zero if the model tells no momentum.linear
+  double residual = 0;    // |K phi - lambda M phi| / |lambda_ref M phi|, lambda_ref of this or the lowest elastic mode
+
+  double angular_frequency() const;  // rad/s; of an unstable mode its rate of growth, negative
+  double frequency() const;          // Hz
+  Vec3 effective_mass() const { return participation.cwiseAbs2(); }
+};
+
+struct Modes {
+  std::vector<Mode> modes;  // ascending
+  int rigid = 0;            // those of frequency zero
+};
+
+// Throws ConfigError if the model has fewer modes or an unsymmetric tangent, RunError if they cannot be found.
+Modes natural_modes(const Model& model, const State& about, int count);
+
+}  // namespace orthodyn

@@ -1,0 +1,24 @@
+// A scene's static problem: its loads at one time, the solver that it asks for, and the check that it is held.
+#pragma once
+
+#include <memory>
+
+#include "lib/ode/load_path.h"
+#include "lib/scene/build.h"
+
+namespace orthodyn {
+
+struct StaticProblem {
+  std::unique_ptr<LoadPath> path;  // of the scene's model, from its rest shape
+  std::unique_ptr<EquilibriumSolver> solver;
+  std::unique_ptr<LoadStepper> stepper;
+};
+
+// The loads are those at the end of the time span in statics, at its start for a start from equilibrium. Throws
+// ConfigError for a body that is not held. `built` must outlive the problem.
+StaticProblem static_problem(const Scene& scene, const BuiltScene& built);
+
+// The free coordinates in equilibrium. Throws ConfigError as above, RunError where there is none to be found.
+Vector equilibrium(const Scene& scene, const BuiltScene& built);
+
+}  // namespace orthodyn

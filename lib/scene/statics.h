@@ -1,0 +1,19 @@
+// How a scene's equilibrium is to be found: keys of the section `statics`.
+#pragma once
+
+#include <memory>
+
+#include "lib/ode/equilibrium.h"
+#include "lib/ode/load_stepper.h"
+
+namespace orthodyn {
+
+enum class AtLimit { stop, jump };
+
+struct Statics : LoadStepping {
+  AtLimit at_limit = AtLimit::stop;
+  std::shared_ptr<const EquilibriumChoice> solver;
+  static const Spec<Statics>& spec();
+};
+
+}  // namespace orthodyn

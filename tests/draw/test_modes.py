@@ -1,0 +1,70 @@
+"""tools/draw modes: the shapes that bend, with their frequencies; errors are one line."""
+import contextlib
+import io
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+TOOLS = Path(__file__).resolve().parents[2] / "tools"
+sys.path[:0] = [str(TOOLS), str(Path(__file__).resolve().parent)]
+
+import numpy as np  # noqa: E402
+from PIL import Image  # noqa: E402
+
+from draw.cli import main  # noqa: E402
+from draw.modes import Shapes, frequencies, frequency_label  # noqa: E402
+from tiny_result import POINTS, Vtu  # noqa: E402
+
+
+def write_modes(folder, hertz):
+    (folder / "modes").mkdir(parents=True)
+    sets = ""
+    for k in range(len(hertz)):
+        name = f"modes/mode_{k + 1:03d}.vtu"
+        shape = np.roll(POINTS, k, axis=1)
+        (folder / name).write_bytes(Vtu().content({"shape": shape, "displacement": 0 * POINTS}, {}))
+        sets += f'<DataSet timestep="{k + 1}" file="{name}"/>'
+    (folder / "modes.pvd").write_text(f'<VTKFile type="Collection"><Collection>{sets}</Collection></VTKFile>')
+    rows = "\n".join(f"{k + 1},{f}" for k, f in enumerate(hertz))
+    (folder / "modes.csv").write_text(f"mode,frequency [Hz]\n{rows}\n")
+    return folder
+
+
+class Modes(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory())) / "out"
+
+    def draw(self, *arguments):
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            code = main(["modes", str(self.folder), *arguments])
+        return code, out.getvalue().splitlines(), err.getvalue().splitlines()
+
+    def test_a_picture_stands_beside_the_table(self):
+        write_modes(self.folder, [0, 0, 12.5, 1250.0])
+        code, out, err = self.draw()
+        self.assertEqual((code, out, err), (0, [str(self.folder / "modes.png")], []))
+        self.assertGreater(np.ptp(np.asarray(Image.open(out[0]).convert("L"))), 50)
+
+    def test_shapes_are_read_as_what_moves_the_body(self):
+        write_modes(self.folder, [1.0, 2.0])
+        np.testing.assert_array_equal(Shapes(self.folder).frame(1).node_fields["displacement"], np.roll(POINTS, 1, axis=1))
+        self.assertEqual(frequencies(self.folder), [1.0, 2.0])
+
+    def test_labels_are_short(self):
+        self.assertEqual([frequency_label(f) for f in (12.5, 1299.0381, -3.0)], ["12.5 Hz", "1.299 kHz", "-3 Hz"])
+
+    def test_what_is_missing_is_said_in_one_line(self):
+        write_modes(self.folder, [0, 0])
+        self.assertIn("all 2 modes are rigid; ask for more with -n", self.draw()[2][0])
+        (self.folder / "modes.csv").write_text("mode,frequency [Hz]\n1,2\n")
+        self.assertIn("do not belong together", self.draw()[2][0])
+        (self.folder / "modes.pvd").unlink()
+        code, _, err = self.draw()
+        self.assertEqual((code, len(err)), (2, 1))
+
+
+if __name__ == "__main__":
+    unittest.main()

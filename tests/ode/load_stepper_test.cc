@@ -1,0 +1,221 @@
+// Load steps with KINSOL on models whose equilibria are known.
+#include "lib/ode/load_stepper.h"
+
+#include <cmath>
+
+#include "tests/contract/models.h"
+#include <gtest/gtest.h>
+
+namespace orthodyn {
+namespace {
+
+// Von Mises' truss: two bars of EA = 1 from (-1, 0) and (1, 0) meet at the height z = 0.2 - q, pressed down by a load.
+// The bars follow N = EA (L - L0)/L0, so that P(z) = 2 EA z (1/L - 1/L0).
+class Truss : public SmallModel {
+ public:
+  explicit Truss(double load) : SmallModel(scalar(1)), load_(load) {}
+  static constexpr double kRise = 0.2;
+  static double rest_length() { return std::sqrt(1 + kRise * kRise); }
+  static double height(const Vector& q) { return kRise - q[0]; }
+  static double resistance(double z) { return 2 * z * (1 / std::hypot(1, z) - 1 / rest_length()); }
+
+  // Where dP/dz = 0: L*^3 = b^2 L0 with b = 1.
+  static double limit_height() { return std::sqrt(std::pow(rest_length(), 2.0 / 3) - 1); }
+  static double limit_load() { return resistance(limit_height()); }
+
+  void force(double, const ConstVectorRef& q, const ConstVectorRef&, VectorRef f) const override {
+    f[0] = load_ - resistance(kRise - q[0]);
+  }
+  State initial() const override { return {0, Vector::Zero(1), Vector::Zero(1)}; }
+  double end() const override { return 1; }
+
+ private:
+  Matrix stiffness(double, const Vector& q, const Vector&, TangentKind kind) const override {
+    const double z = height(q), L = std::hypot(1, z), along = 2 * z * z / (L * L * L);
+    return scalar(kind == TangentKind::gauss_newton ? along : along - 2 * (1 / L - 1 / rest_length()));
+  }
+  double load_;
+};
+
+struct Analysis {
+  Analysis(const Model& model, const LoadStepping& stepping, const std::string& solver = "{type: kinsol}", double t = 0)
+      : path(model, t, Vector::Zero(model.num_dofs())),
+        solver_(Registry<EquilibriumChoice>::read(Config::from_text(solver))
+                    ->make(path, {std::max(path.load().lpNorm<Eigen::Infinity>(), 1e-300), 0.1})),
+        stepper(path, *solver_, stepping) {}
+
+  // The message of the RunError that ends it; "" if all loads are reached.
+  std::string to_the_end() {
+    try {
+      while (!stepper.done()) {
+        stepper.step();
+        states.push_back(stepper.state());
+      }
+      return "";
+    } catch (const RunError& e) {
+      return e.what();
+    }
+  }
+
+  LoadPath path;
+  std::unique_ptr<EquilibriumSolver> solver_;
+  LoadStepper stepper;
+  std::vector<State> states;
+};
+
+LinearModel pushed_chain() {
+  Matrix K(3, 3);
+  K << 2, -1, 0, -1, 2, -1, 0, -1, 1;
+  return LinearModel({.mass = Matrix::Identity(3, 3), .stiffness = K, .load = Vector::Unit(3, 2), .factor = {{0, 0}, {2, 6}}});
+}
+
+TEST(LoadStepper, OfALinearModelIsExactAtEveryLoadFactor) {
+  const LinearModel chain = pushed_chain();
+  Analysis analysis(chain, {.first_step = 0.125}, "{type: kinsol}", 2);
+  EXPECT_EQ(analysis.to_the_end(), "");
+  EXPECT_EQ(analysis.stepper.rejected(), 0);
+  ASSERT_EQ(analysis.states.back().t, 1);
+  // Each spring carries the load, 6 N at t = 2 s: u_k = 6 k.
+  for (const State& s : analysis.states)
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(s.q[k], 6 * s.t * (k + 1), 1e-7 * 18) << s.t;
+}
+
+TEST(LoadStepper, GrowsItsStepsWhereItIsEasyAndEndsOnTheWholeLoad) {
+  const LinearModel chain = pushed_chain();
+  Analysis analysis(chain, {.first_step = 0.1, .max_step = 0.4}, "{type: kinsol}", 2);
+  analysis.to_the_end();
+  std::vector<double> factors;
+  for (const State& s : analysis.states) factors.push_back(s.t);
+  ASSERT_EQ(factors.size(), 4u);
+  const double expected[] = {0.1, 0.3, 0.7, 1};
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(factors[k], expected[k], 1e-12);
+}
+
+TEST(LoadStepper, OfAnUnloadedModelStaysAtRest) {
+  const LinearModel chain({.mass = scalar(1), .stiffness = scalar(5)});
+  Analysis analysis(chain, {});
+  EXPECT_EQ(analysis.to_the_end(), "");
+  EXPECT_EQ(analysis.stepper.state().q[0], 0);
+}
+
+TEST(VonMisesTruss, HasTheLimitLoadOfTheClosedForm) {
+  EXPECT_NEAR(Truss::limit_load(), 2.96051760e-3, 1e-11);
+  EXPECT_NEAR(Truss::limit_height(), 0.11471444, 1e-8);
+}
+
+TEST(VonMisesTruss, IsFollowedBelowItsLimit) {
+  const double load = 0.99 * Truss::limit_load();
+  const Truss truss(load);
+  Analysis analysis(truss, {});
+  EXPECT_EQ(analysis.to_the_end(), "");
+  const double z = Truss::height(analysis.stepper.state().q);
+  EXPECT_NEAR(Truss::resistance(z), load, 1e-8 * load);
+  EXPECT_GT(z, Truss::limit_height());
+}
+
+// The smallest step is how closely the limit is found, from below.
+TEST(VonMisesTruss, IsFollowedUpToItsLimitAndNoFurther) {
+  for (const double min_step : {1e-3, 1e-5, 1e-7}) {
+    const Truss truss(1.5 * Truss::limit_load());
+    Analysis analysis(truss, {.min_step = min_step});
+    const std::string message = analysis.to_the_end();
+    const State& last = analysis.stepper.state();
+    EXPECT_LE(last.t, 1 / 1.5);
+    EXPECT_GE(last.t, 1 / 1.5 - 1.01 * min_step);
+    // P falls off from its limit with (z - z*)^2 P''/2 and P'' = -6 z*/L*^5.
+    const double z = Truss::limit_height(), curvature = 6 * z / std::pow(std::hypot(1, z), 5);
+    EXPECT_NEAR(Truss::height(last.q), z, 1.1 * std::sqrt(2 * 1.5 * Truss::limit_load() * min_step / curvature));
+    EXPECT_NE(message.find("ends at load factor 0.66"), std::string::npos) << message;
+    EXPECT_NE(message.find("snaps through"), std::string::npos) << message;
+    EXPECT_GT(analysis.stepper.rejected(), 3);
+    EXPECT_FALSE(analysis.states.empty());
+  }
+}
+
+TEST(VonMisesTruss, DoesNotHopToTheOtherBranchInOneLongStep) {
+  for (const double times : {1.01, 2.0, 10.0, 100.0}) {
+    const Truss truss(times * Truss::limit_load());
+    Analysis analysis(truss, {.first_step = 1});
+    EXPECT_NE(analysis.to_the_end(), "");
+    for (const State& s : analysis.states) EXPECT_GT(Truss::height(s.q), Truss::limit_height() - 1e-6) << times;
+  }
+}
+
+// If it is told to, and then only beyond the limit: to the branch where the truss hangs.
+TEST(VonMisesTruss, JumpsToTheOtherBranchWhenItMayAndMust) {
+  for (const auto& [times, jumps] : {std::pair{0.95, 0}, {1.5, 1}}) {
+    const Truss truss(times * Truss::limit_load());
+    Analysis analysis(truss, {.may_jump = true});
+    EXPECT_EQ(analysis.to_the_end(), "") << times;
+    EXPECT_EQ(analysis.stepper.jumps(), jumps);
+    const double z = Truss::height(analysis.stepper.state().q);
+    EXPECT_EQ(z < 0, jumps > 0);
+    EXPECT_NEAR(Truss::resistance(z), times * Truss::limit_load(), 1e-7 * Truss::limit_load());
+  }
+}
+
+// Cannot be evaluated beyond a displacement, which an early Newton step would pass.
+class Fragile : public SmallModel {
+ public:
+  Fragile() : SmallModel(scalar(1)) {}
+  void force(double, const ConstVectorRef& q, const ConstVectorRef&, VectorRef f) const override {
+    if (q[0] > 1) throw RecoverableError("torn");
+    f[0] = load - (q[0] + 10 * q[0] * q[0] * q[0]);
+  }
+  State initial() const override { return {0, Vector::Zero(1), Vector::Zero(1)}; }
+  double end() const override { return 1; }
+  double load = 10;
+
+ private:
+  Matrix stiffness(double, const Vector& q, const Vector&, TangentKind) const override {
+    return scalar(1 + 30 * q[0] * q[0]);
+  }
+};
+
+TEST(LoadStepper, CutsBackWhereTheModelCannotBeEvaluated) {
+  Fragile bar;
+  Analysis analysis(bar, {.first_step = 1});
+  EXPECT_EQ(analysis.to_the_end(), "");
+  const double q = analysis.stepper.state().q[0];
+  EXPECT_NEAR(q + 10 * q * q * q, 10, 1e-6);
+}
+
+TEST(LoadStepper, SaysHowFarItCameAndWhyNotFurther) {
+  Fragile bar;
+  bar.load = 20;  // 11 at q = 1
+  Analysis analysis(bar, {.min_step = 1e-3});
+  const std::string message = analysis.to_the_end();
+  EXPECT_NE(message.find("no equilibrium was found beyond load factor 0.5"), std::string::npos) << message;
+  EXPECT_NE(message.find("torn"), std::string::npos) << message;
+  EXPECT_GT(analysis.stepper.state().t, 0.54);
+  EXPECT_LE(analysis.stepper.state().t, 0.55);
+}
+
+TEST(LoadStepper, GivesUpAfterTheStepsAllowed) {
+  const LinearModel chain = pushed_chain();
+  Analysis analysis(chain, {.first_step = 0.1, .max_step = 0.1, .max_steps = 3}, "{type: kinsol}", 2);
+  const std::string message = analysis.to_the_end();
+  EXPECT_NE(message.find("gave up at load factor 0.3 after 3 steps"), std::string::npos) << message;
+}
+
+TEST(Kinsol, ConvergesQuadratically) {
+  Fragile bar;
+  bar.load = 1;
+  for (const auto& [rtol, most] : {std::pair{"1e-4", 6l}, {"1e-12", 8l}}) {
+    Analysis analysis(bar, {.first_step = 1}, std::string("{type: kinsol, rtol: ") + rtol + "}");
+    EXPECT_EQ(analysis.to_the_end(), "");
+    EXPECT_LE(analysis.stepper.attempt().iterations, most) << rtol;
+  }
+}
+
+TEST(Kinsol, NamesTheSolversThatItTakes) {
+  try {
+    Registry<EquilibriumChoice>::read(Config::from_text("{type: kinsol, linear_solver: klu_full}"));
+    ADD_FAILURE() << "accepted";
+  } catch (const ConfigError& e) {
+    EXPECT_NE(std::string(e.what()).find("cholmod"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace orthodyn
