@@ -6,11 +6,11 @@
 #include <optional>
 #include <string>
 
+#include "integrators/reduced_solve.h"
 #include "integrators/sundials/callbacks.h"
 #include "integrators/sundials/full_jacobian.h"
 #include "integrators/sundials/options.h"
 #include "integrators/sundials/plug.h"
-#include "integrators/sundials/reduced_solve.h"
 
 namespace orthodyn::sundials {
 

@@ -27,8 +27,17 @@ struct TestedMethod {
 inline const std::map<std::string, TestedMethod>& tested_methods() {
   static const std::map<std::string, TestedMethod> all = {
       {"arkode_dirk", {{{2, ", table: TRBDF2_3_3_2"}, {5, ", table: ESDIRK547L2SA_7_4_5"}}, true, true}},
+      {"backward_euler", {{{1}}}},
+      {"bathe", {{{2}}}},
       {"cvode_bdf", {{{2, ", max_order: 2"}, {5, ", max_order: 5"}}, true, true}},
+      {"generalized_alpha", {{{2}}}},
+      {"hht_alpha", {{{2}}}},
       {"ida_bdf", {{{2, ", max_order: 2"}, {5, ", max_order: 5"}}, true, true}},
+      {"newmark", {{{2}, {1, ", beta: 0.5, gamma: 0.7"}}}},
+      {"rosenbrock", {{{3}}}},
+      {"sdirk", {{{2, ", order: 2"}, {3, ", order: 3"}, {4, ", order: 4"}}}},
+      {"semi_implicit_euler", {{{1}}}},
+      {"tr_bdf2", {{{2}}}},
   };
   return all;
 }

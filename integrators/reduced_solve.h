@@ -1,15 +1,16 @@
-// One symmetric n x n solve in place of SUNDIALS' 2n x 2n Newton system.
+// One symmetric n x n solve in place of the 2n x 2n system of y' = (v, M^-1 f).
 //
-// With y = (q, v) and A = M + gamma D + gamma^2 K, both Newton systems reduce to
+// With y = (q, v) and A = M + gamma D + gamma^2 K, the systems of CVODE, ARKODE, IDA and of Rosenbrock
+// methods reduce to
 //     A dv = p - gamma K r_q,   dq = r_q + gamma dv:
-//   CVODE, (I - gamma J) dy = r:                       p = M r_v;
+//   (I - gamma J) dy = r:                               p = M r_v;
 //   IDA, (dF/dy + cj dF/dy') dy = b, gamma = 1/cj:     r_q = gamma b_q, p = gamma b_v.
 // dq is found from dv, not dv from dq: the latter cancels for small gamma.
 #pragma once
 
 #include "integrators/newton_matrix.h"
 
-namespace orthodyn::sundials {
+namespace orthodyn {
 
 class ReducedSolve {
  public:
@@ -43,4 +44,4 @@ class ReducedSolve {
   Vector work_;
 };
 
-}  // namespace orthodyn::sundials
+}  // namespace orthodyn

@@ -1,0 +1,53 @@
+// The keys of error control: a local error of rtol times the scale of positions, resp. velocities, in
+// every coordinate (root mean square) is at tolerance.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lib/core/spec.h"
+#include "lib/ode/integrator.h"
+
+namespace orthodyn {
+
+using Decisions = std::vector<std::pair<std::string, std::string>>;
+
+struct ErrorControl {
+  double rtol = 1e-4;
+  std::optional<double> position_scale, velocity_scale;  // m, m/s
+  std::optional<double> h0, h_max;                       // s
+  double h_min = 0;                                      // s
+  long max_steps = 1'000'000;
+
+  // The scales that are given, and the task's where they are not.
+  Scales scales(const Task& task) const;
+
+  // These keys, in a Spec of a struct derived from this one.
+  template <class T>
+  static Spec<T> spec_for();
+};
+
+void check_error_control(const ErrorControl& control, const Config& config);
+
+// How the scales appear among an integrator's decisions.
+Decisions scale_decisions(const Scales& scales);
+
+template <class T>
+Spec<T> ErrorControl::spec_for() {
+  using C = ErrorControl;
+  return Spec<T>()
+      .key("rtol", &C::rtol, "Local error allowed per step, relative to the scales.", {.range = {0, 1, true, true}})
+      .key("position_scale", &C::position_scale, "Size of motion; default from the scene.",
+           {.unit = "m", .range = kPositive})
+      .key("velocity_scale", &C::velocity_scale, "Size of velocities; default from the scene.",
+           {.unit = "m/s", .range = kPositive})
+      .key("h0", &C::h0, "First step; default estimated.", {.unit = "s", .range = kPositive})
+      .key("h_min", &C::h_min, "Smallest step.", {.unit = "s", .range = kNonNegative})
+      .key("h_max", &C::h_max, "Largest step; default unlimited.", {.unit = "s", .range = kPositive})
+      .key("max_steps", &C::max_steps, "Steps after which the run is given up.", {.range = {1}})
+      .check([](const T& control, const Config& config) { check_error_control(control, config); });
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,29 @@
+// Backward Euler: v1 = v0 + h a1, q1 = q0 + h v1.
+#include "integrators/native/dirk.h"
+
+namespace orthodyn {
+namespace {
+
+// The local error is half the difference of the slopes at both ends: that to the trapezoidal rule.
+DirkTable backward_euler() { return {1, 2, {0, 1}, {{0, 1}}, {0.5, -0.5}}; }
+
+class BackwardEulerChoice : public IntegratorChoice, public NewtonOptions {
+ public:
+  static const Spec<BackwardEulerChoice>& spec() {
+    static const auto s = NewtonOptions::spec_for<BackwardEulerChoice>();
+    return s;
+  }
+  static MethodFacts facts() {
+    return method_facts("1", "L-stable; damps every oscillation", "momentum",
+                        "Hairer & Wanner 1996, IV; error estimate: difference to the trapezoidal rule");
+  }
+  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+    return std::make_unique<Dirk>("backward_euler", model, *this, scales(task), backward_euler());
+  }
+};
+
+const bool registered = Registry<IntegratorChoice>::add<BackwardEulerChoice>(
+    "backward_euler", "Backward Euler, solved to the end by Newton's method; adaptive or with a fixed step.");
+
+}  // namespace
+}  // namespace orthodyn

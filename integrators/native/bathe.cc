@@ -1,0 +1,36 @@
+// Bathe's method with the spectral radius at infinity as its parameter (Noh & Bathe 2019).
+#include "integrators/native/composite_table.h"
+
+namespace orthodyn {
+namespace {
+
+class BatheChoice : public IntegratorChoice, public NewtonOptions {
+ public:
+  double rho_inf = 0, splitting = 0.5;
+
+  static const Spec<BatheChoice>& spec() {
+    using C = BatheChoice;
+    static const auto s =
+        NewtonOptions::spec_for<C>()
+            .key("rho_inf", &C::rho_inf, "What a step leaves of the fastest oscillations: 0 all damped, 1 none.",
+                 {.range = {0, 1}})
+            .key("splitting", &C::splitting, "Where in the step the trapezoidal part ends.",
+                 {.range = {0.01, 0.99}});
+    return s;
+  }
+  static MethodFacts facts() {
+    return method_facts("2", "A-stable; fast oscillations shrink to rho_inf per step",
+                        "momentum; with rho_inf = 1 the energy of linear models",
+                        "Noh & Bathe 2019; error estimate: Hosea & Shampine 1996");
+  }
+  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+    const double g = splitting, q1 = (rho_inf + 1) / (2 * g * (rho_inf - 1) + 4);
+    return std::make_unique<Dirk>("bathe", model, *this, scales(task), composite_table(g, q1, 0.5 - g * q1));
+  }
+};
+
+const bool registered = Registry<IntegratorChoice>::add<BatheChoice>(
+    "bathe", "Bathe's method of two parts with chosen damping of fast modes; adaptive or with a fixed step.");
+
+}  // namespace
+}  // namespace orthodyn

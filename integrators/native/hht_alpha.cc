@@ -1,0 +1,31 @@
+// The alpha method of Hilber, Hughes & Taylor (1977): Newmark's, with forces taken before the end of the step.
+#include "integrators/native/alpha_method.h"
+
+namespace orthodyn {
+namespace {
+
+class HhtAlphaChoice : public IntegratorChoice, public NewtonOptions {
+ public:
+  double alpha = -0.05;
+
+  static const Spec<HhtAlphaChoice>& spec() {
+    static const auto s = NewtonOptions::spec_for<HhtAlphaChoice>().key(
+        "alpha", &HhtAlphaChoice::alpha, "From 0, no damping of fast oscillations, to -1/3, the most.",
+        {.range = {-1.0 / 3, 0}});
+    return s;
+  }
+  static MethodFacts facts() {
+    return method_facts("2", "A-stable; fast oscillations shrink to (1 + alpha) / (1 - alpha) per step", "momentum",
+                        "Hilber, Hughes & Taylor 1977; error estimate: Hulbert & Jang 1995");
+  }
+  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+    const AlphaParameters p{0, -alpha, 0.25 * (1 - alpha) * (1 - alpha), 0.5 - alpha};
+    return std::make_unique<AlphaMethod>("hht_alpha", model, *this, scales(task), p);
+  }
+};
+
+const bool registered = Registry<IntegratorChoice>::add<HhtAlphaChoice>(
+    "hht_alpha", "The alpha method of Hilber, Hughes & Taylor; adaptive or with a fixed step, implicit.");
+
+}  // namespace
+}  // namespace orthodyn

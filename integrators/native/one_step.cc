@@ -1,0 +1,201 @@
+#include "integrators/native/one_step.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace orthodyn {
+
+namespace {
+constexpr int kMostAttempts = 20, kMostHalvings = 10;
+constexpr double kAfterNewton = 0.25;  // times the step that Newton could not take
+}  // namespace
+
+OneStep::OneStep(std::string name, const Model& model, const LinearOptions& options, const Scales& scales)
+    : model_(model), norm_(options.rtol, scales), name_(std::move(name)), options_(options), scales_(scales),
+      control_(1), e_q_(model.num_dofs()), e_v_(model.num_dofs()) {
+  const Vector zero = Vector::Zero(model.num_dofs());
+  before_ = now_ = next_ = {0, zero, zero, zero};
+}
+
+void OneStep::force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) {
+  const Measure measure(statistics_.force);
+  model_.force(t, q, v, f);
+  if (!f.allFinite()) throw RecoverableError("the force is not finite");
+}
+
+void OneStep::start(const State& state) {
+  now_.t = state.t;
+  now_.q = state.q;
+  now_.v = state.v;
+  try {
+    force(now_.t, now_.q, now_.v, now_.a);
+  } catch (const RecoverableError& e) {
+    throw RunError(fmt::format("{} stopped at t = {:.6g} s: the force cannot be evaluated ({}); check the initial "
+                               "state and the loads",
+                               name_, now_.t, e.what()),
+                   Reason::force);
+  }
+  model_.solve_mass(now_.a);
+  before_ = now_;
+  control_ = HeldStep(orders().estimate);
+  h_ = options_.h0.value_or(0);
+  restarted();
+}
+
+StepInfo OneStep::step(double t_stop) {
+  if (statistics_.steps >= options_.max_steps)
+    throw RunError(fmt::format("{} gave up at t = {:.6g} s after {} steps (max_steps); raise integrator.max_steps "
+                               "or integrator.{}",
+                               name_, now_.t, statistics_.steps, options_.step ? "step" : "rtol"),
+                   Reason::too_many_steps);
+  if (options_.step) advance_by_fixed_step(t_stop);
+  else advance_adaptively(t_stop);
+  ++statistics_.steps;
+  return {now_.t, now_.t - before_.t, orders().method};
+}
+
+void OneStep::interpolate(double t, State& out) const {
+  out.t = t;
+  out.q.resize(now_.q.size());
+  out.v.resize(now_.v.size());
+  if (before_.t == now_.t) {  // no step yet
+    out.q = now_.q;
+    out.v = now_.v;
+    return;
+  }
+  orthodyn::interpolate(before_, now_, t, out.q, out.v);
+}
+
+void OneStep::accept(double h) {
+  accepted(h);
+  std::swap(before_, now_);
+  std::swap(now_, next_);
+}
+
+OneStep::Verdict OneStep::try_step(double h) {
+  cause_.clear();
+  try {
+    if (!attempt(h)) return Verdict::newton;
+    if (options_.step) return Verdict::good;
+    estimate(h, e_q_, e_v_);
+    error_ = norm_(e_q_, e_v_);
+    return error_ <= 1 ? Verdict::good : Verdict::error_test;
+  } catch (const RecoverableError& e) {
+    cause_ = e.what();
+    return Verdict::force;
+  }
+}
+
+void OneStep::count(Verdict verdict) {
+  if (verdict == Verdict::good) return;
+  ++statistics_.rejected_steps;
+  ++(verdict == Verdict::error_test ? statistics_.error_test_failures : statistics_.convergence_failures);
+}
+
+double OneStep::resolution() const { return 4 * std::numeric_limits<double>::epsilon() * std::abs(now_.t); }
+
+void OneStep::advance_adaptively(double t_stop) {
+  if (h_ == 0) h_ = first_step(t_stop);
+  const double planned = h_;
+  bool refused = false;
+  for (int attempts = 0;; ++attempts) {
+    const double h = length(t_stop);
+    next_.t = h == t_stop - now_.t ? t_stop : now_.t + h;
+    const Verdict verdict = try_step(h);
+    count(verdict);
+    if (verdict == Verdict::good) {
+      accept(h);
+      const double factor = control_.after_success(h, error_);
+      h_ = h * (refused ? std::min(factor, 1.0) : factor);
+      if (!refused && h < planned) h_ = std::max(h_, planned);  // shortened by t_stop only
+      return;
+    }
+    refused = true;
+    h_ = h * (verdict == Verdict::error_test && std::isfinite(error_) ? control_.after_failure(error_) : kAfterNewton);
+    if (attempts == kMostAttempts || h_ <= resolution() || h_ < options_.h_min) give_up(verdict, now_.t, h);
+  }
+}
+
+// The next step up to t_stop: two equal ones rather than one and a sliver.
+double OneStep::length(double t_stop) const {
+  const double rest = t_stop - now_.t;
+  double h = std::max(h_, options_.h_min);
+  if (options_.h_max) h = std::min(h, *options_.h_max);
+  return h >= rest ? rest : h > 0.99 * rest ? rest / 2 : h;
+}
+
+// Hairer, Norsett & Wanner (1993), II.4: from the size of the first and of a second derivative.
+double OneStep::first_step(double t_stop) {
+  const double rest = t_stop - now_.t;
+  const double rate = norm_(now_.v, now_.a);
+  double h = rate > 0 ? std::min(rest, 0.01 / (options_.rtol * rate)) : 1e-3 * rest;
+  double curvature = 0;
+  try {
+    Vector a(model_.num_dofs());
+    force(now_.t + h, now_.q + h * now_.v, now_.v + h * now_.a, a);
+    model_.solve_mass(a);
+    curvature = norm_(h * now_.a, a - now_.a) / h;
+  } catch (const RecoverableError&) {
+    h *= 1e-2;
+  }
+  const double largest = std::max(rate, curvature);
+  if (largest <= 0) return h;
+  return std::min({rest, 100 * h, std::pow(0.01 / largest, 1.0 / orders().estimate)});
+}
+
+void OneStep::advance_by_fixed_step(double t_stop) {
+  const double h = length_of_step(*options_.step, t_stop - now_.t);
+  const double t_end = h == t_stop - now_.t ? t_stop : now_.t + h;
+  next_.t = t_end;
+  Verdict verdict = try_step(h);
+  count(verdict);
+  if (verdict == Verdict::good) return accept(h);
+
+  const Knot begin = now_;
+  const double least = h * std::ldexp(1, -kMostHalvings);
+  for (double part = h / 2; now_.t < t_end;) {
+    if (part < least) give_up(verdict, begin.t, h);
+    const double rest = t_end - now_.t, tried = length_of_step(part, rest);
+    next_.t = tried == rest ? t_end : now_.t + tried;
+    verdict = try_step(tried);
+    count(verdict);
+    if (verdict == Verdict::good) accept(tried);
+    else part = tried / 2;
+  }
+  before_ = begin;
+}
+
+void OneStep::give_up(Verdict verdict, double t, double h) const {
+  const std::string where = fmt::format("{} stopped at t = {:.6g} s, step {:.3g} s: ", name_, t, h);
+  const std::string shorter = options_.step ? "lower integrator.step" : "lower integrator.h_max or rtol";
+  switch (verdict) {
+    case Verdict::force:
+      throw RunError(where + "the force cannot be evaluated (" + cause_ + "); " + shorter + " or check the loads",
+                     Reason::force);
+    case Verdict::newton:
+      throw RunError(where + "Newton's method does not converge" +
+                         (options_.step ? fmt::format(" in {} halvings of the step", kMostHalvings) : "") + "; " +
+                         shorter + ", set integrator.gauss_newton: true, or check for inverted elements",
+                     Reason::newton);
+    default:
+      throw RunError(where + "the error test keeps failing; raise integrator.rtol, lower integrator.h_min, or look "
+                             "for a kink in the loads",
+                     Reason::error_test);
+  }
+}
+
+std::size_t OneStep::bytes() const {
+  return method_bytes() + 11 * static_cast<std::size_t>(model_.num_dofs()) * sizeof(double);
+}
+
+Decisions OneStep::decisions() const {
+  auto all = scale_decisions(scales_);
+  all.emplace_back("linear_solver", options_.linear_solver + " (" + solver_description() + ")");
+  return all;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,77 @@
+// What our own implicit one-step methods share: the knots of the last step, error control or a fixed step,
+// dense output, counting and the sentences of failure. A method says how to attempt a step.
+//
+// With error control a step is repeated until the norm of its local error is at most 1 (held_step.h). With a
+// fixed step one without a solution is halved, up to 2^-10, and put together again: it stays one step.
+#pragma once
+
+#include <string>
+
+#include "integrators/native/held_step.h"
+#include "integrators/native/options.h"
+#include "integrators/native/scaled_norm.h"
+#include "lib/core/errors.h"
+#include "lib/ode/hermite.h"
+
+namespace orthodyn {
+
+class OneStep : public Integrator {
+ public:
+  void start(const State& state) override;
+  StepInfo step(double t_stop) override;
+  void interpolate(double t, State& out) const override;
+  const Statistics& statistics() const override { return statistics_; }
+  std::size_t bytes() const override;
+  Decisions decisions() const override;
+
+ protected:
+  // Order of the method, and the power of h with which its error estimate falls.
+  struct Orders {
+    int method, estimate;
+  };
+  OneStep(std::string name, const Model& model, const LinearOptions& options, const Scales& scales);
+
+  virtual Orders orders() const = 0;
+  virtual void restarted() = 0;  // now() is a new beginning
+  // From now() by h to next_'s q, v and a. False if no solution is found. Throws RecoverableError.
+  virtual bool attempt(double h) = 0;
+  // The local error of the last attempt.
+  virtual void estimate(double h, VectorRef e_q, VectorRef e_v) = 0;
+  virtual void accepted(double) {}  // h; next_ is about to become now()
+  virtual std::string solver_description() const = 0;
+  virtual std::size_t method_bytes() const = 0;
+
+  const Knot& now() const { return now_; }
+  // f at a state. Throws RecoverableError if it is not finite.
+  void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f);
+
+  const Model& model_;
+  Statistics statistics_;
+  ScaledNorm norm_;
+  Knot next_;
+
+ private:
+  enum class Verdict { good, error_test, newton, force };
+
+  void advance_adaptively(double t_stop);
+  void advance_by_fixed_step(double t_stop);
+  double first_step(double t_stop);
+  double length(double t_stop) const;
+  Verdict try_step(double h);
+  void accept(double h);
+  void count(Verdict verdict);
+  double resolution() const;  // of time at now()
+  [[noreturn]] void give_up(Verdict verdict, double t, double h) const;
+
+  std::string name_;
+  LinearOptions options_;
+  Scales scales_;
+  HeldStep control_;
+  double h_ = 0;           // the next step, if error control decides; 0 if it is still to be estimated
+  double error_ = 0;       // of the last attempt, in units of what is allowed
+  std::string cause_;      // why the model refused the last attempt, if it did
+  Knot before_, now_;      // the ends of the last step
+  Vector e_q_, e_v_;
+};
+
+}  // namespace orthodyn

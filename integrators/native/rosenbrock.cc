@@ -1,0 +1,115 @@
+// A Rosenbrock method for any matrix W in place of the Jacobian (ros34pw2.h), in the form that multiplies no stage by J
+// (Hairer & Wanner 1996, IV.7): with u = Gamma k,
+//
+//   (I - gamma h W) u_i = gamma (h f(t_i, y0 + sum_j a_ij u_j) + sum_j c_ij u_j + gamma_i h^2 df/dt)
+//   y1 = y0 + sum_j m_j u_j
+#include <algorithm>
+#include <cmath>
+
+#include "integrators/native/linearly_implicit.h"
+#include "integrators/native/ros34pw2.h"
+
+namespace orthodyn {
+namespace {
+
+constexpr int kStages = 4;
+
+// The coefficients for u = Gamma k.
+struct Transformed {
+  Eigen::Matrix4d a, c;
+  Eigen::Vector4d m, error, t, gamma;  // t_i = t0 + t_i h, gamma_i
+  Eigen::Vector4d slope;               // h y' at the end: the last k, for the method is stiffly accurate
+
+  Transformed() {
+    const Ros34Pw2 given;
+    const Eigen::Matrix4d inverse = given.gamma.inverse();
+    a = given.alpha * inverse;
+    c = -inverse;
+    c.diagonal().setZero();
+    m = inverse.transpose() * given.b;
+    error = inverse.transpose() * (given.b - given.embedded);
+    t = given.alpha.rowwise().sum();
+    gamma = given.gamma.rowwise().sum();
+    slope = inverse.row(3).transpose();
+  }
+};
+
+class Rosenbrock : public LinearlyImplicit {
+ public:
+  Rosenbrock(const Model& model, const LinearOptions& options, const Scales& scales, int tangent_steps)
+      : LinearlyImplicit("rosenbrock", model, options, scales, tangent_steps), u_q_(model.num_dofs(), kStages),
+        u_v_(model.num_dofs(), kStages), f_(model.num_dofs()), p_(model.num_dofs()),
+        f_t_(Vector::Zero(model.num_dofs())) {}
+
+ protected:
+  Orders orders() const override { return {3, 3}; }
+
+  bool attempt(double h) override {
+    if (!prepare(Ros34Pw2::kGamma * h)) return false;
+    if (model_.traits().time_dependent) differentiate_in_time(h);
+    for (int i = 0; i < kStages; ++i) solve_stage(i, h);
+    next_.q = now().q + u_q_ * table_.m;
+    next_.v = now().v + u_v_ * table_.m;
+    finish(u_v_ * table_.slope / h);
+    return true;
+  }
+
+  void estimate(double, VectorRef e_q, VectorRef e_v) override {
+    e_q = u_q_ * table_.error;
+    e_v = u_v_ * table_.error;
+  }
+
+  std::size_t method_bytes() const override {
+    return LinearlyImplicit::method_bytes() + (2 * kStages + 3) * static_cast<std::size_t>(f_.size()) * sizeof(double);
+  }
+
+ private:
+  void solve_stage(int i, double h) {
+    const Eigen::Vector4d a = table_.a.row(i), c = table_.c.row(i);
+    next_.q = now().q + u_q_.leftCols(i) * a.head(i);
+    next_.v = now().v + u_v_.leftCols(i) * a.head(i);
+    if (i == 0) f_ = force_now();
+    else force(now().t + table_.t[i] * h, next_.q, next_.v, f_);
+    model_.multiply_mass(u_v_.leftCols(i) * c.head(i), p_);
+    p_ = Ros34Pw2::kGamma * (h * f_ + p_ + table_.gamma[i] * h * h * f_t_);
+    u_q_.col(i) = Ros34Pw2::kGamma * (h * next_.v + u_q_.leftCols(i) * c.head(i));
+    solve_.solve(u_q_.col(i), p_, u_q_.col(i), u_v_.col(i));
+  }
+
+  // A difference quotient into the step, for a kink may lie before it.
+  void differentiate_in_time(double h) {
+    const double t = now().t, later = t + std::max(1e-6 * h, 1e-10 * std::abs(t));
+    force(later, now().q, now().v, f_t_);
+    f_t_ = (f_t_ - force_now()) / (later - t);
+  }
+
+  const Transformed table_;
+  Eigen::MatrixXd u_q_, u_v_;  // a column per stage
+  Vector f_, p_, f_t_;
+};
+
+class RosenbrockChoice : public IntegratorChoice, public LinearOptions {
+ public:
+  int tangent_steps = 1;
+
+  static const Spec<RosenbrockChoice>& spec() {
+    using C = RosenbrockChoice;
+    static const auto s = LinearOptions::spec_for<C>().key(
+        "tangent_steps", &C::tangent_steps, "Steps for which a tangent is kept, if none of them fails.",
+        {.range = {1}});
+    return s;
+  }
+  static MethodFacts facts() {
+    return method_facts("3", "L-stable with the tangent of each step", "momentum",
+                        "ROS34PW2: Rang & Angermann 2005; error estimate: embedded order 2");
+  }
+  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+    return std::make_unique<Rosenbrock>(model, *this, scales(task), tangent_steps);
+  }
+};
+
+const bool registered = Registry<IntegratorChoice>::add<RosenbrockChoice>(
+    "rosenbrock", "A Rosenbrock method of order 3 for old or inexact tangents: four linear solves a step, no Newton.");
+
+}  // namespace
+}  // namespace orthodyn

@@ -1,0 +1,35 @@
+// The norm of the error test: the root mean square over positions and velocities, in units of what is at
+// tolerance (rtol times the scale of either); as SUNDIALS measures with these weights.
+#pragma once
+
+#include <cmath>
+
+#include "lib/ode/integrator.h"
+
+namespace orthodyn {
+
+class ScaledNorm {
+ public:
+  ScaledNorm(double rtol, const Scales& scales)
+      : position_(1 / (rtol * scales.position)), velocity_(1 / (rtol * scales.velocity)), rtol_(rtol) {}
+
+  double operator()(const ConstVectorRef& q, const ConstVectorRef& v) const {
+    return root_mean(position_ * q.stableNorm(), velocity_ * v.stableNorm(), q.size());
+  }
+  // Of q = w_q x, v = w_v x.
+  double operator()(const ConstVectorRef& x, double w_q, double w_v) const {
+    const double size = x.stableNorm();
+    return root_mean(position_ * w_q * size, velocity_ * w_v * size, x.size());
+  }
+
+  double rtol() const { return rtol_; }
+
+ private:
+  static double root_mean(double q, double v, Eigen::Index n) {
+    return n ? std::hypot(q, v) / std::sqrt(2 * static_cast<double>(n)) : 0;
+  }
+
+  double position_, velocity_, rtol_;
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,123 @@
+#include "integrators/native/stage_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/errors.h"
+
+namespace orthodyn {
+
+namespace {
+constexpr double kWeightDrift = 0.25;  // of w_k, up to which the factor is kept and corrections are scaled
+constexpr double kSlow = 0.5;          // a rate at which a new tangent pays
+constexpr double kRoundOff = 1e-10;    // of the scales: corrections below it that do not shrink are round-off
+constexpr double kLeastSlowness = 1e-3;  // of a nonlinear model: what is less is round-off
+}  // namespace
+
+StageSolver::StageSolver(const Model& model, const NewtonOptions& options, const ScaledNorm& norm,
+                         Statistics& statistics)
+    : model_(model), kind_(options.newton), tolerance_(options.nonlinear_coefficient),
+      max_iterations_(options.max_newton_iterations), norm_(norm), statistics_(statistics),
+      matrix_(model, options.linear_solver, options.tangent(), statistics), r_(model.num_dofs()),
+      dx_(model.num_dofs()), guess_(model.num_dofs()), work_(model.num_dofs()) {}
+
+void StageSolver::begin_step() {
+  if (kind_ != NewtonKind::lazy) stale_ = true;
+}
+
+bool StageSolver::solve(const Stage& stage, VectorRef x, VectorRef q, VectorRef v) {
+  guess_ = x;
+  const bool anew = stale_ || kind_ == NewtonKind::full;
+  if (!prepare(stage, x, anew)) return false;
+  if (iterate(stage, x, q, v)) return true;
+  const bool nothing_to_renew = (anew || model_.traits().linear) && drift(stage) == 0;
+  if (nothing_to_renew) return false;
+  x = guess_;
+  return prepare(stage, x, true) && iterate(stage, x, q, v);
+}
+
+// By how much the factor's weights differ from the stage's.
+double StageSolver::drift(const Stage& stage) const {
+  return std::abs(stage.w_k / matrix_.weights().stiffness - 1);
+}
+
+bool StageSolver::prepare(const Stage& stage, const ConstVectorRef& x, bool anew) {
+  if (anew) linearize(stage, x);
+  if (factored_ && drift(stage) <= (anew ? 0 : kWeightDrift)) {
+    if (drift(stage) > 0) slowness_ = 1;
+    return true;
+  }
+  slowness_ = 1;
+  return factored_ = matrix_.factor({1, stage.w_d, stage.w_k});
+}
+
+void StageSolver::linearize(const Stage& stage, const ConstVectorRef& x) {
+  stale_ = false;
+  if (linearized_ && model_.traits().linear) return;
+  matrix_.linearize(stage.t, stage.q + stage.w_k * x, stage.v + stage.w_d * x);
+  linearized_ = true;
+  factored_ = false;
+}
+
+bool StageSolver::iterate(const Stage& stage, VectorRef x, VectorRef q, VectorRef v) {
+  // The rate may have become worse since it was measured, but not that of a linear model.
+  if (!model_.traits().linear) slowness_ = std::pow(std::max(slowness_, kLeastSlowness), 0.8);
+  double last = 0;
+  for (int k = 1; k <= max_iterations_; ++k) {
+    q = stage.q + stage.w_k * x;
+    v = stage.v + stage.w_d * x;
+    if (k > 1 && kind_ == NewtonKind::full && !prepare(stage, x, true)) return false;
+    correction(stage, x, q, v);
+    x += dx_;
+    const double size = norm_(dx_, stage.w_k, stage.w_d);
+    if (!std::isfinite(size) || !shrinks(size, last)) return false;
+    if (slowness_ * size <= tolerance_) {
+      q += stage.w_k * dx_;
+      v += stage.w_d * dx_;
+      return true;
+    }
+    last = size;
+  }
+  stale_ = true;
+  return false;
+}
+
+void StageSolver::correction(const Stage& stage, const ConstVectorRef& x, const ConstVectorRef& q,
+                             const ConstVectorRef& v) {
+  {
+    const Measure measure(statistics_.force);
+    model_.force(stage.t, q, v, r_);
+  }
+  if (!r_.allFinite()) throw RecoverableError("the force is not finite");
+  model_.multiply_mass(x, work_);
+  r_ -= work_;
+  matrix_.solve(r_, dx_);
+  // As CVODE scales the corrections of a factor whose gamma is no longer the current one.
+  dx_ *= 2 / (1 + stage.w_k / matrix_.weights().stiffness);
+  ++statistics_.newton_iterations;
+}
+
+// Learns the rate from two corrections (`last` is 0 at the first). False if they do not become smaller.
+bool StageSolver::shrinks(double size, double last) {
+  if (last == 0) return true;
+  const double rate = size / last;
+  if (rate >= 1) {
+    slowness_ = 0;  // round-off is as good as it gets
+    return size * norm_.rtol() <= kRoundOff;
+  }
+  slowness_ = rate / (1 - rate);
+  if (rate > kSlow) stale_ = true;
+  return true;
+}
+
+void StageSolver::filter(VectorRef e_q, VectorRef e_v) {
+  const Weights& w = matrix_.weights();
+  matrix_.multiply_stiffness(e_q, work_);
+  model_.multiply_mass(e_v, r_);
+  r_ -= w.stiffness / w.damping * work_;
+  matrix_.solve(r_, dx_);
+  e_v = dx_;
+  e_q += w.damping * dx_;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,66 @@
+// Newton's method for one implicit stage: find the acceleration x with
+//
+//     M x = f(t, q, v),    q = q* + w_k x,    v = v* + w_d x.
+//
+// Each correction solves (M + w_d D + w_k K) dx = f - M x. K, D and the factor outlive stages and steps: with
+// `lazy` the factor is renewed when the weights have moved too far, and K and D when convergence is slow. The
+// iteration and what it remembers of its rate follow Hairer & Wanner (1996), IV.8.
+#pragma once
+
+#include "integrators/native/options.h"
+#include "integrators/native/scaled_norm.h"
+#include "integrators/newton_matrix.h"
+
+namespace orthodyn {
+
+class StageSolver {
+ public:
+  struct Stage {
+    double t = 0;
+    Vector q, v;  // q*, v*
+    double w_d = 0, w_k = 0;
+  };
+
+  // Throws ConfigError if the linear solver does not take the model's matrices. `model` and `statistics`
+  // must outlive this.
+  StageSolver(const Model& model, const NewtonOptions& options, const ScaledNorm& norm, Statistics& statistics);
+
+  // A new step begins; after a restart the state may be far from the last one.
+  void begin_step();
+  void restart() { stale_ = true; }
+
+  // From a guess of x to the solution, and q and v there. False if there is none within reach. Throws
+  // RecoverableError where the force cannot be evaluated.
+  bool solve(const Stage& stage, VectorRef x, VectorRef q, VectorRef v);
+
+  // (e_q, e_v) <- (I - w_d J)^-1 (e_q, e_v) with the last factor: what is stiff in an error estimate is damped as
+  // it is in the solution (Shampine 1984; Hosea & Shampine 1996). For w_k = w_d^2 exact, else of the same size.
+  void filter(VectorRef e_q, VectorRef e_v);
+
+  std::size_t factor_bytes() const { return matrix_.factor_bytes(); }
+  std::size_t bytes() const { return matrix_.bytes() + 4 * static_cast<std::size_t>(r_.size()) * sizeof(double); }
+  std::string description() const { return matrix_.description(); }
+
+ private:
+  // A factor for the stage, of a new tangent if `anew`. False if there is none.
+  bool prepare(const Stage& stage, const ConstVectorRef& x, bool anew);
+  double drift(const Stage& stage) const;
+  void linearize(const Stage& stage, const ConstVectorRef& x);
+  bool iterate(const Stage& stage, VectorRef x, VectorRef q, VectorRef v);
+  void correction(const Stage& stage, const ConstVectorRef& x, const ConstVectorRef& q, const ConstVectorRef& v);
+  bool shrinks(double size, double last);
+
+  const Model& model_;
+  NewtonKind kind_;
+  double tolerance_;
+  int max_iterations_;
+  ScaledNorm norm_;
+  Statistics& statistics_;
+  NewtonMatrix matrix_;
+  bool stale_ = true;      // K and D are to be made anew before they are used
+  bool linearized_ = false, factored_ = false;
+  double slowness_ = 1;    // rate / (1 - rate) of the last iteration with this factor
+  Vector r_, dx_, guess_, work_;
+};
+
+}  // namespace orthodyn

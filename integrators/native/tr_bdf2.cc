@@ -1,0 +1,34 @@
+// TR-BDF2 (Bank et al. 1985): the trapezoidal rule to g h, then the two-step backward differentiation formula.
+// With g = 2 - sqrt 2 both parts have one matrix (Hosea & Shampine 1996).
+#include <numbers>
+
+#include "integrators/native/composite_table.h"
+
+namespace orthodyn {
+namespace {
+
+DirkTable tr_bdf2() {
+  const double g = 2 - std::numbers::sqrt2;
+  return composite_table(g, std::numbers::sqrt2 / 4, g / 2);
+}
+
+class TrBdf2Choice : public IntegratorChoice, public NewtonOptions {
+ public:
+  static const Spec<TrBdf2Choice>& spec() {
+    static const auto s = NewtonOptions::spec_for<TrBdf2Choice>();
+    return s;
+  }
+  static MethodFacts facts() {
+    return method_facts("2", "L-stable", "momentum",
+                        "Bank et al. 1985; Hosea & Shampine 1996, also the error estimate");
+  }
+  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+    return std::make_unique<Dirk>("tr_bdf2", model, *this, scales(task), tr_bdf2());
+  }
+};
+
+const bool registered = Registry<IntegratorChoice>::add<TrBdf2Choice>(
+    "tr_bdf2", "TR-BDF2: trapezoidal rule and BDF2 in one step, with one matrix; adaptive or with a fixed step.");
+
+}  // namespace
+}  // namespace orthodyn
