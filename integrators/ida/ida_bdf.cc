@@ -102,7 +102,7 @@ class IdaBdf : public SundialsIntegrator {
   // q' = v, v' = M^-1 f: initial conditions that satisfy F = 0 by construction.
   void make_consistent(double t) {
     positions(y_dot_.get()) = velocities(y());
-    initial_acceleration(t, velocities(y_dot_.get()));
+    initial_acceleration(model_, t, velocities(y_dot_.get()));
   }
 
   static int residual(sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector r, void* user) {

@@ -11,12 +11,16 @@ FirstOrderIntegrator::FirstOrderIntegrator(const std::string& name, const Model&
 }
 
 int FirstOrderIntegrator::evaluate(double t, N_Vector y, N_Vector y_dot) {
+  positions(y_dot) = velocities(y);
+  return evaluate_acceleration(model_, t, y, velocities(y_dot));
+}
+
+int FirstOrderIntegrator::evaluate_acceleration(const Model& model, double t, N_Vector y, VectorRef a) {
   return guarded(border_, [&] {
     const Measure measure(statistics_.force);
-    positions(y_dot) = velocities(y);
-    model_.force(t, positions(y), velocities(y), velocities(y_dot));
-    require_finite(velocities(y_dot));
-    model_.solve_mass(velocities(y_dot));
+    model.force(t, positions(y), velocities(y), a);
+    require_finite(a);
+    model.solve_mass(a);
   });
 }
 

@@ -13,6 +13,7 @@ class FirstOrderIntegrator : public SundialsIntegrator {
 
   // Callbacks' bodies; they return 0, +1 (recoverable) or -1 (fatal).
   int evaluate(double t, N_Vector y, N_Vector y_dot);
+  int evaluate_acceleration(const Model& model, double t, N_Vector y, VectorRef a);  // M^-1 f
   // K and D anew unless `keep`: with them kept only their combination is made anew, at factorisation.
   int linearize_reduced(double t, N_Vector y, bool keep, sunbooleantype* renewed);
   int fill_full(double t, N_Vector y, SUNMatrix J);

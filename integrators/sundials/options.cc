@@ -26,8 +26,6 @@ std::vector<std::string> linear_solver_names() {
 }
 
 void check_options(const Options& options, const Config& config) {
-  if (options.h_max && options.h_min > *options.h_max) config.at("h_min").fail("is larger than h_max");
-  if (options.h0 && options.h_max && *options.h0 > *options.h_max) config.at("h0").fail("is larger than h_max");
   if (solver_registry().contains(options.linear_solver)) return;
   const auto names = linear_solver_names();
   const auto near = nearest_name(options.linear_solver, names);
@@ -37,14 +35,13 @@ void check_options(const Options& options, const Config& config) {
 }
 
 Settings Settings::complete(const Options& options, const Task& task) {
-  const bool given = options.position_scale && options.velocity_scale;
-  const Scales estimated = given ? Scales{} : task.scales();
-  const Scales scales = {options.position_scale.value_or(estimated.position),
-                         options.velocity_scale.value_or(estimated.velocity)};
-  return {options,
-          scales,
-          options.linear_solver == "klu_full",
-          {{"position_scale", number_text(scales.position)}, {"velocity_scale", number_text(scales.velocity)}}};
+  const Scales scales = options.scales(task);
+  return {options, scales, true, options.linear_solver == "klu_full", scale_decisions(scales)};
+}
+
+Settings Settings::complete_explicit(const ErrorControl& control, const Task& task) {
+  const Scales scales = control.scales(task);
+  return {{control}, scales, false, false, scale_decisions(scales)};
 }
 
 void Settings::set_weights(N_Vector weights) const {

@@ -10,6 +10,7 @@ namespace orthodyn::sundials {
 SundialsIntegrator::SundialsIntegrator(std::string name, const Model& model, const Settings& settings)
     : model_(model), settings_(settings), y_(make_vector(size(), context_)), momentum_(model.num_dofs()),
       name_(std::move(name)) {
+  if (!settings.implicit) return;
   if (settings.full) full_.emplace(model);
   else reduced_.emplace(model, settings.options.linear_solver, settings.tangent(), statistics_);
 }
@@ -78,6 +79,7 @@ std::size_t SundialsIntegrator::bytes() const {
 
 Decisions SundialsIntegrator::decisions() const {
   auto all = settings_.decisions;
+  if (!settings_.implicit) return all;
   const std::string detail = reduced_ ? " (" + reduced_->description() + ")" : "";
   all.emplace_back("linear_solver", settings_.options.linear_solver + detail);
   return all;
@@ -139,16 +141,15 @@ void SundialsIntegrator::fail(int flag) {
                          "; raise integrator.rtol, lower integrator.h_min, or look for a kink in the loads",
                      reason);
     case Reason::newton:
-      throw RunError(position() + "Newton's method does not converge" +
-                         (adaptive() ? " at the smallest step" + cause() +
-                                           "; set integrator.gauss_newton: true, lower rtol or h_min, or check for "
-                                           "inverted elements"
-                                     : cause() + "; lower integrator.step, set integrator.gauss_newton: true, or "
-                                                 "check for inverted elements"),
-                     reason);
+      throw RunError(position() + iteration_failure(), reason);
     case Reason::force:
       throw RunError(position() + "the force cannot be evaluated" + cause() + "; lower integrator." +
                          (adaptive() ? "h_max" : "step") + " or check the loads",
+                     reason);
+    case Reason::diverged:
+      throw RunError(position() + "the motion has outgrown its tolerance, rtol times the scales, which is below its "
+                                  "round-off; " +
+                         (adaptive() ? "raise integrator.rtol or the scales" : "lower integrator.step"),
                      reason);
     case Reason::step_too_small:
       throw RunError(position() + "the time left is below the resolution of time", reason);
@@ -157,10 +158,18 @@ void SundialsIntegrator::fail(int flag) {
   }
 }
 
-void SundialsIntegrator::initial_acceleration(double t, VectorRef a) {
+std::string SundialsIntegrator::iteration_failure() const {
+  return "Newton's method does not converge" +
+         (adaptive() ? " at the smallest step" + cause() +
+                           "; set integrator.gauss_newton: true, lower rtol or h_min, or check for inverted elements"
+                     : cause() + "; lower integrator.step, set integrator.gauss_newton: true, or check for inverted "
+                                 "elements");
+}
+
+void SundialsIntegrator::initial_acceleration(const Model& model, double t, VectorRef a) {
   try {
     const Measure measure(statistics_.force);
-    model_.force(t, positions(y()), velocities(y()), a);
+    model.force(t, positions(y()), velocities(y()), a);
     require_finite(a);
   } catch (const RecoverableError& e) {
     throw RunError(fmt::format("{} stopped at t = {:.6g} s: the force cannot be evaluated ({}); check the initial "
@@ -168,7 +177,7 @@ void SundialsIntegrator::initial_acceleration(double t, VectorRef a) {
                                name_, t, e.what()),
                    Reason::force);
   }
-  model_.solve_mass(a);
+  model.solve_mass(a);
 }
 
 }  // namespace orthodyn::sundials

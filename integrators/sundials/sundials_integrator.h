@@ -46,12 +46,15 @@ class SundialsIntegrator : public Integrator {
   virtual Reason classify(int flag) const = 0;  // of a negative flag
   virtual std::size_t workspace_bytes() const = 0;
   virtual bool adaptive() const { return true; }
+  // What to say when the iteration of a step does not converge, and the remedy.
+  virtual std::string iteration_failure() const;
+  std::string cause() const;  // why the model refused the last state, if it did
 
   // Throws RunError with the library's words if the flag is negative.
   void require(int flag) const;
 
   // M^-1 f at y(), where the integration begins. Throws RunError where it cannot be evaluated.
-  void initial_acceleration(double t, VectorRef a);
+  void initial_acceleration(const Model& model, double t, VectorRef a);
 
   // The linear solver: `setup` and `solve` go to the reduced solve, resp. SUNDIALS' KLU.
   void make_reduced_solver(std::function<double()> gamma, std::function<void(N_Vector x, N_Vector b)> solve);
@@ -79,7 +82,6 @@ class SundialsIntegrator : public Integrator {
   void update_statistics();
   void refuse_to_creep(const StepInfo& info, double t_stop) const;
   std::string position() const;  // where it stopped, to begin a message
-  std::string cause() const;     // why the model refused the last state, if it did
   [[noreturn]] void fail(int flag);
 
   std::string name_;

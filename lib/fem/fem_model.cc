@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lib/fem/mean_force.h"
+#include "lib/fem/part_model.h"
 
 namespace orthodyn {
 
@@ -90,6 +91,12 @@ double FemModel::frequency_bound() const {
   largest += row_sums.cwiseQuotient(parts_.mass->nodal()).maxCoeff();
   // A consistent element mass is at worst five times smaller in a mode than the lumped one.
   return std::sqrt((parts_.mass->lumped() ? 1 : 5) * largest);
+}
+
+std::vector<std::string> FemModel::force_parts() const { return part_names(parts_); }
+
+std::unique_ptr<Model> FemModel::only(const std::vector<std::string>& parts) const {
+  return std::make_unique<PartModel>(*this, parts);
 }
 
 std::vector<double> FemModel::breakpoints(double start, double end) const {

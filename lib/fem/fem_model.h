@@ -55,6 +55,8 @@ class FemModel : public Model {
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { parts_.mass->multiply(x, y); }
   void solve_mass(VectorRef x) const override { parts_.mass->solve(x); }
   double frequency_bound() const override;
+  std::vector<std::string> force_parts() const override;
+  std::unique_ptr<Model> only(const std::vector<std::string>& parts) const override;
   const DiscreteGradient* discrete_gradient() const override { return mean_force_.get(); }
   std::vector<double> breakpoints(double start, double end) const override;
 

@@ -70,8 +70,9 @@ std::unique_ptr<Integrator> make_integrator(Config& config, const Scene& scene, 
   } catch (const ConfigError& e) {
     config.at("integrator").fail(e.what());
   }
+  const Config section = config.at("integrator");
   for (const auto& [key, value] : integrator->decisions())
-    if (key != "linear_solver") config.at("integrator").fill(key, value);
+    if (!section.has(key)) section.fill(key, value);
   return integrator;
 }
 

@@ -59,6 +59,18 @@ double order_of(const LinearModel& model, const Pair& pair, const std::vector<do
   return slope(steps, errors);
 }
 
+// Small enough for the leading term, large enough for round-off.
+std::vector<double> steps_for(int order) {
+  switch (order) {
+    case 1: return {0.004, 0.002, 0.001};
+    case 2: return {0.04, 0.02, 0.01};
+    case 3: return {0.04, 0.02, 0.01};
+    case 6: return {0.15, 0.12, 0.1, 0.08};
+    case 8: return {0.3, 0.25, 0.2, 0.16};
+    default: return {0.1, 0.075, 0.05, 0.0375};
+  }
+}
+
 // The names of all tables, from the key's documentation.
 std::vector<std::string> tables(const std::string& integrator) {
   std::vector<std::string> names;
@@ -73,30 +85,23 @@ std::vector<std::string> tables(const std::string& integrator) {
 TEST_P(FixedStep, ErrorFallsWithTheOrderThatTheTablesNameEndsIn) {
   if (!has_key(GetParam().integrator, "table")) GTEST_SKIP() << "has no tables";
   const auto names = tables(GetParam().integrator);
-  EXPECT_GT(names.size(), 10u);
+  EXPECT_GE(names.size(), 5u);
   for (const auto& name : names) {
     const int order = name.back() - '0';
-    const double measured = order_of(harmonic_oscillator(), GetParam(), {0.1, 0.075, 0.05, 0.0375}, order, ", table: " + name);
+    const double measured = order_of(harmonic_oscillator(), GetParam(), steps_for(order), order, ", table: " + name);
     EXPECT_NEAR(measured, order, 0.35) << name;
   }
 }
 
-// Small enough for the leading term, large enough for round-off.
-std::vector<double> steps_for(int order) {
-  switch (order) {
-    case 1: return {0.004, 0.002, 0.001};
-    case 2: return {0.04, 0.02, 0.01};
-    default: return {0.1, 0.075, 0.05, 0.0375};
-  }
-}
-
 TEST_P(FixedStep, ErrorFallsWithItsOrder) {
+  if (tested(GetParam().integrator).exact_if_linear) GTEST_SKIP() << "has no error here";
   for (const auto& model : {harmonic_oscillator(), damped_oscillator(), bathes_two_masses()})
     for (const auto& [order, options] : tested(GetParam().integrator).variants)
       EXPECT_NEAR(order_of(model, GetParam(), steps_for(order), order), order, 0.35);
 }
 
 TEST_P(FixedStep, ErrorBetweenStepsFallsWithItsOrder) {
+  if (tested(GetParam().integrator).exact_if_linear) GTEST_SKIP() << "that of the interpolant alone";
   for (const double fraction : {0.3, 0.7})
     for (const auto& [order, options] : tested(GetParam().integrator).variants)
       EXPECT_NEAR(order_of(harmonic_oscillator(), GetParam(), steps_for(order), order, "", fraction), std::min(order, 5), 0.35)

@@ -54,9 +54,13 @@ inline const Variant& variant(const std::string& integrator, int order) {
 
 // Without error control a step of 0.01 is taken, unless `more` says another.
 inline std::unique_ptr<Integrator> make_integrator(const Pair& pair, const SmallModel& model, const Options& o = {}) {
-  std::string yaml = "{type: " + pair.integrator;
+  std::string yaml = "{type: " + pair.integrator + tested(pair.integrator).needs;
   if (controls_its_error(pair.integrator)) yaml += fmt::format(", rtol: {}", o.rtol);
   else if (o.more.find("step:") == std::string::npos) yaml += ", step: 0.01";
+  // One whose step nothing limits on a linear model would be done in a few.
+  if (tested(pair.integrator).exact_if_linear && o.more.find("step:") == std::string::npos &&
+      o.more.find("h_max:") == std::string::npos)
+    yaml += ", h_max: 0.05";
   if (pair.solver != "none") yaml += ", linear_solver: " + pair.solver;
   if (o.more.find("table:") == std::string::npos) yaml += variant(pair.integrator, o.order).options;
   const auto choice = Registry<IntegratorChoice>::read(Config::from_text(yaml + o.more + "}"));

@@ -22,14 +22,24 @@ struct TestedMethod {
   std::vector<Variant> variants;  // at least one
   bool stiff = true;              // steps may be far longer than a stiff time scale
   bool full_path = false;         // takes linear_solver: klu_full
+  bool exact_if_linear = false;   // the error is that of Krylov spaces, and has no order
+  std::string needs = "";         // options without which there is no such method
 };
 
 inline const std::map<std::string, TestedMethod>& tested_methods() {
   static const std::map<std::string, TestedMethod> all = {
       {"arkode_dirk", {{{2, ", table: TRBDF2_3_3_2"}, {5, ", table: ESDIRK547L2SA_7_4_5"}}, true, true}},
+      {"arkode_erk", {{{2, ", table: HEUN_EULER_2_1_2"}, {5, ", table: DORMAND_PRINCE_7_4_5"}}, false}},
+      {"arkode_imex",
+       {{{3, ", table: ARK324L2SA_4_2_3"}, {5, ", table: ARK548L2SA_8_4_5"}}, false, false, false,
+        ", explicit: [gravity]"}},
       {"backward_euler", {{{1}}}},
       {"bathe", {{{2}}}},
+      {"central_differences", {{{2}}, false}},
+      {"cvode_adams", {{{2, ", max_order: 2"}, {5, ", max_order: 5"}}, false, true}},
       {"cvode_bdf", {{{2, ", max_order: 2"}, {5, ", max_order: 5"}}, true, true}},
+      {"energy_momentum", {{{2}}}},
+      {"exponential_rosenbrock", {{{3}}, true, false, true}},
       {"generalized_alpha", {{{2}}}},
       {"hht_alpha", {{{2}}}},
       {"ida_bdf", {{{2, ", max_order: 2"}, {5, ", max_order: 5"}}, true, true}},

@@ -3,6 +3,7 @@
 
 #include <complex>
 #include <functional>
+#include <memory>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -37,6 +38,10 @@ class SmallModel : public Model {
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { y = mass_ * x; }
   void solve_mass(VectorRef x) const override { x = mass_.llt().solve(Vector(x)); }
 
+  // Two halves of the whole force, named as two parts of a body's are.
+  std::vector<std::string> force_parts() const override { return {"gravity", "elasticity"}; }
+  std::unique_ptr<Model> only(const std::vector<std::string>& parts) const override;
+
   virtual State initial() const = 0;
   virtual double end() const = 0;
   virtual Scales scales() const { return {1, 1}; }
@@ -61,6 +66,8 @@ class SmallModel : public Model {
   Traits traits_;
 
  private:
+  friend class Share;
+
   void gather(const Matrix& full, double* values) const {
     for (int j = 0; j < pattern_.n; ++j)
       for (int i = pattern_.symmetric ? j : 0; i < pattern_.n; ++i) *values++ = full(i, j);
@@ -68,6 +75,34 @@ class SmallModel : public Model {
 
   Pattern pattern_;
 };
+
+// A share of another model's force.
+class Share : public SmallModel {
+ public:
+  Share(const SmallModel& whole, double share)
+      : SmallModel(whole.mass_, whole.pattern().symmetric), whole_(whole), share_(share) {
+    traits_ = whole.traits();
+  }
+  void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override {
+    whole_.force(t, q, v, f);
+    f *= share_;
+  }
+  State initial() const override { return whole_.initial(); }
+  double end() const override { return whole_.end(); }
+
+ private:
+  Matrix stiffness(double t, const Vector& q, const Vector& v, TangentKind kind) const override {
+    return share_ * whole_.stiffness(t, q, v, kind);
+  }
+  Matrix damping(const Vector& q) const override { return share_ * whole_.damping(q); }
+
+  const SmallModel& whole_;
+  double share_;
+};
+
+inline std::unique_ptr<Model> SmallModel::only(const std::vector<std::string>& parts) const {
+  return std::make_unique<Share>(*this, 0.5 * static_cast<double>(parts.size()));
+}
 
 // M q'' + (beta K) q' + K q = s(t) b with s piecewise linear: solved exactly, mode by mode.
 class LinearModel : public SmallModel {

@@ -1,0 +1,47 @@
+// What CVODE's two families of linear multistep methods share (Hindmarsh et al. 2005): everything but the
+// family, its highest order and the iteration of a step.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "integrators/sundials/first_order.h"
+
+namespace orthodyn::sundials {
+
+class Cvode : public FirstOrderIntegrator {
+ protected:
+  // `family` is CV_BDF or CV_ADAMS.
+  Cvode(const std::string& name, const Model& model, const Settings& settings, int family, int max_order);
+
+  // Attaches the iteration of a step.
+  virtual void choose_iteration() = 0;
+
+  // Modified Newton with the reduced or the full solver.
+  void attach_newton();
+
+  void* memory() const { return memory_.get(); }
+
+  void initialise(double t) override;
+  void reinitialise(double t) override;
+  int advance(double t_stop, double& t) override;
+  StepInfo last_step() const override;
+  double current_step() const override;
+  int dense_output(double t, N_Vector out) const override;
+  Counters counters() const override;
+  Reason classify(int flag) const override;
+  std::size_t workspace_bytes() const override;
+
+ private:
+  struct FreeMemory {
+    void operator()(void* memory) const;
+  };
+
+  void attach_reduced();
+  void attach_full();
+
+  int max_order_;
+  std::unique_ptr<void, FreeMemory> memory_;
+};
+
+}  // namespace orthodyn::sundials

@@ -1,0 +1,165 @@
+// Central differences as kick-drift-kick leapfrog, explicit, of order 2, one force a step:
+//
+//   q1 = q + h v + h^2/2 a,   a1 = M^-1 f(t + h, q1, v + h a),   v1 = v + h/2 (a + a1).
+//
+// A velocity-dependent force is evaluated at the predicted velocity v + h a, which keeps order 2 without a
+// matrix, for the smaller limit of critical_step.h: damping costs steps. Without it the map is symplectic and
+// energy stays bounded. A consistent mass costs a solve a step (Newmark 1959, beta = 0; Verlet 1967; Hughes
+// 1987, 9.1).
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "integrators/error_control.h"
+#include "integrators/fixed_step.h"
+#include "integrators/native/explicit_step.h"
+#include "integrators/native/stability_watch.h"
+#include "lib/core/auto_or.h"
+
+namespace orthodyn {
+namespace {
+
+struct CentralOptions {
+  AutoOr<double> step;  // s
+  double safety = 0.9;
+  long max_steps = 10'000'000;
+};
+
+class CentralDifferences : public ExplicitStep {
+ public:
+  CentralDifferences(const Model& model, const Task& task, const CentralOptions& options)
+      : ExplicitStep(model, words(options), 2, options.max_steps), options_(options), watch_(model, statistics_),
+        unbounded_(task.output_interval > 0 ? task.output_interval : task.end - task.initial.t) {
+    look_before_the_start(task);
+    choose_step();
+  }
+
+  std::size_t bytes() const override {
+    const auto n = static_cast<std::size_t>(model_.num_dofs());
+    return (10 * n + 3 * model_.pattern().row.size()) * sizeof(double);
+  }
+
+  Decisions decisions() const override {
+    return {{"step", fmt::format("{}{:.6g} s ({}{})", options_.step.value ? "" : "auto, at first ", first_step_,
+                                 critical_text(first_critical_), element_text())}};
+  }
+
+ private:
+  static Words words(const CentralOptions& options) {
+    if (options.step.value) return {"central_differences", "lower integrator.step, set it to auto,", "integrator.step"};
+    return {"central_differences", "lower integrator.safety", "integrator.safety"};
+  }
+
+  void look_before_the_start(const Task& task) {
+    try {
+      watch_.look(task.initial);
+    } catch (const RecoverableError& e) {
+      throw ConfigError(fmt::format("central_differences needs the stiffness at the start, which cannot be had: {}",
+                                    e.what()));
+    }
+    first_critical_ = watch_.critical();
+    if (options_.step.value && *options_.step.value > first_critical_)
+      throw ConfigError(fmt::format("step: {:.6g} s is above the critical step, {:.6g} s; lower it, set `step: auto`, "
+                                    "or take an implicit integrator",
+                                    *options_.step.value, first_critical_));
+    if (!options_.step.value) refuse_a_run_without_end(task);
+  }
+
+  void refuse_a_run_without_end(const Task& task) const {
+    const double h = options_.safety * first_critical_;
+    const double steps = (task.end - task.initial.t) / h;
+    if (steps > static_cast<double>(options_.max_steps))
+      throw ConfigError(fmt::format("central_differences would take {:.2g} steps of {:.3g} s ({}), more than "
+                                    "max_steps, {}; take an implicit integrator, or raise max_steps",
+                                    steps, h, critical_text(first_critical_), options_.max_steps));
+  }
+
+  static std::string critical_text(double step) { return fmt::format("critical {:.6g} s by Lanczos", step); }
+
+  // The bound by the elements is cheaper and lower; it knows neither damping nor deformation.
+  std::string element_text() const {
+    const double omega = model_.frequency_bound();
+    return omega > 0 ? fmt::format(", {:.6g} s by elements at rest, undamped", 2 / omega) : "";
+  }
+
+  void begin() override { look({end().t, end().q, end().v}); }
+
+  void look(const State& state) {
+    watch_.look(state);
+    choose_step();
+  }
+
+  void advance(double t_stop) override {
+    const Knot& from = end();
+    const double rest = t_stop - from.t, h = length(rest);
+    next_.t = h == rest ? t_stop : from.t + h;
+    next_.q = from.q + h * from.v + (0.5 * h * h) * from.a;
+    predicted_ = from.v + h * from.a;
+    if (!next_.q.allFinite() || !predicted_.allFinite())
+      fail("the motion has grown without bound; set integrator.step: auto or lower integrator.safety",
+           Reason::diverged);
+    acceleration(next_.t, next_.q, predicted_, next_.a);
+    next_.v = from.v + (0.5 * h) * (from.a + next_.a);
+    if (watch_.due()) look({next_.t, next_.q, next_.v});
+  }
+
+  // Steps chosen here divide what is left evenly: the map stays symplectic, and no sliver comes last.
+  double length(double rest) const {
+    return options_.step.value ? length_of_step(step_, rest) : rest / std::ceil(rest / step_ * (1 - 1e-9));
+  }
+
+  void choose_step() {
+    const double critical = watch_.critical();
+    if (options_.step.value) {
+      step_ = *options_.step.value;
+      if (step_ > critical)
+        fail(fmt::format("the critical step has fallen to {:.6g} s, below integrator.step, {:.6g} s; lower it or set "
+                         "it to auto",
+                         critical, step_),
+             Reason::diverged);
+    } else {
+      step_ = std::isfinite(critical) ? options_.safety * critical : unbounded_;
+    }
+    if (first_step_ == 0) first_step_ = step_;
+  }
+
+  CentralOptions options_;
+  StabilityWatch watch_;
+  double unbounded_;  // the step where nothing resists
+  double step_ = 0, first_step_ = 0, first_critical_ = 0;
+  Vector predicted_;
+};
+
+class CentralDifferencesChoice : public IntegratorChoice, public CentralOptions {
+ public:
+  static const Spec<CentralDifferencesChoice>& spec() {
+    using C = CentralDifferencesChoice;
+    static const auto s =
+        Spec<C>()
+            .key("step", &C::step,
+                 "Fixed step, refused above the critical one; auto: `safety` times the critical step, which is "
+                 "renewed as the deformation changes the stiffness.",
+                 {.unit = "s", .range = kPositive})
+            .key("safety", &C::safety, "Share of the critical step that step: auto takes.",
+                 {.range = {0, 1, true, true}})
+            .key("max_steps", &C::max_steps, "Steps after which the run is given up.", {.range = {1}});
+    return s;
+  }
+  static MethodFacts facts() {
+    return method_facts("2",
+                        "conditional: step < 2/omega undamped, 2/omega (sqrt(1 + 4 xi^2) - 2 xi) damped; forces see "
+                        "the predicted velocity v + h a",
+                        "symplectic undamped: energy stays bounded; momentum and angular momentum exactly",
+                        "Newmark 1959 (beta = 0); Verlet 1967; Hughes 1987, 9.1");
+  }
+  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+    return std::make_unique<CentralDifferences>(model, task, *this);
+  }
+};
+
+const bool registered = Registry<IntegratorChoice>::add<CentralDifferencesChoice>(
+    "central_differences", "Leapfrog of order 2, explicit, one force a step, at a fixed step below the critical one.");
+
+}  // namespace
+}  // namespace orthodyn

@@ -1,0 +1,50 @@
+// What our own one-step methods without Newton iterations share: the ends of the last step, dense output
+// between them, counting, and the sentences of failure.
+#pragma once
+
+#include <string>
+
+#include "lib/core/errors.h"
+#include "lib/ode/hermite.h"
+#include "lib/ode/integrator.h"
+
+namespace orthodyn {
+
+class ExplicitStep : public Integrator {
+ public:
+  void start(const State& state) override;
+  StepInfo step(double t_stop) override;
+  void interpolate(double t, State& out) const override;
+  const Statistics& statistics() const override { return statistics_; }
+
+ protected:
+  // For messages: the integrator's name and what makes its steps shorter, resp. fewer.
+  struct Words {
+    std::string name, shorter, fewer;  // "lower integrator.step", "raise integrator.step"
+  };
+  ExplicitStep(const Model& model, const Words& words, int order, long max_steps);
+
+  // Something to do at a (re-)start, at end().
+  virtual void begin() {}
+  // Makes next_ from end(), at t_stop at the latest. Throws RecoverableError or RunError.
+  virtual void advance(double t_stop) = 0;
+
+  // a = M^-1 f. Throws RecoverableError where f cannot be evaluated or is not finite.
+  void acceleration(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef a);
+
+  [[noreturn]] void fail(const std::string& what, Reason reason) const;
+
+  const Knot& end() const { return end_; }
+
+  const Model& model_;
+  Statistics statistics_;
+  Knot next_;
+
+ private:
+  Words words_;
+  int order_;
+  long max_steps_;
+  Knot begin_, end_;  // of the last step
+};
+
+}  // namespace orthodyn

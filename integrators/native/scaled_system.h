@@ -1,0 +1,50 @@
+// The first-order system of a model and its Jacobian in units of the tolerance:
+//
+//   z = (q / u_q, v / u_v, t / u_t),   u_q = rtol s_q,   u_v = rtol s_v,   u_t = rtol s_q / s_v,
+//   z' = F(z) = (v / u_q, M^-1 f / u_v, 1 / u_t),
+//   J = dF/dz = (0, u_v/u_q, 0;  -u_q/u_v M^-1 K, -M^-1 D, u_t/u_v d(M^-1 f)/dt;  0, 0, 0).
+//
+// The last row and column are there only if f depends on time. An error whose root mean square is 1 is at
+// tolerance.
+#pragma once
+
+#include <vector>
+
+#include "lib/ode/integrator.h"
+
+namespace orthodyn {
+
+class ScaledSystem {
+ public:
+  // `model` must outlive this.
+  ScaledSystem(const Model& model, double rtol, const Scales& scales);
+
+  Eigen::Index size() const { return size_; }
+  bool with_time() const { return size_ > 2 * n_; }
+
+  // F, of v and a = M^-1 f.
+  void rate(const Vector& v, const Vector& a, Vector& F) const;
+
+  // Takes K and D, and d(M^-1 f)/dt where f depends on time. Throws RecoverableError.
+  void linearize(const State& at);
+  void set_slope(const Vector& slope) { slope_ = slope; }
+
+  void multiply(const Eigen::Ref<const Vector>& x, VectorRef y);  // y = J x
+
+  // q and v moved by a change of z.
+  void move(const Vector& z, Vector& q, Vector& v) const;
+
+  double rms(const Vector& z) const;
+  std::size_t bytes() const;
+
+ private:
+  const Model& model_;
+  double q_unit_, v_unit_, t_unit_;
+  Eigen::Index n_, size_;
+  Linearization linearization_;
+  std::vector<double> stiffness_, damping_;
+  bool damped_ = false;
+  Vector slope_, force_, drag_;
+};
+
+}  // namespace orthodyn

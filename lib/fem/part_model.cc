@@ -1,0 +1,81 @@
+#include "lib/fem/part_model.h"
+
+#include <algorithm>
+
+namespace orthodyn {
+
+namespace {
+
+const char* const kMassDamping = "mass damping";
+
+std::vector<const Term*> all_terms(const FemModel::Parts& parts) {
+  std::vector<const Term*> terms;
+  for (const auto& term : parts.elastic) terms.push_back(term.get());
+  for (const auto& term : parts.loads) terms.push_back(term.get());
+  return terms;
+}
+
+std::vector<std::string> term_names(const std::vector<const Term*>& terms) {
+  std::vector<std::string> names;
+  for (const Term* term : terms) {
+    const std::string text = term->description(), base = text.substr(0, text.find_first_of(":,"));
+    std::string name = base;
+    for (int k = 2; std::find(names.begin(), names.end(), name) != names.end(); ++k)
+      name = base + " (" + std::to_string(k) + ")";
+    names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::vector<std::string> part_names(const FemModel::Parts& parts) {
+  auto names = term_names(all_terms(parts));
+  if (parts.mass_damping > 0) names.push_back(kMassDamping);
+  return names;
+}
+
+PartModel::PartModel(const FemModel& whole, const std::vector<std::string>& names) : whole_(whole) {
+  const auto terms = all_terms(whole.parts());
+  const auto known = term_names(terms);
+  const auto wanted = [&](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (std::size_t k = 0; k < terms.size(); ++k)
+    if (wanted(known[k])) terms_.push_back(terms[k]);
+  mass_damping_ = wanted(kMassDamping);
+}
+
+void PartModel::force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const {
+  const NodalExpansion nodal(whole_.parts(), t, q, v);
+  NodalVector sum = NodalVector::Zero(3, nodal.x.cols());
+  for (const Term* term : terms_) term->add_force(nodal.state(), sum);
+  whole_.parts().dofs->restrict_to(sum, f);
+  if (!mass_damping_) return;
+  Vector momentum(v.size());
+  multiply_mass(v, momentum);
+  f -= whole_.parts().mass_damping * momentum;
+}
+
+void PartModel::linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
+                          Linearization& out) const {
+  const auto size = pattern().row.size();
+  if (traits().linear && out.stiffness.size() == size) return;  // constant: assembled once
+  const bool damped = whole_.parts().stiffness_damping;
+  const NodalExpansion nodal(whole_.parts(), t, q, v);
+  out.stiffness.assign(size, 0);
+  if (damped) out.damping.assign(size, 0);
+  for (const Term* term : terms_)
+    term->add_tangent(nodal.state(), kind, out.stiffness.data(), damped ? out.damping.data() : nullptr);
+}
+
+// The whole model's, but for the mass damping that is not among these parts.
+void PartModel::combine(const Weights& w, const Linearization& at, double* values) const {
+  const auto& parts = whole_.parts();
+  const double dropped = mass_damping_ ? 0 : w.damping * parts.mass_damping;
+  whole_.combine({w.mass - dropped, w.damping, w.stiffness}, at, values);
+}
+
+std::vector<double> PartModel::breakpoints(double start, double end) const { return whole_.breakpoints(start, end); }
+
+}  // namespace orthodyn

@@ -1,0 +1,38 @@
+// Some of the terms of a FemModel on its unknowns and with its mass: what is left of the force when the
+// others are dropped. A scheme that treats parts of the force differently takes one of these for each.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lib/fem/fem_model.h"
+
+namespace orthodyn {
+
+// A part is named as its term describes itself, without the numbers: "elasticity of region wood",
+// "traction on x1"; "mass damping". Of several with one name the second is "traction on x1 (2)".
+std::vector<std::string> part_names(const FemModel::Parts& parts);
+
+class PartModel : public Model {
+ public:
+  // The names are among part_names(); `whole` must outlive this.
+  PartModel(const FemModel& whole, const std::vector<std::string>& names);
+
+  int num_dofs() const override { return whole_.num_dofs(); }
+  const Traits& traits() const override { return whole_.traits(); }
+  void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override;
+  const Pattern& pattern() const override { return whole_.pattern(); }
+  void linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
+                 Linearization& out) const override;
+  void combine(const Weights& w, const Linearization& at, double* values) const override;
+  void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { whole_.multiply_mass(x, y); }
+  void solve_mass(VectorRef x) const override { whole_.solve_mass(x); }
+  std::vector<double> breakpoints(double start, double end) const override;
+
+ private:
+  const FemModel& whole_;
+  std::vector<const Term*> terms_;
+  bool mass_damping_ = false;
+};
+
+}  // namespace orthodyn
