@@ -2,7 +2,8 @@
 
 namespace orthodyn {
 
-void MeanForce::force(double t0, const ConstVectorRef& q0, double t1, const ConstVectorRef& q1, VectorRef f) const {
+void MeanForce::mean_force(double t0, const ConstVectorRef& q0, double t1, const ConstVectorRef& q1,
+                           VectorRef f) const {
   const Vector still = Vector::Zero(q0.size());
   const NodalExpansion begin(parts_, t0, q0, still), end(parts_, t1, q1, still);
   NodalVector sum = NodalVector::Zero(3, begin.x.cols());

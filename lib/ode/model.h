@@ -40,7 +40,8 @@ class DiscreteGradient {
  public:
   virtual ~DiscreteGradient() = default;
   // Loads are taken at the middle of the times. Throws RecoverableError where it does not exist. N.
-  virtual void force(double t0, const ConstVectorRef& q0, double t1, const ConstVectorRef& q1, VectorRef f) const = 0;
+  virtual void mean_force(double t0, const ConstVectorRef& q0, double t1, const ConstVectorRef& q1,
+                          VectorRef f) const = 0;
 };
 
 class Model : public OutputSource {

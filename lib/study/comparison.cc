@@ -139,8 +139,9 @@ IntegratorEntry Value<IntegratorEntry>::read(const Config& c, const Rule&) {
     if (c.text() != "all") require_known_integrator(c, c.text());
     return {c.text(), c.text(), {}, {c.where()}, false};
   }
-  for (const char* control : {"rtol", "step"})
-    if (c.has(control)) c.at(control).fail("comes from 'tolerances' and 'steps' of the comparison; remove it here");
+  for (const char* control : {"rtol", "step", "safety"})
+    if (c.has(control))
+      c.at(control).fail("is what the comparison varies, by its 'tolerances' and 'steps' or by itself; remove it here");
   return read_section(c);
 }
 

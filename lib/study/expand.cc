@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -109,7 +110,8 @@ void add_methods(const Comparison& comparison, const IntegratorEntry& entry, con
   for (const auto& [path, value] : variant.set) method.set.emplace_back(last_step(path), value);
   const auto& tolerances = comparison.tolerances;
   const bool adaptive = has_key(entry.type, "rtol") && !tolerances.empty();
-  const bool fixed = has_key(entry.type, "step") && !comparison.steps.empty();
+  const bool by_limit = has_key(entry.type, "safety");  // finds its critical step itself
+  const bool fixed = has_key(entry.type, "step") && !comparison.steps.empty() && !(by_limit && entry.by_all);
   const std::string label = method.label;
   if (adaptive) methods.push_back(method);
   if (fixed) {
@@ -118,7 +120,12 @@ void add_methods(const Comparison& comparison, const IntegratorEntry& entry, con
     if (has_key(entry.type, "rtol")) method.set.emplace_back("rtol", newton_tolerance(tolerances));
     methods.push_back(method);
   }
-  if (!adaptive && !fixed && !entry.by_all)
+  if (by_limit) {
+    method.control = Method::Control::safety;
+    method.label = label + (fixed ? ", share of the critical step" : "");
+    methods.push_back(method);
+  }
+  if (!adaptive && !fixed && !by_limit && !entry.by_all)
     entry.origin.fail("'" + entry.type + "' takes none of what the comparison gives: " +
                       (has_key(entry.type, "step") ? "add 'steps'" : "add 'tolerances'"));
 }
@@ -179,7 +186,14 @@ void check_point(const Design& design, const Point& point) {
 
 }  // namespace
 
-std::string control_word(Method::Control control) { return control == Method::Control::rtol ? "rtol" : "step"; }
+std::string control_word(Method::Control control) {
+  switch (control) {
+    case Method::Control::rtol: return "rtol";
+    case Method::Control::step: return "step";
+    case Method::Control::safety: break;
+  }
+  return "safety";
+}
 
 std::string title(const Design& design, const Point& point) {
   const Method& method = design.methods[point.method];
@@ -189,13 +203,13 @@ std::string title(const Design& design, const Point& point) {
 
 Design expand(const Comparison& comparison) {
   Design design{problems_of(comparison), methods_of(comparison), {}, {}, {}};
-  std::vector<double> tolerances = comparison.tolerances, steps = comparison.steps;
-  std::sort(tolerances.rbegin(), tolerances.rend());
-  std::sort(steps.rbegin(), steps.rend());
+  std::map<Method::Control, std::vector<double>> controls{{Method::Control::rtol, comparison.tolerances},
+                                                          {Method::Control::step, comparison.steps},
+                                                          {Method::Control::safety, {0.9, 0.45, 0.225}}};
+  for (auto& [kind, values] : controls) std::sort(values.rbegin(), values.rend());
   for (std::size_t p = 0; p < design.problems.size(); ++p)
     for (std::size_t m = 0; m < design.methods.size(); ++m)
-      for (const double control : design.methods[m].control == Method::Control::rtol ? tolerances : steps)
-        design.points.push_back({p, m, control});
+      for (const double control : controls.at(design.methods[m].control)) design.points.push_back({p, m, control});
   for (const auto& point : design.points) check_point(design, point);
   choose_references(comparison, design);
   return design;

@@ -20,7 +20,7 @@ struct Problem {
 
 // An integrator with its options fixed, but for what controls its error.
 struct Method {
-  enum class Control { rtol, step };
+  enum class Control { rtol, step, safety };  // safety: the share of the critical step that an explicit method takes
   std::string id, label;
   std::string integrator;
   std::string sentence;

@@ -26,7 +26,7 @@ Assignments own_options(const Config& scene, const std::string& integrator,
 }
 
 bool is_kept_by_methods(const std::string& key, Method::Control control) {
-  static const Keys controls{"rtol", "step"}, limits_of_steps{"h0", "h_min", "h_max"};
+  static const Keys controls{"rtol", "step", "safety"}, limits_of_steps{"h0", "h_min", "h_max"};
   return !controls.contains(key) && !(control == Method::Control::step && limits_of_steps.contains(key));
 }
 

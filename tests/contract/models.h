@@ -16,7 +16,7 @@ namespace orthodyn {
 using Matrix = Eigen::MatrixXd;
 
 // A model of a few unknowns with full matrices.
-class SmallModel : public Model {
+class SmallModel : public Model, public DiscreteGradient {
  public:
   int num_dofs() const override { return static_cast<int>(mass_.rows()); }
   const Traits& traits() const override { return traits_; }
@@ -41,6 +41,12 @@ class SmallModel : public Model {
   // Two halves of the whole force, named as two parts of a body's are.
   std::vector<std::string> force_parts() const override { return {"gravity", "elasticity"}; }
   std::unique_ptr<Model> only(const std::vector<std::string>& parts) const override;
+
+  const DiscreteGradient* discrete_gradient() const override { return this; }
+  // That of the middle: exact where the energy is quadratic.
+  void mean_force(double t0, const ConstVectorRef& q0, double t1, const ConstVectorRef& q1, VectorRef f) const override {
+    force(0.5 * (t0 + t1), 0.5 * (q0 + q1), Vector::Zero(q0.size()), f);
+  }
 
   virtual State initial() const = 0;
   virtual double end() const = 0;
@@ -256,6 +262,11 @@ class SpringPendulum : public SmallModel {
 
   void force(double, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override {
     f = -kStiffness * (1 - 1 / q.norm()) * q - drag_ * v;
+    f[1] -= kGravity;
+  }
+  // The spring's as in l^2, whose work is the change of its energy.
+  void mean_force(double, const ConstVectorRef& q0, double, const ConstVectorRef& q1, VectorRef f) const override {
+    f = -0.5 * kStiffness * (1 - 2 / (q0.norm() + q1.norm())) * (q0 + q1);
     f[1] -= kGravity;
   }
   double energy(const State& s) const {

@@ -10,7 +10,8 @@ from .sheet import WIDE, Sheet, legend_columns, legend_height, shortened, side_m
 from .theme import LIGHT
 from .work_precision import error_limits, title_of, unresolved_words
 
-KINDS = {"rtol": ("Relative tolerance asked for", error_tick), "step": ("Step size", seconds_tick)}
+KINDS = {"rtol": ("Relative tolerance asked for", error_tick), "step": ("Step size", seconds_tick),
+         "safety": ("Share of the critical step", lambda x: f"{x:g}")}
 
 
 def kinds_of(comparison, problem):
@@ -46,7 +47,7 @@ def _entries(comparison, problem, measure, indices):
 
 def guide_orders(kind, comparison, problem, measure, indices):
     """Slopes of the guide lines: 1 for a tolerance, the nearest whole orders for a step."""
-    if kind != "step":
+    if kind == "rtol":
         return [1]
     slopes = [comparison.slope(problem, comparison.methods[k].id, measure) for k in indices]
     near = sorted({int(round(s)) for s in slopes if words.known(s) and 0.5 <= s < 6.5})

@@ -84,10 +84,11 @@ def general(x, digits=4):
 
 
 def control(control):
-    """'rtol 1e-3', 'step 2 ms'."""
+    """'rtol 1e-3', 'step 2 ms', 'safety 0.9'."""
     if not known(control.value):
         return control.kind or UNKNOWN
-    return f"{control.kind} {step(control.value) if control.kind == 'step' else exponent(control.value, 3)}"
+    shown = {"step": step, "safety": "{:g}".format}.get(control.kind, lambda value: exponent(value, 3))
+    return f"{control.kind} {shown(control.value)}"
 
 
 def power_of_ten(x):

@@ -1,0 +1,145 @@
+// The energy-momentum method (Simo & Tarnow 1992; Gonzalez 2000): with the discrete gradient f of the energy,
+//
+//     q1 - q0 = h (v0 + v1) / 2,    M (v1 - v0) = h f(q0, q1),
+//
+// keeps the energy, and linear and angular momentum where nothing acts from outside. Forces that depend on
+// velocities are taken at the middle. What it keeps it keeps to what the iteration leaves, which therefore goes on
+// down to round-off: Newton's with the matrix of the midpoint rule, which is symmetric as the derivative of f is
+// not, accelerated (anderson.h). An inverted element has no discrete gradient: the step is shortened, and in the
+// end the run given up.
+#include <algorithm>
+#include <cmath>
+
+#include "integrators/native/anderson.h"
+#include "integrators/native/one_step.h"
+#include "integrators/native/step_force.h"
+#include "integrators/newton_matrix.h"
+
+namespace orthodyn {
+namespace {
+
+// Of the scales: corrections of this size are wanted, and those below the other are round-off if they do not shrink.
+constexpr double kExact = 1e-15, kRoundOff = 1e-11;
+constexpr double kDiverged = 100;  // times the smallest correction so far
+constexpr int kAndersonDepth = 5;
+
+struct EnergyMomentumOptions : LinearOptions {
+  int max_newton_iterations = 50;
+};
+
+class EnergyMomentum : public OneStep {
+ public:
+  EnergyMomentum(const Model& model, const EnergyMomentumOptions& options, const Scales& scales)
+      : OneStep("energy_momentum", model, options, scales), max_iterations_(options.max_newton_iterations),
+        step_force_(model), matrix_(model, options.linear_solver, options.tangent(), statistics_),
+        anderson_(model.num_dofs(), kAndersonDepth), x_(model.num_dofs()), q_(model.num_dofs()), v_(model.num_dofs()),
+        r_(model.num_dofs()), mx_(model.num_dofs()) {}
+  std::size_t factor_bytes() const override { return matrix_.factor_bytes(); }
+
+ protected:
+  Orders orders() const override { return {2, 3}; }
+  void restarted() override {}
+
+  bool attempt(double h) override {
+    step_force_.begin(now().t, now().q, h);
+    // Far beyond the fast oscillations' periods no acceleration says anything about the next.
+    x_.setZero();
+    if (!prepare(h) || !iterate(h)) return false;
+    next_.v = now().v + h * x_;
+    next_.q = now().q + 0.5 * h * (now().v + next_.v);
+    force(next_.t, next_.q, next_.v, next_.a);
+    model_.solve_mass(next_.a);
+    return true;
+  }
+
+  // In v that of the midpoint rule, a third of its difference to the trapezoidal rule; in q that of the latter.
+  void estimate(double h, VectorRef e_q, VectorRef e_v) override {
+    e_v = h / 3 * (0.5 * (now().a + next_.a) - x_);
+    e_q = h * h / 12 * (next_.a - now().a);
+  }
+
+  std::string solver_description() const override { return matrix_.description(); }
+  std::size_t method_bytes() const override {
+    return matrix_.bytes() + (9 + 2 * kAndersonDepth) * static_cast<std::size_t>(x_.size()) * sizeof(double);
+  }
+
+ private:
+  // x: the mean acceleration of the step; the middle follows from it.
+  void middle(double h) {
+    v_ = now().v + 0.5 * h * x_;
+    q_ = now().q + 0.5 * h * v_;
+  }
+
+  bool prepare(double h) {
+    if (model_.traits().linear && h == factored_for_) return true;
+    middle(h);
+    matrix_.linearize(now().t + 0.5 * h, q_, v_);
+    factored_for_ = matrix_.factor({1, 0.5 * h, 0.25 * h * h}) ? h : 0;
+    return factored_for_ == h;
+  }
+
+  bool iterate(double h) {
+    anderson_.restart();
+    double smallest = 0;
+    for (int k = 0; k < max_iterations_; ++k) {
+      correction(h);
+      const double size = norm_.rtol() * norm_(r_, 0.25 * h * h, 0.5 * h);
+      if (!std::isfinite(size)) return false;
+      anderson_.accelerate(x_, r_);
+      x_ += r_;
+      if (size <= kExact) return true;
+      if (k > 0 && size >= smallest) {
+        if (size <= kRoundOff) return true;
+        if (size > kDiverged * smallest) return false;
+      }
+      smallest = k == 0 ? size : std::min(smallest, size);
+    }
+    return smallest <= kRoundOff;
+  }
+
+  // r <- A^-1 (f - M x)
+  void correction(double h) {
+    middle(h);
+    {
+      const Measure measure(statistics_.force);
+      step_force_.force(now().t + 0.5 * h, q_, v_, r_);
+    }
+    if (!r_.allFinite()) throw RecoverableError("the force is not finite");
+    model_.multiply_mass(x_, mx_);
+    r_ -= mx_;
+    matrix_.solve(r_, r_);
+    ++statistics_.newton_iterations;
+  }
+
+  int max_iterations_;
+  StepForce step_force_;
+  NewtonMatrix matrix_;
+  double factored_for_ = 0;  // h; 0 if there is no factor
+  Anderson anderson_;
+  Vector x_, q_, v_, r_, mx_;
+};
+
+class EnergyMomentumChoice : public IntegratorChoice, public EnergyMomentumOptions {
+ public:
+  static const Spec<EnergyMomentumChoice>& spec() {
+    static const auto s = LinearOptions::spec_for<EnergyMomentumChoice>().key(
+        "max_newton_iterations", &EnergyMomentumChoice::max_newton_iterations,
+        "Iterations per step, which go down to round-off.", {.range = {1, 1000}});
+    return s;
+  }
+  static MethodFacts facts() {
+    return method_facts("2", "A-stable for linear models; damps nothing by itself",
+                        "energy, linear and angular momentum, to round-off",
+                        "Simo & Tarnow, ZAMP 43, 1992; Gonzalez, CMAME 190, 2000; error estimate: difference to the "
+                        "trapezoidal rule");
+  }
+  std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+    return std::make_unique<EnergyMomentum>(model, *this, scales(task));
+  }
+};
+
+const bool registered = Registry<IntegratorChoice>::add<EnergyMomentumChoice>(
+    "energy_momentum", "Keeps energy and momentum at any step; adaptive or with a fixed step, implicit.");
+
+}  // namespace
+}  // namespace orthodyn

@@ -1,0 +1,45 @@
+// Anderson's acceleration on linear iterations.
+#include "integrators/native/anderson.h"
+
+#include <gtest/gtest.h>
+
+namespace orthodyn {
+namespace {
+
+// x <- x + g(x) with g(x) = -A x: a combination of n + 1 corrections in n dimensions is zero.
+TEST(Anderson, SolvesALinearSystemInAsManyIterationsAsItHasUnknowns) {
+  const Eigen::Matrix4d A{{0.5, 0.1, 0, 0.2}, {-0.1, 0.9, 0.1, 0}, {0.3, 0, 0.3, 0}, {0, 0.2, 0, 1.6}};
+  Anderson anderson(4, 4);
+  Vector x = Vector::Ones(4);
+  for (int k = 0; k < 6; ++k) {
+    Vector g = -A * x;
+    anderson.accelerate(x, g);
+    x += g;
+  }
+  EXPECT_LE(x.norm(), 1e-12);
+}
+
+TEST(Anderson, MakesADivergentIterationConverge) {
+  const Eigen::Matrix2d A{{2.5, 0}, {0, 0.5}};  // x - A x grows by 1.5 in its first part
+  Anderson anderson(2, 2);
+  Vector x = Vector::Ones(2);
+  for (int k = 0; k < 4; ++k) {
+    Vector g = -A * x;
+    anderson.accelerate(x, g);
+    x += g;
+  }
+  EXPECT_LE(x.norm(), 1e-12);
+}
+
+TEST(Anderson, BeginsAnewAfterARestart) {
+  Anderson anderson(2, 2);
+  Vector g{{1, 2}};
+  anderson.accelerate(Vector::Zero(2), g);
+  anderson.restart();
+  Vector other{{3, 4}};
+  anderson.accelerate(Vector::Ones(2), other);
+  EXPECT_EQ(other, (Vector{{3, 4}}));
+}
+
+}  // namespace
+}  // namespace orthodyn
