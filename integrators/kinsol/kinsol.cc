@@ -1,11 +1,11 @@
-// KINSOL's Newton iteration (Hindmarsh et al. 2005) for -f(t, q, 0) = 0, with the stiffness K factored anew each time.
+// KINSOL's Newton iteration (Hindmarsh et al. 2005) for -f(t, q, 0) = 0, with the stiffness K factored each time.
 //
-// Nearby: full steps, which must contract, |dq_1| <= |dq_0|/2 and |dq_k+1| <= |dq_k|, else a solution is not one that the
-// guess leads to (natural monotonicity: Deuflhard, Newton Methods for Nonlinear Problems, 2004, 3.3 and 5.2), and K must
-// be positive definite. That the residual falls is not asked for: in thin bodies that bend it rises first, by the
+// Nearby: full steps, which must contract, |dq_1| <= |dq_0|/2 and |dq_k+1| <= |dq_k|, else a solution is not one
+// that the guess leads to (Deuflhard, Newton Methods for Nonlinear Problems, 2004, 3.3 and 5.2), and K must be
+// positive definite. That the residual falls is not asked for: in thin bodies that bend it rises first, by the
 // stretching that a straight step brings.
-// Anywhere: line search on the residual (Dennis & Schnabel 1983, A6.3.1), with the positive semidefinite part of K where K
-// is indefinite.
+// Anywhere: line search on the residual (Dennis & Schnabel 1983, A6.3.1), with the positive semidefinite part of K
+// where K is indefinite.
 //
 // Round-off of large internal forces may keep the residual from falling below the tolerance; a solution then is
 // where Newton's next correction is below the tolerance of the motion.
@@ -40,9 +40,8 @@ class Kinsol : public EquilibriumSolver {
  public:
   Kinsol(const Model& model, const EquilibriumTask& task, const KinsolOptions& options)
       : model_(model), task_(task), options_(options), still_(Vector::Zero(model.num_dofs())),
-        matrix_(model, options.linear_solver, TangentKind::exact, statistics_), q_(make_vector(model.num_dofs(), context_)),
-        position_weights_(make_vector(model.num_dofs(), context_)), force_weights_(make_vector(model.num_dofs(), context_)),
-        memory_(KINCreate(context_)) {
+        matrix_(make_matrix()), q_(make_vector(model.num_dofs(), context_)), position_weights_(make_vector(model.num_dofs(), context_)),
+        force_weights_(make_vector(model.num_dofs(), context_)), memory_(KINCreate(context_)) {
     if (!memory_) throw RunError("KINSOL could not be created");
     view(position_weights_.get()).setConstant(1 / task.length);
     view(force_weights_.get()).setConstant(1 / task.force);
@@ -53,6 +52,8 @@ class Kinsol : public EquilibriumSolver {
     t_ = t;
     where_ = where;
     border_ = {};
+    if (statistics_.gauss_newton_fallbacks > fallbacks_) matrix_ = make_matrix();
+    fallbacks_ = statistics_.gauss_newton_fallbacks;
     indefinite_ = false;
     corrections_.clear();
     view(q_.get()) = q;
@@ -62,7 +63,7 @@ class Kinsol : public EquilibriumSolver {
     Attempt attempt;
     KINGetNumNonlinSolvIters(memory_.get(), &attempt.iterations);
     statistics_.newton_iterations += attempt.iterations;
-    attempt.indefinite = indefinite_;
+    attempt.indefinite = indefinite_ || (flag == KIN_LINSOLV_NO_RECOVERY && border_.recoverable_cause.empty());
     attempt.found = flag == KIN_SUCCESS || flag == KIN_INITIAL_GUESS_OK || (!indefinite_ && is_settled());
     if (attempt.found) {
       q = view(q_.get());
@@ -74,10 +75,15 @@ class Kinsol : public EquilibriumSolver {
   }
 
   const Statistics& statistics() const override { return statistics_; }
-  std::size_t factor_bytes() const override { return matrix_.factor_bytes(); }
-  std::string description() const override { return options_.linear_solver + " (" + matrix_.description() + ")"; }
+  std::size_t factor_bytes() const override { return matrix_->factor_bytes(); }
+  std::string description() const override { return options_.linear_solver + " (" + matrix_->description() + ")"; }
 
  private:
+  // One that has met an indefinite matrix goes on with the Gauss-Newton part for a while.
+  std::unique_ptr<NewtonMatrix> make_matrix() {
+    return std::make_unique<NewtonMatrix>(model_, options_.linear_solver, TangentKind::exact, statistics_);
+  }
+
   void initialise() {
     void* m = memory_.get();
     ORTHODYN_CAPTURE_ERRORS(KINSetErrHandlerFn, context_, m, &border_.library_message);
@@ -85,7 +91,7 @@ class Kinsol : public EquilibriumSolver {
     require(KINSetUserData(m, this));
     functions_.setup = [this] { return factor(); };
     functions_.solve = [this](N_Vector dq, N_Vector b) {
-      const int thrown = guarded(border_, [&] { matrix_.solve(view(b), view(dq)); });
+      const int thrown = guarded(border_, [&] { matrix_->solve(view(b), view(dq)); });
       return thrown ? thrown : contracts(view(dq).lpNorm<Eigen::Infinity>()) ? 0 : 1;
     };
     plug_ = make_matrix_plug(context_);
@@ -119,7 +125,7 @@ class Kinsol : public EquilibriumSolver {
   }
 
   int linearize(N_Vector q) {
-    return guarded(border_, [&] { matrix_.linearize(t_, view(q), still_); });
+    return guarded(border_, [&] { matrix_->linearize(t_, view(q), still_); });
   }
 
   bool contracts(double correction) {
@@ -132,7 +138,7 @@ class Kinsol : public EquilibriumSolver {
   int factor() {
     bool factored = false;
     const long before = statistics_.gauss_newton_fallbacks;
-    const int thrown = guarded(border_, [&] { factored = matrix_.factor({0, 0, 1}); });
+    const int thrown = guarded(border_, [&] { factored = matrix_->factor({0, 0, 1}); });
     if (thrown) return thrown;
     if (!factored || (where_ == Where::nearby && statistics_.gauss_newton_fallbacks > before)) indefinite_ = true;
     return indefinite_ ? 1 : 0;
@@ -149,9 +155,9 @@ class Kinsol : public EquilibriumSolver {
     try {
       Vector f(model_.num_dofs()), correction(f.size());
       model_.force(t_, view(q_.get()), still_, f);
-      matrix_.linearize(t_, view(q_.get()), still_);
+      matrix_->linearize(t_, view(q_.get()), still_);
       if (factor() != 0) return false;
-      matrix_.solve(f, correction);
+      matrix_->solve(f, correction);
       const double motion = std::max(view(q_.get()).lpNorm<Eigen::Infinity>(), 1e-3 * task_.length);
       return correction.lpNorm<Eigen::Infinity>() <= options_.rtol * motion;
     } catch (const RecoverableError&) {
@@ -165,8 +171,8 @@ class Kinsol : public EquilibriumSolver {
       case KIN_MAXITER_REACHED:
         return fmt::format("Newton's method did not converge within {} iterations (statics.solver.max_iterations)",
                            options_.max_iterations);
-      case KIN_LINSOLV_NO_RECOVERY: return "Newton's corrections do not contract";
-      case KIN_LSETUP_FAIL: return "the stiffness could not be factored";
+      case KIN_LINSOLV_NO_RECOVERY: return "Newton's corrections do not contract" + cause;
+      case KIN_LSETUP_FAIL: return "the stiffness is not positive definite";
       case KIN_FIRST_SYSFUNC_ERR:
       case KIN_SYSFUNC_FAIL:
       case KIN_REPTD_SYSFUNC_ERR: return "the forces could not be evaluated" + cause;
@@ -187,7 +193,8 @@ class Kinsol : public EquilibriumSolver {
   bool indefinite_ = false;
   std::vector<double> corrections_;  // the largest of each iteration
   Border border_;
-  NewtonMatrix matrix_;
+  std::unique_ptr<NewtonMatrix> matrix_;
+  long fallbacks_ = 0;  // before this attempt
   SolverFunctions functions_;
   Context context_;
   OwnedVector q_, position_weights_, force_weights_;
@@ -225,8 +232,8 @@ class KinsolChoice : public EquilibriumChoice, public KinsolOptions {
   }
 };
 
-const bool registered =
-    Registry<EquilibriumChoice>::add<KinsolChoice>("kinsol", "KINSOL: Newton's method, K factored anew each time; line search where a branch was lost.");
+const bool registered = Registry<EquilibriumChoice>::add<KinsolChoice>(
+    "kinsol", "KINSOL: Newton's method, K factored anew each time; line search where a branch was lost.");
 
 }  // namespace
 }  // namespace orthodyn::sundials

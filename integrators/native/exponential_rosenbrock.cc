@@ -24,7 +24,7 @@
 namespace orthodyn {
 namespace {
 
-constexpr double kKrylovShare = 0.05;    // of the tolerance, for each Krylov space
+constexpr double kKrylovShare = 0.01;    // of the tolerance, for each Krylov space
 constexpr double kQuotientShare = 1e-6;  // of the step, for dF/dt
 constexpr double kRetryFactor = 0.25;
 

@@ -18,7 +18,7 @@ class HeldStep {
     error = std::max(error, kSmallestError);
     double factor = elementary(error);
     if (factor > kHoldTo && last_h_ > 0)
-      factor *= std::min(1.0, h / last_h_ * std::pow(last_error_ / error, 1 / order_));
+      factor = std::max(1.0, factor * std::min(1.0, h / last_h_ * std::pow(last_error_ / error, 1 / order_)));
     last_h_ = h;
     last_error_ = error;
     return factor >= kHoldFrom && factor <= kHoldTo ? 1 : std::clamp(factor, kShrink, kGrow);

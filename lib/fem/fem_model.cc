@@ -28,8 +28,8 @@ void for_each_term(const FemModel::Parts& parts, F&& f) {
 
 FemModel::FemModel(Parts parts) : parts_(std::move(parts)) {
   const auto has_energy = [](const auto& term) { return term->has_energy(); };
-  const bool inertia_pulls = parts_.moved && !parts_.mass->lumped();  // it has no energy
-  if (!inertia_pulls && std::all_of(parts_.elastic.begin(), parts_.elastic.end(), has_energy))
+  const bool pulled = supports_pull(parts_);  // which has no energy
+  if (!pulled && std::all_of(parts_.elastic.begin(), parts_.elastic.end(), has_energy))
     mean_force_ = std::make_unique<MeanForce>(parts_);
 }
 
@@ -39,19 +39,35 @@ NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& noda
   return sum;
 }
 
+bool supports_pull(const FemModel::Parts& parts) { return parts.moved && !parts.mass->lumped(); }
+
+namespace {
+
+// f -= the free part of M x, for an x that is zero at free coordinates.
+void subtract_inertia(const FemModel::Parts& parts, const NodalVector& x, VectorRef f) {
+  Vector pull(f.size());
+  parts.dofs->restrict_to(parts.support_mass->times(x), pull);
+  f -= pull;
+}
+
+}  // namespace
+
+void add_mass_damping(const FemModel::Parts& parts, const NodalExpansion& nodal, const ConstVectorRef& v, VectorRef f) {
+  Vector momentum(v.size());
+  parts.mass->multiply(v, momentum);
+  f -= parts.mass_damping * momentum;
+  if (supports_pull(parts)) subtract_inertia(parts, parts.mass_damping * held_part(*parts.dofs, nodal.u_rate), f);
+}
+
+void add_support_pull(const FemModel::Parts& parts, const NodalExpansion& nodal, VectorRef f) {
+  subtract_inertia(parts, parts.moved->accelerations(nodal.t), f);
+}
+
 void free_forces(const FemModel::Parts& parts, const NodalExpansion& nodal, const ConstVectorRef& v,
                  const NodalVector& forces, VectorRef out) {
   parts.dofs->restrict_to(forces, out);
-  if (parts.mass_damping > 0) {
-    Vector momentum(out.size());
-    parts.mass->multiply(v, momentum);
-    out -= parts.mass_damping * momentum;
-  }
-  if (!parts.moved || parts.mass->lumped()) return;
-  const NodalVector a = parts.moved->accelerations(nodal.t) + parts.mass_damping * held_part(*parts.dofs, nodal.u_rate);
-  Vector pull(out.size());
-  parts.dofs->restrict_to(parts.support_mass->times(a), pull);
-  out -= pull;
+  if (parts.mass_damping > 0) add_mass_damping(parts, nodal, v, out);
+  if (supports_pull(parts)) add_support_pull(parts, nodal, out);
 }
 
 void FemModel::force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const {

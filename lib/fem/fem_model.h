@@ -85,6 +85,12 @@ struct NodalExpansion {
 // The forces of all terms on all nodes, N.
 NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& nodal);
 
+// The two that no term stands for. Mass-proportional damping; and the pull of moved nodes on free ones by a
+// consistent mass, - M_fc a_c. v: free velocities.
+void add_mass_damping(const FemModel::Parts& parts, const NodalExpansion& nodal, const ConstVectorRef& v, VectorRef f);
+bool supports_pull(const FemModel::Parts& parts);
+void add_support_pull(const FemModel::Parts& parts, const NodalExpansion& nodal, VectorRef f);
+
 // What accelerates the free coordinates: their part of these forces, less mass-proportional damping and the
 // pull of moved nodes. v: free velocities.
 void free_forces(const FemModel::Parts& parts, const NodalExpansion& nodal, const ConstVectorRef& v,

@@ -7,6 +7,7 @@ namespace orthodyn {
 namespace {
 
 const char* const kMassDamping = "mass damping";
+const char* const kSupportPull = "pull of moved supports";
 
 std::vector<const Term*> all_terms(const FemModel::Parts& parts) {
   std::vector<const Term*> terms;
@@ -32,6 +33,7 @@ std::vector<std::string> term_names(const std::vector<const Term*>& terms) {
 std::vector<std::string> part_names(const FemModel::Parts& parts) {
   auto names = term_names(all_terms(parts));
   if (parts.mass_damping > 0) names.push_back(kMassDamping);
+  if (supports_pull(parts)) names.push_back(kSupportPull);
   return names;
 }
 
@@ -44,6 +46,7 @@ PartModel::PartModel(const FemModel& whole, const std::vector<std::string>& name
   for (std::size_t k = 0; k < terms.size(); ++k)
     if (wanted(known[k])) terms_.push_back(terms[k]);
   mass_damping_ = wanted(kMassDamping);
+  support_pull_ = wanted(kSupportPull);
 }
 
 void PartModel::force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const {
@@ -51,17 +54,15 @@ void PartModel::force(double t, const ConstVectorRef& q, const ConstVectorRef& v
   NodalVector sum = NodalVector::Zero(3, nodal.x.cols());
   for (const Term* term : terms_) term->add_force(nodal.state(), sum);
   whole_.parts().dofs->restrict_to(sum, f);
-  if (!mass_damping_) return;
-  Vector momentum(v.size());
-  multiply_mass(v, momentum);
-  f -= whole_.parts().mass_damping * momentum;
+  if (mass_damping_) add_mass_damping(whole_.parts(), nodal, v, f);
+  if (support_pull_) add_support_pull(whole_.parts(), nodal, f);
 }
 
 void PartModel::linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                           Linearization& out) const {
   const auto size = pattern().row.size();
   if (traits().linear && out.stiffness.size() == size) return;  // constant: assembled once
-  const bool damped = whole_.parts().stiffness_damping;
+  const bool damped = traits().damping_matrix;
   const NodalExpansion nodal(whole_.parts(), t, q, v);
   out.stiffness.assign(size, 0);
   if (damped) out.damping.assign(size, 0);

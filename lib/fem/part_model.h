@@ -33,6 +33,7 @@ class PartModel : public Model {
   const FemModel& whole_;
   std::vector<const Term*> terms_;
   bool mass_damping_ = false;
+  bool support_pull_ = false;
 };
 
 }  // namespace orthodyn

@@ -25,7 +25,7 @@ StepInfo LoadStepper::step() {
   const double from = state_.t;
   while (!try_to_reach(target(), EquilibriumSolver::Where::nearby)) {
     ++rejected_;
-    if (target() - from > stepping_.min_step) cut_back();
+    if (step_ > stepping_.min_step) cut_back();
     else if (stepping_.may_jump && jump()) break;
     else give_up();
   }
@@ -54,7 +54,7 @@ void LoadStepper::adapt() {
   else if (attempt_.iterations > kHard) step_ = std::max(step_ / 2, stepping_.min_step);
 }
 
-void LoadStepper::cut_back() { step_ = std::max((target() - state_.t) / 2, stepping_.min_step); }
+void LoadStepper::cut_back() { step_ = std::max(std::min(step_, 1 - state_.t) / 2, stepping_.min_step); }
 
 bool LoadStepper::jump() {
   const auto nearby = attempt_;
@@ -71,9 +71,9 @@ void LoadStepper::give_up() const {
   if (attempt_.indefinite)
     throw RunError(
         fmt::format("the branch of stable equilibria ends at load factor {:.6g}, the last one found on it, to within {:.2g} "
-                    "(statics.min_step): beyond it the stiffness is not positive definite, as where a body snaps through or "
-                    "buckles. What follows is a motion (analysis: dynamic); {}",
-                    state_.t, stepping_.min_step,
+                    "(statics.min_step): beyond it {}, as where a body snaps through or buckles. What follows "
+                    "is a motion (analysis: dynamic); {}",
+                    state_.t, stepping_.min_step, attempt_.trouble,
                     stepping_.may_jump ? "no equilibrium was found elsewhere either (statics.at_limit: jump)"
                                        : "statics.at_limit: jump looks for an equilibrium elsewhere"),
         Reason::newton);

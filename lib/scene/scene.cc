@@ -259,7 +259,8 @@ void check_static(const Config& config, Scene& scene, bool is_timed) {
       load.origin.fail("its factor varies in time: say by time: {end: ...} at which time the statics take it");
   const Config output = config.at("output");
   for (const char* key : {"interval", "frames"})
-    if (output.has(key)) output.at(key).fail("has no meaning in statics: there is a frame of each load step; remove it");
+    if (output.has(key) && !output.at(key).is_null())
+      output.at(key).fail("has no meaning in statics: there is a frame of each load step; remove it");
   if (scene.output.times == OutputTimes::exact) output.at("times").fail("has no meaning in statics; remove it");
   if (scene.output.momentum) output.at("momentum").fail("nothing moves in statics; remove it");
 }

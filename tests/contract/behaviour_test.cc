@@ -125,7 +125,7 @@ TEST_P(Contract, APersistentModelErrorEndsInARunErrorWithTimeCauseAndRemedy) {
   });
   const std::string message = failure(model);
   EXPECT_GT(time_in(message), 0.3) << message;
-  EXPECT_LE(time_in(message), 0.5001) << message;  // the force may be evaluated before the end of a step
+  EXPECT_LE(time_in(message), 0.51) << message;  // some evaluate the force before the end of a step
   EXPECT_TRUE(contains(message, GetParam().integrator)) << message;
   EXPECT_TRUE(contains(message, "the door is shut")) << message;
   EXPECT_TRUE(contains(message, "h_max") || contains(message, "rtol") || contains(message, "step")) << message;

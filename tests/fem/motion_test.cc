@@ -119,6 +119,18 @@ TEST_P(MovedBody, MovesAsIfTheSupportsExertedWhatTheirNodesNeed) {
   EXPECT_LE(on_free.norm(), 1e-12 * both.needed.norm());
 }
 
+TEST_P(MovedBody, HasAForceThatIsTheSumOfItsParts) {
+  Random random(325);
+  const auto s = moved();
+  const Vector q = random_dofs(random, s.size(), 0.05), v = random_dofs(random, s.size(), 1), whole = s.force(q, v, 0.6);
+  Vector sum = s.zero(), f = s.zero();
+  for (const auto& part : s.model().force_parts()) {
+    s.model().only({part})->force(0.6, q, v, f);
+    sum += f;
+  }
+  EXPECT_LE((sum - whole).norm(), 1e-13 * whole.norm());
+}
+
 TEST_P(MovedBody, ReactionsAreWhatItsHeldNodesNeed) {
   Random random(322);
   const auto s = moved(), free = all_free();

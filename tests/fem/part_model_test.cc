@@ -56,6 +56,25 @@ TEST(ForceParts, AddUpToTheWholeForce) {
 }
 
 // With the mass once in each.
+// A consistent mass lets moved nodes pull on free ones.
+TEST(ForceParts, AddUpToTheWholeForceOnMovedSupports) {
+  const BuiltTestScene moved(R"(
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [3, 1, 1]}
+materials: {wood: {type: orthotropic_stable, density: 1000, young: [2e6, 2e5, 1e5], nu: 0.3}}
+regions: {all: {material: wood}}
+mass: consistent
+damping: {mass: 2}
+motions: [{surface: x0, translation: [0, 0, 0.1], factor: {type: smooth_step, end: 1}}]
+time: {end: 1}
+)");
+  const Model& model = moved.model();
+  const Vector q = 1e-3 * Vector::LinSpaced(moved.size(), -1, 2), v = 2 * q, whole = force_of(model, 0.3, q, v);
+  Vector sum = Vector::Zero(q.size());
+  for (const auto& name : model.force_parts()) sum += force_of(*model.only({name}), 0.3, q, v);
+  EXPECT_EQ(model.force_parts().back(), "pull of moved supports");
+  EXPECT_LE((sum - whole).norm(), 1e-13 * whole.norm());
+}
+
 TEST(ForceParts, AddUpToTheWholeMatrix) {
   const Vector q = some(1), v = some(2);
   const auto whole = combined(scene().model(), {0, 3, 2}, q, v);

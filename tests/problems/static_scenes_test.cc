@@ -94,27 +94,23 @@ TEST(StaticScene, OfItsOwnDefaultsIsAccepted) {
   read_scene(Config::from_text(config.dump()));
 }
 
-// Pressed by twice its modulus: at half the load the corotational law has no height left.
-TEST(StaticScene, ABlockPressedBeyondItsModulusEndsOnTheWayAndKeepsWhatWasFound) {
+TEST(StaticScene, ThatCannotGoOnEndsWithItsLastEquilibrium) {
   const BuiltTestScene block(R"(
 analysis: static
-statics: {min_step: 1e-3}
+statics: {max_steps: 2}
 mesh: {type: box, size: [1, 1, 1], cells: [2, 2, 2]}
 materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
 clamps: [{surface: z0}]
-loads: [{surface: z1, traction: [0, 0, -2e6]}]
+loads: [{surface: z1, traction: [0, 0, 1e4]}]
 )");
   const StaticProblem problem = static_problem(block.scene, block.built);
   std::vector<double> seen;
   Watch watch([&](const State& state) { seen.push_back(state.t); });
   const Outcome outcome = run_static(*problem.stepper, {&watch}, {false});
   EXPECT_EQ(outcome.status, Outcome::Status::failed);
-  EXPECT_EQ(outcome.reason, Reason::newton);
-  EXPECT_NE(outcome.message.find("load factor"), std::string::npos) << outcome.message;
-  EXPECT_GT(outcome.last.t, 0.05);
-  EXPECT_LT(outcome.last.t, 0.5);
-  EXPECT_EQ(static_cast<long>(seen.size()), problem.stepper->steps() + 1);
-  EXPECT_EQ(seen.back(), outcome.last.t);
+  EXPECT_EQ(outcome.reason, Reason::too_many_steps);
+  EXPECT_EQ(outcome.last.t, 0.75);
+  EXPECT_EQ(seen, (std::vector<double>{0, 0.25, 0.75}));
 }
 
 TEST(EquilibriumStart, StaysWhereItIs) {
@@ -126,7 +122,7 @@ gravity: [0, 0, -1]
 clamps: [{surface: x0}]
 time: {end: 1}
 )";
-  const Setup setup = set_up(Config::from_text(text));
+  const auto setup = set_up(Config::from_text(text));
   const auto& model = *setup.built.model;
   const double sag = setup.built.initial.q.lpNorm<Eigen::Infinity>();
   EXPECT_GT(sag, 0.02);
@@ -147,7 +143,7 @@ clamps: [{surface: x0}]
 initial: {spin: [0, 2, 0], center: [0, 0, 0]}
 time: {end: 1}
 )");
-  const Setup setup = set_up(Config::from_text(R"(
+  const auto setup = set_up(Config::from_text(R"(
 start: equilibrium
 mesh: {type: box, size: [1, 0.2, 0.2], cells: [4, 1, 1]}
 materials: {soft: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
@@ -158,7 +154,9 @@ time: {end: 1}
 )"));
   const NodalVector x = s.positions(setup.built.initial.q), v = s.nodal(setup.built.initial.v);
   for (Eigen::Index i = 0; i < x.cols(); ++i)
-    if (x(0, i) > 1e-6) EXPECT_LT((v.col(i) - Vec3(0, 2, 0).cross(Vec3(x.col(i)))).norm(), 1e-12);
+    if (x(0, i) > 1e-6) {
+      EXPECT_LT((v.col(i) - Vec3(0, 2, 0).cross(Vec3(x.col(i)))).norm(), 1e-12);
+    }
 }
 
 TEST(EquilibriumStart, IsRefusedTogetherWithAnInitialDeformation) {

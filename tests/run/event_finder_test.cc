@@ -38,7 +38,7 @@ double wave(double t) { return std::cos(t); }
 TEST(EventFinder, FindsTheTimesToATenBillionthOfTheStep) {
   EventFinder finder({event(0.3)});
   const double step = 0.7;
-  const auto found = crossings(finder, wave, step, 20);
+  const auto found = crossings(finder, wave, step, 18);
   const double down = std::acos(0.3), up = 2 * std::numbers::pi - down;
   const double expected[] = {down, up, down + 2 * std::numbers::pi, up + 2 * std::numbers::pi};
   ASSERT_EQ(found.size(), 4u);
@@ -61,8 +61,8 @@ TEST(EventFinder, FindsSeveralInOneStepInTheOrderOfTime) {
   EventFinder finder({event(-0.5), event(0.5)});
   const auto found = crossings(finder, wave, 2 * std::numbers::pi, 1);
   ASSERT_EQ(found.size(), 4u);
-  for (std::size_t k = 0; k < 4; ++k)
-    EXPECT_NEAR(found[k].state.t, std::numbers::pi * std::array{1, 2, 4, 5}[k] / 3, 1e-9);
+  constexpr int thirds[] = {1, 2, 4, 5};  // of half a period
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(found[k].state.t, std::numbers::pi * thirds[k] / 3, 1e-9);
 }
 
 TEST(EventFinder, ForgetsWhatComesAfterAStop) {

@@ -82,6 +82,15 @@ void print_expectations() {
   print_entry("expect.<n>", "A figure that `orthodyn verify` compares.", Expectation::spec().keys());
 }
 
+void print_statics() {
+  print_entry("statics", "How equilibrium is found, by analysis: static and start: equilibrium.", Statics::spec().keys());
+  print_registry<EquilibriumChoice>();
+}
+
+void print_events() {
+  print_entry("events.<n>", "A value that a quantity passes, logged or the end of the run.", EventSpec::spec().keys());
+}
+
 void print_comparison() {
   print_entry("comparison", "The keys of a comparison, for `orthodyn compare`.", Comparison::spec().keys());
   print_entry("scenes.<n>", "A scene of a comparison.", SceneEntry::spec().keys());
@@ -110,6 +119,8 @@ const std::vector<std::pair<std::string, std::function<void()>>>& chapters() {
       {"factors", print_registry<TimeFunction>},
       {"integrators", print_registry<IntegratorChoice>},
       {"solvers", print_solvers},
+      {"statics", print_statics},
+      {"events", print_events},
       {"expect", print_expectations},
       {"comparison", print_comparison},
       {"fields", print_fields},

@@ -123,7 +123,7 @@ int main(int argc, char** argv) {
 
   std::string what;
   auto* list = app.add_subcommand("list", "What can be named in a scene, each with its keys.");
-  list->add_option("what", what, "scene, materials, presets, meshes, axes, integrators, solvers, terms, factors, expect, comparison, fields; all if left out.");
+  list->add_option("what", what, "scene, materials, presets, meshes, axes, integrators, solvers, terms, factors, statics, events, expect, comparison, fields; all if left out.");
   bool markdown = false;
   list->add_flag("--markdown", markdown, "Every key of the input as one page in Markdown.");
 

@@ -21,6 +21,7 @@ State state_about(const Setup& setup, bool equilibrium_asked) {
   const Vector zero = Vector::Zero(setup.built.model->num_dofs());
   const double t = scene.analysis == Analysis::statical ? scene.time.end : scene.time.start;
   if (!equilibrium_asked) return {t, zero, zero};
+  if (scene.start == Start::equilibrium) return {t, setup.built.initial.q, zero};
   if (!scene.statics) {
     Scene with = scene;
     with.statics = Statics::spec().read(Config::from_text("{}", "--equilibrium"));

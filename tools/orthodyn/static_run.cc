@@ -99,6 +99,13 @@ void print_result(const RunArguments& arguments, const Result& result, const std
   fmt::print("  {:<20} {}\n", "results", folder.string());
 }
 
+void warn_of_inversion(const Result& result) {
+  const auto det_f = result.problem.path->evaluate("det_f.smallest", result.outcome.last);
+  if (det_f[0] <= 0)
+    fmt::print(stderr, "warning: element {} is inverted (det F = {:.3g}): this equilibrium has no meaning\n",
+               static_cast<long>(det_f[1]), det_f[0]);
+}
+
 void refuse_what_is_for_motion(const RunArguments& arguments) {
   if (arguments.resume) throw ConfigError("--resume: a static analysis keeps no checkpoint; start anew with --force");
   if (arguments.estimate_error)
@@ -119,6 +126,7 @@ int run_static(const RunArguments& arguments, const Setup& setup, ResultFolder& 
   const Result result{setup, problem, outcome};
   if (outcome.status == Outcome::Status::failed) fmt::print(stderr, "error: {}\n", outcome.message);
   record.rewrite(finished_json(arguments, result));
+  warn_of_inversion(result);
   if (!arguments.quiet) print_result(arguments, result, folder.path());
   return exit_code(outcome.status);
 }
