@@ -3,9 +3,10 @@
 // Nearby: full steps, which must contract, |dq_1| <= |dq_0|/2 and |dq_k+1| <= |dq_k|, else a solution is not one
 // that the guess leads to (Deuflhard, Newton Methods for Nonlinear Problems, 2004, 3.3 and 5.2), and K must be
 // positive definite. That the residual falls is not asked for: in thin bodies that bend it rises first, by the
-// stretching that a straight step brings.
-// Anywhere: line search on the residual (Dennis & Schnabel 1983, A6.3.1), with the positive semidefinite part of K
-// where K is indefinite.
+// stretching that a straight step brings. With line_search it is (Dennis & Schnabel 1983, A6.3.1), in place of
+// contraction.
+// Anywhere: with the positive semidefinite part of K, whose corrections lead down the energy, each at most as long as
+// the motion's size. The residual, which rises beyond a limit point, is not looked at either.
 //
 // Round-off of large internal forces may keep the residual from falling below the tolerance; a solution then is
 // where Newton's next correction is below the tolerance of the motion.
@@ -28,6 +29,7 @@ namespace {
 
 struct KinsolOptions {
   double rtol = 1e-8;
+  bool line_search = false;
   long max_iterations = 50;
   std::string linear_solver = "cholmod";
 };
@@ -40,7 +42,8 @@ class Kinsol : public EquilibriumSolver {
  public:
   Kinsol(const Model& model, const EquilibriumTask& task, const KinsolOptions& options)
       : model_(model), task_(task), options_(options), still_(Vector::Zero(model.num_dofs())),
-        matrix_(make_matrix()), q_(make_vector(model.num_dofs(), context_)), position_weights_(make_vector(model.num_dofs(), context_)),
+        matrix_(make_matrix()), q_(make_vector(model.num_dofs(), context_)),
+        position_weights_(make_vector(model.num_dofs(), context_)),
         force_weights_(make_vector(model.num_dofs(), context_)), memory_(KINCreate(context_)) {
     if (!memory_) throw RunError("KINSOL could not be created");
     view(position_weights_.get()).setConstant(1 / task.length);
@@ -52,13 +55,15 @@ class Kinsol : public EquilibriumSolver {
     t_ = t;
     where_ = where;
     border_ = {};
-    if (statistics_.gauss_newton_fallbacks > fallbacks_) matrix_ = make_matrix();
-    fallbacks_ = statistics_.gauss_newton_fallbacks;
+    renew_matrix(where == Where::nearby ? TangentKind::exact : TangentKind::gauss_newton);
     indefinite_ = false;
     corrections_.clear();
     view(q_.get()) = q;
-    const int flag = KINSol(memory_.get(), q_.get(), where == Where::nearby ? KIN_NONE : KIN_LINESEARCH,
-                            position_weights_.get(), force_weights_.get());
+    constexpr double kUnlimited = 1e12;  // of the motion's size
+    const double longest = where == Where::nearby ? kUnlimited : std::sqrt(static_cast<double>(model_.num_dofs()));
+    require(KINSetMaxNewtonStep(memory_.get(), longest));
+    const int flag = KINSol(memory_.get(), q_.get(), searches_line() ? KIN_LINESEARCH : KIN_NONE, position_weights_.get(),
+                            force_weights_.get());
     if (border_.failure) std::rethrow_exception(border_.failure);
     Attempt attempt;
     KINGetNumNonlinSolvIters(memory_.get(), &attempt.iterations);
@@ -79,9 +84,18 @@ class Kinsol : public EquilibriumSolver {
   std::string description() const override { return options_.linear_solver + " (" + matrix_->description() + ")"; }
 
  private:
-  // One that has met an indefinite matrix goes on with the Gauss-Newton part for a while.
+  bool searches_line() const { return options_.line_search && where_ == Where::nearby; }
+
   std::unique_ptr<NewtonMatrix> make_matrix() {
-    return std::make_unique<NewtonMatrix>(model_, options_.linear_solver, TangentKind::exact, statistics_);
+    return std::make_unique<NewtonMatrix>(model_, options_.linear_solver, tangent_, statistics_);
+  }
+
+  // One that has met an indefinite matrix would go on with the Gauss-Newton part for a while.
+  void renew_matrix(TangentKind tangent) {
+    if (tangent == tangent_ && statistics_.gauss_newton_fallbacks == fallbacks_) return;
+    tangent_ = tangent;
+    fallbacks_ = statistics_.gauss_newton_fallbacks;
+    matrix_ = make_matrix();
   }
 
   void initialise() {
@@ -104,8 +118,6 @@ class Kinsol : public EquilibriumSolver {
     require(KINSetNumMaxIters(m, options_.max_iterations));
     require(KINSetFuncNormTol(m, options_.rtol));
     require(KINSetScaledStepTol(m, 1e-3 * options_.rtol));
-    constexpr double kUnlimited = 1e12;  // of the motion's size: the line search alone shortens steps
-    require(KINSetMaxNewtonStep(m, kUnlimited));
   }
 
   static Kinsol& self(void* user) { return *static_cast<Kinsol*>(user); }
@@ -131,7 +143,7 @@ class Kinsol : public EquilibriumSolver {
   bool contracts(double correction) {
     corrections_.push_back(correction);
     const auto k = corrections_.size() - 1;
-    if (where_ == Where::anywhere || k == 0) return std::isfinite(correction);
+    if (where_ == Where::anywhere || searches_line() || k == 0) return std::isfinite(correction);
     return correction <= (k == 1 ? 0.5 : 1.0) * corrections_[k - 1];
   }
 
@@ -176,9 +188,9 @@ class Kinsol : public EquilibriumSolver {
       case KIN_FIRST_SYSFUNC_ERR:
       case KIN_SYSFUNC_FAIL:
       case KIN_REPTD_SYSFUNC_ERR: return "the forces could not be evaluated" + cause;
-      case KIN_STEP_LT_STPTOL:
       case KIN_LINESEARCH_NONCONV:
       case KIN_LINESEARCH_BCFAIL: return "the residual does not fall along Newton's direction" + cause;
+      case KIN_STEP_LT_STPTOL: return "Newton's corrections have become too small for the residual that is left" + cause;
       default: return "KINSOL says: " + border_.library_message;
     }
   }
@@ -193,8 +205,9 @@ class Kinsol : public EquilibriumSolver {
   bool indefinite_ = false;
   std::vector<double> corrections_;  // the largest of each iteration
   Border border_;
+  TangentKind tangent_ = TangentKind::exact;
   std::unique_ptr<NewtonMatrix> matrix_;
-  long fallbacks_ = 0;  // before this attempt
+  long fallbacks_ = 0;  // when the matrix was made
   SolverFunctions functions_;
   Context context_;
   OwnedVector q_, position_weights_, force_weights_;
@@ -218,6 +231,8 @@ class KinsolChoice : public EquilibriumChoice, public KinsolOptions {
         Spec<KinsolChoice>()
             .key("rtol", &KinsolChoice::rtol, "Largest residual, relative to the largest load on a coordinate.",
                  {.range = {0, 1e-2, true, false}})
+            .key("line_search", &KinsolChoice::line_search,
+                 "Shorten steps until the residual falls, in place of the test that corrections contract.")
             .key("max_iterations", &KinsolChoice::max_iterations, "Newton iterations per load step.",
                  {.range = {1, 10'000}})
             .key("linear_solver", &KinsolChoice::linear_solver, "One of `orthodyn list solvers`, klu_full aside.")
@@ -225,7 +240,7 @@ class KinsolChoice : public EquilibriumChoice, public KinsolOptions {
     return s;
   }
   static MethodFacts facts() {
-    return {{"source", "Hindmarsh et al., ACM TOMS 31, 2005; Dennis & Schnabel 1983"}};
+    return {{"source", "Hindmarsh et al., ACM TOMS 31, 2005; Deuflhard, Newton Methods for Nonlinear Problems, 2004"}};
   }
   std::unique_ptr<EquilibriumSolver> make(const Model& model, const EquilibriumTask& task) const override {
     return std::make_unique<Kinsol>(model, task, *this);
@@ -233,7 +248,7 @@ class KinsolChoice : public EquilibriumChoice, public KinsolOptions {
 };
 
 const bool registered = Registry<EquilibriumChoice>::add<KinsolChoice>(
-    "kinsol", "KINSOL: Newton's method, K factored anew each time; line search where a branch was lost.");
+    "kinsol", "KINSOL: Newton's method, K factored anew each time; down the energy where a branch was lost.");
 
 }  // namespace
 }  // namespace orthodyn::sundials

@@ -11,7 +11,8 @@ namespace orthodyn {
 
 namespace {
 constexpr int kMostAttempts = 20, kMostHalvings = 10;
-constexpr double kAfterNewton = 0.25;  // times the step that Newton could not take
+// Times the step that Newton could not take; and by how much each step after it may come nearer to that one.
+constexpr double kAfterNewton = 0.5, kRelease = 1.05;
 }  // namespace
 
 OneStep::OneStep(std::string name, const Model& model, const LinearOptions& options, const Scales& scales)
@@ -43,6 +44,7 @@ void OneStep::start(const State& state) {
   before_ = now_;
   control_ = HeldStep(orders().estimate);
   h_ = options_.h0.value_or(0);
+  newton_limit_ = std::numeric_limits<double>::infinity();
   restarted();
 }
 
@@ -112,10 +114,13 @@ void OneStep::advance_adaptively(double t_stop) {
       const double factor = control_.after_success(h, error_);
       h_ = h * (refused ? std::min(factor, 1.0) : factor);
       if (!refused && h < planned) h_ = std::max(h_, planned);  // shortened by t_stop only
+      newton_limit_ *= kRelease;
+      h_ = std::min(h_, newton_limit_);
       return;
     }
     refused = true;
-    h_ = h * (verdict == Verdict::error_test && std::isfinite(error_) ? control_.after_failure(error_) : kAfterNewton);
+    if (verdict == Verdict::error_test && std::isfinite(error_)) h_ = h * control_.after_failure(error_);
+    else h_ = newton_limit_ = kAfterNewton * h;
     if (attempts == kMostAttempts || h_ <= resolution() || h_ < options_.h_min) give_up(verdict, now_.t, h);
   }
 }

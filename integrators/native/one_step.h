@@ -68,6 +68,7 @@ class OneStep : public Integrator {
   Scales scales_;
   HeldStep control_;
   double h_ = 0;           // the next step, if error control decides; 0 if it is still to be estimated
+  double newton_limit_ = 0;  // a bound of the next step, where Newton has failed on a longer one
   double error_ = 0;       // of the last attempt, in units of what is allowed
   std::string cause_;      // why the model refused the last attempt, if it did
   Knot before_, now_;      // the ends of the last step

@@ -41,7 +41,7 @@ struct NewtonOptions : LinearOptions {
 };
 
 // Refuses a solver that is not known, or that is none of n x n matrices.
-void check_linear_solver(const LinearOptions& options, const Config& config);
+void check_linear_solver(const std::string& given, const Config& config);
 
 template <class T>
 Spec<T> LinearOptions::spec_for() {
@@ -51,7 +51,7 @@ Spec<T> LinearOptions::spec_for() {
   spec.key("linear_solver", &O::linear_solver, "One of `orthodyn list solvers`, but for klu_full.")
       .key("gauss_newton", &O::gauss_newton,
            "Use the positive semidefinite Gauss-Newton part of the tangent from the start.")
-      .check([](const T& options, const Config& config) { check_linear_solver(options, config); });
+      .check([](const T& options, const Config& config) { check_linear_solver(options.linear_solver, config); });
   return spec;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "lib/core/errors.h"
 
@@ -56,14 +57,16 @@ void LoadStepper::adapt() {
 
 void LoadStepper::cut_back() { step_ = std::max(std::min(step_, 1 - state_.t) / 2, stepping_.min_step); }
 
+// A step far enough that what is out of balance drives the body away from the limit point.
 bool LoadStepper::jump() {
   const auto nearby = attempt_;
+  const double cut_back_to = std::exchange(step_, stepping_.first_step);
   if (!try_to_reach(target(), EquilibriumSolver::Where::anywhere)) {
     attempt_ = nearby;
+    step_ = cut_back_to;
     return false;
   }
   ++jumps_;
-  step_ = stepping_.first_step;
   return true;
 }
 

@@ -1,0 +1,29 @@
+// What a short look at a model tells before it is integrated, and what follows from it for the choice of a method.
+//
+// Two eigenvalue bounds, one tangent and one symbolic analysis: counts, not clocks, so that the same scene always
+// gets the same advice.
+#pragma once
+
+#include <string>
+
+#include "lib/ode/integrator.h"
+
+namespace orthodyn {
+
+struct Outlook {
+  bool damped = false;                     // stiffness-proportional damping everywhere
+  double explicit_steps = 0;               // of central differences to the end; infinite if it cannot be told
+  double swings = 0;                       // the time span in units of position scale / velocity scale
+  double solve_cost = 0, factor_cost = 0;  // in forces
+};
+
+// `linear_solver` is one of n x n matrices.
+Outlook look_at(const Model& model, const Task& task, const Scales& scales, const std::string& linear_solver);
+
+struct Advice {
+  std::string method, because;
+};
+
+Advice advise(const Outlook& look, double rtol);
+
+}  // namespace orthodyn
