@@ -14,13 +14,14 @@ struct AutomaticOptions : ErrorControl {
   std::string linear_solver = "cholmod";
   std::optional<std::string> method;
   std::string because;
+  std::optional<double> safety;
 };
 
 // Does what the chosen integrator does, and tells of the choice.
 class Automatic : public Integrator {
  public:
-  Automatic(std::unique_ptr<Integrator> chosen, Advice advice)
-      : chosen_(std::move(chosen)), advice_(std::move(advice)) {}
+  Automatic(std::unique_ptr<Integrator> chosen, Advice advice, const Scales& scales)
+      : chosen_(std::move(chosen)), advice_(std::move(advice)), scales_(scales) {}
   void start(const State& state) override { chosen_->start(state); }
   StepInfo step(double t_stop) override { return chosen_->step(t_stop); }
   void interpolate(double t, State& out) const override { chosen_->interpolate(t, out); }
@@ -29,14 +30,17 @@ class Automatic : public Integrator {
   std::size_t bytes() const override { return chosen_->bytes(); }
   Decisions decisions() const override {
     Decisions all{{"method", advice_.method}, {"because", advice_.because}};
-    for (const auto& [key, value] : chosen_->decisions())
-      if (key.ends_with("_scale") || key == "linear_solver") all.emplace_back(key, value);
+    if (advice_.safety) all.emplace_back("safety", number_text(*advice_.safety));
+    for (const auto& decision : scale_decisions(scales_)) all.push_back(decision);
+    for (const auto& decision : chosen_->decisions())
+      if (decision.first == "linear_solver") all.push_back(decision);
     return all;
   }
 
  private:
   std::unique_ptr<Integrator> chosen_;
   Advice advice_;
+  Scales scales_;
 };
 
 bool has_key(const std::string& integrator, const std::string& name) {
@@ -45,11 +49,12 @@ bool has_key(const std::string& integrator, const std::string& name) {
 }
 
 // The section of the chosen integrator, with those of our options that it has.
-Config section_of(const std::string& method, const AutomaticOptions& options) {
-  const Config section = Config::from_text("{type: " + method + "}", "integrator: auto");
+Config section_of(const Advice& advice, const AutomaticOptions& options) {
+  const Config section = Config::from_text("{type: " + advice.method + "}", "integrator: auto");
   const auto hand_on = [&](const std::string& key, const std::string& value) {
-    if (has_key(method, key)) section.fill(key, value);
+    if (has_key(advice.method, key)) section.fill(key, value);
   };
+  if (advice.safety) hand_on("safety", number_text(*advice.safety));
   hand_on("rtol", number_text(options.rtol));
   if (options.h0) hand_on("h0", number_text(*options.h0));
   if (options.h_max) hand_on("h_max", number_text(*options.h_max));
@@ -68,6 +73,8 @@ class AutomaticChoice : public IntegratorChoice, public AutomaticOptions {
             .key("linear_solver", &C::linear_solver, "One of `orthodyn list solvers`, but for klu_full.")
             .key("method", &C::method, "The integrator; chosen by a look at the scene where it is left out.")
             .key("because", &C::because, "Why it was chosen, in words; written by the program.")
+            .key("safety", &C::safety, "Of central_differences, if that is the method; written by the program.",
+                 {.range = {0, 1, true, true}})
             .check([](const C& options, const Config& config) { options.check(config); });
     return s;
   }
@@ -77,11 +84,12 @@ class AutomaticChoice : public IntegratorChoice, public AutomaticOptions {
   }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     const Scales own = scales(task);
-    const Advice advice = method ? Advice{*method, because} : advise(look_at(model, task, own, linear_solver), rtol);
+    const Advice advice =
+        method ? Advice{*method, because, safety} : advise(look_at(model, task, own, linear_solver), rtol);
     Task same = task;
     same.scales = [own] { return own; };
-    const auto choice = Registry<IntegratorChoice>::read(section_of(advice.method, *this));
-    return std::make_unique<Automatic>(choice->make(model, same), advice);
+    const auto choice = Registry<IntegratorChoice>::read(section_of(advice, *this));
+    return std::make_unique<Automatic>(choice->make(model, same), advice, own);
   }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -21,8 +22,7 @@ constexpr double kBytesPerEntry = 10;  // of the factor, workspace included
 double explicit_steps(const Model& model, const Task& task) {
   Statistics unused;
   try {
-    const double step = 0.9 * CriticalStep(model, unused).at(task.initial);
-    return (task.end - task.initial.t) / step;
+    return (task.end - task.initial.t) / CriticalStep(model, unused).at(task.initial);
   } catch (const RecoverableError&) {
     return std::numeric_limits<double>::infinity();
   }
@@ -44,16 +44,26 @@ Outlook look_at(const Model& model, const Task& task, const Scales& scales, cons
   return look;
 }
 
+// The share of the critical step at which leapfrog's phase error at the end, swings (omega h)^2 / 24 with omega =
+// velocity scale / position scale, is about what other methods have for this rtol.
+double safety_for(const Outlook& look, double rtol) {
+  constexpr double kErrorPerTolerance = 10;
+  const double at_limit = look.swings * std::pow(look.swings / look.explicit_steps, 2) / 24;
+  return std::min(0.9, std::sqrt(kErrorPerTolerance * rtol / at_limit));
+}
+
 Advice advise(const Outlook& look, double rtol) {
-  // Steps of an implicit method of order two; each takes two to three iterations, and one in five a new factor.
-  const double implicit_steps = 3 * look.swings * std::pow(1e-3 / rtol, 1.0 / 3) + 20;
+  // Of an implicit method of order two; each step takes about two and a half iterations, one in five a new factor.
+  const double implicit_steps = 20 + 3 * look.swings * std::pow(1e-3 / rtol, 1.0 / 3);
   const double implicit_cost = implicit_steps * (2.5 * (1 + look.solve_cost) + 0.2 * look.factor_cost);
-  if (look.explicit_steps < implicit_cost)
-    return {"central_differences", fmt::format("{:.2g} explicit steps cost less than {:.2g} implicit ones",
-                                               look.explicit_steps, implicit_steps)};
-  if (look.damped) return {"cvode_bdf", "damped everywhere: multistep methods of high order take long steps"};
-  if (rtol < 1e-3) return {"arkode_dirk", "undamped: Runge-Kutta methods of high order keep fast oscillations"};
-  return {"tr_bdf2", "undamped, and a moderate accuracy: an L-stable method of order 2"};
+  const double safety = safety_for(look, rtol), explicit_cost = look.explicit_steps / safety;
+  if (explicit_cost < implicit_cost)
+    return {"central_differences",
+            fmt::format("{:.2g} explicit steps cost less than about {:.2g} implicit ones", explicit_cost, implicit_steps),
+            safety};
+  if (look.damped) return {"cvode_bdf", "damped everywhere, where multistep methods of high order take long steps"};
+  if (rtol < 3e-4) return {"arkode_dirk", "undamped, where Runge-Kutta methods of high order keep fast oscillations"};
+  return {"tr_bdf2", "undamped and a moderate accuracy, where an L-stable method of order 2 is cheapest"};
 }
 
 }  // namespace orthodyn

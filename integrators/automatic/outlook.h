@@ -4,6 +4,7 @@
 // gets the same advice.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "lib/ode/integrator.h"
@@ -12,7 +13,8 @@ namespace orthodyn {
 
 struct Outlook {
   bool damped = false;                     // stiffness-proportional damping everywhere
-  double explicit_steps = 0;               // of central differences to the end; infinite if it cannot be told
+  double explicit_steps = 0;               // of central differences to the end, at the critical step; infinite if it
+                                           // cannot be told
   double swings = 0;                       // the time span in units of position scale / velocity scale
   double solve_cost = 0, factor_cost = 0;  // in forces
 };
@@ -21,7 +23,8 @@ struct Outlook {
 Outlook look_at(const Model& model, const Task& task, const Scales& scales, const std::string& linear_solver);
 
 struct Advice {
-  std::string method, because;
+  std::string method, because;   // no colon in the latter: it becomes a value of the input
+  std::optional<double> safety = {};  // of central_differences
 };
 
 Advice advise(const Outlook& look, double rtol);

@@ -15,16 +15,14 @@ void AlphaMethod::restarted() {
   solver_.restart();
   past_.clear();
   past_.add(now().t, now().a);
+  last_h_ = 0;
 }
 
 bool AlphaMethod::attempt(double h) {
   const auto& [alpha_m, alpha_f, beta, gamma] = p_;
   const Knot& from = now();
   a_ = from.a;
-  if (p_.theta() != 0 && past_.count() > 1) {
-    const double last = past_.time(0) - past_.time(1);
-    a_ += p_.theta() * (h / last - 1) * (past_.value(0) - past_.value(1));
-  }
+  if (p_.theta() != 0 && last_h_ > 0) a_ += p_.theta() * (h / last_h_ - 1) * last_change_;
   // a1 = (x - alpha_m a0) / (1 - alpha_m)
   const double x_share = 1 / (1 - alpha_m), a_share = -alpha_m * x_share, new_state = 1 - alpha_f;
   stage_.t = from.t + new_state * h;
@@ -50,18 +48,19 @@ void AlphaMethod::estimate(double h, VectorRef e_q, VectorRef e_v) {
   const double lag = 0.5 * (1 - p_.alpha_f - theta * theta - (1 - p_.alpha_m) * (1 + 2 * theta));
   const double third = p_.beta + 0.5 * theta - 1.0 / 6;
   const double fourth = lag + 0.5 * (theta * theta + gamma * (1 + 2 * theta)) - 1.0 / 6;
-  const auto change = next_.a - now().a;
+  const auto change = next_.a - a_;
   e_v = change;
-  if (past_.count() > 1) {
-    const double last = past_.time(0) - past_.time(1);
-    e_v = 2 * h / (h + last) * (change - h / last * (past_.value(0) - past_.value(1)));
-  }
+  if (last_h_ > 0) e_v = 2 * h / (h + last_h_) * (change - h / last_h_ * last_change_);
   e_v = h * (fourth * e_v + (gamma + theta - 0.5) * change);
   e_q = h * h * third * change;
   solver_.filter(e_q, e_v);
 }
 
-void AlphaMethod::accepted(double) { past_.add(next_.t, next_.a); }
+void AlphaMethod::accepted(double h) {
+  last_change_ = next_.a - a_;
+  last_h_ = h;
+  past_.add(next_.t, next_.a);
+}
 
 std::size_t AlphaMethod::method_bytes() const {
   return solver_.bytes() + 7 * static_cast<std::size_t>(model_.num_dofs()) * sizeof(double);

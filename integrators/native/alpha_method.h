@@ -43,6 +43,8 @@ class AlphaMethod : public OneStep {
   StageSolver::Stage stage_;
   Accelerations past_;  // labelled by the ends of steps
   Vector a_;            // a0, moved to where this step needs it
+  double last_h_ = 0;   // 0 after a restart
+  Vector last_change_;  // next_.a - a_ of the last step
   Vector x_;            // M x = f in the step
 };
 

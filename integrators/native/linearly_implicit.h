@@ -27,7 +27,8 @@ class LinearlyImplicit : public OneStep {
   // method's own, for M^-1 f would multiply what the step left of stiff modes by their stiffness.
   void finish(const ConstVectorRef& a);
 
-  const Vector& force_now() const { return f_now_; }  // at now()
+  const Vector& force_now() const { return f_now_; }    // at now()
+  const Vector& force_next() const { return f_next_; }  // at next_, after finish()
   ReducedSolve solve_;
 
  private:

@@ -69,7 +69,9 @@ void OneStep::interpolate(double t, State& out) const {
     out.v = now_.v;
     return;
   }
-  orthodyn::interpolate(before_, now_, t, out.q, out.v);
+  // Positions and velocities of a method of order 1 do not fit one polynomial: between them its velocity would swing.
+  if (orders().method == 1) interpolate_linearly(before_, now_, t, out.q, out.v);
+  else orthodyn::interpolate(before_, now_, t, out.q, out.v);
 }
 
 void OneStep::accept(double h) {

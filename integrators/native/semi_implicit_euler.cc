@@ -25,13 +25,12 @@ class SemiImplicitEuler : public LinearlyImplicit {
     return true;
   }
 
-  // Half the change of the slope over the step, u - h f(y0) = h J u, damped like the solution:
-  // (I - h J)^-1 h J u = (I - h J)^-1 u - u. One more solve.
-  void estimate(double, VectorRef e_q, VectorRef e_v) override {
-    model_.multiply_mass(dv_, e_v);
-    solve_.solve(dq_, e_v, e_q, e_v);
-    e_q = 0.5 * (e_q - dq_);
-    e_v = 0.5 * (e_v - dv_);
+  // Half the change of the slope over the step, damped like the solution: (I - h J)^-1 h (f(y1) - f(y0)) / 2. One
+  // more solve.
+  void estimate(double h, VectorRef e_q, VectorRef e_v) override {
+    dq_ = 0.5 * h * dv_;
+    dv_ = 0.5 * h * (force_next() - force_now());
+    solve_.solve(dq_, dv_, e_q, e_v);
   }
 
  private:
@@ -46,7 +45,7 @@ class SemiImplicitEulerChoice : public IntegratorChoice, public LinearOptions {
   }
   static MethodFacts facts() {
     return method_facts("1", "L-stable for linear models; damps every oscillation", "momentum",
-                        "Baraff & Witkin 1998; error estimate: difference to the trapezoidal rule, linearised");
+                        "Baraff & Witkin 1998; error estimate: difference to the trapezoidal rule");
   }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     return std::make_unique<SemiImplicitEuler>(model, *this, scales(task));

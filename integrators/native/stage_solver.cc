@@ -16,7 +16,7 @@ constexpr double kLeastSlowness = 1e-3;  // of a nonlinear model: what is less i
 
 StageSolver::StageSolver(const Model& model, const NewtonOptions& options, const ScaledNorm& norm,
                          Statistics& statistics)
-    : model_(model), kind_(options.newton), tolerance_(options.nonlinear_coefficient),
+    : model_(model), kind_(options.newton), insists_(options.step.has_value()), tolerance_(options.nonlinear_coefficient),
       max_iterations_(options.max_newton_iterations), norm_(norm), statistics_(statistics),
       matrix_(model, options.linear_solver, options.tangent(), statistics), r_(model.num_dofs()),
       dx_(model.num_dofs()), guess_(model.num_dofs()), work_(model.num_dofs()) {}
@@ -29,11 +29,16 @@ bool StageSolver::solve(const Stage& stage, VectorRef x, VectorRef q, VectorRef 
   guess_ = x;
   const bool anew = stale_ || kind_ == NewtonKind::full;
   if (!prepare(stage, x, anew)) return false;
-  if (iterate(stage, x, q, v)) return true;
+  const bool each_time = kind_ == NewtonKind::full;
+  if (iterate(stage, x, q, v, each_time)) return true;
   const bool nothing_to_renew = (anew || model_.traits().linear) && drift(stage) == 0;
-  if (nothing_to_renew) return false;
+  if (!nothing_to_renew) {
+    x = guess_;
+    if (prepare(stage, x, true) && iterate(stage, x, q, v, each_time)) return true;
+  }
+  if (!insists_ || each_time || model_.traits().linear) return false;
   x = guess_;
-  return prepare(stage, x, true) && iterate(stage, x, q, v);
+  return prepare(stage, x, true) && iterate(stage, x, q, v, true);
 }
 
 // By how much the factor's weights differ from the stage's.
@@ -59,14 +64,14 @@ void StageSolver::linearize(const Stage& stage, const ConstVectorRef& x) {
   factored_ = false;
 }
 
-bool StageSolver::iterate(const Stage& stage, VectorRef x, VectorRef q, VectorRef v) {
+bool StageSolver::iterate(const Stage& stage, VectorRef x, VectorRef q, VectorRef v, bool renew_each_time) {
   // The rate may have become worse since it was measured, but not that of a linear model.
   if (!model_.traits().linear) slowness_ = std::pow(std::max(slowness_, kLeastSlowness), 0.8);
   double last = 0;
   for (int k = 1; k <= max_iterations_; ++k) {
     q = stage.q + stage.w_k * x;
     v = stage.v + stage.w_d * x;
-    if (k > 1 && kind_ == NewtonKind::full && !prepare(stage, x, true)) return false;
+    if (k > 1 && renew_each_time && !prepare(stage, x, true)) return false;
     correction(stage, x, q, v);
     x += dx_;
     const double size = norm_(dx_, stage.w_k, stage.w_d);

@@ -3,7 +3,8 @@
 //     M x = f(t, q, v),    q = q* + w_k x,    v = v* + w_d x.
 //
 // Each correction solves (M + w_d D + w_k K) dx = f - M x. K, D and the factor outlive stages and steps: with
-// `lazy` the factor is renewed when the weights have moved too far, and K and D when convergence is slow. The
+// `lazy` the factor is renewed when the weights have moved too far, and K and D when convergence is slow; a fixed step
+// is tried with a new tangent for each iteration before it is given up. The
 // iteration and what it remembers of its rate follow Hairer & Wanner (1996), IV.8.
 #pragma once
 
@@ -46,12 +47,13 @@ class StageSolver {
   bool prepare(const Stage& stage, const ConstVectorRef& x, bool anew);
   double drift(const Stage& stage) const;
   void linearize(const Stage& stage, const ConstVectorRef& x);
-  bool iterate(const Stage& stage, VectorRef x, VectorRef q, VectorRef v);
+  bool iterate(const Stage& stage, VectorRef x, VectorRef q, VectorRef v, bool renew_each_time);
   void correction(const Stage& stage, const ConstVectorRef& x, const ConstVectorRef& q, const ConstVectorRef& v);
   bool shrinks(double size, double last);
 
   const Model& model_;
   NewtonKind kind_;
+  bool insists_;  // a fixed step: all is tried before it is given up
   double tolerance_;
   int max_iterations_;
   ScaledNorm norm_;

@@ -9,7 +9,8 @@ class MeanForce : public DiscreteGradient {
  public:
   // `parts` must outlive this.
   explicit MeanForce(const FemModel::Parts& parts) : parts_(parts) {}
-  void mean_force(double t0, const ConstVectorRef& q0, double t1, const ConstVectorRef& q1, VectorRef f) const override;
+  void mean_force(double t0, const ConstVectorRef& q0, double t1, const ConstVectorRef& q1, const ConstVectorRef& v,
+                  VectorRef f) const override;
 
  private:
   const FemModel::Parts& parts_;

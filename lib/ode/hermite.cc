@@ -19,4 +19,10 @@ void interpolate(const Knot& begin, const Knot& end, double t, VectorRef q, Vect
       0.5 * h * ((2 * s - 9 * s2 + 12 * s3 - 5 * s4) * begin.a + (3 * s2 - 8 * s3 + 5 * s4) * end.a);
 }
 
+void interpolate_linearly(const Knot& begin, const Knot& end, double t, VectorRef q, VectorRef v) {
+  const double s = (t - begin.t) / (end.t - begin.t);
+  q = (1 - s) * begin.q + s * end.q;
+  v = (1 - s) * begin.v + s * end.v;
+}
+
 }  // namespace orthodyn

@@ -18,4 +18,7 @@ struct Knot {
 // q and v at a time between the ends. At an end, just what stands there.
 void interpolate(const Knot& begin, const Knot& end, double t, VectorRef q, VectorRef v);
 
+// The same by straight lines, of O(h^2): all that a method of order 1 has to give.
+void interpolate_linearly(const Knot& begin, const Knot& end, double t, VectorRef q, VectorRef v);
+
 }  // namespace orthodyn

@@ -34,14 +34,15 @@ struct Linearization {
   std::vector<double> stiffness, damping;
 };
 
-// The forces that have an energy U, between two states: f . (q1 - q0) = U(q0) - U(q1) to round-off, where U
-// is invariant under rotation without a torque about (x0 + x1) / 2, and f -> -grad U as q1 -> q0.
+// The force between two states. Of what has an energy U: f . (q1 - q0) = U(q0) - U(q1) to round-off, where U is
+// invariant under rotation without a torque about (x0 + x1) / 2, and f -> -grad U as q1 -> q0.
 class DiscreteGradient {
  public:
   virtual ~DiscreteGradient() = default;
-  // Loads are taken at the middle of the times. Throws RecoverableError where it does not exist. N.
+  // Loads are taken at the middle of the times, forces that depend on velocities in the middle state with v. Throws
+  // RecoverableError where it does not exist. N.
   virtual void mean_force(double t0, const ConstVectorRef& q0, double t1, const ConstVectorRef& q1,
-                          VectorRef f) const = 0;
+                          const ConstVectorRef& v, VectorRef f) const = 0;
 };
 
 class Model : public OutputSource {

@@ -110,7 +110,8 @@ void add_methods(const Comparison& comparison, const IntegratorEntry& entry, con
   for (const auto& [path, value] : variant.set) method.set.emplace_back(last_step(path), value);
   const auto& tolerances = comparison.tolerances;
   const bool adaptive = has_key(entry.type, "rtol") && !tolerances.empty();
-  const bool by_limit = has_key(entry.type, "safety");  // finds its critical step itself
+  // One that knows no tolerance and finds its critical step itself.
+  const bool by_limit = has_key(entry.type, "safety") && !has_key(entry.type, "rtol");
   const bool fixed = has_key(entry.type, "step") && !comparison.steps.empty() && !(by_limit && entry.by_all);
   const std::string label = method.label;
   if (adaptive) methods.push_back(method);

@@ -72,6 +72,27 @@ TEST_P(Accuracy, OfTheStiffPairCostsNoMoreThanThatOfOneOscillator) {
   EXPECT_LE(steps(stiff), 2 * steps(slow));
 }
 
+// A method of order p needs rtol^(-1/(p+1)) steps, whichever scale decides, and refuses few of them: an estimator
+// of another order, or one that sees what is not there, shows here.
+TEST_P(Accuracy, CostsStepsAsTheOrderSays) {
+  const auto& method = tested(GetParam().integrator);
+  if (!method.has_one_estimator) GTEST_SKIP() << "varies its order, or estimates the error of another one";
+  const int order = method.variants.front().order;
+  for (const std::string decides : {", position_scale: 1e-3, velocity_scale: 3", ", position_scale: 1, velocity_scale: 3e-3"}) {
+    const auto statistics = [&](double rtol) {
+      const auto model = harmonic_oscillator();
+      const auto integrator = make_integrator(GetParam(), model, {rtol, order, decides});
+      integrate(model, *integrator);
+      return integrator->statistics();
+    };
+    const double least = order == 1 ? 1e-4 : 1e-6;
+    const Statistics loose = statistics(100 * least), tight = statistics(least);
+    const double ratio = static_cast<double>(tight.steps) / static_cast<double>(loose.steps);
+    EXPECT_NEAR(std::log(ratio) / std::log(100), 1.0 / (order + 1), 0.2 / (order + 1)) << decides;
+    EXPECT_LE(tight.rejected_steps, 0.05 * static_cast<double>(tight.steps) + 3) << decides;
+  }
+}
+
 // What the linear solver is must not show in the result. `tipped`: the share of the steps and iterations
 // that may differ, and of rtol by which the result may, where round-off can tip a decision.
 struct Tipped {

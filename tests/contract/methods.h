@@ -24,6 +24,7 @@ struct TestedMethod {
   bool full_path = false;         // takes linear_solver: klu_full
   bool exact_if_linear = false;   // the error is that of Krylov spaces, and has no order
   std::string needs = "";         // options without which there is no such method
+  bool has_one_estimator = false;  // of the local error of its one order
 };
 
 inline const std::map<std::string, TestedMethod>& tested_methods() {
@@ -33,21 +34,22 @@ inline const std::map<std::string, TestedMethod>& tested_methods() {
       {"arkode_imex",
        {{{3, ", table: ARK324L2SA_4_2_3"}, {5, ", table: ARK548L2SA_8_4_5"}}, false, false, false,
         ", explicit: [gravity]"}},
-      {"backward_euler", {{{1}}}},
-      {"bathe", {{{2}}}},
+      {"auto", {{{5}}}},
+      {"backward_euler", {{{1}}, true, false, false, "", true}},
+      {"bathe", {{{2}}, true, false, false, "", true}},
       {"central_differences", {{{2}}, false}},
       {"cvode_adams", {{{2, ", max_order: 2"}, {5, ", max_order: 5"}}, false, true}},
       {"cvode_bdf", {{{2, ", max_order: 2"}, {5, ", max_order: 5"}}, true, true}},
-      {"energy_momentum", {{{2}}}},
+      {"energy_momentum", {{{2}}, true, false, false, "", true}},
       {"exponential_rosenbrock", {{{3}}, true, false, true}},
-      {"generalized_alpha", {{{2}}}},
-      {"hht_alpha", {{{2}}}},
+      {"generalized_alpha", {{{2}}, true, false, false, "", true}},
+      {"hht_alpha", {{{2}}, true, false, false, "", true}},
       {"ida_bdf", {{{2, ", max_order: 2"}, {5, ", max_order: 5"}}, true, true}},
-      {"newmark", {{{2}, {1, ", beta: 0.5, gamma: 0.7"}}}},
+      {"newmark", {{{2}, {1, ", beta: 0.5, gamma: 0.7"}}, true, false, false, "", true}},
       {"rosenbrock", {{{3}}}},
       {"sdirk", {{{2, ", order: 2"}, {3, ", order: 3"}, {4, ", order: 4"}}}},
-      {"semi_implicit_euler", {{{1}}}},
-      {"tr_bdf2", {{{2}}}},
+      {"semi_implicit_euler", {{{1}}, true, false, false, "", true}},
+      {"tr_bdf2", {{{2}}, true, false, false, "", true}},
   };
   return all;
 }

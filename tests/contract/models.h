@@ -44,8 +44,9 @@ class SmallModel : public Model, public DiscreteGradient {
 
   const DiscreteGradient* discrete_gradient() const override { return this; }
   // That of the middle: exact where the energy is quadratic.
-  void mean_force(double t0, const ConstVectorRef& q0, double t1, const ConstVectorRef& q1, VectorRef f) const override {
-    force(0.5 * (t0 + t1), 0.5 * (q0 + q1), Vector::Zero(q0.size()), f);
+  void mean_force(double t0, const ConstVectorRef& q0, double t1, const ConstVectorRef& q1, const ConstVectorRef& v,
+                  VectorRef f) const override {
+    force(0.5 * (t0 + t1), 0.5 * (q0 + q1), v, f);
   }
 
   virtual State initial() const = 0;
@@ -265,8 +266,9 @@ class SpringPendulum : public SmallModel {
     f[1] -= kGravity;
   }
   // The spring's as in l^2, whose work is the change of its energy.
-  void mean_force(double, const ConstVectorRef& q0, double, const ConstVectorRef& q1, VectorRef f) const override {
-    f = -0.5 * kStiffness * (1 - 2 / (q0.norm() + q1.norm())) * (q0 + q1);
+  void mean_force(double, const ConstVectorRef& q0, double, const ConstVectorRef& q1, const ConstVectorRef& v,
+                  VectorRef f) const override {
+    f = -0.5 * kStiffness * (1 - 2 / (q0.norm() + q1.norm())) * (q0 + q1) - drag_ * v;
     f[1] -= kGravity;
   }
   double energy(const State& s) const {

@@ -35,7 +35,7 @@ Pair two_states(const BuiltTestScene& s) {
 
 Vector mean_force(const BuiltTestScene& s, const Vector& q0, const Vector& q1) {
   Vector f(s.size());
-  s.model().discrete_gradient()->mean_force(0, q0, 0.1, q1, f);
+  s.model().discrete_gradient()->mean_force(0, q0, 0.1, q1, s.zero(), f);
   return f;
 }
 

@@ -102,7 +102,7 @@ TEST_P(StoringTerms, ForceBetweenTwoStatesDoesTheWorkThatTheEnergyLoses) {
     const Vector q0 = random_dofs(random, s.size(), 0.05);
     const Vector q1 = random_dofs(random, s.size(), 0.05) + Vector::Constant(s.size(), shift);
     Vector f(s.size());
-    s.model().discrete_gradient()->force(0, q0, 0.1, q1, f);
+    s.model().discrete_gradient()->mean_force(0, q0, 0.1, q1, s.zero(), f);
     const double scale = s.potential(q0) + s.potential(q1) + (f.array() * (q1 - q0).array()).abs().sum();
     EXPECT_NEAR(f.dot(q1 - q0), s.potential(q0) - s.potential(q1), 1e-13 * scale) << shift;
   }
@@ -114,7 +114,7 @@ TEST_P(StoringTerms, ForceBetweenTwoStatesThatAreCloseIsThatInTheMiddle) {
   const Vector q = random_dofs(random, s.size(), 0.2), d = random_dofs(random, s.size(), 1);
   for (const double h : {1e-4, 1e-7, 1e-10}) {
     Vector f(s.size());
-    s.model().discrete_gradient()->force(0, q, 0.1, q + h * d, f);
+    s.model().discrete_gradient()->mean_force(0, q, 0.1, q + h * d, s.zero(), f);
     EXPECT_LE((f - s.force(q + h / 2 * d)).norm(), (100 * h * h + 1e-13) * f.norm()) << h;
   }
 }
