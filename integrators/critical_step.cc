@@ -1,5 +1,7 @@
 #include "integrators/critical_step.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,14 +9,28 @@
 
 namespace orthodyn {
 
+namespace {
+
+double stiffness_to_come(const Model& model) {
+  if (model.traits().linear) return 0;
+  double sum = 0;
+  for (const auto& part : model.force_parts()) {
+    const double omega = model.only({part})->frequency_bound();
+    sum += omega * omega;
+  }
+  return sum;
+}
+
+}  // namespace
+
 CriticalStep::CriticalStep(const Model& model, Statistics& statistics)
-    : model_(model), statistics_(statistics), stiffness_(model), damping_(model),
+    : model_(model), statistics_(statistics), reserve_(stiffness_to_come(model)), stiffness_(model), damping_(model),
       values_(model.pattern().row.size()) {}
 
-double CriticalStep::at(const State& state) {
+double CriticalStep::limit(const State& state, double reserve) {
   const Measure measure(statistics_.tangent);
   model_.linearize(state.t, state.q, state.v, TangentKind::exact, linearization_);
-  const double kappa = largest({0, 0, 1}, stiffness_), delta = largest({0, 1, 0}, damping_);
+  const double kappa = reserve + largest({0, 0, 1}, stiffness_), delta = largest({0, 1, 0}, damping_);
   if (!std::isfinite(kappa + delta)) throw RecoverableError("the stiffness is not finite");
   return 2 / (delta + std::sqrt(delta * delta + kappa));
 }
@@ -23,6 +39,22 @@ double CriticalStep::largest(const Weights& weights, SpectralBound& bound) {
   model_.combine(weights, linearization_, values_.data());
   const bool absent = std::all_of(values_.begin(), values_.end(), [](double x) { return x == 0; });
   return absent ? 0 : bound.largest(values_.data());
+}
+
+void refuse_a_run_without_end(const std::string& name, const Model& model, const Task& task, double reach,
+                              long max_steps) {
+  Statistics unused;
+  double longest = 0;
+  try {
+    longest = reach * CriticalStep(model, unused).at_present(task.initial);
+  } catch (const RecoverableError&) {
+    return;  // the start has its own sentence for it
+  }
+  const double steps = (task.end - task.initial.t) / longest;
+  if (steps > static_cast<double>(max_steps))
+    throw ConfigError(fmt::format("{} would take at least {:.2g} steps, of {:.3g} s at most for the stiffness at the "
+                                  "start, more than max_steps, {}; take an implicit integrator, or raise max_steps",
+                                  name, steps, longest, max_steps));
 }
 
 }  // namespace orthodyn

@@ -3,10 +3,15 @@
 #include "integrators/arkode/ark_step.h"
 #include "integrators/arkode/tableau.h"
 #include "integrators/arkode/tables.h"
+#include "integrators/critical_step.h"
 #include "integrators/fixed_step.h"
 
 namespace orthodyn::sundials {
 namespace {
+
+// In critical steps of the leapfrog, 2/omega. The tables end at 1/omega to 4/omega undamped, and further on the real
+// axis, as with damping: no step is longer.
+constexpr double kReach = 4;
 
 struct ErkOptions : ErrorControl, FixedStep {
   ARKODE_ERKTableID table = ARKODE_DORMAND_PRINCE_7_4_5;
@@ -69,6 +74,7 @@ class ArkodeErkChoice : public IntegratorChoice, public ErkOptions {
                         "Reynolds et al., ACM TOMS 49, 2023; Dormand & Prince, J. Comput. Appl. Math. 6, 1980");
   }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+    if (!step) refuse_a_run_without_end("arkode_erk", model, task, kReach, max_steps);
     return std::make_unique<ArkodeErk>(model, Settings::complete_explicit(*this, task), *this);
   }
 };

@@ -5,7 +5,8 @@
 #include <algorithm>
 
 #include "integrators/automatic/outlook.h"
-#include "integrators/native/options.h"
+#include "integrators/error_control.h"
+#include "integrators/linear_solver_key.h"
 
 namespace orthodyn {
 namespace {
@@ -94,7 +95,7 @@ class AutomaticChoice : public IntegratorChoice, public AutomaticOptions {
 
  private:
   void check(const Config& config) const {
-    check_linear_solver(linear_solver, config);
+    require_linear_solver(linear_solver, SolverPaths::reduced, config);
     if (!method) return;
     auto names = Registry<IntegratorChoice>::names();
     std::erase(names, "auto");

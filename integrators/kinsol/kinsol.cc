@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrators/linear_solver_key.h"
 #include "integrators/newton_matrix.h"
 #include "integrators/sundials/callbacks.h"
 #include "integrators/sundials/plug.h"
@@ -62,8 +63,8 @@ class Kinsol : public EquilibriumSolver {
     constexpr double kUnlimited = 1e12;  // of the motion's size
     const double longest = where == Where::nearby ? kUnlimited : std::sqrt(static_cast<double>(model_.num_dofs()));
     require(KINSetMaxNewtonStep(memory_.get(), longest));
-    const int flag = KINSol(memory_.get(), q_.get(), searches_line() ? KIN_LINESEARCH : KIN_NONE, position_weights_.get(),
-                            force_weights_.get());
+    const int flag = KINSol(memory_.get(), q_.get(), searches_line() ? KIN_LINESEARCH : KIN_NONE,
+                            position_weights_.get(), force_weights_.get());
     if (border_.failure) std::rethrow_exception(border_.failure);
     Attempt attempt;
     KINGetNumNonlinSolvIters(memory_.get(), &attempt.iterations);
@@ -105,8 +106,12 @@ class Kinsol : public EquilibriumSolver {
     require(KINSetUserData(m, this));
     functions_.setup = [this] { return factor(); };
     functions_.solve = [this](N_Vector dq, N_Vector b) {
-      const int thrown = guarded(border_, [&] { matrix_->solve(view(b), view(dq)); });
-      return thrown ? thrown : contracts(view(dq).lpNorm<Eigen::Infinity>()) ? 0 : 1;
+      bool good = false;
+      const int thrown = guarded(border_, [&] {
+        matrix_->solve(view(b), view(dq));
+        good = contracts(view(dq).lpNorm<Eigen::Infinity>());
+      });
+      return thrown ? thrown : good ? 0 : 1;
     };
     plug_ = make_matrix_plug(context_);
     solver_ = make_solver_plug(functions_, context_);
@@ -216,14 +221,6 @@ class Kinsol : public EquilibriumSolver {
   std::unique_ptr<void, FreeMemory> memory_;
 };
 
-void check(const KinsolOptions& options, const Config& config) {
-  std::vector<std::string> names;
-  for (const auto& [name, kind] : solver_registry())
-    if (kind.make) names.push_back(name);
-  if (std::find(names.begin(), names.end(), options.linear_solver) != names.end()) return;
-  config.at("linear_solver").fail("expected one of " + join(names) + ", found '" + options.linear_solver + "'");
-}
-
 class KinsolChoice : public EquilibriumChoice, public KinsolOptions {
  public:
   static const Spec<KinsolChoice>& spec() {
@@ -236,7 +233,9 @@ class KinsolChoice : public EquilibriumChoice, public KinsolOptions {
             .key("max_iterations", &KinsolChoice::max_iterations, "Newton iterations per load step.",
                  {.range = {1, 10'000}})
             .key("linear_solver", &KinsolChoice::linear_solver, "One of `orthodyn list solvers`, klu_full aside.")
-            .check([](const KinsolChoice& options, const Config& config) { sundials::check(options, config); });
+            .check([](const KinsolChoice& options, const Config& config) {
+              require_linear_solver(options.linear_solver, SolverPaths::reduced, config);
+            });
     return s;
   }
   static MethodFacts facts() {

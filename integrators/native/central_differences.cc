@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "integrators/error_control.h"
@@ -20,6 +21,18 @@
 namespace orthodyn {
 namespace {
 
+// The longest side of what moves, m; infinite where the model has no shape.
+double extent(const Model& model) {
+  const auto points = model.geometry().points;
+  if (points.empty()) return std::numeric_limits<double>::infinity();
+  Vec3 low = points[0], high = points[0];
+  for (const Vec3& x : points) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  return (high - low).maxCoeff();
+}
+
 struct CentralOptions {
   AutoOr<double> step;  // s
   double safety = 0.9;
@@ -30,7 +43,8 @@ class CentralDifferences : public ExplicitStep {
  public:
   CentralDifferences(const Model& model, const Task& task, const CentralOptions& options)
       : ExplicitStep(model, words(options), 2, options.max_steps), options_(options), watch_(model, statistics_),
-        unbounded_(task.output_interval > 0 ? task.output_interval : task.end - task.initial.t) {
+        unbounded_(task.output_interval > 0 ? task.output_interval : task.end - task.initial.t),
+        extent_(extent(model)) {
     look_before_the_start(task);
     choose_step();
   }
@@ -75,7 +89,9 @@ class CentralDifferences : public ExplicitStep {
                                     steps, h, critical_text(first_critical_), options_.max_steps));
   }
 
-  static std::string critical_text(double step) { return fmt::format("critical {:.6g} s by Lanczos", step); }
+  std::string critical_text(double step) const {
+    return fmt::format("critical {:.6g} s by Lanczos{}", step, watch_.expects_contact() ? ", all contact closed" : "");
+  }
 
   // The bound by the elements is cheaper and lower; it knows neither damping nor deformation.
   std::string element_text() const {
@@ -96,12 +112,20 @@ class CentralDifferences : public ExplicitStep {
     next_.t = h == rest ? t_stop : from.t + h;
     next_.q = from.q + h * from.v + (0.5 * h * h) * from.a;
     predicted_ = from.v + h * from.a;
-    if (!next_.q.allFinite() || !predicted_.allFinite())
-      fail("the motion has grown without bound; set integrator.step: auto or lower integrator.safety",
-           Reason::diverged);
+    if (!next_.q.allFinite() || !predicted_.allFinite()) fail_by_growth();
     acceleration(next_.t, next_.q, predicted_, next_.a);
+    if (has_exploded(h)) fail_by_growth();
     next_.v = from.v + (0.5 * h) * (from.a + next_.a);
     if (watch_.due()) look({next_.t, next_.q, next_.v});
+  }
+
+  // A wave crosses about an element in a stable step: no force moves a node by the whole body in one.
+  bool has_exploded(double h) const {
+    return std::isfinite(watch_.critical()) && h * h * next_.a.lpNorm<Eigen::Infinity>() > extent_;
+  }
+
+  [[noreturn]] void fail_by_growth() const {
+    fail("the motion has grown without bound; set integrator.step: auto or lower integrator.safety", Reason::diverged);
   }
 
   // Steps chosen here divide what is left evenly: the map stays symplectic, and no sliver comes last.
@@ -127,6 +151,7 @@ class CentralDifferences : public ExplicitStep {
   CentralOptions options_;
   StabilityWatch watch_;
   double unbounded_;  // the step where nothing resists
+  double extent_;     // m
   double step_ = 0, first_step_ = 0, first_critical_ = 0;
   Vector predicted_;
 };
@@ -143,7 +168,11 @@ class CentralDifferencesChoice : public IntegratorChoice, public CentralOptions 
                  {.unit = "s", .range = kPositive})
             .key("safety", &C::safety, "Share of the critical step that step: auto takes.",
                  {.range = {0, 1, true, true}})
-            .key("max_steps", &C::max_steps, "Steps after which the run is given up.", {.range = {1}});
+            .key("max_steps", &C::max_steps, "Steps after which the run is given up.", {.range = {1}})
+            .check([](const C& options, const Config& config) {
+              if (options.step.value && options.safety != CentralOptions{}.safety)
+                config.at("safety").fail("has no meaning with a fixed step; remove it, or set `step: auto`");
+            });
     return s;
   }
   static MethodFacts facts() {

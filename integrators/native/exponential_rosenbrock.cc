@@ -14,18 +14,19 @@
 #include <limits>
 #include <optional>
 
+#include "integrators/critical_step.h"
 #include "integrators/error_control.h"
 #include "integrators/fixed_step.h"
 #include "integrators/native/explicit_step.h"
 #include "integrators/native/krylov_phi.h"
 #include "integrators/native/scaled_system.h"
 #include "integrators/native/step_control.h"
+#include "integrators/native/time_difference.h"
 
 namespace orthodyn {
 namespace {
 
-constexpr double kKrylovShare = 0.01;    // of the tolerance, for each Krylov space
-constexpr double kQuotientShare = 1e-6;  // of the step, for dF/dt
+constexpr double kKrylovShare = 0.01;  // of the tolerance, for each Krylov space
 constexpr double kRetryFactor = 0.25;
 
 struct ExponentialOptions : ErrorControl, FixedStep {
@@ -72,9 +73,9 @@ class ExponentialRosenbrock : public ExplicitStep {
       system_.linearize({from.t, from.q, from.v});
     }
     if (system_.with_time()) {
-      const double dt = kQuotientShare * (options_.step ? *options_.step : h_ > 0 ? h_ : t_stop - from.t);
-      acceleration(from.t + dt, from.q, from.v, slope_);
-      slope_ = (slope_ - from.a) / dt;
+      const double later = shortly_after(from.t, options_.step ? *options_.step : h_ > 0 ? h_ : t_stop - from.t);
+      acceleration(later, from.q, from.v, slope_);
+      slope_ = (slope_ - from.a) / (later - from.t);
       system_.set_slope(slope_);
     }
     system_.rate(from.v, from.a, rate_);
@@ -220,7 +221,16 @@ class ExponentialRosenbrockChoice : public IntegratorChoice, public ExponentialO
                         "Hochbruck, Ostermann & Schweitzer, SIAM J. Numer. Anal. 47, 2009; Niesen & Wright 2012");
   }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
+    if (!step) refuse_a_run_without_end("exponential_rosenbrock", model, task, krylov_reach(model), max_steps);
     return std::make_unique<ExponentialRosenbrock>(model, task, *this);
+  }
+
+ private:
+  // In critical steps of the leapfrog, 2/omega resp. 1/delta: a space of dimension m reaches h omega of about m
+  // undamped, and h delta of m^2/4 where damping makes the spectrum real (Hochbruck & Lubich 1997).
+  double krylov_reach(const Model& model) const {
+    const double m = krylov_dimension;
+    return model.traits().damping_matrix ? std::max(m / 2, m * m / 4) : m / 2;
   }
 };
 

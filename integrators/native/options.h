@@ -6,6 +6,7 @@
 
 #include "integrators/error_control.h"
 #include "integrators/fixed_step.h"
+#include "integrators/linear_solver_key.h"
 
 namespace orthodyn {
 
@@ -40,9 +41,6 @@ struct NewtonOptions : LinearOptions {
   static Spec<T> spec_for();
 };
 
-// Refuses a solver that is not known, or that is none of n x n matrices.
-void check_linear_solver(const std::string& given, const Config& config);
-
 template <class T>
 Spec<T> LinearOptions::spec_for() {
   using O = LinearOptions;
@@ -51,7 +49,9 @@ Spec<T> LinearOptions::spec_for() {
   spec.key("linear_solver", &O::linear_solver, "One of `orthodyn list solvers`, but for klu_full.")
       .key("gauss_newton", &O::gauss_newton,
            "Use the positive semidefinite Gauss-Newton part of the tangent from the start.")
-      .check([](const T& options, const Config& config) { check_linear_solver(options.linear_solver, config); });
+      .check([](const T& options, const Config& config) {
+        require_linear_solver(options.linear_solver, SolverPaths::reduced, config);
+      });
   return spec;
 }
 

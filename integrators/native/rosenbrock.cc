@@ -3,11 +3,9 @@
 //
 //   (I - gamma h W) u_i = gamma (h f(t_i, y0 + sum_j a_ij u_j) + sum_j c_ij u_j + gamma_i h^2 df/dt)
 //   y1 = y0 + sum_j m_j u_j
-#include <algorithm>
-#include <cmath>
-
 #include "integrators/native/linearly_implicit.h"
 #include "integrators/native/ros34pw2.h"
+#include "integrators/native/time_difference.h"
 
 namespace orthodyn {
 namespace {
@@ -76,9 +74,8 @@ class Rosenbrock : public LinearlyImplicit {
     solve_.solve(u_q_.col(i), p_, u_q_.col(i), u_v_.col(i));
   }
 
-  // A difference quotient into the step, for a kink may lie before it.
   void differentiate_in_time(double h) {
-    const double t = now().t, later = t + std::max(1e-6 * h, 1e-10 * std::abs(t));
+    const double t = now().t, later = shortly_after(t, h);
     force(later, now().q, now().v, f_t_);
     f_t_ = (f_t_ - force_now()) / (later - t);
   }

@@ -22,6 +22,7 @@ class StabilityWatch {
   bool due() { return !constant_ && --left_ <= 0; }
 
   double critical() const { return step_; }
+  bool expects_contact() const { return critical_.reserve() > 0; }
 
  private:
   bool constant_;

@@ -1,7 +1,6 @@
 #include "integrators/sundials/options.h"
 
-#include <fmt/format.h>
-
+#include "integrators/linear_solver_key.h"
 #include "lib/core/versions.h"
 #include "lib/linear/solver.h"
 
@@ -19,19 +18,10 @@ const bool version_registered = library_versions().emplace("SUNDIALS", library_v
 
 }  // namespace
 
-std::vector<std::string> linear_solver_names() {
-  std::vector<std::string> names;
-  for (const auto& [name, kind] : solver_registry()) names.push_back(name);
-  return names;
-}
+std::vector<std::string> linear_solver_names() { return orthodyn::linear_solver_names(SolverPaths::all); }
 
 void check_options(const Options& options, const Config& config) {
-  if (solver_registry().contains(options.linear_solver)) return;
-  const auto names = linear_solver_names();
-  const auto near = nearest_name(options.linear_solver, names);
-  config.at("linear_solver")
-      .fail("expected one of " + join(names) + ", found '" + options.linear_solver + "'" +
-            (near.empty() ? "" : "; did you mean '" + near + "'?"));
+  require_linear_solver(options.linear_solver, SolverPaths::all, config);
 }
 
 Settings Settings::complete(const Options& options, const Task& task) {

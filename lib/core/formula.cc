@@ -54,7 +54,8 @@ double Formula::evaluate(const double* values) const {
   std::vector<std::string> place;
   for (std::size_t i = 0; i < parsed_->names.size(); ++i)
     place.push_back(fmt::format("{} = {}", parsed_->names[i], values[i]));
-  throw ConfigError(fmt::format("{}: '{}' is {} at {}", where_, text_, value, join(place)));
+  throw ConfigError(fmt::format("{}: '{}' is {} at {}", where_, text_,
+                                std::isnan(value) ? "not a number" : "infinite", join(place)));
 }
 
 void fail_formula(const Config& c, const std::string& known, const std::string& complaint) {

@@ -37,8 +37,9 @@ template <class T, class F>
 Differences<T> smooth_differences(const F& f, double t, double step, const std::vector<double>& kinks) {
   const SmoothStretch at(t, step, kinks);
   const DifferenceWeights w((t - at.begin) / at.h);
-  Differences<T> out{0 * f(t), 0 * f(t)};
-  for (std::size_t k = 0; k < DifferenceWeights::kPoints; ++k) {
+  const T start = f(at.point(0));
+  Differences<T> out{w.first[0] / at.h * start, w.second[0] / (at.h * at.h) * start};
+  for (std::size_t k = 1; k < DifferenceWeights::kPoints; ++k) {
     const T value = f(at.point(k));
     out.first += w.first[k] / at.h * value;
     out.second += w.second[k] / (at.h * at.h) * value;

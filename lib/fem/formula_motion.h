@@ -1,5 +1,5 @@
 // A motion by three formulas of the displacement, u(t, X); velocity and acceleration are differences of order
-// eight and seven (differences.h), which do not reach across a kink.
+// eight and seven (differences.h), which do not reach across a kink nor to times before the start.
 #pragma once
 
 #include <array>
@@ -11,9 +11,9 @@ namespace orthodyn {
 
 class FormulaMotion : public Motion {
  public:
-  // u in m; the step of the differences and the kinks in s.
-  FormulaMotion(std::array<TimePointFormula, 3> displacement, double resolution, std::vector<double> kinks)
-      : u_(std::move(displacement)), resolution_(resolution), kinks_(std::move(kinks)) {}
+  // u in m; the step of the differences, the kinks and the start in s.
+  FormulaMotion(std::array<TimePointFormula, 3> displacement, double resolution, std::vector<double> kinks,
+                double start);
 
   // Throws ConfigError where a formula has no value.
   Moved at(double t, const NodalVector& X) const override;
@@ -23,7 +23,7 @@ class FormulaMotion : public Motion {
  private:
   std::array<TimePointFormula, 3> u_;
   double resolution_;
-  std::vector<double> kinks_;
+  std::vector<double> kinks_, limits_;  // limits: kinks and start
 };
 
 }  // namespace orthodyn

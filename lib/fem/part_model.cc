@@ -1,6 +1,7 @@
 #include "lib/fem/part_model.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace orthodyn {
 
@@ -45,6 +46,7 @@ PartModel::PartModel(const FemModel& whole, const std::vector<std::string>& name
   };
   for (std::size_t k = 0; k < terms.size(); ++k)
     if (wanted(known[k])) terms_.push_back(terms[k]);
+  elastic_ = std::any_of(known.begin(), known.begin() + static_cast<long>(whole.parts().elastic.size()), wanted);
   mass_damping_ = wanted(kMassDamping);
   support_pull_ = wanted(kSupportPull);
 }
@@ -75,6 +77,15 @@ void PartModel::combine(const Weights& w, const Linearization& at, double* value
   const auto& parts = whole_.parts();
   const double dropped = mass_damping_ ? 0 : w.damping * parts.mass_damping;
   whole_.combine({w.mass - dropped, w.damping, w.stiffness}, at, values);
+}
+
+double PartModel::frequency_bound() const {
+  if (elastic_) return 0;
+  const Mass& mass = *whole_.parts().mass;
+  Vector row_sums = Vector::Zero(mass.nodal().size());
+  for (const Term* term : terms_) term->add_stiffness_bound(row_sums);
+  // A consistent element mass is at worst five times smaller in a mode than the lumped one.
+  return std::sqrt((mass.lumped() ? 1 : 5) * row_sums.cwiseQuotient(mass.nodal()).maxCoeff());
 }
 
 std::vector<double> PartModel::breakpoints(double start, double end) const { return whole_.breakpoints(start, end); }

@@ -27,11 +27,14 @@ class PartModel : public Model {
   void combine(const Weights& w, const Linearization& at, double* values) const override;
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { whole_.multiply_mass(x, y); }
   void solve_mass(VectorRef x) const override { whole_.solve_mass(x); }
+  // Of terms that bound their own stiffness (Term::add_stiffness_bound); with elasticity among them none is at hand.
+  double frequency_bound() const override;
   std::vector<double> breakpoints(double start, double end) const override;
 
  private:
   const FemModel& whole_;
   std::vector<const Term*> terms_;
+  bool elastic_ = false;
   bool mass_damping_ = false;
   bool support_pull_ = false;
 };

@@ -93,13 +93,13 @@ EigenPairs lanczos(Problem& problem, double shift, int count) {
   if (solver.info() != Spectra::CompInfo::Successful)
     throw RunError(fmt::format("{} of {} modes converged in {} restarts of the Lanczos iteration; ask for fewer modes",
                                found, count, kRestarts));
-  return {solver.eigenvalues(), solver.eigenvectors(), 0};
+  return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
 EigenPairs dense(const Problem& problem, int count) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(problem.dense(problem.K()),
                                                                         problem.dense(problem.M()));
-  return {eigen.eigenvalues().head(count), eigen.eigenvectors().leftCols(count), 0};
+  return {eigen.eigenvalues().head(count), eigen.eigenvectors().leftCols(count)};
 }
 
 int zeros_among(const Vector& values, double largest) {
@@ -125,7 +125,8 @@ EigenPairs sparse(Problem& problem, double largest, int count) {
 
 }  // namespace
 
-EigenPairs lowest_eigenpairs(const Pattern& pattern, const std::vector<double>& K, const std::vector<double>& M, int count) {
+EigenPairs lowest_eigenpairs(const Pattern& pattern, const std::vector<double>& K, const std::vector<double>& M,
+                             int count) {
   if (!pattern.symmetric) throw ConfigError("modes need a symmetric stiffness");
   if (count > pattern.n)
     throw ConfigError(fmt::format("{} modes were asked for, but there are {} unknowns and as many modes", count, pattern.n));
@@ -136,8 +137,9 @@ EigenPairs lowest_eigenpairs(const Pattern& pattern, const std::vector<double>& 
   pairs.values.conservativeResize(count);
   pairs.shapes.conservativeResize(Eigen::NoChange, count);
   pairs.zeros = zeros_among(pairs.values, largest);
+  pairs.resolution = kZero * largest;
   for (double& value : pairs.values)
-    if (std::abs(value) <= kZero * largest) value = 0;
+    if (std::abs(value) <= pairs.resolution) value = 0;
   return pairs;
 }
 

@@ -2,7 +2,8 @@
 // Lanczos iteration on (K + s M)^-1 M (Ericsson & Ruhe 1980, through Spectra), dense for small matrices.
 //
 // The shift s > 0 makes K + s M positive definite where K alone is not, as that of a body that nothing holds. Zeros
-// are what round-off leaves of them: eigenvalues within eps times a hundred of the largest; as soon as there are some,
+// are what round-off does not tell from it: eigenvalues within eps times a hundred of the largest, whether the matrix
+// is singular or its spectrum that wide; as soon as there are some,
 // a second pass with a shift of the size of the lowest other eigenvalue finds that to full accuracy.
 #pragma once
 
@@ -16,6 +17,7 @@ struct EigenPairs {
   Vector values;           // ascending; zeros are exactly 0
   Eigen::MatrixXd shapes;  // a column each, M-orthonormal
   int zeros = 0;
+  double resolution = 0;   // the eigenvalue up to which they are
 };
 
 // K and M by their values on `pattern`. Throws ConfigError if the pattern is not symmetric or there are fewer

@@ -49,7 +49,7 @@ Modes natural_modes(const Model& model, const State& about, int count) {
   double lowest_elastic = 0;
   for (const double lambda : pairs.values)
     if (lowest_elastic == 0) lowest_elastic = std::abs(lambda);
-  Modes out{{}, pairs.zeros};
+  Modes out{{}, pairs.zeros, std::sqrt(pairs.resolution) / (2 * std::numbers::pi)};
   for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
     Mode mode{pairs.values[k], pairs.shapes.col(k)};
     fix_sign(mode.shape);

@@ -1,7 +1,9 @@
 // Natural modes of a model about a state: K phi = omega^2 M phi with the exact K there, no damping.
 //
 // Shapes are M-orthonormal, so that with r a rigid translation along an axis Gamma = r' M phi is the participation
-// factor and Gamma^2 the effective modal mass, kg; these of all modes add up to the mass of the free coordinates.
+// factor and Gamma^2 the effective modal mass, kg; these of all modes add up to the mass of the free coordinates. The
+// model's supports must be at rest at the state's time: they have no part in a mode, but with a consistent mass those
+// that `motions` move share in Gamma what couples them with free nodes.
 #pragma once
 
 #include <array>
@@ -24,7 +26,8 @@ struct Mode {
 
 struct Modes {
   std::vector<Mode> modes;  // ascending
-  int rigid = 0;            // those of frequency zero
+  int zeros = 0;            // those that round-off does not tell from zero, rigid or not
+  double resolution = 0;    // the frequency up to which it does not, Hz
 };
 
 // Throws ConfigError if the model has fewer modes or an unsymmetric tangent, RunError if they cannot be found.

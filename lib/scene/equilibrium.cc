@@ -36,7 +36,18 @@ StaticProblem static_problem(const Scene& scene, const BuiltScene& built) {
   return problem;
 }
 
+Scene at_rest(const Scene& scene) {
+  Scene still = scene;
+  still.analysis = Analysis::statical;
+  still.time.end = scene.time.start;
+  return still;
+}
+
 Vector equilibrium(const Scene& scene, const BuiltScene& built) {
+  if (scene.analysis == Analysis::dynamic && !scene.motions.empty()) {
+    const Scene still = at_rest(scene);
+    return equilibrium(still, build(still));
+  }
   const StaticProblem problem = static_problem(scene, built);
   while (!problem.stepper->done()) problem.stepper->step();
   return problem.stepper->state().q;

@@ -18,7 +18,11 @@ struct StaticProblem {
 // ConfigError for a body that is not held. `built` must outlive the problem.
 StaticProblem static_problem(const Scene& scene, const BuiltScene& built);
 
-// The free coordinates in equilibrium. Throws ConfigError as above, RunError where there is none to be found.
+// The static counterpart of a dynamic scene: its body as it is at the start, with supports that stand still.
+Scene at_rest(const Scene& scene);
+
+// The free coordinates in equilibrium, with supports that stand still. Throws ConfigError as above, RunError where
+// there is none to be found.
 Vector equilibrium(const Scene& scene, const BuiltScene& built);
 
 }  // namespace orthodyn

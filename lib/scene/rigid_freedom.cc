@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "lib/core/values.h"
@@ -12,7 +13,7 @@ namespace {
 
 using Motions = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 
-constexpr double kHeld = 1e-9;    // of a motion of size one at a clamped coordinate
+constexpr double kHeld = 1e-9;       // of the motion that the clamps hold best
 constexpr double kRoundOff = 1e-14;  // of the stiffness that each coordinate has of its own
 
 // For each node the number of its connected part; -1 for nodes of no element.
@@ -20,7 +21,8 @@ std::vector<int> parts_of(const TetMesh& mesh) {
   std::vector<int> parent(mesh.nodes.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int i) {
-    while (parent[static_cast<std::size_t>(i)] != i) i = parent[static_cast<std::size_t>(i)] = parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(i)])];
+    const auto up = [&](int k) -> int& { return parent[static_cast<std::size_t>(k)]; };
+    while (up(i) != i) i = up(i) = up(up(i));
     return i;
   };
   for (const auto& tet : mesh.tets)
@@ -52,25 +54,24 @@ class RigidMotions {
 
   // The combinations of the six that vanish at all clamped coordinates, as columns.
   Eigen::MatrixXd not_clamped() const {
-    Eigen::Matrix<double, 6, 6> gram = Eigen::Matrix<double, 6, 6>::Zero();
-    for (const int i : nodes_) {
-      const auto at_node = motions(i);
-      for (std::size_t c = 0; c < 3; ++c)
-        if (model_.parts().dofs->node(i)[c] < 0) {
-          const auto row = at_node.row(static_cast<Eigen::Index>(c));
-          gram += row.transpose() * row;
-        }
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(gram);
-    const auto free = (eigen.eigenvalues().array() <= kHeld * kHeld * std::max(1.0, eigen.eigenvalues()[5])).count();
-    return eigen.eigenvectors().leftCols(free);
+    const Motions held = at_clamps();
+    if (held.rows() == 0) return Eigen::MatrixXd::Identity(6, 6);
+    // Triangular, with the singular values of all rows; those of the Gram matrix would be squared, below round-off.
+    Eigen::Matrix<double, 6, 6> R = Eigen::Matrix<double, 6, 6>::Zero();
+    const Eigen::HouseholderQR<Motions> qr(held);
+    const Eigen::Index rank = std::min<Eigen::Index>(6, held.rows());
+    R.topRows(rank) = qr.matrixQR().topRows(rank).triangularView<Eigen::Upper>();
+    const Eigen::JacobiSVD<Eigen::Matrix<double, 6, 6>> svd(R, Eigen::ComputeFullV);
+    const auto free = (svd.singularValues().array() <= kHeld * svd.singularValues()[0]).count();
+    return svd.matrixV().rightCols(free);
   }
 
   // At the free coordinates.
   Eigen::MatrixXd on_dofs(const Eigen::MatrixXd& combinations) const {
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(model_.num_dofs(), combinations.cols());
     for (const int i : nodes_) {
-      const Eigen::MatrixXd moved = motions(i) * combinations;
+      const Motions at_node = motions(i);
+      const Eigen::MatrixXd moved = at_node * combinations;
       for (std::size_t c = 0; c < 3; ++c)
         if (const int dof = model_.parts().dofs->node(i)[c]; dof >= 0)
           out.row(dof) = moved.row(static_cast<Eigen::Index>(c));
@@ -79,6 +80,17 @@ class RigidMotions {
   }
 
  private:
+  // A row per clamped coordinate.
+  Motions at_clamps() const {
+    std::vector<Eigen::Matrix<double, 1, 6>> rows;
+    for (const int i : nodes_)
+      for (std::size_t c = 0; c < 3; ++c)
+        if (model_.parts().dofs->node(i)[c] < 0) rows.push_back(motions(i).row(static_cast<Eigen::Index>(c)));
+    Motions out(static_cast<Eigen::Index>(rows.size()), 6);
+    for (std::size_t k = 0; k < rows.size(); ++k) out.row(static_cast<Eigen::Index>(k)) = rows[k];
+    return out;
+  }
+
   Eigen::Matrix<double, 3, 6> motions(int node) const {
     const Vec3 arm = (model_.parts().rest->col(node) - center_) / radius_;
     Eigen::Matrix<double, 3, 6> out;
@@ -119,32 +131,53 @@ std::string sentence(const Eigen::MatrixXd& free) {
   if (!along.empty()) words.push_back("be translated along " + join(along));
   if (!about.empty()) words.push_back((along.empty() ? "be rotated about " : "rotated about ") + join(about));
   if (const auto more = free.cols() - static_cast<Eigen::Index>(along.size() + about.size()); more > 0)
-    words.push_back(fmt::format("move in {} {}combined way{}", more, words.empty() ? "" : "further ", more > 1 ? "s" : ""));
+    words.push_back(fmt::format("move in {} {}combined way{}", more, words.empty() ? "" : "further ",
+                                more > 1 ? "s" : ""));
   std::string text = "can " + words[0];
   for (std::size_t k = 1; k < words.size(); ++k) text += " and " + words[k];
   return text;
 }
 
-}  // namespace
+// Of each part that hangs together: its centre, and as columns the combinations of its six rigid motions that are free.
+struct FreePart {
+  Vec3 center;
+  Eigen::MatrixXd motions;
+};
 
-std::string describe_rigid_freedom(const FemModel& model, double t) {
+std::vector<FreePart> freedom_of_parts(const FemModel& model, double t) {
   const auto part_of = parts_of(model.parts().mesh);
   const int count = part_of.empty() ? 0 : *std::max_element(part_of.begin(), part_of.end()) + 1;
   Linearization at;
+  std::vector<FreePart> all;
   for (int part = 0; part < count; ++part) {
     const RigidMotions rigid(model, part_of, part);
     Eigen::MatrixXd free = rigid.not_clamped();
-    if (free.cols() == 0) continue;
-    if (at.stiffness.empty()) {
+    if (free.cols() > 0 && at.stiffness.empty()) {
       const Vector zero = Vector::Zero(model.num_dofs());
       model.linearize(t, zero, zero, TangentKind::gauss_newton, at);
     }
-    free = without_stiffness(free, rigid.on_dofs(free), model.pattern(), at.stiffness);
-    if (free.cols() == 0) continue;
-    const std::string which = count == 1 ? "the body" : "the part of the body about " + Value<Vec3>::yaml(rigid.center()) + " m";
-    return which + " " + sentence(free);
+    if (free.cols() > 0) free = without_stiffness(free, rigid.on_dofs(free), model.pattern(), at.stiffness);
+    all.push_back({rigid.center(), std::move(free)});
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string describe_rigid_freedom(const FemModel& model, double t) {
+  const auto parts = freedom_of_parts(model, t);
+  for (const auto& part : parts) {
+    if (part.motions.cols() == 0) continue;
+    return (parts.size() == 1 ? "the body " : "the part of the body about " + Value<Vec3>::yaml(part.center) + " m ") +
+           sentence(part.motions);
   }
   return "";
+}
+
+int count_rigid_freedom(const FemModel& model, double t) {
+  Eigen::Index sum = 0;
+  for (const auto& part : freedom_of_parts(model, t)) sum += part.motions.cols();
+  return static_cast<int>(sum);
 }
 
 }  // namespace orthodyn

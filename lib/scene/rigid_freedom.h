@@ -14,4 +14,7 @@ namespace orthodyn {
 // "can be translated along x and rotated about x", of the first part found free; empty if all are held.
 std::string describe_rigid_freedom(const FemModel& model, double t);
 
+// How many there are, of all parts.
+int count_rigid_freedom(const FemModel& model, double t);
+
 }  // namespace orthodyn

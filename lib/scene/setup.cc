@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 
 #include "lib/linear/blas.h"
 #include "lib/scene/equilibrium.h"
@@ -63,11 +64,17 @@ void check_expectations(const Scene& scene, const FemModel& model) {
   }
 }
 
+// It names a place of the input already, such as that of a formula which has no value.
+bool names_a_place(const ConfigError& error, const Config& config) {
+  return std::string_view(error.what()).starts_with(config.file() + ":");
+}
+
 std::unique_ptr<Integrator> make_integrator(Config& config, const Scene& scene, const Task& task, const Model& model) {
   std::unique_ptr<Integrator> integrator;
   try {
     integrator = scene.integrator->make(model, task);
   } catch (const ConfigError& e) {
+    if (names_a_place(e, config)) throw;
     config.at("integrator").fail(e.what());
   }
   const Config section = config.at("integrator");

@@ -21,6 +21,15 @@ const Spec<Rotation>& Rotation::spec() {
 
 namespace {
 
+// A translation along coordinates that stay free would be lost without a word.
+void check_translation(const SupportMotion& m, const Config& config) {
+  if (!m.translation || m.translation->isZero(0)) return;
+  for (const Component c : m.components)
+    if ((*m.translation)[static_cast<int>(c)] != 0) return;
+  config.at("translation").fail("moves nothing: its parts along the chosen components are zero; add those that it "
+                                "is to move to 'components'");
+}
+
 void check_motion(const SupportMotion& m, const Config& config) {
   m.check(config);
   if (m.components.empty()) config.at("components").fail("is empty; give some of x, y, z");
@@ -32,6 +41,7 @@ void check_motion(const SupportMotion& m, const Config& config) {
   if (!rigid && m.factor) config.at("factor").fail("goes with translation and rotation; a formula has its own t");
   if (rigid && !m.kinks.empty()) config.at("kinks").fail("goes with displacement; a factor knows its own");
   if (rigid && m.resolution) config.at("resolution").fail("goes with displacement; a factor has exact rates");
+  check_translation(m, config);
 }
 
 }  // namespace
@@ -56,9 +66,9 @@ const Spec<SupportMotion>& SupportMotion::spec() {
   return s;
 }
 
-std::shared_ptr<const Motion> SupportMotion::motion() const {
+std::shared_ptr<const Motion> SupportMotion::motion(double start) const {
   if (displacement)
-    return std::make_shared<FormulaMotion>(*displacement, resolution.value_or(kUsualResolution), kinks);
+    return std::make_shared<FormulaMotion>(*displacement, resolution.value_or(kUsualResolution), kinks, start);
   const Rotation turn = rotation.value_or(Rotation{});
   return std::make_shared<RigidMotion>(translation.value_or(Vec3::Zero()), turn.point, turn.axis.normalized(),
                                        turn.angle, factor);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -38,7 +39,8 @@ struct SupportMotion : Selection {
   std::optional<double> resolution;                             // s
   static const Spec<SupportMotion>& spec();
 
-  std::shared_ptr<const Motion> motion() const;
+  // start: the time before which it is never asked for, s.
+  std::shared_ptr<const Motion> motion(double start = -std::numeric_limits<double>::infinity()) const;
 };
 
 }  // namespace orthodyn

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "lib/fem/still_motion.h"
+
 namespace orthodyn {
 
 namespace {
@@ -82,6 +84,11 @@ void check_velocity(const Scene& scene, const SupportMotion& given, const Motion
                     "neighbours; use a smooth_step, or mass: lumped");
 }
 
+std::shared_ptr<const Motion> motion_in(const Scene& scene, const SupportMotion& given) {
+  if (scene.analysis == Analysis::statical) return std::make_shared<StillMotion>(given.motion(scene.time.start));
+  return given.motion(scene.time.start);
+}
+
 }  // namespace
 
 Supports make_supports(const Scene& scene, const TetMesh& mesh) {
@@ -93,7 +100,7 @@ Supports make_supports(const Scene& scene, const TetMesh& mesh) {
   }
   for (std::size_t k = 0; k < scene.motions.size(); ++k) {
     const SupportMotion& given = scene.motions[k];
-    out.moved.push_back({given.motion(), selected_nodes(given, mesh), mask(given.components)});
+    out.moved.push_back({motion_in(scene, given), selected_nodes(given, mesh), mask(given.components)});
     check_velocity(scene, given, *out.moved.back().motion);
     held.add(named(given.name, "motion", k), given, out.moved.back().nodes, out.moved.back().components, true);
   }

@@ -1,5 +1,5 @@
 // The clamps and motions of a scene on its mesh: which coordinates are no unknowns, how they move, and which of
-// them belong to which name.
+// them belong to which name. In a static analysis they stand still where their motion has brought them.
 #pragma once
 
 #include "lib/fem/fem_model.h"

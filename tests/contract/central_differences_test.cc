@@ -214,6 +214,92 @@ TEST(CentralDifferences, EndWithARemedyWhereTheMotionGrowsWithoutBound) {
   EXPECT_NE(message.find("lower integrator.safety"), std::string::npos) << message;
 }
 
+class PairOfOneMetre : public StiffeningPair {
+ public:
+  PairOfOneMetre() : StiffeningPair(0.01) {}
+  Geometry geometry() const override { return {{Vec3::Zero(), Vec3::UnitX()}, {}}; }
+};
+
+// Long before numbers overflow.
+TEST(CentralDifferences, EndWhereAForceWouldMoveANodeByTheWholeBodyInAStep) {
+  const PairOfOneMetre model;
+  const auto integrator = leapfrog(model);
+  double farthest = 0;
+  try {
+    integrate(model, *integrator, [&](const StepInfo& info, const Integrator& i) {
+      State state;
+      i.interpolate(info.t, state);
+      farthest = std::max(farthest, state.q.lpNorm<Eigen::Infinity>());
+    });
+    FAIL() << "nothing was thrown";
+  } catch (const RunError& e) {
+    const std::string message = e.what();
+    EXPECT_EQ(e.reason(), Reason::diverged);
+    EXPECT_NE(message.find("the motion has grown without bound"), std::string::npos) << message;
+  }
+  EXPECT_LE(farthest, 1);
+}
+
+TEST(CentralDifferences, RefuseASafetyBesideAFixedStep) {
+  try {
+    Registry<IntegratorChoice>::read(Config::from_text("{type: central_differences, step: 0.1, safety: 0.5}"));
+    FAIL() << "nothing was thrown";
+  } catch (const ConfigError& e) {
+    const std::string message = e.what();
+    EXPECT_NE(message.find("safety: has no meaning with a fixed step"), std::string::npos) << message;
+  }
+}
+
+// A unit mass on a spring of 1 N/m, thrown at a wall at x = -1/2 that is a hundred times as stiff.
+class Wall : public SmallModel {
+ public:
+  static constexpr double kWall = 100;
+  explicit Wall(bool told) : SmallModel(Matrix::Identity(1, 1)), told_(told) {}
+  void force(double, const ConstVectorRef& q, const ConstVectorRef&, VectorRef f) const override {
+    f[0] = -q[0] + kWall * depth(q);
+  }
+  double energy(const State& s) const {
+    return 0.5 * (s.v.squaredNorm() + s.q.squaredNorm() + kWall * depth(s.q) * depth(s.q));
+  }
+  std::vector<std::string> force_parts() const override { return {"spring", "wall"}; }
+  std::unique_ptr<Model> only(const std::vector<std::string>& parts) const override {
+    return std::make_unique<Bounded>(told_ && parts[0] == "wall" ? std::sqrt(kWall) : 0);
+  }
+  State initial() const override { return {0, Vector::Ones(1), Vector::Zero(1)}; }
+  double end() const override { return 30; }
+
+ private:
+  static double depth(const ConstVectorRef& q) { return std::max(-0.5 - q[0], 0.0); }
+  struct Bounded : LinearModel {
+    explicit Bounded(double bound) : LinearModel({.mass = scalar(1), .stiffness = scalar(0)}), bound_(bound) {}
+    double frequency_bound() const override { return bound_; }
+    double bound_;
+  };
+  Matrix stiffness(double, const Vector& q, const Vector&, TangentKind) const override {
+    return scalar(depth(q) > 0 ? 1 + kWall : 1);
+  }
+  bool told_;
+};
+
+TEST(CentralDifferences, KeepAStepThatIsStableWhenContactSetsIn) {
+  const Wall model(true);
+  const double safe = 2 / std::sqrt(1 + Wall::kWall);
+  EXPECT_NEAR(critical_step(model), safe, 1e-9);
+  const auto integrator = leapfrog(model, ", safety: 0.5");
+  integrate(model, *integrator, [&](const StepInfo& info, const Integrator& i) {
+    State state;
+    i.interpolate(info.t, state);
+    EXPECT_LE(info.h, 0.5 * safe * (1 + 1e-9));
+    EXPECT_LE(model.energy(state), 4 * model.energy(model.initial()));
+  });
+  EXPECT_NE(refusal(model, ", step: 0.3").find("above the critical step, 0.199"), std::string::npos);
+}
+
+// The step of the free flight, ten times too long for the wall.
+TEST(CriticalStep, IsThatOfTheStateWhereNoPartTellsABound) {
+  EXPECT_NEAR(critical_step(Wall(false)), 2, 1e-9);
+}
+
 TEST(CentralDifferences, ServeAConsistentMass) {
   const auto model = chain(true);
   const auto integrator = leapfrog(model, ", safety: 0.02");

@@ -65,7 +65,7 @@ TEST_P(Events, ComeWhereTheDenseOutputHasThem) {
   EXPECT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
   EXPECT_EQ(outcome.remark, "");
   const auto expected = sign_changes(GetParam(), model, 0.3);
-  EXPECT_EQ(expected.size(), 5u);
+  EXPECT_EQ(expected.size(), 6u);
   ASSERT_EQ(watch.crossings.size(), expected.size());
   for (std::size_t k = 0; k < expected.size(); ++k) {
     const Crossing& crossing = watch.crossings[k];

@@ -66,6 +66,24 @@ TEST(ArkodeErk, RefusesToControlTheErrorByATableWithoutAnEstimate) {
   EXPECT_EQ(refusal("{type: arkode_erk, table: KNOTH_WOLKE_3_3, step: 0.1}"), "");
 }
 
+// omega = 1e6 over 10 s: 4 critical steps of 2/omega are 8e-6 s, so 1.25e6 steps; a Krylov space of 40 reaches 4e-5 s.
+TEST(ExplicitMethods, RefuseARunOfMoreStepsThanAllowedAndNameTheirNumber) {
+  const LinearModel model({.mass = scalar(1), .stiffness = scalar(1e12), .start = Vector::Ones(1), .end = 10});
+  for (const auto& [keys, steps] : std::vector<std::pair<std::string, std::string>>{
+           {"type: arkode_erk", "1.2e+06 steps"}, {"type: exponential_rosenbrock, max_steps: 10000", "2.5e+05 steps"}}) {
+    try {
+      make(model, "{" + keys + "}");
+      FAIL() << keys;
+    } catch (const ConfigError& e) {
+      const std::string message = e.what();
+      EXPECT_NE(message.find(steps), std::string::npos) << message;
+      EXPECT_NE(message.find("take an implicit integrator, or raise max_steps"), std::string::npos) << message;
+    }
+  }
+  EXPECT_NO_THROW(make(model, "{type: arkode_erk, max_steps: 2000000}"));
+  EXPECT_NO_THROW(make(model, "{type: exponential_rosenbrock, max_steps: 300000}"));
+}
+
 TEST(CvodeAdams, BothIterationsAgreeAtATightTolerance) {
   const auto model = damped_oscillator();
   const State newton = integrate(model, *make(model, "{type: cvode_adams, rtol: 1e-9, nonlinear: newton}"));

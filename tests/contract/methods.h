@@ -25,6 +25,8 @@ struct TestedMethod {
   bool exact_if_linear = false;   // the error is that of Krylov spaces, and has no order
   std::string needs = "";         // options without which there is no such method
   bool has_one_estimator = false;  // of the local error of its one order
+  bool chooses = false;           // is one of the others, and has tests of its own
+  bool keeps_energy = false;      // to round-off
 };
 
 inline const std::map<std::string, TestedMethod>& tested_methods() {
@@ -34,13 +36,13 @@ inline const std::map<std::string, TestedMethod>& tested_methods() {
       {"arkode_imex",
        {{{3, ", table: ARK324L2SA_4_2_3"}, {5, ", table: ARK548L2SA_8_4_5"}}, false, false, false,
         ", explicit: [gravity]"}},
-      {"auto", {{{5}}}},
+      {"auto", {.variants = {{5}}, .chooses = true}},
       {"backward_euler", {{{1}}, true, false, false, "", true}},
       {"bathe", {{{2}}, true, false, false, "", true}},
       {"central_differences", {{{2}}, false}},
       {"cvode_adams", {{{2, ", max_order: 2"}, {5, ", max_order: 5"}}, false, true}},
       {"cvode_bdf", {{{2, ", max_order: 2"}, {5, ", max_order: 5"}}, true, true}},
-      {"energy_momentum", {{{2}}, true, false, false, "", true}},
+      {"energy_momentum", {.variants = {{2}}, .stiff = false, .has_one_estimator = true, .keeps_energy = true}},
       {"exponential_rosenbrock", {{{3}}, true, false, true}},
       {"generalized_alpha", {{{2}}, true, false, false, "", true}},
       {"hht_alpha", {{{2}}, true, false, false, "", true}},

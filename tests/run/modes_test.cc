@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Masses, FreeBlock, testing::Values("lumped", "consisten
 
 TEST_P(FreeBlock, HasSixRigidModesAndThenThoseOfTheDenseProblem) {
   const Modes modes = modes_of(block_, 16);
-  EXPECT_EQ(modes.rigid, 6);
+  EXPECT_EQ(modes.zeros, 6);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(block_.stiffness(block_.zero()), block_.mass());
   for (std::size_t k = 0; k < 16; ++k) {
     const Mode& mode = modes.modes[k];
@@ -126,6 +126,68 @@ TEST_F(ModesCommand, RefusesMoreModesThanUnknownsAndAFreeBodyAboutEquilibrium) {
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.output.find("no definite place at rest"), std::string::npos) << result.output;
   EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+// Damped, and its support sets off at 3 m/s.
+TEST_F(ModesCommand, OfABodyOnAMovingSupportAreThoseOfTheClampedOne) {
+  const std::string body = R"(
+mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1]}
+materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
+damping: {stiffness: 0.1, mass: 2}
+time: {end: 1}
+)";
+  write("moved.yaml", body + "motions: [{surface: x0, displacement: [0.3 * sin(10 * t), 0, 0]}]\n");
+  write("clamped.yaml", body + "clamps: [{surface: x0}]\n");
+  for (const std::string option : {"", "--equilibrium"}) {
+    for (const std::string scene : {"moved", "clamped"}) {
+      const auto result = orthodyn("modes " + scene + ".yaml -n 24 --force --quiet --out " + scene + " " + option);
+      EXPECT_EQ(result.exit_code, 0) << result.output;
+    }
+    EXPECT_EQ(read_text(folder_ / "moved/modes.csv"), read_text(folder_ / "clamped/modes.csv")) << option;
+  }
+}
+
+TEST_F(ModesCommand, KeepsEarlierModesUnlessForcedAndForeignFilesAlways) {
+  write("scene.yaml", kFreeBlock);
+  EXPECT_EQ(orthodyn("modes scene.yaml -n 7 --quiet --out out").exit_code, 0);
+  auto result = orthodyn("modes scene.yaml -n 8 --quiet --out out");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.output.find("use --force to replace them"), std::string::npos) << result.output;
+  EXPECT_FALSE(fs::exists(folder_ / "out/modes/mode_008.vtu"));
+  EXPECT_EQ(orthodyn("modes scene.yaml -n 6 --quiet --force --out out").exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "out/modes/mode_007.vtu"));
+  result = orthodyn("modes scene.yaml --quiet --force --out .");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.output.find("holds files that are no modes"), std::string::npos) << result.output;
+}
+
+TEST_F(ModesCommand, ThatAreAllRigidHaveNoPictureAndNoWarning) {
+  write("scene.yaml", kFreeBlock);
+  const auto result = orthodyn("modes scene.yaml -n 3 --out out");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_NE(result.output.find("all 3 modes are rigid; ask for more with -n"), std::string::npos) << result.output;
+  EXPECT_EQ(result.output.find("warning"), std::string::npos) << result.output;
+}
+
+TEST_F(ModesCommand, SaysHowManyCanBeAskedFor) {
+  write("scene.yaml", kFreeBlock);
+  const auto result = orthodyn("modes scene.yaml -n 0 --out out");
+  EXPECT_EQ(result.exit_code, 2) << result.output;
+  EXPECT_LT(result.output.size(), 200u) << result.output;
+}
+
+// A thread so thin that round-off of its longitudinal stiffness hides its bending.
+TEST_F(ModesCommand, OfAClampedThreadAreNotCalledRigid) {
+  write("scene.yaml", R"(
+mesh: {type: box, size: [1, 1e-8, 1e-8], cells: [4, 1, 1]}
+materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
+clamps: [{surface: x0}]
+time: {end: 1}
+)");
+  const auto result = orthodyn("modes scene.yaml -n 8 --out out");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_EQ(result.output.find("nothing holds them"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("cannot be told from zero"), std::string::npos) << result.output;
 }
 
 }  // namespace

@@ -1,8 +1,11 @@
 // Motions and terms in the words of the input: what is refused, and how, and the scales that follow from them.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "lib/core/errors.h"
 #include "lib/scene/scales.h"
+#include "lib/scene/setup.h"
 #include "tests/scene/scenes.h"
 
 namespace orthodyn {
@@ -38,6 +41,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"kinks_of_a_factor",
                 "motions: [{surface: x1, translation: [1, 0, 0], kinks: [1], " + kStep + "}]",
                 {"kinks", "a factor knows its own"}},
+        Refused{"translation_of_free_coordinates",
+                "motions: [{surface: x1, components: [x], translation: [0, 0, 0.01], " + kStep + "}]",
+                {"motions.0.translation", "moves nothing", "'components'"}},
         Refused{"no_axis",
                 "motions: [{surface: x1, rotation: {axis: [0, 0, 0], angle: 1}, " + kStep + "}]",
                 {"rotation.axis", "is zero"}},
@@ -98,9 +104,34 @@ TEST(FormulaMotion, ThatHasNoValueSaysWhereAndWhen) {
     FAIL();
   } catch (const ConfigError& e) {
     const std::string message = e.what();
-    for (const char* part : {"motions.0.displacement", "sqrt(0.05 - t)", "t = 0.0", "x = 2"})
+    for (const char* part : {"motions.0.displacement", "sqrt(0.05 - t)", "not a number", "t = 0.0", "x = 2"})
       EXPECT_NE(message.find(part), std::string::npos) << message;
   }
+}
+
+TEST(FormulaMotion, ThatHasNoValueIsNotBlamedOnTheIntegrator) {
+  const auto yaml = kValidScene + "motions: [{surface: x1, displacement: [sqrt(0.05 - t), 0, 0]}]\n";
+  try {
+    set_up(Config::from_text(yaml, "scene.yaml"));
+    FAIL();
+  } catch (const ConfigError& e) {
+    EXPECT_EQ(std::string(e.what()).find("integrator"), std::string::npos) << e.what();
+    EXPECT_EQ(std::string(e.what()).find("scene.yaml:"), 0u) << e.what();
+  }
+}
+
+// t^2.5 has no value before t = 0.
+TEST(FormulaMotion, IsNeverEvaluatedBeforeTheStart) {
+  const Scene scene = read_scene(
+      Config::from_text(kValidScene + "motions: [{surface: x1, displacement: [t^2.5, 0, 0], resolution: 1e-4}]\n"));
+  const auto motion = scene.motions[0].motion(scene.time.start);
+  const double h = 1e-4;
+  for (const double t : {0.0, h / 10, h, 100 * h}) {  // to within the rates' size at h from the singularity
+    const Moved moved = motion->at(t, NodalVector(Vec3(2, 1, 1)));
+    EXPECT_NEAR(moved.v(0, 0), 2.5 * std::pow(t, 1.5), 2.5 * std::pow(h, 1.5)) << t;
+    EXPECT_NEAR(moved.a(0, 0), 3.75 * std::sqrt(t), 3.75 * std::sqrt(h)) << t;
+  }
+  EXPECT_TRUE(motion->has_continuous_velocity());
 }
 
 TEST(Scales, OfABodyThatIsOnlyMovedComeFromItsSupports) {

@@ -31,9 +31,17 @@ TEST_F(Expand, TakesEveryRegisteredIntegratorAndOrdersTolerancesFromLooseToTight
   const auto names = Registry<IntegratorChoice>::names();
   ASSERT_EQ(design.methods.size(), names.size());
   for (std::size_t m = 0; m < names.size(); ++m) EXPECT_EQ(design.methods[m].integrator, names[m]);
-  ASSERT_EQ(design.points.size(), 2 * names.size());
   EXPECT_EQ(design.points[0].control, 1e-2);
   EXPECT_EQ(design.points[1].control, 1e-4);
+}
+
+// central_differences knows no tolerance.
+TEST_F(Expand, GivesAnExplicitMethodSharesOfItsCriticalStep) {
+  const auto design = expanded("scenes: [swing.yaml]\nintegrators: [cvode_bdf, central_differences]\ntolerances: [1e-2]\n");
+  ASSERT_EQ(design.points.size(), 4u);
+  EXPECT_EQ(design.methods[1].control, Method::Control::safety);
+  EXPECT_EQ(design.points[1].control, 0.9);
+  EXPECT_EQ(point_scene(design, design.points[3]).at("integrator").at("safety").number(), 0.225);
 }
 
 TEST_F(Expand, KeysOfTheIntegratorMakeMethodsAndAllOthersMakeProblems) {

@@ -22,7 +22,7 @@ struct ModesArguments {
   std::vector<std::string> set;
   std::optional<std::string> out;
   int count = 20;
-  bool equilibrium = false, quiet = false;
+  bool equilibrium = false, quiet = false, force = false;
 };
 
 struct VerifyArguments {

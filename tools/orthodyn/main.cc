@@ -80,10 +80,11 @@ int main(int argc, char** argv) {
   auto* modes = app.add_subcommand("modes", "Natural frequencies and shapes of a scene's body, without damping.");
   modes->add_option("scene", vibration.scene, "A scene in YAML.")->required()->type_name("SCENE.yaml");
   modes->add_option("-n,--count", vibration.count, "How many, the lowest first, rigid ones included.")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   modes->add_flag("--equilibrium", vibration.equilibrium, "About the static equilibrium under the scene's loads, not about rest.");
   modes->add_option("--out", vibration.out, "Folder for the results; default out/modes/<scene>.")->type_name("DIR");
+  modes->add_flag("--force", vibration.force, "Replace earlier modes in the folder.");
   modes->add_flag("--quiet", vibration.quiet, "No table and no picture.");
   modes->add_option("--set", vibration.set, "Change a value by its path.")->type_name("PATH=VALUE")->expected(1)->take_all();
 

@@ -1,11 +1,15 @@
 // `orthodyn modes`: natural frequencies and shapes of a scene's body about rest or equilibrium, without damping.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 
+#include "lib/core/errors.h"
 #include "lib/run/modes.h"
 #include "lib/run/vtu.h"
 #include "lib/scene/equilibrium.h"
+#include "lib/scene/rigid_freedom.h"
 #include "tools/orthodyn/commands.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/setup.h"
@@ -16,18 +20,47 @@ namespace fs = std::filesystem;
 
 namespace {
 
-State state_about(const Setup& setup, bool equilibrium_asked) {
-  const auto& scene = setup.scene;
-  const Vector zero = Vector::Zero(setup.built.model->num_dofs());
-  const double t = scene.analysis == Analysis::statical ? scene.time.end : scene.time.start;
+// What the modes are those of: the body with its supports standing still.
+struct Resting {
+  Scene scene;
+  std::optional<BuiltScene> rebuilt;  // where the supports of the scene's own model move
+};
+
+Resting resting(const Setup& setup) {
+  if (setup.scene.analysis == Analysis::statical) return {setup.scene, {}};
+  Resting out{at_rest(setup.scene), {}};
+  if (!out.scene.statics) out.scene.statics = Statics::spec().read(Config::from_text("{}", "--equilibrium"));
+  if (!out.scene.motions.empty()) out.rebuilt = build(out.scene);
+  return out;
+}
+
+State state_about(const Setup& setup, const Scene& scene, const BuiltScene& built, bool equilibrium_asked) {
+  const Vector zero = Vector::Zero(built.model->num_dofs());
+  const double t = scene.time.end;
   if (!equilibrium_asked) return {t, zero, zero};
   if (scene.start == Start::equilibrium) return {t, setup.built.initial.q, zero};
-  if (!scene.statics) {
-    Scene with = scene;
-    with.statics = Statics::spec().read(Config::from_text("{}", "--equilibrium"));
-    return {t, equilibrium(with, setup.built), zero};
-  }
-  return {t, equilibrium(scene, setup.built), zero};
+  return {t, equilibrium(scene, built), zero};
+}
+
+// Throws ConfigError for a folder with anything in it, other than earlier modes that are to be replaced.
+void check_folder(const fs::path& folder, bool replace) {
+  std::error_code ec;
+  if (!fs::exists(folder, ec)) return;
+  if (!fs::is_directory(folder, ec))
+    throw ConfigError(fmt::format("{}: is a file, expected a folder for the results; use --out", folder.string()));
+  if (fs::is_empty(folder, ec)) return;
+  if (!fs::exists(folder / "modes.csv", ec))
+    throw ConfigError(fmt::format("{}: holds files that are no modes; use --out with another folder", folder.string()));
+  if (!replace)
+    throw ConfigError(fmt::format("{}: holds earlier modes; use --force to replace them, or --out with another folder",
+                                  folder.string()));
+}
+
+void remove_earlier(const fs::path& folder) {
+  std::error_code ec;
+  for (const char* name : {"modes", "modes.pvd", "modes.png", "modes.log", "modes.csv"})
+    if (!ec) fs::remove_all(folder / name, ec);
+  if (ec) throw RunError(fmt::format("cannot prepare the folder {}: {}", folder.string(), ec.message()));
 }
 
 void write_csv(const fs::path& path, const Modes& modes) {
@@ -70,13 +103,22 @@ void write_shapes(const fs::path& folder, const Model& model, const State& about
   }
 }
 
-void print_table(const Setup& setup, const Modes& modes, bool equilibrium) {
-  const double mass = setup.built.model->parts().mass->total();
+// Only what the geometry leaves free is rigid; round-off makes zeros of the softest modes of slender bodies, too.
+void print_zeros(const Modes& modes, int rigid) {
+  if (rigid > 0)
+    fmt::print("the first {} {} rigid: 0 Hz, nothing holds them\n", rigid, rigid == 1 ? "is" : "are");
+  if (const int more = modes.zeros - rigid; more > 0)
+    fmt::print("{} {} cannot be told from zero: round-off hides what is below {:.2g} Hz of a mesh this stiff{}\n",
+               rigid > 0 ? fmt::format("{} more", more) : fmt::format("the first {}", more),
+               more == 1 ? "mode" : "modes", modes.resolution,
+               rigid > 0 ? "" : "; the body is held, none of them is rigid");
+}
+
+void print_table(const FemModel& model, const Modes& modes, int rigid, bool equilibrium) {
+  const double mass = model.parts().mass->total();
   fmt::print("natural modes about {}, {} mass, without damping: {} of {}\n", equilibrium ? "equilibrium" : "rest",
-             setup.built.model->parts().mass->lumped() ? "lumped" : "consistent", modes.modes.size(),
-             setup.built.model->num_dofs());
-  if (modes.rigid > 0)
-    fmt::print("the first {} {} rigid: 0 Hz, nothing holds them\n", modes.rigid, modes.rigid == 1 ? "is" : "are");
+             model.parts().mass->lumped() ? "lumped" : "consistent", modes.modes.size(), model.num_dofs());
+  print_zeros(modes, rigid);
   fmt::print("  mode  frequency [Hz]   effective mass along x, y, z [% of {:.4g} kg]   residual\n", mass);
   Vec3 sum = Vec3::Zero();
   for (std::size_t k = 0; k < modes.modes.size(); ++k) {
@@ -93,16 +135,25 @@ void print_table(const Setup& setup, const Modes& modes, bool equilibrium) {
 }  // namespace
 
 int modes_command(const ModesArguments& arguments) {
+  const fs::path folder =
+      arguments.out ? fs::path(*arguments.out) : fs::path("out") / "modes" / fs::path(arguments.scene).stem();
+  check_folder(folder, arguments.force);
   const Setup setup = set_up_and_warn(read_config(arguments.scene, std::nullopt, arguments.set));
-  const State about = state_about(setup, arguments.equilibrium);
-  const Modes modes = natural_modes(*setup.built.model, about, arguments.count);
-  const fs::path folder = arguments.out ? fs::path(*arguments.out) : fs::path("out") / "modes" / fs::path(arguments.scene).stem();
+  const Resting still = resting(setup);
+  const BuiltScene& built = still.rebuilt ? *still.rebuilt : setup.built;
+  const FemModel& model = *built.model;
+  const State about = state_about(setup, still.scene, built, arguments.equilibrium);
+  const Modes modes = natural_modes(model, about, arguments.count);
+  const int rigid = modes.zeros > 0 ? std::min(modes.zeros, count_rigid_freedom(model, about.t)) : 0;
+  remove_earlier(folder);
   write_csv(folder / "modes.csv", modes);
-  write_shapes(folder, *setup.built.model, about, modes);
+  write_shapes(folder, model, about, modes);
   if (arguments.quiet) return 0;
-  print_table(setup, modes, arguments.equilibrium);
+  print_table(model, modes, rigid, arguments.equilibrium);
   fmt::print("results {}\n", folder.string());
-  draw_modes(folder);
+  if (modes.zeros < arguments.count) draw_modes(folder);
+  else fmt::print("no picture: all {} modes {}; ask for more with -n\n", modes.zeros,
+                  rigid == modes.zeros ? "are rigid" : "are at 0 Hz");
   return 0;
 }
 
