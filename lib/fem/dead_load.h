@@ -5,16 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "lib/fem/surface.h"
 #include "lib/fem/term.h"
 #include "lib/fem/time_function.h"
-#include "lib/mesh/tet_mesh.h"
 
 namespace orthodyn {
 
 class DeadLoad : public Term {
  public:
-  using NodalForces = std::vector<std::pair<int, Vec3>>;  // node, N at factor 1
-
+  // forces: at factor 1.
   DeadLoad(std::string description, NodalForces forces, std::shared_ptr<const TimeFunction> factor);
 
   std::string description() const override { return description_; }
@@ -28,13 +27,5 @@ class DeadLoad : public Term {
   NodalForces forces_;
   std::shared_ptr<const TimeFunction> factor_;
 };
-
-// The times of `all` within (start, end).
-std::vector<double> times_between(const std::vector<double>& all, double start, double end);
-
-double surface_area(const TetMesh& mesh, const std::vector<Triangle>& triangles);  // m^2
-
-// A traction (Pa, per undeformed area) on a surface: F_i = integral of N_i t dA.
-DeadLoad::NodalForces surface_forces(const TetMesh& mesh, const std::vector<Triangle>& triangles, const Vec3& traction);
 
 }  // namespace orthodyn

@@ -44,6 +44,8 @@ class FemModel : public Model {
   };
 
   explicit FemModel(Parts parts);
+  FemModel(const FemModel&) = delete;  // mean_force_ refers to parts_
+  FemModel& operator=(const FemModel&) = delete;
 
   int num_dofs() const override { return parts_.dofs->num_dofs(); }
   const Traits& traits() const override { return parts_.traits; }

@@ -1,6 +1,6 @@
 #include "lib/fem/moved_nodes.h"
 
-#include "lib/fem/dead_load.h"
+#include "lib/fem/time_function.h"
 
 namespace orthodyn {
 

@@ -1,16 +1,10 @@
 #include "lib/fem/pressure.h"
 
-#include "lib/fem/dead_load.h"
+#include "lib/element/axial.h"
 
 namespace orthodyn {
 
 namespace {
-
-Mat3 cross_matrix(const Vec3& w) {
-  Mat3 W;
-  W << 0, -w[2], w[1], w[2], 0, -w[0], -w[1], w[0], 0;
-  return W;
-}
 
 Vec3 area_vector(const NodalVector& x, const Triangle& t) {
   const Vec3 base = x.col(t[0]);
@@ -19,7 +13,7 @@ Vec3 area_vector(const NodalVector& x, const Triangle& t) {
 
 // [opposite side of node b]: 2 da/dx_b.
 Mat3 area_gradient(const NodalVector& x, const Triangle& t, std::size_t b) {
-  return cross_matrix(x.col(t[(b + 2) % 3]) - x.col(t[(b + 1) % 3]));
+  return cross_matrix<double>(x.col(t[(b + 2) % 3]) - x.col(t[(b + 1) % 3]));
 }
 
 }  // namespace

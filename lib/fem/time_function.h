@@ -20,4 +20,7 @@ class TimeFunction {
   virtual double peak() const = 0;  // the largest magnitude it reaches
 };
 
+// The times of `all` within (start, end).
+std::vector<double> times_between(const std::vector<double>& all, double start, double end);
+
 }  // namespace orthodyn

@@ -100,7 +100,6 @@ class Driver {
     if (!outputs_.empty() && last_output_ != t) deliver_output(t);
   }
 
-
   Integrator& integrator_;
   const Plan& plan_;
   const std::vector<Observer*>& observers_;

@@ -1,6 +1,6 @@
 #include "lib/fem/ground.h"
 
-#include "lib/fem/dead_load.h"
+#include "lib/fem/surface.h"
 #include "lib/scene/term_choice.h"
 #include "lib/scene/terms/outer_surface.h"
 

@@ -21,7 +21,7 @@ class PointLoadChoice : public TermChoice, public Selection {
 
   std::unique_ptr<Term> make(const FemModel::Parts& parts) const override {
     const auto selected = selected_nodes(*this, parts.mesh);
-    DeadLoad::NodalForces forces;
+    NodalForces forces;
     for (const int node : selected) forces.emplace_back(node, force_ / static_cast<double>(selected.size()));
     return std::make_unique<DeadLoad>(fmt::format("point load: {} nodes", selected.size()), std::move(forces),
                                       factor_);
