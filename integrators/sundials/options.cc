@@ -18,8 +18,6 @@ const bool version_registered = library_versions().emplace("SUNDIALS", library_v
 
 }  // namespace
 
-std::vector<std::string> linear_solver_names() { return orthodyn::linear_solver_names(SolverPaths::all); }
-
 void check_options(const Options& options, const Config& config) {
   require_linear_solver(options.linear_solver, SolverPaths::all, config);
 }

@@ -41,8 +41,6 @@ struct Settings {
   void set_weights(N_Vector weights) const;
 };
 
-// The names that linear_solver takes.
-std::vector<std::string> linear_solver_names();
 void check_options(const Options& options, const Config& config);
 
 template <class T>
