@@ -16,10 +16,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kScene = R"(# What this scene shows, in a sentence.
+constexpr const char* kHead = R"(# What this scene shows, in a sentence.
 # Check it with `orthodyn check {file}`, run it with `orthodyn run {file}`.
 # Numbers are in SI units; where a key has a unit, "11.9 GPa" or "25 mm" will do too.
+)";
 
+constexpr const char* kBody = R"(
 mesh:                      # all kinds: orthodyn list meshes
   type: box
   size: [1, 0.05, 0.02]    # m
@@ -41,7 +43,9 @@ regions:                   # which part of the mesh is what, and where its grain
   all:
     material: wood
     axes: {first: [1, 0, 0], second: [0, 1, 0]}
+)";
 
+constexpr const char* kMotion = R"(
 damping: {stiffness: 1e-3} # s, proportional to the stiffness; leave it out for none
 gravity: [0, 0, -9.81]     # m/s^2
 
@@ -66,33 +70,10 @@ output:
     tip: {at: [1, 0.025, 0.01]}
 )";
 
-constexpr const char* kStatic = R"(# What this scene shows, in a sentence.
-# Check it with `orthodyn check {file}`, run it with `orthodyn run {file}`.
-# Numbers are in SI units; where a key has a unit, "11.9 GPa" or "25 mm" will do too.
-analysis: static           # the equilibrium under all loads, which grow step by step
+constexpr const char* kAnalysis = R"(analysis: static           # the equilibrium under all loads, which grow step by step
+)";
 
-mesh:                      # all kinds: orthodyn list meshes
-  type: box
-  size: [1, 0.05, 0.02]    # m
-  cells: [80, 6, 4]        # linear elements are stiff in bending: several cells through the thickness
-
-materials:                 # all kinds: orthodyn list materials
-  wood:                    # axis 1 along the grain, 2 radial, 3 tangential
-    type: orthotropic
-    density: 400 kg/m^3
-    young: [10.8 GPa, 0.84 GPa, 0.46 GPa]
-    nu12: 0.44
-    nu23: 0.44
-    nu13: 0.53
-    g12: 0.69 GPa
-    g23: 0.032 GPa
-    g13: 0.66 GPa
-
-regions:                   # which part of the mesh is what, and where its grain runs
-  all:
-    material: wood
-    axes: {first: [1, 0, 0], second: [0, 1, 0]}
-
+constexpr const char* kRest = R"(
 gravity: [0, 0, -9.81]     # m/s^2
 
 clamps:                    # must hold all six rigid motions
@@ -130,8 +111,10 @@ samples: 100               # times at which errors are taken
 limits: {seconds: 60}      # of each integration
 )";
 
-const std::map<std::string, const char*>& starts() {
-  static const std::map<std::string, const char*> all = {{"scene", kScene}, {"static", kStatic}, {"comparison", kComparison}};
+const std::map<std::string, std::string>& starts() {
+  static const std::string head = kHead, body = kBody;
+  static const std::map<std::string, std::string> all = {
+      {"scene", head + body + kMotion}, {"static", head + kAnalysis + body + kRest}, {"comparison", kComparison}};
   return all;
 }
 
