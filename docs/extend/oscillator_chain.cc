@@ -71,8 +71,9 @@ int main() {
   for (int i = 0; i < n; ++i) start.q[i] = std::sin((i + 1) * angle);
 
   const Config options = Config::from_text("{type: cvode_bdf, rtol: 1e-6, max_order: 2}");
-  const auto integrator = Registry<IntegratorChoice>::read(options)->make(chain, [=] { return Scales{1, omega}; });
   const double end = 2 * std::numbers::pi / omega;  // one period
+  const Task task{[=] { return Scales{1, omega}; }, start, end, end};
+  const auto integrator = Registry<IntegratorChoice>::read(options)->make(chain, task);
   const std::atomic<bool> never{false};
   const Outcome outcome = run(chain, *integrator, start, {.end = end, .output_times = {}}, {}, never);
   const double error = (outcome.last.q - start.q).norm() / start.q.norm();
