@@ -2,12 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstring>
-#include <fstream>
-
-#include "lib/run/files.h"
 #include "lib/scene/mesh_materials.h"
+#include "lib/study/errand.h"
 #include "lib/study/fingerprint.h"
 #include "lib/study/measure.h"
 
@@ -19,33 +15,9 @@ namespace {
 
 // A process is killed when it has had the time of all its runs and this much more, s.
 constexpr double kSetUpTime = 60;
-constexpr const char* kCrashed = "crashed";
 
-std::string last_line(const fs::path& file) {
-  std::ifstream in(file);
-  std::string last;
-  for (std::string line; std::getline(in, line);)
-    if (!line.empty()) last = line;
-  return last;
-}
-
-Json died(const ProcessEnd& end, const fs::path& log) {
-  const auto failed = [](const std::string& reason, const std::string& message) {
-    return Json{{"status", "failed"}, {"reason", reason}, {"message", message}};
-  };
-  if (end.kind == ProcessEnd::Kind::timed_out) return failed("time limit", "killed after the limit of the wall time");
-  if (end.kind == ProcessEnd::Kind::out_of_memory)
-    return failed(reason_name(Reason::out_of_memory), "killed when it used more than the limit of memory");
-  const std::string said = last_line(log);
-  const std::string how = end.kind == ProcessEnd::Kind::signalled
-                              ? fmt::format("ended by signal {} ({})", end.code, strsignal(end.code))
-                              : fmt::format("ended with code {}", end.code);
-  return failed(kCrashed, how + (said.empty() ? "" : ": " + said));
-}
-
-// What a process that died has left may have had a cause that is gone by now.
 bool is_finished(const fs::path& folder, const Json& result, const Job& job) {
-  if (!result.is_object() || (result.contains("reason") && result.at("reason") == kCrashed)) return false;
+  if (!result.is_object()) return false;
   return !job.keep_trajectory || result.at("status") != "completed" || Trajectory::is_whole(folder / kTrajectoryFile);
 }
 
@@ -146,7 +118,7 @@ Json Campaign::perform(const Task& task, const std::atomic<bool>& interrupt, std
   folder = folder_of(task);
   ++number_;
   const fs::path path = options_.folder / folder;
-  Json result = read_json(path / kResultFile);
+  Json result = finished(path);
   const bool cached = is_finished(path, result, task.job);
   if (!cached) {
     options_.notify({number_, count_, task.title, true, false, nullptr});
@@ -157,21 +129,11 @@ Json Campaign::perform(const Task& task, const std::atomic<bool>& interrupt, std
   return result;
 }
 
-Json Campaign::execute(const fs::path& folder, const Task& task, const std::atomic<bool>& interrupt) {
-  write_file(folder / kSceneFile, {"# " + task.title + "\n" + task.scene.dump_for("")});
-  write_file(folder / kJobFile, {to_text(task.job.json(), 2)});
-  std::error_code ignored;
-  fs::remove(folder / kResultFile, ignored);
+Json Campaign::execute(const fs::path& folder, const Task& task, const std::atomic<bool>& interrupt) const {
   const Job& job = task.job;
   const ProcessLimits limits{job.seconds * (job.repeats + 3) + kSetUpTime, comparison_.limits.memory};
-  const fs::path log = folder / "log.txt";
-  const ProcessEnd end = run_process({options_.program, "measure", folder.string()}, log, limits, interrupt);
-  if (end.kind == ProcessEnd::Kind::interrupted) return nullptr;
-  Json result = read_json(folder / kResultFile);
-  if (result.is_object()) return result;
-  result = died(end, log);
-  write_file(folder / kResultFile, {to_text(result)});
-  return result;
+  return carry_out(options_.program, {task.title, "measure", folder, task.scene.dump_for(""), job.json(), limits},
+                   interrupt);
 }
 
 }  // namespace orthodyn

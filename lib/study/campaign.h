@@ -10,7 +10,6 @@
 
 #include "lib/study/expand.h"
 #include "lib/study/point_result.h"
-#include "lib/study/process.h"
 
 namespace orthodyn {
 
@@ -62,7 +61,7 @@ class Campaign {
   Json perform(const Task& task, const std::atomic<bool>& interrupt, std::string& folder);
   std::string folder_of(const Task& task);
   const std::string& mesh_of(const Task& task);
-  Json execute(const std::filesystem::path& folder, const Task& task, const std::atomic<bool>& interrupt);
+  Json execute(const std::filesystem::path& folder, const Task& task, const std::atomic<bool>& interrupt) const;
   bool find_reference(std::size_t problem, const std::atomic<bool>& interrupt);
   bool measure_points(std::size_t problem, const std::atomic<bool>& interrupt, const std::function<void()>& after_each);
   Job reference_job() const;

@@ -1,0 +1,132 @@
+#include "lib/study/errand.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <mutex>
+#include <thread>
+
+#include "lib/core/errors.h"
+#include "lib/run/files.h"
+#include "lib/study/measure.h"
+
+namespace orthodyn {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kCrashed = "crashed";
+
+std::string last_line(const fs::path& file) {
+  std::ifstream in(file);
+  std::string last;
+  for (std::string line; std::getline(in, line);)
+    if (!line.empty()) last = line;
+  return last;
+}
+
+Json died(const ProcessEnd& end, const fs::path& log) {
+  const auto failed = [](const std::string& reason, const std::string& message) {
+    return Json{{"status", "failed"}, {"reason", reason}, {"message", message}};
+  };
+  if (end.kind == ProcessEnd::Kind::timed_out) return failed("time limit", "killed after the limit of the wall time");
+  if (end.kind == ProcessEnd::Kind::out_of_memory)
+    return failed(reason_name(Reason::out_of_memory), "killed when it used more than the limit of memory");
+  const std::string said = last_line(log);
+  const std::string how = end.kind == ProcessEnd::Kind::signalled
+                              ? fmt::format("ended by signal {} ({})", end.code, strsignal(end.code))
+                              : fmt::format("ended with code {}", end.code);
+  return failed(kCrashed, how + (said.empty() ? "" : ": " + said));
+}
+
+// Takes errands one by one, from as many threads as there are jobs. A thread must outlive the processes that it
+// starts: they die with it.
+class Crew {
+ public:
+  Crew(const std::string& program, const std::vector<Errand>& errands, const std::atomic<bool>& interrupt,
+       const ErrandEvents& events)
+      : program_(program), errands_(errands), interrupt_(interrupt), events_(events) {}
+
+  bool work(int jobs) {
+    std::vector<std::jthread> threads;
+    for (int i = 1; i < jobs; ++i) threads.emplace_back([this] { take_turns(); });
+    take_turns();
+    threads.clear();
+    if (failure_) std::rethrow_exception(failure_);
+    return !interrupt_;
+  }
+
+ private:
+  void take_turns() {
+    try {
+      for (std::size_t i = next_++; i < errands_.size() && !stop_; i = next_++)
+        if (!take(i)) return;
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!failure_) failure_ = std::current_exception();
+      stop_ = true;
+    }
+  }
+
+  bool take(std::size_t i) {
+    if (interrupt_) return false;
+    Json result = finished(errands_[i].folder);
+    const bool cached = !result.is_null();
+    if (!cached) {
+      tell([&] { events_.starts(i); });
+      result = carry_out(program_, errands_[i], interrupt_);
+      if (result.is_null()) return false;
+    }
+    tell([&] { events_.ends(i, result, cached); });
+    return true;
+  }
+
+  template <class Event>
+  void tell(const Event& event) {
+    const std::lock_guard lock(mutex_);
+    event();
+  }
+
+  const std::string& program_;
+  const std::vector<Errand>& errands_;
+  const std::atomic<bool>& interrupt_;
+  const ErrandEvents& events_;
+  std::atomic<std::size_t> next_ = 0;
+  std::atomic<bool> stop_ = false;
+  std::mutex mutex_;
+  std::exception_ptr failure_;
+};
+
+}  // namespace
+
+Json finished(const fs::path& folder) {
+  Json result = read_json(folder / kResultFile);
+  if (!result.is_object() || (result.contains("reason") && result.at("reason") == kCrashed)) return nullptr;
+  return result;
+}
+
+Json carry_out(const std::string& program, const Errand& errand, const std::atomic<bool>& interrupt) {
+  const fs::path& folder = errand.folder;
+  write_file(folder / kSceneFile, {"# " + errand.title + "\n" + errand.scene});
+  write_file(folder / kJobFile, {to_text(errand.job, 2)});
+  std::error_code ignored;
+  fs::remove(folder / kResultFile, ignored);
+  const fs::path log = folder / "log.txt";
+  const ProcessEnd end = run_process({program, errand.command, folder.string()}, log, errand.limits, interrupt);
+  if (end.kind == ProcessEnd::Kind::interrupted) return nullptr;
+  Json result = read_json(folder / kResultFile);
+  if (result.is_object()) return result;
+  result = died(end, log);
+  write_file(folder / kResultFile, {to_text(result)});
+  return result;
+}
+
+bool carry_out_all(const std::string& program, const std::vector<Errand>& errands, int jobs,
+                   const std::atomic<bool>& interrupt, const ErrandEvents& events) {
+  return Crew(program, errands, interrupt, events).work(jobs);
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,44 @@
+// A piece of work in a process of its own: a folder with its input, in which `PROGRAM COMMAND FOLDER` leaves
+// result.json. What is finished is on disk and is not done again.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "lib/study/point_result.h"
+#include "lib/study/process.h"
+
+namespace orthodyn {
+
+struct Errand {
+  std::string title;              // "damped_beam, cvode_bdf, rtol 1e-3"
+  std::string command;            // "measure"
+  std::filesystem::path folder;
+  std::string scene;              // scene.yaml, in YAML
+  Json job;                       // job.json
+  ProcessLimits limits;
+};
+
+// The result that is there; null if there is none, or one of a process that died for no reason of ours: that may
+// have had a cause that is gone by now.
+Json finished(const std::filesystem::path& folder);
+
+// Does it. A process that died or reached a limit is a result: {"status": "failed", "reason", "message"}. Null if
+// interrupted. Throws RunError if files cannot be written.
+Json carry_out(const std::string& program, const Errand& errand, const std::atomic<bool>& interrupt);
+
+// What those who wait for errands see: an index, and the result once there is one.
+struct ErrandEvents {
+  std::function<void(std::size_t)> starts;
+  std::function<void(std::size_t, const Json&, bool cached)> ends;
+};
+
+// Carries them out, `jobs` at a time. Events come one after the other, in no order. False if interrupted. Throws
+// what an event or carry_out() throws, after all processes have ended.
+bool carry_out_all(const std::string& program, const std::vector<Errand>& errands, int jobs,
+                   const std::atomic<bool>& interrupt, const ErrandEvents& events);
+
+}  // namespace orthodyn
