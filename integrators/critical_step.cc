@@ -30,7 +30,9 @@ CriticalStep::CriticalStep(const Model& model, Statistics& statistics)
 double CriticalStep::limit(const State& state, double reserve) {
   const Measure measure(statistics_.tangent);
   model_.linearize(state.t, state.q, state.v, TangentKind::exact, linearization_);
-  const double kappa = reserve + largest({0, 0, 1}, stiffness_), delta = largest({0, 1, 0}, damping_);
+  const double present = largest({0, 0, 1}, stiffness_), delta = largest({0, 1, 0}, damping_);
+  const double kappa = reserve + present;
+  damping_time_ = present > 0 ? delta / present : 0;
   if (!std::isfinite(kappa + delta)) throw RecoverableError("the stiffness is not finite");
   return 2 / (delta + std::sqrt(delta * delta + kappa));
 }

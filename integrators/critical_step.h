@@ -31,13 +31,16 @@ class CriticalStep {
   // What is kept for stiffness that may set in, 1/s^2; 0 where none can.
   double reserve() const { return reserve_; }
 
+  // delta / kappa at the state of the last call, s: beta of damping beta K. 0 where nothing is damped or resists.
+  double damping_time() const { return damping_time_; }
+
  private:
   double limit(const State& state, double reserve);
   double largest(const Weights& weights, SpectralBound& bound);
 
   const Model& model_;
   Statistics& statistics_;
-  double reserve_;
+  double reserve_, damping_time_ = 0;
   SpectralBound stiffness_, damping_;
   Linearization linearization_;
   std::vector<double> values_;

@@ -19,23 +19,23 @@ namespace {
 constexpr double kForce = 2.2, kSolve = 1, kFactor = 0.15;
 constexpr double kBytesPerEntry = 10;  // of the factor, workspace included
 
-double explicit_steps(const Model& model, const Task& task) {
-  Statistics unused;
-  try {
-    return (task.end - task.initial.t) / CriticalStep(model, unused).at(task.initial);
-  } catch (const RecoverableError&) {
-    return std::numeric_limits<double>::infinity();
-  }
-}
+// The damping ratio of the motion above which the faster vibrations are gone soon enough for BDF of high order.
+constexpr double kWellDamped = 0.01;
 
 }  // namespace
 
 Outlook look_at(const Model& model, const Task& task, const Scales& scales, const std::string& linear_solver) {
   Outlook look;
-  look.damped = model.traits().damped;
-  look.explicit_steps = explicit_steps(model, task);
-  look.swings = (task.end - task.initial.t) * scales.velocity / scales.position;
+  const double span = task.end - task.initial.t, omega = scales.velocity / scales.position;
+  look.swings = span * omega;
   Statistics unused;
+  look.explicit_steps = std::numeric_limits<double>::infinity();
+  try {
+    CriticalStep critical(model, unused);
+    look.explicit_steps = span / critical.at(task.initial);
+    if (model.traits().damped) look.damping_ratio = critical.damping_time() * omega / 2;
+  } catch (const RecoverableError&) {  // the start has its own sentence for it
+  }
   const NewtonMatrix matrix(model, linear_solver, TangentKind::exact, unused);
   const double n = model.num_dofs(), force = kForce * model.pattern().non_zeros();
   const double entries = static_cast<double>(matrix.factor_bytes()) / kBytesPerEntry;
@@ -61,9 +61,10 @@ Advice advise(const Outlook& look, double rtol) {
     return {"central_differences",
             fmt::format("{:.2g} explicit steps cost less than about {:.2g} implicit ones", explicit_cost, implicit_steps),
             safety};
-  if (look.damped) return {"cvode_bdf", "damped everywhere, where multistep methods of high order take long steps"};
-  if (rtol < 3e-4) return {"arkode_dirk", "undamped, where Runge-Kutta methods of high order keep fast oscillations"};
-  return {"tr_bdf2", "undamped and a moderate accuracy, where an L-stable method of order 2 is cheapest"};
+  if (look.damping_ratio > kWellDamped)
+    return {"cvode_bdf", "well damped, where multistep methods of high order take long steps"};
+  if (rtol < 3e-4) return {"arkode_dirk", "hardly damped, where Runge-Kutta methods of high order keep fast oscillations"};
+  return {"tr_bdf2", "hardly damped and a moderate accuracy, where an L-stable method of order 2 is cheapest"};
 }
 
 }  // namespace orthodyn

@@ -12,7 +12,7 @@
 namespace orthodyn {
 
 struct Outlook {
-  bool damped = false;                     // stiffness-proportional damping everywhere
+  double damping_ratio = 0;                // of the motion itself, by stiffness-proportional damping everywhere
   double explicit_steps = 0;               // of central differences to the end, at the critical step; infinite if it
                                            // cannot be told
   double swings = 0;                       // the time span in units of position scale / velocity scale
