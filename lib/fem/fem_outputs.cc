@@ -116,6 +116,18 @@ double load_power(const Parts& parts, const NodalExpansion& nodal) {
   return power;
 }
 
+// The largest force on a node, were the body at rest in this shape.
+double imbalance(const Parts& parts, const NodalExpansion& nodal) {
+  const Vector still = Vector::Zero(parts.dofs->num_dofs());
+  Vector q(still.size()), free(still.size());
+  parts.dofs->restrict_to(nodal.x - *parts.rest, q);
+  const NodalExpansion resting(parts, nodal.t, q, still);
+  free_forces(parts, resting, still, term_forces(parts, resting), free);
+  NodalVector forces = NodalVector::Zero(3, nodal.x.cols());
+  parts.dofs->add_to(free, forces);
+  return std::sqrt(forces.colwise().squaredNorm().maxCoeff());
+}
+
 Output scalar(const std::string& name, const std::string& unit, const std::string& sentence,
               const std::function<double(const Parts&, const NodalExpansion&)>& f) {
   return {{name, Location::global, 1, unit, sentence},
@@ -156,6 +168,8 @@ const std::vector<Output>& all_outputs() {
              [](const Parts& p, const NodalExpansion& n) { return energy_of(EnergyKind::gravitational, p, n); }),
       scalar("power.dissipated", "W", "Power taken by damping.", dissipated_power),
       scalar("power.loads", "W", "Power of loads and of moved supports.", load_power),
+      scalar("imbalance", "N", "The largest force on a node, were the body at rest in this shape; 0 in equilibrium.",
+             imbalance),
       {{"det_f.smallest", Location::global, 2, "1", "The smallest det F, and the element that has it."},
        [](const Parts& p, const NodalExpansion& n) {
          Values out{std::numeric_limits<double>::infinity(), -1};

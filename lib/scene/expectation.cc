@@ -8,14 +8,16 @@ namespace orthodyn {
 
 template <>
 struct Words<Take> {
-  static constexpr std::array<std::pair<Take, const char*>, 8> list{{{Take::end, "end"},
+  static constexpr std::array<std::pair<Take, const char*>, 10> list{{{Take::end, "end"},
                                                                      {Take::max, "max"},
                                                                      {Take::min, "min"},
                                                                      {Take::time_of_max, "time_of_max"},
                                                                      {Take::time_of_min, "time_of_min"},
                                                                      {Take::mean, "mean"},
                                                                      {Take::frequency, "frequency"},
-                                                                     {Take::drift, "drift"}}};
+                                                                     {Take::drift, "drift"},
+                                                                     {Take::gain, "gain"},
+                                                                     {Take::onset, "onset"}}};
 };
 
 namespace {
@@ -24,7 +26,9 @@ void check_expectation(const Expectation& e, const Config& config) {
   if (e.relative.has_value() == e.absolute.has_value()) config.fail("give exactly one of relative, absolute");
   if (e.relative && e.value == 0) config.at("relative").fail("means nothing for the value 0; give 'absolute'");
   if (e.at && e.take != Take::end) config.at("at").fail("stands in place of 'take'; remove one of them");
-  if (e.of && e.take != Take::drift) config.at("of").fail("goes with take: drift only");
+  const bool compares = e.take == Take::drift || e.take == Take::gain || e.take == Take::onset;
+  if (e.of && !compares) config.at("of").fail("goes with take: drift, gain or onset only");
+  if (!e.of && e.take == Take::onset) config.fail("take: onset needs 'of', the size that is passed");
   if (e.source.empty()) config.at("source").fail("is empty; say where the value is known from");
   if (e.reason.empty()) config.at("reason").fail("is empty; say why this tolerance");
 }
@@ -39,15 +43,19 @@ const Spec<Expectation>& Expectation::spec() {
                "(energy.balance, momentum.angular.z, det_f.smallest).",
                {.required = true})
           .key("take", &Expectation::take,
-               "Which figure of its course over time. drift is the largest change from the start, relative to "
-               "`of`; default the initial size, for energy.balance the largest energy.")
+               "Which figure of its course over time. drift is the largest change from the start, gain the largest "
+               "rise above it, both relative to `of`; default the initial size, for energy.balance the largest energy. "
+               "onset is the time at which its size first passes `of`.")
           .key("at", &Expectation::at, "The value at this time, in place of `take`.", {.unit = "s"})
           .key("value", &Expectation::value, "The expected figure, in SI units.", {.required = true})
           .key("source", &Expectation::source, "Where the value is known from.", {.required = true})
           .key("relative", &Expectation::relative, "Tolerance relative to the value.", {.range = kPositive})
           .key("absolute", &Expectation::absolute, "Tolerance in the quantity's unit.", {.range = kPositive})
-          .key("of", &Expectation::of, "What a drift is relative to.", {.range = kPositive})
+          .key("of", &Expectation::of, "What a drift or gain is relative to; the size that an onset passes.", {.range = kPositive})
           .key("reason", &Expectation::reason, "Why the tolerance is what it is.", {.required = true})
+          .key("degraded", &Expectation::degraded,
+               "Times the tolerance: what misses by less is called degraded, not failed, by `orthodyn stability`.",
+               {.range = {.low = 1}})
           .check(check_expectation);
   return s;
 }

@@ -10,7 +10,7 @@
 namespace orthodyn {
 
 // How one figure is taken from a quantity's course over time.
-enum class Take { end, max, min, time_of_max, time_of_min, mean, frequency, drift };
+enum class Take { end, max, min, time_of_max, time_of_min, mean, frequency, drift, gain, onset };
 
 struct Expectation {
   std::string quantity;      // "tip.displacement.z", "energy.balance", "momentum.angular.magnitude"
@@ -19,8 +19,9 @@ struct Expectation {
   double value = 0;          // in the quantity's unit, SI
   std::string source;        // where the value is known from
   std::optional<double> relative, absolute;  // the tolerance: one of the two
-  std::optional<double> of;  // of a drift: what it is relative to
+  std::optional<double> of;  // of a drift or gain: what it is relative to; of an onset: the size that is passed
   std::string reason;        // why the tolerance is what it is
+  double degraded = 10;      // times the tolerance: up to there `orthodyn stability` calls it degraded, not failed
   Origin origin;
   static const Spec<Expectation>& spec();
 

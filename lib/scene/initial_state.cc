@@ -11,6 +11,8 @@ double symmetric_uniform(std::mt19937_64& generator) {
   return static_cast<double>(generator() >> 11) * 0x1p-52 - 1;
 }
 
+Vec3 at(const std::array<PointFormula, 3>& field, const Vec3& x) { return {field[0].at(x), field[1].at(x), field[2].at(x)}; }
+
 Vec3 center_of_mass(const FemModel::Parts& parts) {
   return *parts.rest * parts.mass->nodal() / parts.mass->total();
 }
@@ -22,9 +24,7 @@ NodalVector initial_velocity(const Initial& initial, const FemModel::Parts& part
   for (Eigen::Index i = 0; i < u.cols(); ++i) {
     const Vec3 arm = parts.rest->col(i) + u.col(i) - center;
     v.col(i) = initial.velocity + initial.spin.cross(arm);
-    if (initial.velocity_field)
-      for (std::size_t c = 0; c < 3; ++c)
-        v(static_cast<Eigen::Index>(c), i) += (*initial.velocity_field)[c].at(parts.rest->col(i));
+    if (initial.velocity_field) v.col(i) += at(*initial.velocity_field, parts.rest->col(i));
   }
   return v;
 }
@@ -39,6 +39,8 @@ State initial_state(const Scene& scene, const FemModel::Parts& parts) {
   const Vec3 center = initial.center.value_or(center_of_mass(parts));
   const Mat3 F = initial.deformation_gradient.value_or(Mat3::Identity());
   NodalVector u = (F - Mat3::Identity()) * (parts.rest->colwise() - center);
+  if (initial.displacement_field)
+    for (Eigen::Index i = 0; i < u.cols(); ++i) u.col(i) += at(*initial.displacement_field, parts.rest->col(i));
   if (initial.noise) {
     std::mt19937_64 generator(static_cast<std::uint64_t>(initial.noise->seed));
     for (double& x : u.reshaped()) x += initial.noise->amplitude * symmetric_uniform(generator);

@@ -126,13 +126,11 @@ const Spec<Initial>& Initial::spec() {
                "Velocity added to the rigid one: three formulas of the rest position.", {.unit = "m/s"})
           .key("center", &Initial::center, "Centre of spin and deformation; default the centre of mass.",
                {.unit = "m"})
-          .key("deformation_gradient", &Initial::deformation_gradient, "Uniform F about the centre.")
-          .key("noise", &Initial::noise, "Random offsets.")
-          .check([](const Initial& initial, const Config& config) {
-            const auto& F = initial.deformation_gradient;
-            if (F && F->determinant() == 0)
-              config.at("deformation_gradient").fail("is singular: the body would have no volume");
-          });
+          .key("deformation_gradient", &Initial::deformation_gradient,
+               "Uniform F about the centre; a singular one flattens the body, a negative determinant mirrors it.")
+          .key("displacement_field", &Initial::displacement_field,
+               "Displacement added to the uniform one: three formulas of the rest position.", {.unit = "m"})
+          .key("noise", &Initial::noise, "Random offsets.");
   return s;
 }
 

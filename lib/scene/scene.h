@@ -73,6 +73,7 @@ struct Initial {
   std::optional<std::array<PointFormula, 3>> velocity_field;  // m/s, of the rest position
   std::optional<Vec3> center;                  // m; default the centre of mass
   std::optional<Mat3> deformation_gradient;    // about the centre
+  std::optional<std::array<PointFormula, 3>> displacement_field;  // m, of the rest position
   std::optional<Noise> noise;
   static const Spec<Initial>& spec();
 };

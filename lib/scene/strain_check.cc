@@ -70,7 +70,8 @@ std::string warning(const std::string& region, const ElasticTerm& term, const Ex
 }
 
 bool is_deformed(const Scene& scene) {
-  return scene.initial && (scene.initial->deformation_gradient || scene.initial->noise);
+  const auto& initial = scene.initial;
+  return initial && (initial->deformation_gradient || initial->displacement_field || initial->noise);
 }
 
 }  // namespace

@@ -48,8 +48,6 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"descending_table", "time:",
                  "loads: [{surface: x1, force: [1, 0, 0], factor: {type: table, points: [[0, 1], [0, 2]]}}]\ntime:",
                  {"loads.0.factor.points.1", "ascend"}},
-        BadScene{"singular_deformation", "time:",
-                 "initial: {deformation_gradient: [[1, 0, 0], [0, 1, 0], [0, 0, 0]]}\ntime:", {"deformation_gradient", "singular"}},
         BadScene{"interval_and_frames", "time:", "output: {interval: 0.1, frames: 3}\ntime:", {"output", "one of interval, frames"}},
         BadScene{"unknown_solver", "time:", "integrator: {type: cvode_bdf, linear_solver: colmod}\ntime:",
                  {"integrator.linear_solver", "did you mean 'cholmod'"}},
