@@ -24,9 +24,9 @@ std::string escaped(const std::string& text) {
 std::string test_case(const CaseResult& result, const Check& check) {
   const auto& e = check.expectation;
   std::string out = fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", escaped(result.file),
-                                escaped(e.title()), result.seconds / static_cast<double>(result.checks.size()));
-  if (!result.failure.empty())
-    return out + fmt::format(">\n    <error message=\"{}\"/>\n  </testcase>\n", escaped(result.failure));
+                                escaped(e.title()), result.outcome.wall_seconds / static_cast<double>(result.checks.size()));
+  if (!result.completed())
+    return out + fmt::format(">\n    <error message=\"{}\"/>\n  </testcase>\n", escaped(result.outcome.message));
   if (check.passed()) return out + "/>\n";
   return out + fmt::format(">\n    <failure message=\"computed {:.9g}, expected {:.9g}, difference {:.3g}, limit "
                            "{:.3g}\">{}</failure>\n  </testcase>\n",
@@ -41,10 +41,10 @@ std::string junit_xml(const std::vector<CaseResult>& results) {
   int tests = 0, failures = 0, errors = 0;
   double seconds = 0;
   for (const auto& result : results) {
-    seconds += result.seconds;
+    seconds += result.outcome.wall_seconds;
     for (const auto& check : result.checks) {
       ++tests;
-      if (!result.failure.empty()) ++errors;
+      if (!result.completed()) ++errors;
       else if (!check.passed()) ++failures;
       body += test_case(result, check);
     }

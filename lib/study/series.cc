@@ -92,6 +92,26 @@ double drift(const Series& s) {
   return largest;
 }
 
+double gain(const Series& s) {
+  double largest = s.size() == 0 ? kNone : 0;
+  for (const double value : s.values) {
+    if (std::isnan(value)) return kNone;
+    largest = std::max(largest, value - s.values[0]);
+  }
+  return largest;
+}
+
+double onset(const Series& s, double level) {
+  for (std::size_t k = 0; k < s.size(); ++k) {
+    const double now = std::abs(s.values[k]);
+    if (now < level) continue;
+    if (k == 0) return s.times[0];
+    const double before = std::abs(s.values[k - 1]);
+    return s.times[k - 1] + (s.times[k] - s.times[k - 1]) * (level - before) / (now - before);
+  }
+  return kNone;
+}
+
 SeriesRecorder::SeriesRecorder(const Model& model, const Integrator& integrator, std::vector<Quantity> quantities)
     : quantities_(std::move(quantities)) {
   for (const auto& q : quantities_) {

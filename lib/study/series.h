@@ -24,6 +24,9 @@ double mean(const Series& series);                              // over time
 double frequency(const Series& series);                         // from upward crossings of the mean, 1/s
 // The largest change from the start, of vectors in the Euclidean norm.
 double drift(const Series& series);
+// The largest rise above the start, at least 0, and the time when the size first passes a level; of scalars.
+double gain(const Series& series);
+double onset(const Series& series, double level);
 
 class SeriesRecorder : public Observer {
  public:

@@ -17,13 +17,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-double relative_drift(const Expectation& e, const SeriesRecorder& recorder, std::size_t q) {
+// What a change is relative to.
+double reference_size(const Expectation& e, const SeriesRecorder& recorder, std::size_t q) {
   const Series& series = recorder.series(q);
   double scale = e.of.value_or(0);
   if (!e.of && e.quantity == kEnergyBalance) scale = recorder.energy_scale();
   if (!e.of && e.quantity != kEnergyBalance)
     for (int c = 0; c < series.components; ++c) scale = std::hypot(scale, series.values[static_cast<std::size_t>(c)]);
-  return drift(series) / scale;  // NaN or infinite without a scale: not met
+  return scale;  // NaN or 0 if there is none: then the figure is not met
 }
 
 double figure(const Expectation& e, const SeriesRecorder& recorder, std::size_t q) {
@@ -37,7 +38,9 @@ double figure(const Expectation& e, const SeriesRecorder& recorder, std::size_t 
     case Take::time_of_min: return time_of_maximum(series, -1);
     case Take::mean: return mean(series);
     case Take::frequency: return frequency(series);
-    case Take::drift: return relative_drift(e, recorder, q);
+    case Take::drift: return drift(series) / reference_size(e, recorder, q);
+    case Take::gain: return gain(series) / reference_size(e, recorder, q);
+    case Take::onset: return onset(series, *e.of);
   }
   return 0;
 }
@@ -49,14 +52,37 @@ std::vector<double> times_asked_for(const std::vector<Expectation>& expectations
   return {times.begin(), times.end()};
 }
 
-CaseResult verify_equilibrium(const std::string& file, const Setup& setup, const std::vector<Quantity>& quantities) {
+std::vector<Quantity> quantities_of(const Setup& setup) {
+  const Origin origin{setup.config.where()};
+  std::vector<Quantity> quantities;
+  for (const auto& e : setup.scene.expect)
+    quantities.push_back(find_quantity(e.quantity, setup.scene, *setup.built.model, origin));
+  return quantities;
+}
+
+CaseResult verify_equilibrium(const Setup& setup, const std::atomic<bool>& interrupt) {
+  const auto quantities = quantities_of(setup);
   const StaticProblem problem = static_problem(setup.scene, setup.built);
-  const Outcome outcome = run_static(*problem.stepper, {}, {false});
-  CaseResult result{file, outcome.message, outcome.wall_seconds, {}};
-  const State state{problem.path->time(), outcome.last.q, outcome.last.v};
+  CaseResult result{setup.config.file(), run_static(*problem.stepper, {}, interrupt), {}};
+  const State state{problem.path->time(), result.outcome.last.q, result.outcome.last.v};
   for (std::size_t q = 0; q < quantities.size(); ++q)
     result.checks.push_back(
         {setup.scene.expect[q], problem.stepper->done() ? quantities[q].values(state)[0] : std::nan("")});
+  return result;
+}
+
+CaseResult verify_motion(const Setup& setup, std::vector<Observer*> observers, const std::atomic<bool>& interrupt) {
+  const auto& expectations = setup.scene.expect;
+  SeriesRecorder recorder(*setup.built.model, *setup.integrator, quantities_of(setup));
+  observers.push_back(&recorder);
+  Plan plan{setup.scene.time.end, times_asked_for(expectations, setup.scene.time.start), false};
+  EventFinder events(setup.events);
+  if (!events.empty()) plan.events = &events;
+  CaseResult result{setup.config.file(),
+                    run(*setup.built.model, *setup.integrator, setup.built.initial, plan, observers, interrupt), {}};
+  for (std::size_t q = 0; q < expectations.size(); ++q)
+    result.checks.push_back(
+        {expectations[q], result.completed() ? figure(expectations[q], recorder, q) : std::nan("")});
   return result;
 }
 
@@ -65,7 +91,7 @@ CaseResult verify_equilibrium(const std::string& file, const Setup& setup, const
 bool Check::passed() const { return std::abs(difference()) <= expectation.limit(); }
 
 bool CaseResult::passed() const {
-  return failure.empty() && std::all_of(checks.begin(), checks.end(), [](const Check& c) { return c.passed(); });
+  return completed() && std::all_of(checks.begin(), checks.end(), [](const Check& c) { return c.passed(); });
 }
 
 std::vector<std::string> find_cases(const std::vector<std::string>& places) {
@@ -87,27 +113,15 @@ std::vector<std::string> find_cases(const std::vector<std::string>& places) {
 }
 
 CaseResult verify(const Config& scene) {
-  Setup setup = set_up(scene);
-  const auto& expectations = setup.scene.expect;
-  if (expectations.empty()) scene.fail("expects nothing; add a list 'expect' (see `orthodyn list expect`)");
-  const Origin origin{scene.where()};
-  std::vector<Quantity> quantities;
-  for (const auto& e : expectations)
-    quantities.push_back(find_quantity(e.quantity, setup.scene, *setup.built.model, origin));
-
-  if (setup.scene.analysis == Analysis::statical) return verify_equilibrium(scene.file(), setup, quantities);
-
-  SeriesRecorder recorder(*setup.built.model, *setup.integrator, std::move(quantities));
-  Plan plan{setup.scene.time.end, times_asked_for(expectations, setup.scene.time.start), false};
-  EventFinder events(setup.events);
-  if (!events.empty()) plan.events = &events;
   const std::atomic<bool> never{false};
-  const Outcome outcome = run(*setup.built.model, *setup.integrator, setup.built.initial, plan, {&recorder}, never);
-  CaseResult result{scene.file(), outcome.message, outcome.wall_seconds, {}};
-  const bool ended = outcome.status == Outcome::Status::completed;
-  for (std::size_t q = 0; q < expectations.size(); ++q)
-    result.checks.push_back({expectations[q], ended ? figure(expectations[q], recorder, q) : std::nan("")});
-  return result;
+  return verify(set_up(scene), {}, never);
+}
+
+CaseResult verify(const Setup& setup, const std::vector<Observer*>& observers, const std::atomic<bool>& interrupt) {
+  if (setup.scene.expect.empty())
+    setup.config.fail("expects nothing; add a list 'expect' (see `orthodyn list expect`)");
+  if (setup.scene.analysis == Analysis::statical) return verify_equilibrium(setup, interrupt);
+  return verify_motion(setup, observers, interrupt);
 }
 
 }  // namespace orthodyn

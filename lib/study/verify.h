@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "lib/core/config.h"
-#include "lib/scene/expectation.h"
+#include "lib/run/outcome.h"
+#include "lib/scene/setup.h"
 
 namespace orthodyn {
 
@@ -18,10 +19,10 @@ struct Check {
 
 struct CaseResult {
   std::string file;
-  std::string failure;  // why the run ended early; empty if it did not
-  double seconds = 0;
+  Outcome outcome;
   std::vector<Check> checks;
 
+  bool completed() const { return outcome.status == Outcome::Status::completed; }
   bool passed() const;
 };
 
@@ -31,6 +32,9 @@ std::vector<std::string> find_cases(const std::vector<std::string>& places);
 
 // Throws ConfigError for a scene that is at fault or expects nothing. A run that fails is a result.
 CaseResult verify(const Config& scene);
+
+// The same of what is set up already, with others that look on.
+CaseResult verify(const Setup& setup, const std::vector<Observer*>& observers, const std::atomic<bool>& interrupt);
 
 // One suite of JUnit XML: a test per expectation.
 std::string junit_xml(const std::vector<CaseResult>& results);

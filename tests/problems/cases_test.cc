@@ -12,7 +12,7 @@ class Cases : public testing::TestWithParam<std::string> {};
 
 TEST_P(Cases, MeetsItsExpectations) {
   const CaseResult result = verify(Config::from_file(GetParam()));
-  EXPECT_EQ(result.failure, "");
+  EXPECT_EQ(result.outcome.message, "");
   for (const auto& check : result.checks)
     EXPECT_TRUE(check.passed()) << check.expectation.title() << ": computed " << check.computed << ", expected "
                                 << check.expectation.value << " within " << check.expectation.limit();

@@ -31,9 +31,9 @@ void print_result(const CaseResult& result, const Widths& widths) {
     fmt::print("{:<{}}  {:<{}}  {:>12.6g}  {:>12.6g}  {:>10.2e}  {:>8.1e}  {}\n", case_name(result), widths.name,
                check.expectation.title(), widths.quantity, check.expectation.value, check.computed, check.difference(),
                check.expectation.limit(), check.passed() ? "pass" : "MISS");
-  if (!result.failure.empty()) fmt::print("{:<{}}  {}\n", "", widths.name, result.failure);
+  if (!result.completed()) fmt::print("{:<{}}  {}\n", "", widths.name, result.outcome.message);
   for (const auto& check : result.checks)
-    if (result.failure.empty() && !check.passed())
+    if (result.completed() && !check.passed())
       fmt::print("{:<{}}  {}: expected from {}; tolerance: {}\n", "", widths.name, check.expectation.title(),
                  check.expectation.source, check.expectation.reason);
   std::fflush(stdout);
@@ -70,7 +70,7 @@ int verify_command(const VerifyArguments& arguments) {
     results.push_back(verify(config));
     print_result(results.back(), widths);
     if (!results.back().passed()) ++missed;
-    seconds += results.back().seconds;
+    seconds += results.back().outcome.wall_seconds;
   }
   if (arguments.junit) write_file(*arguments.junit, {junit_xml(results)});
   fmt::print("{} of {} cases pass ({:.1f} s)\n", results.size() - missed, results.size(), seconds);
