@@ -28,16 +28,6 @@ void require_known_integrator(const Config& c, const std::string& type) {
          " Known: all, " + join(names) + ".");
 }
 
-std::vector<IntegratorEntry> expand_all(const std::vector<IntegratorEntry>& entries) {
-  std::vector<IntegratorEntry> out;
-  for (const auto& entry : entries) {
-    if (entry.type != "all") out.push_back(entry);
-    else
-      for (const auto& name : Registry<IntegratorChoice>::names()) out.push_back({name, name, {}, entry.origin, true});
-  }
-  return out;
-}
-
 // {type, label, any option of the integrator}
 IntegratorEntry read_section(const Config& c) {
   if (!c.has("type")) c.fail("key 'type' is missing: the integrator's name");
@@ -105,6 +95,16 @@ void check_comparison(const Comparison& c, const Config& config) {
 }
 
 }  // namespace
+
+std::vector<IntegratorEntry> expand_all(const std::vector<IntegratorEntry>& entries) {
+  std::vector<IntegratorEntry> out;
+  for (const auto& entry : entries) {
+    if (entry.type != "all") out.push_back(entry);
+    else
+      for (const auto& name : Registry<IntegratorChoice>::names()) out.push_back({name, name, {}, entry.origin, true});
+  }
+  return out;
+}
 
 SceneEntry Value<SceneEntry>::read(const Config& c, const Rule&) {
   SceneEntry entry;

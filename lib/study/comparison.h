@@ -39,6 +39,9 @@ struct IntegratorEntry {
   bool by_all = false;  // named by `all`: left out if it takes nothing that the comparison gives
 };
 
+// With `all` replaced by one entry for each of the registry.
+std::vector<IntegratorEntry> expand_all(const std::vector<IntegratorEntry>& entries);
+
 // The same, with all that controls its error.
 struct ReferenceEntry : IntegratorEntry {};
 

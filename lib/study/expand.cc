@@ -72,17 +72,11 @@ void identify(std::vector<Item>& items) {
   }
 }
 
-std::string read_text(const FilePath& file) {
-  Config::from_file(file.path);  // says what is wrong with it
-  std::ifstream in(file.path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 std::vector<Problem> problems_of(const Comparison& comparison) {
   const auto variants = combinations(comparison, [](const std::string& path) { return !is_of_integrator(path); });
   std::vector<Problem> problems;
   for (const auto& scene : comparison.scenes) {
-    const std::string text = read_text(scene.file);
+    const std::string text = read_yaml(scene.file.path);
     for (const auto& variant : variants) {
       Problem problem{"", scene.label + variant.words, scene.file.path, text, {}};
       for (const auto& [path, value] : scene.set) problem.set.emplace_back(path, value.text);
@@ -186,6 +180,12 @@ void check_point(const Design& design, const Point& point) {
 }
 
 }  // namespace
+
+std::string read_yaml(const std::string& file) {
+  Config::from_file(file);  // says what is wrong with it
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
 
 std::string control_word(Method::Control control) {
   switch (control) {

@@ -1,6 +1,7 @@
 // From a comparison to its points: every scene as it will run, with every method and control.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -54,8 +55,16 @@ std::string title(const Design& design, const Point& point);
 // of the scene's own integrator are kept where the method has such keys and says nothing else.
 Config point_scene(const Design& design, const Point& point);
 
+// The scene of a problem with an integrator of these options, as text still: of the scene's own options those that
+// `kept` names stay where the integrator has such keys.
+Config with_integrator(const Problem& problem, const std::string& integrator, const Assignments& options,
+                       const std::function<bool(const std::string&)>& kept);
+
 // The same for the reference or its check: of the scene's own options, scales and linear solver are kept.
 Config reference_scene(const Problem& problem, const Method& method);
+
+// The text of a file that is YAML; throws ConfigError.
+std::string read_yaml(const std::string& file);
 
 // The first paragraph of the first comment of a YAML text, as one line.
 std::string head_comment(const std::string& yaml);

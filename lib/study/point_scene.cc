@@ -46,11 +46,7 @@ std::string section(const std::string& type, const Assignments& options) {
 
 Config scene_of(const Problem& problem, const std::string& integrator,
                 const std::function<bool(const std::string&)>& kept, const Assignments& options) {
-  Config config = Config::from_text(problem.text, problem.file);
-  for (const auto& [path, value] : problem.set) config.override_with(path + "=" + value);
-  Assignments all = own_options(config, integrator, kept);
-  all.insert(all.end(), options.begin(), options.end());
-  config.override_with("integrator=" + section(integrator, all));
+  Config config = with_integrator(problem, integrator, options, kept);
   for (const char* silent : {"output.fields=[]", "output.energy=false", "output.steps=false", "output.momentum=false",
                              "expect=null"})
     config.override_with(silent);
@@ -63,6 +59,16 @@ Config scene_of(const Problem& problem, const std::string& integrator,
 bool has_key(const std::string& integrator, const std::string& key) {
   const auto& keys = Registry<IntegratorChoice>::entries().at(integrator).keys;
   return std::any_of(keys.begin(), keys.end(), [&](const Key& k) { return k.name == key; });
+}
+
+Config with_integrator(const Problem& problem, const std::string& integrator, const Assignments& options,
+                       const std::function<bool(const std::string&)>& kept) {
+  Config config = Config::from_text(problem.text, problem.file);
+  for (const auto& [path, value] : problem.set) config.override_with(path + "=" + value);
+  Assignments all = own_options(config, integrator, kept);
+  all.insert(all.end(), options.begin(), options.end());
+  config.override_with("integrator=" + section(integrator, all));
+  return config;
 }
 
 Config reference_scene(const Problem& problem, const Method& method) {

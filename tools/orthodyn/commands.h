@@ -37,6 +37,13 @@ struct CompareArguments {
   bool quiet = false, no_report = false;
 };
 
+struct StabilityArguments {
+  std::string file;
+  std::optional<std::string> out;
+  int jobs = 1;
+  bool quiet = false, no_report = false;
+};
+
 struct ConvertArguments {
   std::string in, out;
   double scale = 1;
@@ -50,6 +57,8 @@ int list_command(const std::string& what, bool markdown);
 void print_reference_page();
 int compare_command(const CompareArguments& arguments);
 int measure_command(const std::string& folder);  // one point of a comparison, in its own process
+int stability_command(const StabilityArguments& arguments);
+int assess_command(const std::string& folder);  // one trial of a matrix, in its own process
 int convert_command(const ConvertArguments& arguments);
 int verify_command(const VerifyArguments& arguments);
 int schema_command(const std::string& kind);  // of all kinds, if empty

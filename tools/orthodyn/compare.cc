@@ -1,16 +1,16 @@
 // `orthodyn compare`: carries a comparison out and has its report drawn.
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 
 #include "lib/run/files.h"
 #include "lib/study/comparison_table.h"
 #include "lib/study/measure.h"
 #include "tools/orthodyn/commands.h"
-#include "tools/orthodyn/comparison_folder.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/interrupt.h"
+#include "tools/orthodyn/study_folder.h"
+#include "tools/orthodyn/teller.h"
 
 namespace orthodyn {
 
@@ -20,47 +20,15 @@ namespace {
 
 constexpr const char* kTable = "compare.json";
 
-// A line for each point, and how long the rest may take.
-class Teller {
- public:
-  void operator()(const TaskNotice& notice) {
-    if (notice.starts) {
-      began_ = Clock::now();
-      return;
-    }
-    fmt::print("[{:>{}}/{}] {}: {}", notice.number, std::to_string(notice.count).size(), notice.count, notice.title,
-               outcome(*notice.result));
-    if (notice.cached) fmt::print(" (done before)");
-    else tell_time_left(notice);
-    fmt::print("\n");
-    std::fflush(stdout);
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-
-  static std::string outcome(const Json& result) {
-    if (result.at("status") != "completed") return "failed: " + result.at("reason").get<std::string>();
-    std::string text = "done";
-    if (result.contains("wall")) text = fmt::format("{:.3g} s", result.at("wall").at("median").get<double>());
-    if (result.contains("kind") && result.at("kind") == "exact") text = "exact solution";
-    if (result.contains("errors") && result.at("errors").at("displacement").at("l2").is_number())
-      text += fmt::format(", error {:.2g}", result.at("errors").at("displacement").at("l2").get<double>());
-    return text;
-  }
-
-  void tell_time_left(const TaskNotice& notice) {
-    spent_ += std::chrono::duration<double>(Clock::now() - began_).count();
-    ++done_;
-    const double left = spent_ / done_ * static_cast<double>(notice.count - notice.number);
-    if (left >= 60) fmt::print("  ({:.0f} min left)", left / 60);
-    else if (left >= 5) fmt::print("  ({:.0f} s left)", left);
-  }
-
-  Clock::time_point began_;
-  double spent_ = 0;
-  int done_ = 0;
-};
+std::string outcome_of(const Json& result) {
+  if (result.at("status") != "completed") return "failed: " + result.at("reason").get<std::string>();
+  std::string text = "done";
+  if (result.contains("wall")) text = fmt::format("{:.3g} s", result.at("wall").at("median").get<double>());
+  if (result.contains("kind") && result.at("kind") == "exact") text = "exact solution";
+  if (result.contains("errors") && result.at("errors").at("displacement").at("l2").is_number())
+    text += fmt::format(", error {:.2g}", result.at("errors").at("displacement").at("l2").get<double>());
+  return text;
+}
 
 std::string label_of(const Json& list, const Json& id) {
   for (const auto& item : list)
@@ -93,13 +61,14 @@ int compare_command(const CompareArguments& arguments) {
   const Config config = Config::from_file(arguments.comparison);
   const Comparison comparison = read_comparison(config);
   Design design = expand(comparison);
-  const ComparisonFolder place(arguments.out ? fs::path(*arguments.out)
-                                             : fs::path("out/comparisons") / comparison.name);
+  const StudyFolder place(arguments.out ? fs::path(*arguments.out) : fs::path("out/comparisons") / comparison.name,
+                          "comparison");
   const fs::path& folder = place.path();
 
   Teller teller;
   const auto notify = [&](const TaskNotice& notice) {
-    if (!arguments.quiet) teller(notice);
+    if (!arguments.quiet && !notice.starts)
+      teller.tell(notice.count, notice.title, outcome_of(*notice.result), notice.cached);
   };
   Campaign campaign(comparison, std::move(design), {folder, fs::read_symlink("/proc/self/exe").string(), notify});
   Json table;

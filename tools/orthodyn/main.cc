@@ -102,6 +102,17 @@ int main(int argc, char** argv) {
   auto* measure = app.add_subcommand("measure", "One point of a comparison; called by compare.")->group("");
   measure->add_option("folder", folder)->required();
 
+  StabilityArguments hard;
+  auto* stability = app.add_subcommand(
+      "stability", "Try integrators on hard cases: a matrix of pass, degraded and fail, with reasons. Run again, it goes on.");
+  stability->add_option("cases", hard.file, "Hard cases in YAML.")->required()->type_name("FILE.yaml");
+  stability->add_option("--out", hard.out, "Folder for the results; default out/stability/<name>.")->type_name("DIR");
+  stability->add_option("-j,--jobs", hard.jobs, "Trials at a time.")->check(CLI::Range(1, 1024))->capture_default_str();
+  stability->add_flag("--quiet", hard.quiet, "Say nothing but errors.");
+  stability->add_flag("--no-report", hard.no_report, "Write stability.json and stability.csv only.");
+  auto* assess = app.add_subcommand("assess", "One trial of a matrix; called by stability.")->group("");
+  assess->add_option("folder", folder)->required();
+
   VerifyArguments cases;
   auto* verify = app.add_subcommand("verify", "Run scenes that expect known figures, and compare: exit code 1 on a miss.");
   verify->add_option("places", cases.places, "Scenes with an 'expect' list, or folders of them.")
@@ -153,6 +164,8 @@ int main(int argc, char** argv) {
     if (*convert) return convert_command(conversion);
     if (*compare) return compare_command(comparison);
     if (*measure) return measure_command(folder);
+    if (*stability) return stability_command(hard);
+    if (*assess) return assess_command(folder);
     if (*verify) return verify_command(cases);
     if (*schema) return schema_command(schema_kind);
     if (*init) return init_command(start_kind, start_file);

@@ -1,0 +1,118 @@
+// `orthodyn stability`: a matrix of hard cases and integrators, judged by what each case expects.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <map>
+
+#include "lib/run/files.h"
+#include "lib/study/assess.h"
+#include "lib/study/stability_matrix.h"
+#include "tools/orthodyn/commands.h"
+#include "tools/orthodyn/draw.h"
+#include "tools/orthodyn/interrupt.h"
+#include "tools/orthodyn/study_folder.h"
+#include "tools/orthodyn/teller.h"
+
+namespace orthodyn {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string outcome_of(const Json& result) {
+  std::string text = result.at("grade");
+  if (result.contains("wall")) text += fmt::format(" in {:.2g} s", result.at("wall").get<double>());
+  if (const std::string reason = result.at(result.contains("message") ? "message" : "reason"); !reason.empty())
+    text += ": " + reason;
+  return text;
+}
+
+std::string symbol(const std::string& grade) {
+  static const std::map<std::string, std::string> symbols{
+      {"pass", "+"}, {"degraded", "o"}, {"fail", "X"}, {"refused", "-"}};
+  return symbols.at(grade);
+}
+
+// One table for each variant: a row a case, a column an integrator, which are numbered above it.
+class MatrixTable {
+ public:
+  explicit MatrixTable(const Json& matrix) : matrix_(matrix) {
+    for (const auto& trial : matrix.at("trials"))
+      grades_[{trial.at("variant"), trial.at("case"), trial.at("integrator")}] = trial.at("grade");
+    for (const auto& hard : matrix.at("cases"))
+      width_ = std::max(width_, hard.at("label").get<std::string>().size());
+  }
+
+  void print() const {
+    fmt::print("\n+ pass   o degraded   X fail   - refused by the integrator\n");
+    std::size_t column = 0;
+    for (const auto& integrator : matrix_.at("integrators"))
+      fmt::print("{:>3} {}\n", ++column, integrator.get<std::string>());
+    for (const auto& variant : matrix_.at("variants")) print(variant);
+  }
+
+ private:
+  void print(const std::string& variant) const {
+    fmt::print("\n{:<{}}", variant, width_);
+    for (std::size_t i = 1; i <= matrix_.at("integrators").size(); ++i) fmt::print(" {:>2}", i);
+    fmt::print("\n");
+    for (const auto& hard : matrix_.at("cases")) {
+      fmt::print("{:<{}}", hard.at("label").get<std::string>(), width_);
+      for (const auto& integrator : matrix_.at("integrators")) {
+        const auto found = grades_.find({variant, hard.at("label"), integrator});
+        fmt::print(" {:>2}", found == grades_.end() ? "?" : symbol(found->second));
+      }
+      const std::string model = hard.at("model");
+      fmt::print("{}\n", model.empty() ? "" : "   model: " + model);
+    }
+    fmt::print("{:<{}}", "fails", width_);
+    for (const auto& integrator : matrix_.at("integrators")) fmt::print(" {:>2}", fails(variant, integrator));
+    fmt::print("\n");
+  }
+
+  std::ptrdiff_t fails(const std::string& variant, const std::string& integrator) const {
+    return std::count_if(grades_.begin(), grades_.end(), [&](const auto& entry) {
+      return entry.first[0] == variant && entry.first[2] == integrator && entry.second == "fail";
+    });
+  }
+
+  const Json& matrix_;
+  std::map<std::array<std::string, 3>, std::string> grades_;  // by variant, case, integrator
+  std::size_t width_ = 5;
+};
+
+}  // namespace
+
+int stability_command(const StabilityArguments& arguments) {
+  Stability stability = read_stability(Config::from_file(arguments.file));
+  const std::string name = stability.name;
+  const fs::path out = arguments.out ? fs::path(*arguments.out) : fs::path("out/stability") / name;
+  StabilityMatrix matrix(std::move(stability), out, fs::read_symlink("/proc/self/exe").string());
+  const StudyFolder place(out, "stability");
+
+  Teller teller;
+  heed_interrupts();
+  const ErrandEvents events{
+      [](std::size_t) {},
+      [&](std::size_t i, const Json& result, bool cached) {
+        if (!arguments.quiet) teller.tell(matrix.trials().size(), matrix.trials()[i].title, outcome_of(result), cached);
+      }};
+  const bool complete = matrix.run(arguments.jobs, interrupted(), events);
+  const Json table = matrix.json(arguments.file);
+  write_file(out / "stability.json", {to_text(table, 1)});
+  write_file(out / "stability.csv", {matrix.csv()});
+  if (!complete)
+    fmt::print(stderr, "interrupted; the finished trials are in {} and will not be done again\n", out.string());
+  if (!arguments.quiet) MatrixTable(table).print();
+  if (!arguments.no_report) draw_report(out, arguments.quiet);
+  return complete ? 0 : 130;
+}
+
+int assess_command(const std::string& folder) {
+  assess(folder);
+  return 0;
+}
+
+}  // namespace orthodyn

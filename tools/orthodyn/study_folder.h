@@ -1,0 +1,26 @@
+// The folder of a study, such as a comparison: marked as such, and used by one process at a time.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "tools/orthodyn/folder_lock.h"
+
+namespace orthodyn {
+
+class StudyFolder {
+ public:
+  // Makes the folder if it is missing. `kind`: "comparison". Throws ConfigError if it holds anything else than a study
+  // of this kind, or if another process works there. What is finished is known by its fingerprint, so any study may
+  // go on in the folder of another of its kind.
+  StudyFolder(std::filesystem::path path, const std::string& kind);
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  std::optional<FolderLock> lock_;  // on the mark; taken once the folder is known to be ours
+};
+
+}  // namespace orthodyn
