@@ -14,19 +14,26 @@ namespace orthodyn {
 
 namespace {
 
-// Measured: a force takes about 2.2 ns per entry of the tangent's lower triangle, a solve 1 ns per entry of the
-// factor, a factorisation 0.15 ns per multiplication.
-constexpr double kForce = 2.2, kSolve = 1, kFactor = 0.15;
+// Measured: a force takes about 2.2 ns per entry of the tangent's lower triangle, a tangent ten forces, a solve 1 ns per
+// entry of the factor, a factorisation 0.15 ns per multiplication.
+constexpr double kForce = 2.2, kTangent = 10, kSolve = 1, kFactor = 0.15;
 constexpr double kBytesPerEntry = 10;  // of the factor, workspace included
 
+// Of an L-stable method of order two, measured at rtol 1e-3: steps for each radian of the motion, iterations for each
+// step, and tangents with their factors for each step.
+constexpr double kSteps = 7, kIterations = 4, kTangents = 0.3;
+
+// A position scale, against which errors are measured, is about a tenth of the motion.
+constexpr double kScaleOfMotion = 0.1;
+
 // The damping ratio of the motion above which the faster vibrations are gone soon enough for BDF of high order.
-constexpr double kWellDamped = 0.01;
+constexpr double kWellDamped = 1e-3;
 
 }  // namespace
 
 Outlook look_at(const Model& model, const Task& task, const Scales& scales, const std::string& linear_solver) {
   Outlook look;
-  const double span = task.end - task.initial.t, omega = scales.velocity / scales.position;
+  const double span = task.end - task.initial.t, omega = kScaleOfMotion * scales.velocity / scales.position;
   look.swings = span * omega;
   Statistics unused;
   look.explicit_steps = std::numeric_limits<double>::infinity();
@@ -44,8 +51,8 @@ Outlook look_at(const Model& model, const Task& task, const Scales& scales, cons
   return look;
 }
 
-// The share of the critical step at which leapfrog's phase error at the end, swings (omega h)^2 / 24 with omega =
-// velocity scale / position scale, is about what other methods have for this rtol.
+// The share of the critical step at which leapfrog's phase error at the end, swings (omega h)^2 / 24, is about what
+// other methods have for this rtol.
 double safety_for(const Outlook& look, double rtol) {
   constexpr double kErrorPerTolerance = 10;
   const double at_limit = look.swings * std::pow(look.swings / look.explicit_steps, 2) / 24;
@@ -53,9 +60,9 @@ double safety_for(const Outlook& look, double rtol) {
 }
 
 Advice advise(const Outlook& look, double rtol) {
-  // Of an implicit method of order two; each step takes about two and a half iterations, one in five a new factor.
-  const double implicit_steps = 20 + 3 * look.swings * std::pow(1e-3 / rtol, 1.0 / 3);
-  const double implicit_cost = implicit_steps * (2.5 * (1 + look.solve_cost) + 0.2 * look.factor_cost);
+  const double implicit_steps = 10 + kSteps * look.swings * std::pow(1e-3 / rtol, 1.0 / 3);
+  const double implicit_cost =
+      implicit_steps * (kIterations * (1 + look.solve_cost) + kTangents * (kTangent + look.factor_cost));
   const double safety = safety_for(look, rtol), explicit_cost = look.explicit_steps / safety;
   if (explicit_cost < implicit_cost)
     return {"central_differences",
@@ -63,7 +70,7 @@ Advice advise(const Outlook& look, double rtol) {
             safety};
   if (look.damping_ratio > kWellDamped)
     return {"cvode_bdf", "well damped, where multistep methods of high order take long steps"};
-  if (rtol < 3e-4) return {"arkode_dirk", "hardly damped, where Runge-Kutta methods of high order keep fast oscillations"};
+  if (rtol < 1e-4) return {"arkode_dirk", "hardly damped, where Runge-Kutta methods of high order keep fast oscillations"};
   return {"tr_bdf2", "hardly damped and a moderate accuracy, where an L-stable method of order 2 is cheapest"};
 }
 

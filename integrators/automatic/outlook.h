@@ -15,7 +15,7 @@ struct Outlook {
   double damping_ratio = 0;                // of the motion itself, by stiffness-proportional damping everywhere
   double explicit_steps = 0;               // of central differences to the end, at the critical step; infinite if it
                                            // cannot be told
-  double swings = 0;                       // the time span in units of position scale / velocity scale
+  double swings = 0;                       // radians of the motion, about, over the time span
   double solve_cost = 0, factor_cost = 0;  // in forces
 };
 
