@@ -18,8 +18,10 @@ namespace orthodyn {
 namespace {
 
 // Of the first correction: those of this size are wanted, and those below the other are round-off if they do not
-// shrink.
-constexpr double kExact = 1e-15, kRoundOff = 1e-11;
+// shrink. So are corrections below the third, of the scales, however small the first one was, that have not shrunk for
+// some iterations.
+constexpr double kExact = 1e-15, kRoundOff = 1e-11, kNothing = 1e-9;
+constexpr int kStalled = 5;
 constexpr double kDiverged = 100;  // times the smallest correction so far
 constexpr int kAndersonDepth = 5;
 
@@ -109,6 +111,7 @@ class EnergyMomentum : public OneStep {
   bool iterate(double h) {
     anderson_.restart();
     double first = 0, smallest = 0;
+    int stalled = 0;
     for (int k = 0; k < max_iterations_; ++k) {
       correction(h);
       const double size = norm_(r_, 0.25 * h * h, 0.5 * h);
@@ -119,7 +122,10 @@ class EnergyMomentum : public OneStep {
       if (size <= kExact * first) return true;
       if (k > 0 && size >= smallest) {
         if (size <= kRoundOff * first) return true;
+        if (++stalled == kStalled && smallest * norm_.rtol() <= kNothing) return true;
         if (size > kDiverged * smallest) return false;
+      } else {
+        stalled = 0;
       }
       smallest = std::min(smallest, size);
     }
