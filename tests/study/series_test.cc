@@ -70,5 +70,20 @@ TEST(Series, DriftOfAVectorIsTheLongestChange) {
   EXPECT_DOUBLE_EQ(drift(s), 5);
 }
 
+TEST(Series, GainCountsRisesAboveTheStartOnly) {
+  EXPECT_DOUBLE_EQ(gain({1, {0, 1, 2, 3}, {2, -5, 2.5, 1}}), 0.5);
+  EXPECT_DOUBLE_EQ(gain({1, {0, 1, 2}, {2, 1, 0}}), 0);
+  EXPECT_TRUE(std::isnan(gain({1, {0, 1}, {2, std::nan("")}})));
+  EXPECT_TRUE(std::isnan(gain(Series{})));
+}
+
+TEST(Series, OnsetIsWhenTheSizeFirstPassesALevel) {
+  const Series s{1, {0, 1, 2, 3}, {0, -0.5, -1.5, 4}};
+  EXPECT_DOUBLE_EQ(onset(s, 1), 1.5);
+  EXPECT_DOUBLE_EQ(onset(s, 0.25), 0.5);
+  EXPECT_DOUBLE_EQ(onset({1, {2, 3}, {5, 6}}, 1), 2);
+  EXPECT_TRUE(std::isnan(onset(s, 5)));
+}
+
 }  // namespace
 }  // namespace orthodyn

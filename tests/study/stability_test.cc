@@ -1,0 +1,168 @@
+// `orthodyn stability` as a user meets it: grades, refusals, errors, and what a kill costs.
+#include <csignal>
+#include <map>
+#include <random>
+#include <set>
+#include <thread>
+
+#include "lib/study/point_result.h"
+#include "lib/study/verdict.h"
+#include "tests/run/command.h"
+
+namespace orthodyn {
+namespace {
+
+// Falls by g t^2 / 2 = 4.905 m in a second.
+const std::string kFall = R"(# A block falls.
+mesh: {type: box, size: [1, 1, 1], cells: [1, 1, 1]}
+materials: {m: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
+gravity: [0, 0, -9.81]
+time: {end: 1}
+integrator: {rtol: 1e-6}
+output: {probes: {corner: {at: [0, 0, 0]}}}
+)";
+
+std::string expecting(double depth, const std::string& more = "") {
+  return kFall + "expect: [{quantity: corner.displacement.z, value: -" + std::to_string(depth) +
+         ", absolute: 0.01, source: g t^2 / 2, reason: r" + more + "}]\n";
+}
+
+const std::string kMatrix = "cases: [fall.yaml]\nintegrators: [cvode_bdf, tr_bdf2]\n";
+
+class StabilityCommand : public InFolder {
+ protected:
+  StabilityCommand() { write("fall.yaml", expecting(4.905)); }
+  CommandResult stability(const std::string& more = "") const {
+    return orthodyn("stability m.yaml --no-report" + more);
+  }
+  Json table() const { return read_json(folder_ / "out/stability/m/stability.json"); }
+  std::string grade(std::size_t trial) const { return table().at("trials").at(trial).at("grade"); }
+};
+
+TEST_F(StabilityCommand, GradesByTheDistanceInTolerances) {
+  const std::map<double, std::string> grades{{4.905, "pass"}, {4.955, "degraded"}, {5.105, "fail"}};
+  for (const auto& [depth, word] : grades) {
+    write("fall.yaml", expecting(depth));
+    write("m.yaml", kMatrix);
+    ASSERT_EQ(stability().exit_code, 0);
+    EXPECT_EQ(grade(0), word);
+    EXPECT_EQ(grade(1), word);
+  }
+  write("fall.yaml", expecting(5.105, ", degraded: 100"));
+  ASSERT_EQ(stability().exit_code, 0);
+  EXPECT_EQ(grade(0), "degraded");
+}
+
+TEST_F(StabilityCommand, SaysWhatWasExpectedAndLeavesTheLastState) {
+  write("fall.yaml", expecting(5.105));
+  write("m.yaml", kMatrix);
+  const auto done = stability();
+  EXPECT_NE(done.output.find("end of corner.displacement.z is -4.9"), std::string::npos) << done.output;
+  const Json trial = table().at("trials").at(0);
+  EXPECT_NEAR(trial.at("worst").at("computed").get<double>(), -4.905, 1e-3);
+  EXPECT_EQ(trial.at("worst").at("expected").get<double>(), -5.105);
+  EXPECT_EQ(trial.at("time_reached").get<double>(), 1);
+  EXPECT_GT(trial.at("statistics").at("steps").get<int>(), 0);
+  EXPECT_TRUE(fs::exists(folder_ / "out/stability/m" / trial.at("folder").get<std::string>() / "end.vtu"));
+  const std::string csv = read_text(folder_ / "out/stability/m/stability.csv");
+  EXPECT_NE(csv.find("\"fall\",\"default\",\"cvode_bdf\",fail,"), std::string::npos) << csv;
+}
+
+TEST_F(StabilityCommand, TakesVariantsAndRefusalsApart) {
+  write("m.yaml", "cases: [fall.yaml]\nintegrators: [energy_momentum, cvode_bdf]\n"
+                  "variants: {exact: {}, warped: {elasticity.corotation: warped}}\n");
+  const auto done = stability();
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  const Json t = table();
+  ASSERT_EQ(t.at("trials").size(), 4u);
+  EXPECT_EQ(grade(0), "pass");
+  EXPECT_EQ(grade(2), "refused");
+  EXPECT_NE(t.at("trials").at(2).at("reason").get<std::string>().find("elasticity.corotation: exact"), std::string::npos);
+  EXPECT_EQ(grade(3), "pass");
+}
+
+TEST_F(StabilityCommand, ARunThatDoesNotEndFails) {
+  write("m.yaml", "cases: [fall.yaml]\nintegrators: [{type: cvode_bdf, max_steps: 3}, {type: backward_euler, label: slow, "
+                  "h_max: 1e-8, max_steps: 100000000}]\nlimits: {seconds: 0.3}\n");
+  ASSERT_EQ(stability().exit_code, 0);
+  EXPECT_EQ(grade(0), "fail");
+  EXPECT_NE(table().at("trials").at(0).at("reason").get<std::string>().find("max_steps"), std::string::npos);
+  EXPECT_EQ(grade(1), "fail");
+  EXPECT_EQ(table().at("trials").at(1).at("reason"), "time limit");
+}
+
+TEST_F(StabilityCommand, RefusesWhatIsWrongBeforeAnythingRuns) {
+  const std::map<std::string, std::string> wrong{
+      {"cases: []\n", "m.yaml:1:8: cases: is empty"},
+      {"cases: [none.yaml]\n", "no such file"},
+      {"cases: [fall.yaml, fall.yaml]\n", "m.yaml:1:20"},
+      {"cases: [fall.yaml]\nintegrators: [cvode_bfd]\n", "did you mean 'cvode_bdf'"},
+      {"cases: [fall.yaml]\nintegrators: [{type: cvode_bdf, rtoll: 1}]\n", "rtoll"},
+      {"cases: [{file: fall.yaml, set: {gravty: 1}}]\n", "gravty"},
+      {"cases: [fall.yaml]\nvariants: {a: {elasticity.corotatoin: warped}}\n", "corotatoin"}};
+  for (const auto& [text, message] : wrong) {
+    write("m.yaml", text);
+    const auto done = stability();
+    EXPECT_EQ(done.exit_code, 2) << text << done.output;
+    EXPECT_NE(done.output.find(message), std::string::npos) << text << done.output;
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+  }
+  write("fall.yaml", kFall);
+  write("m.yaml", kMatrix);
+  const auto done = stability();
+  EXPECT_EQ(done.exit_code, 2);
+  EXPECT_NE(done.output.find("expects nothing"), std::string::npos) << done.output;
+}
+
+// Killed again and again at random moments, it loses the trials in progress and nothing else.
+TEST_F(StabilityCommand, AKillCostsTheTrialsInProgress) {
+  write("m.yaml", "cases: [fall.yaml]\nintegrators: [all]\n");
+  const auto finished = [&] {
+    std::map<std::string, std::string> out;
+    if (!fs::exists(folder_ / "out")) return out;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out"))
+      if (entry.path().filename() == "result.json") out[entry.path().string()] = read_text(entry.path());
+    return out;
+  };
+  std::mt19937 random(1);
+  std::map<std::string, std::string> before;
+  for (int kill = 0; kill < 6; ++kill) {
+    const int milliseconds = 50 + static_cast<int>(random() % 400);
+    shell("cd " + folder_.string() + " && timeout -s KILL " + std::to_string(milliseconds / 1000.0) + " " ORTHODYN_EXECUTABLE
+          " stability m.yaml --no-report --jobs 2");
+    const auto after = finished();
+    for (const auto& [file, text] : before) {
+      ASSERT_TRUE(after.contains(file));
+      EXPECT_EQ(after.at(file), text);  // not done again
+    }
+    for (const auto& [file, text] : after) EXPECT_FALSE(Json::parse(text, nullptr, false).is_discarded()) << text;
+    before = after;
+  }
+  ASSERT_EQ(stability(" --jobs 2").exit_code, 0);
+  const Json t = table();
+  EXPECT_TRUE(t.at("complete").get<bool>());
+  EXPECT_EQ(t.at("trials").size(), t.at("integrators").size());
+  for (const auto& [file, text] : before) EXPECT_EQ(read_text(file), text);
+  EXPECT_NE(stability().output.find("(done before)"), std::string::npos);
+}
+
+Check off_by(double tolerances, double degraded = 10) {
+  Expectation e;
+  e.quantity = "q";
+  e.absolute = 1;
+  e.degraded = degraded;
+  return {e, tolerances};
+}
+
+TEST(Judge, TheWorstFigureDecides) {
+  const auto grade = [](const std::vector<Check>& checks) { return judge({"", {}, checks}).grade; };
+  EXPECT_EQ(grade({off_by(0.5), off_by(1)}), Grade::pass);
+  EXPECT_EQ(grade({off_by(0.5), off_by(-1.5)}), Grade::degraded);
+  EXPECT_EQ(grade({off_by(15), off_by(0.5)}), Grade::fail);
+  EXPECT_EQ(grade({off_by(15, 20), off_by(3, 2)}), Grade::fail);
+  EXPECT_EQ(grade({off_by(0), off_by(std::nan(""))}), Grade::fail);
+  EXPECT_EQ(judge({"", {}, {off_by(15, 20), off_by(3, 2)}}).worst->computed, 3);
+}
+
+}  // namespace
+}  // namespace orthodyn
