@@ -12,7 +12,8 @@ sys.dont_write_bytecode = True
 TOOLS = Path(__file__).resolve().parents[2] / "tools"
 sys.path[:0] = [str(TOOLS), str(Path(__file__).resolve().parent)]
 
-from draw.stability.clusters import are_apart, extent, same_states  # noqa: E402
+from draw.stability.clusters import (  # noqa: E402
+    about_middle, are_apart, as_they_are, extent, same_states, turned_back)
 from draw.stability.end_states import EndStates  # noqa: E402
 from draw.stability.page import page  # noqa: E402
 from draw.stability.reading import read_matrix  # noqa: E402
@@ -43,6 +44,14 @@ class Clusters(unittest.TestCase):
         self.assertTrue(are_apart([POINTS, POINTS + 10.0], size))
 
 
+    def test_a_body_is_turned_back_but_its_mirror_image_is_not(self):
+        angle = np.radians(100)
+        turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
+        np.testing.assert_allclose(turned_back(POINTS, POINTS @ turn.T + 7), POINTS, atol=1e-12)
+        uneven = POINTS * [1, 2, 3]
+        self.assertGreater(np.abs(turned_back(uneven, uneven @ turn * [1, 1, -1]) - uneven).max(), 0.1)
+
+
 class OfACase(OfAComparison):
     """Where the trials of `mirrored` ended; those of `exact` are alpha, beta (pass) and gamma (degraded)."""
 
@@ -70,10 +79,10 @@ class OfACase(OfAComparison):
         self.ends(POINTS, "alpha", "warped")
         states = self.states()
         self.assertEqual([self.names(c.trials) for c in states.clusters["exact"]], [["alpha", "beta"], ["gamma"]])
-        self.assertEqual([c.inverted for c in states.clusters["exact"]], [0, 1])
+        self.assertEqual([c.leader.inverted for c in states.clusters["exact"]], [0, 1])
         self.assertEqual([self.names(c.trials) for c in states.clusters["warped"]], [["alpha"]])
         self.assertEqual(self.names(states.absent["warped"]), ["beta", "gamma"])
-        self.assertFalse(states.centred)
+        self.assertIs(states.place, as_they_are)
 
     def test_what_exploded_is_told_in_words_and_does_not_shrink_the_others(self):
         self.ends(POINTS, "alpha")
@@ -88,7 +97,7 @@ class OfACase(OfAComparison):
         self.ends(POINTS, "alpha")
         self.ends(POINTS + [1000.0, 0, 0], "beta")
         states = self.states()
-        self.assertTrue(states.centred)
+        self.assertIs(states.place, about_middle)
         self.assertEqual([self.names(c.trials) for c in states.clusters["exact"]], [["alpha", "beta"]])
         self.assertLess(states.scene([0]).window.size.max(), 3)
 
@@ -97,7 +106,7 @@ class OfACase(OfAComparison):
             self.ends(np.zeros_like(POINTS), name, det_f=(0.0, 0.0))
         html = page(read_matrix(self.folder), self.folder)
         self.assertEqual(html.count('src="data:image/png'), 1)
-        self.assertIn("2 elements inverted", html)
+        self.assertIn("shrunk to a point", html)
 
     def test_what_is_damaged_or_not_finite_has_no_picture(self):
         self.ends(POINTS, "alpha")
@@ -111,13 +120,26 @@ class OfACase(OfAComparison):
         self.assertNotIn("<img", html)
         self.assertIn("No end state: alpha (pass), beta (pass), gamma (degraded).", Page(html).text)
 
+    def ends_of_eight(self, positions):
+        """The only variant has eight integrators, the k-th of which ends at positions(k)."""
+        self.content = matrix(integrators=[f"i{k}" for k in range(8)], variants=["exact"])
+        self.content["trials"] = [{**self.content["trials"][0], "integrator": f"i{k}", "folder": f"trials/{k}"}
+                                  for k in range(8)]
+        write_matrix(self.folder, self.content)
+        for k, trial in enumerate(self.content["trials"]):
+            write_end_state(self.folder, trial, positions(k))
+
+    def test_bodies_that_only_turned_share_a_picture(self):
+        def turned(k):
+            c, s = np.cos(k), np.sin(k)
+            return POINTS @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
+        self.ends_of_eight(turned)
+        states = self.states()
+        self.assertIs(states.place, turned_back)
+        self.assertEqual([len(c.trials) for c in states.clusters["exact"]], [8])
+
     def test_more_than_five_states_are_counted(self):
-        content = matrix(integrators=[f"i{k}" for k in range(8)], variants=["exact"])
-        content["trials"] = [{**self.content["trials"][0], "integrator": f"i{k}", "folder": f"trials/{k}"}
-                             for k in range(8)]
-        write_matrix(self.folder, content)
-        for k, trial in enumerate(content["trials"]):
-            write_end_state(self.folder, trial, (1 + 0.1 * k) * POINTS)
+        self.ends_of_eight(lambda k: (1 + 0.1 * k) * POINTS)
         html = page(read_matrix(self.folder), self.folder)
         self.assertEqual(html.count('src="data:image/png'), 5)
         self.assertIn("3 more end states: i5; i6; i7.", Page(html).text)

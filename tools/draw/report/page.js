@@ -101,7 +101,8 @@
     const fields = [...matrix.querySelectorAll("[data-p]")];
     fields.forEach((cell, k) => { cell.tabIndex = k ? -1 : 0; });
     matrix.addEventListener("keydown", event => {
-      const [across, down] = {ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowDown: [0, 1], ArrowUp: [0, -1]}[event.key] || [];
+      const ways = {ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowDown: [0, 1], ArrowUp: [0, -1]};
+      const [across, down] = ways[event.key] || [];
       const at = event.target.closest("td,th");
       if (across === undefined || !at) return;
       event.preventDefault();

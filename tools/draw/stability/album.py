@@ -1,6 +1,7 @@
 """The part of the page with the end states of each case."""
 from ..report import words
 from ..report.markup import joined, tag, void
+from .clusters import about_middle, turned_back
 from .end_states import EndStates
 from .grades import GRADES, named
 from .thumbnail import picture
@@ -10,6 +11,12 @@ MOST = 5  # pictures of a case and variant
 READ = ("Trials whose nodes all end within 2 % of the body's extent of each other share a picture, the most common "
         "state first. Grey lines are the shape at rest. Red has grown, blue has shrunk (white: the volume at rest, the "
         "darkest blue: none left). All pictures of a case have one camera and one scale.")
+
+PLACED = {
+    about_middle: "The bodies ended far from each other; each is drawn about its own middle.",
+    turned_back: "The bodies ended turned in many ways; each is turned back onto the shape at rest, so that only "
+                 "shapes tell them apart.",
+}
 
 
 def _names(trials, grade):
@@ -26,13 +33,20 @@ def _alt(case, variant, cluster):
     return f"{case.label}, {variant}: how " + words.joined(t.integrator for t in cluster.trials) + " ended"
 
 
+def _damage(states, cluster):
+    """What a picture does not show well."""
+    if states.is_a_point(cluster):
+        return ", shrunk to a point"
+    number = cluster.leader.inverted
+    return f", {words.plural(number, 'element')} flat or inverted" if number else ""
+
+
 def _card(states, shown, case, variant, cluster):
     uri, width, height = picture(states.scene(shown), cluster.index)
     count = words.plural(len(cluster.trials), "integrator")
-    inverted = f", {words.plural(cluster.inverted, 'element')} inverted" if cluster.inverted else ""
     image = void("img", src=uri, width=width, height=height, loading="lazy", alt=_alt(case, variant, cluster))
-    return tag("figure", image, tag("figcaption", tag("p", tag("strong", count), inverted, class_="who"),
-                                    _by_grade(cluster.trials)))
+    title = tag("p", tag("strong", count), _damage(states, cluster), class_="who")
+    return tag("figure", image, tag("figcaption", title, _by_grade(cluster.trials)))
 
 
 def _times(ratios):
@@ -67,10 +81,9 @@ def _case(matrix, folder, case):
     states = EndStates(matrix, folder, case)
     shown = [c.index for clusters in states.clusters.values() for c in clusters[:MOST]]
     tried = [v for v in matrix.variants if matrix.of(v, case.label)]
-    note = "The bodies ended far from each other; each is drawn about its own middle." if states.centred else None
     return tag("div", tag("h3", case.label), tag("p", case.sentence) if case.sentence else None,
                tag("p", tag("strong", "Model: "), case.model, class_="scene") if case.model else None,
-               tag("p", note, class_="scene") if note else None,
+               tag("p", PLACED[states.place], class_="scene") if states.place in PLACED else None,
                tag("div", *(_variant(matrix, states, shown, case, v) for v in tried), class_="pair"),
                None if tried else tag("p", "Not tried yet.", class_="empty"), id=matrix.case_id(case.label),
                class_="case")

@@ -38,6 +38,18 @@ def are_apart(positions, size):
     return extent(np.concatenate(positions)) > SPREAD * max(size, *(extent(x) for x in positions))
 
 
+def as_they_are(rest, positions):
+    return positions
+
+
 def about_middle(rest, positions):
     """Moved so that its middle is that of the rest shape."""
     return positions - (positions.mean(axis=0) - rest.mean(axis=0))
+
+
+def turned_back(rest, positions):
+    """About its middle and turned onto the rest shape as well as can be (Kabsch 1976); mirror images stay mirrored."""
+    middle = rest.mean(axis=0)
+    u, _, v = np.linalg.svd((positions - positions.mean(axis=0)).T @ (rest - middle))
+    u[:, -1] *= np.sign(np.linalg.det(u @ v))
+    return (positions - positions.mean(axis=0)) @ (u @ v) + middle

@@ -7,11 +7,14 @@ from ..errors import DrawError
 from ..scene import Scene, Wish
 from ..series import Series
 from ..vtu import Frame, read_vtu
-from .clusters import EXPLODED, SAME, about_middle, are_apart, extent, same_states, usual_extent
+from .clusters import (EXPLODED, SAME, about_middle, are_apart, as_they_are, extent, same_states, turned_back,
+                       usual_extent)
 
 FILE = "end.vtu"
 WELL = ("pass", "degraded")
 COLOUR, RANGE = "det_f", (0.0, 2.0)
+POINT = 1e-3  # of the usual extent, which a picture cannot show
+MANY = 4  # end states of a variant, from which on it is asked whether they only differ by how they are turned
 
 
 @dataclass(frozen=True)
@@ -22,16 +25,16 @@ class State:
 
     @property
     def inverted(self):
-        """Number of elements without volume or turned inside out."""
+        """Number of elements that are flat or turned inside out."""
         volumes = self.frame.cell_fields.get(COLOUR)
         return 0 if volumes is None else int((volumes <= 0).sum())
 
 
 @dataclass(frozen=True)
 class Cluster:
-    """Trials that end in the same state, and which frame of the case's scene shows it."""
+    """Trials that end in the same state, that of the `leader`, which a frame of the case's scene shows."""
     trials: list
-    inverted: int
+    leader: State
     index: int
 
 
@@ -81,12 +84,12 @@ class EndStates:
         states = _of_one_mesh([s for s in (_read(folder, t) for t in trials) if s])
         self.size = self._size(states)
         near = [s for s in states if not self._is_exploded(s)]
-        self.centred = bool(near) and are_apart([s.positions for s in near], self.size)
+        self.place = self._placing([[s for s in near if s.trial.variant == v] for v in matrix.variants])
         self._folder, self._frames, self._scene = folder, [], None
         drawable = {s.trial.index for s in states}
         self.clusters, self.exploded, self.absent = {}, {}, {}
         for v in matrix.variants:
-            self.clusters[v] = self._sorted([s for s in near if s.trial.variant == v])
+            self.clusters[v] = self._clusters([s for s in near if s.trial.variant == v])
             self.exploded[v] = [(s.trial, extent(s.positions) / self.size) for s in states
                                 if s.trial.variant == v and self._is_exploded(s)]
             self.absent[v] = [t for t in trials if t.variant == v and t.index not in drawable]
@@ -99,14 +102,29 @@ class EndStates:
     def _is_exploded(self, state):
         return not extent(state.positions) <= EXPLODED * self.size
 
-    def _sorted(self, states):
-        positions = [about_middle(s.frame.points, s.positions) if self.centred else s.positions for s in states]
+    def _sorted(self, states, place):
+        """Positions by state, and the lists of states that are the same."""
+        positions = [place(s.frame.points, s.positions) for s in states]
+        return positions, same_states(positions, SAME * self.size)
+
+    def _placing(self, groups):
+        """Where bodies are drawn: where they are, about one middle, or turned back as well where that tells more."""
+        near = [s.positions for states in groups for s in states]
+        place = about_middle if near and are_apart(near, self.size) else as_they_are
+        numbers = [[len(self._sorted(states, way)[1]) for states in groups] for way in (place, turned_back)]
+        return turned_back if max(numbers[0]) > MANY and 2 * sum(numbers[1]) <= sum(numbers[0]) else place
+
+    def _clusters(self, states):
+        positions, lists = self._sorted(states, self.place)
         found = []
-        for members in same_states(positions, SAME * self.size):
-            leader = members[0]
-            found.append(Cluster([states[k].trial for k in members], states[leader].inverted, len(self._frames)))
-            self._frames.append(_moved(states[leader], positions[leader]))
+        for members in lists:
+            leader = states[members[0]]
+            found.append(Cluster([states[k].trial for k in members], leader, len(self._frames)))
+            self._frames.append(_moved(leader, positions[members[0]]))
         return found
+
+    def is_a_point(self, cluster):
+        return extent(cluster.leader.positions) < POINT * self.size
 
     def scene(self, indices):
         """One camera, window and range of colours for all clusters of the case that are shown."""
