@@ -1,6 +1,9 @@
 """A report's page read back, and the set-up of the tests that look at one."""
 import contextlib
 import io
+import re
+import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -17,7 +20,7 @@ from draw.report.page import page  # noqa: E402
 from draw.report.reading import read_comparison  # noqa: E402
 from synthetic_comparison import comparison, write_comparison  # noqa: E402
 
-VOID = {"meta", "link", "input"}
+VOID = {"meta", "link", "input", "br", "img"}
 EVIL = '<script>alert("x")</script> & $\\frac{1}$ \'</title>'
 
 
@@ -65,6 +68,20 @@ class Page(HTMLParser):
     @property
     def text(self):
         return " ".join("".join(self.words).replace(words.THIN, " ").split())
+
+
+CHROMIUM = shutil.which("chromium")
+
+
+def dom_of(path, width=1280):
+    """The page after its scripts, and what the console said."""
+    with tempfile.TemporaryDirectory() as profile:
+        done = subprocess.run(
+            [CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+             "--disable-background-networking", "--disable-component-update", "--disable-sync",
+             f"--user-data-dir={profile}", f"--window-size={width},900", "--enable-logging=stderr", "--dump-dom",
+             path.as_uri()], capture_output=True, text=True, timeout=90)
+    return done.stdout, re.findall(r":CONSOLE.*", done.stderr)
 
 
 class OfAComparison(unittest.TestCase):

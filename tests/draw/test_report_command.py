@@ -4,10 +4,7 @@ Run with  /usr/bin/python3 -m unittest tests/draw/test_report_command.py
 """
 import json
 import re
-import shutil
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -16,7 +13,7 @@ TOOLS = Path(__file__).resolve().parents[2] / "tools"
 sys.path[:0] = [str(TOOLS), str(Path(__file__).resolve().parent)]
 
 from synthetic_comparison import comparison, write_comparison  # noqa: E402
-from report_page import OfAComparison  # noqa: E402
+from report_page import CHROMIUM, OfAComparison, dom_of  # noqa: E402
 
 
 class TheCommand(OfAComparison):
@@ -91,24 +88,12 @@ run();
 
 
 class InABrowser(OfAComparison):
-    CHROMIUM = shutil.which("chromium")
-
-    def dom(self, path, width=1280):
-        """The page after its scripts, and what the console said."""
-        with tempfile.TemporaryDirectory() as profile:
-            done = subprocess.run(
-                [self.CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-                 "--disable-background-networking", "--disable-component-update", "--disable-sync",
-                 f"--user-data-dir={profile}", f"--window-size={width},900", "--enable-logging=stderr", "--dump-dom",
-                 path.as_uri()], capture_output=True, text=True, timeout=90)
-        return done.stdout, re.findall(r":CONSOLE.*", done.stderr)
-
     @unittest.skipUnless(CHROMIUM, "chromium is not installed, so the page's script is not tried")
     def test_the_script_runs_without_a_word_on_the_console(self):
         content = comparison(methods=2, points=2)
         path = self.folder / "probe.html"
         path.write_text(self.html(content).replace("</body>", PROBE), encoding="utf-8")
-        dom, console = self.dom(path)
+        dom, console = dom_of(path)
         self.assertEqual(console, [])
         result = re.search(r'<pre id="probe">(.*?)</pre>', dom)
         self.assertTrue(result, dom[-300:])

@@ -64,7 +64,12 @@
     return found;
   }
 
+  // A field of a table of grades, which has its values as a mark of a figure has.
+  const field = event => event.target.closest ? event.target.closest("table.matrix [data-p]") : null;
+
   function point(event) {
+    const cell = field(event);
+    if (cell) return pick(cell.closest("table"), cell);
     const svg = event.target.closest ? event.target.closest("figure svg") : null;
     const mark = svg && (nearest(svg, event.clientX, event.clientY) || event.target.closest("[data-m]"));
     if (mark) pick(svg, mark); else clear();
@@ -72,6 +77,10 @@
   document.addEventListener("pointermove", point);
   document.addEventListener("pointerdown", point);
   document.addEventListener("focusout", clear);
+  document.addEventListener("focusin", event => {
+    const cell = field(event);
+    if (cell) pick(cell.closest("table"), cell);
+  });
 
   document.addEventListener("keydown", event => {
     if (event.key === "Escape") clear();
@@ -86,6 +95,23 @@
     event.preventDefault();
     pick(svg, step > 0 ? marks[Math.max(next, 0)] : before || marks[marks.length - 1]);
   });
+
+  // A matrix is one stop of the tab key; arrow keys move among its fields.
+  for (const matrix of document.querySelectorAll("table.matrix")) {
+    const fields = [...matrix.querySelectorAll("[data-p]")];
+    fields.forEach((cell, k) => { cell.tabIndex = k ? -1 : 0; });
+    matrix.addEventListener("keydown", event => {
+      const ways = {ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowDown: [0, 1], ArrowUp: [0, -1]};
+      const [across, down] = ways[event.key] || [];
+      const at = event.target.closest("td,th");
+      if (across === undefined || !at) return;
+      event.preventDefault();
+      const next = matrix.rows[at.parentNode.rowIndex + down]?.cells[at.cellIndex + across]?.querySelector("[data-p]");
+      if (!next) return;
+      for (const cell of fields) cell.tabIndex = cell === next ? 0 : -1;
+      next.focus();
+    });
+  }
 
   const originals = new Map(); // figure -> what was shown first
   function show(figure) {

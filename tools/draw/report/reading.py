@@ -16,6 +16,7 @@ FILE = "compare.json"
 
 class Node:
     """An object of the file with its place, `points[3].wall`; null and missing keys read as unknown."""
+    command = "orthodyn compare"  # writes the file
 
     def __init__(self, file, place, value):
         self.file, self.place = file, place
@@ -26,7 +27,7 @@ class Node:
     def wrong(self, key, found, wanted):
         place = ".".join(str(part) for part in (self.place, key) if part) or "the file"
         return DrawError(f"{self.file}: {place}: found {json.dumps(found)[:60]} where {wanted} belongs; "
-                         "was it changed by hand? `orthodyn compare` writes it anew")
+                         f"was it changed by hand? `{self.command}` writes it anew")
 
     def text(self, key, default=""):
         value = self.value.get(key)
@@ -57,7 +58,7 @@ class Node:
 
     def child(self, key):
         value = self.value.get(key)
-        return Node(self.file, f"{self.place}.{key}".lstrip("."), {} if value is None else value)
+        return type(self)(self.file, f"{self.place}.{key}".lstrip("."), {} if value is None else value)
 
     def list(self, key):
         value = self.value.get(key)
@@ -66,7 +67,7 @@ class Node:
         return value or []
 
     def children(self, key):
-        return [Node(self.file, f"{self.place}.{key}[{k}]".lstrip("."), value)
+        return [type(self)(self.file, f"{self.place}.{key}[{k}]".lstrip("."), value)
                 for k, value in enumerate(self.list(key))]
 
     def series(self, key):

@@ -17,7 +17,7 @@ def caption(words_):
     return tag("caption", tag("span", words_, class_="inner"))
 
 
-def _table(title, head, rows, label, kind=None):
+def table(title, head, rows, label, kind=None):
     """`head` is (words, is a number)."""
     cells = [tag("th", text, scope="col", class_="num" if numeric else "word" if k else None)
              for k, (text, numeric) in enumerate(head)]
@@ -58,7 +58,7 @@ def runs_table(comparison, problem):
     name = tag("span", measures.label(measure), data_measure_name=True)
     title = joined([f"All runs on {problem.label}. Error: ", name, "; Force to Solve: number of calls; "
                       "drifts: largest, relative. Grey errors are near the reference's own error."])
-    return _table(title, head, rows, f"All runs on {problem.label}", "long")
+    return table(title, head, rows, f"All runs on {problem.label}", "long")
 
 
 def failures_table(comparison):
@@ -73,7 +73,7 @@ def failures_table(comparison):
     head = (("Method", False), ("Problem", False), ("Control", True), ("Reason", False), ("Reached t [s]", True),
             ("Wall [s]", True), ("Message", False))
     title = f"{words.plural(len(failed), 'run')} of {len(comparison.points)} did not finish"
-    return _table(title, head, rows, "Failures")
+    return table(title, head, rows, "Failures")
 
 
 def _reached(problem, point):
@@ -94,7 +94,7 @@ def cost_table(comparison, problem):
     head = [("Method", False), ("Control", True), ("Error", True), ("Wall [s]", True),
             *((name.capitalize(), True) for name in cost.NAMES.values())]
     title = "Seconds, share of the wall time, and number of calls"
-    return _table(title, head, rows, f"Cost on {problem.label}", "cost")
+    return table(title, head, rows, f"Cost on {problem.label}", "cost")
 
 
 def _part(seconds, total, work):
@@ -109,4 +109,4 @@ def drift_table(comparison, problem, runs):
                   for k in ("energy", "linear_momentum", "angular_momentum"))) for p in runs]
     head = (("Method", False), ("Control", True), ("Energy", True), ("Linear momentum", True),
             ("Angular momentum", True))
-    return _table("Largest relative drift of the runs shown", head, rows, f"Drift on {problem.label}")
+    return table("Largest relative drift of the runs shown", head, rows, f"Drift on {problem.label}")

@@ -1,0 +1,17 @@
+"""One page and figures from stability.json, what `orthodyn stability` has written."""
+from pathlib import Path
+
+FILE = "stability.json"
+
+
+def write_stability_report(result, out=None):
+    """Writes RESULT/report.html (or `out`) and RESULT/pictures; yields the paths."""
+    from .figure import write_figures
+    from .page import page
+    from .reading import read_matrix
+    matrix, folder = read_matrix(result), Path(result)
+    path = out or folder / "report.html"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(page(matrix, folder), encoding="utf-8")
+    yield path
+    yield from write_figures(matrix, folder / "pictures")

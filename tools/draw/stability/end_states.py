@@ -1,0 +1,134 @@
+"""The last states of a case's trials: read, sorted into clusters, drawn as small pictures."""
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import DrawError
+from ..scene import Scene, Wish
+from ..series import Series
+from ..vtu import Frame, read_vtu
+from .clusters import (EXPLODED, SAME, about_middle, are_apart, as_they_are, extent, same_states, turned_back,
+                       usual_extent)
+
+FILE = "end.vtu"
+WELL = ("pass", "degraded")
+COLOUR, RANGE = "det_f", (0.0, 2.0)
+POINT = 1e-3  # of the usual extent, which a picture cannot show
+MANY = 4  # end states of a variant, from which on it is asked whether they only differ by how they are turned
+
+
+@dataclass(frozen=True)
+class State:
+    trial: object
+    frame: Frame
+    positions: np.ndarray
+
+    @property
+    def inverted(self):
+        """Number of elements that are flat or turned inside out."""
+        volumes = self.frame.cell_fields.get(COLOUR)
+        return 0 if volumes is None else int((volumes <= 0).sum())
+
+
+@dataclass(frozen=True)
+class Cluster:
+    """Trials that end in the same state, that of the `leader`, which a frame of the case's scene shows."""
+    trials: list
+    leader: State
+    index: int
+
+
+class Shown(Series):
+    """The states that stand for clusters, as the frames of a series."""
+
+    def __init__(self, folder, frames):
+        self.folder, self._frames = folder, frames
+        self.paths, self.times = [folder] * len(frames), [0.0] * len(frames)
+
+    def frame(self, index):
+        return self._frames[index]
+
+
+def _read(folder, trial):
+    """The trial's State; None where it left none, or none that can be drawn."""
+    path = folder / trial.folder / FILE
+    if not trial.folder or not path.is_file():
+        return None
+    try:
+        frame = read_vtu(path)
+    except DrawError:
+        return None
+    moved = frame.node_fields.get("displacement", np.zeros_like(frame.points))
+    positions = frame.points + moved
+    drawable = len(frame.tets) and COLOUR in frame.cell_fields and np.isfinite(positions).all()
+    return State(trial, frame, positions) if drawable else None
+
+
+def _moved(state, positions):
+    """The state's frame with its nodes at `positions`."""
+    return Frame(state.frame.points, state.frame.tets, {"displacement": positions - state.frame.points},
+                 state.frame.cell_fields)
+
+
+def _of_one_mesh(states):
+    """Those with the mesh of the first."""
+    return [s for s in states if np.array_equal(s.frame.tets, states[0].frame.tets)
+            and s.frame.points.shape == states[0].frame.points.shape]
+
+
+class EndStates:
+    """Of one case. `clusters`, `exploded` [(trial, times the usual extent)] and `absent` trials, by variant."""
+
+    def __init__(self, matrix, folder, case):
+        trials = matrix.of(case=case.label)
+        states = _of_one_mesh([s for s in (_read(folder, t) for t in trials) if s])
+        self.size = self._size(states)
+        near = [s for s in states if not self._is_exploded(s)]
+        self.place = self._placing([[s for s in near if s.trial.variant == v] for v in matrix.variants])
+        self._folder, self._frames, self._scene = folder, [], None
+        drawable = {s.trial.index for s in states}
+        self.clusters, self.exploded, self.absent = {}, {}, {}
+        for v in matrix.variants:
+            self.clusters[v] = self._clusters([s for s in near if s.trial.variant == v])
+            self.exploded[v] = [(s.trial, extent(s.positions) / self.size) for s in states
+                                if s.trial.variant == v and self._is_exploded(s)]
+            self.absent[v] = [t for t in trials if t.variant == v and t.index not in drawable]
+
+    @staticmethod
+    def _size(states):
+        return usual_extent(states[0].frame.points, [s.positions for s in states if s.trial.grade in WELL]) \
+            if states else 1.0
+
+    def _is_exploded(self, state):
+        return not extent(state.positions) <= EXPLODED * self.size
+
+    def _sorted(self, states, place):
+        """Positions by state, and the lists of states that are the same."""
+        positions = [place(s.frame.points, s.positions) for s in states]
+        return positions, same_states(positions, SAME * self.size)
+
+    def _placing(self, groups):
+        """Where bodies are drawn: where they are, about one middle, or turned back as well where that tells more."""
+        near = [s.positions for states in groups for s in states]
+        place = about_middle if near and are_apart(near, self.size) else as_they_are
+        numbers = [[len(self._sorted(states, way)[1]) for states in groups] for way in (place, turned_back)]
+        return turned_back if max(numbers[0]) > MANY and 2 * sum(numbers[1]) <= sum(numbers[0]) else place
+
+    def _clusters(self, states):
+        positions, lists = self._sorted(states, self.place)
+        found = []
+        for members in lists:
+            leader = states[members[0]]
+            found.append(Cluster([states[k].trial for k in members], leader, len(self._frames)))
+            self._frames.append(_moved(leader, positions[members[0]]))
+        return found
+
+    def is_a_point(self, cluster):
+        return extent(cluster.leader.positions) < POINT * self.size
+
+    def scene(self, indices):
+        """One camera, window and range of colours for all clusters of the case that are shown."""
+        if self._scene is None:
+            self._scene = Scene(Shown(self._folder, self._frames), indices,
+                                Wish(color=COLOUR, limits=RANGE, ghost=True))
+        return self._scene

@@ -1,0 +1,72 @@
+"""The page of a matrix of hard cases: one HTML file that opens without a network."""
+import shlex
+from pathlib import Path
+
+from ..report import words
+from ..report.details import pairs
+from ..report.markup import Html, data_script, joined, tag
+from ..report.page import SCRIPT, head
+from . import grades
+from .album import album
+from .answer import answer
+from .failures import failures
+from .grid import grid
+from .phrases import case_tip, tip
+
+STYLE = Path(__file__).resolve().parent / "page.css"
+
+
+def _counted(matrix):
+    parts = [words.plural(len(matrix.cases), "case"), words.plural(len(matrix.integrators), "integrator"),
+             words.plural(len(matrix.variants), "variant"), words.plural(len(matrix.trials), "trial")]
+    if words.known(matrix.limit):
+        parts.append(f"at most {words.seconds(matrix.limit)} each")
+    machine, cores = matrix.machine.get("processor", ""), matrix.machine.get("cores", "")
+    return parts + [p for p in (matrix.at.replace("T", " ").replace("Z", " UTC"),
+                                f"{machine}, {cores} cores" if machine and cores else machine) if p]
+
+
+def _banner(matrix):
+    if matrix.complete:
+        return None
+    return tag("p", tag("strong", "Not finished: "), f"{words.count(len(matrix.trials))} of "
+               f"{words.plural(matrix.planned, 'trial')}. What follows is what there is so far.", class_="banner",
+               role="status")
+
+
+def _header(matrix, sections):
+    return tag("header", tag("button", "Dark", type="button", id="theme", class_="js"), tag("h1", matrix.title),
+               tag("p", matrix.description, class_="lede") if matrix.description else None,
+               tag("p", " · ".join(_counted(matrix)), class_="facts"), _banner(matrix),
+               tag("nav", *(tag("a", name, href=f"#{identity}") for identity, name, _ in sections),
+                   aria_label="Sections"))
+
+
+def _machine(key, value):
+    return (key.replace("_bytes", ""), f"{words.megabytes(float(value))} MB") if key == "memory_bytes" else (key, value)
+
+
+def _origin(matrix, folder):
+    place = shlex.quote(str(folder))
+    command = (f"orthodyn stability {shlex.quote(matrix.file or 'FILE.yaml')} --out {place}\n"
+               f"tools/draw/draw report {place}")
+    files = pairs((case.label, tag("code", case.file)) for case in matrix.cases)
+    blocks = (("Machine", pairs(_machine(k, v) for k, v in matrix.machine.items())),
+              ("Versions", pairs(matrix.versions.items())))
+    return joined([pairs([("File", tag("code", matrix.file) if matrix.file else ""), ("Written", matrix.at)]),
+                   tag("div", *(tag("div", tag("h3", name), content) for name, content in blocks), class_="columns"),
+                   tag("h3", "To reproduce"), tag("pre", tag("code", command)), tag("h3", "Scenes"), files])
+
+
+def page(matrix, folder):
+    """The whole page as text; `folder` has the end states and is named in the command that reproduces it."""
+    sections = (("answer", "Answer", answer(matrix)), ("matrix", "Matrix", grid(matrix)),
+                ("states", "End states", album(matrix, Path(folder))), ("trials", "No pass", failures(matrix)),
+                ("details", "Where from", _origin(matrix, folder)))
+    main = tag("main", *(tag("section", tag("h2", name), content, id=identity) for identity, name, content in sections))
+    tips = [tip(t) for t in matrix.trials] + [case_tip(c) for c in matrix.cases]
+    body = tag("body", grades.symbols(), _header(matrix, sections), main,
+               data_script("run-data", {"measure": "", "labels": {}, "runs": tips}),
+               tag("script", Html(SCRIPT.read_text(encoding="utf-8"))))
+    style = STYLE.read_text(encoding="utf-8") + grades.css()
+    return "<!DOCTYPE html>\n" + tag("html", head(matrix.title, style), body, lang="en") + "\n"

@@ -1,0 +1,53 @@
+"""Numbers of a trial in words."""
+import math
+
+from ..report import words
+
+LONG = 220  # letters of a reason under the pointer
+
+
+def number(x):
+    """'0.00135', '3.35e3'; a figure that is none is said to be none."""
+    return words.exponent(x, 3) if words.known(x) else "not finite"
+
+
+def expected(figure):
+    limit = f" ± {words.exponent(figure.limit)}" if words.known(figure.limit) else ""
+    return words.exponent(figure.expected, 4) + limit
+
+
+def reached(trial):
+    return f"t = {words.general(trial.time_reached)}{words.THIN}s" if words.known(trial.time_reached) else words.UNKNOWN
+
+
+def own_reason(trial):
+    """The reason, but where it only repeats the worst figure."""
+    if trial.worst and trial.reason.startswith(f"{trial.worst.title} is "):
+        return ""
+    return trial.reason
+
+
+def tip(trial):
+    """What is shown under the pointer, as data for the page's script."""
+    rows = [["Grade", trial.grade]]
+    if trial.worst:
+        rows += [[trial.worst.title, number(trial.worst.computed)], ["Expected", expected(trial.worst)]]
+    reason = own_reason(trial)
+    rows += [["Reason", reason if len(reason) <= LONG else reason[:LONG - 1] + "…"]] if reason else []
+    rows += [["Reached", reached(trial)]] if words.known(trial.time_reached) else []
+    rows += [["Wall", words.seconds(trial.wall)]] if words.known(trial.wall) else []
+    return {"title": trial.title, "rows": rows, "e": {}}
+
+
+def case_tip(case):
+    rows = [["", case.sentence]] if case.sentence else []
+    return {"title": case.label, "rows": rows + ([["Model", case.model]] if case.model else []), "e": {}}
+
+
+def spoken(trial):
+    """A field of the matrix for those who hear it."""
+    figure = trial.worst
+    text = f"{trial.integrator} on {trial.case}: {trial.grade}"
+    if trial.grade != "pass" and figure and not math.isnan(figure.limit):
+        text += f", {figure.title} {number(figure.computed)}, expected {expected(figure)}"
+    return text + (f", {own_reason(trial)}" if own_reason(trial) and trial.grade == "fail" else "")

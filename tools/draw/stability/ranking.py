@@ -1,0 +1,50 @@
+"""Who passes what: integrators in order, cases that hardly any of them passes, what a variant loses."""
+from dataclasses import dataclass
+
+from .grades import GRADES
+
+HARDLY = 0.2  # of the integrators that tried a case, at most
+
+
+@dataclass(frozen=True)
+class Tally:
+    """Numbers of trials by grade, and their processor time."""
+    counts: dict
+    cpu: float
+
+    @property
+    def tried(self):
+        return sum(self.counts.values())
+
+    def __getitem__(self, grade):
+        return self.counts[grade]
+
+    @property
+    def merit(self):
+        """Larger is better: passes, then few fails, then little time. A refusal neither helps nor hurts."""
+        return self["pass"], -self["fail"], self["degraded"], -self.cpu
+
+
+def tally(trials):
+    counts = {grade: sum(t.grade == grade for t in trials) for grade in GRADES}
+    return Tally(counts, sum(t.cpu for t in trials if t.cpu == t.cpu))
+
+
+def ranked(matrix, variant=None):
+    """[(integrator, Tally)], the best first."""
+    found = [(name, tally(matrix.of(variant, integrator=name))) for name in matrix.integrators]
+    return sorted(found, key=lambda entry: entry[1].merit, reverse=True)
+
+
+def hard_cases(matrix, variant):
+    """[(case, Tally)] of cases that hardly any integrator passes, the hardest first."""
+    found = [(case, tally(matrix.of(variant, case.label))) for case in matrix.cases]
+    hard = [(case, t) for case, t in found if t.tried and t["pass"] <= HARDLY * t.tried]
+    return sorted(hard, key=lambda entry: entry[1]["pass"] / entry[1].tried)
+
+
+def lost(matrix, variant, first):
+    """Trials that pass with `first` and do not with `variant`."""
+    before = [t for t in matrix.of(first) if t.grade == "pass"]
+    now = (matrix.trial(variant, t.case, t.integrator) for t in before)
+    return [t for t in now if t and t.grade != "pass"]
