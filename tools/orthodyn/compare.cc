@@ -1,16 +1,16 @@
 // `orthodyn compare`: carries a comparison out and has its report drawn.
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 
 #include "lib/run/files.h"
 #include "lib/study/comparison_table.h"
 #include "lib/study/measure.h"
 #include "tools/orthodyn/commands.h"
-#include "tools/orthodyn/comparison_folder.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/interrupt.h"
+#include "tools/orthodyn/study_folder.h"
+#include "tools/orthodyn/time_left.h"
 
 namespace orthodyn {
 
@@ -25,20 +25,18 @@ class Teller {
  public:
   void operator()(const TaskNotice& notice) {
     if (notice.starts) {
-      began_ = Clock::now();
+      left_.begin();
       return;
     }
     fmt::print("[{:>{}}/{}] {}: {}", notice.number, std::to_string(notice.count).size(), notice.count, notice.title,
                outcome(*notice.result));
     if (notice.cached) fmt::print(" (done before)");
-    else tell_time_left(notice);
+    else fmt::print("{}", left_.after_one(notice.count - notice.number));
     fmt::print("\n");
     std::fflush(stdout);
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   static std::string outcome(const Json& result) {
     if (result.at("status") != "completed") return "failed: " + result.at("reason").get<std::string>();
     std::string text = "done";
@@ -49,17 +47,7 @@ class Teller {
     return text;
   }
 
-  void tell_time_left(const TaskNotice& notice) {
-    spent_ += std::chrono::duration<double>(Clock::now() - began_).count();
-    ++done_;
-    const double left = spent_ / done_ * static_cast<double>(notice.count - notice.number);
-    if (left >= 60) fmt::print("  ({:.0f} min left)", left / 60);
-    else if (left >= 5) fmt::print("  ({:.0f} s left)", left);
-  }
-
-  Clock::time_point began_;
-  double spent_ = 0;
-  int done_ = 0;
+  TimeLeft left_;
 };
 
 std::string label_of(const Json& list, const Json& id) {
@@ -93,8 +81,8 @@ int compare_command(const CompareArguments& arguments) {
   const Config config = Config::from_file(arguments.comparison);
   const Comparison comparison = read_comparison(config);
   Design design = expand(comparison);
-  const ComparisonFolder place(arguments.out ? fs::path(*arguments.out)
-                                             : fs::path("out/comparisons") / comparison.name);
+  const StudyFolder place(arguments.out ? fs::path(*arguments.out) : fs::path("out/comparisons") / comparison.name,
+                          "comparison");
   const fs::path& folder = place.path();
 
   Teller teller;

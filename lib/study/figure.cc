@@ -1,0 +1,44 @@
+#include "lib/study/figure.h"
+
+#include <cmath>
+#include <set>
+
+namespace orthodyn {
+
+namespace {
+
+double relative_drift(const Expectation& e, const SeriesRecorder& recorder, std::size_t q) {
+  const Series& series = recorder.series(q);
+  double scale = e.of.value_or(0);
+  if (!e.of && e.quantity == kEnergyBalance) scale = recorder.energy_scale();
+  if (!e.of && e.quantity != kEnergyBalance)
+    for (int c = 0; c < series.components; ++c) scale = std::hypot(scale, series.values[static_cast<std::size_t>(c)]);
+  return drift(series) / scale;  // NaN or infinite without a scale: not met
+}
+
+}  // namespace
+
+double figure(const Expectation& e, const SeriesRecorder& recorder, std::size_t q) {
+  const Series& series = recorder.series(q);
+  if (e.at) return recorder.at(q, *e.at);
+  switch (e.take) {
+    case Take::end: return series.values.back();
+    case Take::max: return maximum(series);
+    case Take::min: return maximum(series, -1);
+    case Take::time_of_max: return time_of_maximum(series);
+    case Take::time_of_min: return time_of_maximum(series, -1);
+    case Take::mean: return mean(series);
+    case Take::frequency: return frequency(series);
+    case Take::drift: return relative_drift(e, recorder, q);
+  }
+  return 0;
+}
+
+std::vector<double> times_asked_for(const std::vector<Expectation>& expectations, double start) {
+  std::set<double> times;
+  for (const auto& e : expectations)
+    if (e.at && *e.at > start) times.insert(*e.at);
+  return {times.begin(), times.end()};
+}
+
+}  // namespace orthodyn
