@@ -89,7 +89,8 @@ Json sweep_json(const Sweep& sweep, const std::vector<SweepPoint>& points, const
   }
   Json definitions = Json::object();
   for (const auto& [name, text] : sweep.definitions) definitions[name] = text.text;
-  return {{"name", sweep.name},
+  return {{"orthodyn_sweep", 1},
+          {"name", sweep.name},
           {"title", sweep.title},
           {"description", sweep.description},
           {"file", file},
