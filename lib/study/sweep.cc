@@ -6,12 +6,6 @@
 namespace orthodyn {
 
 template <>
-struct Words<Combine> {
-  static constexpr std::array<std::pair<Combine, const char*>, 3> list{
-      {{Combine::cartesian, "cartesian"}, {Combine::zip, "zip"}, {Combine::latin_hypercube, "latin_hypercube"}}};
-};
-
-template <>
 struct Words<Impossible> {
   static constexpr std::array<std::pair<Impossible, const char*>, 2> list{
       {{Impossible::stop, "stop"}, {Impossible::keep, "keep"}}};

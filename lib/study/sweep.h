@@ -17,6 +17,12 @@ enum class Scale { linear, log };
 enum class Impossible { stop, keep };
 
 template <>
+struct Words<Combine> {
+  static constexpr std::array<std::pair<Combine, const char*>, 3> list{
+      {{Combine::cartesian, "cartesian"}, {Combine::zip, "zip"}, {Combine::latin_hypercube, "latin_hypercube"}}};
+};
+
+template <>
 struct Words<Scale> {
   static constexpr std::array<std::pair<Scale, const char*>, 2> list{{{Scale::linear, "linear"}, {Scale::log, "log"}}};
 };

@@ -93,6 +93,7 @@ Json sweep_json(const Sweep& sweep, const std::vector<SweepPoint>& points, const
           {"name", sweep.name},
           {"title", sweep.title},
           {"description", sweep.description},
+          {"combine", Value<Combine>::yaml(sweep.combine)},
           {"file", file},
           {"scene", sweep.scene.file.path},
           {"written", utc_now()},

@@ -118,9 +118,9 @@ def _parser():
     command("steps", "Step size with order and rejections, Newton iterations, from steps.csv.")
     command("probes", "Probed values over time, from probes.csv.")
     command("momentum", "Linear and angular momentum over time, from momentum.csv.")
-    report = commands.add_parser("report", help="One HTML page and paper figures of a comparison, from compare.json.",
-                                 description="One HTML page and paper figures of a comparison, from compare.json.")
-    report.add_argument("result", metavar="RESULT", help="folder that `orthodyn compare` wrote")
+    report = commands.add_parser("report", help="One HTML page and paper figures of a comparison or a sweep.",
+                                 description="One HTML page and paper figures of a comparison or a sweep.")
+    report.add_argument("result", metavar="RESULT", help="folder that `orthodyn compare` or `sweep` wrote")
     report.add_argument("-o", "--out", type=Path, metavar="FILE", help="the page (default: RESULT/report.html)")
     axes = commands.add_parser("axes", help="Material axes on the surface and in two sections, from axes.vtu.",
                                description="Material axes on the surface and in two sections, as PNG.")
@@ -200,6 +200,10 @@ def _all(args):
 
 
 def _report(args):
+    from . import sweep
+    if (Path(args.result) / sweep.FILE).is_file():
+        yield from sweep.write_sweep_report(args.result, args.out)
+        return
     from .report import write_report
     yield from write_report(args.result, args.out)
 

@@ -45,7 +45,7 @@ def _own_row(name, values):
     return tag("tr", tag("th", name, scope="row"), *cells)
 
 
-def _pairs(items):
+def pairs(items):
     """A description list without what is not known."""
     return tag("dl", *(joined([tag("dt", key), tag("dd", value)]) for key, value in items if value))
 
@@ -66,7 +66,7 @@ def problem_details(problem):
     frequency = f"{words.general(problem.dominant_frequency)} Hz" if words.known(problem.dominant_frequency) else ""
     scale_text = ", ".join(f"{k} {words.general(v)}" for k, v in scales.items())
     scale_text += f" ({problem.scale_words})" if problem.scale_words and scale_text else ""
-    return tag("div", tag("h3", problem.label), _pairs((
+    return tag("div", tag("h3", problem.label), pairs((
         ("Shows", problem.sentence), ("Scene", tag("code", problem.scene) if problem.scene else ""),
         ("Changed in it", _settings(problem.set)), ("Size", _size(problem)), ("Time span", span),
         ("Dominant frequency", frequency), ("Scales of the errors", scale_text),
@@ -110,7 +110,7 @@ def _value(key, text):
 
 def provenance(comparison, folder):
     def listed(values):
-        return _pairs((k.replace("_bytes", "").replace("_", " "), _value(k, v)) for k, v in values.items())
+        return pairs((k.replace("_bytes", "").replace("_", " "), _value(k, v)) for k, v in values.items())
     file, place = shlex.quote(comparison.file or "FILE.yaml"), shlex.quote(str(folder))
     command = f"orthodyn compare {file} --out {place}\ntools/draw/draw report {place}"
     blocks = (("Machine", comparison.machine), ("Versions", comparison.versions), ("Settings", comparison.settings))

@@ -10,6 +10,7 @@ from .theme import DARK, LIGHT
 from .tips import tip
 
 HERE = Path(__file__).resolve().parent
+SCRIPT = HERE / "page.js"
 BUDGET = 2_700_000  # characters of the page; further variants of figures are left out
 
 READ = {
@@ -132,6 +133,13 @@ def _after(comparison, gallery, folder):
                  *(details.problem_details(p) for p in comparison.problems), details.provenance(comparison, folder))])
 
 
+def head(title, figures):
+    """`figures` are the rules of the figures' classes."""
+    return tag("head", void("meta", charset="utf-8"),
+               void("meta", name="viewport", content="width=device-width, initial-scale=1"), tag("title", title),
+               _style(figures), void("link", rel="icon", href="data:,"))
+
+
 def page(comparison, folder):
     """The whole page as text; `folder` is named in the command that reproduces it."""
     gallery = Gallery(comparison)
@@ -141,7 +149,7 @@ def page(comparison, folder):
     runs = data_script("run-data", {
         "measure": first[0], "labels": {m: measures.label(m) for m in measures.present(comparison.points)},
         "runs": [tip(comparison, p) for p in comparison.points]})
-    script = tag("script", Html((HERE / "page.js").read_text(encoding="utf-8")))
+    script = tag("script", Html(SCRIPT.read_text(encoding="utf-8")))
     base = len(after) + len(runs) + sum(len(a) + len(b) for a, b in shown.values()) + 100_000
     variants, offered = gallery.variants(BUDGET - base)
 
@@ -153,9 +161,5 @@ def page(comparison, folder):
                _section("precision", "Work and precision", _choosers(offered, "wp"), figures("wp", 0)),
                _section("tolerance", "Error against tolerance and step", _choosers(offered, "tol", False),
                         figures("tol", 1)), after)
-    head = tag("head", void("meta", charset="utf-8"),
-               void("meta", name="viewport", content="width=device-width, initial-scale=1"),
-               tag("title", comparison.title or comparison.name), _style(gallery.styles.css()),
-               void("link", rel="icon", href="data:,"))
-    return "<!DOCTYPE html>\n" + tag("html", head, tag("body", glyphs(comparison), _header(comparison), main,
+    return "<!DOCTYPE html>\n" + tag("html", head(comparison.title or comparison.name, gallery.styles.css()), tag("body", glyphs(comparison), _header(comparison), main,
                                                              runs, script), lang="en") + "\n"
