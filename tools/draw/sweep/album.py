@@ -11,6 +11,7 @@ from ..series import Series
 from .plan import plans
 
 MOST_COLUMNS = 8
+PAGE, LETTER = 10.0, 0.1  # inches: the picture, and a letter of a label
 
 
 class Files(Series):
@@ -26,7 +27,7 @@ class Album:
     def __init__(self, paths, labels, wish):
         series = Files(paths)
         self.scenes = [Scene(series, [k], wish) for k in range(len(paths))]
-        self.camera, self.note = self.scenes[0].camera, self.scenes[0].note
+        self.camera, self.note = self.scenes[0].camera, ""  # the page says how far deformations are enlarged
         self.labels, self.window = dict(enumerate(labels)), Window()
         self.window.include(np.array([w for s in self.scenes for w in (s.window.low, s.window.high)]))
         samples = [s.corner_values(series.frame(k)).ravel() for k, s in enumerate(self.scenes)]
@@ -58,8 +59,9 @@ def _ordered(sweep, points):
 
 
 def _label(sweep, point):
-    return ", ".join(v.words(point["values"][v.name]) if not v.numeric or v.unit
-                     else f"{v.name} {v.words(point['values'][v.name])}" for v in sweep.variables)
+    """'L, 31.6': without names, as panels are small."""
+    return ", ".join(f"{float(f'{value:.3g}'):g}" + (f" {v.unit}" if v.unit else "") if v.numeric else str(value)
+                     for v in sweep.variables for value in [point["values"][v.name]])
 
 
 def draw_album(sweep, folder, path):
@@ -75,5 +77,6 @@ def draw_album(sweep, folder, path):
                   Wish(color=wish["color"], view=tuple(wish["view"]), up=wish["up"], scale=wish["enlarged"],
                        ghost=wish["ghost"]))
     if not columns or len(chosen) < len(points):
-        columns = min(strip_columns(len(chosen), album.window.size[0] / album.window.size[1]), MOST_COLUMNS)
+        fitting = int(PAGE / (0.2 + LETTER * max(map(len, album.labels.values()))))
+        columns = max(1, min(strip_columns(len(chosen), album.window.size[0] / album.window.size[1]), fitting))
     return draw_page(album, columns, range(len(chosen)), path)

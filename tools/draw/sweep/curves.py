@@ -14,7 +14,7 @@ from ..report.theme import LIGHT
 def _entries(plan, sweep):
     if not plan.lines:
         return []
-    return [(k, shortened(plan.lines.words(level), 26), False) for k, level in enumerate(plan.line_levels(sweep))]
+    return [(k, shortened(plan.line_words(level), 26), False) for k, level in enumerate(plan.line_levels(sweep))]
 
 
 def _layout(width, entries, height):
@@ -27,11 +27,16 @@ def _layout(width, entries, height):
     return sheet, (left, 40, width - left - right, height), columns
 
 
-def linear(axes, which, values, log=False, most=7):
+def power_tick(x):
+    """1, 10, 1000, but 10⁻⁴ and 10⁶."""
+    return f"{x:g}" if 0.99e-3 < x < 2e4 else error_tick(x)
+
+
+def scaled(axes, which, values, log=False, most=7):
     """A round axis around the values; logarithmic where that is wanted and possible."""
     finite = [v for v in values if math.isfinite(v)]
     if log and len(positive(finite)) == len(finite) and finite:
-        return set_log(axes, which, *limits(finite, pad=0.05, least=0.3), error_tick, most)
+        return set_log(axes, which, *limits(finite, pad=0.05, least=0.3), power_tick, most)
     axis = getattr(axes, f"{which}axis")
     axis.set_major_locator(MaxNLocator(most, steps=[1, 2, 2.5, 3, 5, 10]))
     axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:.6g}".replace("-", "−")))
@@ -72,12 +77,12 @@ def _place(plan, sweep, point):
     return value if plan.x.numeric else sweep.levels(plan.x).index(value)
 
 
-def _furnish(sheet, axes, box, plan, sweep, title, entries, columns, ends):
+def _furnish(sheet, axes, box, plan, sweep, title, entries, columns):
     left, top, width, height = box
     sheet.text(0, 16, title, weight="bold")
     levels = sweep.levels(plan.x)
     if plan.x.numeric:
-        linear(axes, "x", levels, plan.x.log, 4 if sheet.narrow else 8)
+        scaled(axes, "x", levels, plan.x.log, 4 if sheet.narrow else 8)
     else:
         axes.set_xlim(-0.5, len(levels) - 0.5)
         axes.set_xticks(range(len(levels)), [shortened(str(v), 10) for v in levels])
@@ -85,15 +90,7 @@ def _furnish(sheet, axes, box, plan, sweep, title, entries, columns, ends):
     if sheet.narrow:
         sheet.legend(top + height + 52, entries, columns)
     elif entries:
-        label_right(sheet, box, entries, ends)
-
-
-def _end(axes, rows):
-    """Where a line ends, 0 at the top."""
-    rows = [r for r in rows if math.isfinite(r[1])]
-    if not rows:
-        return 0.0
-    return 1 - axes.transAxes.inverted().transform(axes.transData.transform((rows[-1][0], rows[-1][1])))[1]
+        label_right(sheet, box, entries, [0] * len(entries))
 
 
 def _drawn(plan, sweep, width, height, title, value, log, closed=None):
@@ -103,16 +100,14 @@ def _drawn(plan, sweep, width, height, title, value, log, closed=None):
     lines = {k: [(_place(plan, sweep, p), value(p), p) for p in plan.of_line(sweep, level)]
              for k, level in enumerate(plan.line_levels(sweep))}
     curves = {k: [(x, closed(p)) for x, _, p in rows] for k, rows in lines.items()} if closed else {}
-    linear(axes, "y", [y for rows in lines.values() for _, y, _ in rows] + [y for c in curves.values() for _, y in c], log,
+    scaled(axes, "y", [y for rows in lines.values() for _, y, _ in rows] + [y for c in curves.values() for _, y in c], log,
            5 if height < 200 else 7)
     if closed:
         _closed_forms(axes, curves)
     scattered = sweep.combine == "latin_hypercube"
     for k, rows in lines.items():
         _marks(axes, k, rows, not closed and not scattered)
-    _furnish(sheet, axes, box, plan, sweep, title, entries, columns, [0] * len(entries))
-    if entries and not sheet.narrow:
-        pass
+    _furnish(sheet, axes, box, plan, sweep, title, entries, columns)
     return sheet, axes, lines
 
 
@@ -132,10 +127,10 @@ def draw_differences(plan, sweep, width):
     figure = plan.figure
     if not figure.closed_form or not any(math.isfinite(figure.difference(p)) for p in plan.points(sweep)):
         return None
-    title = f"{figure.title}: difference from the closed form [%]"
+    title = "Difference from the closed form [%]"
     sheet, axes, _ = _drawn(plan, sweep, width, 150, title, lambda p: 100 * figure.difference(p), False)
     axes.axhline(0, color=LIGHT["muted"], lw=0.8, zorder=1)
-    sheet.description = title
+    sheet.description = f"{figure.title}: {title}"
     return sheet
 
 
@@ -144,6 +139,6 @@ def _description(plan, sweep, lines):
     for (_, rows), level in zip(lines.items(), plan.line_levels(sweep)):
         values = [y for _, y, _ in rows if math.isfinite(y)]
         if values:
-            name = f"{plan.lines.words(level)}: " if plan.lines else ""
+            name = f"{plan.line_words(level)}: " if plan.lines else ""
             parts.append(f"{name}{words.general(min(values))} to {words.general(max(values))}")
     return f"{plan.figure.heading} over {plan.x.heading}. {'; '.join(parts) or 'No point has it'}."

@@ -2,10 +2,10 @@
 import math
 
 from ..report import theme
-from ..report.scale import error_tick, limits, positive, set_log
+from ..report.scale import limits, positive, set_log
 from ..report.sheet import LETTER, WIDE, Sheet, legend_columns, legend_height, shortened, styled
 from ..report.theme import LIGHT
-from .curves import linear
+from .curves import power_tick, scaled
 
 ROW = 26
 
@@ -15,7 +15,7 @@ def draw_dots(plan, sweep, width):
     names = sweep.levels(plan.x)
     narrow = width < WIDE
     labels = [shortened(str(n), 14 if narrow else 26) for n in names]
-    entries = [(k, shortened(plan.lines.words(level), 26), False)
+    entries = [(k, shortened(plan.line_words(level), 26), False)
                for k, level in enumerate(plan.line_levels(sweep))] if plan.lines else []
     columns = legend_columns(entries, width)
     left, top = 12 + LETTER * max(map(len, labels)), 36 + (legend_height(entries, columns) if entries else 0)
@@ -28,9 +28,9 @@ def draw_dots(plan, sweep, width):
     values = [v for _, p in rows for v in (plan.figure.value(p), plan.figure.closed(p)) if math.isfinite(v)]
     most = 4 if narrow else 7
     if values and len(positive(values)) == len(values) and max(values) > 8 * min(values):
-        set_log(axes, "x", *limits(values, least=0.5), error_tick, most)
+        set_log(axes, "x", *limits(values, least=0.5), power_tick, most)
     else:
-        linear(axes, "x", values + [0], False, most)
+        scaled(axes, "x", values + [0], False, most)
     axes.set_ylim(len(names) - 0.5, -0.5)
     axes.set_yticks(range(len(names)), labels)
     for k, p in rows:

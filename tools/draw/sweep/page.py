@@ -12,7 +12,7 @@ from ..report.tables import caption, number
 from .figures import Figures
 from .plan import plans
 
-READ = ("Marks are points of the sweep; lines without marks are closed forms. Values are under the pointer.")
+READ = "Marks are points of the sweep. Lines without marks, and strokes, are closed forms."
 
 
 def _counted(sweep):
@@ -43,23 +43,23 @@ def _where(sweep, point):
     return ", ".join(f"{v.name} {v.words(point['values'][v.name])}" for v in sweep.variables)
 
 
-def _span_row(sweep, figure):
+def _range_row(sweep, figure):
     values = [(figure.value(p), p) for p in sweep.done if math.isfinite(figure.value(p))]
     if not values:
         return tag("tr", tag("th", figure.heading, scope="row"), tag("td", "no point has it", colspan=3, class_="word"))
     cells = []
     for value, point in (min(values, key=lambda v: v[0]), max(values, key=lambda v: v[0])):
-        cells.append(tag("td", words.general(value), tag("br"), tag("small", _where(sweep, point)), class_="word"))
+        cells.append(tag("td", words.general(value), void("br"), tag("small", _where(sweep, point)), class_="word"))
     gaps = [(abs(figure.difference(p)), p) for _, p in values if math.isfinite(figure.difference(p))]
     gap, point = max(gaps, key=lambda g: g[0]) if gaps else (math.nan, None)
-    cells.append(tag("td", f"{100 * gap:.2g}{words.THIN}%", tag("br"), tag("small", _where(sweep, point)), class_="word")
+    cells.append(tag("td", f"{words.general(100 * gap, 3)}{words.THIN}%", void("br"), tag("small", _where(sweep, point)), class_="word")
                  if gaps else tag("td", words.UNKNOWN, class_="word"))
     return tag("tr", tag("th", figure.heading, scope="row"), *cells)
 
 
-def _spans(sweep):
+def _ranges(sweep):
     heads = (("Figure", False), ("Smallest", False), ("Largest", False), ("Farthest from the closed form", False))
-    return _table("Over all points", heads, [_span_row(sweep, f) for f in sweep.figures], "Smallest and largest")
+    return _table("Over all points", heads, [_range_row(sweep, f) for f in sweep.figures], "Smallest and largest")
 
 
 def _figures(sweep, figures):
@@ -71,16 +71,21 @@ def _figures(sweep, figures):
 
 
 def _album(sweep, path):
+    scale = sweep.frames["enlarged"]
+    enlarged = f" Deformations are enlarged {scale:g} times." if scale != 1 else ""
     data = base64.b64encode(Path(path).read_bytes()).decode("ascii")
     return tag("figure", void("img", src=f"data:image/png;base64,{data}", class_="photo",
                               alt=f"The body at {len(sweep.done)} points of the sweep, side by side"),
-               tag("figcaption", "Each point at the end of its run, with one camera and one range of colours."))
+               tag("figcaption", "Points at the end of their runs, with one camera and one range of colours. Above each: "
+                   + ", ".join(v.heading for v in sweep.variables) + "." + enlarged))
 
 
 def _row(sweep, point):
-    cells = [number(v.words(point["values"][v.name])) if v.numeric and k else
-             tag("th" if k == 0 else "td", v.words(point["values"][v.name]), scope="row" if k == 0 else None,
-                 class_=None if k == 0 else "word") for k, v in enumerate(sweep.variables)]
+    cells = []
+    for k, v in enumerate(sweep.variables):
+        value = v.plain(point["values"][v.name])
+        cells.append(tag("th", value, scope="row") if k == 0 else number(value) if v.numeric else
+                     tag("td", value, class_="word"))
     for figure in sweep.figures:
         cells.append(number(words.general(figure.value(point), 6)))
         if figure.closed_form:
@@ -130,7 +135,7 @@ def _tip(sweep, point):
 def page(sweep, folder, album):
     """The whole page as text; `album` is a picture's path or None."""
     figures = Figures(sweep)
-    parts = [("spans", "Spans", _spans(sweep)), ("figures", "Figures", _figures(sweep, figures))]
+    parts = [("ranges", "Ranges", _ranges(sweep)), ("figures", "Figures", _figures(sweep, figures))]
     if album:
         parts.append(("frames", "Frames", _album(sweep, album)))
     parts += [("points", "Points", joined([_points(sweep), tag("h3", "Failures"), _failures(sweep)])),

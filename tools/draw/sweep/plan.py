@@ -19,6 +19,10 @@ class Plan:
     def line_levels(self, sweep):
         return sweep.levels(self.lines) if self.lines else [None]
 
+    def line_words(self, level):
+        """'ratio 30', 'coarse'."""
+        return f"{self.lines.name} {self.lines.words(level)}" if self.lines.numeric else str(level)
+
     def of_line(self, sweep, level):
         """Its points, along x."""
         rows = [p for p in self.points(sweep) if not self.lines or p["values"][self.lines.name] == level]

@@ -21,9 +21,13 @@ class Variable:
     def heading(self):
         return f"{self.name} [{self.unit}]" if self.unit else self.name
 
+    def plain(self, value):
+        """'30', 'coarse'."""
+        return f"{value:.4g}".replace("-", "−") if self.numeric else str(value)
+
     def words(self, value):
-        """'30 deg', 'coarse', 'ratio 1000'."""
-        return f"{value:g}" + (f" {self.unit}" if self.unit else "") if self.numeric else str(value)
+        """'30 deg', 'coarse'."""
+        return self.plain(value) + (f" {self.unit}" if self.unit and self.numeric else "")
 
 
 @dataclass(frozen=True)
