@@ -48,14 +48,15 @@ std::string array_script(const ArrayJob& job) {
 #SBATCH --cpus-per-task=1
 #SBATCH --mem={}M
 #SBATCH --time={}
-#SBATCH --output=/dev/null
+#SBATCH --output={}.log
+#SBATCH --open-mode=append
 # {} points in {} tasks. A task that is lost or killed costs its points in progress: submit this script again, and only
 # what is missing is done. Then join what is there:
 #   {} --collect
 exec {} --task "$SLURM_ARRAY_TASK_ID/{}" --jobs 1 --quiet
 )",
-                     job.name, job.tasks, std::lround(std::ceil(job.limits.memory / 1e6)), minutes(job), job.points,
-                     job.tasks, command(job), command(job), job.tasks);
+                     job.name, job.tasks, std::lround(std::ceil(job.limits.memory / 1e6)), minutes(job),
+                     job.folder.string(), job.points, job.tasks, command(job), command(job), job.tasks);
 }
 
 int submit(const ArrayJob& job) {
@@ -64,7 +65,8 @@ int submit(const ArrayJob& job) {
   const std::string array = output_of("sbatch --parsable " + quoted(script));
   if (array.empty()) throw RunError("sbatch did not take the job; its script is " + script);
   const std::string after =
-      output_of(fmt::format("sbatch --parsable --job-name={} --output={} --dependency=afterany:{} --wrap {}",
+      output_of(fmt::format("sbatch --parsable --job-name={} --output={} --open-mode=append --dependency=afterany:{} "
+                            "--wrap {}",
                             quoted(job.name + "-collect"), quoted(job.folder.string() + ".log"), array,
                             quoted(command(job) + " --collect")));
   fmt::print("array   {} ({} tasks, {} points)\n", array, job.tasks, job.points);

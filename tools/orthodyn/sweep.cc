@@ -69,6 +69,7 @@ class SweepCommand {
 
  private:
   int write_array() const {
+    fs::create_directories(fs::absolute(folder_).parent_path());  // where tasks leave their log
     const ArrayJob job{program(), fs::absolute(arguments_.sweep), fs::absolute(folder_), sweep_.name, work_.size(),
                        arguments_.tasks.value_or(std::min<std::size_t>(work_.size(), 1000)), sweep_.limits};
     if (*arguments_.slurm == "submit") return submit(job);
