@@ -17,7 +17,7 @@ from draw.report.page import page  # noqa: E402
 from draw.report.reading import read_comparison  # noqa: E402
 from synthetic_comparison import comparison, write_comparison  # noqa: E402
 
-VOID = {"meta", "link", "input"}
+VOID = {"meta", "link", "input", "br", "img"}
 EVIL = '<script>alert("x")</script> & $\\frac{1}$ \'</title>'
 
 
