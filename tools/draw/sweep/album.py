@@ -11,7 +11,7 @@ from ..series import Series
 from .plan import plans
 
 MOST_COLUMNS = 8
-PAGE, LETTER = 10.0, 0.1  # inches: the picture, and a letter of a label
+PAGE, LETTER = 10.0, 0.085  # inches: the picture, and a letter of a label
 
 
 class Files(Series):

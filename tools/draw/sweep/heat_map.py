@@ -25,10 +25,11 @@ def draw_heat_map(plan, sweep, width):
     if not found:
         return None
     narrow = width < WIDE
-    left, right, top, height = 62, 16 if narrow else 110, 40, max(120, min(360, 30 * len(ys)))
+    left, right, top, height = 72, 16 if narrow else 110, 40, max(120, min(360, 30 * len(ys)))
     sheet = Sheet(width, top + height + (104 if narrow else 56),
                   f"{figure.heading} as colours over {plan.x.heading} and {plan.lines.heading}")
-    sheet.text(0, 16, figure.heading + (f"   ({plan.title})" if plan.title else ""), weight="bold")
+    sheet.text(0, 16, f"{figure.heading} over {plan.x.name} and {plan.lines.name}"
+               + (f"   ({plan.title})" if plan.title else ""), weight="bold")
     across = width - left - right
     axes = sheet.axes(left, top, across, height, xlim=(-0.5, len(xs) - 0.5), ylim=(-0.5, len(ys) - 0.5))
     axes.grid(False)
@@ -40,7 +41,7 @@ def draw_heat_map(plan, sweep, width):
     _ticks(axes, "x", xs, 4 if narrow else 9)
     _ticks(axes, "y", ys, 9)
     sheet.text(left + across / 2, top + height + 38, plan.x.heading, ha="center")
-    sheet.text(0, top - 10, plan.lines.heading, va="center")
+    sheet.text(10, top + height / 2, plan.lines.heading, ha="center", rotation=90)
     _bar(sheet, norm, (left, top + height + 66, across, 12) if narrow else (left + across + 22, top, 14, height), narrow)
     return sheet
 
@@ -59,7 +60,7 @@ def _bar(sheet, norm, box, lying):
     count = 48
     for k in range(count):
         place = ((k / count, 0), 1.02 / count, 1) if lying else ((0, k / count), 1, 1.02 / count)
-        axes.add_patch(Rectangle(place[0], place[1], place[2], facecolor=MAP((k + 0.5) / count), edgecolor="none"))
+        axes.add_patch(Rectangle(place[0], place[1], place[2], color=MAP((k + 0.5) / count), lw=0.5))
     left, top, width, height = box
     low, high = (words.general(float(v)) for v in (norm.vmin, norm.vmax))
     if lying:
