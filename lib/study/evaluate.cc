@@ -160,14 +160,16 @@ class Evaluation {
       const WantedFigure& f = figure_named(names[q]);
       const bool of_time = f.settled_within || f.take == Take::time_of_max || f.take == Take::time_of_min;
       const std::string unit = f.take == Take::frequency ? "Hz" : f.take == Take::drift ? "" : quantities[q].unit;
-      keep(names[q], f.settled_within ? settling_time(recorder.series(q), *f.settled_within) : figure(wanted[q], recorder, q),
+      keep(names[q],
+           f.settled_within ? settling_time(recorder.series(q), *f.settled_within) : figure(wanted[q], recorder, q),
            of_time ? "s" : unit);
     }
     draw(*setup.built.model, outcome.last);
   }
 
   const WantedFigure& figure_named(const std::string& name) const {
-    return std::find_if(job_.figures.begin(), job_.figures.end(), [&](const auto& f) { return f.first == name; })->second;
+    return std::find_if(job_.figures.begin(), job_.figures.end(), [&](const auto& f) { return f.first == name; })
+        ->second;
   }
 
   // False if it did not get to its end, which is then the result.

@@ -22,12 +22,12 @@ struct PointJob {
 
 inline constexpr const char* kFrameFile = "frame.vtu";
 
-// Does the job of a folder (measure.h names its files) and leaves result.json there, with the frame if it is wanted. What
-// goes wrong in the scene or in the run is a result. Throws RunError if that cannot be written.
+// Does the job of a folder (measure.h names its files) and leaves result.json there, with the frame if it is wanted.
+// What goes wrong in the scene or in the run is a result. Throws RunError if that cannot be written.
 void evaluate(const std::filesystem::path& folder);
 
-// {"status", "figures": {name: number or null}, "units": {name: unit}, "cost": {...}, "model": {...}}. Throws ConfigError,
-// RunError.
+// {"status", "figures": {name: number or null}, "units": {name: unit}, "cost": {...}, "model": {...}}. Throws
+// ConfigError, RunError.
 Json evaluate(const Config& scene, const PointJob& job, const std::filesystem::path& folder);
 
 }  // namespace orthodyn

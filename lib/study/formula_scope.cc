@@ -29,9 +29,10 @@ double FormulaScope::evaluate(const std::string& formula, const std::string& whe
   try {
     return NamedFormula(formula, names_, where).at(values_);
   } catch (const std::invalid_argument& e) {
-    throw ConfigError(fmt::format("{}: cannot read the formula '{}': {} Known: {}, pi, e, and functions such as sin, exp, "
-                                  "sqrt.",
-                                  where, formula, e.what(), join(names_)));
+    throw ConfigError(
+        fmt::format("{}: cannot read the formula '{}': {} Known: {}, pi, e, and functions such as sin, exp, "
+                    "sqrt.",
+                    where, formula, e.what(), join(names_)));
   }
 }
 
@@ -52,7 +53,8 @@ std::string FormulaScope::resolved(const Config& value, const std::string& where
 bool mentions(const std::string& formula, const std::string& name) {
   for (std::size_t at = formula.find(name); at != std::string::npos; at = formula.find(name, at + 1)) {
     const auto end = at + name.size();
-    if ((at == 0 || !is_of_a_name(formula[at - 1])) && (end == formula.size() || !is_of_a_name(formula[end]))) return true;
+    if ((at == 0 || !is_of_a_name(formula[at - 1])) && (end == formula.size() || !is_of_a_name(formula[end])))
+      return true;
   }
   return false;
 }

@@ -80,18 +80,6 @@ double frequency(const Series& s) {
   return crossings < 2 ? kNone : (crossings - 1) / (last - first);
 }
 
-double drift(const Series& s) {
-  const auto n = static_cast<std::size_t>(s.components);
-  double largest = s.size() == 0 ? kNone : 0;
-  for (std::size_t k = 0; k < s.size(); ++k) {
-    double squares = 0;
-    for (std::size_t c = 0; c < n; ++c) squares += std::pow(s.values[k * n + c] - s.values[c], 2);
-    if (std::isnan(squares)) return kNone;
-    largest = std::max(largest, std::sqrt(squares));
-  }
-  return largest;
-}
-
 double settling_time(const Series& s, double share) {
   if (s.size() < 2) return kNone;
   const auto [least, most] = std::minmax_element(s.values.begin(), s.values.end());
@@ -103,6 +91,18 @@ double settling_time(const Series& s, double share) {
   const double outside = std::abs(s.values[k - 1] - last), inside = std::abs(s.values[k] - last);
   const double t = s.times[k - 1] + (s.times[k] - s.times[k - 1]) * (outside - band) / (outside - inside);
   return t - start > 0.9 * (s.times.back() - start) ? kNone : t - start;
+}
+
+double drift(const Series& s) {
+  const auto n = static_cast<std::size_t>(s.components);
+  double largest = s.size() == 0 ? kNone : 0;
+  for (std::size_t k = 0; k < s.size(); ++k) {
+    double squares = 0;
+    for (std::size_t c = 0; c < n; ++c) squares += std::pow(s.values[k * n + c] - s.values[c], 2);
+    if (std::isnan(squares)) return kNone;
+    largest = std::max(largest, std::sqrt(squares));
+  }
+  return largest;
 }
 
 SeriesRecorder::SeriesRecorder(const Model& model, const Integrator& integrator, std::vector<Quantity> quantities)

@@ -28,7 +28,8 @@ void check_figure(const WantedFigure& f, const Config& config) {
   if (f.settled_within && (f.at || f.take != Take::end))
     config.at("settled_within").fail("stands in place of 'take' and 'at'; remove them");
   const auto& costs = cost_names();
-  if (f.cost.empty() || std::any_of(costs.begin(), costs.end(), [&](const auto& c) { return c.first == f.cost; })) return;
+  if (f.cost.empty() || std::any_of(costs.begin(), costs.end(), [&](const auto& c) { return c.first == f.cost; }))
+    return;
   std::vector<std::string> names;
   for (const auto& [name, unit] : costs) names.push_back(name);
   const auto near = nearest_name(f.cost, names);
@@ -110,15 +111,16 @@ const Spec<WantedFigure>& WantedFigure::spec() {
   static const auto s =
       Spec<WantedFigure>()
           .key("quantity", &WantedFigure::quantity,
-               "A probe's field and component (tip.displacement.z) or a scalar of the whole body (energy.elastic), as in "
-               "`expect` of a scene.")
+               "A probe's field and component (tip.displacement.z) or a scalar of the whole body (energy.elastic), as "
+               "in `expect` of a scene.")
           .key("take", &WantedFigure::take, "Which figure of its course over time.")
           .key("at", &WantedFigure::at, "The value at this time, in place of `take`.", {.unit = "s"})
           .key("of", &WantedFigure::of, "What a drift is relative to.", {.range = kPositive})
-          .key("settled_within", &WantedFigure::settled_within,
-               "In place of `take`: the time after which the quantity stays within this fraction of its range about its "
-               "last value. None if that is in the last tenth of the time span.",
-               {.range = {0, 1, true, true}})
+          .key(
+              "settled_within", &WantedFigure::settled_within,
+              "In place of `take`: the time after which the quantity stays within this fraction of its range about its "
+              "last value. None if that is in the last tenth of the time span.",
+              {.range = {0, 1, true, true}})
           .key("mode", &WantedFigure::mode, "A natural frequency in Hz by its number, rigid modes not counted.",
                {.range = {1, 1000}})
           .key("along", &WantedFigure::along,
@@ -144,17 +146,19 @@ const Spec<FrameWish>& FrameWish::spec() {
           .key("view", &FrameWish::view, "Azimuth and elevation of the eye, degrees.")
           .key("up", &FrameWish::up, "The axis that is up.")
           .key("enlarged", &FrameWish::enlarged, "Enlarges the deformation.", {.range = kPositive})
-          .key("most", &FrameWish::most, "The most pictures; of more points some are chosen evenly.", {.range = {1, 100}})
+          .key("most", &FrameWish::most, "The most pictures; of more points some are chosen evenly.",
+               {.range = {1, 100}})
           .key("ghost", &FrameWish::ghost, "Draw the outline of the rest shape as well.")
           .check(check_frames);
   return s;
 }
 
 const Spec<PlotWish>& PlotWish::spec() {
-  static const auto s = Spec<PlotWish>()
-                            .key("figure", &PlotWish::figure, "One of `quantities`.", {.required = true})
-                            .key("x", &PlotWish::x, "The variable along the axis; default the one with most numbers.")
-                            .key("lines", &PlotWish::lines, "The variable with a line for each value; default the next.");
+  static const auto s =
+      Spec<PlotWish>()
+          .key("figure", &PlotWish::figure, "One of `quantities`.", {.required = true})
+          .key("x", &PlotWish::x, "The variable along the axis; default the one with most numbers.")
+          .key("lines", &PlotWish::lines, "The variable with a line for each value; default the next.");
   return s;
 }
 
@@ -163,13 +167,14 @@ const Spec<Sweep>& Sweep::spec() {
       Spec<Sweep>()
           .key("title", &Sweep::title, "Heading of the report; default the file's name.")
           .key("description", &Sweep::description, "What is varied and why, in a sentence or two.")
-          .key("scene", &Sweep::scene, "A scene file, or a section {file, set}. In `set` a text \"=formula\" stands for its value.",
+          .key("scene", &Sweep::scene,
+               "A scene file, or a section {file, set}. In `set` a text \"=formula\" stands for its value.",
                {.required = true})
           .key("definitions", &Sweep::definitions,
                "Numbers and formulas by name, for other formulas; each may use the varied values and those above it.")
           .key("vary", &Sweep::vary,
-               "Keys of the scene by path, or names of formulas, with their values: a list, {from, to, count, scale, unit}, "
-               "{values, unit}, or named sets of keys {name: {path: value}}.",
+               "Keys of the scene by path, or names of formulas, with their values: a list, {from, to, count, scale, "
+               "unit}, {values, unit}, or named sets of keys {name: {path: value}}.",
                {.required = true})
           .key("combine", &Sweep::combine,
                "cartesian: every combination. zip: first with first, second with second. latin_hypercube: `samples` "
@@ -180,8 +185,8 @@ const Spec<Sweep>& Sweep::spec() {
           .key("plots", &Sweep::plots, "Figures of the report; default by the number of variables.")
           .key("frames", &Sweep::frames, "A picture of each point at the end of its run, side by side.")
           .key("impossible", &Sweep::impossible,
-               "Points whose scene cannot be (an unstable material). stop: an error before anything runs. keep: they are "
-               "in the table, with the reason.")
+               "Points whose scene cannot be (an unstable material). stop: an error before anything runs. keep: they "
+               "are in the table, with the reason.")
           .key("limits", &Sweep::limits, "Of each point.")
           .check(check_sweep);
   return s;

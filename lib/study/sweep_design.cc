@@ -94,7 +94,8 @@ void refuse_unused_names(const Sweep& sweep) {
   const auto formulas = formulas_of(sweep);
   for (const auto& v : sweep.vary) {
     if (!v.path.empty() || !v.numeric()) continue;
-    if (std::any_of(formulas.begin(), formulas.end(), [&](const std::string& f) { return mentions(f, v.name); })) continue;
+    if (std::any_of(formulas.begin(), formulas.end(), [&](const std::string& f) { return mentions(f, v.name); }))
+      continue;
     v.origin.fail("'" + v.name + "' is no key of a scene, and no formula uses it");
   }
 }
@@ -123,9 +124,10 @@ class Expansion {
       read(config, point);
     } catch (const ConfigError& e) {
       if (sweep_.impossible == Impossible::stop)
-        throw ConfigError(fmt::format("{}: {} (in a sweep with impossible: keep, such points are in the table with this "
-                                      "reason)",
-                                      point.title, e.what()));
+        throw ConfigError(
+            fmt::format("{}: {} (in a sweep with impossible: keep, such points are in the table with this "
+                        "reason)",
+                        point.title, e.what()));
       point.impossible = e.what();
     }
     return point;

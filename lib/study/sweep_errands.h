@@ -1,5 +1,5 @@
-// The work of a sweep: an errand for each point, in a folder whose name tells what the result depends on: the scene, the
-// files that it names, the figures, the limits, the program. Not the machine: points may come from several.
+// The work of a sweep: an errand for each point, in a folder whose name tells what the result depends on: the scene,
+// the files that it names, the figures, the limits, the program. Not the machine: points may come from several.
 #pragma once
 
 #include <filesystem>

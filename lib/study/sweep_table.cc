@@ -32,7 +32,7 @@ Json figures_json(const Sweep& sweep, const Json& units) {
     const std::string si = found.is_string() ? found.get<std::string>() : "";
     all.push_back({{"name", name}, {"title", f.title.empty() ? name : f.title}, {"unit", f.unit.empty() ? si : f.unit},
                    {"factor", f.unit.empty() ? 1 : si_factor(f.unit)}, {"scale", Value<Scale>::yaml(f.scale)},
-                   {"closed_form", f.closed_form}, {"is_cost", !f.cost.empty()}});
+                   {"closed_form", f.closed_form}});
   }
   return all;
 }
@@ -46,7 +46,8 @@ Json plots_json(const Sweep& sweep) {
 Json frames_json(const Sweep& sweep) {
   if (!sweep.frames) return nullptr;
   const FrameWish& f = *sweep.frames;
-  return {{"color", f.color}, {"view", f.view}, {"up", f.up}, {"enlarged", f.enlarged}, {"most", f.most}, {"ghost", f.ghost}};
+  return {{"color", f.color},       {"view", f.view}, {"up", f.up},
+          {"enlarged", f.enlarged}, {"most", f.most}, {"ghost", f.ghost}};
 }
 
 Json result_of(const SweepPoint& point, const Errand& errand) {

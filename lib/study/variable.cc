@@ -72,7 +72,8 @@ void read_list(const Config& list, Variable& v) {
 
 // {name: {path: value}}; what is no path is a variable of formulas.
 void read_sets(const Config& c, Variable& v) {
-  if (v.path.find('.') != std::string::npos) c.fail("a list of values, {from, to, count} or {values} belongs here; found " + c.shown());
+  if (v.path.find('.') != std::string::npos)
+    c.fail("a list of values, {from, to, count} or {values} belongs here; found " + c.shown());
   for (const auto& label : c.keys()) {
     const Config set = c.at(label);
     if (!set.is_map()) set.fail("expected a set of keys of the scene {path: value}, found " + set.shown());

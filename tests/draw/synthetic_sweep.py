@@ -15,7 +15,8 @@ def sweep(levels, closed_form="2*a", combine="cartesian", **changes):
     for values in itertools.product(*levels.values()):
         value = sum(v for v in values if not isinstance(v, str)) + 1.0
         points.append({"title": ", ".join(map(str, values)), "status": "completed", "folder": f"points/{len(points)}",
-                       "values": dict(zip(levels, values)), "figures": {"f": 1e-3 * value}, "reason": None, "message": None,
+                       "values": dict(zip(levels, values)), "figures": {"f": 1e-3 * value}, "reason": None,
+                       "message": None,
                        "closed_forms": {"f": 1.01e-3 * value if closed_form else None}, "frame": None,
                        "cost": {"wall_seconds": 0.1, "steps": 7}, "model": {"unknowns": 3}})
     return {"orthodyn_sweep": 1, "name": "s", "title": "A & B", "description": "", "combine": combine, "file": "s.yaml",
@@ -23,7 +24,7 @@ def sweep(levels, closed_form="2*a", combine="cartesian", **changes):
             "versions": {"orthodyn": "0"}, "plots": [], "frames": None, "definitions": {"E": "1e9"},
             "variables": [variable(k, not isinstance(v[0], str)) for k, v in levels.items()],
             "figures": [{"name": "f", "title": "deflection", "unit": "mm", "factor": 1e-3, "scale": "linear",
-                         "closed_form": closed_form, "is_cost": False}], "points": points, **changes}
+                         "closed_form": closed_form}], "points": points, **changes}
 
 
 def write_sweep(folder, content):

@@ -79,7 +79,8 @@ class ThePage(OfASweep):
 
     def test_failed_and_missing_points_are_said(self):
         content = sweep({"a": ANGLES}, missing=1)
-        content["points"][1].update(status="failed", reason="time limit", message="too slow", figures={"f": None}, cost=None)
+        content["points"][1].update(status="failed", reason="time limit", message="too slow", figures={"f": None},
+                                    cost=None)
         content["points"][2].update(status="missing", figures={"f": None}, cost=None)
         _, page = self.page_of(content)
         self.assertIn("1 of 4 points are missing", page.text)

@@ -42,15 +42,18 @@ constexpr const char* kFigure = "quantities: {f: {mode: 1}}\n";
 TEST_F(SweepDesign, DividesRangesEvenlyByDifferenceOrByRatio) {
   const auto linear = points(kFigure + std::string("vary: {materials.soft.nu: {from: 0, to: 0.4, count: 5}}"));
   ASSERT_EQ(linear.size(), 5u);
-  for (std::size_t i = 0; i < 5; ++i) EXPECT_DOUBLE_EQ(value(linear[i], "materials.soft.nu"), 0.1 * static_cast<double>(i));
-  const auto log = points(kFigure + std::string("vary: {materials.soft.young: {from: 1e3, to: 1e6, count: 4, scale: log}}"));
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_DOUBLE_EQ(value(linear[i], "materials.soft.nu"), 0.1 * static_cast<double>(i));
+  const auto log =
+      points(kFigure + std::string("vary: {materials.soft.young: {from: 1e3, to: 1e6, count: 4, scale: log}}"));
   ASSERT_EQ(log.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_NEAR(value(log[i], "materials.soft.young"), std::pow(10, 3 + i), 1e-9 * std::pow(10, 3 + i));
 }
 
 TEST_F(SweepDesign, CombinesEveryValueWithEveryOther) {
-  const auto all = points(kFigure + std::string("vary: {materials.soft.nu: [0, 0.1, 0.2], materials.soft.density: [1, 2]}"));
+  const auto all =
+      points(kFigure + std::string("vary: {materials.soft.nu: [0, 0.1, 0.2], materials.soft.density: [1, 2]}"));
   std::set<std::pair<double, double>> seen;
   for (const auto& p : all) seen.emplace(value(p, "materials.soft.nu"), value(p, "materials.soft.density"));
   EXPECT_EQ(all.size(), 6u);
@@ -110,15 +113,18 @@ quantities: {f: {mode: 1, closed_form: twice + rho}}
 
 TEST_F(SweepDesign, SaysWhereSomethingIsWrongBeforeAnythingRuns) {
   const std::string vary = "vary: {materials.soft.nu: [0, 0.1]}\n";
-  EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.mu: [0, 0.1]}\n")), HasSubstr("did you mean 'nu'?"));
+  EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.mu: [0, 0.1]}\n")),
+              HasSubstr("did you mean 'nu'?"));
   EXPECT_THAT(complaint(kFigure + std::string("vary: {stifer: [0, 0.1]}\n")),
               AllOf(HasSubstr("s.yaml:3:"), HasSubstr("no formula uses it")));
   EXPECT_THAT(complaint(vary + "quantities: {f: {quantity: top.displacement.z}}"),
               AllOf(HasSubstr("s.yaml:3:"), HasSubstr("did you mean 'tip.displacement.z'?")));
-  EXPECT_THAT(complaint(vary + "quantities: {f: {mode: 1, closed_form: 2*E}}"), HasSubstr("cannot read the formula '2*E'"));
+  EXPECT_THAT(complaint(vary + "quantities: {f: {mode: 1, closed_form: 2*E}}"),
+              HasSubstr("cannot read the formula '2*E'"));
   EXPECT_THAT(complaint(vary + "quantities: {f: {mode: 1, cost: steps}}"), HasSubstr("exactly one of"));
   EXPECT_THAT(complaint(vary + "quantities: {f: {cost: stesp}}"), HasSubstr("did you mean 'steps'?"));
-  EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.nu: {from: 0, to: 1}}")), HasSubstr("'count' is missing"));
+  EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.nu: {from: 0, to: 1}}")),
+              HasSubstr("'count' is missing"));
   EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.young: {values: [2], unit: GPas}}")),
               HasSubstr("the unit 'GPas' is not known"));
 }

@@ -90,7 +90,8 @@ quantities:
 }
 
 TEST_F(SweepCommand, IntegratesNothingWhereOnlyFrequenciesAreAskedFor) {
-  write("s.yaml", "scene: scene.yaml\nvary: {time.end: [1e9]}\nquantities: {hertz: {mode: 1}}\nlimits: {seconds: 10}\n");
+  write("s.yaml",
+        "scene: scene.yaml\nvary: {time.end: [1e9]}\nquantities: {hertz: {mode: 1}}\nlimits: {seconds: 10}\n");
   ASSERT_EQ(sweep().exit_code, 0);
   EXPECT_EQ(table().at("points")[0].at("status"), "completed");
   EXPECT_FALSE(table().at("points")[0].at("cost").contains("steps"));
@@ -134,8 +135,9 @@ TEST_F(SweepCommand, LosesAtMostThePointsInProgressWhenItIsKilled) {
   fs::remove_all(folder_ / "out");
   std::map<std::string, std::string> finished;
   for (const char* seconds : {"0.13", "0.29", "0.07", "0.41", "0.2", "0.16"}) {
-    shell("cd " + folder_.string() + " && { " ORTHODYN_EXECUTABLE " sweep s.yaml --jobs 2 --quiet --no-report & pid=$!; sleep " +
-          seconds + "; kill -9 $pid; wait $pid; sleep 0.05; } 2>/dev/null");
+    shell("cd " + folder_.string() +
+          " && { " ORTHODYN_EXECUTABLE " sweep s.yaml --jobs 2 --quiet --no-report & pid=$!; sleep " + seconds +
+          "; kill -9 $pid; wait $pid; sleep 0.05; } 2>/dev/null");
     if (!fs::exists(folder_ / "out/sweeps/s/points")) continue;
     const auto now = results();
     for (const auto& [file, text] : finished) EXPECT_EQ(now.at(file), text);
@@ -163,7 +165,8 @@ TEST_F(SweepCommand, IsDoneByIndependentTasksAndJoined) {
   EXPECT_NE(part.output.find("8 of 24 points are missing"), std::string::npos) << part.output;
   EXPECT_EQ(table().at("missing"), 8);
   // Two at a time in one folder, as on a cluster.
-  shell("cd " + folder_.string() + " && { " ORTHODYN_EXECUTABLE " sweep s.yaml --task 2/3 --jobs 1 --quiet & " ORTHODYN_EXECUTABLE
+  shell("cd " + folder_.string() +
+        " && { " ORTHODYN_EXECUTABLE " sweep s.yaml --task 2/3 --jobs 1 --quiet & " ORTHODYN_EXECUTABLE
         " sweep s.yaml --task 1/3 --jobs 1 --quiet; wait; }");
   EXPECT_EQ(sweep("--collect").exit_code, 0);
   EXPECT_EQ(figures(), whole);
@@ -174,7 +177,7 @@ TEST_F(SweepCommand, PrintsAnArrayWithATaskForEveryShareOfThePoints) {
   const std::string script = sweep("--slurm --tasks 6").output;
   EXPECT_NE(script.find("#SBATCH --array=1-6\n"), std::string::npos) << script;
   EXPECT_NE(script.find("--task \"$SLURM_ARRAY_TASK_ID/6\" --jobs 1"), std::string::npos) << script;
-  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/sweeps/s"));
   // A shell that plays the scheduler.
   write("array.sh", script);
   shell("cd / && for i in 1 2 3 4 5 6; do SLURM_ARRAY_TASK_ID=$i sh " + (folder_ / "array.sh").string() + "; done");

@@ -10,7 +10,7 @@
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/study_folder.h"
-#include "tools/orthodyn/time_left.h"
+#include "tools/orthodyn/teller.h"
 
 namespace orthodyn {
 
@@ -20,35 +20,15 @@ namespace {
 
 constexpr const char* kTable = "compare.json";
 
-// A line for each point, and how long the rest may take.
-class Teller {
- public:
-  void operator()(const TaskNotice& notice) {
-    if (notice.starts) {
-      left_.begin();
-      return;
-    }
-    fmt::print("[{:>{}}/{}] {}: {}", notice.number, std::to_string(notice.count).size(), notice.count, notice.title,
-               outcome(*notice.result));
-    if (notice.cached) fmt::print(" (done before)");
-    else fmt::print("{}", left_.after_one(notice.count - notice.number));
-    fmt::print("\n");
-    std::fflush(stdout);
-  }
-
- private:
-  static std::string outcome(const Json& result) {
-    if (result.at("status") != "completed") return "failed: " + result.at("reason").get<std::string>();
-    std::string text = "done";
-    if (result.contains("wall")) text = fmt::format("{:.3g} s", result.at("wall").at("median").get<double>());
-    if (result.contains("kind") && result.at("kind") == "exact") text = "exact solution";
-    if (result.contains("errors") && result.at("errors").at("displacement").at("l2").is_number())
-      text += fmt::format(", error {:.2g}", result.at("errors").at("displacement").at("l2").get<double>());
-    return text;
-  }
-
-  TimeLeft left_;
-};
+std::string outcome_of(const Json& result) {
+  if (result.at("status") != "completed") return "failed: " + result.at("reason").get<std::string>();
+  std::string text = "done";
+  if (result.contains("wall")) text = fmt::format("{:.3g} s", result.at("wall").at("median").get<double>());
+  if (result.contains("kind") && result.at("kind") == "exact") text = "exact solution";
+  if (result.contains("errors") && result.at("errors").at("displacement").at("l2").is_number())
+    text += fmt::format(", error {:.2g}", result.at("errors").at("displacement").at("l2").get<double>());
+  return text;
+}
 
 std::string label_of(const Json& list, const Json& id) {
   for (const auto& item : list)
@@ -87,7 +67,8 @@ int compare_command(const CompareArguments& arguments) {
 
   Teller teller;
   const auto notify = [&](const TaskNotice& notice) {
-    if (!arguments.quiet) teller(notice);
+    if (!arguments.quiet && !notice.starts)
+      teller.tell(notice.count, notice.title, outcome_of(*notice.result), notice.cached);
   };
   Campaign campaign(comparison, std::move(design), {folder, fs::read_symlink("/proc/self/exe").string(), notify});
   Json table;

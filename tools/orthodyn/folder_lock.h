@@ -1,4 +1,5 @@
-// Keeps a folder to one process at a time, or to several of one kind, for as long as it lives; a process that is killed lets go too.
+// Keeps a folder to one process at a time, or to several of one kind, for as long as it lives; a process that is killed
+// lets go too.
 #pragma once
 
 #include <filesystem>

@@ -20,7 +20,8 @@ std::string quoted(const std::string& text) {
 }
 
 std::string command(const ArrayJob& job) {
-  return fmt::format("{} sweep {} --out {}", quoted(job.program), quoted(job.sweep.string()), quoted(job.folder.string()));
+  return fmt::format("{} sweep {} --out {}", quoted(job.program), quoted(job.sweep.string()),
+                     quoted(job.folder.string()));
 }
 
 // Minutes that a task may take: every point at its limit, and a minute each to set up.

@@ -1,5 +1,5 @@
-// The folder of a comparison or a sweep: marked as such, and used by one process at a time, or by several that only add
-// points.
+// The folder of a study, such as a comparison: marked as such, and used by one process at a time, or by several that only
+// add points.
 #pragma once
 
 #include <filesystem>
@@ -12,9 +12,9 @@ namespace orthodyn {
 
 class StudyFolder {
  public:
-  // `kind`: "comparison". Makes the folder if it is missing. Throws ConfigError if it holds anything else than such a
-  // study, or if another process works there. Finished points are known by their fingerprints, so any study may go on in
-  // the folder of another of its kind.
+  // Makes the folder if it is missing. `kind`: "comparison". Throws ConfigError if it holds anything else than a study
+  // of this kind, or if another process works there. What is finished is known by its fingerprint, so any study may
+  // go on in the folder of another of its kind.
   StudyFolder(std::filesystem::path path, const std::string& kind, Sharing sharing = Sharing::alone);
 
   const std::filesystem::path& path() const { return path_; }

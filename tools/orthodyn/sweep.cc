@@ -16,7 +16,7 @@
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/job_array.h"
 #include "tools/orthodyn/study_folder.h"
-#include "tools/orthodyn/time_left.h"
+#include "tools/orthodyn/teller.h"
 
 namespace orthodyn {
 
@@ -35,9 +35,18 @@ void use_one_thread_a_point() {
 std::pair<std::size_t, std::size_t> parse_task(const std::string& text) {
   std::size_t part = 0, parts = 0;
   char slash = 0, end = 0;
-  if (std::sscanf(text.c_str(), "%zu%c%zu%c", &part, &slash, &parts, &end) != 3 || slash != '/' || part < 1 || part > parts)
+  if (std::sscanf(text.c_str(), "%zu%c%zu%c", &part, &slash, &parts, &end) != 3 || slash != '/' || part < 1 ||
+      part > parts)
     throw ConfigError(fmt::format("--task: expected I/N with 1 <= I <= N, found '{}'", text));
   return {part, parts};
+}
+
+std::string outcome_of(const Json& result) {
+  if (result.at("status") != "completed") return "failed: " + result.at("reason").get<std::string>();
+  std::vector<std::string> words;
+  for (const auto& [name, value] : result.at("figures").items())
+    words.push_back(name + (value.is_number() ? fmt::format(" {:.6g}", value.get<double>()) : " none"));
+  return join(words);
 }
 
 class SweepCommand {
@@ -79,28 +88,14 @@ class SweepCommand {
 
   bool carry_out() {
     const int jobs = arguments_.jobs > 0 ? arguments_.jobs : static_cast<int>(std::thread::hardware_concurrency());
-    std::size_t number = 0;
-    TimeLeft left;
-    const ErrandEvents events{
-        [&](std::size_t) { left.begin(); },
-        [&](std::size_t i, const Json& result, bool cached) {
-          const std::string rest = cached ? " (done before)" : left.after_one(work_.size() - number - 1);
-          ++number;
-          if (!arguments_.quiet) tell(number, work_[i], result, rest);
-          if (!arguments_.task) write_table_now_and_then();
-        }};
+    Teller teller;
+    const ErrandEvents events{[](std::size_t) {},
+                              [&](std::size_t i, const Json& result, bool cached) {
+                                if (!arguments_.quiet)
+                                  teller.tell(work_.size(), work_[i].title, outcome_of(result), cached);
+                                if (!arguments_.task) write_table_now_and_then();
+                              }};
     return carry_out_all(program(), work_, jobs, interrupted(), events);
-  }
-
-  void tell(std::size_t number, const Errand& errand, const Json& result, const std::string& rest) const {
-    std::string words;
-    if (result.at("status") != "completed") words = ", failed: " + result.at("reason").get<std::string>();
-    else
-      for (const auto& [name, value] : result.at("figures").items())
-        words += fmt::format(", {} {}", name, value.is_number() ? fmt::format("{:.6g}", value.get<double>()) : "none");
-    fmt::print("[{:>{}}/{}] {}: {}{}\n", number, std::to_string(work_.size()).size(), work_.size(), errand.title,
-               words.substr(2), rest);
-    std::fflush(stdout);
   }
 
   void write_table_now_and_then() {

@@ -161,5 +161,6 @@ def page(comparison, folder):
                _section("precision", "Work and precision", _choosers(offered, "wp"), figures("wp", 0)),
                _section("tolerance", "Error against tolerance and step", _choosers(offered, "tol", False),
                         figures("tol", 1)), after)
-    return "<!DOCTYPE html>\n" + tag("html", head(comparison.title or comparison.name, gallery.styles.css()), tag("body", glyphs(comparison), _header(comparison), main,
-                                                             runs, script), lang="en") + "\n"
+    body = tag("body", glyphs(comparison), _header(comparison), main, runs, script)
+    return "<!DOCTYPE html>\n" + tag("html", head(comparison.title or comparison.name, gallery.styles.css()), body,
+                                     lang="en") + "\n"

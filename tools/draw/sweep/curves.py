@@ -53,7 +53,8 @@ def _marks(axes, index, rows, with_line):
     colour = theme.colour(index)
     rows = [r for r in rows if math.isfinite(r[1])]
     if with_line and rows:
-        axes.plot([r[0] for r in rows], [r[1] for r in rows], color=colour, lw=1.6, ls=theme.dashes(index), gid=f"me-{index}")
+        axes.plot([r[0] for r in rows], [r[1] for r in rows], color=colour, lw=1.6, ls=theme.dashes(index),
+                  gid=f"me-{index}")
     for x, y, point in rows:
         axes.plot([x], [y], marker=theme.marker(index), ms=theme.marker_size(index, 7), ls="none", mfc=colour,
                   mec=LIGHT["paper"], mew=0.8, clip_on=False, gid=f"pt-{point['index']}-{index}", zorder=4)
@@ -61,7 +62,8 @@ def _marks(axes, index, rows, with_line):
 
 def _same(curves):
     """All closed forms are one and the same line."""
-    return len(curves) > 1 and all(len(c) == len(curves[0]) and np.allclose(c, curves[0], rtol=1e-12, atol=0, equal_nan=True)
+    first = curves[0]
+    return len(curves) > 1 and all(len(c) == len(first) and np.allclose(c, first, rtol=1e-12, atol=0, equal_nan=True)
                                    for c in curves)
 
 
@@ -100,8 +102,8 @@ def _drawn(plan, sweep, width, height, title, value, log, closed=None):
     lines = {k: [(_place(plan, sweep, p), value(p), p) for p in plan.of_line(sweep, level)]
              for k, level in enumerate(plan.line_levels(sweep))}
     curves = {k: [(x, closed(p)) for x, _, p in rows] for k, rows in lines.items()} if closed else {}
-    scaled(axes, "y", [y for rows in lines.values() for _, y, _ in rows] + [y for c in curves.values() for _, y in c], log,
-           5 if height < 200 else 7)
+    values = [y for rows in lines.values() for _, y, _ in rows] + [y for c in curves.values() for _, y in c]
+    scaled(axes, "y", values, log, 5 if height < 200 else 7)
     if closed:
         _closed_forms(axes, curves)
     scattered = sweep.combine == "latin_hypercube"

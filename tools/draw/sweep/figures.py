@@ -45,7 +45,7 @@ def write_paper_figures(sweep, folder):
             sheet = draw(WIDE)
             if sheet is None:
                 continue
-            name = re.sub(r"[^\w.-]+", "_", f"{plan.figure.name}_over_{plan.x.name}{'_' + plan.title if plan.title else ''}{kind}")
+            name = re.sub(r"[^\w.-]+", "_", f"{plan.figure.name}_over_{plan.x.name}_{plan.title}".rstrip("_") + kind)
             while name in taken:
                 name += "_"
             taken.add(name)

@@ -42,7 +42,8 @@ def draw_heat_map(plan, sweep, width):
     _ticks(axes, "y", ys, 9)
     sheet.text(left + across / 2, top + height + 38, plan.x.heading, ha="center")
     sheet.text(10, top + height / 2, plan.lines.heading, ha="center", rotation=90)
-    _bar(sheet, norm, (left, top + height + 66, across, 12) if narrow else (left + across + 22, top, 14, height), narrow)
+    lying, standing = (left, top + height + 66, across, 12), (left + across + 22, top, 14, height)
+    _bar(sheet, norm, lying if narrow else standing, narrow)
     return sheet
 
 

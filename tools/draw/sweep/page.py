@@ -24,8 +24,8 @@ def _counted(sweep):
 
 def _header(sweep, sections):
     missing = sweep.about["missing"]
-    banner = tag("p", tag("strong", "Not finished: "), f"{missing} of {len(sweep.points)} points are missing. What follows "
-                 "is what there is so far.", class_="banner", role="status") if missing else None
+    banner = tag("p", tag("strong", "Not finished: "), f"{missing} of {len(sweep.points)} points are missing. What "
+                 "follows is what there is so far.", class_="banner", role="status") if missing else None
     return tag("header", tag("button", "Dark", type="button", id="theme", class_="js"), tag("h1", sweep.title),
                tag("p", sweep.description, class_="lede") if sweep.description else None,
                tag("p", " · ".join(p for p in _counted(sweep) if p), class_="facts"), banner,
@@ -52,8 +52,8 @@ def _range_row(sweep, figure):
         cells.append(tag("td", words.general(value), void("br"), tag("small", _where(sweep, point)), class_="word"))
     gaps = [(abs(figure.difference(p)), p) for _, p in values if math.isfinite(figure.difference(p))]
     gap, point = max(gaps, key=lambda g: g[0]) if gaps else (math.nan, None)
-    cells.append(tag("td", f"{words.general(100 * gap, 3)}{words.THIN}%", void("br"), tag("small", _where(sweep, point)), class_="word")
-                 if gaps else tag("td", words.UNKNOWN, class_="word"))
+    cells.append(tag("td", f"{words.general(100 * gap, 3)}{words.THIN}%", void("br"), tag("small", _where(sweep, point)),
+                     class_="word") if gaps else tag("td", words.UNKNOWN, class_="word"))
     return tag("tr", tag("th", figure.heading, scope="row"), *cells)
 
 
@@ -66,7 +66,8 @@ def _figures(sweep, figures):
     parts = []
     for k, plan in enumerate(plans(sweep)):
         pictures = [tag("div", picture, class_="stage") for picture in figures.of(plan)]
-        parts.append(tag("figure", *pictures, tag("figcaption", READ) if k == 0 else None, aria_label=plan.figure.title))
+        explained = tag("figcaption", READ) if k == 0 else None
+        parts.append(tag("figure", *pictures, explained, aria_label=plan.figure.title))
     return joined(parts) or tag("p", "Nothing to show: no point has finished.", class_="empty")
 
 
@@ -76,8 +77,8 @@ def _album(sweep, path):
     data = base64.b64encode(Path(path).read_bytes()).decode("ascii")
     return tag("figure", void("img", src=f"data:image/png;base64,{data}", class_="photo",
                               alt=f"The body at {len(sweep.done)} points of the sweep, side by side"),
-               tag("figcaption", "Points at the end of their runs, with one camera and one range of colours. Above each: "
-                   + ", ".join(v.heading for v in sweep.variables) + "." + enlarged))
+               tag("figcaption", "Points at the end of their runs, with one camera and one range of colours. Above "
+                   "each: " + ", ".join(v.heading for v in sweep.variables) + "." + enlarged))
 
 
 def _row(sweep, point):
@@ -104,7 +105,8 @@ def _points(sweep):
         if figure.closed_form:
             heads.append(("from closed form [%]", True))
     heads += [("wall time [s]", True), ("", False)]
-    return _table("All points; the same in sweep.csv", heads, [_row(sweep, p) for p in sweep.points], "All points", "long")
+    rows = [_row(sweep, p) for p in sweep.points]
+    return _table("All points; the same in sweep.csv", heads, rows, "All points", "long")
 
 
 def _failures(sweep):
@@ -121,8 +123,8 @@ def _details(sweep, folder):
               ("Machine of this page", sweep.about["machine"].items()), ("Versions", sweep.about["versions"].items())]
     place = shlex.quote(str(folder))
     command = f"orthodyn sweep {shlex.quote(sweep.about['file'])} --out {place}\ntools/draw/draw report {place}"
-    return joined([*(joined([tag("h3", name), pairs((k, str(v)) for k, v in values)]) for name, values in blocks if values),
-                   tag("h3", "To reproduce"), tag("pre", tag("code", command))])
+    listed = (joined([tag("h3", name), pairs((k, str(v)) for k, v in values)]) for name, values in blocks if values)
+    return joined([*listed, tag("h3", "To reproduce"), tag("pre", tag("code", command))])
 
 
 def _tip(sweep, point):

@@ -39,7 +39,6 @@ class Figure:
     factor: float
     log: bool
     closed_form: str
-    is_cost: bool
 
     @property
     def heading(self):
@@ -110,7 +109,7 @@ def read_sweep(result):
 
 def _sweep(found):
     variables = [Variable(v["name"], v["unit"], v["numeric"], v["scale"] == "log") for v in found["variables"]]
-    figures = [Figure(f["name"], f["title"], f["unit"], f["factor"], f["scale"] == "log", f["closed_form"], f["is_cost"])
+    figures = [Figure(f["name"], f["title"], f["unit"], f["factor"], f["scale"] == "log", f["closed_form"])
                for f in found["figures"]]
     points = [{**p, "index": k} for k, p in enumerate(found["points"])]
     return Sweep(found["title"], found["description"], found["combine"], variables, figures, found["plots"],

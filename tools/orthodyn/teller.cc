@@ -1,0 +1,22 @@
+#include "tools/orthodyn/teller.h"
+
+#include <fmt/format.h>
+
+namespace orthodyn {
+
+void Teller::tell(std::size_t count, const std::string& title, const std::string& outcome, bool cached) {
+  ++number_;
+  fmt::print("[{:>{}}/{}] {}: {}", number_, std::to_string(count).size(), count, title, outcome);
+  if (cached) {
+    fmt::print(" (done before)");
+  } else {
+    const double spent = std::chrono::duration<double>(Clock::now() - began_).count();
+    const double left = spent / static_cast<double>(++worked_) * static_cast<double>(count - number_);
+    if (left >= 60) fmt::print("  ({:.0f} min left)", left / 60);
+    else if (left >= 5) fmt::print("  ({:.0f} s left)", left);
+  }
+  fmt::print("\n");
+  std::fflush(stdout);
+}
+
+}  // namespace orthodyn
