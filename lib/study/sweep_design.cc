@@ -121,15 +121,16 @@ class Expansion {
                                "expect=null", "checkpoint=null"})
       config.override_with(silent);
     try {
-      read(config, point);
+      const Scene scene = read_scene(config);
+      fill(config, point);
+      if (!read_) read_ = scene;
     } catch (const ConfigError& e) {
       if (sweep_.impossible == Impossible::stop)
-        throw ConfigError(
-            fmt::format("{}: {} (in a sweep with impossible: keep, such points are in the table with this "
-                        "reason)",
-                        point.title, e.what()));
+        throw ConfigError(fmt::format("{}: {}: {} (impossible: keep goes on without such points)", sweep_.origin.where,
+                                      point.title, e.what()));
       point.impossible = e.what();
     }
+    if (read_ && !is_looked_up_) look_up_quantities(*read_);
     return point;
   }
 
@@ -157,17 +158,14 @@ class Expansion {
     }
   }
 
-  void read(Config& config, SweepPoint& point) {
-    const Scene scene = read_scene(config);
+  static void fill(const Config& config, SweepPoint& point) {
     point.scene = config.dump_for("");
     point.mesh = config.at("mesh").yaml();
     point.files = config.file_paths();
-    if (is_looked_up_) return;
-    look_up_quantities(scene);
-    is_looked_up_ = true;
   }
 
-  void look_up_quantities(const Scene& scene) const {
+  void look_up_quantities(const Scene& scene) {
+    is_looked_up_ = true;
     const auto wants = [](const auto& q) { return !q.second.quantity.empty(); };
     if (std::none_of(sweep_.quantities.begin(), sweep_.quantities.end(), wants)) return;
     const BuiltScene built = build(scene);
@@ -186,6 +184,7 @@ class Expansion {
 
   const Sweep& sweep_;
   std::string scene_;
+  std::optional<Scene> read_;  // that of the first point that can be
   bool is_looked_up_ = false;
 };
 

@@ -135,6 +135,9 @@ TEST_F(SweepDesign, KeepsImpossiblePointsOnlyWhereThatIsAskedFor) {
   const auto all = points(text + "impossible: keep\n");
   EXPECT_EQ(all[0].impossible, "");
   EXPECT_THAT(all[1].impossible, HasSubstr("must be in (-1, 0.5)"));
+  EXPECT_THAT(complaint("vary: {materials.soft.nu: [0.6, 0.3]}\nquantities: {f: {quantity: top.displacement.z}}\n"
+                        "impossible: keep"),
+              HasSubstr("did you mean 'tip.displacement.z'?"));
 }
 
 }  // namespace
