@@ -16,6 +16,7 @@
 #include "lib/study/fingerprint.h"
 #include "lib/study/machine.h"
 #include "lib/study/measure.h"
+#include "lib/study/snapshot.h"
 
 namespace orthodyn {
 
@@ -150,11 +151,12 @@ class Evaluation {
                  const std::vector<Quantity>& quantities) {
     SeriesRecorder recorder(*setup.built.model, *setup.integrator, quantities);
     Deadline deadline(job_.seconds);
-    Plan plan{setup.scene.time.end, times_asked_for(wanted, setup.scene.time.start), false};
+    Snapshot frame(job_.frame_at);
+    Plan plan{setup.scene.time.end, output_times(wanted, setup.scene.time), false};
     EventFinder events(setup.events);
     if (!events.empty()) plan.events = &events;
-    const Outcome outcome =
-        run(*setup.built.model, *setup.integrator, setup.built.initial, plan, {&recorder, &deadline}, deadline.over);
+    const Outcome outcome = run(*setup.built.model, *setup.integrator, setup.built.initial, plan,
+                                {&recorder, &deadline, &frame}, deadline.over);
     if (!conclude(outcome, setup.integrator->statistics())) return;
     for (std::size_t q = 0; q < names.size(); ++q) {
       const WantedFigure& f = figure_named(names[q]);
@@ -164,7 +166,12 @@ class Evaluation {
            f.settled_within ? settling_time(recorder.series(q), *f.settled_within) : figure(wanted[q], recorder, q),
            of_time ? "s" : unit);
     }
-    draw(*setup.built.model, outcome.last);
+    draw(*setup.built.model, frame.state());
+  }
+
+  std::vector<double> output_times(std::vector<Expectation> wanted, const TimeSpan& time) const {
+    if (job_.frame && job_.frame_at && *job_.frame_at < time.end) wanted.emplace_back().at = job_.frame_at;
+    return times_asked_for(wanted, time.start);
   }
 
   const WantedFigure& figure_named(const std::string& name) const {

@@ -13,6 +13,7 @@ namespace orthodyn {
 struct PointJob {
   Named<WantedFigure> figures;
   std::optional<std::string> frame;  // the field that its picture shows
+  std::optional<double> frame_at;    // s; default the end
   double seconds = 60;               // limit of the integration
   std::string code;                  // fingerprint of the program that is to do it
 

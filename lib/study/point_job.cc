@@ -53,13 +53,18 @@ WantedFigure figure_from(const Json& json) {
 Json PointJob::json() const {
   Json all = Json::object();
   for (const auto& [name, f] : figures) all[name] = to_json(f);
-  return {{"figures", all}, {"frame", optional_json(frame)}, {"seconds", seconds}, {"code", code}};
+  return {{"figures", all},
+          {"frame", optional_json(frame)},
+          {"frame_at", optional_json(frame_at)},
+          {"seconds", seconds},
+          {"code", code}};
 }
 
 PointJob PointJob::from(const Json& json) {
   PointJob job;
   for (const auto& [name, f] : json.at("figures").items()) job.figures.emplace_back(name, figure_from(f));
   job.frame = optional_from<std::string>(json.at("frame"));
+  job.frame_at = optional_from<double>(json.at("frame_at"));
   job.seconds = json.at("seconds");
   job.code = json.at("code");
   return job;

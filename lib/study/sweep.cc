@@ -142,6 +142,7 @@ const Spec<WantedFigure>& WantedFigure::spec() {
 const Spec<FrameWish>& FrameWish::spec() {
   static const auto s =
       Spec<FrameWish>()
+          .key("at", &FrameWish::at, "The time of the pictures; default the end.", {.unit = "s"})
           .key("color", &FrameWish::color, "What colours the body: displacement, stress, strain, velocity, det_f.")
           .key("view", &FrameWish::view, "Azimuth and elevation of the eye, degrees.")
           .key("up", &FrameWish::up, "The axis that is up.")
@@ -183,7 +184,7 @@ const Spec<Sweep>& Sweep::spec() {
           .key("seed", &Sweep::seed, "Of a Latin hypercube.")
           .key("quantities", &Sweep::quantities, "What is wanted of every point, by name.", {.required = true})
           .key("plots", &Sweep::plots, "Figures of the report; default by the number of variables.")
-          .key("frames", &Sweep::frames, "A picture of each point at the end of its run, side by side.")
+          .key("frames", &Sweep::frames, "A picture of each point, side by side.")
           .key("impossible", &Sweep::impossible,
                "Points whose scene cannot be (an unstable material). stop: an error before anything runs. keep: they "
                "are in the table, with the reason.")

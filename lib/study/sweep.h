@@ -87,6 +87,7 @@ struct WantedFigure {
 
 // A picture of each point.
 struct FrameWish {
+  std::optional<double> at;  // s; default the end
   std::string color = "displacement";
   std::vector<double> view{-60, 20};
   std::string up = "z";

@@ -19,8 +19,10 @@ namespace {
 constexpr double kSetUpTime = 60;
 
 PointJob job_of(const Sweep& sweep) {
-  PointJob job{sweep.quantities, std::nullopt, sweep.limits.seconds, code_fingerprint()};
-  if (sweep.frames) job.frame = sweep.frames->color.substr(0, sweep.frames->color.find('.'));
+  PointJob job{sweep.quantities, {}, {}, sweep.limits.seconds, code_fingerprint()};
+  if (!sweep.frames) return job;
+  job.frame = sweep.frames->color.substr(0, sweep.frames->color.find('.'));
+  job.frame_at = sweep.frames->at;
   return job;
 }
 

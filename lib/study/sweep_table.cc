@@ -46,7 +46,7 @@ Json plots_json(const Sweep& sweep) {
 Json frames_json(const Sweep& sweep) {
   if (!sweep.frames) return nullptr;
   const FrameWish& f = *sweep.frames;
-  return {{"color", f.color},       {"view", f.view}, {"up", f.up},
+  return {{"at", f.at ? Json(*f.at) : Json()}, {"color", f.color},       {"view", f.view}, {"up", f.up},
           {"enlarged", f.enlarged}, {"most", f.most}, {"ghost", f.ghost}};
 }
 

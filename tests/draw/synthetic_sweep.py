@@ -39,5 +39,5 @@ def write_frames(folder, content):
         (folder / point["folder"]).mkdir(parents=True)
         (folder / point["folder"] / "frame.vtu").write_bytes(Vtu().content(*fields_at(0.1 * k)))
         point["frame"] = "frame.vtu"
-    content["frames"] = {"color": "displacement", "view": [-60, 20], "up": "z", "enlarged": 1, "most": 5, "ghost": True}
+    content["frames"] = {"at": None, "color": "displacement", "view": [-60, 20], "up": "z", "enlarged": 1, "most": 5, "ghost": True}
     return content

@@ -52,8 +52,8 @@ def _range_row(sweep, figure):
         cells.append(tag("td", words.general(value), void("br"), tag("small", _where(sweep, point)), class_="word"))
     gaps = [(abs(figure.difference(p)), p) for _, p in values if math.isfinite(figure.difference(p))]
     gap, point = max(gaps, key=lambda g: g[0]) if gaps else (math.nan, None)
-    cells.append(tag("td", f"{words.general(100 * gap, 3)}{words.THIN}%", void("br"), tag("small", _where(sweep, point)),
-                     class_="word") if gaps else tag("td", words.UNKNOWN, class_="word"))
+    farthest = gaps and (f"{words.general(100 * gap, 3)}{words.THIN}%", void("br"), tag("small", _where(sweep, point)))
+    cells.append(tag("td", *(farthest or [words.UNKNOWN]), class_="word"))
     return tag("tr", tag("th", figure.heading, scope="row"), *cells)
 
 
@@ -72,13 +72,14 @@ def _figures(sweep, figures):
 
 
 def _album(sweep, path):
-    scale = sweep.frames["enlarged"]
+    scale, at = sweep.frames["enlarged"], sweep.frames["at"]
+    names = ", ".join(v.heading for v in sweep.variables)
+    when = "at the end of their runs" if at is None else f"after {at:g} s"
     enlarged = f" Deformations are enlarged {scale:g} times." if scale != 1 else ""
     data = base64.b64encode(Path(path).read_bytes()).decode("ascii")
     return tag("figure", void("img", src=f"data:image/png;base64,{data}", class_="photo",
                               alt=f"The body at {len(sweep.done)} points of the sweep, side by side"),
-               tag("figcaption", "Points at the end of their runs, with one camera and one range of colours. Above "
-                   "each: " + ", ".join(v.heading for v in sweep.variables) + "." + enlarged))
+               tag("figcaption", f"Points {when}, with one camera and one range of colours. Above each: {names}.{enlarged}"))
 
 
 def _row(sweep, point):
