@@ -140,5 +140,15 @@ TEST_F(SweepDesign, KeepsImpossiblePointsOnlyWhereThatIsAskedFor) {
               HasSubstr("did you mean 'tip.displacement.z'?"));
 }
 
+TEST(ShippedSweeps, HavePointsThatCanAllBeComputed) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(ORTHODYN_SOURCE_DIR "/configs/sweeps")) {
+    const auto points = expand(read_sweep(Config::from_file(entry.path().string())));
+    EXPECT_GE(points.size(), 18u) << entry.path();
+    ++count;
+  }
+  EXPECT_GE(count, 6);
+}
+
 }  // namespace
 }  // namespace orthodyn
