@@ -121,6 +121,14 @@ double quantity_in(const std::string& text, const std::string& unit) {
   return value;
 }
 
+double si_factor(const std::string& unit) {
+  const Unit given = has_factor(unit.starts_with("1/") ? unit.substr(2) : unit) ? Unit() : parse(unit);
+  if (given)
+    for (const auto& [known, word] : kDimensions)
+      if (same_dimension(given.get(), parse(known).get())) return quantity_in("1 " + unit, known);
+  throw std::invalid_argument("the unit '" + unit + "' is not known");
+}
+
 std::string dimension_text(const std::string& unit) {
   for (const auto& [known, word] : kDimensions)
     if (unit == known) return fmt::format("{} ({})", word, unit);

@@ -11,6 +11,10 @@ namespace orthodyn {
 // names what was found and what is expected.
 double quantity_in(const std::string& text, const std::string& unit);
 
+// What one of a unit is in SI units: 1e9 for "GPa", 0.0175 for "deg". Throws std::invalid_argument for a unit that is
+// not known.
+double si_factor(const std::string& unit);
+
 // "stress or stiffness (Pa)"; the unit alone where there is no word for it.
 std::string dimension_text(const std::string& unit);
 

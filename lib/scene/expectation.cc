@@ -6,20 +6,6 @@
 
 namespace orthodyn {
 
-template <>
-struct Words<Take> {
-  static constexpr std::array<std::pair<Take, const char*>, 10> list{{{Take::end, "end"},
-                                                                     {Take::max, "max"},
-                                                                     {Take::min, "min"},
-                                                                     {Take::time_of_max, "time_of_max"},
-                                                                     {Take::time_of_min, "time_of_min"},
-                                                                     {Take::mean, "mean"},
-                                                                     {Take::frequency, "frequency"},
-                                                                     {Take::drift, "drift"},
-                                                                     {Take::gain, "gain"},
-                                                                     {Take::onset, "onset"}}};
-};
-
 namespace {
 
 void check_expectation(const Expectation& e, const Config& config) {

@@ -2,8 +2,10 @@
 // expectations is a test case for `orthodyn verify`.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "lib/core/spec.h"
 
@@ -11,6 +13,20 @@ namespace orthodyn {
 
 // How one figure is taken from a quantity's course over time.
 enum class Take { end, max, min, time_of_max, time_of_min, mean, frequency, drift, gain, onset };
+
+template <>
+struct Words<Take> {
+  static constexpr std::array<std::pair<Take, const char*>, 10> list{{{Take::end, "end"},
+                                                                     {Take::max, "max"},
+                                                                     {Take::min, "min"},
+                                                                     {Take::time_of_max, "time_of_max"},
+                                                                     {Take::time_of_min, "time_of_min"},
+                                                                     {Take::mean, "mean"},
+                                                                     {Take::frequency, "frequency"},
+                                                                     {Take::drift, "drift"},
+                                                                     {Take::gain, "gain"},
+                                                                     {Take::onset, "onset"}}};
+};
 
 struct Expectation {
   std::string quantity;      // "tip.displacement.z", "energy.balance", "momentum.angular.magnitude"

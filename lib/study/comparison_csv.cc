@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "lib/study/comparison_table.h"
+#include "lib/study/csv_cell.h"
 
 namespace orthodyn {
 
@@ -58,21 +59,13 @@ std::vector<Column> columns_of(const Json& comparison) {
   return all;
 }
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
-
 std::string cell(const Json& point, const Column& column) {
   const Json* at = &point;
   for (const auto& key : column.path) {
     if (!at->is_object() || !at->contains(key)) return "";
     at = &at->at(key);
   }
-  if (at->is_null()) return "";
-  return at->is_string() ? quoted(at->get<std::string>()) : at->dump();
+  return csv_cell(*at);
 }
 
 }  // namespace
@@ -80,7 +73,7 @@ std::string cell(const Json& point, const Column& column) {
 std::string comparison_csv(const Json& comparison) {
   const auto columns = columns_of(comparison);
   std::string out;
-  for (const auto& column : columns) out += (out.empty() ? "" : ",") + quoted(column.title);
+  for (const auto& column : columns) out += (out.empty() ? "" : ",") + csv_cell(column.title);
   out += fmt::format(",near_reference.{}\n", kLeadingError);
   for (const auto& point : comparison.at("points")) {
     for (const auto& column : columns) out += cell(point, column) + ",";

@@ -5,6 +5,7 @@
 
 #include <ctime>
 #include <fstream>
+#include <limits>
 #include <thread>
 
 #include "lib/core/versions.h"
@@ -33,6 +34,14 @@ Json versions_json() {
   for (const auto& [library, version] : library_versions()) out[library] = version;
   out["BLAS"] = blas_name();
   return out;
+}
+
+// What getrusage() says begins with what the parent process held.
+double peak_memory() {
+  std::ifstream in("/proc/self/status");
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with("VmHWM:")) return 1024 * std::stod(line.substr(6));
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }

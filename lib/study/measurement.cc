@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
 
 #include "lib/study/deadline.h"
+#include "lib/study/machine.h"
 #include "lib/study/measure.h"
 #include "lib/study/modal_solution.h"
 
@@ -47,14 +47,6 @@ bool is_free(const FemModel& model) {
   const auto& parts = model.parts();
   return parts.loads.empty() && parts.mass_damping == 0 &&
          model.num_dofs() == 3 * static_cast<int>(parts.mesh.nodes.size());
-}
-
-// Of this program alone, bytes: what getrusage() says begins with what the parent process held.
-double peak_memory() {
-  std::ifstream in("/proc/self/status");
-  for (std::string line; std::getline(in, line);)
-    if (line.starts_with("VmHWM:")) return 1024 * std::stod(line.substr(6));
-  return std::numeric_limits<double>::quiet_NaN();
 }
 
 // The same error in every measure.

@@ -80,6 +80,19 @@ double frequency(const Series& s) {
   return crossings < 2 ? kNone : (crossings - 1) / (last - first);
 }
 
+double settling_time(const Series& s, double share) {
+  if (s.size() < 2) return kNone;
+  const auto [least, most] = std::minmax_element(s.values.begin(), s.values.end());
+  const double last = s.values.back(), band = share * (*most - *least), start = s.times.front();
+  std::size_t k = s.size() - 1;
+  while (k > 0 && std::abs(s.values[k - 1] - last) <= band) --k;
+  if (k == 0) return 0;
+  // Between the last sample outside and the first inside.
+  const double outside = std::abs(s.values[k - 1] - last), inside = std::abs(s.values[k] - last);
+  const double t = s.times[k - 1] + (s.times[k] - s.times[k - 1]) * (outside - band) / (outside - inside);
+  return t - start > 0.9 * (s.times.back() - start) ? kNone : t - start;
+}
+
 double drift(const Series& s) {
   const auto n = static_cast<std::size_t>(s.components);
   double largest = s.size() == 0 ? kNone : 0;

@@ -22,6 +22,9 @@ double maximum(const Series& series, double sign = 1);          // of sign * val
 double time_of_maximum(const Series& series, double sign = 1);
 double mean(const Series& series);                              // over time
 double frequency(const Series& series);                         // from upward crossings of the mean, 1/s
+// The time from the start after which the values stay within `share` of their range about the last one; NaN if
+// that is in the last tenth of the time.
+double settling_time(const Series& series, double share);
 // The largest change from the start, of vectors in the Euclidean norm.
 double drift(const Series& series);
 // The largest rise above the start, at least 0, and the time when the size first passes a level; of scalars.

@@ -62,6 +62,18 @@ TEST(Series, WhatDoesNotSwingHasNoFrequency) {
   EXPECT_TRUE(std::isnan(frequency(Series{})));
 }
 
+TEST(Series, SettlesWhereItsLastExcursionEnds) {
+  // exp(-t) cos(10 t) starts at 1 and has its least value, -0.73, at 0.304: within 5 % of that range after the peak at
+  // 2.19, before the one at 2.50.
+  const Series s = sample([](double t) { return std::exp(-t) * std::cos(10 * t); }, 8, 8000);
+  const double settled = settling_time(s, 0.05);
+  EXPECT_GT(settled, 2.19);
+  EXPECT_LT(settled, 2.50);
+  EXPECT_NEAR(std::abs(std::exp(-settled) * std::cos(10 * settled)), 0.05 * 1.7304, 1e-3);
+  EXPECT_TRUE(std::isnan(settling_time(sample([](double t) { return std::cos(10 * t); }, 8, 800), 0.05)));
+  EXPECT_EQ(settling_time(sample([](double) { return 3.0; }, 8, 10), 0.05), 0);
+}
+
 TEST(Series, DriftOfAVectorIsTheLongestChange) {
   Series s;
   s.components = 3;

@@ -118,9 +118,9 @@ def _parser():
     command("steps", "Step size with order and rejections, Newton iterations, from steps.csv.")
     command("probes", "Probed values over time, from probes.csv.")
     command("momentum", "Linear and angular momentum over time, from momentum.csv.")
-    report = commands.add_parser("report", help="One HTML page and figures of a comparison or of a matrix of hard cases.",
-                                 description="One HTML page and figures of a comparison or of a matrix of hard cases.")
-    report.add_argument("result", metavar="RESULT", help="folder that `orthodyn compare` or `stability` wrote")
+    page = "One HTML page and figures for papers of a comparison, a sweep or a matrix of hard cases."
+    report = commands.add_parser("report", help=page, description=page)
+    report.add_argument("result", metavar="RESULT", help="folder that `orthodyn compare`, `sweep` or `stability` wrote")
     report.add_argument("-o", "--out", type=Path, metavar="FILE", help="the page (default: RESULT/report.html)")
     axes = commands.add_parser("axes", help="Material axes on the surface and in two sections, from axes.vtu.",
                                description="Material axes on the surface and in two sections, as PNG.")
@@ -200,12 +200,11 @@ def _all(args):
 
 
 def _report(args):
-    from . import stability
-    if (Path(args.result) / stability.FILE).is_file():
-        yield from stability.write_stability_report(args.result, args.out)
-        return
+    from . import stability, sweep
     from .report import write_report
-    yield from write_report(args.result, args.out)
+    write = {stability.FILE: stability.write_stability_report, sweep.FILE: sweep.write_sweep_report}
+    found = [name for name in write if (Path(args.result) / name).is_file()]
+    yield from (write[found[0]] if found else write_report)(args.result, args.out)
 
 
 def _axes(args):

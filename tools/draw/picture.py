@@ -53,19 +53,27 @@ def draw_frame(scene, index, path, size_px=None):
     return save(frame_figure(scene, index, size), path)
 
 
-def strip_grid(count, aspect):
-    """(columns, rows, panel): the grid nearest to a 16:9 page with few empty places."""
+def strip_columns(count, aspect):
+    """Of the grid nearest to a 16:9 page with few empty places."""
     def cost(columns):
         rows = math.ceil(count / columns)
         page = columns * aspect / rows
         return abs(math.log(page / 1.8)) + 0.9 * (rows * columns - count) / count
-    columns = min(range(1, count + 1), key=cost)
-    rows = math.ceil(count / columns)
+    return min(range(1, count + 1), key=cost)
+
+
+def _panel(columns, aspect):
+    """Inches of one of several panels side by side."""
     page_width = 10.0 if columns > 1 else 8.0
     width = (page_width - (columns + 1) * SIDE) / columns
-    return columns, rows, (width, float(np.clip(width / aspect, 0.5, 5.5)))
+    return width, float(np.clip(width / aspect, 0.5, 5.5))
+
+
+def draw_page(scene, columns, indices, path):
+    """Row after row of so many columns."""
+    aspect = scene.window.size[0] / scene.window.size[1]
+    return save(_page(scene, columns, math.ceil(len(indices) / columns), _panel(columns, aspect), indices), path)
 
 
 def draw_strip(scene, indices, path):
-    grid = strip_grid(len(indices), scene.window.size[0] / scene.window.size[1])
-    return save(_page(scene, *grid, indices), path)
+    return draw_page(scene, strip_columns(len(indices), scene.window.size[0] / scene.window.size[1]), indices, path)

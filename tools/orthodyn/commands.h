@@ -37,6 +37,16 @@ struct CompareArguments {
   bool quiet = false, no_report = false;
 };
 
+struct SweepArguments {
+  std::string sweep;
+  std::optional<std::string> out;
+  int jobs = 0;                       // 0: as many as there are processors
+  std::optional<std::string> task;    // "3/20": this part of the points only
+  std::optional<std::string> slurm;   // "print" or "submit"
+  std::optional<std::size_t> tasks;   // of the array
+  bool collect = false, quiet = false, no_report = false;
+};
+
 struct StabilityArguments {
   std::string file;
   std::optional<std::string> out;
@@ -57,6 +67,8 @@ int list_command(const std::string& what, bool markdown);
 void print_reference_page();
 int compare_command(const CompareArguments& arguments);
 int measure_command(const std::string& folder);  // one point of a comparison, in its own process
+int sweep_command(const SweepArguments& arguments);
+int evaluate_command(const std::string& folder);  // one point of a sweep, in its own process
 int stability_command(const StabilityArguments& arguments);
 int assess_command(const std::string& folder);  // one trial of a matrix, in its own process
 int convert_command(const ConvertArguments& arguments);

@@ -12,13 +12,14 @@
 
 namespace orthodyn {
 
-FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& file, const std::string& work) {
+FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& file, const std::string& work,
+                       Sharing sharing) {
   std::error_code ec;
   std::filesystem::create_directories(folder, ec);
   if (!ec) file_ = open((folder / file).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (file_ < 0)
     throw RunError(fmt::format("{}: cannot write there: {}", folder.string(), ec ? ec.message() : std::strerror(errno)));
-  if (flock(file_, LOCK_EX | LOCK_NB) == 0) return;
+  if (flock(file_, (sharing == Sharing::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0) return;
   if (errno != EWOULDBLOCK) {
     fmt::print(stderr, "warning: {}: cannot be locked ({}); start nothing else there meanwhile\n", folder.string(),
                std::strerror(errno));

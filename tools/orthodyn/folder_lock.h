@@ -1,4 +1,5 @@
-// Keeps a folder to one process at a time, for as long as it lives; a process that is killed lets go too.
+// Keeps a folder to one process at a time, or to several of one kind, for as long as it lives; a process that is killed
+// lets go too.
 #pragma once
 
 #include <filesystem>
@@ -6,12 +7,15 @@
 
 namespace orthodyn {
 
+enum class Sharing { alone, with_its_like };
+
 class FolderLock {
  public:
   // Makes the folder, and in it the file that is locked (flock), which stays: it must never be renamed or
   // replaced. Throws ConfigError if another process holds it ("another <work> is at work there"), RunError
   // if the file cannot be made. Where the file system has no locks, it warns and holds nothing.
-  FolderLock(const std::filesystem::path& folder, const std::string& file, const std::string& work);
+  FolderLock(const std::filesystem::path& folder, const std::string& file, const std::string& work,
+             Sharing sharing = Sharing::alone);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;

@@ -111,10 +111,33 @@ samples: 100               # times at which errors are taken
 limits: {seconds: 60}      # of each integration
 )";
 
+constexpr const char* kSweep = R"(# What depends on what?
+# Run it with `orthodyn sweep {file}`; its report is an HTML page.
+title: What is varied
+description: What is varied and why, in a sentence or two.
+
+scene: scene.yaml          # or {file: scene.yaml, set: {mesh.cells: [20, 2, 1]}}
+
+vary:                      # keys of the scene by their paths; every combination is a point
+  materials.wood.young.0: {from: 5, to: 20, count: 4, unit: GPa, name: E1}   # scale: log for equal ratios
+  materials.wood.nu12: [0.3, 0.44]
+  # mesh: {coarse: {mesh.cells: [40, 4, 2]}, fine: {mesh.cells: [80, 8, 4]}}   # named sets of keys
+# combine: latin_hypercube # or zip; with samples: 50, seed: 1 and ranges without count
+
+quantities:                # see orthodyn list sweep
+  sag: {quantity: tip.displacement.z, take: min, unit: mm}   # closed_form: a formula of the varied values, SI units
+  settling: {quantity: tip.displacement.z, settled_within: 0.05}
+  frequency: {mode: 1}
+  steps: {cost: steps}
+
+frames: {color: displacement}   # a picture of each point at the end; leave it out for none
+limits: {seconds: 60}      # of each point
+)";
+
 const std::map<std::string, std::string>& starts() {
   static const std::string head = kHead, body = kBody;
   static const std::map<std::string, std::string> all = {
-      {"scene", head + body + kMotion}, {"static", head + kAnalysis + body + kRest}, {"comparison", kComparison}};
+      {"scene", head + body + kMotion}, {"static", head + kAnalysis + body + kRest}, {"comparison", kComparison}, {"sweep", kSweep}};
   return all;
 }
 

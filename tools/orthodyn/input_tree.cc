@@ -4,7 +4,7 @@
 
 #include "lib/core/config.h"
 #include "lib/scene/scene.h"
-#include "lib/study/comparison.h"
+#include "lib/study/sweep.h"
 
 namespace orthodyn {
 
@@ -57,6 +57,7 @@ const std::vector<InputKind>& input_kinds() {
       {"scene", "One simulation, for `orthodyn run`; with `expect` also a case for `orthodyn verify`.",
        Scene::spec().keys()},
       {"comparison", "Integrators on scenes, error against time, for `orthodyn compare`.", Comparison::spec().keys()},
+      {"sweep", "Figures of a scene over varied values, for `orthodyn sweep`.", Sweep::spec().keys()},
   };
   return all;
 }

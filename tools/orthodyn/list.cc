@@ -8,7 +8,7 @@
 #include "lib/material/presets.h"
 #include "lib/scene/build.h"
 #include "lib/scene/scene.h"
-#include "lib/study/comparison.h"
+#include "lib/study/sweep.h"
 #include "tools/orthodyn/commands.h"
 
 namespace orthodyn {
@@ -98,6 +98,16 @@ void print_comparison() {
   print_entry("reference", "What errors are measured against.", ReferenceOptions::spec().keys());
 }
 
+void print_sweep() {
+  print_entry("sweep", "The keys of a sweep, for `orthodyn sweep`.", Sweep::spec().keys());
+  print_entry("vary.<name>", "Evenly spaced numbers.", NumberRange::spec().keys());
+  print_entry("vary.<name>", "A list with a unit or a name.", ValueList::spec().keys());
+  print_entry("quantities.<name>", "What is wanted of every point: one of quantity, mode (or along), cost.",
+              WantedFigure::spec().keys());
+  print_entry("plots.<n>", "A figure of the report.", PlotWish::spec().keys());
+  print_entry("frames", "A picture of each point.", FrameWish::spec().keys());
+}
+
 void print_fields() {
   const FemModel model{FemModel::Parts{}};
   for (const auto& info : model.outputs()) {
@@ -123,6 +133,7 @@ const std::vector<std::pair<std::string, std::function<void()>>>& chapters() {
       {"events", print_events},
       {"expect", print_expectations},
       {"comparison", print_comparison},
+      {"sweep", print_sweep},
       {"fields", print_fields},
   };
   return all;

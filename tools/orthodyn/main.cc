@@ -24,6 +24,7 @@ Examples:
   orthodyn init scene my.yaml
   orthodyn list materials
   orthodyn compare configs/comparisons/damped_beam.yaml
+  orthodyn sweep configs/sweeps/grain_angle.yaml
   orthodyn verify configs/cases
 
 Exit codes: 0 done, 1 an expectation was missed, 2 the input is at fault (nothing was written), 3 the run could not go on (what
@@ -102,6 +103,32 @@ int main(int argc, char** argv) {
   auto* measure = app.add_subcommand("measure", "One point of a comparison; called by compare.")->group("");
   measure->add_option("folder", folder)->required();
 
+  SweepArguments variation;
+  auto* sweep = app.add_subcommand(
+      "sweep", "Figures of a scene over varied values, as a report, CSV and JSON. Run again, it goes on.");
+  sweep->add_option("sweep", variation.sweep, "A sweep in YAML.")->required()->type_name("SWEEP.yaml");
+  sweep->add_option("--out", variation.out, "Folder for the results; default out/sweeps/<name>.")->type_name("DIR");
+  sweep->add_option("--jobs", variation.jobs, "Points at a time, each in a process; default one a processor.")
+      ->check(CLI::Range(1, 1024));
+  auto* task = sweep->add_option("--task", variation.task, "Do the I-th of N parts of the points only; for job arrays.")
+                   ->type_name("I/N");
+  auto* slurm = sweep->add_option("--slurm", variation.slurm, "The sweep as a job array of SLURM: print its script, or submit it.")
+                    ->check(CLI::IsMember({"print", "submit"}))
+                    ->expected(0, 1)
+                    ->default_str("print")
+                    ->excludes(task);
+  sweep->add_option("--tasks", variation.tasks, "Tasks of the array; default one a point, up to 1000.")
+      ->check(CLI::Range(1, 1000000))
+      ->needs(slurm);
+  sweep->add_flag("--collect", variation.collect, "Join the points that are there, and say which are missing.")
+      ->excludes(task)
+      ->excludes(slurm);
+  sweep->add_flag("--quiet", variation.quiet, "Say nothing but errors.");
+  sweep->add_flag("--no-report", variation.no_report, "Write sweep.json and sweep.csv only.");
+
+  auto* evaluate = app.add_subcommand("evaluate", "One point of a sweep; called by sweep.")->group("");
+  evaluate->add_option("folder", folder)->required();
+
   StabilityArguments hard;
   auto* stability = app.add_subcommand(
       "stability", "Try integrators on hard cases: a matrix of pass, degraded and fail, with reasons. Run again, it goes on.");
@@ -135,18 +162,18 @@ int main(int argc, char** argv) {
 
   std::string what;
   auto* list = app.add_subcommand("list", "What can be named in a scene, each with its keys.");
-  list->add_option("what", what, "scene, materials, presets, meshes, axes, integrators, solvers, terms, factors, statics, events, expect, comparison, fields; all if left out.");
+  list->add_option("what", what, "scene, materials, presets, meshes, axes, integrators, solvers, terms, factors, statics, events, expect, comparison, sweep, fields; all if left out.");
   bool markdown = false;
   list->add_flag("--markdown", markdown, "Every key of the input as one page in Markdown.");
 
   std::string schema_kind;
   auto* schema = app.add_subcommand("schema", "The JSON Schema of the input, for editors that complete and check YAML.");
-  schema->add_option("kind", schema_kind, "scene or comparison; both in one schema if left out.");
+  schema->add_option("kind", schema_kind, "scene, comparison or sweep; all in one schema if left out.");
 
   std::string start_kind;
   std::optional<std::string> start_file;
   auto* init = app.add_subcommand("init", "Write a commented file to start from.");
-  init->add_option("kind", start_kind, "scene, static or comparison.")->required();
+  init->add_option("kind", start_kind, "scene, static, comparison or sweep.")->required();
   init->add_option("file", start_file, "Its name; default KIND.yaml.")->type_name("FILE.yaml");
 
   try {
@@ -164,6 +191,8 @@ int main(int argc, char** argv) {
     if (*convert) return convert_command(conversion);
     if (*compare) return compare_command(comparison);
     if (*measure) return measure_command(folder);
+    if (*sweep) return sweep_command(variation);
+    if (*evaluate) return evaluate_command(folder);
     if (*stability) return stability_command(hard);
     if (*assess) return assess_command(folder);
     if (*verify) return verify_command(cases);

@@ -29,7 +29,6 @@ struct Resting {
 Resting resting(const Setup& setup) {
   if (setup.scene.analysis == Analysis::statical) return {setup.scene, {}};
   Resting out{at_rest(setup.scene), {}};
-  if (!out.scene.statics) out.scene.statics = Statics::spec().read(Config::from_text("{}", "--equilibrium"));
   if (!out.scene.motions.empty()) out.rebuilt = build(out.scene);
   return out;
 }

@@ -151,10 +151,13 @@ Schema document(const std::vector<InputKind>& kinds) {
   Schema body;
   if (kinds.size() == 1) {
     body = writer.section(kinds.front().keys);
-  } else {  // a comparison has scenes
+  } else {  // a comparison has scenes, a sweep varies one
+    const Schema sweep_or_scene = {{"if", {{"required", {"quantities"}}}},
+                                   {"then", writer.section(kinds[2].keys)},
+                                   {"else", writer.section(kinds[0].keys)}};
     body = {{"if", {{"required", {"scenes"}}}},
             {"then", writer.section(kinds[1].keys)},
-            {"else", writer.section(kinds[0].keys)}};
+            {"else", sweep_or_scene}};
   }
   std::string title = "orthodyn";
   for (const auto& kind : kinds) title += " " + kind.name;

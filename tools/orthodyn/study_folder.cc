@@ -24,9 +24,9 @@ void refuse_other_folders(const fs::path& path, const std::string& kind) {
 
 }  // namespace
 
-StudyFolder::StudyFolder(fs::path path, const std::string& kind) : path_(std::move(path)) {
+StudyFolder::StudyFolder(fs::path path, const std::string& kind, Sharing sharing) : path_(std::move(path)) {
   refuse_other_folders(path_, kind);
-  lock_.emplace(path_, mark_of(kind), kind);
+  lock_.emplace(path_, mark_of(kind), kind, sharing);
 }
 
 }  // namespace orthodyn

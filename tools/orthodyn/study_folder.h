@@ -1,4 +1,5 @@
-// The folder of a study, such as a comparison: marked as such, and used by one process at a time.
+// The folder of a study, such as a comparison: marked as such, and used by one process at a time, or by several that only
+// add points.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +15,7 @@ class StudyFolder {
   // Makes the folder if it is missing. `kind`: "comparison". Throws ConfigError if it holds anything else than a study
   // of this kind, or if another process works there. What is finished is known by its fingerprint, so any study may
   // go on in the folder of another of its kind.
-  StudyFolder(std::filesystem::path path, const std::string& kind);
+  StudyFolder(std::filesystem::path path, const std::string& kind, Sharing sharing = Sharing::alone);
 
   const std::filesystem::path& path() const { return path_; }
 

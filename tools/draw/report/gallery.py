@@ -18,6 +18,17 @@ PAPER = {"bbox_inches": "tight", "pad_inches": 0.08, "facecolor": "white"}
 CLOCKS = {"wall": "wall time", "cpu": "CPU time"}
 
 
+def both_widths(draw, styles, salt):
+    """`draw(width)` as a wide and a narrow SVG, of which the page shows one; None where nothing is drawn."""
+    parts = []
+    for name, width in (("wide", WIDE), ("narrow", NARROW)):
+        sheet = draw(width)
+        if sheet is None:
+            return None
+        parts.append(tag("div", Html(page_svg(sheet, salt + name[0], styles)), class_=name))
+    return Html("".join(parts))
+
+
 class Gallery:
     """Figures of one comparison; every SVG gets ids of its own."""
 
@@ -28,15 +39,8 @@ class Gallery:
         self._drawn = 0
 
     def both_widths(self, draw):
-        """`draw(width)` as a wide and a narrow SVG, of which the page shows one; None where nothing is drawn."""
-        parts = []
-        for name, width in (("wide", WIDE), ("narrow", NARROW)):
-            sheet = draw(width)
-            if sheet is None:
-                return None
-            self._drawn += 1
-            parts.append(tag("div", Html(page_svg(sheet, f"f{self._drawn}", self.styles)), class_=name))
-        return Html("".join(parts))
+        self._drawn += 1
+        return both_widths(draw, self.styles, f"f{self._drawn}")
 
     def work_precision(self, problem, measure=None, clock="wall"):
         measure = measure or self.primary

@@ -1,0 +1,114 @@
+"""The page of a sweep: which figures it has, and what they say.
+
+Run with  /usr/bin/python3 -m unittest tests/draw/test_sweep_report.py
+"""
+import json
+import re
+import sys
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path[:0] = [str(Path(__file__).resolve().parent)]
+
+from report_page import EVIL, OfAComparison, Page  # noqa: E402
+from synthetic_sweep import sweep, write_frames, write_sweep  # noqa: E402
+
+from draw.sweep.plan import has_map, plans  # noqa: E402
+from draw.sweep.reading import read_sweep  # noqa: E402
+
+ANGLES = [0.0, 30.0, 60.0, 90.0]
+
+
+class OfASweep(OfAComparison):
+    def page_of(self, content):
+        code, out, err = self.run_draw(write_sweep(self.folder, content))
+        self.assertEqual((code, err), (0, []))
+        self.assertEqual(out[0], str(self.folder / "report.html"))
+        text = (self.folder / "report.html").read_text(encoding="utf-8")
+        page = Page(text)
+        self.assertEqual((page.unbalanced, page.open), ([], []))
+        return text, page
+
+    def planned(self, content):
+        found = read_sweep(write_sweep(self.folder, content))
+        return found, plans(found)
+
+
+class ThePlan(OfASweep):
+    def roles(self, content):
+        _, found = self.planned(content)
+        return [(p.x.name, p.lines.name if p.lines else None, p.fixed) for p in found]
+
+    def test_numbers_are_along_the_axis_and_names_make_lines(self):
+        self.assertEqual(self.roles(sweep({"mesh": ["coarse", "fine"], "angle": ANGLES})), [("angle", "mesh", {})])
+
+    def test_further_variables_make_figures_of_their_own(self):
+        levels = {"angle": ANGLES, "nu": [0.1, 0.2], "mesh": ["coarse", "fine"]}
+        self.assertEqual(self.roles(sweep(levels)), [("angle", "mesh", {"nu": 0.1}), ("angle", "mesh", {"nu": 0.2})])
+
+    def test_two_numbers_are_a_map_too(self):
+        content, found = self.planned(sweep({"a": ANGLES, "b": [1.0, 2.0, 3.0, 4.0]}))
+        self.assertTrue(has_map(found[0], content))
+        content, found = self.planned(sweep({"a": ANGLES, "b": [1.0, 2.0]}))
+        self.assertFalse(has_map(found[0], content))
+
+    def test_a_latin_hypercube_is_scattered_over_each_variable(self):
+        roles = self.roles(sweep({"a": ANGLES, "b": [1.0, 2.0]}, combine="latin_hypercube"))
+        self.assertEqual(roles, [("a", None, {}), ("b", None, {})])
+
+    def test_what_is_wished_for_wins(self):
+        wish = [{"figure": "f", "x": "b", "lines": "a"}]
+        self.assertEqual(self.roles(sweep({"a": ANGLES, "b": [1.0, 2.0]}, plots=wish)), [("b", "a", {})])
+
+
+class ThePage(OfASweep):
+    def test_it_has_every_point_with_its_difference_from_the_closed_form(self):
+        text, page = self.page_of(sweep({"mesh": ["coarse", "fine"], "angle": ANGLES}))
+        rows = next(t for t in page.tables if "wall time [s]" in t[0])
+        self.assertEqual(len(rows), 1 + 8)
+        self.assertEqual(rows[2][:4], ["coarse", "30", "31", "−0.990"])
+        self.assertEqual(len(set(re.findall(r'data-p="(\d+)"', text))), 8)
+        self.assertIn("Difference from the closed form", text)
+        self.assertNotRegex(text, r'(src|href)="https?:')
+
+    def test_it_has_curves_maps_and_dots(self):
+        for levels, words in (({"a": ANGLES, "b": [1.0, 2.0, 3.0, 4.0]}, "as colours over"),
+                              ({"wood": ["oak", "ash"], "grain": ["along", "across"]}, "deflection [mm] of oak, ash")):
+            text, _ = self.page_of(sweep(levels, closed_form=""))
+            self.assertIn(words, text)
+
+    def test_failed_and_missing_points_are_said(self):
+        content = sweep({"a": ANGLES}, missing=1)
+        content["points"][1].update(status="failed", reason="time limit", message="too slow", figures={"f": None},
+                                    cost=None)
+        content["points"][2].update(status="missing", figures={"f": None}, cost=None)
+        _, page = self.page_of(content)
+        self.assertIn("1 of 4 points are missing", page.text)
+        self.assertIn("too slow", page.text)
+
+    def test_a_page_without_any_result_is_a_page(self):
+        content = sweep({"a": ANGLES}, missing=4)
+        for point in content["points"]:
+            point.update(status="missing", figures={"f": None}, cost=None)
+        self.assertIn("no point has it", self.page_of(content)[1].text)
+
+    def test_texts_of_the_user_are_no_html(self):
+        content = sweep({EVIL: [1.0, 2.0]}, title=EVIL, description=EVIL)
+        self.assertNotIn("<script>alert", self.page_of(content)[0])
+
+    def test_frames_stand_side_by_side_with_their_values(self):
+        content = sweep({"mesh": ["coarse", "fine"], "angle": ANGLES})
+        self.folder.mkdir()
+        text, page = self.page_of(write_frames(self.folder, content))
+        self.assertIn("data:image/png;base64,", text)
+        self.assertIn("one camera and one range of colours", page.text)
+        self.assertGreater((self.folder / "pictures/points.png").stat().st_size, 10_000)
+
+    def test_a_bad_file_is_one_line(self):
+        for content, words in (("{", "not readable as JSON"), ("[]", "no sweep"), ('{"orthodyn_sweep": 9}', "format 9"),
+                               (json.dumps({**sweep({"a": ANGLES}), "points": None}), "anew")):
+            self.folder.mkdir(exist_ok=True)
+            (self.folder / "sweep.json").write_text(content)
+            code, out, err = self.run_draw(self.folder)
+            self.assertEqual((code, out, len(err)), (2, [], 1), err)
+            self.assertIn(words, err[0])

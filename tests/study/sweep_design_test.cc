@@ -1,0 +1,154 @@
+// From a sweep to its points: values, formulas, and errors with their places.
+#include "lib/study/sweep_design.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <set>
+
+#include "tests/run/command.h"
+
+namespace orthodyn {
+namespace {
+
+using testing::HasSubstr;
+
+class SweepDesign : public InFolder {
+ protected:
+  SweepDesign() { write("swing.yaml", kSwing); }
+
+  std::vector<SweepPoint> points(const std::string& rest) const {
+    return expand(read_sweep(Config::from_file(write("s.yaml", "scene: swing.yaml\n" + rest).string())));
+  }
+  std::string complaint(const std::string& rest) const {
+    try {
+      points(rest);
+    } catch (const ConfigError& e) {
+      return e.what();
+    }
+    return "";
+  }
+  static double value(const SweepPoint& point, const std::string& path) {
+    Config at = Config::from_text(point.scene);
+    std::istringstream steps(path);
+    for (std::string step; std::getline(steps, step, '.');)
+      at = std::isdigit(static_cast<unsigned char>(step[0])) ? at.at(std::stoul(step)) : at.at(step);
+    return at.number();
+  }
+};
+
+constexpr const char* kFigure = "quantities: {f: {mode: 1}}\n";
+
+TEST_F(SweepDesign, DividesRangesEvenlyByDifferenceOrByRatio) {
+  const auto linear = points(kFigure + std::string("vary: {materials.soft.nu: {from: 0, to: 0.4, count: 5}}"));
+  ASSERT_EQ(linear.size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_DOUBLE_EQ(value(linear[i], "materials.soft.nu"), 0.1 * static_cast<double>(i));
+  const auto log =
+      points(kFigure + std::string("vary: {materials.soft.young: {from: 1e3, to: 1e6, count: 4, scale: log}}"));
+  ASSERT_EQ(log.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(value(log[i], "materials.soft.young"), std::pow(10, 3 + i), 1e-9 * std::pow(10, 3 + i));
+}
+
+TEST_F(SweepDesign, CombinesEveryValueWithEveryOther) {
+  const auto all =
+      points(kFigure + std::string("vary: {materials.soft.nu: [0, 0.1, 0.2], materials.soft.density: [1, 2]}"));
+  std::set<std::pair<double, double>> seen;
+  for (const auto& p : all) seen.emplace(value(p, "materials.soft.nu"), value(p, "materials.soft.density"));
+  EXPECT_EQ(all.size(), 6u);
+  EXPECT_EQ(seen.size(), 6u);
+}
+
+TEST_F(SweepDesign, ZipsValuesSideBySide) {
+  const std::string head = kFigure + std::string("combine: zip\n");
+  const auto all = points(head + "vary: {materials.soft.nu: [0, 0.1], materials.soft.density: [1, 2]}");
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(value(all[1], "materials.soft.nu"), 0.1);
+  EXPECT_EQ(value(all[1], "materials.soft.density"), 2);
+  EXPECT_THAT(complaint(head + "vary: {materials.soft.nu: [0, 0.1], materials.soft.density: [1]}"),
+              HasSubstr("'density' has 1, 'nu' 2"));
+}
+
+TEST_F(SweepDesign, SpreadsALatinHypercubeOverRangesAndLists) {
+  const std::string text = kFigure + std::string(R"(combine: latin_hypercube
+samples: 8
+seed: 3
+vary:
+  materials.soft.nu: {from: 0, to: 0.4}
+  materials.soft.young: {from: 1e4, to: 1e6, scale: log}
+  materials.soft.density: [1000, 2000]
+)");
+  const auto all = points(text);
+  ASSERT_EQ(all.size(), 8u);
+  std::multiset<double> densities;
+  std::set<int> strata;
+  for (const auto& p : all) {
+    densities.insert(value(p, "materials.soft.density"));
+    strata.insert(static_cast<int>(std::log10(value(p, "materials.soft.young") / 1e4) / 2 * 8));
+  }
+  EXPECT_EQ(densities.count(1000), 4u);
+  EXPECT_EQ(strata.size(), 8u);
+  const auto again = points(text);
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(all[i].scene, again[i].scene);
+}
+
+TEST_F(SweepDesign, TakesNamedSetsUnitsAndFormulasOfThemAll) {
+  const auto all = points(R"(
+vary:
+  stiffer: {from: 1, to: 100, count: 3, scale: log}
+  body:
+    heavy: {materials.soft.density: "=rho*10", rho: 300}
+    light: {materials.soft.density: "=rho", rho: 200}
+  initial.velocity: {values: [[0, 0, 0]], name: push}
+  materials.soft.young: {values: [2], unit: kPa, name: E}
+definitions: {twice: 2*E*stiffer}
+quantities: {f: {mode: 1, closed_form: twice + rho}}
+)");
+  ASSERT_EQ(all.size(), 6u);
+  EXPECT_EQ(value(all[0], "materials.soft.density"), 3000);
+  EXPECT_NEAR(all[5].closed_forms[0], 2 * 2000.0 * 100 + 200, 1e-6);
+  EXPECT_EQ(all[5].title, "stiffer 100, body light, push [0, 0, 0], E 2 kPa");
+}
+
+TEST_F(SweepDesign, SaysWhereSomethingIsWrongBeforeAnythingRuns) {
+  const std::string vary = "vary: {materials.soft.nu: [0, 0.1]}\n";
+  EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.mu: [0, 0.1]}\n")),
+              HasSubstr("did you mean 'nu'?"));
+  EXPECT_THAT(complaint(kFigure + std::string("vary: {stifer: [0, 0.1]}\n")),
+              AllOf(HasSubstr("s.yaml:3:"), HasSubstr("no formula uses it")));
+  EXPECT_THAT(complaint(vary + "quantities: {f: {quantity: top.displacement.z}}"),
+              AllOf(HasSubstr("s.yaml:3:"), HasSubstr("did you mean 'tip.displacement.z'?")));
+  EXPECT_THAT(complaint(vary + "quantities: {f: {mode: 1, closed_form: 2*E}}"),
+              HasSubstr("cannot read the formula '2*E'"));
+  EXPECT_THAT(complaint(vary + "quantities: {f: {mode: 1, cost: steps}}"), HasSubstr("exactly one of"));
+  EXPECT_THAT(complaint(vary + "quantities: {f: {cost: stesp}}"), HasSubstr("did you mean 'steps'?"));
+  EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.nu: {from: 0, to: 1}}")),
+              HasSubstr("'count' is missing"));
+  EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.young: {values: [2], unit: GPas}}")),
+              HasSubstr("the unit 'GPas' is not known"));
+}
+
+TEST_F(SweepDesign, KeepsImpossiblePointsOnlyWhereThatIsAskedFor) {
+  const std::string text = kFigure + std::string("vary: {materials.soft.nu: [0.3, 0.6]}\n");
+  EXPECT_THAT(complaint(text), AllOf(HasSubstr("nu 0.6"), HasSubstr("impossible: keep")));
+  const auto all = points(text + "impossible: keep\n");
+  EXPECT_EQ(all[0].impossible, "");
+  EXPECT_THAT(all[1].impossible, HasSubstr("must be in (-1, 0.5)"));
+  EXPECT_THAT(complaint("vary: {materials.soft.nu: [0.6, 0.3]}\nquantities: {f: {quantity: top.displacement.z}}\n"
+                        "impossible: keep"),
+              HasSubstr("did you mean 'tip.displacement.z'?"));
+}
+
+TEST(ShippedSweeps, HavePointsThatCanAllBeComputed) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(ORTHODYN_SOURCE_DIR "/configs/sweeps")) {
+    const auto points = expand(read_sweep(Config::from_file(entry.path().string())));
+    EXPECT_GE(points.size(), 18u) << entry.path();
+    ++count;
+  }
+  EXPECT_GE(count, 6);
+}
+
+}  // namespace
+}  // namespace orthodyn

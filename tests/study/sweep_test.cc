@@ -1,0 +1,197 @@
+// `orthodyn sweep` as a user meets it: figures, failures, SIGKILL, several machines.
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "tests/run/command.h"
+
+namespace orthodyn {
+namespace {
+
+using Json = nlohmann::json;
+
+// A corner of a cube of one cell moves along x: an oscillator with damping (see configs/cases/one_node_damped.yaml).
+const char* const kOscillator = R"(mesh: {type: box, size: [0.1, 0.1, 0.1], cells: [1, 1, 1]}
+materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
+elasticity: {kinematics: linear}
+damping: {mass: 0}
+loads: [{surface: x1, force: [1, 0, 0]}]
+clamps:
+  - {surface: x0}
+  - {surface: y0}
+  - {surface: z0}
+  - {nearest: [0.1, 0.1, 0.1], components: [y, z]}
+time: {end: 0.02}
+integrator: {type: cvode_bdf, rtol: 1e-7, max_order: 5}
+output: {probes: {node: {at: [0.1, 0.1, 0.1]}}}
+)";
+
+class SweepCommand : public InFolder {
+ protected:
+  SweepCommand() { write("scene.yaml", kOscillator); }
+
+  CommandResult sweep(const std::string& more = "") const { return orthodyn("sweep s.yaml --no-report " + more); }
+  Json table() const { return Json::parse(read_text(folder_ / "out/sweeps/s/sweep.json")); }
+
+  // The table without what depends on the machine: times and the date.
+  std::string figures() const {
+    Json t = table();
+    for (auto& point : t.at("points")) point.erase("cost");
+    return t.at("points").dump();
+  }
+  std::map<std::string, std::string> results() const {
+    std::map<std::string, std::string> out;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out/sweeps/s/points"))
+      if (entry.path().filename() == "result.json") out[entry.path()] = read_text(entry.path());
+    return out;
+  }
+};
+
+const char* const kMany = R"(scene: scene.yaml
+vary: {materials.soft.young: {from: 1e5, to: 1e7, count: 24, scale: log, name: E}}
+quantities:
+  far: {quantity: node.displacement.x, take: max}
+  hertz: {mode: 1}
+)";
+
+TEST_F(SweepCommand, FindsFiguresOfEveryKind) {
+  write("s.yaml", R"(scene: {file: scene.yaml, set: {damping: {mass: =2*zeta*omega}, time.end: =6/(zeta*omega)}}
+vary: {zeta: [0.05, 0.2]}
+definitions:               # of the one unknown: k = V K/a^2, K = C22 + G12 + G23, m = rho V/4
+  omega: sqrt(4*2*1e6/1000)/0.1
+quantities:
+  hertz: {mode: 1}
+  along: {along: x}
+  end: {quantity: node.displacement.x}
+  most: {quantity: node.displacement.x, take: max}
+  settled: {quantity: node.displacement.x, settled_within: 0.05}
+  energy: {quantity: energy.elastic, take: max}
+  steps: {cost: steps}
+)");
+  const auto done = sweep();
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  const double omega = std::sqrt(8000.0) / 0.1;
+  for (const auto& point : table().at("points")) {
+    const double zeta = point.at("values").at("zeta");
+    const Json& f = point.at("figures");
+    EXPECT_NEAR(f.at("hertz").get<double>(), omega / (2 * M_PI), 1e-6 * omega);
+    EXPECT_EQ(f.at("hertz"), f.at("along"));
+    const double rest = f.at("end");
+    // A suddenly loaded oscillator overshoots by exp(-pi zeta/sqrt(1 - zeta^2)) of its deflection at rest.
+    const double overshoot = std::exp(-M_PI * zeta / std::sqrt(1 - zeta * zeta));
+    EXPECT_NEAR(f.at("most").get<double>() / rest, 1 + overshoot, 6e-3);
+    // It stays below its envelope, which it touches at every peak.
+    const double envelope = -std::log(0.05 * (1 + overshoot)) / (zeta * omega);
+    EXPECT_LT(f.at("settled").get<double>(), 1.05 * envelope);
+    EXPECT_GT(f.at("settled").get<double>(), envelope - 2 * M_PI / omega);
+    EXPECT_GT(f.at("steps").get<double>(), 20);
+    EXPECT_GT(f.at("energy").get<double>(), 0);
+  }
+}
+
+TEST_F(SweepCommand, IntegratesNothingWhereOnlyFrequenciesAreAskedFor) {
+  write("s.yaml",
+        "scene: scene.yaml\nvary: {time.end: [1e9]}\nquantities: {hertz: {mode: 1}}\nlimits: {seconds: 10}\n");
+  ASSERT_EQ(sweep().exit_code, 0);
+  EXPECT_EQ(table().at("points")[0].at("status"), "completed");
+  EXPECT_FALSE(table().at("points")[0].at("cost").contains("steps"));
+}
+
+TEST_F(SweepCommand, KeepsFailuresWithTheirReasons) {
+  write("s.yaml", R"(scene: scene.yaml
+vary:
+  kind: {good: {time.end: 0.01}, long: {time.end: 1e5}, sick: {materials.soft.nu: 0.7}}
+quantities: {far: {quantity: node.displacement.x, take: max}}
+impossible: keep
+limits: {seconds: 0.5}
+)");
+  const auto done = sweep();
+  EXPECT_EQ(done.exit_code, 0) << done.output;
+  EXPECT_NE(done.output.find("warning: kind sick"), std::string::npos) << done.output;
+  const Json points = table().at("points");
+  EXPECT_EQ(points[0].at("status"), "completed");
+  EXPECT_EQ(points[1].at("reason"), "time limit");
+  EXPECT_EQ(points[2].at("reason"), "impossible");
+  EXPECT_NE(read_text(folder_ / "out/sweeps/s/sweep.csv").find("long,,failed,time limit"), std::string::npos);
+}
+
+TEST_F(SweepCommand, DoesNotRepeatPointsOfAnEarlierOrSmallerSweep) {
+  write("s.yaml", "scene: scene.yaml\nvary: {materials.soft.young: [1e5, 1e6]}\nquantities: {hertz: {mode: 1}}\n");
+  sweep();
+  const auto before = results();
+  write("s.yaml", "scene: scene.yaml\nvary: {materials.soft.young: [1e5, 1e6, 1e7]}\nquantities: {hertz: {mode: 1}}\n");
+  const auto more = sweep("--jobs 1");
+  EXPECT_NE(more.output.find("[2/3] young 1e+06: hertz"), std::string::npos) << more.output;
+  EXPECT_NE(more.output.find("(done before)"), std::string::npos);
+  for (const auto& [file, text] : before) EXPECT_EQ(read_text(file), text);
+}
+
+// Killed again and again at moments that have nothing to do with the work, it leaves every finished point, and never
+// more unfinished ones than it has processes.
+TEST_F(SweepCommand, LosesAtMostThePointsInProgressWhenItIsKilled) {
+  write("s.yaml", kMany);
+  ASSERT_EQ(sweep("--jobs 2 --quiet").exit_code, 0);
+  const std::string undisturbed = figures();
+  fs::remove_all(folder_ / "out");
+  std::map<std::string, std::string> finished;
+  for (const char* seconds : {"0.13", "0.29", "0.07", "0.41", "0.2", "0.16"}) {
+    shell("cd " + folder_.string() +
+          " && { " ORTHODYN_EXECUTABLE " sweep s.yaml --jobs 2 --quiet --no-report & pid=$!; sleep " + seconds +
+          "; kill -9 $pid; wait $pid; sleep 0.05; } 2>/dev/null");
+    if (!fs::exists(folder_ / "out/sweeps/s/points")) continue;
+    const auto now = results();
+    for (const auto& [file, text] : finished) EXPECT_EQ(now.at(file), text);
+    for (const auto& [file, text] : now) EXPECT_FALSE(Json::parse(text).is_discarded());
+    std::size_t begun = 0;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out/sweeps/s/points")) begun += entry.is_directory();
+    EXPECT_LE(begun - now.size(), 2u);
+    finished = now;
+  }
+  const auto last = sweep("--jobs 2");
+  ASSERT_EQ(last.exit_code, 0) << last.output;
+  EXPECT_EQ(figures(), undisturbed);
+  for (const auto& [file, text] : finished) EXPECT_EQ(read_text(file), text);
+}
+
+TEST_F(SweepCommand, IsDoneByIndependentTasksAndJoined) {
+  write("s.yaml", kMany);
+  sweep("--quiet");
+  const std::string whole = figures();
+  fs::remove_all(folder_ / "out");
+  EXPECT_EQ(sweep("--task 1/3 --jobs 1").exit_code, 0);
+  EXPECT_EQ(sweep("--task 3/3 --jobs 1").exit_code, 0);
+  const auto part = sweep("--collect");
+  EXPECT_EQ(part.exit_code, 3);
+  EXPECT_NE(part.output.find("8 of 24 points are missing"), std::string::npos) << part.output;
+  EXPECT_EQ(table().at("missing"), 8);
+  // Two at a time in one folder, as on a cluster.
+  shell("cd " + folder_.string() +
+        " && { " ORTHODYN_EXECUTABLE " sweep s.yaml --task 2/3 --jobs 1 --quiet & " ORTHODYN_EXECUTABLE
+        " sweep s.yaml --task 1/3 --jobs 1 --quiet; wait; }");
+  EXPECT_EQ(sweep("--collect").exit_code, 0);
+  EXPECT_EQ(figures(), whole);
+}
+
+TEST_F(SweepCommand, PrintsAnArrayWithATaskForEveryShareOfThePoints) {
+  write("s.yaml", kMany);
+  const std::string script = sweep("--slurm --tasks 6").output;
+  EXPECT_NE(script.find("#SBATCH --array=1-6\n"), std::string::npos) << script;
+  EXPECT_NE(script.find("--task \"$SLURM_ARRAY_TASK_ID/6\" --jobs 1"), std::string::npos) << script;
+  EXPECT_FALSE(fs::exists(folder_ / "out/sweeps/s"));
+  // A shell that plays the scheduler.
+  write("array.sh", script);
+  shell("cd / && for i in 1 2 3 4 5 6; do SLURM_ARRAY_TASK_ID=$i sh " + (folder_ / "array.sh").string() + "; done");
+  EXPECT_EQ(sweep("--collect").exit_code, 0);
+}
+
+TEST_F(SweepCommand, RefusesAFolderOfSomethingElse) {
+  write("s.yaml", kMany);
+  fs::create_directories(folder_ / "other");
+  write("other/thesis.txt", "mine");
+  const auto refused = sweep("--out other");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.output.find("holds files that are no sweep"), std::string::npos) << refused.output;
+}
+
+}  // namespace
+}  // namespace orthodyn

@@ -1,0 +1,82 @@
+"""The frames of a sweep's points as small multiples: one camera, one window and one colour range for all."""
+from pathlib import Path
+
+import numpy as np
+
+from ..camera import Window
+from ..colouring import Colouring
+from ..picture import draw_page, strip_columns
+from ..scene import Scene, Wish
+from ..series import Series
+from .plan import plans
+
+MOST_COLUMNS = 8
+PAGE, LETTER = 10.0, 0.085  # inches: the picture, and a letter of a label
+
+
+class Files(Series):
+    """Frames of their own, each with its mesh."""
+
+    def __init__(self, paths):
+        self.folder, self.paths, self.times = paths[0].parent, paths, [0.0] * len(paths)
+
+
+class Album:
+    """What draw_page() needs of a scene."""
+
+    def __init__(self, paths, labels, wish):
+        series = Files(paths)
+        self.scenes = [Scene(series, [k], wish) for k in range(len(paths))]
+        self.camera, self.note = self.scenes[0].camera, ""  # the page says how far deformations are enlarged
+        self.labels, self.window = dict(enumerate(labels)), Window()
+        self.window.include(np.array([w for s in self.scenes for w in (s.window.low, s.window.high)]))
+        samples = [s.corner_values(series.frame(k)).ravel() for k, s in enumerate(self.scenes)]
+        self.colouring = Colouring(self.scenes[0].quantity, samples)
+        for scene in self.scenes:
+            scene.colouring = self.colouring
+
+    def draw(self, axes, index, budget):
+        self.scenes[index].draw(axes, index, budget)
+
+
+def _chosen(points, most):
+    """Evenly among them, the first and the last included."""
+    if len(points) <= most:
+        return points
+    return [points[round(k * (len(points) - 1) / max(most - 1, 1))] for k in range(most)]
+
+
+def _ordered(sweep, points):
+    """Points line by line along x, and the number of columns if they make a table."""
+    plan = plans(sweep)[0]
+    along, lines = sweep.levels(plan.x), plan.line_levels(sweep)
+    if sweep.combine == "cartesian":
+        key = lambda p: (lines.index(p["values"][plan.lines.name]) if plan.lines else 0,  # noqa: E731
+                         along.index(p["values"][plan.x.name]))
+        points = sorted(points, key=key)
+    complete = len(points) == len(along) * len(lines)
+    return points, len(along) if complete and plan.lines and len(along) <= MOST_COLUMNS else None
+
+
+def _label(sweep, point):
+    """'L, 31.6': without names, as panels are small."""
+    return ", ".join(f"{float(f'{value:.3g}'):g}" + (f" {v.unit}" if v.unit else "") if v.numeric else str(value)
+                     for v in sweep.variables for value in [point["values"][v.name]])
+
+
+def draw_album(sweep, folder, path):
+    """The picture's path, or None where no point has a frame."""
+    wish = sweep.frames
+    points = [p for p in sweep.done if p.get("frame") and (Path(folder) / p["folder"] / p["frame"]).is_file()]
+    if not wish or not points:
+        return None
+    points, columns = _ordered(sweep, points)
+    chosen = _chosen(points, wish["most"])
+    paths = [Path(folder) / p["folder"] / p["frame"] for p in chosen]
+    album = Album(paths, [_label(sweep, p) for p in chosen],
+                  Wish(color=wish["color"], view=tuple(wish["view"]), up=wish["up"], scale=wish["enlarged"],
+                       ghost=wish["ghost"]))
+    if not columns or len(chosen) < len(points):
+        fitting = int(PAGE / (0.2 + LETTER * max(map(len, album.labels.values()))))
+        columns = max(1, min(strip_columns(len(chosen), album.window.size[0] / album.window.size[1]), fitting))
+    return draw_page(album, columns, range(len(chosen)), path)

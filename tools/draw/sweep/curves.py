@@ -1,0 +1,146 @@
+"""Curves: a figure against a variable, points as marks, the closed form as a line, and how far apart they are."""
+import math
+
+import numpy as np
+from matplotlib.ticker import FuncFormatter, MaxNLocator
+
+from ..report import theme, words
+from ..report.runs import label_right
+from ..report.scale import error_tick, limits, positive, set_log
+from ..report.sheet import (WIDE, Sheet, legend_columns, legend_height, shortened, side_margin, styled)
+from ..report.theme import LIGHT
+
+
+def _entries(plan, sweep):
+    if not plan.lines:
+        return []
+    return [(k, shortened(plan.line_words(level), 26), False) for k, level in enumerate(plan.line_levels(sweep))]
+
+
+def _layout(width, entries, height):
+    narrow = width < WIDE
+    left = 54 if narrow else 64
+    right = 16 if narrow or not entries else side_margin(entries)
+    columns = legend_columns(entries)
+    below = 52 + (legend_height(entries, columns) + 8 if narrow else 0)
+    sheet = Sheet(width, 40 + height + below)
+    return sheet, (left, 40, width - left - right, height), columns
+
+
+def power_tick(x):
+    """1, 10, 1000, but 10⁻⁴ and 10⁶."""
+    return f"{x:g}" if 0.99e-3 < x < 2e4 else error_tick(x)
+
+
+def scaled(axes, which, values, log=False, most=7):
+    """A round axis around the values; logarithmic where that is wanted and possible."""
+    finite = [v for v in values if math.isfinite(v)]
+    if log and len(positive(finite)) == len(finite) and finite:
+        return set_log(axes, which, *limits(finite, pad=0.05, least=0.3), power_tick, most)
+    axis = getattr(axes, f"{which}axis")
+    axis.set_major_locator(MaxNLocator(most, steps=[1, 2, 2.5, 3, 5, 10]))
+    axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:.6g}".replace("-", "−")))
+    if finite and (max(finite) > min(finite) or which == "x"):
+        pad = 0.04 * (max(finite) - min(finite)) or 0.5
+        getattr(axes, f"set_{which}lim")(min(finite) - pad, max(finite) + pad)
+    elif finite:
+        pad = 0.1 * abs(finite[0]) or 1
+        getattr(axes, f"set_{which}lim")(finite[0] - pad, finite[0] + pad)
+
+
+def _marks(axes, index, rows, with_line):
+    """Rows are (x, y, point)."""
+    colour = theme.colour(index)
+    rows = [r for r in rows if math.isfinite(r[1])]
+    if with_line and rows:
+        axes.plot([r[0] for r in rows], [r[1] for r in rows], color=colour, lw=1.6, ls=theme.dashes(index),
+                  gid=f"me-{index}")
+    for x, y, point in rows:
+        axes.plot([x], [y], marker=theme.marker(index), ms=theme.marker_size(index, 7), ls="none", mfc=colour,
+                  mec=LIGHT["paper"], mew=0.8, clip_on=False, gid=f"pt-{point['index']}-{index}", zorder=4)
+
+
+def _same(curves):
+    """All closed forms are one and the same line."""
+    first = curves[0]
+    return len(curves) > 1 and all(len(c) == len(first) and np.allclose(c, first, rtol=1e-12, atol=0, equal_nan=True)
+                                   for c in curves)
+
+
+def _closed_forms(axes, curves):
+    shared = _same([np.array(rows, float).reshape(-1, 2) for rows in curves.values()])
+    for index, rows in list(curves.items())[:1 if shared else None]:
+        colour, gid = (LIGHT["muted"], "cf") if shared else (theme.colour(index), f"me-{index}")
+        axes.plot([x for x, _ in rows], [y for _, y in rows], color=colour, lw=1.5, gid=gid, zorder=2)
+
+
+def _place(plan, sweep, point):
+    value = point["values"][plan.x.name]
+    return value if plan.x.numeric else sweep.levels(plan.x).index(value)
+
+
+def _furnish(sheet, axes, box, plan, sweep, title, entries, columns):
+    left, top, width, height = box
+    sheet.text(0, 16, title, weight="bold")
+    levels = sweep.levels(plan.x)
+    if plan.x.numeric:
+        scaled(axes, "x", levels, plan.x.log, 4 if sheet.narrow else 8)
+    else:
+        axes.set_xlim(-0.5, len(levels) - 0.5)
+        axes.set_xticks(range(len(levels)), [shortened(str(v), 10) for v in levels])
+    sheet.text(left + width / 2, top + height + 38, plan.x.heading, ha="center")
+    if sheet.narrow:
+        sheet.legend(top + height + 52, entries, columns)
+    elif entries:
+        label_right(sheet, box, entries, [0] * len(entries))
+
+
+def _drawn(plan, sweep, width, height, title, value, log, closed=None):
+    entries = _entries(plan, sweep)
+    sheet, box, columns = _layout(width, entries, height)
+    axes = sheet.axes(*box)
+    lines = {k: [(_place(plan, sweep, p), value(p), p) for p in plan.of_line(sweep, level)]
+             for k, level in enumerate(plan.line_levels(sweep))}
+    curves = {k: [(x, closed(p)) for x, _, p in rows] for k, rows in lines.items()} if closed else {}
+    values = [y for rows in lines.values() for _, y, _ in rows] + [y for c in curves.values() for _, y in c]
+    scaled(axes, "y", values, log, 5 if height < 200 else 7)
+    if closed:
+        _closed_forms(axes, curves)
+    scattered = sweep.combine == "latin_hypercube"
+    for k, rows in lines.items():
+        _marks(axes, k, rows, not closed and not scattered)
+    _furnish(sheet, axes, box, plan, sweep, title, entries, columns)
+    return sheet, axes, lines
+
+
+@styled
+def draw_curves(plan, sweep, width):
+    figure = plan.figure
+    title = figure.heading + (f"   ({plan.title})" if plan.title else "")
+    closed = figure.closed if figure.closed_form else None
+    sheet, _, lines = _drawn(plan, sweep, width, 240 if width < WIDE else 320, title, figure.value, figure.log, closed)
+    sheet.description = _description(plan, sweep, lines)
+    return sheet
+
+
+@styled
+def draw_differences(plan, sweep, width):
+    """None without a closed form that points can be compared with."""
+    figure = plan.figure
+    if not figure.closed_form or not any(math.isfinite(figure.difference(p)) for p in plan.points(sweep)):
+        return None
+    title = "Difference from the closed form [%]"
+    sheet, axes, _ = _drawn(plan, sweep, width, 150, title, lambda p: 100 * figure.difference(p), False)
+    axes.axhline(0, color=LIGHT["muted"], lw=0.8, zorder=1)
+    sheet.description = f"{figure.title}: {title}"
+    return sheet
+
+
+def _description(plan, sweep, lines):
+    parts = []
+    for (_, rows), level in zip(lines.items(), plan.line_levels(sweep)):
+        values = [y for _, y, _ in rows if math.isfinite(y)]
+        if values:
+            name = f"{plan.line_words(level)}: " if plan.lines else ""
+            parts.append(f"{name}{words.general(min(values))} to {words.general(max(values))}")
+    return f"{plan.figure.heading} over {plan.x.heading}. {'; '.join(parts) or 'No point has it'}."

@@ -1,0 +1,47 @@
+"""Things with names side by side: a row for each, a mark for each line, the closed form as a stroke."""
+import math
+
+from ..report import theme
+from ..report.scale import limits, positive, set_log
+from ..report.sheet import LETTER, WIDE, Sheet, legend_columns, legend_height, shortened, styled
+from ..report.theme import LIGHT
+from .curves import power_tick, scaled
+
+ROW = 26
+
+
+@styled
+def draw_dots(plan, sweep, width):
+    names = sweep.levels(plan.x)
+    narrow = width < WIDE
+    labels = [shortened(str(n), 14 if narrow else 26) for n in names]
+    entries = [(k, shortened(plan.line_words(level), 26), False)
+               for k, level in enumerate(plan.line_levels(sweep))] if plan.lines else []
+    columns = legend_columns(entries, width)
+    left, top = 12 + LETTER * max(map(len, labels)), 36 + (legend_height(entries, columns) if entries else 0)
+    height = ROW * len(names)
+    sheet = Sheet(width, top + height + 44, f"{plan.figure.heading} of {', '.join(map(str, names))}")
+    sheet.text(0, 16, plan.figure.heading + (f"   ({plan.title})" if plan.title else ""), weight="bold")
+    sheet.legend(30, entries, columns)
+    axes = sheet.axes(left, top, width - left - 24, height)
+    rows = [(k, p) for k, level in enumerate(plan.line_levels(sweep)) for p in plan.of_line(sweep, level)]
+    values = [v for _, p in rows for v in (plan.figure.value(p), plan.figure.closed(p)) if math.isfinite(v)]
+    most = 4 if narrow else 7
+    if values and len(positive(values)) == len(values) and max(values) > 8 * min(values):
+        set_log(axes, "x", *limits(values, least=0.5), power_tick, most)
+    else:
+        scaled(axes, "x", values + [0], False, most)
+    axes.set_ylim(len(names) - 0.5, -0.5)
+    axes.set_yticks(range(len(names)), labels)
+    for k, p in rows:
+        _row(axes, plan, k, names.index(p["values"][plan.x.name]), p)
+    return sheet
+
+
+def _row(axes, plan, k, y, point):
+    value, closed, colour = plan.figure.value(point), plan.figure.closed(point), theme.colour(k)
+    if math.isfinite(closed):
+        axes.plot([closed, closed], [y - 0.36, y + 0.36], color=LIGHT["muted"], lw=1.6, zorder=2)
+    if math.isfinite(value):
+        axes.plot([value], [y], marker=theme.marker(k), ms=theme.marker_size(k, 8.5), ls="none", mfc=colour,
+                  mec=LIGHT["paper"], mew=0.8, gid=f"pt-{point['index']}-{k}", zorder=4, clip_on=False)

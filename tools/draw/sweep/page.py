@@ -1,0 +1,150 @@
+"""The page of a sweep: one HTML file that opens without a network."""
+import base64
+import math
+import shlex
+from pathlib import Path
+
+from ..report import words
+from ..report.details import pairs
+from ..report.markup import Html, data_script, joined, scrolling, tag, void
+from ..report.page import SCRIPT, head
+from ..report.tables import caption, number
+from .figures import Figures
+from .plan import plans
+
+READ = "Marks are points of the sweep. Lines without marks, and strokes, are closed forms."
+
+
+def _counted(sweep):
+    machine = sweep.about["machine"].get("processor", "")
+    parts = [words.plural(len(sweep.points), "point") + (f" ({len(sweep.failed)} failed)" if sweep.failed else "")]
+    parts += [words.plural(len(sweep.levels(v)), "value") + f" of {v.name}" for v in sweep.variables]
+    return parts + [sweep.about["written"].replace("T", " ").replace("Z", " UTC"), machine]
+
+
+def _header(sweep, sections):
+    missing = sweep.about["missing"]
+    banner = tag("p", tag("strong", "Not finished: "), f"{missing} of {len(sweep.points)} points are missing. What "
+                 "follows is what there is so far.", class_="banner", role="status") if missing else None
+    return tag("header", tag("button", "Dark", type="button", id="theme", class_="js"), tag("h1", sweep.title),
+               tag("p", sweep.description, class_="lede") if sweep.description else None,
+               tag("p", " · ".join(p for p in _counted(sweep) if p), class_="facts"), banner,
+               tag("nav", *(tag("a", name, href=f"#{identity}") for identity, name in sections), aria_label="Sections"))
+
+
+def _table(title, heads, rows, label, kind=None):
+    cells = [tag("th", text, scope="col", class_="num" if numeric else "word" if k else None)
+             for k, (text, numeric) in enumerate(heads)]
+    return scrolling(tag("table", caption(title), tag("thead", tag("tr", *cells)), tag("tbody", *rows), class_=kind),
+                     label=label)
+
+
+def _where(sweep, point):
+    return ", ".join(f"{v.name} {v.words(point['values'][v.name])}" for v in sweep.variables)
+
+
+def _range_row(sweep, figure):
+    values = [(figure.value(p), p) for p in sweep.done if math.isfinite(figure.value(p))]
+    if not values:
+        return tag("tr", tag("th", figure.heading, scope="row"), tag("td", "no point has it", colspan=3, class_="word"))
+    cells = []
+    for value, point in (min(values, key=lambda v: v[0]), max(values, key=lambda v: v[0])):
+        cells.append(tag("td", words.general(value), void("br"), tag("small", _where(sweep, point)), class_="word"))
+    gaps = [(abs(figure.difference(p)), p) for _, p in values if math.isfinite(figure.difference(p))]
+    gap, point = max(gaps, key=lambda g: g[0]) if gaps else (math.nan, None)
+    farthest = gaps and (f"{words.general(100 * gap, 3)}{words.THIN}%", void("br"), tag("small", _where(sweep, point)))
+    cells.append(tag("td", *(farthest or [words.UNKNOWN]), class_="word"))
+    return tag("tr", tag("th", figure.heading, scope="row"), *cells)
+
+
+def _ranges(sweep):
+    heads = (("Figure", False), ("Smallest", False), ("Largest", False), ("Farthest from the closed form", False))
+    return _table("Over all points", heads, [_range_row(sweep, f) for f in sweep.figures], "Smallest and largest")
+
+
+def _figures(sweep, figures):
+    parts = []
+    for k, plan in enumerate(plans(sweep)):
+        pictures = [tag("div", picture, class_="stage") for picture in figures.of(plan)]
+        explained = tag("figcaption", READ) if k == 0 else None
+        parts.append(tag("figure", *pictures, explained, aria_label=plan.figure.title))
+    return joined(parts) or tag("p", "Nothing to show: no point has finished.", class_="empty")
+
+
+def _album(sweep, path):
+    scale, at = sweep.frames["enlarged"], sweep.frames["at"]
+    names = ", ".join(v.heading for v in sweep.variables)
+    when = "at the end of their runs" if at is None else f"after {at:g} s"
+    enlarged = f" Deformations are enlarged {scale:g} times." if scale != 1 else ""
+    data = base64.b64encode(Path(path).read_bytes()).decode("ascii")
+    return tag("figure", void("img", src=f"data:image/png;base64,{data}", class_="photo",
+                              alt=f"The body at {len(sweep.done)} points of the sweep, side by side"),
+               tag("figcaption", f"Points {when}, with one camera and one range of colours. Above each: {names}.{enlarged}"))
+
+
+def _row(sweep, point):
+    cells = []
+    for k, v in enumerate(sweep.variables):
+        value = v.plain(point["values"][v.name])
+        cells.append(tag("th", value, scope="row") if k == 0 else number(value) if v.numeric else
+                     tag("td", value, class_="word"))
+    for figure in sweep.figures:
+        cells.append(number(words.general(figure.value(point), 6)))
+        if figure.closed_form:
+            gap = figure.difference(point)
+            cells.append(number(f"{100 * gap:+.3f}".replace("-", "−") if math.isfinite(gap) else words.UNKNOWN))
+    cost = point["cost"] or {}
+    cells.append(number(words.plain_seconds(cost.get("wall_seconds", math.nan))))
+    cells.append(tag("td", "" if point["status"] == "completed" else point["reason"] or point["status"], class_="word"))
+    return tag("tr", *cells, class_="failed" if point["status"] != "completed" else None)
+
+
+def _points(sweep):
+    heads = [(v.heading, v.numeric and k > 0) for k, v in enumerate(sweep.variables)]
+    for figure in sweep.figures:
+        heads.append((figure.heading, True))
+        if figure.closed_form:
+            heads.append(("from closed form [%]", True))
+    heads += [("wall time [s]", True), ("", False)]
+    rows = [_row(sweep, p) for p in sweep.points]
+    return _table("All points; the same in sweep.csv", heads, rows, "All points", "long")
+
+
+def _failures(sweep):
+    if not sweep.failed:
+        return tag("p", "No point failed.", class_="empty")
+    rows = [tag("tr", tag("th", p["title"], scope="row"), tag("td", p["reason"], class_="word"),
+                tag("td", p["message"] or "", class_="message")) for p in sweep.failed]
+    return _table("Points that failed", (("Point", False), ("Reason", False), ("Message", False)), rows, "Failures")
+
+
+def _details(sweep, folder):
+    closed = [(f.name, f.closed_form) for f in sweep.figures if f.closed_form]
+    blocks = [("Closed forms (SI units)", closed), ("Definitions", sweep.about["definitions"].items()),
+              ("Machine of this page", sweep.about["machine"].items()), ("Versions", sweep.about["versions"].items())]
+    place = shlex.quote(str(folder))
+    command = f"orthodyn sweep {shlex.quote(sweep.about['file'])} --out {place}\ntools/draw/draw report {place}"
+    listed = (joined([tag("h3", name), pairs((k, str(v)) for k, v in values)]) for name, values in blocks if values)
+    return joined([*listed, tag("h3", "To reproduce"), tag("pre", tag("code", command))])
+
+
+def _tip(sweep, point):
+    rows = [[v.heading, v.words(point["values"][v.name])] for v in sweep.variables]
+    rows += [[f.heading, words.general(f.value(point), 6)] for f in sweep.figures]
+    rows += [[f"{f.title}, closed form", words.general(f.closed(point), 6)] for f in sweep.figures if f.closed_form]
+    return {"title": f"Point {point['index'] + 1}", "rows": rows, "e": {}}
+
+
+def page(sweep, folder, album):
+    """The whole page as text; `album` is a picture's path or None."""
+    figures = Figures(sweep)
+    parts = [("ranges", "Ranges", _ranges(sweep)), ("figures", "Figures", _figures(sweep, figures))]
+    if album:
+        parts.append(("frames", "Frames", _album(sweep, album)))
+    parts += [("points", "Points", joined([_points(sweep), tag("h3", "Failures"), _failures(sweep)])),
+              ("details", "Details", _details(sweep, folder))]
+    main = tag("main", *(tag("section", tag("h2", name), content, id=identity) for identity, name, content in parts))
+    runs = data_script("run-data", {"measure": "", "labels": {}, "runs": [_tip(sweep, p) for p in sweep.points]})
+    body = tag("body", _header(sweep, [(identity, name) for identity, name, _ in parts]), main, runs,
+               tag("script", Html(SCRIPT.read_text(encoding="utf-8"))))
+    return "<!DOCTYPE html>\n" + tag("html", head(sweep.title, figures.styles.css()), body, lang="en") + "\n"

@@ -1,0 +1,117 @@
+"""sweep.json -> Sweep; what is wrong in the file becomes one line."""
+import json
+import math
+from dataclasses import dataclass
+
+from ..errors import DrawError
+from ..series import result_folder
+from . import FILE
+
+FORMAT = 1
+
+
+@dataclass(frozen=True)
+class Variable:
+    name: str
+    unit: str
+    numeric: bool
+    log: bool
+
+    @property
+    def heading(self):
+        return f"{self.name} [{self.unit}]" if self.unit else self.name
+
+    def plain(self, value):
+        """'30', 'coarse'."""
+        return f"{value:.4g}".replace("-", "−") if self.numeric else str(value)
+
+    def words(self, value):
+        """'30 deg', 'coarse'."""
+        return self.plain(value) + (f" {self.unit}" if self.unit and self.numeric else "")
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A wanted figure; `factor` is one of its unit in SI."""
+    name: str
+    title: str
+    unit: str
+    factor: float
+    log: bool
+    closed_form: str
+
+    @property
+    def heading(self):
+        return f"{self.title} [{self.unit}]" if self.unit else self.title
+
+    def value(self, point):
+        return _scaled(point["figures"].get(self.name), self.factor)
+
+    def closed(self, point):
+        return _scaled(point["closed_forms"].get(self.name), self.factor)
+
+    def difference(self, point):
+        """Relative to the closed form; nan where there is none."""
+        value, closed = self.value(point), self.closed(point)
+        return value / closed - 1 if closed and math.isfinite(closed) else math.nan
+
+
+def _scaled(x, factor):
+    return math.nan if x is None else x / factor
+
+
+@dataclass(frozen=True)
+class Sweep:
+    title: str
+    description: str
+    combine: str
+    variables: list
+    figures: list
+    plots: list
+    frames: dict
+    points: list
+    about: dict  # the rest, for the details
+
+    def variable(self, name):
+        return next(v for v in self.variables if v.name == name)
+
+    def levels(self, variable):
+        """Values of a variable, numbers ascending, others in the order of the points."""
+        found = dict.fromkeys(p["values"][variable.name] for p in self.points)
+        return sorted(found) if variable.numeric else list(found)
+
+    @property
+    def done(self):
+        return [p for p in self.points if p["status"] == "completed"]
+
+    @property
+    def failed(self):
+        return [p for p in self.points if p["status"] == "failed"]
+
+
+def read_sweep(result):
+    path = result_folder(result) / FILE
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise DrawError(f"{path}: missing; `orthodyn sweep SWEEP.yaml` writes it") from None
+    except json.JSONDecodeError as error:
+        raise DrawError(f"{path}: not readable as JSON (line {error.lineno}); is it cut off?") from None
+    if not isinstance(found, dict) or "orthodyn_sweep" not in found:
+        raise DrawError(f"{path}: no sweep, the key orthodyn_sweep is missing")
+    if found["orthodyn_sweep"] != FORMAT:
+        raise DrawError(f"{path}: written in format {found['orthodyn_sweep']}, readable is format {FORMAT}")
+    try:
+        return _sweep(found)
+    except (KeyError, TypeError) as error:
+        raise DrawError(f"{path}: {error} is missing or no such thing; `orthodyn sweep` writes the file anew") from None
+
+
+def _sweep(found):
+    variables = [Variable(v["name"], v["unit"], v["numeric"], v["scale"] == "log") for v in found["variables"]]
+    figures = [Figure(f["name"], f["title"], f["unit"], f["factor"], f["scale"] == "log", f["closed_form"])
+               for f in found["figures"]]
+    points = [{**p, "index": k} for k, p in enumerate(found["points"])]
+    return Sweep(found["title"], found["description"], found["combine"], variables, figures, found["plots"],
+                 found["frames"], points, {k: found[k] for k in ("file", "scene", "written", "machine", "versions",
+                                                                  "definitions", "missing")})

@@ -1,0 +1,162 @@
+// `orthodyn sweep`: figures of a scene over varied values, as a table and a report.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <thread>
+
+#include "lib/run/files.h"
+#include "lib/study/evaluate.h"
+#include "lib/study/sweep_errands.h"
+#include "lib/study/sweep_table.h"
+#include "tools/orthodyn/commands.h"
+#include "tools/orthodyn/draw.h"
+#include "tools/orthodyn/interrupt.h"
+#include "tools/orthodyn/job_array.h"
+#include "tools/orthodyn/study_folder.h"
+#include "tools/orthodyn/teller.h"
+
+namespace orthodyn {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string program() { return fs::read_symlink("/proc/self/exe").string(); }
+
+// Points run side by side: threads of BLAS would only be in each other's way.
+void use_one_thread_a_point() {
+  for (const char* variable : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"}) setenv(variable, "1", 0);
+}
+
+// "3/20": the third of twenty.
+std::pair<std::size_t, std::size_t> parse_task(const std::string& text) {
+  std::size_t part = 0, parts = 0;
+  char slash = 0, end = 0;
+  if (std::sscanf(text.c_str(), "%zu%c%zu%c", &part, &slash, &parts, &end) != 3 || slash != '/' || part < 1 ||
+      part > parts)
+    throw ConfigError(fmt::format("--task: expected I/N with 1 <= I <= N, found '{}'", text));
+  return {part, parts};
+}
+
+std::string outcome_of(const Json& result) {
+  if (result.at("status") != "completed") return "failed: " + result.at("reason").get<std::string>();
+  std::vector<std::string> words;
+  for (const auto& [name, value] : result.at("figures").items())
+    words.push_back(name + (value.is_number() ? fmt::format(" {:.6g}", value.get<double>()) : " none"));
+  return join(words);
+}
+
+class SweepCommand {
+ public:
+  explicit SweepCommand(const SweepArguments& arguments)
+      : arguments_(arguments), sweep_(read_sweep(Config::from_file(arguments.sweep))), points_(expand(sweep_)),
+        folder_(arguments.out ? fs::path(*arguments.out) : fs::path("out/sweeps") / sweep_.name),
+        errands_(errands_of(sweep_, points_, folder_)), work_(distinct(errands_)) {}
+
+  int execute() {
+    if (arguments_.slurm) return write_array();
+    const bool alone = !arguments_.task && !arguments_.collect;
+    const StudyFolder place(folder_, "sweep", alone ? Sharing::alone : Sharing::with_its_like);
+    warn_of_impossible_points();
+    if (arguments_.collect) return collect();
+    if (arguments_.task) {
+      const auto [part, parts] = parse_task(*arguments_.task);
+      work_ = slice(work_, part, parts);
+    }
+    use_one_thread_a_point();
+    heed_interrupts();
+    const bool complete = carry_out();
+    if (!complete)
+      fmt::print(stderr, "interrupted; the finished points are in {} and will not be done again\n", folder_.string());
+    if (arguments_.task) return complete ? 0 : 130;
+    show();
+    return complete ? 0 : 130;
+  }
+
+ private:
+  int write_array() const {
+    fs::create_directories(fs::absolute(folder_).parent_path());  // where tasks leave their log
+    const ArrayJob job{program(), fs::absolute(arguments_.sweep), fs::absolute(folder_), sweep_.name, work_.size(),
+                       arguments_.tasks.value_or(std::min<std::size_t>(work_.size(), 1000)), sweep_.limits};
+    if (*arguments_.slurm == "submit") return submit(job);
+    fmt::print("{}", array_script(job));
+    return 0;
+  }
+
+  bool carry_out() {
+    const int jobs = arguments_.jobs > 0 ? arguments_.jobs : static_cast<int>(std::thread::hardware_concurrency());
+    Teller teller;
+    const ErrandEvents events{[](std::size_t) {},
+                              [&](std::size_t i, const Json& result, bool cached) {
+                                if (!arguments_.quiet)
+                                  teller.tell(work_.size(), work_[i].title, outcome_of(result), cached);
+                                if (!arguments_.task) write_table_now_and_then();
+                              }};
+    return carry_out_all(program(), work_, jobs, interrupted(), events);
+  }
+
+  void write_table_now_and_then() {
+    const auto now = std::chrono::steady_clock::now();
+    if (now < next_table_) return;
+    write_table();
+    next_table_ = now + std::chrono::seconds(2);
+  }
+
+  Json write_table() const {
+    Json table = sweep_json(sweep_, points_, errands_, arguments_.sweep);
+    write_file(folder_ / "sweep.json", {to_text(table, 1)});
+    write_file(folder_ / "sweep.csv", {sweep_csv(table)});
+    return table;
+  }
+
+  // The number of points that are missing.
+  std::size_t show() const {
+    const Json table = write_table();
+    if (!arguments_.quiet) fmt::print("table   {}\n", (folder_ / "sweep.csv").string());
+    if (!arguments_.no_report) draw_report(folder_, arguments_.quiet);
+    return table.at("missing");
+  }
+
+  int collect() const {
+    const std::size_t missing = show();
+    if (missing == 0) return 0;
+    fmt::print(stderr, "{} of {} points are missing:\n", missing, points_.size());
+    std::size_t listed = 0;
+    for (const auto& errand : errands_)
+      if (!errand.command.empty() && finished(errand.folder).is_null() && ++listed <= 20)
+        fmt::print(stderr, "  {}\n", errand.title);
+    if (listed > 20) fmt::print(stderr, "  ...\n");
+    fmt::print(stderr, "the same command without --collect, or the same array again, does these only\n");
+    return 3;
+  }
+
+  void warn_of_impossible_points() const {
+    std::size_t count = 0;
+    for (const auto& point : points_)
+      if (!point.impossible.empty() && ++count == 1)
+        fmt::print(stderr, "warning: {} cannot be computed: {}\n", point.title, point.impossible);
+    if (count > 1) fmt::print(stderr, "warning: the same holds for {} more points\n", count - 1);
+  }
+
+  const SweepArguments& arguments_;
+  Sweep sweep_;
+  std::vector<SweepPoint> points_;
+  fs::path folder_;
+  std::vector<Errand> errands_;  // by point
+  std::vector<Errand> work_;     // what this command does
+  std::chrono::steady_clock::time_point next_table_;
+};
+
+}  // namespace
+
+int sweep_command(const SweepArguments& arguments) { return SweepCommand(arguments).execute(); }
+
+int evaluate_command(const std::string& folder) {
+  evaluate(folder);
+  return 0;
+}
+
+}  // namespace orthodyn
