@@ -38,8 +38,12 @@ def errors(text, schema):
     return list(jsonschema.Draft7Validator(schema).iter_errors(yaml.load(text, Loader)))
 
 
+KINDS = ("scene", "comparison", "sweep", "stability")
+
+
 def shipped(kind):
-    folders = {"scene": ["scenes", "cases", "benchmarks", "vega"], "comparison": ["comparisons"], "sweep": ["sweeps"]}[kind]
+    folders = {"scene": ["scenes", "cases", "benchmarks", "vega", "stability/cases"], "comparison": ["comparisons"],
+               "sweep": ["sweeps"], "stability": ["stability"]}[kind]
     return [p for folder in folders for p in sorted((ROOT / "configs" / folder).glob("*.yaml"))]
 
 
@@ -70,12 +74,12 @@ BROKEN = {
 
 class Schema(unittest.TestCase):
     def test_is_a_schema(self):
-        for kind in ("scene", "comparison", "sweep", None):
+        for kind in (*KINDS, None):
             jsonschema.Draft7Validator.check_schema(schema_of(kind))
 
     def test_a_default_is_among_the_allowed_words(self):
         found = 0
-        for kind in ("scene", "comparison", "sweep"):
+        for kind in KINDS:
             for section in schema_of(kind)["definitions"].values():
                 for name, key in section.get("properties", {}).items():
                     if "enum" in key and "default" in key:
@@ -84,7 +88,7 @@ class Schema(unittest.TestCase):
         self.assertGreater(found, 2)
 
     def test_takes_every_shipped_file(self):
-        for kind in ("scene", "comparison", "sweep"):
+        for kind in KINDS:
             schema, both = schema_of(kind), schema_of(None)
             for path in shipped(kind):
                 with self.subTest(path=path.name):
@@ -125,7 +129,7 @@ class Schema(unittest.TestCase):
 
 class Committed(unittest.TestCase):
     def test_schemas_are_up_to_date(self):
-        for kind in ("scene", "comparison", "sweep"):
+        for kind in KINDS:
             self.assertEqual((ROOT / "configs/schema" / f"{kind}.json").read_text(), output_of("schema", kind),
                              f"run: orthodyn schema {kind} > configs/schema/{kind}.json")
 
@@ -134,7 +138,7 @@ class Committed(unittest.TestCase):
                          "run: orthodyn list --markdown > docs/reference.md")
 
     def test_shipped_files_name_their_schema(self):
-        for kind in ("scene", "comparison", "sweep"):
+        for kind in KINDS:
             for path in shipped(kind):
                 with self.subTest(path=path.name):
                     line = MODELINE.match(path.read_text().splitlines()[0])
@@ -145,7 +149,7 @@ class Committed(unittest.TestCase):
 class Init(unittest.TestCase):
     def test_start_files_are_valid(self):
         with tempfile.TemporaryDirectory() as folder:
-            for kind in ("scene", "comparison", "sweep"):
+            for kind in KINDS:
                 path = pathlib.Path(folder) / f"{kind}.yaml"
                 output_of("init", kind, str(path))
                 self.assertEqual(errors(path.read_text(), schema_of(kind)), [])

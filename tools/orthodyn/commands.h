@@ -50,7 +50,7 @@ struct SweepArguments {
 struct StabilityArguments {
   std::string file;
   std::optional<std::string> out;
-  int jobs = 1;
+  int jobs = 0;  // 0: as many as there are processors
   bool quiet = false, no_report = false;
 };
 

@@ -134,10 +134,29 @@ frames: {color: displacement}   # a picture of each point at the end; leave it o
 limits: {seconds: 60}      # of each point
 )";
 
+constexpr const char* kStability = R"(# Which integrators can be trusted with what?
+# Run it with `orthodyn stability {file}`; its report is an HTML page.
+title: What is tried
+description: What is tried and why, in a sentence or two.
+
+cases:                     # scenes with an `expect` list, see orthodyn list expect
+  - case.yaml
+  # - {file: case.yaml, label: fine, set: {mesh.cells: [40, 4, 4]}}
+integrators: [all]         # or names, or {type: cvode_bdf, label: order 2, max_order: 2}
+variants:                  # what every case is run with
+  exact: {}
+  warped: {elasticity.corotation: warped}
+limits: {seconds: 20}      # of each trial
+)";
+
 const std::map<std::string, std::string>& starts() {
   static const std::string head = kHead, body = kBody;
   static const std::map<std::string, std::string> all = {
-      {"scene", head + body + kMotion}, {"static", head + kAnalysis + body + kRest}, {"comparison", kComparison}, {"sweep", kSweep}};
+      {"scene", head + body + kMotion},
+      {"static", head + kAnalysis + body + kRest},
+      {"comparison", kComparison},
+      {"sweep", kSweep},
+      {"stability", kStability}};
   return all;
 }
 

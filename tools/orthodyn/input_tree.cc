@@ -4,6 +4,7 @@
 
 #include "lib/core/config.h"
 #include "lib/scene/scene.h"
+#include "lib/study/stability.h"
 #include "lib/study/sweep.h"
 
 namespace orthodyn {
@@ -58,6 +59,7 @@ const std::vector<InputKind>& input_kinds() {
        Scene::spec().keys()},
       {"comparison", "Integrators on scenes, error against time, for `orthodyn compare`.", Comparison::spec().keys()},
       {"sweep", "Figures of a scene over varied values, for `orthodyn sweep`.", Sweep::spec().keys()},
+      {"stability", "Hard cases x integrators, graded, for `orthodyn stability`.", Stability::spec().keys()},
   };
   return all;
 }

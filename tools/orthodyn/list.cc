@@ -8,6 +8,7 @@
 #include "lib/material/presets.h"
 #include "lib/scene/build.h"
 #include "lib/scene/scene.h"
+#include "lib/study/stability.h"
 #include "lib/study/sweep.h"
 #include "tools/orthodyn/commands.h"
 
@@ -108,6 +109,11 @@ void print_sweep() {
   print_entry("frames", "A picture of each point.", FrameWish::spec().keys());
 }
 
+void print_stability() {
+  print_entry("stability", "The keys of a file of hard cases, for `orthodyn stability`.", Stability::spec().keys());
+  print_entry("cases.<n>", "A hard case.", HardCase::spec().keys());
+}
+
 void print_fields() {
   const FemModel model{FemModel::Parts{}};
   for (const auto& info : model.outputs()) {
@@ -134,6 +140,7 @@ const std::vector<std::pair<std::string, std::function<void()>>>& chapters() {
       {"expect", print_expectations},
       {"comparison", print_comparison},
       {"sweep", print_sweep},
+      {"stability", print_stability},
       {"fields", print_fields},
   };
   return all;

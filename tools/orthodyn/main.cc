@@ -25,6 +25,7 @@ Examples:
   orthodyn list materials
   orthodyn compare configs/comparisons/damped_beam.yaml
   orthodyn sweep configs/sweeps/grain_angle.yaml
+  orthodyn stability configs/stability/hard_cases.yaml
   orthodyn verify configs/cases
 
 Exit codes: 0 done, 1 an expectation was missed, 2 the input is at fault (nothing was written), 3 the run could not go on (what
@@ -134,7 +135,8 @@ int main(int argc, char** argv) {
       "stability", "Try integrators on hard cases: a matrix of pass, degraded and fail, with reasons. Run again, it goes on.");
   stability->add_option("cases", hard.file, "Hard cases in YAML.")->required()->type_name("FILE.yaml");
   stability->add_option("--out", hard.out, "Folder for the results; default out/stability/<name>.")->type_name("DIR");
-  stability->add_option("-j,--jobs", hard.jobs, "Trials at a time.")->check(CLI::Range(1, 1024))->capture_default_str();
+  stability->add_option("--jobs", hard.jobs, "Trials at a time, each in a process; default one a processor.")
+      ->check(CLI::Range(1, 1024));
   stability->add_flag("--quiet", hard.quiet, "Say nothing but errors.");
   stability->add_flag("--no-report", hard.no_report, "Write stability.json and stability.csv only.");
   auto* assess = app.add_subcommand("assess", "One trial of a matrix; called by stability.")->group("");
@@ -162,18 +164,18 @@ int main(int argc, char** argv) {
 
   std::string what;
   auto* list = app.add_subcommand("list", "What can be named in a scene, each with its keys.");
-  list->add_option("what", what, "scene, materials, presets, meshes, axes, integrators, solvers, terms, factors, statics, events, expect, comparison, sweep, fields; all if left out.");
+  list->add_option("what", what, "scene, materials, presets, meshes, axes, integrators, solvers, terms, factors, statics, events, expect, comparison, sweep, stability, fields; all if left out.");
   bool markdown = false;
   list->add_flag("--markdown", markdown, "Every key of the input as one page in Markdown.");
 
   std::string schema_kind;
   auto* schema = app.add_subcommand("schema", "The JSON Schema of the input, for editors that complete and check YAML.");
-  schema->add_option("kind", schema_kind, "scene, comparison or sweep; all in one schema if left out.");
+  schema->add_option("kind", schema_kind, "scene, comparison, sweep or stability; all in one schema if left out.");
 
   std::string start_kind;
   std::optional<std::string> start_file;
   auto* init = app.add_subcommand("init", "Write a commented file to start from.");
-  init->add_option("kind", start_kind, "scene, static, comparison or sweep.")->required();
+  init->add_option("kind", start_kind, "scene, static, comparison, sweep or stability.")->required();
   init->add_option("file", start_file, "Its name; default KIND.yaml.")->type_name("FILE.yaml");
 
   try {

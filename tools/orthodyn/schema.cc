@@ -151,13 +151,13 @@ Schema document(const std::vector<InputKind>& kinds) {
   Schema body;
   if (kinds.size() == 1) {
     body = writer.section(kinds.front().keys);
-  } else {  // a comparison has scenes, a sweep varies one
-    const Schema sweep_or_scene = {{"if", {{"required", {"quantities"}}}},
-                                   {"then", writer.section(kinds[2].keys)},
-                                   {"else", writer.section(kinds[0].keys)}};
-    body = {{"if", {{"required", {"scenes"}}}},
-            {"then", writer.section(kinds[1].keys)},
-            {"else", sweep_or_scene}};
+  } else {  // a study has one of these keys, a scene none
+    const std::map<std::string, std::string> marks{
+        {"comparison", "scenes"}, {"sweep", "quantities"}, {"stability", "cases"}};
+    body = writer.section(kinds.front().keys);
+    for (const auto& kind : kinds)
+      if (const auto mark = marks.find(kind.name); mark != marks.end())
+        body = {{"if", {{"required", {mark->second}}}}, {"then", writer.section(kind.keys)}, {"else", body}};
   }
   std::string title = "orthodyn";
   for (const auto& kind : kinds) title += " " + kind.name;

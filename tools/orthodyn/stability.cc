@@ -12,6 +12,7 @@
 #include "tools/orthodyn/commands.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/interrupt.h"
+#include "tools/orthodyn/jobs.h"
 #include "tools/orthodyn/study_folder.h"
 #include "tools/orthodyn/teller.h"
 
@@ -94,12 +95,13 @@ int stability_command(const StabilityArguments& arguments) {
 
   Teller teller;
   heed_interrupts();
+  use_one_thread_each();
   const ErrandEvents events{
       [](std::size_t) {},
       [&](std::size_t i, const Json& result, bool cached) {
         if (!arguments.quiet) teller.tell(matrix.trials().size(), matrix.trials()[i].title, outcome_of(result), cached);
       }};
-  const bool complete = matrix.run(arguments.jobs, interrupted(), events);
+  const bool complete = matrix.run(number_of_jobs(arguments.jobs), interrupted(), events);
   const Json table = matrix.json(arguments.file);
   write_file(out / "stability.json", {to_text(table, 1)});
   write_file(out / "stability.csv", {matrix.csv()});

@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
-#include <thread>
 
 #include "lib/run/files.h"
 #include "lib/study/evaluate.h"
@@ -14,6 +13,7 @@
 #include "tools/orthodyn/commands.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/interrupt.h"
+#include "tools/orthodyn/jobs.h"
 #include "tools/orthodyn/job_array.h"
 #include "tools/orthodyn/study_folder.h"
 #include "tools/orthodyn/teller.h"
@@ -25,11 +25,6 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string program() { return fs::read_symlink("/proc/self/exe").string(); }
-
-// Points run side by side: threads of BLAS would only be in each other's way.
-void use_one_thread_a_point() {
-  for (const char* variable : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"}) setenv(variable, "1", 0);
-}
 
 // "3/20": the third of twenty.
 std::pair<std::size_t, std::size_t> parse_task(const std::string& text) {
@@ -66,7 +61,7 @@ class SweepCommand {
       const auto [part, parts] = parse_task(*arguments_.task);
       work_ = slice(work_, part, parts);
     }
-    use_one_thread_a_point();
+    use_one_thread_each();
     heed_interrupts();
     const bool complete = carry_out();
     if (!complete)
@@ -87,7 +82,6 @@ class SweepCommand {
   }
 
   bool carry_out() {
-    const int jobs = arguments_.jobs > 0 ? arguments_.jobs : static_cast<int>(std::thread::hardware_concurrency());
     Teller teller;
     const ErrandEvents events{[](std::size_t) {},
                               [&](std::size_t i, const Json& result, bool cached) {
@@ -95,7 +89,7 @@ class SweepCommand {
                                   teller.tell(work_.size(), work_[i].title, outcome_of(result), cached);
                                 if (!arguments_.task) write_table_now_and_then();
                               }};
-    return carry_out_all(program(), work_, jobs, interrupted(), events);
+    return carry_out_all(program(), work_, number_of_jobs(arguments_.jobs), interrupted(), events);
   }
 
   void write_table_now_and_then() {
