@@ -122,8 +122,8 @@ class EnergyMomentum : public OneStep {
       if (size <= kExact * first) return true;
       if (k > 0 && size >= smallest) {
         if (size <= kRoundOff * first) return true;
-        if (++stalled == kStalled && smallest * norm_.rtol() <= kNothing) return true;
         if (size > kDiverged * smallest) return false;
+        if (++stalled >= kStalled && size * norm_.rtol() <= kNothing) return true;
       } else {
         stalled = 0;
       }
