@@ -125,7 +125,9 @@ class CentralDifferences : public ExplicitStep {
   }
 
   [[noreturn]] void fail_by_growth() const {
-    fail("the motion has grown without bound; set integrator.step: auto or lower integrator.safety", Reason::diverged);
+    fail(std::string("the motion has grown without bound; ") +
+             (options_.step.value ? "set integrator.step: auto" : "lower integrator.safety, or take an implicit integrator"),
+         Reason::diverged);
   }
 
   // Steps chosen here divide what is left evenly: the map stays symplectic, and no sliver comes last.

@@ -135,11 +135,14 @@ double OneStep::length(double t_stop) const {
   return h >= rest ? rest : h > 0.99 * rest ? rest / 2 : h;
 }
 
-// Hairer, Norsett & Wanner (1993), II.4: from the size of the first and of a second derivative.
+// Hairer, Norsett & Wanner (1993), II.4: from the size of the first and of a second derivative. The latter is looked for
+// at no round part of the span, where a periodic load might be what it is now.
 double OneStep::first_step(double t_stop) {
+  constexpr double kLook = 0.00618034;
   const double rest = t_stop - now_.t;
   const double rate = norm_(now_.v, now_.a);
-  double h = rate > 0 ? std::min(rest, 0.01 / (options_.rtol * rate)) : 1e-3 * rest;
+  double h = kLook * rest;
+  if (rate > 0) h = std::min(h, 0.01 / (options_.rtol * rate));
   double curvature = 0;
   try {
     Vector a(model_.num_dofs());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <numbers>
 
 namespace orthodyn {
 namespace {
@@ -86,6 +87,17 @@ TEST_P(Contract, ALoadAfterALongRestIsNotMissed) {
                            .factor = {{1000, 0}, {1000.5, 1}}, .end = 1002, .velocity_scale = 3});
   const State last = integrate(model, *make(model));
   EXPECT_LE(distance(last, model.exact(1002), model.scales()), 1e-2);
+}
+
+// At rest under 200 sin(W t), W = 20 pi/s: the load is the same at the start, at the end, and at any part of the span that
+// is made of whole periods. x = 200/(9 - W^2) (sin W t - W/3 sin 3 t).
+TEST_P(Contract, APeriodicLoadIsNotTakenForNone) {
+  const LinearModel still({.mass = scalar(1), .stiffness = scalar(9), .load = Vector::Zero(1), .end = 0.5});
+  constexpr double W = 20 * std::numbers::pi;
+  const Disturbed<LinearModel> model(still, [](long, double t, VectorRef f) { f[0] += 200 * std::sin(W * t); });
+  const State last = integrate(model, *make(model, {.rtol = 1e-4}));
+  const double exact = -200 / (9 - W * W) * W / 3 * std::sin(1.5);
+  EXPECT_NEAR(last.q[0], exact, 0.05 * exact);  // some are made to take steps of 0.01 s, a tenth of a period
 }
 
 TEST_P(Contract, TheSameRunTwiceIsTheSameToTheLastBit) {
