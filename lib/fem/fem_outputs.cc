@@ -125,6 +125,7 @@ double imbalance(const Parts& parts, const NodalExpansion& nodal) {
   free_forces(parts, resting, still, term_forces(parts, resting), free);
   NodalVector forces = NodalVector::Zero(3, nodal.x.cols());
   parts.dofs->add_to(free, forces);
+  if (!forces.allFinite()) return std::numeric_limits<double>::quiet_NaN();
   return std::sqrt(forces.colwise().squaredNorm().maxCoeff());
 }
 
