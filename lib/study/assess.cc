@@ -1,12 +1,7 @@
 #include "lib/study/assess.h"
 
-#include <cmath>
-#include <fstream>
-
 #include "lib/run/vtu.h"
 #include "lib/study/deadline.h"
-#include "lib/study/fingerprint.h"
-#include "lib/study/machine.h"
 #include "lib/study/measure.h"
 #include "lib/study/verdict.h"
 
@@ -16,12 +11,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What infinite and undefined figures become: JSON has no word for them.
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-
 Json to_json(const Check& check) {
   return {{"title", check.expectation.title()},
-          {"computed", number(check.computed)},
+          {"computed", finite_or_null(check.computed)},
           {"expected", check.expectation.value},
           {"limit", check.expectation.limit()},
           {"source", check.expectation.source},
@@ -56,24 +48,20 @@ Json judged(const fs::path& folder, const Setup& setup, double seconds) {
   return json;
 }
 
-Json result_of(const fs::path& folder) {
-  std::ifstream in(folder / kJobFile);
-  const Json job = Json::parse(in);
-  if (job.at("code") != code_fingerprint())
-    throw RunError("the program has changed since the matrix was started; start it again");
+// Its set-up may be refused, by the integrator most of all; what the input does wrong in mid-run is a failure.
+Json assessed(const fs::path& folder, double seconds) {
+  const Setup setup = set_up(Config::from_file((folder / kSceneFile).string()));
   try {
-    return judged(folder, set_up(Config::from_file((folder / kSceneFile).string())), job.at("seconds"));
+    return judged(folder, setup, seconds);
   } catch (const ConfigError& e) {
-    return {{"status", "refused"}, {"grade", "refused"}, {"reason", e.what()}};
+    throw RunError(e.what());
   }
 }
 
 }  // namespace
 
 void assess(const fs::path& folder) {
-  Json result = result_of(folder);
-  result["at"] = utc_now();
-  write_file(folder / kResultFile, {to_text(result)});
+  do_job(folder, [&](const Json& job) { return assessed(folder, job.at("seconds")); });
 }
 
 }  // namespace orthodyn

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <exception>
 #include <fstream>
+#include <map>
 #include <mutex>
 #include <thread>
 
@@ -48,7 +49,14 @@ class Crew {
  public:
   Crew(const std::string& program, const std::vector<Errand>& errands, const std::atomic<bool>& interrupt,
        const ErrandEvents& events)
-      : program_(program), errands_(errands), interrupt_(interrupt), events_(events) {}
+      : program_(program), errands_(errands), interrupt_(interrupt), events_(events) {
+    std::map<fs::path, std::size_t> work_of;
+    for (std::size_t i = 0; i < errands.size(); ++i) {
+      const auto [known, is_new] = work_of.emplace(errands[i].folder, work_.size());
+      if (is_new) work_.emplace_back();
+      work_[known->second].push_back(i);
+    }
+  }
 
   bool work(int jobs) {
     std::vector<std::jthread> threads;
@@ -62,8 +70,8 @@ class Crew {
  private:
   void take_turns() {
     try {
-      for (std::size_t i = next_++; i < errands_.size() && !stop_; i = next_++)
-        if (!take(i)) return;
+      for (std::size_t k = next_++; k < work_.size() && !stop_; k = next_++)
+        if (!take(work_[k])) return;
     } catch (...) {
       const std::lock_guard lock(mutex_);
       if (!failure_) failure_ = std::current_exception();
@@ -71,16 +79,17 @@ class Crew {
     }
   }
 
-  bool take(std::size_t i) {
+  bool take(const std::vector<std::size_t>& same) {
     if (interrupt_) return false;
-    Json result = finished(errands_[i].folder);
+    const Errand& errand = errands_[same.front()];
+    Json result = finished(errand.folder);
     const bool cached = !result.is_null();
     if (!cached) {
-      tell([&] { events_.starts(i); });
-      result = carry_out(program_, errands_[i], interrupt_);
+      tell([&] { events_.starts(same.front()); });
+      result = carry_out(program_, errand, interrupt_);
       if (result.is_null()) return false;
     }
-    tell([&] { events_.ends(i, result, cached); });
+    for (const std::size_t i : same) tell([&] { events_.ends(i, result, cached || i != same.front()); });
     return true;
   }
 
@@ -94,6 +103,7 @@ class Crew {
   const std::vector<Errand>& errands_;
   const std::atomic<bool>& interrupt_;
   const ErrandEvents& events_;
+  std::vector<std::vector<std::size_t>> work_;  // errands by folder
   std::atomic<std::size_t> next_ = 0;
   std::atomic<bool> stop_ = false;
   std::mutex mutex_;

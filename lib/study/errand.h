@@ -27,7 +27,7 @@ struct Errand {
 Json finished(const std::filesystem::path& folder);
 
 // Does it. A process that died or reached a limit is a result: {"status": "failed", "reason", "message"}. Null if
-// interrupted. Throws RunError if files cannot be written.
+// interrupted. Throws RunError if files cannot be written or no process can be started.
 Json carry_out(const std::string& program, const Errand& errand, const std::atomic<bool>& interrupt);
 
 // What those who wait for errands see: an index, and the result once there is one.
@@ -36,8 +36,9 @@ struct ErrandEvents {
   std::function<void(std::size_t, const Json&, bool cached)> ends;
 };
 
-// Carries them out, `jobs` at a time. Events come one after the other, in no order. False if interrupted. Throws
-// what an event or carry_out() throws, after all processes have ended.
+// Carries them out, `jobs` at a time; those that share a folder are one piece of work, done once. Events come one after
+// the other, in no order. False if interrupted. Throws what an event or carry_out() throws, after those in progress
+// have ended.
 bool carry_out_all(const std::string& program, const std::vector<Errand>& errands, int jobs,
                    const std::atomic<bool>& interrupt, const ErrandEvents& events);
 

@@ -1,6 +1,7 @@
 #include "lib/study/point_result.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 namespace orthodyn {
@@ -65,6 +66,8 @@ Json read_json(const std::filesystem::path& file) {
 std::string to_text(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
+
+Json finite_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 Json spread(std::vector<double> values) {
   if (values.empty()) return nullptr;

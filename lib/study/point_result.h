@@ -37,6 +37,9 @@ Json read_json(const std::filesystem::path& file);
 // As text, whatever bytes a file or a crashed program has put in.
 std::string to_text(const Json& json, int indent = -1);
 
+// Null for infinite and undefined numbers: JSON has no word for them.
+Json finite_or_null(double x);
+
 // {"median": ..., "min": ..., "max": ...}
 Json spread(std::vector<double> values);
 

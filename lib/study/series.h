@@ -27,8 +27,9 @@ double frequency(const Series& series);                         // from upward c
 double settling_time(const Series& series, double share);
 // The largest change from the start, of vectors in the Euclidean norm.
 double drift(const Series& series);
-// The largest rise above the start, at least 0, and the time when the size first passes a level; of scalars.
+// Of scalars. The largest rise above the start, in the series' unit, at least 0.
 double gain(const Series& series);
+// The time when the size first passes a level, s, linear between samples; NaN if it never does.
 double onset(const Series& series, double level);
 
 class SeriesRecorder : public Observer {

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
+#include "lib/scene/build.h"
 #include "lib/scene/mesh_materials.h"
+#include "lib/study/csv_cell.h"
 #include "lib/study/expand.h"
 #include "lib/study/fingerprint.h"
 #include "lib/study/machine.h"
@@ -16,36 +20,40 @@ namespace {
 // A process is killed when it has had its time and this much more for the set-up, s.
 constexpr double kSetUpTime = 30;
 
-std::string mesh_of(const Config& scene) {
+// Builds the scene, too: what is wrong with it shows before anything runs.
+std::string mesh_of(const Trial& trial) {
   try {
-    return mesh_fingerprint(load_mesh(read_scene(Config::from_text(scene.dump(), scene.file()))));
+    const Scene scene = read_scene(Config::from_text(trial.scene.dump(), trial.scene.file()));
+    build(scene);
+    return mesh_fingerprint(load_mesh(scene));
   } catch (const ConfigError& e) {
-    return e.what();  // every trial will say so itself
+    throw ConfigError(trial.title + ": " + e.what());
   }
 }
 
-std::string csv_text(std::string text) {
-  for (char& c : text)
-    if (c == '"' || c == '\n') c = '\'';
-  return '"' + text + '"';
+// What a process could not grade itself: its integrator refused the scene, it was killed, or it died.
+void grade(Json& result) {
+  if (result.contains("grade")) return;
+  const std::string reason = result.at("reason");
+  result["grade"] = reason == "refused" ? "refused" : "fail";
+  if (reason != "time limit") result["reason"] = result.at("message");
 }
 
-std::string csv_number(const Json& object, const char* key) {
-  return object.contains(key) && object.at(key).is_number() ? fmt::format("{:.9g}", object.at(key).get<double>()) : "";
-}
+Json member(const Json& object, const char* key) { return object.contains(key) ? object.at(key) : Json(nullptr); }
 
 }  // namespace
 
 StabilityMatrix::StabilityMatrix(Stability stability, fs::path folder, std::string program)
     : stability_(std::move(stability)), folder_(std::move(folder)), program_(std::move(program)),
       trials_(orthodyn::trials(stability_)) {
+  for (const auto& hard : stability_.cases) sentences_.push_back(head_comment(read_yaml(hard.file.path)));
   const std::string code = code_fingerprint();
   std::map<std::pair<std::size_t, std::size_t>, std::string> meshes;  // of a case with a variant
   const Json job{{"seconds", stability_.limits.seconds}, {"code", code}};
   const ProcessLimits limits{stability_.limits.seconds + kSetUpTime, stability_.limits.memory};
   for (const Trial& trial : trials_) {
     std::string& mesh = meshes[{trial.hard_case, trial.variant}];
-    if (mesh.empty()) mesh = mesh_of(trial.scene);
+    if (mesh.empty()) mesh = mesh_of(trial);
     Fingerprint print;
     print.add(machine_fingerprint()).add(trial.scene.dump()).add(job.dump());
     print.add(fmt::format("{}", limits.memory)).add(mesh);
@@ -56,10 +64,9 @@ StabilityMatrix::StabilityMatrix(Stability stability, fs::path folder, std::stri
 
 bool StabilityMatrix::run(int jobs, const std::atomic<bool>& interrupt, const ErrandEvents& events) {
   return carry_out_all(program_, errands_, jobs, interrupt,
-                       {events.starts, [&](std::size_t i, const Json& result, bool cached) {
-                          results_[i] = result;
-                          // What the process could not say itself: it was killed, or died.
-                          if (!results_[i].contains("grade")) results_[i]["grade"] = "fail";
+                       {events.starts, [&](std::size_t i, Json result, bool cached) {
+                          grade(result);
+                          results_[i] = std::move(result);
                           events.ends(i, results_[i], cached);
                         }});
 }
@@ -78,11 +85,11 @@ Json StabilityMatrix::json(const std::string& file) const {
   Json json{{"kind", "stability"},       {"title", stability_.title}, {"description", stability_.description},
             {"file", file},              {"at", utc_now()},           {"machine", machine_json()},
             {"versions", versions_json()}, {"limit", stability_.limits.seconds}};
-  for (const auto& hard : stability_.cases)
-    json["cases"].push_back({{"label", hard.label},
-                             {"file", hard.file.path},
-                             {"sentence", head_comment(read_yaml(hard.file.path))},
-                             {"model", hard.model}});
+  for (std::size_t c = 0; c < stability_.cases.size(); ++c) {
+    const HardCase& hard = stability_.cases[c];
+    json["cases"].push_back(
+        {{"label", hard.label}, {"file", hard.file.path}, {"sentence", sentences_[c]}, {"model", hard.model}});
+  }
   for (const auto& [name, changes] : stability_.variants) json["variants"].push_back(name);
   for (const auto& integrator : stability_.integrators) json["integrators"].push_back(integrator.label);
   json["complete"] = results_.size() == trials_.size();
@@ -92,16 +99,15 @@ Json StabilityMatrix::json(const std::string& file) const {
 }
 
 std::string StabilityMatrix::csv() const {
-  std::string csv = "case,variant,integrator,grade,reason,figure,computed,expected,limit,time_reached [s],wall [s],cpu [s],steps\n";
+  std::string csv =
+      "case,variant,integrator,grade,reason,figure,computed,expected,limit,time_reached [s],wall [s],cpu [s],steps\n";
   for (const auto& [trial, result] : results_) {
-    const Json t = trial_json(trial);
-    const Json worst = t.contains("worst") && t.at("worst").is_object() ? t.at("worst") : Json::object();
-    const Json statistics = t.contains("statistics") ? t.at("statistics") : Json::object();
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_text(t.at("case")), csv_text(t.at("variant")),
-                       csv_text(t.at("integrator")), t.at("grade").get<std::string>(), csv_text(t.at("reason")),
-                       worst.contains("title") ? csv_text(worst.at("title")) : "", csv_number(worst, "computed"),
-                       csv_number(worst, "expected"), csv_number(worst, "limit"), csv_number(t, "time_reached"),
-                       csv_number(t, "wall"), csv_number(t, "cpu"), csv_number(statistics, "steps"));
+    const Json t = trial_json(trial), worst = member(t, "worst"), statistics = member(t, "statistics");
+    const std::vector<Json> row{t.at("case"), t.at("variant"), t.at("integrator"), t.at("grade"), t.at("reason"),
+                                member(worst, "title"), member(worst, "computed"), member(worst, "expected"),
+                                member(worst, "limit"), member(t, "time_reached"), member(t, "wall"), member(t, "cpu"),
+                                member(statistics, "steps")};
+    for (std::size_t k = 0; k < row.size(); ++k) csv += csv_cell(row[k]) + (k + 1 < row.size() ? "," : "\n");
   }
   return csv;
 }

@@ -14,7 +14,7 @@ class StabilityMatrix {
   // What is finished in the folder is not done again. Throws ConfigError for input that is at fault.
   StabilityMatrix(Stability stability, std::filesystem::path folder, std::string program);
 
-  // `jobs` at a time. False if it was interrupted.
+  // `jobs` at a time. False if it was interrupted. Throws as carry_out_all() does.
   bool run(int jobs, const std::atomic<bool>& interrupt, const ErrandEvents& events);
 
   const std::vector<Trial>& trials() const { return trials_; }
@@ -30,6 +30,7 @@ class StabilityMatrix {
   Stability stability_;
   std::filesystem::path folder_;
   std::string program_;
+  std::vector<std::string> sentences_;  // of the cases
   std::vector<Trial> trials_;
   std::vector<Errand> errands_;
   std::map<std::size_t, Json> results_;

@@ -19,7 +19,7 @@ struct Verdict {
 const char* grade_word(Grade grade);  // "pass"
 
 // A run passes if all its figures are within their tolerances, is degraded if none is off by more than its `degraded`
-// tolerances, and fails otherwise or if it did not come to its end.
+// tolerances, and fails otherwise or if it did not come to its end. Precondition: it has checks.
 Verdict judge(const CaseResult& result);
 
 }  // namespace orthodyn

@@ -33,7 +33,7 @@ std::vector<std::string> find_cases(const std::vector<std::string>& places);
 // Throws ConfigError for a scene that is at fault or expects nothing. A run that fails is a result.
 CaseResult verify(const Config& scene);
 
-// The same of what is set up already, with others that look on.
+// The same of what is set up already, with others that look on at a motion.
 CaseResult verify(const Setup& setup, const std::vector<Observer*>& observers, const std::atomic<bool>& interrupt);
 
 // One suite of JUnit XML: a test per expectation.

@@ -53,6 +53,16 @@ TEST_F(Errands, EachGetsItsInputAndLeavesItsResult) {
   }
 }
 
+// Two names for the same work.
+TEST_F(Errands, ThoseThatShareAFolderAreDoneOnce) {
+  auto all = errands(2);
+  all.push_back(all[0]);
+  EXPECT_TRUE(run("sleep 0.05; " + std::string(kCopy), all, 3));
+  EXPECT_EQ(started_, 2);
+  EXPECT_EQ(cached_, 1);
+  EXPECT_EQ(results_[2], results_[0]);
+}
+
 // Each waits for the mark of the other.
 TEST_F(Errands, RunSideBySide) {
   EXPECT_TRUE(run("touch here; until [ -e ../a/here ] && [ -e ../b/here ]; do sleep 0.01; done; " + std::string(kCopy),

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <filesystem>
 #include <map>
 
@@ -22,11 +23,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr auto kBetweenTables = std::chrono::seconds(10);
+
 std::string outcome_of(const Json& result) {
   std::string text = result.at("grade");
   if (result.contains("wall")) text += fmt::format(" in {:.2g} s", result.at("wall").get<double>());
-  if (const std::string reason = result.at(result.contains("message") ? "message" : "reason"); !reason.empty())
-    text += ": " + reason;
+  if (const std::string reason = result.at("reason"); !reason.empty()) text += ": " + reason;
   return text;
 }
 
@@ -87,6 +89,7 @@ class MatrixTable {
 }  // namespace
 
 int stability_command(const StabilityArguments& arguments) {
+  use_one_thread_each();  // before fingerprints are taken, of which the number of threads is a part
   Stability stability = read_stability(Config::from_file(arguments.file));
   const std::string name = stability.name;
   const fs::path out = arguments.out ? fs::path(*arguments.out) : fs::path("out/stability") / name;
@@ -94,17 +97,24 @@ int stability_command(const StabilityArguments& arguments) {
   const StudyFolder place(out, "stability");
 
   Teller teller;
+  const auto write_table = [&] {
+    Json table = matrix.json(arguments.file);
+    write_file(out / "stability.json", {to_text(table, 1)});
+    write_file(out / "stability.csv", {matrix.csv()});
+    return table;
+  };
   heed_interrupts();
-  use_one_thread_each();
+  auto next_table = std::chrono::steady_clock::now() + kBetweenTables;
   const ErrandEvents events{
       [](std::size_t) {},
       [&](std::size_t i, const Json& result, bool cached) {
         if (!arguments.quiet) teller.tell(matrix.trials().size(), matrix.trials()[i].title, outcome_of(result), cached);
+        if (std::chrono::steady_clock::now() < next_table) return;
+        write_table();
+        next_table = std::chrono::steady_clock::now() + kBetweenTables;
       }};
   const bool complete = matrix.run(number_of_jobs(arguments.jobs), interrupted(), events);
-  const Json table = matrix.json(arguments.file);
-  write_file(out / "stability.json", {to_text(table, 1)});
-  write_file(out / "stability.csv", {matrix.csv()});
+  const Json table = write_table();
   if (!complete)
     fmt::print(stderr, "interrupted; the finished trials are in {} and will not be done again\n", out.string());
   if (!arguments.quiet) MatrixTable(table).print();

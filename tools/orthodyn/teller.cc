@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+
 namespace orthodyn {
 
 void Teller::tell(std::size_t count, const std::string& title, const std::string& outcome, bool cached) {
