@@ -68,6 +68,14 @@ output:
   fields: [displacement, velocity, stress]
   probes:
     tip: {at: [1, 0.025, 0.01]}
+
+expect:                    # for `orthodyn verify` and `orthodyn stability`; see orthodyn list expect
+  - quantity: energy.balance
+    take: drift
+    value: 0
+    source: energy, less what damping took and loads gave, is constant
+    absolute: 0.01
+    reason: 100 rtol
 )";
 
 constexpr const char* kAnalysis = R"(analysis: static           # the equilibrium under all loads, which grow step by step
@@ -140,8 +148,8 @@ title: What is tried
 description: What is tried and why, in a sentence or two.
 
 cases:                     # scenes with an `expect` list, see orthodyn list expect
-  - case.yaml
-  # - {file: case.yaml, label: fine, set: {mesh.cells: [40, 4, 4]}}
+  - scene.yaml             # of `orthodyn init scene`
+  # - {file: scene.yaml, label: fine, set: {mesh.cells: [40, 4, 4]}}
 integrators: [all]         # or names, or {type: cvode_bdf, label: order 2, max_order: 2}
 variants:                  # what every case is run with
   exact: {}
