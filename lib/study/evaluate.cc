@@ -81,7 +81,7 @@ class Evaluation {
       const State about{still.time.end, about_equilibrium ? equilibrium(still, built) : zero, zero};
       const Modes modes = enough_modes(*built.model, about, about_equilibrium);
       for (const auto& [name, f] : job_.figures)
-        if (concerns(f)) keep(name, frequency_of(f, modes), "Hz");
+        if (concerns(f)) keep(name, frequency_of(f, modes), f.unit_of(""));
     }
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
     result_["cost"] = {{"cpu_seconds", cpu_seconds_now() - cpu}, {"wall_seconds", wall.count()},
@@ -125,13 +125,7 @@ class Evaluation {
     else integrate(setup, names, wanted, quantities);
     if (result_.at("status") != "completed") return;
     for (const auto& [name, f] : job_.figures)
-      if (!f.cost.empty()) keep(name, result_.at("cost").at(f.cost).get<double>(), unit_of_cost(f.cost));
-  }
-
-  static std::string unit_of_cost(const std::string& cost) {
-    for (const auto& [name, unit] : cost_names())
-      if (name == cost) return unit;
-    return "";
+      if (!f.cost.empty()) keep(name, result_.at("cost").at(f.cost).get<double>(), f.unit_of(""));
   }
 
   void find_equilibrium(const Setup& setup, const std::vector<std::string>& names,
@@ -160,11 +154,9 @@ class Evaluation {
     if (!conclude(outcome, setup.integrator->statistics())) return;
     for (std::size_t q = 0; q < names.size(); ++q) {
       const WantedFigure& f = figure_named(names[q]);
-      const bool of_time = f.settled_within || f.take == Take::time_of_max || f.take == Take::time_of_min;
-      const std::string unit = f.take == Take::frequency ? "Hz" : f.take == Take::drift ? "" : quantities[q].unit;
       keep(names[q],
            f.settled_within ? settling_time(recorder.series(q), *f.settled_within) : figure(wanted[q], recorder, q),
-           of_time ? "s" : unit);
+           f.unit_of(quantities[q].unit));
     }
     draw(*setup.built.model, frame.state());
   }

@@ -1,5 +1,7 @@
 #include "lib/study/sweep.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -23,8 +25,7 @@ void check_figure(const WantedFigure& f, const Config& config) {
   const int kinds = !f.quantity.empty() + (f.mode.has_value() || f.along.has_value()) + !f.cost.empty();
   if (kinds != 1) config.fail("give exactly one of: quantity, mode (or along), cost");
   if (f.mode && f.along) config.at("along").fail("finds a mode by itself; remove 'mode' or 'along'");
-  if (f.at && f.take != Take::end) config.at("at").fail("stands in place of 'take'; remove one of them");
-  if (f.of && f.take != Take::drift) config.at("of").fail("goes with take: drift only");
+  check_take(f.take, f.at, f.of, config);
   if (f.settled_within && (f.at || f.take != Take::end))
     config.at("settled_within").fail("stands in place of 'take' and 'at'; remove them");
   const auto& costs = cost_names();
@@ -85,6 +86,15 @@ const std::vector<std::pair<std::string, std::string>>& cost_names() {
   return all;
 }
 
+std::string WantedFigure::unit_of(const std::string& quantity_unit) const {
+  if (mode || along) return "Hz";
+  if (settled_within) return "s";
+  if (cost.empty()) return figure_unit(take, quantity_unit);
+  for (const auto& [name, si] : cost_names())
+    if (name == cost) return si;
+  return "";
+}
+
 const Spec<NumberRange>& NumberRange::spec() {
   static const auto s =
       Spec<NumberRange>()
@@ -113,9 +123,9 @@ const Spec<WantedFigure>& WantedFigure::spec() {
           .key("quantity", &WantedFigure::quantity,
                "A probe's field and component (tip.displacement.z) or a scalar of the whole body (energy.elastic), as "
                "in `expect` of a scene.")
-          .key("take", &WantedFigure::take, "Which figure of its course over time.")
+          .key("take", &WantedFigure::take, kTakeSentence)
           .key("at", &WantedFigure::at, "The value at this time, in place of `take`.", {.unit = "s"})
-          .key("of", &WantedFigure::of, "What a drift is relative to.", {.range = kPositive})
+          .key("of", &WantedFigure::of, kOfSentence, {.range = kPositive})
           .key(
               "settled_within", &WantedFigure::settled_within,
               "In place of `take`: the time after which the quantity stays within this fraction of its range about its "

@@ -83,6 +83,8 @@ struct WantedFigure {
   static const Spec<WantedFigure>& spec();
 
   bool is_of_motion() const { return !quantity.empty() || !cost.empty(); }
+  // Its SI unit, where its quantity has the given one; "" for a plain number.
+  std::string unit_of(const std::string& quantity_unit) const;
 };
 
 // A picture of each point.

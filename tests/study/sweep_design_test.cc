@@ -123,6 +123,10 @@ TEST_F(SweepDesign, SaysWhereSomethingIsWrongBeforeAnythingRuns) {
               HasSubstr("cannot read the formula '2*E'"));
   EXPECT_THAT(complaint(vary + "quantities: {f: {mode: 1, cost: steps}}"), HasSubstr("exactly one of"));
   EXPECT_THAT(complaint(vary + "quantities: {f: {cost: stesp}}"), HasSubstr("did you mean 'steps'?"));
+  EXPECT_THAT(complaint(vary + "quantities: {f: {quantity: tip.displacement.z, take: onset}}"),
+              AllOf(HasSubstr("s.yaml:3:"), HasSubstr("onset needs 'of'")));
+  EXPECT_THAT(complaint(vary + "quantities: {f: {quantity: tip.displacement.z, take: max, of: 1}}"),
+              HasSubstr("goes with take: drift, gain or onset only"));
   EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.nu: {from: 0, to: 1}}")),
               HasSubstr("'count' is missing"));
   EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.young: {values: [2], unit: GPas}}")),

@@ -1,8 +1,11 @@
 // `orthodyn sweep` as a user meets it: figures, failures, SIGKILL, several machines.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "lib/scene/expectation.h"
 #include "tests/run/command.h"
 
 namespace orthodyn {
@@ -87,6 +90,34 @@ quantities:
     EXPECT_GT(f.at("steps").get<double>(), 20);
     EXPECT_GT(f.at("energy").get<double>(), 0);
   }
+}
+
+TEST_F(SweepCommand, KnowsEveryTakeWithItsUnit) {
+  const std::map<std::string, std::string> others{{"time_of_max", "s"}, {"time_of_min", "s"}, {"onset", "s"},
+                                                  {"frequency", "Hz"},  {"drift", ""},        {"gain", ""}};
+  std::string text = "scene: {file: scene.yaml, set: {damping.mass: 10}}\nvary: {materials.soft.nu: [0]}\nquantities:\n";
+  for (const auto& [take, word] : Words<Take>::list) {
+    const bool compares = take == Take::drift || take == Take::gain || take == Take::onset;
+    text += fmt::format("  {}: {{quantity: node.displacement.x, take: {}{}}}\n", word, word,
+                        compares ? ", of: 1e-5" : "");
+  }
+  write("s.yaml", text);
+  const auto done = sweep();
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  const Json figures = table().at("points")[0].at("figures");
+  ASSERT_EQ(table().at("figures").size(), Words<Take>::list.size());
+  for (const Json& f : table().at("figures")) {
+    const std::string name = f.at("name");
+    EXPECT_TRUE(figures.at(name).is_number()) << name;
+    EXPECT_EQ(f.at("unit"), others.contains(name) ? others.at(name) : "m") << name;
+  }
+  // From rest the largest change and the largest rise are the maximum, which is reached after `of` is passed.
+  const double most = figures.at("max");
+  ASSERT_GT(most, 1e-5);
+  EXPECT_DOUBLE_EQ(figures.at("drift").get<double>(), most / 1e-5);
+  EXPECT_DOUBLE_EQ(figures.at("gain").get<double>(), most / 1e-5);
+  EXPECT_GT(figures.at("onset").get<double>(), 0);
+  EXPECT_LT(figures.at("onset").get<double>(), figures.at("time_of_max").get<double>());
 }
 
 TEST_F(SweepCommand, IntegratesNothingWhereOnlyFrequenciesAreAskedFor) {
