@@ -128,6 +128,30 @@ TEST_F(SweepCommand, IntegratesNothingWhereOnlyFrequenciesAreAskedFor) {
   EXPECT_FALSE(table().at("points")[0].at("cost").contains("steps"));
 }
 
+TEST_F(SweepCommand, AnswersEachModeAloneAsAmongOthers) {
+  write("free.yaml", R"(mesh: {type: box, size: [1, 0.2, 0.2], cells: [2, 1, 1]}
+materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
+time: {end: 0.1}
+integrator: {type: cvode_bdf}
+)");
+  const std::string head = "scene: free.yaml\nvary: {materials.soft.nu: [0.3]}\nquantities: ";
+  const auto figures_of = [&](const std::string& quantities) {
+    write("s.yaml", head + quantities + "\n");
+    const auto done = sweep();
+    EXPECT_EQ(done.exit_code, 0) << done.output;
+    EXPECT_EQ(table().at("points")[0].at("status"), "completed") << done.output;
+    return table().at("points")[0].at("figures");
+  };
+  const Json both = figures_of("{first: {mode: 1}, seventh: {mode: 7}, beyond: {mode: 900}, along: {along: x}}");
+  const double first = both.at("first"), seventh = both.at("seventh"), along = both.at("along");
+  EXPECT_GT(first, 1);
+  EXPECT_GT(seventh, first);
+  EXPECT_TRUE(both.at("beyond").is_null());  // of 36 unknowns
+  EXPECT_NEAR(figures_of("{first: {mode: 1}}").at("first").get<double>(), first, 1e-6 * first);
+  EXPECT_NEAR(figures_of("{seventh: {mode: 7}}").at("seventh").get<double>(), seventh, 1e-6 * seventh);
+  EXPECT_NEAR(figures_of("{along: {along: x}}").at("along").get<double>(), along, 1e-6 * along);
+}
+
 TEST_F(SweepCommand, KeepsFailuresWithTheirReasons) {
   write("s.yaml", R"(scene: scene.yaml
 vary:
