@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
+
+#include "lib/core/units.h"
 
 namespace orthodyn {
 
@@ -26,6 +29,7 @@ void check_figure(const WantedFigure& f, const Config& config) {
   if (kinds != 1) config.fail("give exactly one of: quantity, mode (or along), cost");
   if (f.mode && f.along) config.at("along").fail("finds a mode by itself; remove 'mode' or 'along'");
   check_take(f.take, f.at, f.of, config);
+  if (f.quantity.empty()) f.check_unit("");
   if (f.settled_within && (f.at || f.take != Take::end))
     config.at("settled_within").fail("stands in place of 'take' and 'at'; remove them");
   const auto& costs = cost_names();
@@ -93,6 +97,15 @@ std::string WantedFigure::unit_of(const std::string& quantity_unit) const {
   for (const auto& [name, si] : cost_names())
     if (name == cost) return si;
   return "";
+}
+
+void WantedFigure::check_unit(const std::string& quantity_unit) const {
+  if (unit.empty()) return;
+  try {
+    check_dimension(unit, unit_of(quantity_unit));
+  } catch (const std::invalid_argument& e) {
+    origin.fail("unit: '" + unit + "': " + e.what());
+  }
 }
 
 const Spec<NumberRange>& NumberRange::spec() {

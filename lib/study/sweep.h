@@ -85,6 +85,8 @@ struct WantedFigure {
   bool is_of_motion() const { return !quantity.empty() || !cost.empty(); }
   // Its SI unit, where its quantity has the given one; "" for a plain number.
   std::string unit_of(const std::string& quantity_unit) const;
+  // Throws ConfigError if it cannot be shown in `unit`.
+  void check_unit(const std::string& quantity_unit) const;
 };
 
 // A picture of each point.

@@ -172,6 +172,7 @@ class Expansion {
     for (const auto& [name, f] : sweep_.quantities) {
       if (f.quantity.empty()) continue;
       const Quantity q = find_quantity(f.quantity, scene, *built.model, f.origin);
+      f.check_unit(q.unit);
       if (q.components == 3 && f.take != Take::drift)
         f.origin.fail(fmt::format("'{}' is a vector: choose .x, .y, .z or .magnitude", f.quantity));
       if (scene.analysis == Analysis::statical && (f.at || f.take != Take::end || f.settled_within || !q.values))

@@ -9,7 +9,7 @@
 namespace orthodyn {
 
 // The frequency of each figure, which has `mode` or `along`, in Hz; NaN for a mode that the model is too small to have.
-// Of more modes than are asked for nothing is said. Throws what natural_modes() throws.
+// Throws what natural_modes() throws.
 std::vector<double> wanted_frequencies(const std::vector<WantedFigure>& figures, const Model& model,
                                        const State& about);
 

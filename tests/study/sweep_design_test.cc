@@ -133,6 +133,29 @@ TEST_F(SweepDesign, SaysWhereSomethingIsWrongBeforeAnythingRuns) {
               HasSubstr("the unit 'GPas' is not known"));
 }
 
+TEST_F(SweepDesign, ShowsAFigureOnlyInAUnitOfItsDimension) {
+  const std::string head = "vary: {materials.soft.nu: [0, 0.1]}\n";
+  const auto refused = [&](const std::string& figure, const std::string& why) {
+    EXPECT_THAT(complaint(head + "quantities: {f: {" + figure + "}}"),
+                AllOf(HasSubstr("s.yaml:3:"), HasSubstr("unit"), HasSubstr(why)))
+        << figure;
+  };
+  refused("quantity: tip.displacement.z, unit: bananas", "'bananas' is not known");
+  refused("mode: 1, unit: bananas", "'bananas' is not known");
+  refused("quantity: tip.displacement.z, unit: GPa", "expected a length (m)");
+  refused("quantity: tip.displacement.z, take: time_of_max, unit: mm", "expected a time (s)");
+  refused("quantity: tip.displacement.z, take: onset, of: 1, unit: mm", "expected a time (s)");
+  refused("quantity: tip.displacement.z, settled_within: 0.1, unit: mm", "expected a time (s)");
+  refused("quantity: tip.displacement.z, take: gain, unit: mm", "expected a plain number");
+  refused("mode: 1, unit: ms", "expected a frequency (Hz)");
+  refused("cost: cpu_seconds, unit: kHz", "expected a time (s)");
+  refused("cost: steps, unit: s", "expected a plain number");
+  EXPECT_EQ(complaint(head + "quantities: {a: {mode: 1, unit: kHz}, b: {cost: cpu_seconds, unit: ms}, "
+                             "c: {quantity: tip.displacement.z, unit: mm}, "
+                             "d: {quantity: tip.displacement.z, take: frequency, unit: kHz}}"),
+            "");
+}
+
 TEST_F(SweepDesign, KeepsImpossiblePointsOnlyWhereThatIsAskedFor) {
   const std::string text = kFigure + std::string("vary: {materials.soft.nu: [0.3, 0.6]}\n");
   EXPECT_THAT(complaint(text), AllOf(HasSubstr("nu 0.6"), HasSubstr("impossible: keep")));
