@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
 
+#include "lib/core/parse_number.h"
 #include "lib/core/units.h"
 #include "lib/scene/scene.h"
 #include "lib/study/sweep.h"
@@ -88,9 +90,11 @@ void read_sets(const Config& c, Variable& v) {
 }
 
 void refuse_repeated_values(const Variable& v, const Config& c) {
-  std::set<std::string> seen;
+  std::set<double> numbers;
+  std::set<std::string> others;
   for (const auto& value : v.values)
-    if (!seen.insert(value.label).second) c.fail("has the value " + value.label + " twice");
+    if (!(value.number ? numbers.insert(*value.number).second : others.insert(value.label).second))
+      c.fail("has the value " + value.label + " twice");
 }
 
 Variable read_variable(const std::string& key, const Config& c) {
@@ -129,7 +133,7 @@ bool Variable::numeric() const {
 double Variable::si(double number) const { return unit.empty() ? number : number * si_factor(unit); }
 
 VariedValue Variable::at(double x) const {
-  VariedValue value{fmt::format("{:.6g}", x), x, {}, {}};
+  VariedValue value{number_text(x), x, {}, {}};
   if (!path.empty()) value.set.emplace_back(path, with_unit(x, unit));
   return value;
 }
@@ -139,7 +143,9 @@ double range_at(const NumberRange& r, double share) {
   if (share == 1) return r.to;
   const double x = r.scale == Scale::log ? r.from * std::pow(r.to / r.from, share) : r.from + (r.to - r.from) * share;
   // Ends and their simple fractions stay what they look like: 0.3, not 0.30000000000000004.
-  return std::stod(fmt::format("{:.12g}", x));
+  double simple = x;
+  parse_number(fmt::format("{:.12g}", x), simple);
+  return simple;
 }
 
 std::vector<Variable> Value<std::vector<Variable>>::read(const Config& c, const Rule&) {

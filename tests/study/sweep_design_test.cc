@@ -51,6 +51,15 @@ TEST_F(SweepDesign, DividesRangesEvenlyByDifferenceOrByRatio) {
     EXPECT_NEAR(value(log[i], "materials.soft.young"), std::pow(10, 3 + i), 1e-9 * std::pow(10, 3 + i));
 }
 
+TEST_F(SweepDesign, TellsNumbersApartHoweverClose) {
+  const auto all = points(kFigure + std::string("vary: {materials.soft.density: {from: 999, to: 1001, count: 501}}"));
+  ASSERT_EQ(all.size(), 501u);
+  EXPECT_EQ(all[249].title, "density 999.996");
+  EXPECT_EQ(all[251].title, "density 1000.004");
+  EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.density: [1000, 1e3]}")),
+              HasSubstr("has the value 1000 twice"));
+}
+
 TEST_F(SweepDesign, CombinesEveryValueWithEveryOther) {
   const auto all =
       points(kFigure + std::string("vary: {materials.soft.nu: [0, 0.1, 0.2], materials.soft.density: [1, 2]}"));
