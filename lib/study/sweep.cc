@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "lib/core/units.h"
+#include "lib/study/formula_scope.h"
 
 namespace orthodyn {
 
@@ -77,6 +78,7 @@ void check_sweep(const Sweep& s, const Config& config) {
       v.origin.fail(fmt::format("combine: zip takes values side by side: '{}' has {}, '{}' {}", v.name, v.values.size(),
                                 s.vary.front().name, s.vary.front().values.size()));
   }
+  for (const auto& [name, value] : s.definitions) check_formula_name(name, config.at("definitions").at(name));
   check_plots(s, config);
 }
 

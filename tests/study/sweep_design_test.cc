@@ -120,6 +120,24 @@ quantities: {f: {mode: 1, closed_form: twice + rho}}
   EXPECT_EQ(all[5].title, "stiffer 100, body light, push [0, 0, 0], E 2 kPa");
 }
 
+TEST_F(SweepDesign, GivesFormulasOnlyNamesThatTheyCanHave) {
+  const std::string rest = "quantities: {f: {mode: 1, closed_form: 2*E}}\ndefinitions: {E: 5}\n";
+  EXPECT_EQ(points("vary: {gravity.2: [-1, -2]}\n" + rest).at(1).closed_forms[0], 10);
+  const auto refused = [&](const std::string& vary, const std::string& why) {
+    EXPECT_THAT(complaint("vary: {" + vary + "}\n" + rest), AllOf(HasSubstr("s.yaml:2:"), HasSubstr(why))) << vary;
+  };
+  refused("gravity.2: {values: [1], name: 2g}", "the name '2g'");
+  refused("gravity.2: {from: 1, to: 2, count: 2, name: my g}", "the name 'my g'");
+  refused("gravity.2: {values: [1], name: e}", "'e' is a constant");
+  refused("pi: [3, 4]", "'pi' is a constant");
+  refused("kind: {a: {e: 1}, b: {e: 2}}", "'e' is a constant");
+  const std::string vary = "vary: {materials.soft.nu: [0, 0.1]}\n";
+  EXPECT_THAT(complaint(vary + kFigure + "definitions:\n  a: 1\n  pi: 3\n"),
+              AllOf(HasSubstr("s.yaml:6:"), HasSubstr("'pi' is a constant")));
+  EXPECT_THAT(complaint(vary + kFigure + "definitions:\n  a: 1\n  b: 2*c\n"),
+              AllOf(HasSubstr("s.yaml:6:"), HasSubstr("cannot read the formula '2*c'")));
+}
+
 TEST_F(SweepDesign, SaysWhereSomethingIsWrongBeforeAnythingRuns) {
   const std::string vary = "vary: {materials.soft.nu: [0, 0.1]}\n";
   EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.mu: [0, 0.1]}\n")),
