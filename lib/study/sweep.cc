@@ -65,6 +65,16 @@ void check_plots(const Sweep& s, const Config& config) {
   }
 }
 
+constexpr double kMostPoints = 1e6;
+
+void check_number_of_points(const Sweep& s, const Config& config) {
+  double points = 1;
+  for (const auto& v : s.vary) points *= static_cast<double>(v.values.size());
+  if (s.combine == Combine::cartesian && points > kMostPoints)
+    config.at("vary").fail(fmt::format("every combination makes {:.3g} points, the most is {:.0g}; give fewer values, or "
+                                       "combine: latin_hypercube with 'samples'", points, kMostPoints));
+}
+
 void check_sweep(const Sweep& s, const Config& config) {
   if (s.quantities.empty()) config.at("quantities").fail("is empty; name at least one figure");
   for (const auto& v : s.vary) {
@@ -79,6 +89,7 @@ void check_sweep(const Sweep& s, const Config& config) {
                                 s.vary.front().name, s.vary.front().values.size()));
   }
   for (const auto& [name, value] : s.definitions) check_formula_name(name, config.at("definitions").at(name));
+  check_number_of_points(s, config);
   check_plots(s, config);
 }
 
@@ -205,7 +216,7 @@ const Spec<Sweep>& Sweep::spec() {
           .key("combine", &Sweep::combine,
                "cartesian: every combination. zip: first with first, second with second. latin_hypercube: `samples` "
                "points, each value's range in as many strata.")
-          .key("samples", &Sweep::samples, "Points of a Latin hypercube.", {.range = {1, 1e6}})
+          .key("samples", &Sweep::samples, "Points of a Latin hypercube.", {.range = {1, kMostPoints}})
           .key("seed", &Sweep::seed, "Of a Latin hypercube.")
           .key("quantities", &Sweep::quantities, "What is wanted of every point, by name.", {.required = true})
           .key("plots", &Sweep::plots, "Figures of the report; default by the number of variables.")

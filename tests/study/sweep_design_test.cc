@@ -69,6 +69,12 @@ TEST_F(SweepDesign, CombinesEveryValueWithEveryOther) {
   EXPECT_EQ(seen.size(), 6u);
 }
 
+TEST_F(SweepDesign, CountsCombinationsBeforeItMakesThem) {
+  EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.nu: {from: 0, to: 0.4, count: 10000}, "
+                                              "materials.soft.density: {from: 1, to: 2, count: 10000}}")),
+              AllOf(HasSubstr("s.yaml:3:"), HasSubstr("1e+08 points, the most is 1e+06")));
+}
+
 TEST_F(SweepDesign, ZipsValuesSideBySide) {
   const std::string head = kFigure + std::string("combine: zip\n");
   const auto all = points(head + "vary: {materials.soft.nu: [0, 0.1], materials.soft.density: [1, 2]}");
