@@ -1,6 +1,7 @@
 // `orthodyn sweep` as a user meets it: figures, failures, SIGKILL, several machines.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -225,6 +226,36 @@ TEST_F(SweepCommand, IsDoneByIndependentTasksAndJoined) {
         " sweep s.yaml --task 1/3 --jobs 1 --quiet; wait; }");
   EXPECT_EQ(sweep("--collect").exit_code, 0);
   EXPECT_EQ(figures(), whole);
+}
+
+TEST_F(SweepCommand, CollectListsAsManyPointsAsItCounts) {
+  write("s.yaml", kMany);
+  EXPECT_EQ(sweep("--task 1/8 --jobs 1").exit_code, 0);
+  const auto lines_in = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+  const auto missing = [&] {
+    const std::string said = sweep("--collect").output;
+    const auto head = said.find("points are missing:\n"), tail = said.find("the same command without");
+    return head == std::string::npos ? 0 : lines_in(said.substr(head, tail - head)) - 1;
+  };
+  EXPECT_EQ(sweep("--task 2/8 --jobs 1").exit_code, 0);
+  EXPECT_EQ(missing(), 18);
+  EXPECT_EQ(table().at("missing"), 18);
+  // A process that died has left a reason: the point is in the table, and not missing.
+  const std::string crashed = R"({"status": "failed", "reason": "crashed", "message": "ended by signal 9"})";
+  const std::string some = results().begin()->first;
+  std::ofstream(some) << crashed;
+  EXPECT_EQ(missing(), 18);
+  EXPECT_EQ(table().at("missing"), 18);
+  EXPECT_EQ(sweep("--quiet").exit_code, 0);
+  EXPECT_EQ(missing(), 0);
+  EXPECT_EQ(read_text(some).find("crashed"), std::string::npos);
+  EXPECT_EQ(table().at("missing"), 0);
+}
+
+TEST_F(SweepCommand, LeavesNoFolderForATaskThatCannotBe) {
+  write("s.yaml", kMany);
+  for (const char* task : {"0/3", "4/3", "1", "x"}) EXPECT_EQ(sweep(std::string("--task ") + task).exit_code, 2) << task;
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
 TEST_F(SweepCommand, PrintsAnArrayWithATaskForEveryShareOfThePoints) {
