@@ -270,6 +270,16 @@ TEST_F(SweepCommand, PrintsAnArrayWithATaskForEveryShareOfThePoints) {
   EXPECT_EQ(sweep("--collect").exit_code, 0);
 }
 
+TEST_F(SweepCommand, PrintsAnArrayForNamesWithBlanksAndPatterns) {
+  write("my 5% \"s\".yaml", std::string(kMany) + "limits: {memory: 1e9}\n");
+  const std::string script = orthodyn("sweep 'my 5% \"s\".yaml' --slurm").output;
+  EXPECT_NE(script.find(R"(--job-name="my 5% \"s\""
+)"), std::string::npos) << script;
+  EXPECT_NE(script.find(R"(out/sweeps/my 5%% \"s\".log"
+)"), std::string::npos) << script;
+  EXPECT_NE(script.find("#SBATCH --mem=1512M\n"), std::string::npos) << script;
+}
+
 TEST_F(SweepCommand, RefusesAFolderOfSomethingElse) {
   write("s.yaml", kMany);
   fs::create_directories(folder_ / "other");
