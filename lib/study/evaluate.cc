@@ -113,7 +113,8 @@ class Evaluation {
   void find_equilibrium(const Setup& setup, const std::vector<std::string>& names,
                         const std::vector<Quantity>& quantities) {
     const StaticProblem problem = static_problem(setup.scene, setup.built);
-    const Outcome outcome = run_static(*problem.stepper, {}, {false});
+    Deadline deadline(job_.seconds);
+    const Outcome outcome = run_static(*problem.stepper, {&deadline}, deadline.over);
     Statistics statistics = problem.solver->statistics();
     statistics.steps = problem.stepper->steps();
     statistics.rejected_steps = problem.stepper->rejected();

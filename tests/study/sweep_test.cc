@@ -171,6 +171,24 @@ limits: {seconds: 0.5}
   EXPECT_NE(read_text(folder_ / "out/sweeps/s/sweep.csv").find("long,,failed,time limit"), std::string::npos);
 }
 
+TEST_F(SweepCommand, LimitsTheTimeOfStaticPoints) {
+  write("still.yaml", R"(analysis: static
+mesh: {type: box, size: [1, 0.1, 0.1], cells: [10, 1, 1]}
+materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
+gravity: [0, 0, -0.1]
+clamps: [{surface: x0}]
+output: {probes: {tip: {at: [1, 0, 0]}}}
+)");
+  const std::string text = "scene: still.yaml\nvary: {materials.soft.nu: [0]}\n"
+                           "quantities: {sag: {quantity: tip.displacement.z}}\nlimits: {seconds: ";
+  write("s.yaml", text + "60}\n");
+  ASSERT_EQ(sweep().exit_code, 0);
+  EXPECT_EQ(table().at("points")[0].at("status"), "completed");
+  write("s.yaml", text + "1e-6}\n");
+  ASSERT_EQ(sweep().exit_code, 0);
+  EXPECT_EQ(table().at("points")[0].at("reason"), "time limit");
+}
+
 TEST_F(SweepCommand, DoesNotRepeatPointsOfAnEarlierOrSmallerSweep) {
   write("s.yaml", "scene: scene.yaml\nvary: {materials.soft.young: [1e5, 1e6]}\nquantities: {hertz: {mode: 1}}\n");
   sweep();
