@@ -129,6 +129,11 @@ double si_factor(const std::string& unit) {
   throw std::invalid_argument("the unit '" + unit + "' is not known");
 }
 
+void check_dimension(const std::string& unit, const std::string& si) {
+  si_factor(unit);
+  quantity_in("1 " + unit, si == "1" ? "" : si);
+}
+
 std::string dimension_text(const std::string& unit) {
   for (const auto& [known, word] : kDimensions)
     if (unit == known) return fmt::format("{} ({})", word, unit);

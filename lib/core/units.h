@@ -15,6 +15,9 @@ double quantity_in(const std::string& text, const std::string& unit);
 // not known.
 double si_factor(const std::string& unit);
 
+// Throws std::invalid_argument unless `unit` is known and measures what `si` does; "" is a plain number.
+void check_dimension(const std::string& unit, const std::string& si);
+
 // "stress or stiffness (Pa)"; the unit alone where there is no word for it.
 std::string dimension_text(const std::string& unit);
 

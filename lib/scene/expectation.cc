@@ -11,15 +11,35 @@ namespace {
 void check_expectation(const Expectation& e, const Config& config) {
   if (e.relative.has_value() == e.absolute.has_value()) config.fail("give exactly one of relative, absolute");
   if (e.relative && e.value == 0) config.at("relative").fail("means nothing for the value 0; give 'absolute'");
-  if (e.at && e.take != Take::end) config.at("at").fail("stands in place of 'take'; remove one of them");
-  const bool compares = e.take == Take::drift || e.take == Take::gain || e.take == Take::onset;
-  if (e.of && !compares) config.at("of").fail("goes with take: drift, gain or onset only");
-  if (!e.of && e.take == Take::onset) config.fail("take: onset needs 'of', the size that is passed");
+  check_take(e.take, e.at, e.of, config);
   if (e.source.empty()) config.at("source").fail("is empty; say where the value is known from");
   if (e.reason.empty()) config.at("reason").fail("is empty; say why this tolerance");
 }
 
 }  // namespace
+
+void check_take(Take take, const std::optional<double>& at, const std::optional<double>& of, const Config& config) {
+  if (at && take != Take::end) config.at("at").fail("stands in place of 'take'; remove one of them");
+  const bool compares = take == Take::drift || take == Take::gain || take == Take::onset;
+  if (of && !compares) config.at("of").fail("goes with take: drift, gain or onset only");
+  if (!of && take == Take::onset) config.fail("take: onset needs 'of', the size that is passed");
+}
+
+std::string figure_unit(Take take, const std::string& quantity_unit) {
+  switch (take) {
+    case Take::end:
+    case Take::max:
+    case Take::min:
+    case Take::mean: return quantity_unit;
+    case Take::time_of_max:
+    case Take::time_of_min:
+    case Take::onset: return "s";
+    case Take::frequency: return "Hz";
+    case Take::drift:
+    case Take::gain: break;
+  }
+  return "";
+}
 
 const Spec<Expectation>& Expectation::spec() {
   static const auto s =
@@ -28,16 +48,13 @@ const Spec<Expectation>& Expectation::spec() {
                "A probe's field and component (tip.displacement.z, or .magnitude) or a scalar of the whole body "
                "(energy.balance, momentum.angular.z, det_f.smallest).",
                {.required = true})
-          .key("take", &Expectation::take,
-               "Which figure of its course over time. drift is the largest change from the start, gain the largest "
-               "rise above it, both relative to `of`; default the initial size, for energy.balance the largest energy. "
-               "onset is the time at which its size first passes `of`.")
+          .key("take", &Expectation::take, kTakeSentence)
           .key("at", &Expectation::at, "The value at this time, in place of `take`.", {.unit = "s"})
           .key("value", &Expectation::value, "The expected figure, in SI units.", {.required = true})
           .key("source", &Expectation::source, "Where the value is known from.", {.required = true})
           .key("relative", &Expectation::relative, "Tolerance relative to the value.", {.range = kPositive})
           .key("absolute", &Expectation::absolute, "Tolerance in the quantity's unit.", {.range = kPositive})
-          .key("of", &Expectation::of, "What a drift or gain is relative to; the size that an onset passes.", {.range = kPositive})
+          .key("of", &Expectation::of, kOfSentence, {.range = kPositive})
           .key("reason", &Expectation::reason, "Why the tolerance is what it is.", {.required = true})
           .key("degraded", &Expectation::degraded,
                "Times the tolerance: what misses by less is called degraded, not failed, by `orthodyn stability`.",

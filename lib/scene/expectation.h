@@ -28,6 +28,19 @@ struct Words<Take> {
                                                                      {Take::onset, "onset"}}};
 };
 
+// What is wrong with a `take` beside the keys `at` and `of`, it says at `config`.
+void check_take(Take take, const std::optional<double>& at, const std::optional<double>& of, const Config& config);
+
+// The SI unit of a figure of a quantity that has the given one; "" for a plain number.
+std::string figure_unit(Take take, const std::string& quantity_unit);
+
+// What the key `take` means, for those who read the input.
+inline constexpr const char* kTakeSentence =
+    "Which figure of its course over time. drift is the largest change from the start, gain the largest rise above it, "
+    "both relative to `of`; default the initial size, for energy.balance the largest energy. onset is the time at which "
+    "its size first passes `of`.";
+inline constexpr const char* kOfSentence = "What a drift or gain is relative to; the size that an onset passes.";
+
 struct Expectation {
   std::string quantity;      // "tip.displacement.z", "energy.balance", "momentum.angular.magnitude"
   Take take = Take::end;

@@ -12,14 +12,16 @@ class Deadline : public Observer {
  public:
   explicit Deadline(double seconds)
       : end_(Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
-  void on_step(const StepInfo&, const State&, const Integrator&) override {
-    if (Clock::now() > end_) over = true;
-  }
+  void on_step(const StepInfo&, const State&, const Integrator&) override { look(); }
+  void on_output(const State&) override { look(); }  // the steps of a static analysis
 
   std::atomic<bool> over{false};
 
  private:
   using Clock = std::chrono::steady_clock;
+  void look() {
+    if (Clock::now() > end_) over = true;
+  }
   Clock::time_point end_;
 };
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <fstream>
 
-#include "lib/run/modes.h"
 #include "lib/run/run.h"
 #include "lib/run/statics.h"
 #include "lib/run/vtu.h"
@@ -17,14 +16,13 @@
 #include "lib/study/machine.h"
 #include "lib/study/measure.h"
 #include "lib/study/snapshot.h"
+#include "lib/study/wanted_modes.h"
 
 namespace orthodyn {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr int kModesAlong = 20;  // among which that of the largest effective mass is looked for
 
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(); }
 
@@ -79,32 +77,16 @@ class Evaluation {
       };
       if (!wants(concerns)) continue;
       const State about{still.time.end, about_equilibrium ? equilibrium(still, built) : zero, zero};
-      const Modes modes = enough_modes(*built.model, about, about_equilibrium);
+      std::vector<std::string> names;
+      std::vector<WantedFigure> wanted;
       for (const auto& [name, f] : job_.figures)
-        if (concerns(f)) keep(name, frequency_of(f, modes), "Hz");
+        if (concerns(f)) names.push_back(name), wanted.push_back(f);
+      const auto frequencies = wanted_frequencies(wanted, *built.model, about);
+      for (std::size_t k = 0; k < names.size(); ++k) keep(names[k], frequencies[k], wanted[k].unit_of(""));
     }
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
     result_["cost"] = {{"cpu_seconds", cpu_seconds_now() - cpu}, {"wall_seconds", wall.count()},
                        {"peak_memory", peak_memory()}};
-  }
-
-  Modes enough_modes(const FemModel& model, const State& about, bool about_equilibrium) const {
-    int count = 1;
-    for (const auto& [name, f] : job_.figures)
-      if (!f.is_of_motion() && f.about_equilibrium == about_equilibrium)
-        count = std::max(count, f.along ? std::min(kModesAlong, model.num_dofs()) : f.mode.value_or(1));
-    Modes modes = natural_modes(model, about, count);
-    if (modes.zeros == 0) return modes;
-    return natural_modes(model, about, std::min(count + modes.zeros, model.num_dofs()));
-  }
-
-  static double frequency_of(const WantedFigure& f, const Modes& modes) {
-    const auto first = modes.modes.begin() + std::min<std::ptrdiff_t>(modes.zeros, std::ssize(modes.modes));
-    if (f.mode) return modes.modes.end() - first < *f.mode ? std::nan("") : first[*f.mode - 1].frequency();
-    const auto axis = static_cast<Eigen::Index>(*f.along);
-    const auto less = [&](const Mode& a, const Mode& b) { return a.effective_mass()[axis] < b.effective_mass()[axis]; };
-    const auto found = std::max_element(first, modes.modes.end(), less);
-    return found == modes.modes.end() ? std::nan("") : found->frequency();
   }
 
   void follow_motion() {
@@ -125,19 +107,14 @@ class Evaluation {
     else integrate(setup, names, wanted, quantities);
     if (result_.at("status") != "completed") return;
     for (const auto& [name, f] : job_.figures)
-      if (!f.cost.empty()) keep(name, result_.at("cost").at(f.cost).get<double>(), unit_of_cost(f.cost));
-  }
-
-  static std::string unit_of_cost(const std::string& cost) {
-    for (const auto& [name, unit] : cost_names())
-      if (name == cost) return unit;
-    return "";
+      if (!f.cost.empty()) keep(name, result_.at("cost").at(f.cost).get<double>(), f.unit_of(""));
   }
 
   void find_equilibrium(const Setup& setup, const std::vector<std::string>& names,
                         const std::vector<Quantity>& quantities) {
     const StaticProblem problem = static_problem(setup.scene, setup.built);
-    const Outcome outcome = run_static(*problem.stepper, {}, {false});
+    Deadline deadline(job_.seconds);
+    const Outcome outcome = run_static(*problem.stepper, {&deadline}, deadline.over);
     Statistics statistics = problem.solver->statistics();
     statistics.steps = problem.stepper->steps();
     statistics.rejected_steps = problem.stepper->rejected();
@@ -160,11 +137,9 @@ class Evaluation {
     if (!conclude(outcome, setup.integrator->statistics())) return;
     for (std::size_t q = 0; q < names.size(); ++q) {
       const WantedFigure& f = figure_named(names[q]);
-      const bool of_time = f.settled_within || f.take == Take::time_of_max || f.take == Take::time_of_min;
-      const std::string unit = f.take == Take::frequency ? "Hz" : f.take == Take::drift ? "" : quantities[q].unit;
       keep(names[q],
            f.settled_within ? settling_time(recorder.series(q), *f.settled_within) : figure(wanted[q], recorder, q),
-           of_time ? "s" : unit);
+           f.unit_of(quantities[q].unit));
     }
     draw(*setup.built.model, frame.state());
   }

@@ -32,7 +32,7 @@ double figure(const Expectation& e, const SeriesRecorder& recorder, std::size_t 
     case Take::frequency: return frequency(series);
     case Take::drift: return drift(series) / reference_size(e, recorder, q);
     case Take::gain: return gain(series) / reference_size(e, recorder, q);
-    case Take::onset: return onset(series, *e.of);
+    case Take::onset: return e.of ? onset(series, *e.of) : std::nan("");
   }
   return 0;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 
 #include "lib/core/formula.h"
@@ -19,6 +20,18 @@ class NamedFormula : public Formula {
 bool is_of_a_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 }  // namespace
+
+bool is_identifier(const std::string& name) {
+  if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front()))) return false;
+  return std::all_of(name.begin(), name.end(), is_of_a_name);
+}
+
+void check_formula_name(const std::string& name, const Config& at) {
+  if (!is_identifier(name))
+    at.fail("the name '" + name + "' is none for formulas: it consists of letters, digits and '_', no digit first");
+  if (name == "e" || name == "pi")
+    at.fail("the name '" + name + "' is a constant of formulas; give another (a varied key has 'name' for that)");
+}
 
 void FormulaScope::add(const std::string& name, double value) {
   names_.push_back(name);

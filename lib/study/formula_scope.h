@@ -8,6 +8,12 @@
 
 namespace orthodyn {
 
+// Letters, digits and '_', no digit first.
+bool is_identifier(const std::string& name);
+
+// Throws ConfigError at `at` unless formulas can use the name: an identifier, not one of the constants e and pi.
+void check_formula_name(const std::string& name, const Config& at);
+
 class FormulaScope {
  public:
   void add(const std::string& name, double value);

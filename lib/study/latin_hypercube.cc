@@ -1,5 +1,8 @@
 #include "lib/study/latin_hypercube.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <random>
 #include <utility>
@@ -13,6 +16,10 @@ double uniform(std::mt19937_64& random) { return static_cast<double>(random() >>
 
 }  // namespace
 
+double share_in(std::size_t stratum, double u, std::size_t strata) {
+  return std::min((static_cast<double>(stratum) + u) / static_cast<double>(strata), std::nextafter(1.0, 0.0));
+}
+
 std::vector<std::vector<double>> latin_hypercube(int points, int dimensions, long seed) {
   const auto n = static_cast<std::size_t>(points), d = static_cast<std::size_t>(dimensions);
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
@@ -22,8 +29,7 @@ std::vector<std::vector<double>> latin_hypercube(int points, int dimensions, lon
     std::iota(strata.begin(), strata.end(), 0u);
     for (std::size_t i = n; i > 1; --i)
       std::swap(strata[i - 1], strata[static_cast<std::size_t>(uniform(random) * static_cast<double>(i))]);
-    for (std::size_t i = 0; i < n; ++i)
-      out[i][k] = (static_cast<double>(strata[i]) + uniform(random)) / static_cast<double>(n);
+    for (std::size_t i = 0; i < n; ++i) out[i][k] = share_in(strata[i], uniform(random), n);
   }
   return out;
 }

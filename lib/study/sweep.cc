@@ -1,7 +1,13 @@
 #include "lib/study/sweep.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
+
+#include "lib/core/units.h"
+#include "lib/study/formula_scope.h"
 
 namespace orthodyn {
 
@@ -23,8 +29,8 @@ void check_figure(const WantedFigure& f, const Config& config) {
   const int kinds = !f.quantity.empty() + (f.mode.has_value() || f.along.has_value()) + !f.cost.empty();
   if (kinds != 1) config.fail("give exactly one of: quantity, mode (or along), cost");
   if (f.mode && f.along) config.at("along").fail("finds a mode by itself; remove 'mode' or 'along'");
-  if (f.at && f.take != Take::end) config.at("at").fail("stands in place of 'take'; remove one of them");
-  if (f.of && f.take != Take::drift) config.at("of").fail("goes with take: drift only");
+  check_take(f.take, f.at, f.of, config);
+  if (f.quantity.empty()) f.check_unit("");
   if (f.settled_within && (f.at || f.take != Take::end))
     config.at("settled_within").fail("stands in place of 'take' and 'at'; remove them");
   const auto& costs = cost_names();
@@ -59,6 +65,16 @@ void check_plots(const Sweep& s, const Config& config) {
   }
 }
 
+constexpr double kMostPoints = 1e6;
+
+void check_number_of_points(const Sweep& s, const Config& config) {
+  double points = 1;
+  for (const auto& v : s.vary) points *= static_cast<double>(v.values.size());
+  if (s.combine == Combine::cartesian && points > kMostPoints)
+    config.at("vary").fail(fmt::format("every combination makes {:.3g} points, the most is {:.0g}; give fewer values, or "
+                                       "combine: latin_hypercube with 'samples'", points, kMostPoints));
+}
+
 void check_sweep(const Sweep& s, const Config& config) {
   if (s.quantities.empty()) config.at("quantities").fail("is empty; name at least one figure");
   for (const auto& v : s.vary) {
@@ -72,6 +88,8 @@ void check_sweep(const Sweep& s, const Config& config) {
       v.origin.fail(fmt::format("combine: zip takes values side by side: '{}' has {}, '{}' {}", v.name, v.values.size(),
                                 s.vary.front().name, s.vary.front().values.size()));
   }
+  for (const auto& [name, value] : s.definitions) check_formula_name(name, config.at("definitions").at(name));
+  check_number_of_points(s, config);
   check_plots(s, config);
 }
 
@@ -83,6 +101,24 @@ const std::vector<std::pair<std::string, std::string>>& cost_names() {
       {"newton_iterations", ""}, {"forces", ""},     {"tangents", ""},       {"factorizations", ""},
       {"solves", ""},         {"peak_memory", "bytes"}};
   return all;
+}
+
+std::string WantedFigure::unit_of(const std::string& quantity_unit) const {
+  if (mode || along) return "Hz";
+  if (settled_within) return "s";
+  if (cost.empty()) return figure_unit(take, quantity_unit);
+  for (const auto& [name, si] : cost_names())
+    if (name == cost) return si;
+  return "";
+}
+
+void WantedFigure::check_unit(const std::string& quantity_unit) const {
+  if (unit.empty()) return;
+  try {
+    check_dimension(unit, unit_of(quantity_unit));
+  } catch (const std::invalid_argument& e) {
+    origin.fail("unit: '" + unit + "': " + e.what());
+  }
 }
 
 const Spec<NumberRange>& NumberRange::spec() {
@@ -113,9 +149,9 @@ const Spec<WantedFigure>& WantedFigure::spec() {
           .key("quantity", &WantedFigure::quantity,
                "A probe's field and component (tip.displacement.z) or a scalar of the whole body (energy.elastic), as "
                "in `expect` of a scene.")
-          .key("take", &WantedFigure::take, "Which figure of its course over time.")
+          .key("take", &WantedFigure::take, kTakeSentence)
           .key("at", &WantedFigure::at, "The value at this time, in place of `take`.", {.unit = "s"})
-          .key("of", &WantedFigure::of, "What a drift is relative to.", {.range = kPositive})
+          .key("of", &WantedFigure::of, kOfSentence, {.range = kPositive})
           .key(
               "settled_within", &WantedFigure::settled_within,
               "In place of `take`: the time after which the quantity stays within this fraction of its range about its "
@@ -180,7 +216,7 @@ const Spec<Sweep>& Sweep::spec() {
           .key("combine", &Sweep::combine,
                "cartesian: every combination. zip: first with first, second with second. latin_hypercube: `samples` "
                "points, each value's range in as many strata.")
-          .key("samples", &Sweep::samples, "Points of a Latin hypercube.", {.range = {1, 1e6}})
+          .key("samples", &Sweep::samples, "Points of a Latin hypercube.", {.range = {1, kMostPoints}})
           .key("seed", &Sweep::seed, "Of a Latin hypercube.")
           .key("quantities", &Sweep::quantities, "What is wanted of every point, by name.", {.required = true})
           .key("plots", &Sweep::plots, "Figures of the report; default by the number of variables.")

@@ -68,6 +68,19 @@ struct Variable {
   VariedValue at(double number) const;
 };
 
+// A number or a formula with a name, as YAML.
+struct Definition {
+  std::string text;
+  Origin origin;
+};
+
+template <>
+struct Value<Definition> {
+  static Shape shape() { return Value<YamlText>::shape(); }
+  static Definition read(const Config& c, const Rule&) { return {c.yaml(), {c.where()}}; }
+  static std::string yaml(const Definition&) { return ""; }
+};
+
 // One figure of a point. Exactly one of: quantity, mode, cost.
 struct WantedFigure {
   std::string quantity;
@@ -83,6 +96,10 @@ struct WantedFigure {
   static const Spec<WantedFigure>& spec();
 
   bool is_of_motion() const { return !quantity.empty() || !cost.empty(); }
+  // Its SI unit, where its quantity has the given one; "" for a plain number.
+  std::string unit_of(const std::string& quantity_unit) const;
+  // Throws ConfigError if it cannot be shown in `unit`.
+  void check_unit(const std::string& quantity_unit) const;
 };
 
 // A picture of each point.
@@ -107,7 +124,7 @@ struct Sweep {
   std::string name;  // the file's stem
   std::string title, description;
   SceneEntry scene;
-  Named<YamlText> definitions;
+  Named<Definition> definitions;
   Combine combine = Combine::cartesian;
   int samples = 50;
   long seed = 1;

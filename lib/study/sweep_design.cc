@@ -138,12 +138,13 @@ class Expansion {
   FormulaScope scope_of(const Values& values) const {
     FormulaScope scope;
     for (std::size_t k = 0; k < values.size(); ++k)
-      if (values[k].number) scope.add(sweep_.vary[k].name, sweep_.vary[k].si(*values[k].number));
+      if (values[k].number && is_identifier(sweep_.vary[k].name))
+        scope.add(sweep_.vary[k].name, sweep_.vary[k].si(*values[k].number));
     for (std::size_t k = 0; k < values.size(); ++k)
       for (const auto& [name, value] : values[k].let)
         scope.add(name, scope.evaluate(unquoted(value.text), sweep_.vary[k].origin.where));
     for (const auto& [name, value] : sweep_.definitions)
-      scope.add(name, scope.evaluate(unquoted(value.text), sweep_.origin.where + ".definitions." + name));
+      scope.add(name, scope.evaluate(unquoted(value.text), value.origin.where));
     return scope;
   }
 
@@ -172,6 +173,7 @@ class Expansion {
     for (const auto& [name, f] : sweep_.quantities) {
       if (f.quantity.empty()) continue;
       const Quantity q = find_quantity(f.quantity, scene, *built.model, f.origin);
+      f.check_unit(q.unit);
       if (q.components == 3 && f.take != Take::drift)
         f.origin.fail(fmt::format("'{}' is a vector: choose .x, .y, .z or .magnitude", f.quantity));
       if (scene.analysis == Analysis::statical && (f.at || f.take != Take::end || f.settled_within || !q.values))

@@ -1,10 +1,12 @@
 #include "lib/study/sweep_table.h"
 
 #include <cmath>
+#include <utility>
 
 #include "lib/core/units.h"
 #include "lib/study/csv_cell.h"
 #include "lib/study/machine.h"
+#include "lib/study/measure.h"
 
 namespace orthodyn {
 
@@ -50,12 +52,11 @@ Json frames_json(const Sweep& sweep) {
           {"enlarged", f.enlarged}, {"most", f.most}, {"ghost", f.ghost}};
 }
 
-Json result_of(const SweepPoint& point, const Errand& errand) {
+Json result_of(const SweepPoint& point, const Errand& errand, const PointResults& results) {
   if (!point.impossible.empty())
     return {{"status", "failed"}, {"reason", "impossible"}, {"message", point.impossible}};
-  Json result = finished(errand.folder);
-  if (result.is_null()) result = read_json(errand.folder / "result.json");  // of a process that died
-  return result.is_object() ? result : Json{{"status", "missing"}};
+  const auto found = results.find(errand.folder);
+  return found == results.end() ? Json{{"status", "missing"}} : found->second;
 }
 
 Json point_json(const Sweep& sweep, const SweepPoint& point, const Errand& errand, const Json& result) {
@@ -78,12 +79,22 @@ Json point_json(const Sweep& sweep, const SweepPoint& point, const Errand& erran
 
 }  // namespace
 
+PointResults results_of(const std::vector<Errand>& errands) {
+  PointResults all;
+  for (const auto& errand : errands) {
+    if (errand.command.empty() || all.contains(errand.folder)) continue;
+    if (Json result = read_json(errand.folder / kResultFile); result.is_object())
+      all.emplace(errand.folder, std::move(result));
+  }
+  return all;
+}
+
 Json sweep_json(const Sweep& sweep, const std::vector<SweepPoint>& points, const std::vector<Errand>& errands,
-                const std::string& file) {
+                const PointResults& results, const std::string& file) {
   Json rows = Json::array(), units = Json::object();
   std::size_t missing = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Json result = result_of(points[i], errands[i]);
+    const Json result = result_of(points[i], errands[i], results);
     if (result.contains("units")) units.update(result.at("units"));
     missing += result.at("status") == "missing";
     rows.push_back(point_json(sweep, points[i], errands[i], result));

@@ -1,14 +1,25 @@
 // All that a sweep has found, as JSON for the report and as a table with a row a point.
 #pragma once
 
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
 #include "lib/study/errand.h"
 #include "lib/study/sweep_design.h"
 
 namespace orthodyn {
 
-// Results are looked up on the disk; a point without one is "missing". `file` is the sweep's.
+// By folder of the errand.
+using PointResults = std::map<std::filesystem::path, Json>;
+
+// Those that are on the disk, of processes that died as well.
+PointResults results_of(const std::vector<Errand>& errands);
+
+// A point that has no result, and can have one, is "missing". `file` is the sweep's.
 Json sweep_json(const Sweep& sweep, const std::vector<SweepPoint>& points, const std::vector<Errand>& errands,
-                const std::string& file);
+                const PointResults& results, const std::string& file);
 
 // Of sweep_json().
 std::string sweep_csv(const Json& table);

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <set>
 
+#include "lib/core/parse_number.h"
 #include "lib/core/units.h"
 #include "lib/scene/scene.h"
+#include "lib/study/formula_scope.h"
 #include "lib/study/sweep.h"
 
 namespace orthodyn {
@@ -17,11 +19,6 @@ bool is_path(const std::string& key) {
   if (key.find('.') != std::string::npos) return true;
   const auto& keys = Scene::spec().keys();
   return std::any_of(keys.begin(), keys.end(), [&](const Key& k) { return k.name == key; });
-}
-
-bool is_identifier(const std::string& name) {
-  if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front()))) return false;
-  return std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
 }
 
 std::string last_step(const std::string& path) { return path.substr(path.rfind('.') + 1); }
@@ -47,12 +44,18 @@ void check_unit(const std::string& unit, const Config& at) {
   }
 }
 
+void take_name(const std::string& name, const Config& c, Variable& v) {
+  if (name.empty()) return;
+  check_formula_name(name, c.at("name"));
+  v.name = name;
+}
+
 void read_range(const Config& c, Variable& v) {
   const NumberRange r = NumberRange::spec().read(c);
   check_unit(r.unit, c);
   v.unit = r.unit;
   v.scale = r.scale;
-  if (!r.name.empty()) v.name = r.name;
+  take_name(r.name, c, v);
   v.range = r;
   for (const double x : divided(r)) v.values.push_back(v.at(x));
 }
@@ -80,7 +83,7 @@ void read_sets(const Config& c, Variable& v) {
     VariedValue value{label, {}, {}, {}};
     for (const auto& key : set.keys()) {
       auto& list = is_path(key) ? value.set : value.let;
-      if (!is_path(key) && !is_identifier(key)) set.at(key).fail("is neither a key of a scene nor a name for formulas");
+      if (!is_path(key)) check_formula_name(key, set.at(key));
       list.emplace_back(key, YamlText{set.at(key).yaml()});
     }
     v.values.push_back(std::move(value));
@@ -88,16 +91,17 @@ void read_sets(const Config& c, Variable& v) {
 }
 
 void refuse_repeated_values(const Variable& v, const Config& c) {
-  std::set<std::string> seen;
+  std::set<double> numbers;
+  std::set<std::string> others;
   for (const auto& value : v.values)
-    if (!seen.insert(value.label).second) c.fail("has the value " + value.label + " twice");
+    if (!(value.number ? numbers.insert(*value.number).second : others.insert(value.label).second))
+      c.fail("has the value " + value.label + " twice");
 }
 
 Variable read_variable(const std::string& key, const Config& c) {
   Variable v;
   v.path = is_path(key) ? key : "";
   v.name = v.path.empty() ? key : last_step(key);
-  if (v.path.empty() && !is_identifier(key)) c.fail("a name consists of letters, digits and '_'");
   v.origin.where = c.where();
   if (c.is_sequence()) {
     read_list(c, v);
@@ -107,7 +111,7 @@ Variable read_variable(const std::string& key, const Config& c) {
     const ValueList list = ValueList::spec().read(c);
     check_unit(list.unit, c);
     v.unit = list.unit;
-    if (!list.name.empty()) v.name = list.name;
+    take_name(list.name, c, v);
     read_list(c.at("values"), v);
   } else if (c.is_map()) {
     read_sets(c, v);
@@ -116,6 +120,8 @@ Variable read_variable(const std::string& key, const Config& c) {
     c.fail("expected a list, {from, to, count}, {values} or named sets of keys, found " + c.shown());
   }
   if (!v.range && v.values.empty()) c.fail("is empty; list the values");
+  // The last step of a path may be a number, as of an entry of a list: then formulas do not see it.
+  if (v.path.empty() || is_identifier(v.name)) check_formula_name(v.name, c);
   refuse_repeated_values(v, c);
   return v;
 }
@@ -129,7 +135,7 @@ bool Variable::numeric() const {
 double Variable::si(double number) const { return unit.empty() ? number : number * si_factor(unit); }
 
 VariedValue Variable::at(double x) const {
-  VariedValue value{fmt::format("{:.6g}", x), x, {}, {}};
+  VariedValue value{number_text(x), x, {}, {}};
   if (!path.empty()) value.set.emplace_back(path, with_unit(x, unit));
   return value;
 }
@@ -139,7 +145,9 @@ double range_at(const NumberRange& r, double share) {
   if (share == 1) return r.to;
   const double x = r.scale == Scale::log ? r.from * std::pow(r.to / r.from, share) : r.from + (r.to - r.from) * share;
   // Ends and their simple fractions stay what they look like: 0.3, not 0.30000000000000004.
-  return std::stod(fmt::format("{:.12g}", x));
+  double simple = x;
+  parse_number(fmt::format("{:.12g}", x), simple);
+  return simple;
 }
 
 std::vector<Variable> Value<std::vector<Variable>>::read(const Config& c, const Rule&) {

@@ -46,6 +46,15 @@ class ThePlan(OfASweep):
         levels = {"angle": ANGLES, "nu": [0.1, 0.2], "mesh": ["coarse", "fine"]}
         self.assertEqual(self.roles(sweep(levels)), [("angle", "mesh", {"nu": 0.1}), ("angle", "mesh", {"nu": 0.2})])
 
+    def test_the_page_says_what_it_leaves_out(self):
+        levels = {"angle": ANGLES, "mesh": ["coarse", "fine"], "nu": [0.1, 0.2, 0.3], "k": [1.0, 2.0, 3.0, 4.0]}
+        content = sweep(levels)
+        self.assertEqual(len(self.roles(content)), 8)
+        text, _ = self.page_of(content)
+        self.assertIn("Of deflection the first 8 of 12 combinations of nu and k are drawn", text)
+        text, _ = self.page_of(sweep({"angle": ANGLES, "mesh": ["coarse", "fine"]}))
+        self.assertNotIn("combinations of", text)
+
     def test_two_numbers_are_a_map_too(self):
         content, found = self.planned(sweep({"a": ANGLES, "b": [1.0, 2.0, 3.0, 4.0]}))
         self.assertTrue(has_map(found[0], content))

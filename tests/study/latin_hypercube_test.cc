@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <set>
 
 namespace orthodyn {
@@ -23,6 +25,22 @@ TEST(LatinHypercube, HasOnePointInEveryStratumOfEveryDimension) {
 TEST(LatinHypercube, IsTheSameForASeedAndAnotherForAnother) {
   EXPECT_EQ(latin_hypercube(20, 3, 1), latin_hypercube(20, 3, 1));
   EXPECT_NE(latin_hypercube(20, 3, 1), latin_hypercube(20, 3, 2));
+}
+
+// The standard ([rand.predef]) says what the 10000th number of the default seed, 5489, is; of one point each dimension
+// takes one.
+TEST(LatinHypercube, DrawsFromTheGeneratorOfTheStandard) {
+  const auto points = latin_hypercube(1, 10000, 5489);
+  EXPECT_EQ(points[0][9999], static_cast<double>(std::uint64_t{9981545732273789042u} >> 11) * 0x1p-53);
+}
+
+TEST(LatinHypercube, StaysBelowOneAtTheEndOfTheLastStratum) {
+  const double u = std::nextafter(1.0, 0.0);
+  for (const std::size_t n : {1u, 2u, 3u, 7u, 50u, 1000000u}) {
+    EXPECT_LT(share_in(n - 1, u, n), 1) << n;
+    EXPECT_GE(share_in(n - 1, u, n) * static_cast<double>(n), static_cast<double>(n - 1)) << n;
+    EXPECT_EQ(share_in(0, 0, n), 0) << n;
+  }
 }
 
 }  // namespace

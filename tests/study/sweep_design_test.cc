@@ -51,6 +51,15 @@ TEST_F(SweepDesign, DividesRangesEvenlyByDifferenceOrByRatio) {
     EXPECT_NEAR(value(log[i], "materials.soft.young"), std::pow(10, 3 + i), 1e-9 * std::pow(10, 3 + i));
 }
 
+TEST_F(SweepDesign, TellsNumbersApartHoweverClose) {
+  const auto all = points(kFigure + std::string("vary: {materials.soft.density: {from: 999, to: 1001, count: 501}}"));
+  ASSERT_EQ(all.size(), 501u);
+  EXPECT_EQ(all[249].title, "density 999.996");
+  EXPECT_EQ(all[251].title, "density 1000.004");
+  EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.density: [1000, 1e3]}")),
+              HasSubstr("has the value 1000 twice"));
+}
+
 TEST_F(SweepDesign, CombinesEveryValueWithEveryOther) {
   const auto all =
       points(kFigure + std::string("vary: {materials.soft.nu: [0, 0.1, 0.2], materials.soft.density: [1, 2]}"));
@@ -58,6 +67,12 @@ TEST_F(SweepDesign, CombinesEveryValueWithEveryOther) {
   for (const auto& p : all) seen.emplace(value(p, "materials.soft.nu"), value(p, "materials.soft.density"));
   EXPECT_EQ(all.size(), 6u);
   EXPECT_EQ(seen.size(), 6u);
+}
+
+TEST_F(SweepDesign, CountsCombinationsBeforeItMakesThem) {
+  EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.nu: {from: 0, to: 0.4, count: 10000}, "
+                                              "materials.soft.density: {from: 1, to: 2, count: 10000}}")),
+              AllOf(HasSubstr("s.yaml:3:"), HasSubstr("1e+08 points, the most is 1e+06")));
 }
 
 TEST_F(SweepDesign, ZipsValuesSideBySide) {
@@ -111,6 +126,24 @@ quantities: {f: {mode: 1, closed_form: twice + rho}}
   EXPECT_EQ(all[5].title, "stiffer 100, body light, push [0, 0, 0], E 2 kPa");
 }
 
+TEST_F(SweepDesign, GivesFormulasOnlyNamesThatTheyCanHave) {
+  const std::string rest = "quantities: {f: {mode: 1, closed_form: 2*E}}\ndefinitions: {E: 5}\n";
+  EXPECT_EQ(points("vary: {gravity.2: [-1, -2]}\n" + rest).at(1).closed_forms[0], 10);
+  const auto refused = [&](const std::string& vary, const std::string& why) {
+    EXPECT_THAT(complaint("vary: {" + vary + "}\n" + rest), AllOf(HasSubstr("s.yaml:2:"), HasSubstr(why))) << vary;
+  };
+  refused("gravity.2: {values: [1], name: 2g}", "the name '2g'");
+  refused("gravity.2: {from: 1, to: 2, count: 2, name: my g}", "the name 'my g'");
+  refused("gravity.2: {values: [1], name: e}", "'e' is a constant");
+  refused("pi: [3, 4]", "'pi' is a constant");
+  refused("kind: {a: {e: 1}, b: {e: 2}}", "'e' is a constant");
+  const std::string vary = "vary: {materials.soft.nu: [0, 0.1]}\n";
+  EXPECT_THAT(complaint(vary + kFigure + "definitions:\n  a: 1\n  pi: 3\n"),
+              AllOf(HasSubstr("s.yaml:6:"), HasSubstr("'pi' is a constant")));
+  EXPECT_THAT(complaint(vary + kFigure + "definitions:\n  a: 1\n  b: 2*c\n"),
+              AllOf(HasSubstr("s.yaml:6:"), HasSubstr("cannot read the formula '2*c'")));
+}
+
 TEST_F(SweepDesign, SaysWhereSomethingIsWrongBeforeAnythingRuns) {
   const std::string vary = "vary: {materials.soft.nu: [0, 0.1]}\n";
   EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.mu: [0, 0.1]}\n")),
@@ -123,10 +156,37 @@ TEST_F(SweepDesign, SaysWhereSomethingIsWrongBeforeAnythingRuns) {
               HasSubstr("cannot read the formula '2*E'"));
   EXPECT_THAT(complaint(vary + "quantities: {f: {mode: 1, cost: steps}}"), HasSubstr("exactly one of"));
   EXPECT_THAT(complaint(vary + "quantities: {f: {cost: stesp}}"), HasSubstr("did you mean 'steps'?"));
+  EXPECT_THAT(complaint(vary + "quantities: {f: {quantity: tip.displacement.z, take: onset}}"),
+              AllOf(HasSubstr("s.yaml:3:"), HasSubstr("onset needs 'of'")));
+  EXPECT_THAT(complaint(vary + "quantities: {f: {quantity: tip.displacement.z, take: max, of: 1}}"),
+              HasSubstr("goes with take: drift, gain or onset only"));
   EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.nu: {from: 0, to: 1}}")),
               HasSubstr("'count' is missing"));
   EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.young: {values: [2], unit: GPas}}")),
               HasSubstr("the unit 'GPas' is not known"));
+}
+
+TEST_F(SweepDesign, ShowsAFigureOnlyInAUnitOfItsDimension) {
+  const std::string head = "vary: {materials.soft.nu: [0, 0.1]}\n";
+  const auto refused = [&](const std::string& figure, const std::string& why) {
+    EXPECT_THAT(complaint(head + "quantities: {f: {" + figure + "}}"),
+                AllOf(HasSubstr("s.yaml:3:"), HasSubstr("unit"), HasSubstr(why)))
+        << figure;
+  };
+  refused("quantity: tip.displacement.z, unit: bananas", "'bananas' is not known");
+  refused("mode: 1, unit: bananas", "'bananas' is not known");
+  refused("quantity: tip.displacement.z, unit: GPa", "expected a length (m)");
+  refused("quantity: tip.displacement.z, take: time_of_max, unit: mm", "expected a time (s)");
+  refused("quantity: tip.displacement.z, take: onset, of: 1, unit: mm", "expected a time (s)");
+  refused("quantity: tip.displacement.z, settled_within: 0.1, unit: mm", "expected a time (s)");
+  refused("quantity: tip.displacement.z, take: gain, unit: mm", "expected a plain number");
+  refused("mode: 1, unit: ms", "expected a frequency (Hz)");
+  refused("cost: cpu_seconds, unit: kHz", "expected a time (s)");
+  refused("cost: steps, unit: s", "expected a plain number");
+  EXPECT_EQ(complaint(head + "quantities: {a: {mode: 1, unit: kHz}, b: {cost: cpu_seconds, unit: ms}, "
+                             "c: {quantity: tip.displacement.z, unit: mm}, "
+                             "d: {quantity: tip.displacement.z, take: frequency, unit: kHz}}"),
+            "");
 }
 
 TEST_F(SweepDesign, KeepsImpossiblePointsOnlyWhereThatIsAskedFor) {

@@ -1,8 +1,12 @@
 // `orthodyn sweep` as a user meets it: figures, failures, SIGKILL, several machines.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "lib/scene/expectation.h"
 #include "tests/run/command.h"
 
 namespace orthodyn {
@@ -89,12 +93,64 @@ quantities:
   }
 }
 
+TEST_F(SweepCommand, KnowsEveryTakeWithItsUnit) {
+  const std::map<std::string, std::string> others{{"time_of_max", "s"}, {"time_of_min", "s"}, {"onset", "s"},
+                                                  {"frequency", "Hz"},  {"drift", ""},        {"gain", ""}};
+  std::string text = "scene: {file: scene.yaml, set: {damping.mass: 10}}\nvary: {materials.soft.nu: [0]}\nquantities:\n";
+  for (const auto& [take, word] : Words<Take>::list) {
+    const bool compares = take == Take::drift || take == Take::gain || take == Take::onset;
+    text += fmt::format("  {}: {{quantity: node.displacement.x, take: {}{}}}\n", word, word,
+                        compares ? ", of: 1e-5" : "");
+  }
+  write("s.yaml", text);
+  const auto done = sweep();
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  const Json figures = table().at("points")[0].at("figures");
+  ASSERT_EQ(table().at("figures").size(), Words<Take>::list.size());
+  for (const Json& f : table().at("figures")) {
+    const std::string name = f.at("name");
+    EXPECT_TRUE(figures.at(name).is_number()) << name;
+    EXPECT_EQ(f.at("unit"), others.contains(name) ? others.at(name) : "m") << name;
+  }
+  // From rest the largest change and the largest rise are the maximum, which is reached after `of` is passed.
+  const double most = figures.at("max");
+  ASSERT_GT(most, 1e-5);
+  EXPECT_DOUBLE_EQ(figures.at("drift").get<double>(), most / 1e-5);
+  EXPECT_DOUBLE_EQ(figures.at("gain").get<double>(), most / 1e-5);
+  EXPECT_GT(figures.at("onset").get<double>(), 0);
+  EXPECT_LT(figures.at("onset").get<double>(), figures.at("time_of_max").get<double>());
+}
+
 TEST_F(SweepCommand, IntegratesNothingWhereOnlyFrequenciesAreAskedFor) {
   write("s.yaml",
         "scene: scene.yaml\nvary: {time.end: [1e9]}\nquantities: {hertz: {mode: 1}}\nlimits: {seconds: 10}\n");
   ASSERT_EQ(sweep().exit_code, 0);
   EXPECT_EQ(table().at("points")[0].at("status"), "completed");
   EXPECT_FALSE(table().at("points")[0].at("cost").contains("steps"));
+}
+
+TEST_F(SweepCommand, AnswersEachModeAloneAsAmongOthers) {
+  write("free.yaml", R"(mesh: {type: box, size: [1, 0.2, 0.2], cells: [2, 1, 1]}
+materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
+time: {end: 0.1}
+integrator: {type: cvode_bdf}
+)");
+  const std::string head = "scene: free.yaml\nvary: {materials.soft.nu: [0.3]}\nquantities: ";
+  const auto figures_of = [&](const std::string& quantities) {
+    write("s.yaml", head + quantities + "\n");
+    const auto done = sweep();
+    EXPECT_EQ(done.exit_code, 0) << done.output;
+    EXPECT_EQ(table().at("points")[0].at("status"), "completed") << done.output;
+    return table().at("points")[0].at("figures");
+  };
+  const Json both = figures_of("{first: {mode: 1}, seventh: {mode: 7}, beyond: {mode: 900}, along: {along: x}}");
+  const double first = both.at("first"), seventh = both.at("seventh"), along = both.at("along");
+  EXPECT_GT(first, 1);
+  EXPECT_GT(seventh, first);
+  EXPECT_TRUE(both.at("beyond").is_null());  // of 36 unknowns
+  EXPECT_NEAR(figures_of("{first: {mode: 1}}").at("first").get<double>(), first, 1e-6 * first);
+  EXPECT_NEAR(figures_of("{seventh: {mode: 7}}").at("seventh").get<double>(), seventh, 1e-6 * seventh);
+  EXPECT_NEAR(figures_of("{along: {along: x}}").at("along").get<double>(), along, 1e-6 * along);
 }
 
 TEST_F(SweepCommand, KeepsFailuresWithTheirReasons) {
@@ -115,18 +171,36 @@ limits: {seconds: 0.5}
   EXPECT_NE(read_text(folder_ / "out/sweeps/s/sweep.csv").find("long,,failed,time limit"), std::string::npos);
 }
 
+TEST_F(SweepCommand, LimitsTheTimeOfStaticPoints) {
+  write("still.yaml", R"(analysis: static
+mesh: {type: box, size: [1, 0.1, 0.1], cells: [10, 1, 1]}
+materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
+gravity: [0, 0, -0.1]
+clamps: [{surface: x0}]
+output: {probes: {tip: {at: [1, 0, 0]}}}
+)");
+  const std::string text = "scene: still.yaml\nvary: {materials.soft.nu: [0]}\n"
+                           "quantities: {sag: {quantity: tip.displacement.z}}\nlimits: {seconds: ";
+  write("s.yaml", text + "60}\n");
+  ASSERT_EQ(sweep().exit_code, 0);
+  EXPECT_EQ(table().at("points")[0].at("status"), "completed");
+  write("s.yaml", text + "1e-6}\n");
+  ASSERT_EQ(sweep().exit_code, 0);
+  EXPECT_EQ(table().at("points")[0].at("reason"), "time limit");
+}
+
 TEST_F(SweepCommand, DoesNotRepeatPointsOfAnEarlierOrSmallerSweep) {
   write("s.yaml", "scene: scene.yaml\nvary: {materials.soft.young: [1e5, 1e6]}\nquantities: {hertz: {mode: 1}}\n");
   sweep();
   const auto before = results();
   write("s.yaml", "scene: scene.yaml\nvary: {materials.soft.young: [1e5, 1e6, 1e7]}\nquantities: {hertz: {mode: 1}}\n");
   const auto more = sweep("--jobs 1");
-  EXPECT_NE(more.output.find("[2/3] young 1e+06: hertz"), std::string::npos) << more.output;
+  EXPECT_NE(more.output.find("[2/3] young 1000000: hertz"), std::string::npos) << more.output;
   EXPECT_NE(more.output.find("(done before)"), std::string::npos);
   for (const auto& [file, text] : before) EXPECT_EQ(read_text(file), text);
 }
 
-// Killed again and again at moments that have nothing to do with the work, it leaves every finished point, and never
+// Killed again and again, each time a while after one more point is finished, it leaves every finished point, and never
 // more unfinished ones than it has processes.
 TEST_F(SweepCommand, LosesAtMostThePointsInProgressWhenItIsKilled) {
   write("s.yaml", kMany);
@@ -134,19 +208,23 @@ TEST_F(SweepCommand, LosesAtMostThePointsInProgressWhenItIsKilled) {
   const std::string undisturbed = figures();
   fs::remove_all(folder_ / "out");
   std::map<std::string, std::string> finished;
-  for (const char* seconds : {"0.13", "0.29", "0.07", "0.41", "0.2", "0.16"}) {
+  int kills = 0;  // of sweeps that had finished something, but not all
+  for (const char* seconds : {"0", "0.013", "0.029", "0.007", "0.02"}) {
     shell("cd " + folder_.string() +
-          " && { " ORTHODYN_EXECUTABLE " sweep s.yaml --jobs 2 --quiet --no-report & pid=$!; sleep " + seconds +
-          "; kill -9 $pid; wait $pid; sleep 0.05; } 2>/dev/null");
-    if (!fs::exists(folder_ / "out/sweeps/s/points")) continue;
+          " && { " ORTHODYN_EXECUTABLE " sweep s.yaml --jobs 2 --quiet --no-report & pid=$!; "
+          "while kill -0 $pid && [ $(find out -name result.json | wc -l) -le " + std::to_string(finished.size()) +
+          " ]; do sleep 0.005; done; sleep " + seconds + "; kill -9 $pid; wait $pid; sleep 0.05; } 2>/dev/null");
+    ASSERT_TRUE(fs::exists(folder_ / "out/sweeps/s/points"));
     const auto now = results();
+    kills += now.size() > finished.size() && now.size() < 24;
     for (const auto& [file, text] : finished) EXPECT_EQ(now.at(file), text);
-    for (const auto& [file, text] : now) EXPECT_FALSE(Json::parse(text).is_discarded());
+    for (const auto& [file, text] : now) EXPECT_FALSE(Json::parse(text, nullptr, false).is_discarded()) << file;
     std::size_t begun = 0;
     for (const auto& entry : fs::directory_iterator(folder_ / "out/sweeps/s/points")) begun += entry.is_directory();
     EXPECT_LE(begun - now.size(), 2u);
     finished = now;
   }
+  EXPECT_GE(kills, 2);
   const auto last = sweep("--jobs 2");
   ASSERT_EQ(last.exit_code, 0) << last.output;
   EXPECT_EQ(figures(), undisturbed);
@@ -172,6 +250,36 @@ TEST_F(SweepCommand, IsDoneByIndependentTasksAndJoined) {
   EXPECT_EQ(figures(), whole);
 }
 
+TEST_F(SweepCommand, CollectListsAsManyPointsAsItCounts) {
+  write("s.yaml", kMany);
+  EXPECT_EQ(sweep("--task 1/8 --jobs 1").exit_code, 0);
+  const auto lines_in = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+  const auto missing = [&] {
+    const std::string said = sweep("--collect").output;
+    const auto head = said.find("points are missing:\n"), tail = said.find("the same command without");
+    return head == std::string::npos ? 0 : lines_in(said.substr(head, tail - head)) - 1;
+  };
+  EXPECT_EQ(sweep("--task 2/8 --jobs 1").exit_code, 0);
+  EXPECT_EQ(missing(), 18);
+  EXPECT_EQ(table().at("missing"), 18);
+  // A process that died has left a reason: the point is in the table, and not missing.
+  const std::string crashed = R"({"status": "failed", "reason": "crashed", "message": "ended by signal 9"})";
+  const std::string some = results().begin()->first;
+  std::ofstream(some) << crashed;
+  EXPECT_EQ(missing(), 18);
+  EXPECT_EQ(table().at("missing"), 18);
+  EXPECT_EQ(sweep("--quiet").exit_code, 0);
+  EXPECT_EQ(missing(), 0);
+  EXPECT_EQ(read_text(some).find("crashed"), std::string::npos);
+  EXPECT_EQ(table().at("missing"), 0);
+}
+
+TEST_F(SweepCommand, LeavesNoFolderForATaskThatCannotBe) {
+  write("s.yaml", kMany);
+  for (const char* task : {"0/3", "4/3", "1", "x"}) EXPECT_EQ(sweep(std::string("--task ") + task).exit_code, 2) << task;
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
 TEST_F(SweepCommand, PrintsAnArrayWithATaskForEveryShareOfThePoints) {
   write("s.yaml", kMany);
   const std::string script = sweep("--slurm --tasks 6").output;
@@ -182,6 +290,16 @@ TEST_F(SweepCommand, PrintsAnArrayWithATaskForEveryShareOfThePoints) {
   write("array.sh", script);
   shell("cd / && for i in 1 2 3 4 5 6; do SLURM_ARRAY_TASK_ID=$i sh " + (folder_ / "array.sh").string() + "; done");
   EXPECT_EQ(sweep("--collect").exit_code, 0);
+}
+
+TEST_F(SweepCommand, PrintsAnArrayForNamesWithBlanksAndPatterns) {
+  write("my 5% \"s\".yaml", std::string(kMany) + "limits: {memory: 1e9}\n");
+  const std::string script = orthodyn("sweep 'my 5% \"s\".yaml' --slurm").output;
+  EXPECT_NE(script.find(R"(--job-name="my 5% \"s\""
+)"), std::string::npos) << script;
+  EXPECT_NE(script.find(R"(out/sweeps/my 5%% \"s\".log"
+)"), std::string::npos) << script;
+  EXPECT_NE(script.find("#SBATCH --mem=1512M\n"), std::string::npos) << script;
 }
 
 TEST_F(SweepCommand, RefusesAFolderOfSomethingElse) {

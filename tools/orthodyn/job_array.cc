@@ -19,6 +19,23 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
+// For a line #SBATCH.
+std::string sbatch_quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' || c == '\\' ? std::string{'\\', c} : std::string(1, c);
+  return out + "\"";
+}
+
+// The log beside the folder; SLURM takes a single '%' in it for a pattern.
+std::string log_of(const ArrayJob& job) {
+  std::string out;
+  for (const char c : job.folder.string() + ".log") out += c == '%' ? "%%" : std::string(1, c);
+  return out;
+}
+
+// What a task needs beside the point in progress: the command that starts it, and the programs' code.
+constexpr double kMargin = 512e6;
+
 std::string command(const ArrayJob& job) {
   return fmt::format("{} sweep {} --out {}", quoted(job.program), quoted(job.sweep.string()),
                      quoted(job.folder.string()));
@@ -49,15 +66,16 @@ std::string array_script(const ArrayJob& job) {
 #SBATCH --cpus-per-task=1
 #SBATCH --mem={}M
 #SBATCH --time={}
-#SBATCH --output={}.log
+#SBATCH --output={}
 #SBATCH --open-mode=append
 # {} points in {} tasks. A task that is lost or killed costs its points in progress: submit this script again, and only
 # what is missing is done. Then join what is there:
 #   {} --collect
 exec {} --task "$SLURM_ARRAY_TASK_ID/{}" --jobs 1 --quiet
 )",
-                     job.name, job.tasks, std::lround(std::ceil(job.limits.memory / 1e6)), minutes(job),
-                     job.folder.string(), job.points, job.tasks, command(job), command(job), job.tasks);
+                     sbatch_quoted(job.name), job.tasks,
+                     std::lround(std::ceil((job.limits.memory + kMargin) / 1e6)), minutes(job),
+                     sbatch_quoted(log_of(job)), job.points, job.tasks, command(job), command(job), job.tasks);
 }
 
 int submit(const ArrayJob& job) {
@@ -68,7 +86,7 @@ int submit(const ArrayJob& job) {
   const std::string after =
       output_of(fmt::format("sbatch --parsable --job-name={} --output={} --open-mode=append --dependency=afterany:{} "
                             "--wrap {}",
-                            quoted(job.name + "-collect"), quoted(job.folder.string() + ".log"), array,
+                            quoted(job.name + "-collect"), quoted(log_of(job)), array,
                             quoted(command(job) + " --collect")));
   fmt::print("array   {} ({} tasks, {} points)\n", array, job.tasks, job.points);
   fmt::print("collect {}\n", after.empty() ? "by hand: " + command(job) + " --collect" : after);

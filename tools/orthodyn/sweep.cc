@@ -1,7 +1,9 @@
 // `orthodyn sweep`: figures of a scene over varied values, as a table and a report.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
@@ -53,14 +55,15 @@ class SweepCommand {
 
   int execute() {
     if (arguments_.slurm) return write_array();
-    const bool alone = !arguments_.task && !arguments_.collect;
-    const StudyFolder place(folder_, "sweep", alone ? Sharing::alone : Sharing::with_its_like);
-    warn_of_impossible_points();
-    if (arguments_.collect) return collect();
     if (arguments_.task) {
       const auto [part, parts] = parse_task(*arguments_.task);
       work_ = slice(work_, part, parts);
     }
+    const bool alone = !arguments_.task && !arguments_.collect;
+    const StudyFolder place(folder_, "sweep", alone ? Sharing::alone : Sharing::with_its_like);
+    warn_of_impossible_points();
+    if (!arguments_.task) results_ = results_of(errands_);
+    if (arguments_.collect) return collect();
     use_one_thread_each();
     heed_interrupts();
     const bool complete = carry_out();
@@ -83,8 +86,9 @@ class SweepCommand {
 
   bool carry_out() {
     Teller teller;
-    const ErrandEvents events{[](std::size_t) {},
+    const ErrandEvents events{[&](std::size_t i) { results_.erase(work_[i].folder); },
                               [&](std::size_t i, const Json& result, bool cached) {
+                                results_[work_[i].folder] = result;
                                 if (!arguments_.quiet)
                                   teller.tell(work_.size(), work_[i].title, outcome_of(result), cached);
                                 if (!arguments_.task) write_table_now_and_then();
@@ -92,36 +96,39 @@ class SweepCommand {
     return carry_out_all(program(), work_, number_of_jobs(arguments_.jobs), interrupted(), events);
   }
 
+  // It takes at most a tenth of the time, however many points there are.
   void write_table_now_and_then() {
-    const auto now = std::chrono::steady_clock::now();
-    if (now < next_table_) return;
+    using Clock = std::chrono::steady_clock;
+    const auto started = Clock::now();
+    if (started < next_table_) return;
     write_table();
-    next_table_ = now + std::chrono::seconds(2);
+    const auto ended = Clock::now();
+    next_table_ = ended + std::max<Clock::duration>(std::chrono::seconds(2), 10 * (ended - started));
   }
 
   Json write_table() const {
-    Json table = sweep_json(sweep_, points_, errands_, arguments_.sweep);
+    Json table = sweep_json(sweep_, points_, errands_, results_, arguments_.sweep);
     write_file(folder_ / "sweep.json", {to_text(table, 1)});
     write_file(folder_ / "sweep.csv", {sweep_csv(table)});
     return table;
   }
 
-  // The number of points that are missing.
-  std::size_t show() const {
+  Json show() const {
     const Json table = write_table();
     if (!arguments_.quiet) fmt::print("table   {}\n", (folder_ / "sweep.csv").string());
     if (!arguments_.no_report) draw_report(folder_, arguments_.quiet);
-    return table.at("missing");
+    return table;
   }
 
   int collect() const {
-    const std::size_t missing = show();
+    const Json table = show();
+    const std::size_t missing = table.at("missing");
     if (missing == 0) return 0;
     fmt::print(stderr, "{} of {} points are missing:\n", missing, points_.size());
     std::size_t listed = 0;
-    for (const auto& errand : errands_)
-      if (!errand.command.empty() && finished(errand.folder).is_null() && ++listed <= 20)
-        fmt::print(stderr, "  {}\n", errand.title);
+    for (const auto& point : table.at("points"))
+      if (point.at("status") == "missing" && ++listed <= 20)
+        fmt::print(stderr, "  {}\n", point.at("title").get<std::string>());
     if (listed > 20) fmt::print(stderr, "  ...\n");
     fmt::print(stderr, "the same command without --collect, or the same array again, does these only\n");
     return 3;
@@ -141,6 +148,7 @@ class SweepCommand {
   fs::path folder_;
   std::vector<Errand> errands_;  // by point
   std::vector<Errand> work_;     // what this command does
+  PointResults results_;         // so far
   std::chrono::steady_clock::time_point next_table_;
 };
 

@@ -10,7 +10,7 @@ from ..report.markup import Html, data_script, joined, scrolling, tag, void
 from ..report.page import SCRIPT, head
 from ..report.tables import caption, number
 from .figures import Figures
-from .plan import plans
+from .plan import MOST_PANELS, left_out, plans
 
 READ = "Marks are points of the sweep. Lines without marks, and strokes, are closed forms."
 
@@ -68,6 +68,10 @@ def _figures(sweep, figures):
         pictures = [tag("div", picture, class_="stage") for picture in figures.of(plan)]
         explained = tag("figcaption", READ) if k == 0 else None
         parts.append(tag("figure", *pictures, explained, aria_label=plan.figure.title))
+    for figure, count, others in left_out(sweep):
+        names = " and ".join(v.name for v in others)
+        parts.append(tag("p", f"Of {figure.title} the first {MOST_PANELS} of {count} combinations of {names} are drawn; "
+                         "all are in the table.", class_="empty"))
     return joined(parts) or tag("p", "Nothing to show: no point has finished.", class_="empty")
 
 

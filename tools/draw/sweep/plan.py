@@ -1,6 +1,7 @@
 """Which figures a sweep has: what is along the axis, what makes lines, what makes separate figures."""
 from dataclasses import dataclass
-from itertools import product
+from itertools import islice, product
+from math import prod
 
 MOST_LINES, MOST_PANELS, LEAST_FOR_A_MAP = 8, 8, 4
 
@@ -51,17 +52,20 @@ def _usual_roles(sweep):
     return [(ordered[0], lines)]
 
 
+def _others(sweep, x, lines):
+    """The remaining variables; where values go side by side there are none."""
+    return [v for v in sweep.variables if v not in (x, lines)] if sweep.combine == "cartesian" else []
+
+
 def _panels(sweep, x, lines):
-    """Values of the remaining variables; where values go side by side there are none."""
-    if sweep.combine != "cartesian":
-        return [{}]
-    others = [v for v in sweep.variables if v not in (x, lines)]
-    combinations = product(*(sweep.levels(v) for v in others))
-    return [dict(zip((v.name for v in others), values)) for values in combinations][:MOST_PANELS]
+    """Values of the remaining variables, of the first combinations."""
+    others = _others(sweep, x, lines)
+    combinations = islice(product(*(sweep.levels(v) for v in others)), MOST_PANELS)
+    return [dict(zip((v.name for v in others), values)) for values in combinations]
 
 
-def plans(sweep):
-    found = []
+def _roles(sweep):
+    """(figure, x, lines) of all that is drawn."""
     for figure in sweep.figures:
         wished = [(sweep.variable(p["x"]) if p["x"] else None, sweep.variable(p["lines"]) if p["lines"] else None)
                   for p in sweep.plots if p["figure"] == figure.name]
@@ -70,8 +74,20 @@ def plans(sweep):
         usual = _usual_roles(sweep)
         for x, lines in wished or usual:
             x, lines = x or usual[0][0], lines or (usual[0][1] if not x else None)
-            found += [Plan(figure, x, lines, fixed) for fixed in _panels(sweep, x, lines)]
-    return found
+            yield figure, x, lines
+
+
+def plans(sweep):
+    return [Plan(figure, x, lines, fixed) for figure, x, lines in _roles(sweep) for fixed in _panels(sweep, x, lines)]
+
+
+def left_out(sweep):
+    """(figure, how many combinations there are, of which variables) where not all of them are drawn."""
+    for figure, x, lines in _roles(sweep):
+        others = _others(sweep, x, lines)
+        count = prod(len(sweep.levels(v)) for v in others)
+        if count > MOST_PANELS:
+            yield figure, count, others
 
 
 def has_map(plan, sweep):
