@@ -24,8 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(); }
-
 Json cost_json(const Outcome& outcome, const Statistics& s) {
   return {{"cpu_seconds", outcome.cpu_seconds}, {"wall_seconds", outcome.wall_seconds},
           {"steps", s.steps},                   {"rejected_steps", s.rejected_steps},
@@ -54,7 +52,7 @@ class Evaluation {
   }
 
   void keep(const std::string& name, double value, const std::string& unit) {
-    result_["figures"][name] = number(value);
+    result_["figures"][name] = finite_or_null(value);
     result_["units"][name] = unit;
   }
 
@@ -181,26 +179,6 @@ class Evaluation {
   Json result_;
 };
 
-Json failure(const std::string& reason, const std::string& message) {
-  return {{"status", "failed"}, {"reason", reason}, {"message", message}};
-}
-
-Json attempted(const fs::path& folder) {
-  std::ifstream in(folder / kJobFile);
-  const PointJob job = PointJob::from(Json::parse(in));
-  if (job.code != code_fingerprint())
-    throw RunError("the program has changed since the sweep was started; start it again");
-  try {
-    return evaluate(Config::from_file((folder / kSceneFile).string()), job, folder);
-  } catch (const ConfigError& e) {
-    return failure("refused", e.what());
-  } catch (const RunError& e) {
-    return failure(reason_name(e.reason()), e.what());
-  } catch (const std::bad_alloc&) {
-    return failure(reason_name(Reason::out_of_memory), "the scene does not fit into the limit of memory");
-  }
-}
-
 }  // namespace
 
 Json evaluate(const Config& scene, const PointJob& job, const fs::path& folder) {
@@ -208,9 +186,9 @@ Json evaluate(const Config& scene, const PointJob& job, const fs::path& folder) 
 }
 
 void evaluate(const fs::path& folder) {
-  Json result = attempted(folder);
-  result["at"] = utc_now();
-  write_file(folder / kResultFile, {to_text(result)});
+  do_job(folder, [&](const Json& job) {
+    return evaluate(Config::from_file((folder / kSceneFile).string()), PointJob::from(job), folder);
+  });
 }
 
 }  // namespace orthodyn

@@ -12,8 +12,6 @@ namespace orthodyn {
 
 namespace {
 
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(); }
-
 Json field(const Json& object, const std::string& key) {
   return object.is_object() && object.contains(key) ? object.at(key) : Json();
 }
@@ -71,7 +69,7 @@ Json point_json(const Sweep& sweep, const SweepPoint& point, const Errand& erran
   for (std::size_t q = 0; q < sweep.quantities.size(); ++q) {
     const std::string& name = sweep.quantities[q].first;
     out["figures"][name] = field(field(result, "figures"), name);
-    out["closed_forms"][name] = number(point.closed_forms[q]);
+    out["closed_forms"][name] = finite_or_null(point.closed_forms[q]);
   }
   for (const char* key : {"reason", "message", "cost", "model", "frame"}) out[key] = field(result, key);
   return out;
