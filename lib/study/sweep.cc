@@ -71,8 +71,10 @@ void check_number_of_points(const Sweep& s, const Config& config) {
   double points = 1;
   for (const auto& v : s.vary) points *= static_cast<double>(v.values.size());
   if (s.combine == Combine::cartesian && points > kMostPoints)
-    config.at("vary").fail(fmt::format("every combination makes {:.3g} points, the most is {:.0g}; give fewer values, or "
-                                       "combine: latin_hypercube with 'samples'", points, kMostPoints));
+    config.at("vary").fail(
+        fmt::format("every combination makes {:.3g} points, the most is {:.0g}; give fewer values, or combine: "
+                    "latin_hypercube with 'samples'",
+                    points, kMostPoints));
 }
 
 void check_sweep(const Sweep& s, const Config& config) {
