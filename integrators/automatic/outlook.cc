@@ -52,12 +52,12 @@ Outlook look_at(const Model& model, const Task& task, const Scales& scales, cons
   return look;
 }
 
-// The share of the critical step at which leapfrog's phase error at the end, swings (omega h)^2 / 24, is about what
-// other methods have for this rtol.
+// The share s of the critical step at which leapfrog's phase error at the end, swings (omega h)^2 / 24, is about what
+// other methods have for this rtol, and the error in the energy of the fastest vibrations, s^2, a hundred times it.
 double safety_for(const Outlook& look, double rtol) {
-  constexpr double kErrorPerTolerance = 10;
+  constexpr double kErrorPerTolerance = 10, kEnergyPerTolerance = 100;
   const double at_limit = look.swings * std::pow(look.swings / look.explicit_steps, 2) / 24;
-  return std::min(0.9, std::sqrt(kErrorPerTolerance * rtol / at_limit));
+  return std::min({0.9, std::sqrt(kErrorPerTolerance * rtol / at_limit), std::sqrt(kEnergyPerTolerance * rtol)});
 }
 
 Advice advise(const Outlook& look, double rtol) {
