@@ -51,15 +51,6 @@ TEST(ArkodeErk, EvaluatesNoForceTwiceAtTheEndOfAStep) {
   }
 }
 
-std::string refusal(const std::string& yaml) {
-  try {
-    Registry<IntegratorChoice>::read(Config::from_text(yaml, "a.yaml"));
-  } catch (const ConfigError& e) {
-    return e.what();
-  }
-  return "";
-}
-
 TEST(ArkodeErk, RefusesToControlTheErrorByATableWithoutAnEstimate) {
   const auto message = refusal("{type: arkode_erk, table: KNOTH_WOLKE_3_3}");
   EXPECT_NE(message.find("no error estimate; give integrator.step"), std::string::npos) << message;

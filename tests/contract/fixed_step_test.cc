@@ -147,15 +147,6 @@ TEST_P(FixedStep, WhereTheForceFailsEndsInARunErrorThatNamesTheStep) {
   }
 }
 
-std::string refusal(const std::string& yaml) {
-  try {
-    Registry<IntegratorChoice>::read(Config::from_text(yaml, "a.yaml"));
-  } catch (const ConfigError& e) {
-    return e.what();
-  }
-  return "";
-}
-
 TEST_P(FixedStep, RefusesTheLimitsOfAnAdaptiveOne) {
   for (const std::string key : {"h0", "h_min", "h_max"}) {
     if (!has_key(GetParam().integrator, key)) continue;

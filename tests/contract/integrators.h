@@ -26,6 +26,16 @@ inline std::vector<Pair> all_pairs() {
   return pairs;
 }
 
+// What reading an integrator's section says of it; "" if it is taken.
+inline std::string refusal(const std::string& yaml) {
+  try {
+    Registry<IntegratorChoice>::read(Config::from_text(yaml, "a.yaml"));
+  } catch (const ConfigError& e) {
+    return e.what();
+  }
+  return "";
+}
+
 // Those whose integrator has the key.
 inline std::vector<Pair> pairs_with(const std::string& key) {
   std::vector<Pair> pairs;
