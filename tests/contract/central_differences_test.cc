@@ -108,7 +108,7 @@ TEST(CentralDifferences, AreOfSecondOrderWithAForceThatDependsOnVelocity) {
   EXPECT_NEAR(slope(steps, errors), 2, 0.15);
 }
 
-std::string refusal(const SmallModel& model, const std::string& keys) {
+std::string reading_refusal(const SmallModel& model, const std::string& keys) {
   try {
     leapfrog(model, keys);
   } catch (const ConfigError& e) {
@@ -119,14 +119,14 @@ std::string refusal(const SmallModel& model, const std::string& keys) {
 
 TEST(CentralDifferences, RefuseAStepAboveTheCriticalOneAndNameIt) {
   const auto model = oscillator(4, 0, 1);
-  EXPECT_EQ(refusal(model, ", step: 0.4999"), "");
-  const auto message = refusal(model, ", step: 0.5001");
+  EXPECT_EQ(reading_refusal(model, ", step: 0.4999"), "");
+  const auto message = reading_refusal(model, ", step: 0.5001");
   EXPECT_NE(message.find("critical step, 0.5 s"), std::string::npos) << message;
   EXPECT_NE(message.find("step: auto"), std::string::npos) << message;
 }
 
 TEST(CentralDifferences, RefuseARunOfMoreStepsThanAllowedAndNameTheirNumber) {
-  const auto message = refusal(oscillator(1e6, 0, 1), ", max_steps: 1000");
+  const auto message = reading_refusal(oscillator(1e6, 0, 1), ", max_steps: 1000");
   EXPECT_NE(message.find("5.6e+05 steps"), std::string::npos) << message;
   EXPECT_NE(message.find("implicit"), std::string::npos) << message;
 }
@@ -292,7 +292,7 @@ TEST(CentralDifferences, KeepAStepThatIsStableWhenContactSetsIn) {
     EXPECT_LE(info.h, 0.5 * safe * (1 + 1e-9));
     EXPECT_LE(model.energy(state), 4 * model.energy(model.initial()));
   });
-  EXPECT_NE(refusal(model, ", step: 0.3").find("above the critical step, 0.199"), std::string::npos);
+  EXPECT_NE(reading_refusal(model, ", step: 0.3").find("above the critical step, 0.199"), std::string::npos);
 }
 
 // The step of the free flight, ten times too long for the wall.

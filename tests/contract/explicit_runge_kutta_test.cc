@@ -52,9 +52,9 @@ TEST(ArkodeErk, EvaluatesNoForceTwiceAtTheEndOfAStep) {
 }
 
 TEST(ArkodeErk, RefusesToControlTheErrorByATableWithoutAnEstimate) {
-  const auto message = refusal("{type: arkode_erk, table: KNOTH_WOLKE_3_3}");
+  const auto message = reading_refusal("{type: arkode_erk, table: KNOTH_WOLKE_3_3}");
   EXPECT_NE(message.find("no error estimate; give integrator.step"), std::string::npos) << message;
-  EXPECT_EQ(refusal("{type: arkode_erk, table: KNOTH_WOLKE_3_3, step: 0.1}"), "");
+  EXPECT_EQ(reading_refusal("{type: arkode_erk, table: KNOTH_WOLKE_3_3, step: 0.1}"), "");
 }
 
 // omega = 1e6 over 10 s: 4 critical steps of 2/omega are 8e-6 s, so 1.25e6 steps; a Krylov space of 40 reaches 4e-5 s.
@@ -99,10 +99,10 @@ TEST(CvodeAdams, ReachHighOrdersOnSmoothMotion) {
 
 TEST(CvodeAdams, RefuseKeysOfTheOtherIteration) {
   for (const std::string key : {"linear_solver: klu", "gauss_newton: true"}) {
-    const auto message = refusal("{type: cvode_adams, nonlinear: fixed_point, " + key + "}");
+    const auto message = reading_refusal("{type: cvode_adams, nonlinear: fixed_point, " + key + "}");
     EXPECT_NE(message.find("has no meaning with nonlinear: fixed_point; remove it"), std::string::npos) << message;
   }
-  const auto message = refusal("{type: cvode_adams, nonlinear: newton, anderson: 3}");
+  const auto message = reading_refusal("{type: cvode_adams, nonlinear: newton, anderson: 3}");
   EXPECT_NE(message.find("has no meaning with nonlinear: newton"), std::string::npos) << message;
 }
 

@@ -150,13 +150,13 @@ TEST_P(FixedStep, WhereTheForceFailsEndsInARunErrorThatNamesTheStep) {
 TEST_P(FixedStep, RefusesTheLimitsOfAnAdaptiveOne) {
   for (const std::string key : {"h0", "h_min", "h_max"}) {
     if (!has_key(GetParam().integrator, key)) continue;
-    const auto message = refusal(fmt::format("{{type: {}, step: 0.1, {}: 0.01}}", GetParam().integrator, key));
+    const auto message = reading_refusal(fmt::format("{{type: {}, step: 0.1, {}: 0.01}}", GetParam().integrator, key));
     EXPECT_NE(message.find(key + ": has no meaning with a fixed step"), std::string::npos) << message;
   }
 }
 
 TEST(ArkodeDirk, RefusesAnUnknownTableWithTheNearestAndAllNames) {
-  const auto message = refusal("{type: arkode_dirk, table: ESDIRK547L2SA_7_4_4}");
+  const auto message = reading_refusal("{type: arkode_dirk, table: ESDIRK547L2SA_7_4_4}");
   EXPECT_NE(message.find("did you mean 'ESDIRK547L2SA_7_4_5'?"), std::string::npos) << message;
   EXPECT_NE(message.find("TRBDF2_3_3_2"), std::string::npos) << message;
   EXPECT_NE(message.find("a.yaml:1:"), std::string::npos) << message;

@@ -61,7 +61,7 @@ TEST(Imex, AStiffImplicitPartDoesNotLimitTheStep) {
   EXPECT_LE(integrator->statistics().steps, 200);
 }
 
-std::string refusal(const SmallModel& model, const std::string& keys) {
+std::string reading_refusal(const SmallModel& model, const std::string& keys) {
   try {
     imex(model, keys);
   } catch (const ConfigError& e) {
@@ -71,14 +71,14 @@ std::string refusal(const SmallModel& model, const std::string& keys) {
 }
 
 TEST(Imex, RefusesAnUnknownPartWithTheNearestAndAllNames) {
-  const auto message = refusal(parted_oscillator(), ", explicit: [sprung]");
+  const auto message = reading_refusal(parted_oscillator(), ", explicit: [sprung]");
   EXPECT_NE(message.find("no part 'sprung'; did you mean 'spring'?"), std::string::npos) << message;
   EXPECT_NE(message.find("its parts: spring, damper"), std::string::npos) << message;
 }
 
 TEST(Imex, RefusesASplitThatLeavesOneSideEmptyWithTheRemedy) {
-  EXPECT_NE(refusal(parted_oscillator(), ", explicit: []").find("arkode_dirk"), std::string::npos);
-  EXPECT_NE(refusal(parted_oscillator(), ", explicit: [spring, damper]").find("arkode_erk"), std::string::npos);
+  EXPECT_NE(reading_refusal(parted_oscillator(), ", explicit: []").find("arkode_dirk"), std::string::npos);
+  EXPECT_NE(reading_refusal(parted_oscillator(), ", explicit: [spring, damper]").find("arkode_erk"), std::string::npos);
 }
 
 // A model that does not tell of what its force consists.
@@ -89,7 +89,7 @@ class Partless : public LinearModel {
 };
 
 TEST(Imex, RefusesAModelWithoutPartsWithTheRemedy) {
-  const auto message = refusal(Partless(), ", explicit: [spring]");
+  const auto message = reading_refusal(Partless(), ", explicit: [spring]");
   EXPECT_NE(message.find("no parts"), std::string::npos) << message;
   EXPECT_NE(message.find("arkode_dirk"), std::string::npos) << message;
 }

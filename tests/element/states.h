@@ -18,23 +18,16 @@ struct State {
   Mat3 F() const { return R * S(); }
 };
 
-inline State random_state(Random& random, const Vec3& stretches) {
-  return {random.rotation(), random.rotation(), stretches};
-}
+State random_state(Random& random, const Vec3& stretches);
 
 // Principal stretches within 1 +- strain.
-inline State random_strain(Random& random, double strain) {
-  return random_state(random, Vec3::Ones() + strain * random.vector());
-}
+State random_strain(Random& random, double strain);
 
 // Young's moduli ratio, 1, 1.
-inline OrthotropicStiffness fibre(double ratio) { return stiffness(stable_family({ratio, 1, 1}, 0.3)); }
+OrthotropicStiffness fibre(double ratio);
 
 // The same material in axes of which A are its own: all 21 constants.
-inline AnisotropicStiffness turned(const OrthotropicStiffness& C, const Mat3& A) {
-  const Mat6 K = stress_rotation(A);
-  return {K * voigt(C) * K.transpose()};
-}
+AnisotropicStiffness turned(const OrthotropicStiffness& C, const Mat3& A);
 
 inline constexpr IsotropicStiffness kIsotropic{0.6, 0.4};
 
@@ -47,11 +40,7 @@ Mat3 derivative(const Function& f, const Mat3& F, const Mat3& dF) {
   return CMat3(f(stepped)).imag() / kComplexStep;
 }
 
-inline Mat3 unit_matrix(int k) {
-  Mat3 E = Mat3::Zero();
-  E(k % 3, k / 3) = 1;
-  return E;
-}
+Mat3 unit_matrix(int k);
 
 // The columns are the derivatives with respect to F11, F21, F31, F12, ...
 template <class Function>
@@ -85,18 +74,12 @@ Mat9 in_space(const TangentFormOf<C>& form) {
   return R * expand(form) * R.transpose();
 }
 
-inline double asymmetry(const Mat9& H) { return (H - H.transpose()).norm() / H.norm(); }
+double asymmetry(const Mat9& H);
 
 // Relative to the largest eigenvalue; H symmetric.
-inline double smallest_eigenvalue(const Mat9& H) {
-  const auto lambda = Eigen::SelfAdjointEigenSolver<Mat9>(H, Eigen::EigenvaluesOnly).eigenvalues();
-  return lambda[0] / lambda.cwiseAbs().maxCoeff();
-}
+double smallest_eigenvalue(const Mat9& H);
 
 // |skew(P F^T)| / |P F^T|: the torque that a stress exerts.
-inline double torque_fraction(const Mat3& P, const Mat3& F) {
-  const Mat3 tau = P * F.transpose();
-  return 0.5 * (tau - tau.transpose()).norm() / tau.norm();
-}
+double torque_fraction(const Mat3& P, const Mat3& F);
 
 }  // namespace orthodyn

@@ -8,6 +8,7 @@
 
 #include <numbers>
 
+#include "lib/mesh/box.h"
 #include "lib/scene/selection.h"
 #include "tests/fem/built_scene.h"
 

@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "lib/mesh/box.h"
 #include "tests/fem/built_scene.h"
 
 namespace orthodyn {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "lib/mesh/box.h"
 #include "tests/fem/built_scene.h"
 #include "tests/fem/derivatives.h"
 

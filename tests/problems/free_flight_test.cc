@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "lib/mesh/box.h"
 #include "tests/contract/order.h"
 #include "tests/problems/running.h"
 

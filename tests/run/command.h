@@ -2,13 +2,8 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 namespace orthodyn {
@@ -20,40 +15,18 @@ struct CommandResult {
   std::string output;  // both streams
 };
 
-inline CommandResult shell(const std::string& command) {
-  std::FILE* pipe = popen(("{ " + command + "; } 2>&1").c_str(), "r");
-  std::string output;
-  char buffer[4096];
-  while (const std::size_t n = std::fread(buffer, 1, sizeof buffer, pipe)) output.append(buffer, n);
-  const int status = pclose(pipe);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), output};
-}
+CommandResult shell(const std::string& command);
 
-inline std::string read_text(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
+std::string read_text(const fs::path& path);
 
 // A folder of its own for each test, gone afterwards.
 class InFolder : public testing::Test {
  protected:
-  InFolder()
-      : folder_(fs::temp_directory_path() / ("orthodyn_" + std::to_string(getpid()) + "_" +
-                                             testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~InFolder() override { fs::remove_all(folder_); }
+  InFolder();
+  ~InFolder() override;
 
-  fs::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
-  }
-  CommandResult orthodyn(const std::string& arguments) const {
-    return shell("cd " + folder_.string() + " && " ORTHODYN_EXECUTABLE " " + arguments);
-  }
+  fs::path write(const std::string& name, const std::string& text) const;
+  CommandResult orthodyn(const std::string& arguments) const;
 
   fs::path folder_;
 };

@@ -1,6 +1,7 @@
 // `orthodyn compare` as a user meets it: results, failures, interruption.
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <fstream>
 #include <set>
 #include <thread>
 
