@@ -47,7 +47,8 @@ function(orthodyn_library)
     ${CMAKE_DL_LIBS}
     SUNDIALS::arkode SUNDIALS::cvode SUNDIALS::ida SUNDIALS::kinsol SUNDIALS::nvecserial SUNDIALS::sunlinsolklu
     SUNDIALS::sunmatrixsparse)
-  if(ORTHODYN_SANITIZE)
+  if(ORTHODYN_SANITIZE)  # so does how Eigen allocates
+    target_compile_options(orthodyn PUBLIC -fsanitize=address,undefined)
     target_link_options(orthodyn PUBLIC -fsanitize=address,undefined)
   endif()
   set_target_properties(orthodyn PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
