@@ -8,35 +8,34 @@ int AlphaParameters::order() const { return std::abs(gamma + theta() - 0.5) < 1e
 
 AlphaMethod::AlphaMethod(const std::string& name, const Model& model, const NewtonOptions& options,
                          const Scales& scales, const AlphaParameters& parameters)
-    : OneStep(name, model, options, scales), p_(parameters), solver_(model, options, norm_, statistics_),
-      a_(model.num_dofs()), x_(model.num_dofs()) {}
+    : OneStep(name, model, options, scales), p_(parameters), solver_(model, options, norm_, statistics_) {}
 
 void AlphaMethod::restarted() {
   solver_.restart();
   past_.clear();
   past_.add(now().t, now().a);
+  w_ = now().a;
   last_h_ = 0;
 }
 
 bool AlphaMethod::attempt(double h) {
   const auto& [alpha_m, alpha_f, beta, gamma] = p_;
   const Knot& from = now();
-  a_ = from.a;
-  if (p_.theta() != 0 && last_h_ > 0) a_ += p_.theta() * (h / last_h_ - 1) * last_change_;
-  // a1 = (x - alpha_m a0) / (1 - alpha_m)
-  const double x_share = 1 / (1 - alpha_m), a_share = -alpha_m * x_share, new_state = 1 - alpha_f;
-  stage_.t = from.t + new_state * h;
-  stage_.q = from.q + new_state * h * (from.v + h * (0.5 - beta + beta * a_share) * a_);
-  stage_.v = from.v + new_state * h * (1 - gamma + gamma * a_share) * a_;
-  stage_.w_k = new_state * beta * x_share * h * h;
-  stage_.w_d = new_state * gamma * x_share * h;
+  w0_ = w_;
+  if (p_.theta() != 0 && last_h_ > 0) w0_ += p_.theta() * (h / last_h_ - 1) * last_change_;
+  const double share = (1 - alpha_f) / (1 - alpha_m);  // w1 = share x1 + what is known
+  w1_ = (alpha_f * from.a - alpha_m * w0_) / (1 - alpha_m);
+  stage_.t = from.t + h;
+  stage_.q = from.q + h * from.v + h * h * ((0.5 - beta) * w0_ + beta * w1_);
+  stage_.v = from.v + h * ((1 - gamma) * w0_ + gamma * w1_);
+  stage_.w_k = beta * share * h * h;
+  stage_.w_d = gamma * share * h;
 
-  past_.predict(from.t + (1 - alpha_m) * h, x_);
+  next_.a.resize(from.a.size());
+  past_.predict(stage_.t, next_.a);
   solver_.begin_step();
-  if (!solver_.solve(stage_, x_, next_.q, next_.v)) return false;
-  next_.a = x_share * x_ + a_share * a_;
-  next_.q = from.q + h * from.v + h * h * ((0.5 - beta) * a_ + beta * next_.a);
-  next_.v = from.v + h * ((1 - gamma) * a_ + gamma * next_.a);
+  if (!solver_.solve(stage_, next_.a, next_.q, next_.v)) return false;
+  w1_ += share * next_.a;
   return true;
 }
 
@@ -48,7 +47,7 @@ void AlphaMethod::estimate(double h, VectorRef e_q, VectorRef e_v) {
   const double lag = 0.5 * (1 - p_.alpha_f - theta * theta - (1 - p_.alpha_m) * (1 + 2 * theta));
   const double third = p_.beta + 0.5 * theta - 1.0 / 6;
   const double fourth = lag + 0.5 * (theta * theta + gamma * (1 + 2 * theta)) - 1.0 / 6;
-  const auto change = next_.a - a_;
+  const auto change = w1_ - w0_;
   e_v = change;
   if (last_h_ > 0) e_v = 2 * h / (h + last_h_) * (change - h / last_h_ * last_change_);
   e_v = h * (fourth * e_v + (gamma + theta - 0.5) * change);
@@ -57,13 +56,14 @@ void AlphaMethod::estimate(double h, VectorRef e_q, VectorRef e_v) {
 }
 
 void AlphaMethod::accepted(double h) {
-  last_change_ = next_.a - a_;
+  last_change_ = w1_ - w0_;
+  w_ = w1_;
   last_h_ = h;
   past_.add(next_.t, next_.a);
 }
 
 std::size_t AlphaMethod::method_bytes() const {
-  return solver_.bytes() + 7 * static_cast<std::size_t>(model_.num_dofs()) * sizeof(double);
+  return solver_.bytes() + 8 * static_cast<std::size_t>(model_.num_dofs()) * sizeof(double);
 }
 
 }  // namespace orthodyn

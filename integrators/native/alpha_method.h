@@ -1,12 +1,13 @@
-// The generalised-alpha family (Chung & Hulbert 1993): Newmark's formulas, with the equation of motion
-// satisfied between the ends of the step.
+// The generalised-alpha family (Chung & Hulbert 1993): Newmark's formulas with an acceleration w of the scheme's own,
+// which follows that of the solution, x.
 //
-//   q1 = q0 + h v0 + h^2 ((1/2 - beta) a0 + beta a1),    v1 = v0 + h ((1 - gamma) a0 + gamma a1)
-//   M [a1, a0]_m = f(t, [q1, q0]_f, [v1, v0]_f),         [x1, x0]_k = (1 - alpha_k) x1 + alpha_k x0
+//   q1 = q0 + h v0 + h^2 ((1/2 - beta) w0 + beta w1),    v1 = v0 + h ((1 - gamma) w0 + gamma w1)
+//   [w1, w0]_m = [x1, x0]_f,    M x = f(t, q, v),        [y1, y0]_k = (1 - alpha_k) y1 + alpha_k y0
 //
-// The force of the blended state, not the blend of forces. With theta = alpha_m - alpha_f the scheme's
-// acceleration is that of the solution at t + theta h (Jansen, Whiting & Hulbert 2000); when h changes, it is
-// moved there (Bruels & Arnold 2008). Second order for gamma = 1/2 - theta.
+// The blend of forces, not the force of a blended state (Erlicher, Bonaventura & Bursi 2002): a stiff body that turns is
+// in between smaller than it is, and its false stresses add energy. With theta = alpha_m - alpha_f, w is the solution's
+// acceleration at t + theta h (Jansen, Whiting & Hulbert 2000); when h changes, it is moved there (Bruels & Arnold
+// 2008). Second order for gamma = 1/2 - theta.
 #pragma once
 
 #include "integrators/native/accelerations.h"
@@ -41,11 +42,10 @@ class AlphaMethod : public OneStep {
   AlphaParameters p_;
   StageSolver solver_;
   StageSolver::Stage stage_;
-  Accelerations past_;  // labelled by the ends of steps
-  Vector a_;            // a0, moved to where this step needs it
-  double last_h_ = 0;   // 0 after a restart
-  Vector last_change_;  // next_.a - a_ of the last step
-  Vector x_;            // M x = f in the step
+  Accelerations past_;      // x at the ends of steps
+  Vector w_, w0_, w1_;      // at now(), moved to where this step needs it, at the step's end
+  double last_h_ = 0;       // 0 after a restart
+  Vector last_change_;      // w1_ - w0_ of the last step
 };
 
 }  // namespace orthodyn

@@ -42,6 +42,19 @@ TEST(AlphaMethods, LeaveOfFastOscillationsWhatTheirParameterSays) {
     EXPECT_NEAR(left_at_infinity(fmt::format("hht_alpha, alpha: {}", alpha)), (1 + alpha) / (1 - alpha), 0.03) << alpha;
 }
 
+// The force of a state between the ends of a step is that of a rod shortened by its turn: it would gain energy.
+TEST(AlphaMethods, GainNoEnergyWhereAStiffRodTurns) {
+  const auto model = pendulum();
+  const double at_start = model.energy(model.initial());
+  for (const std::string method : {"generalized_alpha, rho_inf: 0.5", "generalized_alpha, rho_inf: 0.8",
+                                   "generalized_alpha, rho_inf: 1", "hht_alpha, alpha: -0.3"})
+    for (const double h : {0.1, 0.3}) {
+      double most = at_start;
+      for (int steps = 1; steps <= 60; ++steps) most = std::max(most, model.energy(after_steps(model, method, steps, h)));
+      EXPECT_LE(most - at_start, 0.05) << method << ", step " << h;
+    }
+}
+
 TEST(Bathe, LeavesOfFastOscillationsWhatItsParameterSays) {
   for (const double rho : {0.5, 0.8})
     for (const double splitting : {0.3, 0.5})
