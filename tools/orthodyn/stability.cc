@@ -44,12 +44,14 @@ class MatrixTable {
   explicit MatrixTable(const Json& matrix) : matrix_(matrix) {
     for (const auto& trial : matrix.at("trials"))
       grades_[{trial.at("variant"), trial.at("case"), trial.at("integrator")}] = trial.at("grade");
-    for (const auto& hard : matrix.at("cases"))
-      width_ = std::max(width_, hard.at("label").get<std::string>().size());
+    const auto fit = [&](const std::string& text) { width_ = std::max(width_, text.size()); };
+    for (const auto& hard : matrix.at("cases")) fit(hard.at("label"));
+    for (const auto& variant : matrix.at("variants")) fit(variant);
   }
 
   void print() const {
-    fmt::print("\n+ pass   o degraded   X fail   - refused by the integrator\n");
+    fmt::print("\n+ pass   o degraded   X fail   - refused by the integrator{}\n",
+               matrix_.at("complete").get<bool>() ? "" : "   ? not tried yet");
     std::size_t column = 0;
     for (const auto& integrator : matrix_.at("integrators"))
       fmt::print("{:>3} {}\n", ++column, integrator.get<std::string>());
