@@ -35,7 +35,7 @@ IntegratorEntry read_section(const Config& c) {
   require_known_integrator(c.at("type"), entry.type);
   entry.label = c.has("label") ? c.at("label").text() : entry.type;
   for (const auto& key : c.keys())
-    if (key != "type" && key != "label") entry.options.emplace_back(key, YamlText{c.at(key).yaml()});
+    if (key != "type" && key != "label") entry.options.emplace_back(key, Value<YamlText>::read(c.at(key), {}));
   return entry;
 }
 

@@ -8,6 +8,7 @@
 
 #include "lib/core/units.h"
 #include "lib/study/formula_scope.h"
+#include "lib/study/sweep_names.h"
 
 namespace orthodyn {
 
@@ -91,6 +92,7 @@ void check_sweep(const Sweep& s, const Config& config) {
                                 s.vary.front().name, s.vary.front().values.size()));
   }
   for (const auto& [name, value] : s.definitions) check_formula_name(name, config.at("definitions").at(name));
+  check_names(s);
   check_number_of_points(s, config);
   check_plots(s, config);
 }

@@ -68,19 +68,6 @@ struct Variable {
   VariedValue at(double number) const;
 };
 
-// A number or a formula with a name, as YAML.
-struct Definition {
-  std::string text;
-  Origin origin;
-};
-
-template <>
-struct Value<Definition> {
-  static Shape shape() { return Value<YamlText>::shape(); }
-  static Definition read(const Config& c, const Rule&) { return {c.yaml(), {c.where()}}; }
-  static std::string yaml(const Definition&) { return ""; }
-};
-
 // One figure of a point. Exactly one of: quantity, mode, cost.
 struct WantedFigure {
   std::string quantity;
@@ -124,7 +111,7 @@ struct Sweep {
   std::string name;  // the file's stem
   std::string title, description;
   SceneEntry scene;
-  Named<Definition> definitions;
+  Named<YamlText> definitions;  // numbers and formulas
   Combine combine = Combine::cartesian;
   int samples = 50;
   long seed = 1;

@@ -71,35 +71,6 @@ std::string title_of(const Sweep& sweep, const Values& values) {
   return join(parts);
 }
 
-// Every formula of the sweep, for what mentions a name.
-std::vector<std::string> formulas_of(const Sweep& sweep) {
-  std::vector<std::string> all;
-  const auto add = [&](const auto& list) {
-    for (const auto& [name, value] : list) all.push_back(value.text);
-  };
-  add(sweep.definitions);
-  add(sweep.scene.set);
-  for (const auto& [name, figure] : sweep.quantities) all.push_back(figure.closed_form);
-  for (const auto& variable : sweep.vary) {
-    for (const auto& value : variable.values) {
-      add(value.let);
-      if (variable.path.empty()) add(value.set);
-    }
-  }
-  return all;
-}
-
-// A slip in a key's name would vary nothing.
-void refuse_unused_names(const Sweep& sweep) {
-  const auto formulas = formulas_of(sweep);
-  for (const auto& v : sweep.vary) {
-    if (!v.path.empty() || !v.numeric()) continue;
-    if (std::any_of(formulas.begin(), formulas.end(), [&](const std::string& f) { return mentions(f, v.name); }))
-      continue;
-    v.origin.fail("'" + v.name + "' is no key of a scene, and no formula uses it");
-  }
-}
-
 class Expansion {
  public:
   explicit Expansion(const Sweep& sweep) : sweep_(sweep) {
@@ -193,7 +164,6 @@ class Expansion {
 }  // namespace
 
 std::vector<SweepPoint> expand(const Sweep& sweep) {
-  refuse_unused_names(sweep);
   Expansion expansion(sweep);
   std::vector<SweepPoint> points;
   for (const auto& values : combined(sweep)) points.push_back(expansion.point(values));

@@ -24,8 +24,8 @@ bool is_path(const std::string& key) {
 std::string last_step(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
 // "30" as it stands in a scene: "30 deg".
-YamlText with_unit(double number, const std::string& unit) {
-  return {number_text(number) + (unit.empty() ? "" : " " + unit)};
+std::string with_unit(double number, const std::string& unit) {
+  return number_text(number) + (unit.empty() ? "" : " " + unit);
 }
 
 std::vector<double> divided(const NumberRange& r) {
@@ -65,7 +65,7 @@ VariedValue listed_value(const Variable& v, const Config& c) {
   if (c.is_scalar() && c.reads_as_number()) return v.at(c.number());
   if (v.path.empty()) c.fail("'" + v.name + "' is no key of a scene, so its values must be numbers for formulas");
   VariedValue value{c.is_scalar() ? c.text() : c.yaml(), {}, {}, {}};
-  value.set.emplace_back(v.path, YamlText{c.yaml()});
+  value.set.emplace_back(v.path, Value<YamlText>::read(c, {}));
   return value;
 }
 
@@ -79,12 +79,13 @@ void read_sets(const Config& c, Variable& v) {
     c.fail("a list of values, {from, to, count} or {values} belongs here; found " + c.shown());
   for (const auto& label : c.keys()) {
     const Config set = c.at(label);
+    if (label.find_first_not_of(' ') == std::string::npos) set.fail("has no name; give one, which people read");
     if (!set.is_map()) set.fail("expected a set of keys of the scene {path: value}, found " + set.shown());
     VariedValue value{label, {}, {}, {}};
     for (const auto& key : set.keys()) {
       auto& list = is_path(key) ? value.set : value.let;
       if (!is_path(key)) check_formula_name(key, set.at(key));
-      list.emplace_back(key, YamlText{set.at(key).yaml()});
+      list.emplace_back(key, Value<YamlText>::read(set.at(key), {}));
     }
     v.values.push_back(std::move(value));
   }
@@ -136,7 +137,7 @@ double Variable::si(double number) const { return unit.empty() ? number : number
 
 VariedValue Variable::at(double x) const {
   VariedValue value{number_text(x), x, {}, {}};
-  if (!path.empty()) value.set.emplace_back(path, with_unit(x, unit));
+  if (!path.empty()) value.set.emplace_back(path, YamlText{with_unit(x, unit), origin});
   return value;
 }
 

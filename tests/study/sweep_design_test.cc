@@ -144,6 +144,38 @@ TEST_F(SweepDesign, GivesFormulasOnlyNamesThatTheyCanHave) {
               AllOf(HasSubstr("s.yaml:6:"), HasSubstr("cannot read the formula '2*c'")));
 }
 
+TEST_F(SweepDesign, RefusesTwoVariablesThatSetTheSamePath) {
+  const std::string head = std::string(kFigure) + "vary:\n";
+  EXPECT_THAT(complaint(head + "  materials.soft.nu: [0.1, 0.2]\n  kind: {a: {materials.soft.nu: 0.3}}\n"),
+              AllOf(HasSubstr("s.yaml:5:"), HasSubstr("s.yaml:4:"), HasSubstr("only one of both can hold")));
+  EXPECT_THAT(complaint(head + "  a: {x: {gravity: [0, 0, -1]}}\n  b: {y: {gravity: [0, 0, -2]}}\n"),
+              AllOf(HasSubstr("s.yaml:5:"), HasSubstr("s.yaml:4:")));
+  // The whole after its part takes the part away; the part after the whole is what it says.
+  EXPECT_THAT(complaint(head + "  gravity.2: [-1, -2]\n  kind: {a: {gravity: [0, 0, 0]}}\n"),
+              AllOf(HasSubstr("s.yaml:5:"), HasSubstr("replaces 'gravity.2'"), HasSubstr("s.yaml:4:")));
+  const auto all = points(head + "  kind: {a: {gravity: [1, 0, 0]}}\n  gravity.2: [-1, -2]\n");
+  EXPECT_EQ(value(all[1], "gravity.0"), 1);
+  EXPECT_EQ(value(all[1], "gravity.2"), -2);
+}
+
+TEST_F(SweepDesign, RefusesASlipInANamedSet) {
+  EXPECT_THAT(complaint(kFigure + std::string("vary:\n  kind:\n    a: {gravty: [0, 0, -2]}\n    b: {}\n")),
+              AllOf(HasSubstr("s.yaml:5:"), HasSubstr("did you mean 'gravity'?")));
+  EXPECT_THAT(complaint(kFigure + std::string("vary:\n  kind:\n    a: {rho: 1}\n    b: {}\n")),
+              AllOf(HasSubstr("s.yaml:5:"), HasSubstr("no formula uses it")));
+  EXPECT_THAT(complaint(kFigure + std::string("vary:\n  kind:\n    \"\": {}\n")),
+              AllOf(HasSubstr("s.yaml:5:"), HasSubstr("has no name")));
+}
+
+TEST_F(SweepDesign, RefusesANameForTwoThings) {
+  const std::string rest = "quantities: {f: {mode: 1, closed_form: nu + x}}\n";
+  EXPECT_THAT(complaint(rest + "vary:\n  materials.soft.nu: [0.1]\ndefinitions:\n  x: 2\n  nu: 1\n"),
+              AllOf(HasSubstr("s.yaml:7:"), HasSubstr("the name 'nu' is taken at"), HasSubstr("s.yaml:4:")));
+  EXPECT_THAT(complaint(rest + "vary:\n  materials.soft.nu: [0.1]\n  k: {a: {x: 1}, b: {x: 2}}\n  m: {c: {x: 3}}\n"),
+              AllOf(HasSubstr("s.yaml:6:"), HasSubstr("the name 'x' is taken at"), HasSubstr("s.yaml:5:")));
+  EXPECT_EQ(complaint(rest + "vary:\n  materials.soft.nu: [0.1]\n  x: {a: {x: 1}, b: {x: 2}}\n"), "");
+}
+
 TEST_F(SweepDesign, SaysWhereSomethingIsWrongBeforeAnythingRuns) {
   const std::string vary = "vary: {materials.soft.nu: [0, 0.1]}\n";
   EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.mu: [0, 0.1]}\n")),
