@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
 
 #include "lib/core/registry.h"
 #include "lib/ode/integrator.h"
@@ -95,6 +96,24 @@ void check_comparison(const Comparison& c, const Config& config) {
 }
 
 }  // namespace
+
+std::string said_at_its_place(const std::string& message, const Assignments& assignments) {
+  constexpr std::string_view kSet = "--set ";
+  const auto at = message.find(kSet);
+  if (at == std::string::npos) return message;
+  const std::string wrong = message.substr(at + kSet.size());  // "a.b.0: must be ..." or "a.b.0=5: there is ..."
+  const std::pair<std::string, YamlText>* nearest = nullptr;
+  for (const auto& assignment : assignments) {
+    const std::string& path = assignment.first;
+    if (assignment.second.origin.where.empty() || !wrong.starts_with(path) || wrong.size() == path.size() ||
+        std::string(".:=").find(wrong[path.size()]) == std::string::npos)
+      continue;
+    if (!nearest || path.size() >= nearest->first.size()) nearest = &assignment;  // the last one holds
+  }
+  if (!nearest) return message;
+  const std::string rest = wrong.substr(nearest->first.size());
+  return nearest->second.origin.where + (rest.front() == '=' ? ": " + message : rest);
+}
 
 std::vector<IntegratorEntry> expand_all(const std::vector<IntegratorEntry>& entries) {
   std::vector<IntegratorEntry> out;

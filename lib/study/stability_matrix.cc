@@ -27,7 +27,7 @@ std::string mesh_of(const Trial& trial) {
     build(scene);
     return mesh_fingerprint(load_mesh(scene));
   } catch (const ConfigError& e) {
-    throw ConfigError(trial.title + ": " + e.what());
+    throw ConfigError(fmt::format("{} (in {})", e.what(), trial.title));
   }
 }
 
@@ -46,7 +46,7 @@ Json member(const Json& object, const char* key) { return object.contains(key) ?
 StabilityMatrix::StabilityMatrix(Stability stability, fs::path folder, std::string program)
     : stability_(std::move(stability)), folder_(std::move(folder)), program_(std::move(program)),
       trials_(orthodyn::trials(stability_)) {
-  for (const auto& hard : stability_.cases) sentences_.push_back(head_comment(read_yaml(hard.file.path)));
+  for (const auto& hard : stability_.cases) sentences_.push_back(head_comment(read_yaml(hard.file)));
   const std::string code = code_fingerprint();
   std::map<std::pair<std::size_t, std::size_t>, std::string> meshes;  // of a case with a variant
   const Json job{{"seconds", stability_.limits.seconds}, {"code", code}};

@@ -110,12 +110,12 @@ TEST_F(StabilityCommand, ARunThatDoesNotEndFails) {
 TEST_F(StabilityCommand, RefusesWhatIsWrongBeforeAnythingRuns) {
   const std::map<std::string, std::string> wrong{
       {"cases: []\n", "m.yaml:1:8: cases: is empty"},
-      {"cases: [none.yaml]\n", "no such file"},
+      {"cases: [none.yaml]\n", "m.yaml:1:9: cases.0: none.yaml: no such file"},
       {"cases: [fall.yaml, fall.yaml]\n", "m.yaml:1:20"},
       {"cases: [fall.yaml]\nintegrators: [cvode_bfd]\n", "did you mean 'cvode_bdf'"},
-      {"cases: [fall.yaml]\nintegrators: [{type: cvode_bdf, rtoll: 1}]\n", "rtoll"},
-      {"cases: [{file: fall.yaml, set: {gravty: 1}}]\n", "gravty"},
-      {"cases: [fall.yaml]\nvariants: {a: {elasticity.corotatoin: warped}}\n", "corotatoin"}};
+      {"cases: [fall.yaml]\nintegrators: [{type: cvode_bdf, rtoll: 1}]\n", "m.yaml:2:40: integrators.0.rtoll: unknown key"},
+      {"cases: [{file: fall.yaml, set: {gravty: 1}}]\n", "m.yaml:1:41: cases.0.set.gravty: unknown key"},
+      {"cases: [fall.yaml]\nvariants: {a: {elasticity.corotatoin: warped}}\n", "m.yaml:2:39: variants.a.elasticity.corotatoin: unknown key"}};
   for (const auto& [text, message] : wrong) {
     write("m.yaml", text);
     const auto done = stability();
