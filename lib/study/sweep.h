@@ -27,9 +27,24 @@ struct Words<Scale> {
   static constexpr std::array<std::pair<Scale, const char*>, 2> list{{{Scale::linear, "linear"}, {Scale::log, "log"}}};
 };
 
+// A number in a unit that is said elsewhere, or "10 MPa" with one of its own.
+struct Amount {
+  double number = 0;
+  std::string unit;
+};
+
+template <>
+struct Value<Amount> {
+  static Shape shape() {
+    return {.kind = Shape::Kind::either, .items = {{.kind = Shape::Kind::number}, {.kind = Shape::Kind::text}}};
+  }
+  static Amount read(const Config& c, const Rule&);
+  static std::string yaml(const Amount&) { return ""; }
+};
+
 // Evenly spaced numbers: differences, resp. ratios of neighbours are the same.
 struct NumberRange {
-  double from = 0, to = 0;
+  Amount from, to;
   std::optional<int> count;  // none in a Latin hypercube, which has its own
   Scale scale = Scale::linear;
   std::string unit, name;
@@ -98,6 +113,7 @@ struct FrameWish {
   double enlarged = 1;
   int most = 24;
   bool ghost = true;
+  Origin origin;
   static const Spec<FrameWish>& spec();
 };
 
@@ -113,8 +129,8 @@ struct Sweep {
   SceneEntry scene;
   Named<YamlText> definitions;  // numbers and formulas
   Combine combine = Combine::cartesian;
-  int samples = 50;
-  long seed = 1;
+  std::optional<int> samples;  // of a Latin hypercube
+  std::optional<long> seed;
   std::vector<Variable> vary;
   Named<WantedFigure> quantities;
   std::vector<PlotWish> plots;

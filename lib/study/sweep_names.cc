@@ -8,6 +8,7 @@
 
 #include "lib/scene/scene.h"
 #include "lib/study/formula_scope.h"
+#include "lib/study/sweep_table.h"
 
 namespace orthodyn {
 
@@ -56,13 +57,6 @@ std::vector<std::string> formulas_of(const Sweep& sweep) {
   return all;
 }
 
-std::string scene_key_near(const std::string& name) {
-  std::vector<std::string> keys;
-  for (const auto& key : Scene::spec().keys()) keys.push_back(key.name);
-  const std::string near = nearest_name(name, keys);
-  return near.empty() ? "" : "; did you mean '" + near + "'?";
-}
-
 // A slip in a key's name would vary nothing.
 void refuse_unused_names(const Sweep& sweep) {
   const auto formulas = formulas_of(sweep);
@@ -97,13 +91,51 @@ void refuse_names_of_two_things(const Sweep& sweep) {
   for (const auto& [name, definition] : sweep.definitions) take(taken, name, definition.origin);
 }
 
+bool is_blank(const std::string& name) { return name.find_first_not_of(' ') == std::string::npos; }
+
+// The table has a column for each variable and figure beside its own.
+void refuse_equal_columns(const Sweep& sweep) {
+  Places taken;
+  const auto add = [&](const std::string& name, const Origin& place) {
+    if (is_blank(name)) place.fail("has no name; give one, it heads a column of the table");
+    const auto [other, is_new] = taken.emplace(name, place);
+    if (!is_new)
+      place.fail(fmt::format("the table has a column '{}' already, of {}; give another name", name,
+                             other->second.where));
+  };
+  for (const auto& v : sweep.vary) add(v.name, v.origin);
+  for (const auto& [name, f] : sweep.quantities) {
+    add(name, f.origin);
+    if (f.closed_form.empty()) continue;
+    for (const char* ending : kBesideClosedForms) add(name + ending, f.origin);
+  }
+  for (const auto& [name, place] : taken) {
+    const auto is_cost = [&, &n = name](const auto& q) { return q.first == n && q.second.cost == n; };
+    if (std::find(std::begin(kTableColumns), std::end(kTableColumns), name) == std::end(kTableColumns)) continue;
+    if (std::any_of(sweep.quantities.begin(), sweep.quantities.end(), is_cost)) continue;  // the same column
+    place.fail(fmt::format("the table has a column '{}' of its own; give another name", name));
+  }
+}
+
 }  // namespace
+
+std::vector<std::string> scene_keys() {
+  std::vector<std::string> names;
+  for (const auto& key : Scene::spec().keys()) names.push_back(key.name);
+  return names;
+}
+
+std::string scene_key_near(const std::string& name) {
+  const std::string near = nearest_name(name, scene_keys());
+  return near.empty() ? "" : "; did you mean '" + near + "'?";
+}
 
 void check_names(const Sweep& sweep) {
   for (auto later = sweep.vary.begin(); later != sweep.vary.end(); ++later)
     for (auto earlier = sweep.vary.begin(); earlier != later; ++earlier) refuse_replaced_values(*earlier, *later);
   refuse_unused_names(sweep);
   refuse_names_of_two_things(sweep);
+  refuse_equal_columns(sweep);
 }
 
 }  // namespace orthodyn

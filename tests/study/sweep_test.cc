@@ -123,6 +123,25 @@ TEST_F(SweepCommand, KnowsEveryTakeWithItsUnit) {
   EXPECT_LT(figures.at("onset").get<double>(), figures.at("time_of_max").get<double>());
 }
 
+TEST_F(SweepCommand, HeadsTheTableWithUnitsAndEachColumnOnce) {
+  write("s.yaml", R"(scene: scene.yaml
+vary:
+  materials.soft.young: [1e5]
+  materials.soft.density: [0.5 g/cm^3]
+  loads.0.force.0: [1]
+  materials.soft.nu: [0]
+quantities: {steps: {cost: steps}, hertz: {mode: 1}}
+)");
+  const auto done = sweep();
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  const std::string csv = read_text(folder_ / "out/sweeps/s/sweep.csv");
+  EXPECT_EQ(csv.substr(0, csv.find('\n')),
+            "point,young [Pa],density [g/cm^3],force.0 [N],nu,steps,hertz [Hz],status,reason,message,"
+            "wall_seconds [s],cpu_seconds [s],unknowns,folder");
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 13) << line;
+}
+
 TEST_F(SweepCommand, IntegratesNothingWhereOnlyFrequenciesAreAskedFor) {
   write("s.yaml",
         "scene: scene.yaml\nvary: {time.end: [1e9]}\nquantities: {hertz: {mode: 1}}\nlimits: {seconds: 10}\n");
