@@ -6,6 +6,7 @@
 
 #include "lib/core/registry.h"
 #include "lib/ode/integrator.h"
+#include "lib/study/input_kind.h"
 
 namespace orthodyn {
 
@@ -223,8 +224,7 @@ const Spec<Comparison>& Comparison::spec() {
 }
 
 Comparison read_comparison(const Config& config) {
-  if (config.is_map() && config.has("mesh"))
-    config.at("mesh").fail("a comparison has no such key; a scene is run by `orthodyn run`");
+  refuse_other_kinds(config, InputFile::comparison);
   Comparison comparison = Comparison::spec().read(config);
   comparison.name = stem(config.file());
   if (comparison.title.empty()) comparison.title = comparison.name;

@@ -11,6 +11,7 @@
 
 #include "lib/core/registry.h"
 #include "lib/ode/integrator.h"
+#include "lib/study/input_kind.h"
 
 namespace orthodyn {
 
@@ -196,7 +197,7 @@ void choose_references(const Comparison& comparison, Design& design) {
 
 std::string read_yaml(const FilePath& file) {
   try {
-    Config::from_file(file.path);  // says what is wrong with it
+    refuse_other_kinds(Config::from_file(file.path), InputFile::scene);
   } catch (const ConfigError& e) {
     throw ConfigError(file.where + ": " + e.what());
   }

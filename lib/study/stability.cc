@@ -9,6 +9,7 @@
 #include "lib/ode/integrator.h"
 #include "lib/scene/scene.h"
 #include "lib/study/expand.h"
+#include "lib/study/input_kind.h"
 
 namespace orthodyn {
 
@@ -90,8 +91,7 @@ const Spec<Stability>& Stability::spec() {
 }
 
 Stability read_stability(const Config& config) {
-  if (config.is_map() && config.has("mesh"))
-    config.at("mesh").fail("a file of hard cases has no such key; a scene is run by `orthodyn run`");
+  refuse_other_kinds(config, InputFile::stability);
   Stability stability = Stability::spec().read(config);
   stability.name = stem(config.file());
   if (stability.title.empty()) stability.title = stability.name;

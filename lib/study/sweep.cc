@@ -9,6 +9,7 @@
 #include "lib/core/units.h"
 #include "lib/fem/fem_model.h"
 #include "lib/study/formula_scope.h"
+#include "lib/study/input_kind.h"
 #include "lib/study/sweep_names.h"
 
 namespace orthodyn {
@@ -277,8 +278,7 @@ const Spec<Sweep>& Sweep::spec() {
 }
 
 Sweep read_sweep(const Config& config) {
-  if (config.is_map() && config.has("mesh"))
-    config.at("mesh").fail("a sweep has no such key; a scene is run by `orthodyn run`");
+  refuse_other_kinds(config, InputFile::sweep);
   Sweep sweep = Sweep::spec().read(config);
   sweep.name = std::filesystem::path(config.file()).stem().string();
   if (sweep.title.empty()) sweep.title = sweep.name;

@@ -221,6 +221,28 @@ TEST_F(SweepCommand, DoesNotRepeatPointsOfAnEarlierOrSmallerSweep) {
   for (const auto& [file, text] : before) EXPECT_EQ(read_text(file), text);
 }
 
+TEST_F(SweepCommand, AFileOfAnotherKindIsToldFromItsKeys) {
+  write("sweep.yaml", kMany);
+  write("compare.yaml", "scenes: [scene.yaml]\ntolerances: [1e-3]\n");
+  write("stability.yaml", "cases: [scene.yaml]\n");
+  write("run.yaml", kOscillator);
+  const std::map<std::string, std::string> words{{"run", "a scene"}, {"compare", "a comparison"}, {"sweep", "a sweep"},
+                                                 {"stability", "a file of hard cases"}};
+  for (const auto& [command, unused] : words) {
+    for (const auto& [kind, what] : words) {
+      if (command == kind) continue;
+      const auto refused = orthodyn(command + " " + kind + ".yaml");
+      EXPECT_EQ(refused.exit_code, 2);
+      EXPECT_NE(refused.output.find("this is " + what + ": orthodyn " + kind + " " + kind + ".yaml"), std::string::npos)
+          << refused.output;
+    }
+  }
+  for (const char* command : {"check", "modes", "verify"})
+    EXPECT_NE(orthodyn(std::string(command) + " sweep.yaml").output.find("orthodyn sweep"), std::string::npos);
+  write("s.yaml", "scene: stability.yaml\nvary: {materials.soft.nu: [0]}\nquantities: {f: {mode: 1}}\n");
+  EXPECT_NE(sweep().output.find("s.yaml:1:8: scene: stability.yaml: this is a file of hard cases"), std::string::npos);
+}
+
 // Killed again and again, each time a while after one more point is finished, it leaves every finished point, and never
 // more unfinished ones than it has processes.
 TEST_F(SweepCommand, LosesAtMostThePointsInProgressWhenItIsKilled) {
