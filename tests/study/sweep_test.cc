@@ -243,6 +243,11 @@ TEST_F(SweepCommand, AFileOfAnotherKindIsToldFromItsKeys) {
   EXPECT_NE(sweep().output.find("s.yaml:1:8: scene: stability.yaml: this is a file of hard cases"), std::string::npos);
 }
 
+TEST_F(SweepCommand, TheListsHaveTheLimits) {
+  for (const char* kind : {"sweep", "stability"})
+    EXPECT_NE(orthodyn(std::string("list ") + kind).output.find("Wall time of one integration"), std::string::npos);
+}
+
 // Killed again and again, each time a while after one more point is finished, it leaves every finished point, and never
 // more unfinished ones than it has processes.
 TEST_F(SweepCommand, LosesAtMostThePointsInProgressWhenItIsKilled) {
