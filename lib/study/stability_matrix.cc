@@ -100,11 +100,11 @@ Json StabilityMatrix::json(const std::string& file) const {
 
 std::string StabilityMatrix::csv() const {
   std::string csv =
-      "case,variant,integrator,grade,reason,figure,computed,expected,limit,time_reached [s],wall [s],cpu [s],steps\n";
+      "case,variant,integrator,grade,reason,figure,unit,computed,expected,limit,time_reached [s],wall [s],cpu [s],steps\n";
   for (const auto& [trial, result] : results_) {
     const Json t = trial_json(trial), worst = member(t, "worst"), statistics = member(t, "statistics");
     const std::vector<Json> row{t.at("case"), t.at("variant"), t.at("integrator"), t.at("grade"), t.at("reason"),
-                                member(worst, "title"), member(worst, "computed"), member(worst, "expected"),
+                                member(worst, "title"), member(worst, "unit"), member(worst, "computed"), member(worst, "expected"),
                                 member(worst, "limit"), member(t, "time_reached"), member(t, "wall"), member(t, "cpu"),
                                 member(statistics, "steps")};
     for (std::size_t k = 0; k < row.size(); ++k) csv += csv_cell(row[k]) + (k + 1 < row.size() ? "," : "\n");

@@ -63,6 +63,8 @@ TEST_F(StabilityCommand, SaysWhatWasExpectedAndLeavesTheLastState) {
   EXPECT_TRUE(fs::exists(folder_ / "out/stability/m" / trial.at("folder").get<std::string>() / "end.vtu"));
   const std::string csv = read_text(folder_ / "out/stability/m/stability.csv");
   EXPECT_NE(csv.find("fall,default,cvode_bdf,fail,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",figure,unit,computed,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",end of corner.displacement.z,m,-4.9"), std::string::npos) << csv;
 }
 
 TEST_F(StabilityCommand, TakesVariantsAndRefusalsApart) {
