@@ -49,6 +49,7 @@ StabilityMatrix::StabilityMatrix(Stability stability, fs::path folder, std::stri
   for (const auto& hard : stability_.cases) sentences_.push_back(head_comment(read_yaml(hard.file)));
   const std::string code = code_fingerprint();
   std::map<std::pair<std::size_t, std::size_t>, std::string> meshes;  // of a case with a variant
+  FileFingerprints files;
   const Json job{{"seconds", stability_.limits.seconds}, {"code", code}};
   const ProcessLimits limits{stability_.limits.seconds + kSetUpTime, stability_.limits.memory};
   for (const Trial& trial : trials_) {
@@ -57,18 +58,19 @@ StabilityMatrix::StabilityMatrix(Stability stability, fs::path folder, std::stri
     Fingerprint print;
     print.add(machine_fingerprint()).add(trial.scene.dump()).add(job.dump());
     print.add(fmt::format("{}", limits.memory)).add(mesh);
-    for (const auto& file : trial.scene.file_paths()) print.add_file(file);
+    for (const auto& file : trial.scene.file_paths()) print.add(files.of(file));
     errands_.push_back({trial.title, "assess", folder_ / "trials" / print.text(), trial.scene.dump_for(""), job, limits});
   }
 }
 
-bool StabilityMatrix::run(int jobs, const std::atomic<bool>& interrupt, const ErrandEvents& events) {
+bool StabilityMatrix::run(int jobs, const std::atomic<bool>& interrupt, const ErrandEvents& events, OldFailures failures) {
   return carry_out_all(program_, errands_, jobs, interrupt,
                        {events.starts, [&](std::size_t i, Json result, bool cached) {
                           grade(result);
                           results_[i] = std::move(result);
                           events.ends(i, results_[i], cached);
-                        }});
+                        }},
+                       failures);
 }
 
 Json StabilityMatrix::trial_json(std::size_t trial) const {

@@ -22,7 +22,7 @@ bool draw(std::vector<std::string> arguments, const fs::path& log) {
   arguments.insert(arguments.begin(), program.string());
   const std::atomic<bool> never{false};
   const std::atomic<bool>& interrupt = interrupted() ? never : interrupted();  // a second Ctrl-C ends it all
-  return run_process(arguments, log, {600, 16e9}, interrupt).succeeded();
+  return run_process(arguments, log, {600, 16e9}, [&] { return interrupt.load(); }).succeeded();
 }
 
 }  // namespace
