@@ -96,10 +96,7 @@ std::string expected(const std::string& unit) {
 
 }  // namespace
 
-double quantity_in(const std::string& text, const std::string& unit) {
-  const auto fail = [&](const std::string& found) {
-    throw std::invalid_argument(fmt::format("expected {}, found {}", expected(unit), found));
-  };
+std::optional<NumberWithUnit> split_quantity(const std::string& text) {
   double number = 0;
   const char *begin = text.data(), *end = begin + text.size();
   while (begin != end && (*begin == ' ' || *begin == '+')) ++begin;
@@ -107,7 +104,17 @@ double quantity_in(const std::string& text, const std::string& unit) {
   std::string name(rest, end);
   name.erase(0, name.find_first_not_of(' '));
   name.erase(name.find_last_not_of(' ') + 1);
-  if (error != std::errc{} || !std::isfinite(number) || name.empty()) fail("'" + text + "'");
+  if (error != std::errc{} || !std::isfinite(number) || name.empty()) return {};
+  return NumberWithUnit{number, name};
+}
+
+double quantity_in(const std::string& text, const std::string& unit) {
+  const auto fail = [&](const std::string& found) {
+    throw std::invalid_argument(fmt::format("expected {}, found {}", expected(unit), found));
+  };
+  const auto parts = split_quantity(text);
+  if (!parts) fail("'" + text + "'");
+  const auto& [number, name] = *parts;
   const Unit given = has_factor(name.starts_with("1/") ? name.substr(2) : name) ? Unit() : parse(name);
   if (!given) fail(fmt::format("'{}': the unit '{}' is not known", text, name));
   if (unit.empty()) fail(fmt::format("'{}', {}", text, with_article(describe(given.get()))));

@@ -2,6 +2,7 @@
 // (SI units with prefixes, inch, psi, degree, ...).
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace orthodyn {
@@ -10,6 +11,13 @@ namespace orthodyn {
 // An angle is a dimension of its own: Hz is no rad/s. Throws std::invalid_argument with a sentence that
 // names what was found and what is expected.
 double quantity_in(const std::string& text, const std::string& unit);
+
+// "10 MPa" taken apart, whether or not there is such a unit; nothing for what is no number followed by a word.
+struct NumberWithUnit {
+  double number;
+  std::string unit;
+};
+std::optional<NumberWithUnit> split_quantity(const std::string& text);
 
 // What one of a unit is in SI units: 1e9 for "GPa", 0.0175 for "deg". Throws std::invalid_argument for a unit that is
 // not known.

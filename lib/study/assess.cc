@@ -13,6 +13,7 @@ namespace {
 
 Json to_json(const Check& check) {
   return {{"title", check.expectation.title()},
+          {"unit", check.unit},
           {"computed", finite_or_null(check.computed)},
           {"expected", check.expectation.value},
           {"limit", check.expectation.limit()},

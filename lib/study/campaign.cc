@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include "lib/scene/mesh_materials.h"
-#include "lib/study/errand.h"
-#include "lib/study/fingerprint.h"
 #include "lib/study/measure.h"
 
 namespace orthodyn {
@@ -109,7 +107,7 @@ std::string Campaign::folder_of(const Task& task) {
   job["reference"] = fs::path(task.job.reference).filename().string();  // a fingerprint itself
   print.add(machine_fingerprint()).add(task.scene.dump()).add(job.dump());
   print.add(fmt::format("{}", comparison_.limits.memory));
-  for (const auto& file : task.scene.file_paths()) print.add_file(file);
+  for (const auto& file : task.scene.file_paths()) print.add(files_.of(file));
   print.add(mesh_of(task));
   return task.kind + "/" + print.text();
 }
@@ -118,7 +116,7 @@ Json Campaign::perform(const Task& task, const std::atomic<bool>& interrupt, std
   folder = folder_of(task);
   ++number_;
   const fs::path path = options_.folder / folder;
-  Json result = finished(path);
+  Json result = finished(path, options_.failures);
   const bool cached = is_finished(path, result, task.job);
   if (!cached) {
     options_.notify({number_, count_, task.title, true, false, nullptr});
@@ -133,7 +131,7 @@ Json Campaign::execute(const fs::path& folder, const Task& task, const std::atom
   const Job& job = task.job;
   const ProcessLimits limits{job.seconds * (job.repeats + 3) + kSetUpTime, comparison_.limits.memory};
   return carry_out(options_.program, {task.title, "measure", folder, task.scene.dump_for(""), job.json(), limits},
-                   interrupt);
+                   [&] { return interrupt.load(); });
 }
 
 }  // namespace orthodyn

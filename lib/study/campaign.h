@@ -8,7 +8,9 @@
 #include <map>
 #include <string>
 
+#include "lib/study/errand.h"
 #include "lib/study/expand.h"
+#include "lib/study/fingerprint.h"
 #include "lib/study/point_result.h"
 
 namespace orthodyn {
@@ -33,6 +35,7 @@ struct CampaignOptions {
   std::filesystem::path folder;
   std::string program;  // the orthodyn executable: started with `measure FOLDER`
   std::function<void(const TaskNotice&)> notify;
+  OldFailures failures = OldFailures::keep;
 };
 
 class Campaign {
@@ -74,6 +77,7 @@ class Campaign {
   std::map<std::size_t, Json> results_;
   std::map<std::size_t, std::string> point_folders_;
   std::map<std::size_t, std::string> meshes_;  // fingerprints by problem
+  FileFingerprints files_;
   std::size_t number_ = 0, count_ = 0;
 };
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
 
 #include "lib/core/registry.h"
 #include "lib/ode/integrator.h"
+#include "lib/study/input_kind.h"
 
 namespace orthodyn {
 
@@ -35,7 +37,7 @@ IntegratorEntry read_section(const Config& c) {
   require_known_integrator(c.at("type"), entry.type);
   entry.label = c.has("label") ? c.at("label").text() : entry.type;
   for (const auto& key : c.keys())
-    if (key != "type" && key != "label") entry.options.emplace_back(key, YamlText{c.at(key).yaml()});
+    if (key != "type" && key != "label") entry.options.emplace_back(key, Value<YamlText>::read(c.at(key), {}));
   return entry;
 }
 
@@ -95,6 +97,24 @@ void check_comparison(const Comparison& c, const Config& config) {
 }
 
 }  // namespace
+
+std::string said_at_its_place(const std::string& message, const Assignments& assignments) {
+  constexpr std::string_view kSet = "--set ";
+  const auto at = message.find(kSet);
+  if (at == std::string::npos) return message;
+  const std::string wrong = message.substr(at + kSet.size());  // "a.b.0: must be ..." or "a.b.0=5: there is ..."
+  const std::pair<std::string, YamlText>* nearest = nullptr;
+  for (const auto& assignment : assignments) {
+    const std::string& path = assignment.first;
+    if (assignment.second.origin.where.empty() || !wrong.starts_with(path) || wrong.size() == path.size() ||
+        std::string(".:=").find(wrong[path.size()]) == std::string::npos)
+      continue;
+    if (!nearest || path.size() >= nearest->first.size()) nearest = &assignment;  // the last one holds
+  }
+  if (!nearest) return message;
+  const std::string rest = wrong.substr(nearest->first.size());
+  return nearest->second.origin.where + (rest.front() == '=' ? ": " + message : rest);
+}
 
 std::vector<IntegratorEntry> expand_all(const std::vector<IntegratorEntry>& entries) {
   std::vector<IntegratorEntry> out;
@@ -204,8 +224,7 @@ const Spec<Comparison>& Comparison::spec() {
 }
 
 Comparison read_comparison(const Config& config) {
-  if (config.is_map() && config.has("mesh"))
-    config.at("mesh").fail("a comparison has no such key; a scene is run by `orthodyn run`");
+  refuse_other_kinds(config, InputFile::comparison);
   Comparison comparison = Comparison::spec().read(config);
   comparison.name = stem(config.file());
   if (comparison.title.empty()) comparison.title = comparison.name;

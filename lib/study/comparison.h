@@ -13,14 +13,22 @@ namespace orthodyn {
 // YAML that is handed on as it stands: a value for a key of a scene.
 struct YamlText {
   std::string text;
+  Origin origin = {};
 };
 
 template <>
 struct Value<YamlText> {
   static Shape shape() { return {}; }
-  static YamlText read(const Config& c, const Rule&) { return {c.yaml()}; }
+  static YamlText read(const Config& c, const Rule&) { return {c.yaml(), {c.where()}}; }
   static std::string yaml(const YamlText& x) { return x.text; }
 };
+
+// Values of a scene by path.
+using Assignments = Named<YamlText>;
+
+// What is wrong with a scene, said at the assignment that brought it in, where one of them did: "c.yaml:3:8: vary.gravty:
+// unknown key" for "scene.yaml: --set gravty: unknown key".
+std::string said_at_its_place(const std::string& message, const Assignments& assignments);
 
 // In the list of scenes: a file, or a section.
 struct SceneEntry {

@@ -16,7 +16,7 @@ constexpr const char* kNorms[] = {"final", "l2", "max"};
 
 Json set_json(const Assignments& set, const std::string& prefix = "") {
   Json out = Json::object();
-  for (const auto& [path, value] : set) out[prefix + path] = value;
+  for (const auto& [path, value] : set) out[prefix + path] = value.text;
   return out;
 }
 

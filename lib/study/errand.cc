@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <exception>
 #include <fstream>
 #include <map>
 #include <mutex>
+#include <set>
 #include <thread>
 
 #include "lib/core/errors.h"
@@ -19,7 +21,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kCrashed = "crashed";
+constexpr const char *kCrashed = "crashed", *kTimeLimit = "time limit";
+
+bool has(const Json& result, const char* key, const char* word) {
+  return result.is_object() && result.contains(key) && result.at(key) == word;
+}
 
 std::string last_line(const fs::path& file) {
   std::ifstream in(file);
@@ -33,7 +39,7 @@ Json died(const ProcessEnd& end, const fs::path& log) {
   const auto failed = [](const std::string& reason, const std::string& message) {
     return Json{{"status", "failed"}, {"reason", reason}, {"message", message}};
   };
-  if (end.kind == ProcessEnd::Kind::timed_out) return failed("time limit", "killed after the limit of the wall time");
+  if (end.kind == ProcessEnd::Kind::timed_out) return failed(kTimeLimit, "killed after the limit of the wall time");
   if (end.kind == ProcessEnd::Kind::out_of_memory)
     return failed(reason_name(Reason::out_of_memory), "killed when it used more than the limit of memory");
   const std::string said = last_line(log);
@@ -48,8 +54,8 @@ Json died(const ProcessEnd& end, const fs::path& log) {
 class Crew {
  public:
   Crew(const std::string& program, const std::vector<Errand>& errands, const std::atomic<bool>& interrupt,
-       const ErrandEvents& events)
-      : program_(program), errands_(errands), interrupt_(interrupt), events_(events) {
+       const ErrandEvents& events, OldFailures failures)
+      : program_(program), errands_(errands), interrupt_(interrupt), events_(events), failures_(failures) {
     std::map<fs::path, std::size_t> work_of;
     for (std::size_t i = 0; i < errands.size(); ++i) {
       const auto [known, is_new] = work_of.emplace(errands[i].folder, work_.size());
@@ -82,11 +88,11 @@ class Crew {
   bool take(const std::vector<std::size_t>& same) {
     if (interrupt_) return false;
     const Errand& errand = errands_[same.front()];
-    Json result = finished(errand.folder);
+    Json result = finished(errand.folder, failures_);
     const bool cached = !result.is_null();
     if (!cached) {
       tell([&] { events_.starts(same.front()); });
-      result = carry_out(program_, errand, interrupt_);
+      result = carry_out(program_, errand, [this] { return interrupt_ || stop_; });
       if (result.is_null()) return false;
     }
     for (const std::size_t i : same) tell([&] { events_.ends(i, result, cached || i != same.front()); });
@@ -103,6 +109,7 @@ class Crew {
   const std::vector<Errand>& errands_;
   const std::atomic<bool>& interrupt_;
   const ErrandEvents& events_;
+  const OldFailures failures_;
   std::vector<std::vector<std::size_t>> work_;  // errands by folder
   std::atomic<std::size_t> next_ = 0;
   std::atomic<bool> stop_ = false;
@@ -112,20 +119,35 @@ class Crew {
 
 }  // namespace
 
-Json finished(const fs::path& folder) {
+Json finished(const fs::path& folder, OldFailures failures) {
   Json result = read_json(folder / kResultFile);
-  if (!result.is_object() || (result.contains("reason") && result.at("reason") == kCrashed)) return nullptr;
+  if (!result.is_object() || has(result, "reason", kCrashed)) return nullptr;
+  if (failures == OldFailures::retry && has(result, "status", "failed")) return nullptr;
   return result;
 }
 
-Json carry_out(const std::string& program, const Errand& errand, const std::atomic<bool>& interrupt) {
+bool met_a_limit(const Json& result) {
+  return has(result, "status", "failed") &&
+         (has(result, "reason", kTimeLimit) || has(result, "reason", reason_name(Reason::out_of_memory)));
+}
+
+std::size_t number_at_limits(const std::vector<Errand>& errands) {
+  std::set<fs::path> folders;
+  for (const auto& errand : errands)
+    if (!errand.command.empty()) folders.insert(errand.folder);
+  return static_cast<std::size_t>(std::count_if(folders.begin(), folders.end(), [](const fs::path& folder) {
+    return met_a_limit(read_json(folder / kResultFile));
+  }));
+}
+
+Json carry_out(const std::string& program, const Errand& errand, const Stop& stop) {
   const fs::path& folder = errand.folder;
   write_file(folder / kSceneFile, {"# " + errand.title + "\n" + errand.scene});
   write_file(folder / kJobFile, {to_text(errand.job, 2)});
   std::error_code ignored;
   fs::remove(folder / kResultFile, ignored);
   const fs::path log = folder / "log.txt";
-  const ProcessEnd end = run_process({program, errand.command, folder.string()}, log, errand.limits, interrupt);
+  const ProcessEnd end = run_process({program, errand.command, folder.string()}, log, errand.limits, stop);
   if (end.kind == ProcessEnd::Kind::interrupted) return nullptr;
   Json result = read_json(folder / kResultFile);
   if (result.is_object()) return result;
@@ -135,8 +157,8 @@ Json carry_out(const std::string& program, const Errand& errand, const std::atom
 }
 
 bool carry_out_all(const std::string& program, const std::vector<Errand>& errands, int jobs,
-                   const std::atomic<bool>& interrupt, const ErrandEvents& events) {
-  return Crew(program, errands, interrupt, events).work(jobs);
+                   const std::atomic<bool>& interrupt, const ErrandEvents& events, OldFailures failures) {
+  return Crew(program, errands, interrupt, events, failures).work(jobs);
 }
 
 }  // namespace orthodyn

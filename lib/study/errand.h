@@ -22,13 +22,22 @@ struct Errand {
   ProcessLimits limits;
 };
 
+// What to do about the failures of an earlier run.
+enum class OldFailures { keep, retry };
+
 // The result that is there; null if there is none, or one of a process that died for no reason of ours: that may
-// have had a cause that is gone by now.
-Json finished(const std::filesystem::path& folder);
+// have had a cause that is gone by now. Null for every failure that is to be tried again.
+Json finished(const std::filesystem::path& folder, OldFailures failures = OldFailures::keep);
+
+// A failure at the limit of time or memory: with more of either, or on another machine, it may get through.
+bool met_a_limit(const Json& result);
+
+// How many of them there are, each folder counted once.
+std::size_t number_at_limits(const std::vector<Errand>& errands);
 
 // Does it. A process that died or reached a limit is a result: {"status": "failed", "reason", "message"}. Null if
 // interrupted. Throws RunError if files cannot be written or no process can be started.
-Json carry_out(const std::string& program, const Errand& errand, const std::atomic<bool>& interrupt);
+Json carry_out(const std::string& program, const Errand& errand, const Stop& stop);
 
 // What those who wait for errands see: an index, and the result once there is one.
 struct ErrandEvents {
@@ -37,9 +46,10 @@ struct ErrandEvents {
 };
 
 // Carries them out, `jobs` at a time; those that share a folder are one piece of work, done once. Events come one after
-// the other, in no order. False if interrupted. Throws what an event or carry_out() throws, after those in progress
-// have ended.
+// the other, in no order. False if interrupted. Throws what an event or carry_out() throws; those in progress are given
+// up then.
 bool carry_out_all(const std::string& program, const std::vector<Errand>& errands, int jobs,
-                   const std::atomic<bool>& interrupt, const ErrandEvents& events);
+                   const std::atomic<bool>& interrupt, const ErrandEvents& events,
+                   OldFailures failures = OldFailures::keep);
 
 }  // namespace orthodyn

@@ -11,6 +11,7 @@
 
 #include "lib/core/registry.h"
 #include "lib/ode/integrator.h"
+#include "lib/study/input_kind.h"
 
 namespace orthodyn {
 
@@ -39,7 +40,7 @@ std::vector<Variant> combinations(const Comparison& comparison,
     for (const auto& variant : all) {
       for (const auto& value : values) {
         longer.push_back(variant);
-        longer.back().set.emplace_back(path, value.text);
+        longer.back().set.emplace_back(path, value);
         longer.back().words += ", " + last_step(path) + " " + value.text;
       }
     }
@@ -76,10 +77,9 @@ std::vector<Problem> problems_of(const Comparison& comparison) {
   const auto variants = combinations(comparison, [](const std::string& path) { return !is_of_integrator(path); });
   std::vector<Problem> problems;
   for (const auto& scene : comparison.scenes) {
-    const std::string text = read_yaml(scene.file.path);
+    const std::string text = read_yaml(scene.file);
     for (const auto& variant : variants) {
-      Problem problem{"", scene.label + variant.words, scene.file.path, text, {}};
-      for (const auto& [path, value] : scene.set) problem.set.emplace_back(path, value.text);
+      Problem problem{"", scene.label + variant.words, scene.file.path, text, scene.set};
       problem.set.insert(problem.set.end(), variant.set.begin(), variant.set.end());
       problems.push_back(std::move(problem));
     }
@@ -99,8 +99,7 @@ std::string newton_tolerance(const std::vector<double>& tolerances) {
 void add_methods(const Comparison& comparison, const IntegratorEntry& entry, const Variant& variant,
                  std::vector<Method>& methods) {
   Method method{"", entry.label + variant.words, entry.type,
-                Registry<IntegratorChoice>::entries().at(entry.type).sentence, {}, Method::Control::rtol};
-  for (const auto& [key, value] : entry.options) method.set.emplace_back(key, value.text);
+                Registry<IntegratorChoice>::entries().at(entry.type).sentence, entry.options, Method::Control::rtol};
   for (const auto& [path, value] : variant.set) method.set.emplace_back(last_step(path), value);
   const auto& tolerances = comparison.tolerances;
   const bool adaptive = has_key(entry.type, "rtol") && !tolerances.empty();
@@ -112,7 +111,7 @@ void add_methods(const Comparison& comparison, const IntegratorEntry& entry, con
   if (fixed) {
     method.control = Method::Control::step;
     if (adaptive) method.label = label + ", fixed step";
-    if (has_key(entry.type, "rtol")) method.set.emplace_back("rtol", newton_tolerance(tolerances));
+    if (has_key(entry.type, "rtol")) method.set.emplace_back("rtol", YamlText{newton_tolerance(tolerances)});
     methods.push_back(method);
   }
   if (by_limit) {
@@ -141,19 +140,43 @@ std::vector<Method> methods_of(const Comparison& comparison) {
 // The default of the reference, resp. of its check, or what is given.
 Method reference_method(const std::optional<ReferenceEntry>& entry, const Method& otherwise) {
   if (!entry) return otherwise;
-  Method method{"", entry->type, entry->type, "", {}, Method::Control::rtol};
-  for (const auto& [key, value] : entry->options) {
-    method.set.emplace_back(key, value.text);
-    method.label += ", " + key + " " + value.text;
-  }
+  Method method{"", entry->type, entry->type, "", entry->options, Method::Control::rtol};
+  for (const auto& [key, value] : entry->options) method.label += ", " + key + " " + value.text;
   return method;
 }
 
 Method usual_reference(const std::string& type, double rtol, Assignments more) {
-  more.emplace_back("rtol", number_text(rtol));
+  more.emplace_back("rtol", YamlText{number_text(rtol)});
   Method method{"", type, type, "", more, Method::Control::rtol};
-  for (const auto& [key, value] : more) method.label += ", " + key + " " + value;
+  for (const auto& [key, value] : more) method.label += ", " + key + " " + value.text;
   return method;
+}
+
+// What a scene is made of, by the paths that it has there.
+Assignments assignments_of(const Problem& problem, const Method& method) {
+  Assignments all = problem.set;
+  for (const auto& [key, value] : method.set) all.emplace_back(kIntegratorPrefix + key, value);
+  return all;
+}
+
+// Wrong input shows before anything runs.
+void check_point(const Design& design, const Point& point) {
+  try {
+    point_scene(design, point);
+  } catch (const ConfigError& e) {
+    const auto assignments = assignments_of(design.problems[point.problem], design.methods[point.method]);
+    throw ConfigError(fmt::format("{} (in {})", said_at_its_place(e.what(), assignments), title(design, point)));
+  }
+}
+
+void check_reference(const Problem& problem, const Method& method) {
+  try {
+    reference_scene(problem, method);
+  } catch (const ConfigError& e) {
+    throw ConfigError(
+        fmt::format("{} (in the reference of {})", said_at_its_place(e.what(), assignments_of(problem, method)),
+                    problem.label));
+  }
 }
 
 void choose_references(const Comparison& comparison, Design& design) {
@@ -162,28 +185,23 @@ void choose_references(const Comparison& comparison, Design& design) {
   design.reference = reference_method(comparison.reference.integrator,
                                       usual_reference("arkode_dirk", std::max(1e-3 * tightest, 1e-11), {}));
   design.check = reference_method(
-      comparison.reference.check, usual_reference("cvode_bdf", std::max(1e-3 * tightest, 1e-10), {{"max_order", "5"}}));
+      comparison.reference.check, usual_reference("cvode_bdf", std::max(1e-3 * tightest, 1e-10), {{"max_order", YamlText{"5"}}}));
   if (comparison.reference.kind == ReferenceKind::none) return;
   for (const auto& problem : design.problems) {
-    reference_scene(problem, design.reference);  // wrong input shows before anything runs
-    reference_scene(problem, design.check);
-  }
-}
-
-// Wrong input shows before anything runs.
-void check_point(const Design& design, const Point& point) {
-  try {
-    point_scene(design, point);
-  } catch (const ConfigError& e) {
-    throw ConfigError(fmt::format("{}: {}", title(design, point), e.what()));
+    check_reference(problem, design.reference);
+    check_reference(problem, design.check);
   }
 }
 
 }  // namespace
 
-std::string read_yaml(const std::string& file) {
-  Config::from_file(file);  // says what is wrong with it
-  std::ifstream in(file, std::ios::binary);
+std::string read_yaml(const FilePath& file) {
+  try {
+    refuse_other_kinds(Config::from_file(file.path), InputFile::scene);
+  } catch (const ConfigError& e) {
+    throw ConfigError(file.where + ": " + e.what());
+  }
+  std::ifstream in(file.path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 

@@ -10,8 +10,6 @@
 
 namespace orthodyn {
 
-using Assignments = std::vector<std::pair<std::string, std::string>>;  // path and YAML value
-
 // A scene with its physics fixed: what errors are measured on.
 struct Problem {
   std::string id, label;  // ids are unique
@@ -64,7 +62,7 @@ Config with_integrator(const Problem& problem, const std::string& integrator, co
 Config reference_scene(const Problem& problem, const Method& method);
 
 // The text of a file that is YAML; throws ConfigError.
-std::string read_yaml(const std::string& file);
+std::string read_yaml(const FilePath& file);
 
 // The first paragraph of the first comment of a YAML text, as one line.
 std::string head_comment(const std::string& yaml);

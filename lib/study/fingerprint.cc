@@ -48,6 +48,16 @@ std::string mesh_fingerprint(const LoadedMesh& loaded) {
   return print.text();
 }
 
+const std::string& FileFingerprints::of(const std::filesystem::path& file) {
+  std::error_code ignored;  // what cannot be read says so below
+  const auto changed = std::filesystem::last_write_time(file, ignored);
+  const auto size = std::filesystem::file_size(file, ignored);
+  Known& known = known_[file];
+  if (known.print.empty() || known.changed != changed || known.size != size)
+    known = {changed, size, Fingerprint().add_file(file).text()};
+  return known.print;
+}
+
 std::string code_fingerprint() {
   Fingerprint print;
   Dl_info info{};

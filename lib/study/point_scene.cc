@@ -21,7 +21,7 @@ Assignments own_options(const Config& scene, const std::string& integrator,
   if (!scene.has("integrator") || !scene.at("integrator").is_map()) return kept;
   const Config own = scene.at("integrator");
   for (const auto& key : own.keys())
-    if (key != "type" && wanted(key) && has_key(integrator, key)) kept.emplace_back(key, own.at(key).yaml());
+    if (key != "type" && wanted(key) && has_key(integrator, key)) kept.emplace_back(key, YamlText{own.at(key).yaml()});
   return kept;
 }
 
@@ -40,7 +40,7 @@ std::string section(const std::string& type, const Assignments& options) {
   std::set<std::string> seen;
   // The last assignment of a key holds.
   for (auto it = options.rbegin(); it != options.rend(); ++it)
-    if (seen.insert(it->first).second) yaml += ", " + it->first + ": " + it->second;
+    if (seen.insert(it->first).second) yaml += ", " + it->first + ": " + it->second.text;
   return yaml + "}";
 }
 
@@ -64,7 +64,7 @@ bool has_key(const std::string& integrator, const std::string& key) {
 Config with_integrator(const Problem& problem, const std::string& integrator, const Assignments& options,
                        const std::function<bool(const std::string&)>& kept) {
   Config config = Config::from_text(problem.text, problem.file);
-  for (const auto& [path, value] : problem.set) config.override_with(path + "=" + value);
+  for (const auto& [path, value] : problem.set) config.override_with(path + "=" + value.text);
   Assignments all = own_options(config, integrator, kept);
   all.insert(all.end(), options.begin(), options.end());
   config.override_with("integrator=" + section(integrator, all));
@@ -78,7 +78,7 @@ Config reference_scene(const Problem& problem, const Method& method) {
 Config point_scene(const Design& design, const Point& point) {
   const Method& method = design.methods[point.method];
   Assignments options = method.set;
-  options.emplace_back(control_word(method.control), number_text(point.control));
+  options.emplace_back(control_word(method.control), YamlText{number_text(point.control)});
   const auto kept = [&](const std::string& key) { return is_kept_by_methods(key, method.control); };
   return scene_of(design.problems[point.problem], method.integrator, kept, options);
 }

@@ -61,7 +61,7 @@ void kill_and_reap(pid_t child) {
 }  // namespace
 
 ProcessEnd run_process(const std::vector<std::string>& argv, const std::filesystem::path& log,
-                       const ProcessLimits& limits, const std::atomic<bool>& interrupt) {
+                       const ProcessLimits& limits, const Stop& stop) {
   std::vector<char*> arguments;
   for (const auto& a : argv) arguments.push_back(const_cast<char*>(a.c_str()));
   arguments.push_back(nullptr);
@@ -82,7 +82,7 @@ ProcessEnd run_process(const std::vector<std::string>& argv, const std::filesyst
       kill_and_reap(child);
       return ProcessEnd{why, 0};
     };
-    if (interrupt) return killed(ProcessEnd::Kind::interrupted);
+    if (stop()) return killed(ProcessEnd::Kind::interrupted);
     if (Clock::now() > end) return killed(ProcessEnd::Kind::timed_out);
     if (memory_in_use(child) > limits.memory) return killed(ProcessEnd::Kind::out_of_memory);
     std::this_thread::sleep_for(kPoll);

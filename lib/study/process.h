@@ -1,8 +1,8 @@
 // A program run as a child process, with limits of time and memory that it cannot ignore.
 #pragma once
 
-#include <atomic>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,9 +20,12 @@ struct ProcessEnd {
   bool succeeded() const { return kind == Kind::exited && code == 0; }
 };
 
-// Runs argv[0] with its output going to `log`, and waits. When `interrupt` becomes true the child and all
-// that it has started are killed. It dies with this process, too. Throws RunError if it cannot be started.
+// Whether what is in progress is to be given up; asked every few milliseconds.
+using Stop = std::function<bool()>;
+
+// Runs argv[0] with its output going to `log`, and waits. When `stop` says so the child and all that it has started
+// are killed. It dies with this process, too. Throws RunError if it cannot be started.
 ProcessEnd run_process(const std::vector<std::string>& argv, const std::filesystem::path& log,
-                       const ProcessLimits& limits, const std::atomic<bool>& interrupt);
+                       const ProcessLimits& limits, const Stop& stop);
 
 }  // namespace orthodyn

@@ -9,6 +9,7 @@
 #include "lib/ode/integrator.h"
 #include "lib/scene/scene.h"
 #include "lib/study/expand.h"
+#include "lib/study/input_kind.h"
 
 namespace orthodyn {
 
@@ -29,15 +30,9 @@ void check(const Stability& stability, const Config& config) {
   if (stability.variants.empty()) config.at("variants").fail("is empty; leave it out for the force as it is");
 }
 
-void add(Assignments& to, const Named<YamlText>& changes) {
-  for (const auto& [path, value] : changes) to.emplace_back(path, value.text);
-}
-
 // Reads it, too: wrong input shows before anything runs.
 Config scene_of(const Problem& problem, const TrialIntegrator& entry) {
-  Assignments options;
-  add(options, entry.options);
-  Config config = with_integrator(problem, entry.type, options, [](const std::string&) { return true; });
+  Config config = with_integrator(problem, entry.type, entry.options, [](const std::string&) { return true; });
   for (const char* silent : {"output.fields=[]", "output.energy=false", "output.steps=false"})
     config.override_with(silent);
   if (read_scene(config).expect.empty())
@@ -96,8 +91,7 @@ const Spec<Stability>& Stability::spec() {
 }
 
 Stability read_stability(const Config& config) {
-  if (config.is_map() && config.has("mesh"))
-    config.at("mesh").fail("a file of hard cases has no such key; a scene is run by `orthodyn run`");
+  refuse_other_kinds(config, InputFile::stability);
   Stability stability = Stability::spec().read(config);
   stability.name = stem(config.file());
   if (stability.title.empty()) stability.title = stability.name;
@@ -113,18 +107,20 @@ std::vector<Trial> trials(const Stability& stability) {
   std::vector<Trial> all;
   for (std::size_t c = 0; c < stability.cases.size(); ++c) {
     const HardCase& hard = stability.cases[c];
-    const std::string text = read_yaml(hard.file.path);
+    const std::string text = read_yaml(hard.file);
     for (std::size_t v = 0; v < stability.variants.size(); ++v) {
       const auto& [variant, changes] = stability.variants[v];
-      Problem problem{"", hard.label, hard.file.path, text, {}};
-      add(problem.set, hard.set);
-      add(problem.set, changes);
+      Problem problem{"", hard.label, hard.file.path, text, hard.set};
+      problem.set.insert(problem.set.end(), changes.begin(), changes.end());
       for (std::size_t i = 0; i < stability.integrators.size(); ++i) {
         const std::string title = fmt::format("{}, {}, {}", hard.label, variant, stability.integrators[i].label);
         try {
           all.push_back({c, v, i, title, scene_of(problem, stability.integrators[i])});
         } catch (const ConfigError& e) {
-          throw ConfigError(title + ": " + e.what());
+          Assignments made_of = problem.set;
+          for (const auto& [key, value] : stability.integrators[i].options)
+            made_of.emplace_back("integrator." + key, value);
+          throw ConfigError(fmt::format("{} (in {})", said_at_its_place(e.what(), made_of), title));
         }
       }
     }

@@ -27,7 +27,7 @@ std::string mesh_of(const Trial& trial) {
     build(scene);
     return mesh_fingerprint(load_mesh(scene));
   } catch (const ConfigError& e) {
-    throw ConfigError(trial.title + ": " + e.what());
+    throw ConfigError(fmt::format("{} (in {})", e.what(), trial.title));
   }
 }
 
@@ -46,9 +46,10 @@ Json member(const Json& object, const char* key) { return object.contains(key) ?
 StabilityMatrix::StabilityMatrix(Stability stability, fs::path folder, std::string program)
     : stability_(std::move(stability)), folder_(std::move(folder)), program_(std::move(program)),
       trials_(orthodyn::trials(stability_)) {
-  for (const auto& hard : stability_.cases) sentences_.push_back(head_comment(read_yaml(hard.file.path)));
+  for (const auto& hard : stability_.cases) sentences_.push_back(head_comment(read_yaml(hard.file)));
   const std::string code = code_fingerprint();
   std::map<std::pair<std::size_t, std::size_t>, std::string> meshes;  // of a case with a variant
+  FileFingerprints files;
   const Json job{{"seconds", stability_.limits.seconds}, {"code", code}};
   const ProcessLimits limits{stability_.limits.seconds + kSetUpTime, stability_.limits.memory};
   for (const Trial& trial : trials_) {
@@ -57,18 +58,19 @@ StabilityMatrix::StabilityMatrix(Stability stability, fs::path folder, std::stri
     Fingerprint print;
     print.add(machine_fingerprint()).add(trial.scene.dump()).add(job.dump());
     print.add(fmt::format("{}", limits.memory)).add(mesh);
-    for (const auto& file : trial.scene.file_paths()) print.add_file(file);
+    for (const auto& file : trial.scene.file_paths()) print.add(files.of(file));
     errands_.push_back({trial.title, "assess", folder_ / "trials" / print.text(), trial.scene.dump_for(""), job, limits});
   }
 }
 
-bool StabilityMatrix::run(int jobs, const std::atomic<bool>& interrupt, const ErrandEvents& events) {
+bool StabilityMatrix::run(int jobs, const std::atomic<bool>& interrupt, const ErrandEvents& events, OldFailures failures) {
   return carry_out_all(program_, errands_, jobs, interrupt,
                        {events.starts, [&](std::size_t i, Json result, bool cached) {
                           grade(result);
                           results_[i] = std::move(result);
                           events.ends(i, results_[i], cached);
-                        }});
+                        }},
+                       failures);
 }
 
 Json StabilityMatrix::trial_json(std::size_t trial) const {
@@ -100,11 +102,11 @@ Json StabilityMatrix::json(const std::string& file) const {
 
 std::string StabilityMatrix::csv() const {
   std::string csv =
-      "case,variant,integrator,grade,reason,figure,computed,expected,limit,time_reached [s],wall [s],cpu [s],steps\n";
+      "case,variant,integrator,grade,reason,figure,unit,computed,expected,limit,time_reached [s],wall [s],cpu [s],steps\n";
   for (const auto& [trial, result] : results_) {
     const Json t = trial_json(trial), worst = member(t, "worst"), statistics = member(t, "statistics");
     const std::vector<Json> row{t.at("case"), t.at("variant"), t.at("integrator"), t.at("grade"), t.at("reason"),
-                                member(worst, "title"), member(worst, "computed"), member(worst, "expected"),
+                                member(worst, "title"), member(worst, "unit"), member(worst, "computed"), member(worst, "expected"),
                                 member(worst, "limit"), member(t, "time_reached"), member(t, "wall"), member(t, "cpu"),
                                 member(statistics, "steps")};
     for (std::size_t k = 0; k < row.size(); ++k) csv += csv_cell(row[k]) + (k + 1 < row.size() ? "," : "\n");

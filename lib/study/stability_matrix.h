@@ -15,9 +15,11 @@ class StabilityMatrix {
   StabilityMatrix(Stability stability, std::filesystem::path folder, std::string program);
 
   // `jobs` at a time. False if it was interrupted. Throws as carry_out_all() does.
-  bool run(int jobs, const std::atomic<bool>& interrupt, const ErrandEvents& events);
+  bool run(int jobs, const std::atomic<bool>& interrupt, const ErrandEvents& events,
+           OldFailures failures = OldFailures::keep);
 
   const std::vector<Trial>& trials() const { return trials_; }
+  const std::vector<Errand>& errands() const { return errands_; }  // by trial
   std::size_t done() const { return results_.size(); }
 
   // The document of the report, and a row a trial; of what is done.

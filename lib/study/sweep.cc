@@ -7,7 +7,10 @@
 #include <stdexcept>
 
 #include "lib/core/units.h"
+#include "lib/fem/fem_model.h"
 #include "lib/study/formula_scope.h"
+#include "lib/study/input_kind.h"
+#include "lib/study/sweep_names.h"
 
 namespace orthodyn {
 
@@ -20,9 +23,9 @@ struct Words<Impossible> {
 namespace {
 
 void check_range(const NumberRange& r, const Config& config) {
-  if (r.scale == Scale::log && !(r.from > 0 && r.to > 0))
+  if (r.scale == Scale::log && !(r.from.number > 0 && r.to.number > 0))
     config.fail("scale: log needs 'from' and 'to' above 0");
-  if (r.from == r.to) config.at("to").fail("is equal to 'from'");
+  if (r.from.number == r.to.number && r.from.unit == r.to.unit) config.at("to").fail("is equal to 'from'");
 }
 
 void check_figure(const WantedFigure& f, const Config& config) {
@@ -43,7 +46,37 @@ void check_figure(const WantedFigure& f, const Config& config) {
                          " Known: " + join(names));
 }
 
+std::vector<std::string> components_of(const OutputInfo& info) {
+  static const std::vector<std::string> space{"xx", "yy", "zz", "xy", "yz", "zx"},
+      material{"11", "22", "33", "12", "23", "31"};
+  if (info.components == 3) return {"x", "y", "z", "magnitude"};
+  if (info.components != 6) return {};
+  std::vector<std::string> all = info.name == "stress" ? space : material;
+  all.push_back("magnitude");
+  if (info.name != "strain") all.push_back("von_mises");
+  return all;
+}
+
+// As the drawing tool understands it: FIELD or FIELD.COMPONENT.
+void check_color(const std::string& color, const Config& at) {
+  const std::string field = color.substr(0, color.find('.'));
+  std::vector<std::string> fields;
+  for (const auto& info : FemModel{FemModel::Parts{}}.outputs()) {
+    if (info.location == Location::global) continue;
+    fields.push_back(info.name);
+    if (info.name != field) continue;
+    const auto known = components_of(info);
+    if (color == field || std::find(known.begin(), known.end(), color.substr(field.size() + 1)) != known.end()) return;
+    at.fail("'" + field + "' has no component '" + color.substr(field.size() + 1) + "'" +
+            (known.empty() ? "; it is a number" : "; known: " + join(known)));
+  }
+  const auto near = nearest_name(field, fields);
+  at.fail("there is no field '" + field + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
+          " Known: " + join(fields));
+}
+
 void check_frames(const FrameWish& f, const Config& config) {
+  check_color(f.color, config.at("color"));
   if (f.view.size() != 2) config.at("view").fail("expected two angles [azimuth, elevation] in degrees");
   if (f.up != "x" && f.up != "y" && f.up != "z") config.at("up").fail("expected x, y or z, found '" + f.up + "'");
 }
@@ -79,6 +112,12 @@ void check_number_of_points(const Sweep& s, const Config& config) {
 
 void check_sweep(const Sweep& s, const Config& config) {
   if (s.quantities.empty()) config.at("quantities").fail("is empty; name at least one figure");
+  if (s.combine != Combine::latin_hypercube) {
+    const std::string only = "has a meaning only with combine: latin_hypercube, found combine: " +
+                             Value<Combine>::yaml(s.combine) + "; remove one of them";
+    if (s.samples) config.at("samples").fail(only);
+    if (s.seed) config.at("seed").fail(only);
+  }
   for (const auto& v : s.vary) {
     if (s.combine == Combine::latin_hypercube) {
       if (v.range && v.range->count)
@@ -91,6 +130,7 @@ void check_sweep(const Sweep& s, const Config& config) {
                                 s.vary.front().name, s.vary.front().values.size()));
   }
   for (const auto& [name, value] : s.definitions) check_formula_name(name, config.at("definitions").at(name));
+  check_names(s);
   check_number_of_points(s, config);
   check_plots(s, config);
 }
@@ -123,6 +163,11 @@ void WantedFigure::check_unit(const std::string& quantity_unit) const {
   }
 }
 
+namespace {
+constexpr const char* kNameSentence =
+    "Its name in formulas, tables and figures; default the path's last step, with the index of an entry (young.0).";
+}  // namespace
+
 const Spec<NumberRange>& NumberRange::spec() {
   static const auto s =
       Spec<NumberRange>()
@@ -130,8 +175,8 @@ const Spec<NumberRange>& NumberRange::spec() {
           .key("to", &NumberRange::to, "The last value.", {.required = true})
           .key("count", &NumberRange::count, "How many, with both ends; not in a Latin hypercube.", {.range = {1, 1e6}})
           .key("scale", &NumberRange::scale, "log: neighbours have the same ratio, and axes are logarithmic.")
-          .key("unit", &NumberRange::unit, "Unit of the values, such as deg or GPa; formulas see SI units.")
-          .key("name", &NumberRange::name, "Its name in formulas, tables and figures; default the path's last step.")
+          .key("unit", &NumberRange::unit, "Unit of the values, such as deg or GPa; formulas see SI units. Or give 'from' and 'to' units of their own.")
+          .key("name", &NumberRange::name, kNameSentence)
           .check(check_range);
   return s;
 }
@@ -140,8 +185,9 @@ const Spec<ValueList>& ValueList::spec() {
   static const auto s =
       Spec<ValueList>()
           .key("values", &ValueList::values, "The values.", {.required = true})
-          .key("unit", &ValueList::unit, "Unit of numbers, such as deg or GPa; formulas see SI units.")
-          .key("name", &ValueList::name, "Its name in formulas, tables and figures; default the path's last step.");
+          .key("unit", &ValueList::unit,
+               "Unit of numbers, such as deg or GPa; formulas see SI units. Or give them units of their own.")
+          .key("name", &ValueList::name, kNameSentence);
   return s;
 }
 
@@ -218,8 +264,8 @@ const Spec<Sweep>& Sweep::spec() {
           .key("combine", &Sweep::combine,
                "cartesian: every combination. zip: first with first, second with second. latin_hypercube: `samples` "
                "points, each value's range in as many strata.")
-          .key("samples", &Sweep::samples, "Points of a Latin hypercube.", {.range = {1, kMostPoints}})
-          .key("seed", &Sweep::seed, "Of a Latin hypercube.")
+          .key("samples", &Sweep::samples, "Points of a Latin hypercube; default 50.", {.range = {1, kMostPoints}})
+          .key("seed", &Sweep::seed, "Of a Latin hypercube; default 1.")
           .key("quantities", &Sweep::quantities, "What is wanted of every point, by name.", {.required = true})
           .key("plots", &Sweep::plots, "Figures of the report; default by the number of variables.")
           .key("frames", &Sweep::frames, "A picture of each point, side by side.")
@@ -232,8 +278,7 @@ const Spec<Sweep>& Sweep::spec() {
 }
 
 Sweep read_sweep(const Config& config) {
-  if (config.is_map() && config.has("mesh"))
-    config.at("mesh").fail("a sweep has no such key; a scene is run by `orthodyn run`");
+  refuse_other_kinds(config, InputFile::sweep);
   Sweep sweep = Sweep::spec().read(config);
   sweep.name = std::filesystem::path(config.file()).stem().string();
   if (sweep.title.empty()) sweep.title = sweep.name;

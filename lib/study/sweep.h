@@ -27,9 +27,24 @@ struct Words<Scale> {
   static constexpr std::array<std::pair<Scale, const char*>, 2> list{{{Scale::linear, "linear"}, {Scale::log, "log"}}};
 };
 
+// A number in a unit that is said elsewhere, or "10 MPa" with one of its own.
+struct Amount {
+  double number = 0;
+  std::string unit;
+};
+
+template <>
+struct Value<Amount> {
+  static Shape shape() {
+    return {.kind = Shape::Kind::either, .items = {{.kind = Shape::Kind::number}, {.kind = Shape::Kind::text}}};
+  }
+  static Amount read(const Config& c, const Rule&);
+  static std::string yaml(const Amount&) { return ""; }
+};
+
 // Evenly spaced numbers: differences, resp. ratios of neighbours are the same.
 struct NumberRange {
-  double from = 0, to = 0;
+  Amount from, to;
   std::optional<int> count;  // none in a Latin hypercube, which has its own
   Scale scale = Scale::linear;
   std::string unit, name;
@@ -68,19 +83,6 @@ struct Variable {
   VariedValue at(double number) const;
 };
 
-// A number or a formula with a name, as YAML.
-struct Definition {
-  std::string text;
-  Origin origin;
-};
-
-template <>
-struct Value<Definition> {
-  static Shape shape() { return Value<YamlText>::shape(); }
-  static Definition read(const Config& c, const Rule&) { return {c.yaml(), {c.where()}}; }
-  static std::string yaml(const Definition&) { return ""; }
-};
-
 // One figure of a point. Exactly one of: quantity, mode, cost.
 struct WantedFigure {
   std::string quantity;
@@ -111,6 +113,7 @@ struct FrameWish {
   double enlarged = 1;
   int most = 24;
   bool ghost = true;
+  Origin origin;
   static const Spec<FrameWish>& spec();
 };
 
@@ -124,10 +127,10 @@ struct Sweep {
   std::string name;  // the file's stem
   std::string title, description;
   SceneEntry scene;
-  Named<Definition> definitions;
+  Named<YamlText> definitions;  // numbers and formulas
   Combine combine = Combine::cartesian;
-  int samples = 50;
-  long seed = 1;
+  std::optional<int> samples;  // of a Latin hypercube
+  std::optional<long> seed;
   std::vector<Variable> vary;
   Named<WantedFigure> quantities;
   std::vector<PlotWish> plots;

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <optional>
+#include <stdexcept>
 
+#include "lib/core/units.h"
 #include "lib/scene/build.h"
 #include "lib/scene/quantity.h"
+#include "lib/study/expand.h"
 #include "lib/study/formula_scope.h"
 #include "lib/study/latin_hypercube.h"
 
@@ -42,7 +44,7 @@ std::vector<Values> side_by_side(const std::vector<Variable>& vary) {
 
 std::vector<Values> sampled(const Sweep& sweep) {
   std::vector<Values> all;
-  for (const auto& shares : latin_hypercube(sweep.samples, static_cast<int>(sweep.vary.size()), sweep.seed)) {
+  for (const auto& shares : latin_hypercube(sweep.samples.value_or(50), static_cast<int>(sweep.vary.size()), sweep.seed.value_or(1))) {
     all.emplace_back();
     for (std::size_t k = 0; k < shares.size(); ++k) {
       const Variable& v = sweep.vary[k];
@@ -71,42 +73,9 @@ std::string title_of(const Sweep& sweep, const Values& values) {
   return join(parts);
 }
 
-// Every formula of the sweep, for what mentions a name.
-std::vector<std::string> formulas_of(const Sweep& sweep) {
-  std::vector<std::string> all;
-  const auto add = [&](const auto& list) {
-    for (const auto& [name, value] : list) all.push_back(value.text);
-  };
-  add(sweep.definitions);
-  add(sweep.scene.set);
-  for (const auto& [name, figure] : sweep.quantities) all.push_back(figure.closed_form);
-  for (const auto& variable : sweep.vary) {
-    for (const auto& value : variable.values) {
-      add(value.let);
-      if (variable.path.empty()) add(value.set);
-    }
-  }
-  return all;
-}
-
-// A slip in a key's name would vary nothing.
-void refuse_unused_names(const Sweep& sweep) {
-  const auto formulas = formulas_of(sweep);
-  for (const auto& v : sweep.vary) {
-    if (!v.path.empty() || !v.numeric()) continue;
-    if (std::any_of(formulas.begin(), formulas.end(), [&](const std::string& f) { return mentions(f, v.name); }))
-      continue;
-    v.origin.fail("'" + v.name + "' is no key of a scene, and no formula uses it");
-  }
-}
-
 class Expansion {
  public:
-  explicit Expansion(const Sweep& sweep) : sweep_(sweep) {
-    Config::from_file(sweep.scene.file.path);  // says what is wrong with it
-    std::ifstream in(sweep.scene.file.path, std::ios::binary);
-    scene_.assign(std::istreambuf_iterator<char>(in), {});
-  }
+  explicit Expansion(const Sweep& sweep) : sweep_(sweep), scene_(read_yaml(sweep.scene.file)) {}
 
   SweepPoint point(const Values& values) {
     SweepPoint point{values, title_of(sweep_, values), "", "", {}, "", {}};
@@ -114,27 +83,36 @@ class Expansion {
     for (const auto& [name, figure] : sweep_.quantities)
       point.closed_forms.push_back(
           figure.closed_form.empty() ? std::nan("") : scope.evaluate(figure.closed_form, figure.origin.where));
+    Assignments assignments = sweep_.scene.set;
+    for (const auto& value : values) assignments.insert(assignments.end(), value.set.begin(), value.set.end());
     Config config = Config::from_text(scene_, sweep_.scene.file.path);
-    set(config, sweep_.scene.set, scope, sweep_.scene.origin);
-    for (std::size_t k = 0; k < values.size(); ++k) set(config, values[k].set, scope, sweep_.vary[k].origin);
-    for (const char* silent : {"output.fields=[]", "output.energy=false", "output.steps=false", "output.momentum=false",
-                               "expect=null", "checkpoint=null"})
-      config.override_with(silent);
     try {
-      const Scene scene = read_scene(config);
-      fill(config, point);
-      if (!read_) read_ = scene;
+      set(config, assignments, scope);
     } catch (const ConfigError& e) {
-      if (sweep_.impossible == Impossible::stop)
-        throw ConfigError(fmt::format("{}: {}: {} (impossible: keep goes on without such points)", sweep_.origin.where,
-                                      point.title, e.what()));
-      point.impossible = e.what();
+      throw ConfigError(fmt::format("{} (in {})", said_at_its_place(e.what(), assignments), point.title));
     }
+    std::optional<Scene> scene;
+    try {
+      scene = read_scene(config);
+      fill(config, point);
+    } catch (const ConfigError& e) {
+      point.impossible = e.what();
+      if (sweep_.impossible == Impossible::stop)
+        throw ConfigError(fmt::format("{} (in {}{})", said_at_its_place(e.what(), assignments), point.title,
+                                      is_a_slip(e.what()) ? "" : "; impossible: keep goes on without such points"));
+    }
+    if (scene) check_times(*scene, point.title);
+    if (scene && !read_) read_ = scene;
     if (read_ && !is_looked_up_) look_up_quantities(*read_);
     return point;
   }
 
  private:
+  // Of the form of the input, not of what the values mean: no other value helps.
+  static bool is_a_slip(const std::string& message) {
+    return message.find("unknown key") != std::string::npos || message.find(": expected ") != std::string::npos;
+  }
+
   FormulaScope scope_of(const Values& values) const {
     FormulaScope scope;
     for (std::size_t k = 0; k < values.size(); ++k)
@@ -142,20 +120,27 @@ class Expansion {
         scope.add(sweep_.vary[k].name, sweep_.vary[k].si(*values[k].number));
     for (std::size_t k = 0; k < values.size(); ++k)
       for (const auto& [name, value] : values[k].let)
-        scope.add(name, scope.evaluate(unquoted(value.text), sweep_.vary[k].origin.where));
-    for (const auto& [name, value] : sweep_.definitions)
-      scope.add(name, scope.evaluate(unquoted(value.text), value.origin.where));
+        scope.add(name, number_of(value, scope));
+    for (const auto& [name, value] : sweep_.definitions) scope.add(name, number_of(value, scope));
     return scope;
   }
 
-  // The text of a YAML scalar.
-  static std::string unquoted(const std::string& yaml) { return Config::from_text("v: " + yaml).at("v").text(); }
+  // In SI units: of "0.84 GPa" or of a formula.
+  static double number_of(const YamlText& value, const FormulaScope& scope) {
+    const Config given = Config::from_text("v: " + value.text).at("v");
+    if (!given.is_scalar()) value.origin.fail("expected a number or a formula, found " + given.shown());
+    const auto parts = split_quantity(given.text());
+    try {
+      if (parts) return parts->number * si_factor(parts->unit);
+    } catch (const std::invalid_argument&) {  // then it is a formula
+    }
+    return scope.evaluate(given.text(), value.origin.where);
+  }
 
-  template <class Settings>
-  static void set(Config& config, const Settings& settings, const FormulaScope& scope, const Origin& origin) {
-    for (const auto& [path, value] : settings) {
+  static void set(Config& config, const Assignments& assignments, const FormulaScope& scope) {
+    for (const auto& [path, value] : assignments) {
       const Config given = Config::from_text("v: " + value.text).at("v");
-      config.override_with(path + "=" + scope.resolved(given, origin.where));
+      config.override_with(path + "=" + scope.resolved(given, value.origin.where));
     }
   }
 
@@ -163,6 +148,27 @@ class Expansion {
     point.scene = config.dump_for("");
     point.mesh = config.at("mesh").yaml();
     point.files = config.file_paths();
+  }
+
+  // Of every point: its time span may be varied.
+  void check_times(const Scene& scene, const std::string& title) const {
+    const bool is_static = scene.analysis == Analysis::statical;
+    const auto require = [&](const std::optional<double>& at, const std::string& place) {
+      if (at && (*at < scene.time.start || *at > scene.time.end))
+        throw ConfigError(fmt::format("{}: {} s is outside of the time span of '{}', which is {} to {} s", place, *at,
+                                      title, scene.time.start, scene.time.end));
+    };
+    for (const auto& [name, f] : sweep_.quantities) {
+      if (f.quantity.empty()) continue;
+      if (!is_static) require(f.at, f.origin.where + ".at");
+      else if (f.at || f.take != Take::end || f.settled_within || f.quantity == kEnergyBalance)
+        f.origin.fail("of a static analysis only values in equilibrium are known: remove 'take', 'at' and "
+                      "'settled_within', choose another quantity than energy.balance");
+    }
+    if (!sweep_.frames || !sweep_.frames->at) return;
+    if (is_static)
+      sweep_.frames->origin.fail("a static analysis has one picture, of the equilibrium: remove 'at'");
+    require(sweep_.frames->at, sweep_.frames->origin.where + ".at");
   }
 
   void look_up_quantities(const Scene& scene) {
@@ -176,11 +182,6 @@ class Expansion {
       f.check_unit(q.unit);
       if (q.components == 3 && f.take != Take::drift)
         f.origin.fail(fmt::format("'{}' is a vector: choose .x, .y, .z or .magnitude", f.quantity));
-      if (scene.analysis == Analysis::statical && (f.at || f.take != Take::end || f.settled_within || !q.values))
-        f.origin.fail("of a static analysis only values in equilibrium are known: remove 'take', 'at' and "
-                      "'settled_within', choose another quantity than energy.balance");
-      if (f.at && (*f.at < scene.time.start || *f.at > scene.time.end))
-        f.origin.fail(fmt::format("at: {} s is outside of the time span", *f.at));
     }
   }
 
@@ -193,7 +194,6 @@ class Expansion {
 }  // namespace
 
 std::vector<SweepPoint> expand(const Sweep& sweep) {
-  refuse_unused_names(sweep);
   Expansion expansion(sweep);
   std::vector<SweepPoint> points;
   for (const auto& values : combined(sweep)) points.push_back(expansion.point(values));

@@ -40,6 +40,7 @@ std::string print_of_mesh(const SweepPoint& point) {
 std::vector<Errand> errands_of(const Sweep& sweep, const std::vector<SweepPoint>& points, const fs::path& folder) {
   const Json job = job_of(sweep).json();
   std::map<std::string, std::string> meshes;
+  FileFingerprints files;
   std::vector<Errand> all;
   for (const auto& point : points) {
     if (!point.impossible.empty()) {
@@ -48,7 +49,7 @@ std::vector<Errand> errands_of(const Sweep& sweep, const std::vector<SweepPoint>
     }
     Fingerprint print;
     print.add(point.scene).add(job.dump()).add(fmt::format("{}", sweep.limits.memory));
-    for (const auto& file : point.files) print.add_file(file);
+    for (const auto& file : point.files) print.add(files.of(file));
     if (!point.files.empty()) {
       std::string& mesh = meshes[point.mesh];
       if (mesh.empty()) mesh = print_of_mesh(point);

@@ -1,10 +1,12 @@
 #include "lib/study/sweep_table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "lib/core/units.h"
 #include "lib/study/csv_cell.h"
+#include "lib/study/key_unit.h"
 #include "lib/study/machine.h"
 #include "lib/study/measure.h"
 
@@ -16,11 +18,16 @@ Json field(const Json& object, const std::string& key) {
   return object.is_object() && object.contains(key) ? object.at(key) : Json();
 }
 
-Json variables_json(const Sweep& sweep) {
+// Numbers without a unit are in that of their key, as the first scene that can be says.
+Json variables_json(const Sweep& sweep, const std::vector<SweepPoint>& points) {
+  const auto first = std::find_if(points.begin(), points.end(), [](const auto& p) { return p.impossible.empty(); });
   Json all = Json::array();
-  for (const auto& v : sweep.vary)
-    all.push_back({{"name", v.name}, {"path", v.path}, {"unit", v.unit}, {"numeric", v.numeric()},
-                   {"scale", Value<Scale>::yaml(v.scale)}});
+  for (const auto& v : sweep.vary) {
+    const bool is_plain = v.unit.empty() && v.numeric() && !v.path.empty() && first != points.end();
+    all.push_back({{"name", v.name}, {"path", v.path},
+                   {"unit", is_plain ? unit_at(v.path, Config::from_text(first->scene)) : v.unit},
+                   {"numeric", v.numeric()}, {"scale", Value<Scale>::yaml(v.scale)}});
+  }
   return all;
 }
 
@@ -110,7 +117,7 @@ Json sweep_json(const Sweep& sweep, const std::vector<SweepPoint>& points, const
           {"missing", missing},
           {"machine", machine_json()},
           {"versions", versions_json()},
-          {"variables", variables_json(sweep)},
+          {"variables", variables_json(sweep, points)},
           {"figures", figures_json(sweep, units)},
           {"definitions", definitions},
           {"plots", plots_json(sweep)},
@@ -133,7 +140,13 @@ Json difference(const Json& x, const Json& reference) {
   return x.get<double>() / reference.get<double>() - 1;
 }
 
-constexpr const char* kCosts[] = {"wall_seconds", "cpu_seconds", "steps"};
+constexpr std::pair<const char*, const char*> kCosts[] = {
+    {"wall_seconds", "wall_seconds [s]"}, {"cpu_seconds", "cpu_seconds [s]"}, {"steps", "steps"}};
+
+bool has_figure(const Json& table, const std::string& name) {
+  const Json& figures = table.at("figures");
+  return std::any_of(figures.begin(), figures.end(), [&](const Json& f) { return f.at("name") == name; });
+}
 
 std::string csv_head(const Json& table) {
   std::string out = "point";
@@ -145,7 +158,10 @@ std::string csv_head(const Json& table) {
     closed["name"] = f.at("name").get<std::string>() + ".closed_form";
     out += "," + csv_cell(heading(closed)) + "," + csv_cell(f.at("name").get<std::string>() + ".relative_difference");
   }
-  return out + ",status,reason,message,wall_seconds [s],cpu_seconds [s],steps,unknowns,folder\n";
+  out += ",status,reason,message";
+  for (const auto& [cost, heading] : kCosts)
+    if (!has_figure(table, cost)) out += std::string(",") + heading;
+  return out + ",unknowns,folder\n";
 }
 
 std::string csv_row(const Json& table, const Json& point, std::size_t number) {
@@ -161,7 +177,8 @@ std::string csv_row(const Json& table, const Json& point, std::size_t number) {
     add(difference(value, closed));
   }
   for (const char* key : {"status", "reason", "message"}) add(point.at(key));
-  for (const char* key : kCosts) add(field(point.at("cost"), key));
+  for (const auto& [cost, heading] : kCosts)
+    if (!has_figure(table, cost)) add(field(point.at("cost"), cost));
   add(field(point.at("model"), "unknowns"));
   add(point.at("folder"));
   return out + "\n";

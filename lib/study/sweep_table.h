@@ -4,12 +4,19 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lib/study/errand.h"
 #include "lib/study/sweep_design.h"
 
 namespace orthodyn {
+
+// The columns of sweep.csv beside those of variables and figures; those that a figure of this cost has are left out.
+inline constexpr std::string_view kTableColumns[] = {"point",       "status", "reason",   "message", "wall_seconds",
+                                                     "cpu_seconds", "steps",  "unknowns", "folder"};
+// Columns beside that of a figure with a closed form: endings of its name.
+inline constexpr const char* kBesideClosedForms[] = {".closed_form", ".relative_difference"};
 
 // By folder of the errand.
 using PointResults = std::map<std::filesystem::path, Json>;

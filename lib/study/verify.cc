@@ -31,13 +31,14 @@ CaseResult verify_equilibrium(const Setup& setup, const std::atomic<bool>& inter
   const State state{problem.path->time(), result.outcome.last.q, result.outcome.last.v};
   for (std::size_t q = 0; q < quantities.size(); ++q)
     result.checks.push_back(
-        {setup.scene.expect[q], problem.stepper->done() ? quantities[q].values(state)[0] : std::nan("")});
+        {setup.scene.expect[q], problem.stepper->done() ? quantities[q].values(state)[0] : std::nan(""), quantities[q].unit});
   return result;
 }
 
 CaseResult verify_motion(const Setup& setup, std::vector<Observer*> observers, const std::atomic<bool>& interrupt) {
   const auto& expectations = setup.scene.expect;
-  SeriesRecorder recorder(*setup.built.model, *setup.integrator, quantities_of(setup));
+  const auto quantities = quantities_of(setup);
+  SeriesRecorder recorder(*setup.built.model, *setup.integrator, quantities);
   observers.push_back(&recorder);
   Plan plan{setup.scene.time.end, times_asked_for(expectations, setup.scene.time.start), false};
   EventFinder events(setup.events);
@@ -46,7 +47,8 @@ CaseResult verify_motion(const Setup& setup, std::vector<Observer*> observers, c
                     run(*setup.built.model, *setup.integrator, setup.built.initial, plan, observers, interrupt), {}};
   for (std::size_t q = 0; q < expectations.size(); ++q)
     result.checks.push_back(
-        {expectations[q], result.completed() ? figure(expectations[q], recorder, q) : std::nan("")});
+        {expectations[q], result.completed() ? figure(expectations[q], recorder, q) : std::nan(""),
+                             figure_unit(expectations[q].take, quantities[q].unit)});
   return result;
 }
 

@@ -13,6 +13,7 @@ namespace orthodyn {
 struct Check {
   Expectation expectation;
   double computed = 0;  // NaN where the run has no such figure
+  std::string unit = {};
   double difference() const { return computed - expectation.value; }
   bool passed() const;
 };

@@ -188,7 +188,7 @@ TEST_F(Compare, ARunThatFailsAndAModelThatIsRefusedStayInTheTableWithTheirReason
   write("c.yaml", "scenes: [{file: swing.yaml, set: {mass: consistent}}]\ntolerances: [1e-3]\nintegrators:\n"
                   "- {type: cvode_bdf, label: short, max_steps: 3}\n- {type: cvode_bdf, label: full, linear_solver: "
                   "klu_full}\nrepeats: 1\nreference: {kind: none}\n");
-  ASSERT_EQ(compare().exit_code, 0);
+  ASSERT_EQ(compare().exit_code, 3);
   const Json t = table();
   EXPECT_EQ(t.at("points")[0].at("reason"), "too many steps");
   EXPECT_EQ(t.at("points")[1].at("reason"), "refused");
@@ -219,7 +219,7 @@ TEST_F(Compare, ACutReferenceIsComputedAgain) {
 TEST_F(Compare, MemoryIsLimited) {
   write("c.yaml", "scenes: [swing.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-9]\nlimits: {memory: 1e6}\n"
                   "repeats: 1\nreference: {kind: none}\n");
-  ASSERT_EQ(compare().exit_code, 0);
+  ASSERT_EQ(compare().exit_code, 3);
   EXPECT_EQ(table().at("points")[0].at("reason"), "out of memory");
 }
 
@@ -300,6 +300,21 @@ TEST_F(Compare, AMeshThatCannotBeReadFailsThePointsOfItsSceneOnly) {
   ASSERT_EQ(done.exit_code, 0) << done.output;
   EXPECT_EQ(table().at("points")[0].at("reason"), "refused");
   EXPECT_EQ(table().at("points")[1].at("status"), "completed");
+}
+
+TEST_F(Compare, SaysSoWhereNothingCouldBeMeasuredAndTriesAgainWhenAsked) {
+  write("c.yaml", "scenes: [swing.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-3]\nreference: {kind: none}\n"
+                  "limits: {seconds: 1e-9}\n");
+  const auto failed = compare();
+  EXPECT_EQ(failed.exit_code, 3);
+  EXPECT_NE(failed.output.find("1 of 1 points failed; the first, swing, cvode_bdf, rtol 0.001: time limit: "),
+            std::string::npos)
+      << failed.output;
+  const auto kept = compare();
+  EXPECT_NE(kept.output.find("(done before)"), std::string::npos) << kept.output;
+  EXPECT_NE(kept.output.find("1 that met the limit of time or memory; --retry"), std::string::npos) << kept.output;
+  const auto again = compare(" --retry");
+  EXPECT_EQ(again.output.find("(done before)"), std::string::npos) << again.output;
 }
 
 TEST_F(Compare, NeverWritesIntoAFolderOfSomethingElse) {

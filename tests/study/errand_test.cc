@@ -1,6 +1,8 @@
 // Work in processes: what is done stays done, several at a time, and what dies says how.
 #include "lib/study/errand.h"
 
+#include <chrono>
+
 #include "lib/run/files.h"
 #include "tests/run/command.h"
 
@@ -90,6 +92,31 @@ TEST_F(Errands, OneThatTakesTooLongIsAResult) {
   EXPECT_EQ(results_[0].at("reason"), "time limit");
   EXPECT_TRUE(run(kCopy, errands(1, 0.2), 1));
   EXPECT_EQ(cached_, 1);
+}
+
+TEST_F(Errands, WhatFailedIsTriedAgainWhereThatIsAskedFor) {
+  const auto all = errands(2, 0.2);
+  EXPECT_TRUE(run("[ $(basename $2) = a ] || sleep 100; " + std::string(kCopy), all, 1));
+  EXPECT_EQ(number_at_limits({all[0], all[1], all[1]}), 1u);
+  const std::atomic<bool> never{false};
+  std::vector<bool> cached;
+  EXPECT_TRUE(carry_out_all(program(kCopy), all, 1, never,
+                            {[](std::size_t) {}, [&](std::size_t, const Json&, bool c) { cached.push_back(c); }},
+                            OldFailures::retry));
+  EXPECT_EQ(cached, (std::vector{true, false}));
+  EXPECT_EQ(number_at_limits(all), 0u);
+}
+
+// One that is still at work when another throws would take its hundred seconds.
+TEST_F(Errands, AnErrorEndsThoseInProgress) {
+  const auto all = errands(2, 100);
+  const auto started = std::chrono::steady_clock::now();
+  const std::string script = "if [ $(basename $2) = b ]; then touch here; sleep 100; fi; "
+                             "until [ -e ../b/here ]; do sleep 0.01; done; " + std::string(kCopy);
+  EXPECT_THROW(carry_out_all(program(script), all, 2, interrupt_,
+                             {[](std::size_t) {}, [](std::size_t, const Json&, bool) { throw RunError("no"); }}),
+               RunError);
+  EXPECT_LT(std::chrono::steady_clock::now() - started, std::chrono::seconds(50));
 }
 
 TEST_F(Errands, AnInterruptEndsThoseInProgressAndKeepsTheRest) {

@@ -130,8 +130,15 @@ TEST_F(Expand, RefusesWithPlaceAndRemedy) {
   EXPECT_NE(refusal(good + "steps: [1e-3]\nintegrators: [cvode_bdf]\n").find("none of the integrators takes them"), std::string::npos);
   EXPECT_NE(refusal(good + "tolerances: [2]\n").find("c.yaml:2:14"), std::string::npos);
   EXPECT_NE(refusal("scenes: [swing.yaml, swing.yaml]\ntolerances: [1e-3]\n").find("twice"), std::string::npos);
-  EXPECT_NE(refusal("scenes: [no.yaml]\ntolerances: [1e-3]\n").find("no such file"), std::string::npos);
-  EXPECT_NE(refusal(good + "tolerances: [1e-3]\nvary: {mesh.cels: [[1, 1, 1]]}\n").find("did you mean 'cells'"),
+  EXPECT_NE(refusal("scenes: [no.yaml]\ntolerances: [1e-3]\n").find("no.yaml: no such file"), std::string::npos);
+  EXPECT_NE(refusal("scenes: [no.yaml]\ntolerances: [1e-3]\n").find("c.yaml:1:10: scenes.0: "), std::string::npos);
+  EXPECT_NE(refusal("scenes: [{file: swing.yaml, set: {gravty: 1}}]\ntolerances: [1e-3]\n")
+                .find("c.yaml:1:43: scenes.0.set.gravty: unknown key; did you mean 'gravity'"),
+            std::string::npos);
+  EXPECT_NE(refusal(good + "tolerances: [1e-3]\nintegrators: [{type: cvode_bdf, max_ordr: 1}]\n")
+                .find("c.yaml:3:43: integrators.0.max_ordr: unknown key"),
+            std::string::npos);
+  EXPECT_NE(refusal(good + "tolerances: [1e-3]\nvary: {mesh.cels: [[1, 1, 1]]}\n").find("c.yaml:3:20: vary.mesh.cels.0: unknown key; did you mean 'cells'"),
             std::string::npos);
   EXPECT_NE(refusal(good + "tolerances: [1e-3]\nintegrators: [{type: cvode_bdf, rtol: 1}]\n").find("remove it here"),
             std::string::npos);

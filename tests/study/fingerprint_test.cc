@@ -1,9 +1,11 @@
 // What figures depend on besides their input.
 #include "lib/study/fingerprint.h"
 
+#include <chrono>
 #include <cstdlib>
 #include <functional>
 
+#include "lib/core/errors.h"
 #include "tests/run/command.h"
 
 namespace orthodyn {
@@ -30,6 +32,26 @@ TEST_F(PluginFingerprint, APluginThatTheLoaderFindsByItselfCountsByItsName) {
   const std::string without = code_fingerprint();
   setenv("ORTHODYN_PLUGINS", "libsomewhere.so", 1);
   EXPECT_NE(code_fingerprint(), without);
+}
+
+class FilePrints : public InFolder {};
+
+TEST_F(FilePrints, AFileIsReadAgainOnlyWhenItHasChanged) {
+  FileFingerprints files;
+  const auto file = write("mesh", "one");
+  const std::string one = files.of(file);
+  EXPECT_EQ(one, Fingerprint().add_file(file).text());
+  const auto changed = fs::last_write_time(file);
+  write("mesh", "two");
+  fs::last_write_time(file, changed);  // as long as it looks the same
+  EXPECT_EQ(files.of(file), one);
+  fs::last_write_time(file, changed + std::chrono::seconds(1));
+  EXPECT_NE(files.of(file), one);
+  write("mesh", "three");
+  fs::last_write_time(file, changed + std::chrono::seconds(1));
+  EXPECT_EQ(files.of(file), Fingerprint().add_file(file).text());
+  fs::remove(file);
+  EXPECT_THROW(files.of(file), RunError);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Child processes and their limits.
 #include "lib/study/process.h"
 
+#include <atomic>
 #include <csignal>
 #include <thread>
 
@@ -13,9 +14,10 @@ namespace {
 class Process : public InFolder {
  protected:
   ProcessEnd run(const std::string& command, double seconds = 30) {
-    return run_process({"/bin/sh", "-c", command}, folder_ / "log", {seconds, 8e9}, interrupt_);
+    return run_process({"/bin/sh", "-c", command}, folder_ / "log", {seconds, 8e9}, stop_);
   }
   std::atomic<bool> interrupt_{false};
+  const Stop stop_ = [this] { return interrupt_.load(); };
 };
 
 TEST_F(Process, HandsBackTheExitCodeAndTheOutput) {
@@ -35,7 +37,7 @@ TEST_F(Process, IsKilledAfterItsTime) {
 
 TEST_F(Process, IsKilledWhenItTakesTooMuchMemory) {
   const auto end = run_process({"/bin/sh", "-c", "x=$(head -c 100000000 /dev/zero | tr '\\0' x); echo $x; sleep 100"},
-                               folder_ / "log", {60, 5e7}, interrupt_);
+                               folder_ / "log", {60, 5e7}, stop_);
   EXPECT_EQ(end.kind, ProcessEnd::Kind::out_of_memory);
 }
 
@@ -49,7 +51,7 @@ TEST_F(Process, EndsWhenThereIsAnInterrupt) {
 }
 
 TEST_F(Process, AMissingProgramIsAnExitCode) {
-  EXPECT_EQ(run_process({"/no/such/program"}, folder_ / "log", {10, 8e9}, interrupt_).code, 127);
+  EXPECT_EQ(run_process({"/no/such/program"}, folder_ / "log", {10, 8e9}, stop_).code, 127);
 }
 
 }  // namespace

@@ -63,6 +63,8 @@ TEST_F(StabilityCommand, SaysWhatWasExpectedAndLeavesTheLastState) {
   EXPECT_TRUE(fs::exists(folder_ / "out/stability/m" / trial.at("folder").get<std::string>() / "end.vtu"));
   const std::string csv = read_text(folder_ / "out/stability/m/stability.csv");
   EXPECT_NE(csv.find("fall,default,cvode_bdf,fail,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",figure,unit,computed,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",end of corner.displacement.z,m,-4.9"), std::string::npos) << csv;
 }
 
 TEST_F(StabilityCommand, TakesVariantsAndRefusalsApart) {
@@ -105,17 +107,22 @@ TEST_F(StabilityCommand, ARunThatDoesNotEndFails) {
   EXPECT_NE(table().at("trials").at(0).at("reason").get<std::string>().find("max_steps"), std::string::npos);
   EXPECT_EQ(grade(1), "fail");
   EXPECT_EQ(table().at("trials").at(1).at("reason"), "time limit");
+  const auto again = stability();
+  EXPECT_NE(again.output.find("1 that met the limit of time or memory; --retry"), std::string::npos) << again.output;
+  const auto retried = stability(" --retry");
+  EXPECT_EQ(retried.output.find("(done before)"), std::string::npos) << retried.output;
+  EXPECT_EQ(retried.output.find("--retry"), std::string::npos) << retried.output;
 }
 
 TEST_F(StabilityCommand, RefusesWhatIsWrongBeforeAnythingRuns) {
   const std::map<std::string, std::string> wrong{
       {"cases: []\n", "m.yaml:1:8: cases: is empty"},
-      {"cases: [none.yaml]\n", "no such file"},
+      {"cases: [none.yaml]\n", "m.yaml:1:9: cases.0: none.yaml: no such file"},
       {"cases: [fall.yaml, fall.yaml]\n", "m.yaml:1:20"},
       {"cases: [fall.yaml]\nintegrators: [cvode_bfd]\n", "did you mean 'cvode_bdf'"},
-      {"cases: [fall.yaml]\nintegrators: [{type: cvode_bdf, rtoll: 1}]\n", "rtoll"},
-      {"cases: [{file: fall.yaml, set: {gravty: 1}}]\n", "gravty"},
-      {"cases: [fall.yaml]\nvariants: {a: {elasticity.corotatoin: warped}}\n", "corotatoin"}};
+      {"cases: [fall.yaml]\nintegrators: [{type: cvode_bdf, rtoll: 1}]\n", "m.yaml:2:40: integrators.0.rtoll: unknown key"},
+      {"cases: [{file: fall.yaml, set: {gravty: 1}}]\n", "m.yaml:1:41: cases.0.set.gravty: unknown key"},
+      {"cases: [fall.yaml]\nvariants: {a: {elasticity.corotatoin: warped}}\n", "m.yaml:2:39: variants.a.elasticity.corotatoin: unknown key"}};
   for (const auto& [text, message] : wrong) {
     write("m.yaml", text);
     const auto done = stability();

@@ -144,6 +144,133 @@ TEST_F(SweepDesign, GivesFormulasOnlyNamesThatTheyCanHave) {
               AllOf(HasSubstr("s.yaml:6:"), HasSubstr("cannot read the formula '2*c'")));
 }
 
+TEST_F(SweepDesign, RefusesTwoVariablesThatSetTheSamePath) {
+  const std::string head = std::string(kFigure) + "vary:\n";
+  EXPECT_THAT(complaint(head + "  materials.soft.nu: [0.1, 0.2]\n  kind: {a: {materials.soft.nu: 0.3}}\n"),
+              AllOf(HasSubstr("s.yaml:5:"), HasSubstr("s.yaml:4:"), HasSubstr("only one of both can hold")));
+  EXPECT_THAT(complaint(head + "  a: {x: {gravity: [0, 0, -1]}}\n  b: {y: {gravity: [0, 0, -2]}}\n"),
+              AllOf(HasSubstr("s.yaml:5:"), HasSubstr("s.yaml:4:")));
+  // The whole after its part takes the part away; the part after the whole is what it says.
+  EXPECT_THAT(complaint(head + "  gravity.2: [-1, -2]\n  kind: {a: {gravity: [0, 0, 0]}}\n"),
+              AllOf(HasSubstr("s.yaml:5:"), HasSubstr("replaces 'gravity.2'"), HasSubstr("s.yaml:4:")));
+  const auto all = points(head + "  kind: {a: {gravity: [1, 0, 0]}}\n  gravity.2: [-1, -2]\n");
+  EXPECT_EQ(value(all[1], "gravity.0"), 1);
+  EXPECT_EQ(value(all[1], "gravity.2"), -2);
+}
+
+TEST_F(SweepDesign, RefusesASlipInANamedSet) {
+  EXPECT_THAT(complaint(kFigure + std::string("vary:\n  kind:\n    a: {gravty: [0, 0, -2]}\n    b: {}\n")),
+              AllOf(HasSubstr("s.yaml:5:"), HasSubstr("did you mean 'gravity'?")));
+  EXPECT_THAT(complaint(kFigure + std::string("vary:\n  kind:\n    a: {rho: 1}\n    b: {}\n")),
+              AllOf(HasSubstr("s.yaml:5:"), HasSubstr("no formula uses it")));
+  EXPECT_THAT(complaint(kFigure + std::string("vary:\n  kind:\n    \"\": {}\n")),
+              AllOf(HasSubstr("s.yaml:5:"), HasSubstr("has no name")));
+}
+
+TEST_F(SweepDesign, RefusesANameForTwoThings) {
+  const std::string rest = "quantities: {f: {mode: 1, closed_form: nu + x}}\n";
+  EXPECT_THAT(complaint(rest + "vary:\n  materials.soft.nu: [0.1]\ndefinitions:\n  x: 2\n  nu: 1\n"),
+              AllOf(HasSubstr("s.yaml:7:"), HasSubstr("the name 'nu' is taken at"), HasSubstr("s.yaml:4:")));
+  EXPECT_THAT(complaint(rest + "vary:\n  materials.soft.nu: [0.1]\n  k: {a: {x: 1}, b: {x: 2}}\n  m: {c: {x: 3}}\n"),
+              AllOf(HasSubstr("s.yaml:6:"), HasSubstr("the name 'x' is taken at"), HasSubstr("s.yaml:5:")));
+  EXPECT_EQ(complaint(rest + "vary:\n  materials.soft.nu: [0.1]\n  x: {a: {x: 1}, b: {x: 2}}\n"), "");
+}
+
+TEST_F(SweepDesign, NamesAnEntryOfAListByItsListToo) {
+  const auto all = points(kFigure + std::string("vary: {gravity.2: [-1, -2], output.probes.tip.at.0: [1]}"));
+  EXPECT_EQ(all[0].title, "gravity.2 -1, at.0 1");
+}
+
+TEST_F(SweepDesign, ReadsQuantitiesWithUnits) {
+  const std::string rest = "quantities: {f: {mode: 1, closed_form: E*twice}}\ndefinitions: {twice: 2 kPa}\n";
+  const auto list = points(rest + "vary: {materials.soft.young: {values: [20 kPa, 0.1 MPa], name: E}}");
+  EXPECT_EQ(list[1].title, "E 100 kPa");
+  EXPECT_NEAR(list[1].closed_forms[0], 2e8, 1e-3);
+  EXPECT_THAT(list[1].scene, HasSubstr("young: 0.1 MPa"));
+  const auto range = points(rest + "vary: {materials.soft.young: {from: 20 kPa, to: 1 MPa, count: 2, name: E}}");
+  EXPECT_EQ(range[1].title, "E 1000 kPa");
+  EXPECT_NEAR(range[1].closed_forms[0], 2e9, 1e-3);
+  const auto free = points(rest + "vary: {E: [20 kPa, 0.1 MPa]}");
+  EXPECT_NEAR(free[1].closed_forms[0], 2e8, 1e-3);
+  const auto refused = [&](const std::string& vary, const std::string& why) {
+    EXPECT_THAT(complaint(rest + "vary: {E: " + vary + "}"), AllOf(HasSubstr("s.yaml:4:"), HasSubstr(why))) << vary;
+  };
+  refused("[20 kPa, 1e5]", "has no unit, but another value has");
+  refused("{from: 20 kPa, to: 1e5, count: 2}", "one of 'from' and 'to' has a unit");
+  refused("{from: 20 kPa, to: 3 m, count: 2}", "expected a quantity that has the unit kPa, found '3 m'");
+  refused("{from: 1 kPas, to: 3 kPas, count: 2}", "the unit 'kPas' is not known");
+  refused("{from: 1 MPa, to: 1000 kPa, count: 2}", "is equal to 'from'");
+  refused("{from: low, to: 3, count: 2}", "expected a number, found 'low'");
+  refused("[1 MPa, 1000 kPa]", "has the value 1 twice");
+}
+
+TEST_F(SweepDesign, RefusesTimesBeyondTheSpanOfAnyPoint) {
+  const std::string vary = "vary: {time.end: [0.5, 0.1]}\n";
+  EXPECT_THAT(complaint(vary + "quantities:\n  f: {quantity: tip.displacement.z, at: 0.2}\n"),
+              AllOf(HasSubstr("s.yaml:4:"), HasSubstr("f.at: 0.2 s is outside of the time span of 'end 0.1'")));
+  EXPECT_EQ(complaint(vary + "quantities:\n  f: {quantity: tip.displacement.z, at: 0.1}\n"), "");
+  EXPECT_THAT(complaint(vary + kFigure + "frames: {at: 0.2}\n"),
+              AllOf(HasSubstr("s.yaml:4:"), HasSubstr("frames.at: 0.2 s is outside")));
+}
+
+TEST_F(SweepDesign, RefusesColoursThatCannotBeDrawn) {
+  const std::string head = std::string(kFigure) + "vary: {materials.soft.nu: [0.1]}\nframes: {color: ";
+  EXPECT_THAT(complaint(head + "stres}"), AllOf(HasSubstr("s.yaml:4:"), HasSubstr("did you mean 'stress'?")));
+  EXPECT_THAT(complaint(head + "stress.11}"), HasSubstr("'stress' has no component '11'; known: xx"));
+  EXPECT_THAT(complaint(head + "det_f.x}"), HasSubstr("it is a number"));
+  EXPECT_THAT(complaint(head + "energy.elastic}"), HasSubstr("there is no field 'energy'"));
+  for (const char* color : {"displacement", "velocity.z", "stress.von_mises", "stress_material.12", "det_f", "strain.11"})
+    EXPECT_EQ(complaint(head + color + "}"), "");
+}
+
+TEST_F(SweepDesign, RefusesColumnsThatTheTableHasAlready) {
+  const std::string head = "vary: {materials.soft.nu: [0.1]}\nquantities:\n  ";
+  const auto refused = [&](const std::string& figures, const std::string& why) {
+    EXPECT_THAT(complaint(head + figures), AllOf(HasSubstr("s.yaml:4:"), HasSubstr(why))) << figures;
+  };
+  refused("status: {mode: 1}", "a column 'status' of its own");
+  refused("steps: {mode: 1}", "a column 'steps' of its own");
+  refused("steps: {cost: forces}", "a column 'steps' of its own");
+  refused("'': {mode: 1}", "has no name");
+  refused("nu: {mode: 1}", "a column 'nu' already, of ");
+  refused("{f: {mode: 1, closed_form: 1}, f.closed_form: {mode: 2}}", "a column 'f.closed_form' already");
+  EXPECT_EQ(complaint(head + "steps: {cost: steps}"), "");
+  EXPECT_THAT(complaint(kFigure + std::string("vary: {folder: [1, 2]}\ndefinitions: {a: folder}")),
+              AllOf(HasSubstr("s.yaml:3:"), HasSubstr("a column 'folder' of its own")));
+}
+
+TEST_F(SweepDesign, RefusesSamplesWithoutALatinHypercube) {
+  const std::string rest = std::string(kFigure) + "vary: {materials.soft.nu: [0.1]}\n";
+  EXPECT_THAT(complaint(rest + "samples: 5\n"),
+              AllOf(HasSubstr("s.yaml:4:"), HasSubstr("only with combine: latin_hypercube, found combine: cartesian")));
+  EXPECT_THAT(complaint(rest + "combine: zip\nseed: 5\n"), AllOf(HasSubstr("s.yaml:5:"), HasSubstr("combine: zip")));
+}
+
+TEST_F(SweepDesign, PointsAtWhatBroughtAMistakeIn) {
+  const auto said = [&](const std::string& vary) { return complaint(kFigure + ("vary:\n  " + vary + "\n")); };
+  EXPECT_THAT(said("materials.soft.mu: [0, 0.1]"),
+              AllOf(HasSubstr("s.yaml:4:"), HasSubstr("did you mean 'nu'?"), Not(HasSubstr("impossible"))));
+  EXPECT_THAT(said("materials.soft.nu: [soft]"),
+              AllOf(HasSubstr("s.yaml:4:"), HasSubstr("expected a number"), Not(HasSubstr("impossible"))));
+  EXPECT_THAT(said("materials.soft.nu: [0.1, 0.7]"),
+              AllOf(HasSubstr("s.yaml:4:"), HasSubstr("nu 0.7"), HasSubstr("impossible: keep")));
+  EXPECT_THAT(said("gravity.7: [1]"), AllOf(HasSubstr("s.yaml:4:"), HasSubstr("'7' is not an index below 3")));
+  EXPECT_THAT(said("kind: {a: {},\n    b: {mesh.cels: [1, 1, 1]}}"),
+              AllOf(HasSubstr("s.yaml:5:"), HasSubstr("did you mean 'cells'?")));
+  const auto other = [&](const std::string& scene) {
+    try {
+      expand(read_sweep(Config::from_file(
+          write("t.yaml", kFigure + ("vary: {materials.soft.nu: [0.1]}\nscene: " + scene + "\n")).string())));
+    } catch (const ConfigError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(other("none.yaml"), AllOf(HasSubstr("t.yaml:3:"), HasSubstr("no such file")));
+  EXPECT_THAT(other("{file: swing.yaml,\n  set: {gravty: [0, 0, 1]}}"),
+              AllOf(HasSubstr("t.yaml:4:"), HasSubstr("did you mean 'gravity'?")));
+}
+
 TEST_F(SweepDesign, SaysWhereSomethingIsWrongBeforeAnythingRuns) {
   const std::string vary = "vary: {materials.soft.nu: [0, 0.1]}\n";
   EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.mu: [0, 0.1]}\n")),

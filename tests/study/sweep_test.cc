@@ -126,6 +126,25 @@ TEST_F(SweepCommand, KnowsEveryTakeWithItsUnit) {
   EXPECT_LT(figures.at("onset").get<double>(), figures.at("time_of_max").get<double>());
 }
 
+TEST_F(SweepCommand, HeadsTheTableWithUnitsAndEachColumnOnce) {
+  write("s.yaml", R"(scene: scene.yaml
+vary:
+  materials.soft.young: [1e5]
+  materials.soft.density: [0.5 g/cm^3]
+  loads.0.force.0: [1]
+  materials.soft.nu: [0]
+quantities: {steps: {cost: steps}, hertz: {mode: 1}}
+)");
+  const auto done = sweep();
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  const std::string csv = read_text(folder_ / "out/sweeps/s/sweep.csv");
+  EXPECT_EQ(csv.substr(0, csv.find('\n')),
+            "point,young [Pa],density [g/cm^3],force.0 [N],nu,steps,hertz [Hz],status,reason,message,"
+            "wall_seconds [s],cpu_seconds [s],unknowns,folder");
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 13) << line;
+}
+
 TEST_F(SweepCommand, IntegratesNothingWhereOnlyFrequenciesAreAskedFor) {
   write("s.yaml",
         "scene: scene.yaml\nvary: {time.end: [1e9]}\nquantities: {hertz: {mode: 1}}\nlimits: {seconds: 10}\n");
@@ -169,6 +188,8 @@ limits: {seconds: 0.5}
   const auto done = sweep();
   EXPECT_EQ(done.exit_code, 0) << done.output;
   EXPECT_NE(done.output.find("warning: kind sick"), std::string::npos) << done.output;
+  EXPECT_NE(done.output.find("1 of 2 points failed; the first, kind long: time limit: "), std::string::npos)
+      << done.output;
   const Json points = table().at("points");
   EXPECT_EQ(points[0].at("status"), "completed");
   EXPECT_EQ(points[1].at("reason"), "time limit");
@@ -190,7 +211,11 @@ output: {probes: {tip: {at: [1, 0, 0]}}}
   ASSERT_EQ(sweep().exit_code, 0);
   EXPECT_EQ(table().at("points")[0].at("status"), "completed");
   write("s.yaml", text + "1e-6}\n");
-  ASSERT_EQ(sweep().exit_code, 0);
+  const auto late = sweep();
+  EXPECT_EQ(late.exit_code, 3);  // nothing was measured
+  EXPECT_NE(late.output.find("1 of 1 points failed; the first, nu 0: time limit: not done after"), std::string::npos)
+      << late.output;
+  EXPECT_EQ(sweep("--collect").exit_code, 3);
   EXPECT_EQ(table().at("points")[0].at("reason"), "time limit");
 }
 
@@ -203,6 +228,78 @@ TEST_F(SweepCommand, DoesNotRepeatPointsOfAnEarlierOrSmallerSweep) {
   EXPECT_NE(more.output.find("[2/3] young 1000000: hertz"), std::string::npos) << more.output;
   EXPECT_NE(more.output.find("(done before)"), std::string::npos);
   for (const auto& [file, text] : before) EXPECT_EQ(read_text(file), text);
+}
+
+TEST_F(SweepCommand, TriesFailuresAgainWhereThatIsAskedFor) {
+  write("s.yaml", "scene: scene.yaml\nvary: {materials.soft.young: [1e5, 1e6]}\nquantities: {hertz: {mode: 1}}\n");
+  ASSERT_EQ(sweep().exit_code, 0);
+  const auto whole = results();
+  std::ofstream(whole.begin()->first) << R"({"status": "failed", "reason": "time limit", "message": "on a slow machine"})";
+  const auto kept = sweep();
+  EXPECT_EQ(kept.exit_code, 0);
+  EXPECT_NE(kept.output.find(": time limit: on a slow machine"), std::string::npos) << kept.output;
+  EXPECT_NE(kept.output.find("1 that met the limit of time or memory; --retry"), std::string::npos) << kept.output;
+  const auto again = sweep("--retry");
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_EQ(again.output.find("failed"), std::string::npos) << again.output;
+  EXPECT_EQ(results().rbegin()->second, whole.rbegin()->second);  // that did not fail
+}
+
+TEST_F(SweepCommand, LeavesNoOldReportBesideNewResults) {
+  write("s.yaml", "scene: scene.yaml\nvary: {materials.soft.young: [1e5]}\nquantities: {hertz: {mode: 1}}\n");
+  ASSERT_EQ(sweep().exit_code, 0);
+  write("out/sweeps/s/report.html", "old");
+  const auto done = sweep();
+  EXPECT_NE(done.output.find("is now out/sweeps/s/report.old.html"), std::string::npos) << done.output;
+  EXPECT_FALSE(fs::exists(folder_ / "out/sweeps/s/report.html"));
+  EXPECT_EQ(read_text(folder_ / "out/sweeps/s/report.old.html"), "old");
+}
+
+TEST_F(SweepCommand, HasNoMoreTasksThanPoints) {
+  write("s.yaml", kMany);
+  const auto done = sweep("--slurm --tasks 100");
+  EXPECT_NE(done.output.find("24 points make 24 tasks, not 100\n"), std::string::npos) << done.output;
+  EXPECT_NE(done.output.find("#SBATCH --array=1-24\n"), std::string::npos) << done.output;
+}
+
+TEST_F(SweepCommand, AFileOfAnotherKindIsToldFromItsKeys) {
+  write("sweep.yaml", kMany);
+  write("compare.yaml", "scenes: [scene.yaml]\ntolerances: [1e-3]\n");
+  write("stability.yaml", "cases: [scene.yaml]\n");
+  write("run.yaml", kOscillator);
+  const std::map<std::string, std::string> words{{"run", "a scene"}, {"compare", "a comparison"}, {"sweep", "a sweep"},
+                                                 {"stability", "a file of hard cases"}};
+  for (const auto& [command, unused] : words) {
+    for (const auto& [kind, what] : words) {
+      if (command == kind) continue;
+      const auto refused = orthodyn(command + " " + kind + ".yaml");
+      EXPECT_EQ(refused.exit_code, 2);
+      EXPECT_NE(refused.output.find("this is " + what + ": orthodyn " + kind + " " + kind + ".yaml"), std::string::npos)
+          << refused.output;
+    }
+  }
+  for (const char* command : {"check", "modes", "verify"})
+    EXPECT_NE(orthodyn(std::string(command) + " sweep.yaml").output.find("orthodyn sweep"), std::string::npos);
+  write("s.yaml", "scene: stability.yaml\nvary: {materials.soft.nu: [0]}\nquantities: {f: {mode: 1}}\n");
+  EXPECT_NE(sweep().output.find("s.yaml:1:8: scene: stability.yaml: this is a file of hard cases"), std::string::npos);
+}
+
+TEST_F(SweepCommand, EveryCommandHasExamplesOfItsOwn) {
+  for (const std::string command : {"run", "check", "modes", "compare", "sweep", "stability", "verify", "convert",
+                                    "list", "schema", "init"}) {
+    const std::string help = orthodyn(command + " --help").output;
+    const auto examples = help.find("Examples:\n");
+    ASSERT_NE(examples, std::string::npos) << help;
+    std::istringstream lines(help.substr(examples + 10));
+    for (std::string line; std::getline(lines, line);) {
+      EXPECT_TRUE(line.empty() || line.starts_with("  orthodyn " + command + " ")) << line;
+    }
+  }
+}
+
+TEST_F(SweepCommand, TheListsHaveTheLimits) {
+  for (const char* kind : {"sweep", "stability"})
+    EXPECT_NE(orthodyn(std::string("list ") + kind).output.find("Wall time of one integration"), std::string::npos);
 }
 
 // Killed again and again, each time a while after one more point is finished, it leaves every finished point, and never

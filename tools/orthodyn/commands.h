@@ -1,5 +1,5 @@
 // The subcommands of `orthodyn`. Each returns the exit code: 0, 1 an expectation was missed, 2 bad
-// input, 3 could not go on, 130 interrupted.
+// input, 3 could not go on or computed none of its points, 130 interrupted.
 #pragma once
 
 #include <optional>
@@ -31,28 +31,24 @@ struct VerifyArguments {
   std::optional<std::string> integrator, junit;
 };
 
-struct CompareArguments {
-  std::string comparison;
-  std::optional<std::string> out;
-  bool quiet = false, no_report = false;
-};
-
-struct SweepArguments {
-  std::string sweep;
-  std::optional<std::string> out;
-  int jobs = 0;                       // 0: as many as there are processors
-  std::optional<std::string> task;    // "3/20": this part of the points only
-  std::optional<std::string> slurm;   // "print" or "submit"
-  std::optional<std::size_t> tasks;   // of the array
-  bool collect = false, quiet = false, no_report = false;
-};
-
-struct StabilityArguments {
+// What all studies know.
+struct StudyArguments {
   std::string file;
   std::optional<std::string> out;
   int jobs = 0;  // 0: as many as there are processors
-  bool quiet = false, no_report = false;
+  bool retry = false, quiet = false, no_report = false;
 };
+
+struct CompareArguments : StudyArguments {};
+
+struct SweepArguments : StudyArguments {
+  std::optional<std::string> task;    // "3/20": this part of the points only
+  std::optional<std::string> slurm;   // "print" or "submit"
+  std::optional<std::size_t> tasks;   // of the array
+  bool collect = false;
+};
+
+struct StabilityArguments : StudyArguments {};
 
 struct ConvertArguments {
   std::string in, out;

@@ -8,6 +8,7 @@
 #include "lib/study/measure.h"
 #include "tools/orthodyn/commands.h"
 #include "tools/orthodyn/draw.h"
+#include "tools/orthodyn/failures.h"
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/study_folder.h"
 #include "tools/orthodyn/teller.h"
@@ -58,7 +59,7 @@ void print_answers(const Json& table) {
 }  // namespace
 
 int compare_command(const CompareArguments& arguments) {
-  const Config config = Config::from_file(arguments.comparison);
+  const Config config = Config::from_file(arguments.file);
   const Comparison comparison = read_comparison(config);
   Design design = expand(comparison);
   const StudyFolder place(arguments.out ? fs::path(*arguments.out) : fs::path("out/comparisons") / comparison.name,
@@ -66,23 +67,32 @@ int compare_command(const CompareArguments& arguments) {
   const fs::path& folder = place.path();
 
   Teller teller;
+  std::size_t kept = 0;
   const auto notify = [&](const TaskNotice& notice) {
+    kept += !notice.starts && notice.cached && met_a_limit(*notice.result);
     if (!arguments.quiet && !notice.starts)
       teller.tell(notice.count, notice.title, outcome_of(*notice.result), notice.cached);
   };
-  Campaign campaign(comparison, std::move(design), {folder, fs::read_symlink("/proc/self/exe").string(), notify});
+  Campaign campaign(comparison, std::move(design), {folder, fs::read_symlink("/proc/self/exe").string(), notify,
+                     arguments.retry ? OldFailures::retry : OldFailures::keep});
   Json table;
   heed_interrupts();
   const bool complete = campaign.run(interrupted(), [&] {
-    table = comparison_json(campaign, arguments.comparison);
+    table = comparison_json(campaign, arguments.file);
     write_file(folder / kTable, {to_text(table, 1)});
     write_file(folder / "compare.csv", {comparison_csv(table)});
   });
   if (!complete)
     fmt::print(stderr, "interrupted; the finished points are in {} and will not be done again\n", folder.string());
   if (!arguments.quiet && !table.is_null()) print_answers(table);
-  if (!arguments.no_report && !table.is_null()) draw_report(folder, arguments.quiet);
-  return complete ? 0 : 130;
+  if (arguments.no_report) put_report_aside(folder, arguments.quiet);
+  else if (!table.is_null()) draw_report(folder, arguments.quiet);
+  Failures failures;
+  for (const auto& [i, result] : campaign.results())
+    failures.add(title(campaign.design(), campaign.design().points[i]), result);
+  failures.print();
+  tell_of_kept_limits(kept);
+  return complete ? failures.exit_code() : 130;
 }
 
 int measure_command(const std::string& folder) {

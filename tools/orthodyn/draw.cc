@@ -15,6 +15,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr const char* kReport = "report.html";
+
 // Whether `draw` with these arguments ended well; its messages go to `log`.
 bool draw(std::vector<std::string> arguments, const fs::path& log) {
   const fs::path program = draw_tool();
@@ -22,18 +24,28 @@ bool draw(std::vector<std::string> arguments, const fs::path& log) {
   arguments.insert(arguments.begin(), program.string());
   const std::atomic<bool> never{false};
   const std::atomic<bool>& interrupt = interrupted() ? never : interrupted();  // a second Ctrl-C ends it all
-  return run_process(arguments, log, {600, 16e9}, interrupt).succeeded();
+  return run_process(arguments, log, {600, 16e9}, [&] { return interrupt.load(); }).succeeded();
 }
 
 }  // namespace
 
 void draw_report(const fs::path& folder, bool quiet) {
   const fs::path log = folder / "report.log";
-  if (!draw({"report", folder.string()}, log))
-    fmt::print(stderr, "warning: no report was drawn (see {}); by hand: tools/draw/draw report {}\n", log.string(),
-               folder.string());
-  else if (!quiet)
-    fmt::print("report  {}\n", (folder / "report.html").string());
+  if (draw({"report", folder.string()}, log)) {
+    if (!quiet) fmt::print("report  {}\n", (folder / kReport).string());
+    return;
+  }
+  fmt::print(stderr, "warning: no report was drawn (see {}); by hand: tools/draw/draw report {}\n", log.string(),
+             folder.string());
+  put_report_aside(folder, quiet);
+}
+
+void put_report_aside(const fs::path& folder, bool quiet) {
+  std::error_code failed;
+  if (!fs::exists(folder / kReport, failed)) return;
+  fs::rename(folder / kReport, folder / "report.old.html", failed);
+  if (failed) fmt::print(stderr, "warning: {} is of an earlier run\n", (folder / kReport).string());
+  else if (!quiet) fmt::print("the report of an earlier run is now {}\n", (folder / "report.old.html").string());
 }
 
 void draw_axes(const fs::path& file) {

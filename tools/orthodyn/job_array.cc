@@ -71,11 +71,12 @@ std::string array_script(const ArrayJob& job) {
 # {} points in {} tasks. A task that is lost or killed costs its points in progress: submit this script again, and only
 # what is missing is done. Then join what is there:
 #   {} --collect
-exec {} --task "$SLURM_ARRAY_TASK_ID/{}" --jobs 1 --quiet
+exec {} --task "$SLURM_ARRAY_TASK_ID/{}" --jobs 1 --quiet{}
 )",
                      sbatch_quoted(job.name), job.tasks,
                      std::lround(std::ceil((job.limits.memory + kMargin) / 1e6)), minutes(job),
-                     sbatch_quoted(log_of(job)), job.points, job.tasks, command(job), command(job), job.tasks);
+                     sbatch_quoted(log_of(job)), job.points, job.tasks, command(job), command(job), job.tasks,
+                     job.retry ? " --retry" : "");
 }
 
 int submit(const ArrayJob& job) {

@@ -14,6 +14,7 @@ struct ArrayJob {
   std::string name;
   std::size_t points = 0, tasks = 0;
   Limits limits;  // of a point
+  bool retry = false;  // what failed before
 };
 
 // For sbatch.

@@ -101,17 +101,20 @@ void print_comparison() {
 
 void print_sweep() {
   print_entry("sweep", "The keys of a sweep, for `orthodyn sweep`.", Sweep::spec().keys());
+  print_entry("scene", "The scene of a sweep, where it is a section.", SceneEntry::spec().keys());
   print_entry("vary.<name>", "Evenly spaced numbers.", NumberRange::spec().keys());
   print_entry("vary.<name>", "A list with a unit or a name.", ValueList::spec().keys());
   print_entry("quantities.<name>", "What is wanted of every point: one of quantity, mode (or along), cost.",
               WantedFigure::spec().keys());
   print_entry("plots.<n>", "A figure of the report.", PlotWish::spec().keys());
   print_entry("frames", "A picture of each point.", FrameWish::spec().keys());
+  print_entry("limits", "Of each point of a sweep.", Limits::spec().keys());
 }
 
 void print_stability() {
   print_entry("stability", "The keys of a file of hard cases, for `orthodyn stability`.", Stability::spec().keys());
   print_entry("cases.<n>", "A hard case.", HardCase::spec().keys());
+  print_entry("limits", "Of each trial.", Limits::spec().keys());
 }
 
 void print_fields() {

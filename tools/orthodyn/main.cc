@@ -29,7 +29,7 @@ Examples:
   orthodyn verify configs/cases
 
 Exit codes: 0 done, 1 an expectation was missed, 2 the input is at fault (nothing was written), 3 the run could not go on (what
-was computed is kept), 130 interrupted (likewise).)";
+was computed is kept) or none of a study's points could be computed, 130 interrupted (likewise).)";
 
 void add_scene_options(CLI::App& command, orthodyn::RunArguments& arguments) {
   command.add_option("scene", arguments.scene, "A scene in YAML.")->required()->type_name("SCENE.yaml");
@@ -38,6 +38,28 @@ void add_scene_options(CLI::App& command, orthodyn::RunArguments& arguments) {
       ->expected(1)
       ->take_all();
   command.add_option("--integrator", arguments.integrator, "Short for --set integrator.type=NAME.");
+}
+
+// What `add_study_options` says of a study.
+struct StudyWords {
+  const char *name, *sentence;  // of its file
+  const char* folder;           // below out/
+  const char *table, *pieces;
+};
+
+void add_study_options(CLI::App& command, orthodyn::StudyArguments& arguments, const StudyWords& words) {
+  command.add_option(words.name, arguments.file, words.sentence)->required()->type_name("FILE.yaml");
+  command.add_option("--out", arguments.out, fmt::format("Folder for the results; default out/{}/<name>.", words.folder))
+      ->type_name("DIR");
+  command.add_flag("--retry", arguments.retry, fmt::format("Try {} again that failed in an earlier run.", words.pieces));
+  command.add_flag("--quiet", arguments.quiet, "Say nothing but errors.");
+  command.add_flag("--no-report", arguments.no_report, fmt::format("Write {0}.json and {0}.csv only.", words.table));
+}
+
+void add_jobs(CLI::App& command, orthodyn::StudyArguments& arguments, const char* pieces) {
+  command
+      .add_option("--jobs", arguments.jobs, fmt::format("{} at a time, each in a process; default one a processor.", pieces))
+      ->check(CLI::Range(1, 1024));
 }
 
 }  // namespace
@@ -73,10 +95,20 @@ int main(int argc, char** argv) {
                 "Then repeat the run at rtol / 10 (or half the fixed step) and print the difference.")
       ->excludes(resume);
 
+  run->footer(R"(
+Examples:
+  orthodyn run configs/scenes/cantilever.yaml --set integrator.rtol=1e-5 --out out/fine
+  orthodyn run configs/scenes/laminate.yaml --set checkpoint={} --resume)");
+
   auto* check = app.add_subcommand("check", "Read, validate and build a scene, and say what it consists of.");
   add_scene_options(*check, arguments);
   auto* axes = check->add_flag("--axes", arguments.axes, "Also write the material axes: axes.vtu and a picture, axes.png.");
   check->add_option("--out", arguments.out, "Folder for the axes; default out/axes/<scene>.")->type_name("DIR")->needs(axes);
+
+  check->footer(R"(
+Examples:
+  orthodyn check configs/scenes/laminate.yaml
+  orthodyn check configs/scenes/laminate.yaml --axes)");
 
   ModesArguments vibration;
   auto* modes = app.add_subcommand("modes", "Natural frequencies and shapes of a scene's body, without damping.");
@@ -90,15 +122,18 @@ int main(int argc, char** argv) {
   modes->add_flag("--quiet", vibration.quiet, "No table and no picture.");
   modes->add_option("--set", vibration.set, "Change a value by its path.")->type_name("PATH=VALUE")->expected(1)->take_all();
 
+  modes->footer(R"(
+Examples:
+  orthodyn modes configs/scenes/tuning_fork.yaml -n 8)");
+
   CompareArguments comparison;
   auto* compare = app.add_subcommand(
       "compare", "Compare integrators on scenes: error against time, as a report, CSV and JSON. Run again, it goes on.");
-  compare->add_option("comparison", comparison.comparison, "A comparison in YAML.")
-      ->required()
-      ->type_name("COMPARISON.yaml");
-  compare->add_option("--out", comparison.out, "Folder for the results; default out/comparisons/<name>.")->type_name("DIR");
-  compare->add_flag("--quiet", comparison.quiet, "Say nothing but errors.");
-  compare->add_flag("--no-report", comparison.no_report, "Write compare.json and compare.csv only.");
+  add_study_options(*compare, comparison, {"comparison", "A comparison in YAML.", "comparisons", "compare", "points"});
+  compare->footer(R"(
+Examples:
+  orthodyn compare configs/comparisons/damped_beam.yaml
+  orthodyn compare mine.yaml --retry           once more, with what failed)");
 
   std::string folder;
   auto* measure = app.add_subcommand("measure", "One point of a comparison; called by compare.")->group("");
@@ -107,10 +142,8 @@ int main(int argc, char** argv) {
   SweepArguments variation;
   auto* sweep = app.add_subcommand(
       "sweep", "Figures of a scene over varied values, as a report, CSV and JSON. Run again, it goes on.");
-  sweep->add_option("sweep", variation.sweep, "A sweep in YAML.")->required()->type_name("SWEEP.yaml");
-  sweep->add_option("--out", variation.out, "Folder for the results; default out/sweeps/<name>.")->type_name("DIR");
-  sweep->add_option("--jobs", variation.jobs, "Points at a time, each in a process; default one a processor.")
-      ->check(CLI::Range(1, 1024));
+  add_study_options(*sweep, variation, {"sweep", "A sweep in YAML.", "sweeps", "sweep", "points"});
+  add_jobs(*sweep, variation, "Points");
   auto* task = sweep->add_option("--task", variation.task, "Do the I-th of N parts of the points only; for job arrays.")
                    ->type_name("I/N");
   auto* slurm = sweep->add_option("--slurm", variation.slurm, "The sweep as a job array of SLURM: print its script, or submit it.")
@@ -123,9 +156,13 @@ int main(int argc, char** argv) {
       ->needs(slurm);
   sweep->add_flag("--collect", variation.collect, "Join the points that are there, and say which are missing.")
       ->excludes(task)
-      ->excludes(slurm);
-  sweep->add_flag("--quiet", variation.quiet, "Say nothing but errors.");
-  sweep->add_flag("--no-report", variation.no_report, "Write sweep.json and sweep.csv only.");
+      ->excludes(slurm)
+      ->excludes(sweep->get_option("--retry"));
+  sweep->footer(R"(
+Examples:
+  orthodyn sweep configs/sweeps/grain_angle.yaml
+  orthodyn sweep mine.yaml --slurm --tasks 100 > array.sh; sbatch array.sh
+  orthodyn sweep mine.yaml --collect           join what the tasks have done)");
 
   auto* evaluate = app.add_subcommand("evaluate", "One point of a sweep; called by sweep.")->group("");
   evaluate->add_option("folder", folder)->required();
@@ -133,12 +170,12 @@ int main(int argc, char** argv) {
   StabilityArguments hard;
   auto* stability = app.add_subcommand(
       "stability", "Try integrators on hard cases: a matrix of pass, degraded and fail, with reasons. Run again, it goes on.");
-  stability->add_option("cases", hard.file, "Hard cases in YAML.")->required()->type_name("FILE.yaml");
-  stability->add_option("--out", hard.out, "Folder for the results; default out/stability/<name>.")->type_name("DIR");
-  stability->add_option("--jobs", hard.jobs, "Trials at a time, each in a process; default one a processor.")
-      ->check(CLI::Range(1, 1024));
-  stability->add_flag("--quiet", hard.quiet, "Say nothing but errors.");
-  stability->add_flag("--no-report", hard.no_report, "Write stability.json and stability.csv only.");
+  add_study_options(*stability, hard, {"cases", "Hard cases in YAML.", "stability", "stability", "trials"});
+  add_jobs(*stability, hard, "Trials");
+  stability->footer(R"(
+Examples:
+  orthodyn stability configs/stability/hard_cases.yaml --jobs 2
+  orthodyn stability mine.yaml --retry         once more, with what failed)");
   auto* assess = app.add_subcommand("assess", "One trial of a matrix; called by stability.")->group("");
   assess->add_option("folder", folder)->required();
 
@@ -154,6 +191,11 @@ int main(int argc, char** argv) {
       ->take_all();
   verify->add_option("--integrator", cases.integrator, "Short for --set integrator.type=NAME.");
 
+  verify->footer(R"(
+Examples:
+  orthodyn verify configs/cases
+  orthodyn verify mine.yaml --integrator tr_bdf2)");
+
   ConvertArguments conversion;
   auto* convert = app.add_subcommand(
       "convert", "A mesh from one format to another, by the endings: .msh .msh2 .veg .vtu .vtk .node .ele .inp.");
@@ -162,21 +204,40 @@ int main(int argc, char** argv) {
   convert->add_option("--scale", conversion.scale, "Multiplies coordinates: 0.001 from mm to m.")->type_name("FACTOR");
   convert->add_flag("--force", conversion.force, "Replace files that are there already.");
 
+  convert->footer(R"(
+Examples:
+  orthodyn convert part.msh part.vtu
+  orthodyn convert part.inp part.msh --scale 0.001)");
+
   std::string what;
   auto* list = app.add_subcommand("list", "What can be named in a scene, each with its keys.");
   list->add_option("what", what, "scene, materials, presets, meshes, axes, integrators, solvers, terms, factors, statics, events, expect, comparison, sweep, stability, fields; all if left out.");
   bool markdown = false;
   list->add_flag("--markdown", markdown, "Every key of the input as one page in Markdown.");
 
+  list->footer(R"(
+Examples:
+  orthodyn list materials
+  orthodyn list --markdown > reference.md)");
+
   std::string schema_kind;
   auto* schema = app.add_subcommand("schema", "The JSON Schema of the input, for editors that complete and check YAML.");
   schema->add_option("kind", schema_kind, "scene, comparison, sweep or stability; all in one schema if left out.");
+
+  schema->footer(R"(
+Examples:
+  orthodyn schema scene > scene.json)");
 
   std::string start_kind;
   std::optional<std::string> start_file;
   auto* init = app.add_subcommand("init", "Write a commented file to start from.");
   init->add_option("kind", start_kind, "scene, static, comparison, sweep or stability.")->required();
   init->add_option("file", start_file, "Its name; default KIND.yaml.")->type_name("FILE.yaml");
+
+  init->footer(R"(
+Examples:
+  orthodyn init scene my.yaml
+  orthodyn init sweep)");
 
   try {
     app.parse(argc, argv);

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "lib/study/input_kind.h"
+
 namespace orthodyn {
 
 Config read_config(const std::string& file, const std::optional<std::string>& integrator,
                    const std::vector<std::string>& assignments) {
   Config config = Config::from_file(file);
+  refuse_other_kinds(config, InputFile::scene);
   if (integrator) config.override_with("integrator.type=" + *integrator);
   for (const auto& assignment : assignments) config.override_with(assignment);
   return config;

@@ -12,6 +12,7 @@
 #include "lib/study/stability_matrix.h"
 #include "tools/orthodyn/commands.h"
 #include "tools/orthodyn/draw.h"
+#include "tools/orthodyn/failures.h"
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/jobs.h"
 #include "tools/orthodyn/study_folder.h"
@@ -115,12 +116,16 @@ int stability_command(const StabilityArguments& arguments) {
         write_table();
         next_table = std::chrono::steady_clock::now() + kBetweenTables;
       }};
-  const bool complete = matrix.run(number_of_jobs(arguments.jobs), interrupted(), events);
+  const std::size_t kept = arguments.retry ? 0 : number_at_limits(matrix.errands());
+  const bool complete = matrix.run(number_of_jobs(arguments.jobs), interrupted(), events,
+                                   arguments.retry ? OldFailures::retry : OldFailures::keep);
   const Json table = write_table();
   if (!complete)
     fmt::print(stderr, "interrupted; the finished trials are in {} and will not be done again\n", out.string());
   if (!arguments.quiet) MatrixTable(table).print();
-  if (!arguments.no_report) draw_report(out, arguments.quiet);
+  if (arguments.no_report) put_report_aside(out, arguments.quiet);
+  else draw_report(out, arguments.quiet);
+  tell_of_kept_limits(kept);
   return complete ? 0 : 130;
 }
 

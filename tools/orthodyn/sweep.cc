@@ -14,6 +14,7 @@
 #include "lib/study/sweep_table.h"
 #include "tools/orthodyn/commands.h"
 #include "tools/orthodyn/draw.h"
+#include "tools/orthodyn/failures.h"
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/jobs.h"
 #include "tools/orthodyn/job_array.h"
@@ -49,7 +50,7 @@ std::string outcome_of(const Json& result) {
 class SweepCommand {
  public:
   explicit SweepCommand(const SweepArguments& arguments)
-      : arguments_(arguments), sweep_(read_sweep(Config::from_file(arguments.sweep))), points_(expand(sweep_)),
+      : arguments_(arguments), sweep_(read_sweep(Config::from_file(arguments.file))), points_(expand(sweep_)),
         folder_(arguments.out ? fs::path(*arguments.out) : fs::path("out/sweeps") / sweep_.name),
         errands_(errands_of(sweep_, points_, folder_)), work_(distinct(errands_)) {}
 
@@ -66,19 +67,27 @@ class SweepCommand {
     if (arguments_.collect) return collect();
     use_one_thread_each();
     heed_interrupts();
+    const std::size_t kept = arguments_.retry ? 0 : number_at_limits(work_);
     const bool complete = carry_out();
     if (!complete)
       fmt::print(stderr, "interrupted; the finished points are in {} and will not be done again\n", folder_.string());
-    if (arguments_.task) return complete ? 0 : 130;
-    show();
-    return complete ? 0 : 130;
+    const Failures failures = arguments_.task ? failures_of_task() : failures_in(show());
+    failures.print();
+    tell_of_kept_limits(kept);
+    if (!complete) return 130;
+    return arguments_.task ? 0 : failures.exit_code();  // of a task the others may know more
   }
 
  private:
   int write_array() const {
     fs::create_directories(fs::absolute(folder_).parent_path());  // where tasks leave their log
-    const ArrayJob job{program(), fs::absolute(arguments_.sweep), fs::absolute(folder_), sweep_.name, work_.size(),
-                       arguments_.tasks.value_or(std::min<std::size_t>(work_.size(), 1000)), sweep_.limits};
+    std::size_t tasks = arguments_.tasks.value_or(std::min<std::size_t>(work_.size(), 1000));
+    if (tasks > work_.size()) {
+      tasks = work_.size();
+      fmt::print(stderr, "{0} points make {0} tasks, not {1}\n", tasks, *arguments_.tasks);
+    }
+    const ArrayJob job{program(), fs::absolute(arguments_.file), fs::absolute(folder_), sweep_.name, work_.size(),
+                       tasks, sweep_.limits, arguments_.retry};
     if (*arguments_.slurm == "submit") return submit(job);
     fmt::print("{}", array_script(job));
     return 0;
@@ -93,7 +102,8 @@ class SweepCommand {
                                   teller.tell(work_.size(), work_[i].title, outcome_of(result), cached);
                                 if (!arguments_.task) write_table_now_and_then();
                               }};
-    return carry_out_all(program(), work_, number_of_jobs(arguments_.jobs), interrupted(), events);
+    return carry_out_all(program(), work_, number_of_jobs(arguments_.jobs), interrupted(), events,
+                         arguments_.retry ? OldFailures::retry : OldFailures::keep);
   }
 
   // It takes at most a tenth of the time, however many points there are.
@@ -107,7 +117,7 @@ class SweepCommand {
   }
 
   Json write_table() const {
-    Json table = sweep_json(sweep_, points_, errands_, results_, arguments_.sweep);
+    Json table = sweep_json(sweep_, points_, errands_, results_, arguments_.file);
     write_file(folder_ / "sweep.json", {to_text(table, 1)});
     write_file(folder_ / "sweep.csv", {sweep_csv(table)});
     return table;
@@ -116,14 +126,34 @@ class SweepCommand {
   Json show() const {
     const Json table = write_table();
     if (!arguments_.quiet) fmt::print("table   {}\n", (folder_ / "sweep.csv").string());
-    if (!arguments_.no_report) draw_report(folder_, arguments_.quiet);
+    if (arguments_.no_report) put_report_aside(folder_, arguments_.quiet);
+    else draw_report(folder_, arguments_.quiet);
     return table;
+  }
+
+  // But for those that cannot be, which were told of before.
+  static Failures failures_in(const Json& table) {
+    Failures failures;
+    for (const auto& point : table.at("points"))
+      if (point.at("status") != "missing" && point.at("reason") != "impossible")
+        failures.add(point.at("title"), point);
+    return failures;
+  }
+
+  Failures failures_of_task() const {
+    Failures failures;
+    for (const auto& errand : work_)
+      if (const auto found = results_.find(errand.folder); found != results_.end())
+        failures.add(errand.title, found->second);
+    return failures;
   }
 
   int collect() const {
     const Json table = show();
+    const Failures failures = failures_in(table);
+    failures.print();
     const std::size_t missing = table.at("missing");
-    if (missing == 0) return 0;
+    if (missing == 0) return failures.exit_code();
     fmt::print(stderr, "{} of {} points are missing:\n", missing, points_.size());
     std::size_t listed = 0;
     for (const auto& point : table.at("points"))
