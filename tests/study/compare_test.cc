@@ -175,7 +175,7 @@ TEST_F(Compare, OnlyOneAtATimeWorksInAFolder) {
 TEST_F(Compare, APointThatTakesTooLongStaysInTheTable) {
   write("c.yaml", "scenes: [swing.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-2, 1e-9]\nlimits: {seconds: 1e-3}\n"
                   "repeats: 1\nreference: {kind: none}\n");
-  ASSERT_EQ(compare().exit_code, 0);
+  compare();  // the other point may or may not be done in time
   const Json t = table();
   const Json& tight = t.at("points")[1];
   EXPECT_EQ(tight.at("status"), "failed");
