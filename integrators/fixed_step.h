@@ -24,7 +24,14 @@ struct FixedStep {
   }
 };
 
-// The last step before a stop is what is left, without a sliver of round-off after it.
-inline double length_of_step(double step, double rest) { return rest > step * (1 + 1e-6) ? step : rest; }
+// The next step towards a stop that is `rest` away: the last two are equal, rather than one and a sliver, of which
+// methods that remember the last step take harm.
+inline double length_of_step(double step, double rest, double round_off = 0) {
+  if (rest <= step * (1 + round_off)) return rest;
+  return rest < 2 * step * (1 - round_off) ? 0.5 * rest : step;
+}
+
+// The same where the ends of many equal steps do not quite meet the stop.
+inline double length_of_fixed_step(double step, double rest) { return length_of_step(step, rest, 1e-6); }
 
 }  // namespace orthodyn

@@ -45,7 +45,7 @@ void ArkStep::begin_at(double t) {
 }
 
 int ArkStep::advance(double t_stop, double& t) {
-  if (step_) require(ARKStepSetFixedStep(memory(), length_of_step(*step_, t_stop - t)));
+  if (step_) require(ARKStepSetFixedStep(memory(), length_of_fixed_step(*step_, t_stop - t)));
   for (int attempt = 0;; ++attempt) {
     require(ARKStepSetStopTime(memory(), t_stop));
     sunrealtype reached = t;  // after a failure the time of a stage

@@ -85,8 +85,11 @@ class AutomaticChoice : public IntegratorChoice, public AutomaticOptions {
   }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     const Scales own = scales(task);
-    const Advice advice =
-        method ? Advice{*method, because, safety} : advise(look_at(model, task, own, linear_solver), rtol);
+    // central_differences has no error control whose steps could be limited.
+    const bool limits_steps = h0 || h_max || h_min > 0;
+    const Advice advice = method ? Advice{*method, because, safety}
+                                 : advise(look_at(model, task, own, linear_solver), rtol,
+                                          limits_steps ? 0 : static_cast<double>(max_steps));
     Task same = task;
     same.scales = [own] { return own; };
     const auto choice = Registry<IntegratorChoice>::read(section_of(advice, *this));

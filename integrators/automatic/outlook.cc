@@ -60,12 +60,12 @@ double safety_for(const Outlook& look, double rtol) {
   return std::min({0.9, std::sqrt(kErrorPerTolerance * rtol / at_limit), std::sqrt(kEnergyPerTolerance * rtol)});
 }
 
-Advice advise(const Outlook& look, double rtol) {
+Advice advise(const Outlook& look, double rtol, double most_explicit_steps) {
   const double implicit_steps = 10 + kSteps * look.swings * std::pow(1e-3 / rtol, 1.0 / 3);
   const double implicit_cost =
       implicit_steps * (kIterations * (1 + look.solve_cost) + kTangents * (kTangent + look.factor_cost));
-  const double safety = safety_for(look, rtol), explicit_cost = look.explicit_steps / safety;
-  if (explicit_cost < implicit_cost)
+  const double safety = safety_for(look, rtol), explicit_cost = look.explicit_steps / safety;  // a force a step
+  if (explicit_cost < std::min(implicit_cost, most_explicit_steps))
     return {"central_differences",
             fmt::format("{:.2g} explicit steps cost less than about {:.2g} implicit ones", explicit_cost, implicit_steps),
             safety};

@@ -27,6 +27,7 @@ struct Advice {
   std::optional<double> safety = {};  // of central_differences
 };
 
-Advice advise(const Outlook& look, double rtol);
+// No explicit method that would need more than `most_explicit_steps`.
+Advice advise(const Outlook& look, double rtol, double most_explicit_steps);
 
 }  // namespace orthodyn

@@ -36,6 +36,10 @@ class Accelerations {
   double time(int k) const { return entries_[at(k)].t; }
   const Vector& value(int k) const { return entries_[at(k)].a; }
 
+  std::size_t bytes() const {
+    return (static_cast<std::size_t>(kMost) + 1) * static_cast<std::size_t>(guess_.size()) * sizeof(double);
+  }
+
   // Precondition: count() > 0.
   void predict(double t, VectorRef a) const { extrapolate(t, best(), a); }
 

@@ -1,8 +1,13 @@
 #include "integrators/native/alpha_method.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace orthodyn {
+
+namespace {
+constexpr double kMostGrowth = 2;  // of the step, that w follows
+}
 
 int AlphaParameters::order() const { return std::abs(gamma + theta() - 0.5) < 1e-12 ? 2 : 1; }
 
@@ -22,7 +27,8 @@ bool AlphaMethod::attempt(double h) {
   const auto& [alpha_m, alpha_f, beta, gamma] = p_;
   const Knot& from = now();
   w0_ = w_;
-  if (p_.theta() != 0 && last_h_ > 0) w0_ += p_.theta() * (h / last_h_ - 1) * last_change_;
+  // From a short step's change no long one's can be told.
+  if (p_.theta() != 0 && last_h_ > 0) w0_ += p_.theta() * (std::min(h / last_h_, kMostGrowth) - 1) * last_change_;
   const double share = (1 - alpha_f) / (1 - alpha_m);  // w1 = share x1 + what is known
   w1_ = (alpha_f * from.a - alpha_m * w0_) / (1 - alpha_m);
   stage_.t = from.t + h;
@@ -63,7 +69,7 @@ void AlphaMethod::accepted(double h) {
 }
 
 std::size_t AlphaMethod::method_bytes() const {
-  return solver_.bytes() + 8 * static_cast<std::size_t>(model_.num_dofs()) * sizeof(double);
+  return solver_.bytes() + past_.bytes() + 6 * static_cast<std::size_t>(model_.num_dofs()) * sizeof(double);
 }
 
 }  // namespace orthodyn

@@ -132,7 +132,7 @@ class CentralDifferences : public ExplicitStep {
 
   // Steps chosen here divide what is left evenly: the map stays symplectic, and no sliver comes last.
   double length(double rest) const {
-    return options_.step.value ? length_of_step(step_, rest) : rest / std::ceil(rest / step_ * (1 - 1e-9));
+    return options_.step.value ? length_of_fixed_step(step_, rest) : rest / std::ceil(rest / step_ * (1 - 1e-9));
   }
 
   void choose_step() {

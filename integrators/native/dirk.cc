@@ -72,9 +72,9 @@ std::size_t Dirk::factor_bytes() const {
 }
 
 std::size_t Dirk::method_bytes() const {
-  std::size_t sum = 0;
+  std::size_t sum = past_.bytes() + tried_.bytes();
   for (const auto& solver : solvers_) sum += solver->bytes();
-  const auto vectors = static_cast<std::size_t>(2 * V_.cols() + 2 + 2 * Accelerations::kMost);
+  const auto vectors = static_cast<std::size_t>(2 * V_.cols() + 2);
   return sum + vectors * static_cast<std::size_t>(model_.num_dofs()) * sizeof(double);
 }
 

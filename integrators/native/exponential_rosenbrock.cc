@@ -61,7 +61,7 @@ class ExponentialRosenbrock : public ExplicitStep {
 
   void advance(double t_stop) override {
     linearize(t_stop);
-    if (options_.step) take_fixed(length_of_step(*options_.step, t_stop - end().t), t_stop);
+    if (options_.step) take_fixed(length_of_fixed_step(*options_.step, t_stop - end().t), t_stop);
     else take_controlled(t_stop);
   }
 
@@ -115,10 +115,8 @@ class ExponentialRosenbrock : public ExplicitStep {
     }
   }
 
-  // Not beyond h_max, on the stop if near it, and never so that a sliver is left.
   double allowed(double rest) const {
-    const double h = std::min(h_, options_.h_max.value_or(std::numeric_limits<double>::infinity()));
-    return rest <= h ? rest : rest < 2 * h ? 0.5 * rest : h;
+    return length_of_step(std::min(h_, options_.h_max.value_or(std::numeric_limits<double>::infinity())), rest);
   }
 
   void refuse_to_creep(bool by_error) const {

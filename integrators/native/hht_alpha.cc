@@ -1,4 +1,4 @@
-// The alpha method of Hilber, Hughes & Taylor (1977): Newmark's, with forces taken before the end of the step.
+// The alpha method of Hilber, Hughes & Taylor (1977): Newmark's, with a mean of the forces at both ends of the step.
 #include "integrators/native/alpha_method.h"
 
 namespace orthodyn {

@@ -127,12 +127,10 @@ void OneStep::advance_adaptively(double t_stop) {
   }
 }
 
-// The next step up to t_stop: two equal ones rather than one and a sliver.
 double OneStep::length(double t_stop) const {
-  const double rest = t_stop - now_.t;
   double h = std::max(h_, options_.h_min);
   if (options_.h_max) h = std::min(h, *options_.h_max);
-  return h >= rest ? rest : h > 0.99 * rest ? rest / 2 : h;
+  return length_of_step(h, t_stop - now_.t);
 }
 
 // Hairer, Norsett & Wanner (1993), II.4: from the size of the first and of a second derivative. The latter is looked for
@@ -158,7 +156,7 @@ double OneStep::first_step(double t_stop) {
 }
 
 void OneStep::advance_by_fixed_step(double t_stop) {
-  const double h = length_of_step(*options_.step, t_stop - now_.t);
+  const double h = length_of_fixed_step(*options_.step, t_stop - now_.t);
   const double t_end = h == t_stop - now_.t ? t_stop : now_.t + h;
   next_.t = t_end;
   Verdict verdict = try_step(h);
@@ -169,7 +167,7 @@ void OneStep::advance_by_fixed_step(double t_stop) {
   const double least = h * std::ldexp(1, -kMostHalvings);
   for (double part = h / 2; now_.t < t_end;) {
     if (part < least) give_up(verdict, begin.t, h);
-    const double rest = t_end - now_.t, tried = length_of_step(part, rest);
+    const double rest = t_end - now_.t, tried = length_of_fixed_step(part, rest);
     next_.t = tried == rest ? t_end : now_.t + tried;
     verdict = try_step(tried);
     count(verdict);

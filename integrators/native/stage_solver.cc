@@ -9,6 +9,7 @@ namespace orthodyn {
 
 namespace {
 constexpr double kWeightDrift = 0.25;  // of w_k, up to which the factor is kept and corrections are scaled
+constexpr double kSameWeight = 1e-12;  // two equal steps are equal but for round-off
 constexpr double kSlow = 0.5;          // a rate at which a new tangent pays
 constexpr double kRoundOff = 1e-10;    // of the scales: corrections below it that do not shrink are round-off
 constexpr double kLeastSlowness = 1e-3;  // of a nonlinear model: what is less is round-off
@@ -43,7 +44,8 @@ bool StageSolver::solve(const Stage& stage, VectorRef x, VectorRef q, VectorRef 
 
 // By how much the factor's weights differ from the stage's.
 double StageSolver::drift(const Stage& stage) const {
-  return std::abs(stage.w_k / matrix_.weights().stiffness - 1);
+  const double drift = std::abs(stage.w_k / matrix_.weights().stiffness - 1);
+  return drift < kSameWeight ? 0 : drift;
 }
 
 bool StageSolver::prepare(const Stage& stage, const ConstVectorRef& x, bool anew) {

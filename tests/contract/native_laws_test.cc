@@ -12,10 +12,14 @@ LinearModel undamped(double omega, const Vector& start = Vector::Ones(1)) {
                       .velocity_scale = omega});
 }
 
-State after_steps(const SmallModel& model, const std::string& options, int steps, double h) {
+std::unique_ptr<Integrator> integrator_of(const SmallModel& model, const std::string& options, double h) {
   const auto choice = Registry<IntegratorChoice>::read(
       Config::from_text(fmt::format("{{type: {}, rtol: 1e-11, step: {}}}", options, h)));
-  const auto integrator = choice->make(model, {[&] { return model.scales(); }, model.initial(), 1, 1});
+  return choice->make(model, {[&] { return model.scales(); }, model.initial(), 1, 1});
+}
+
+State after_steps(const SmallModel& model, const std::string& options, int steps, double h) {
+  const auto integrator = integrator_of(model, options, h);
   integrator->start(model.initial());
   for (int k = 0; k < steps; ++k) integrator->step(1e9);
   State state;
@@ -40,6 +44,25 @@ TEST(AlphaMethods, LeaveOfFastOscillationsWhatTheirParameterSays) {
     EXPECT_NEAR(left_at_infinity(fmt::format("generalized_alpha, rho_inf: {}", rho)), rho, 0.03) << rho;
   for (const double alpha : {-0.05, -0.1})
     EXPECT_NEAR(left_at_infinity(fmt::format("hht_alpha, alpha: {}", alpha)), (1 + alpha) / (1 - alpha), 0.03) << alpha;
+}
+
+// A stop every 10.01 steps: one and a hundredth of a step would excite what is fast 47 times a stop.
+TEST(AlphaMethods, AreNotExcitedByStopsBetweenTheirSteps) {
+  constexpr double h = 0.1;
+  for (const std::string method : {"generalized_alpha, rho_inf: 0", "generalized_alpha, rho_inf: 0.5",
+                                   "generalized_alpha, rho_inf: 0.8", "hht_alpha, alpha: -0.05", "hht_alpha, alpha: -0.3"})
+    for (const double omega : {1.0, 10.0, 1e2, 1e4}) {
+      const auto model = undamped(omega);
+      const auto integrator = integrator_of(model, method, h);
+      integrator->start(model.initial());
+      State state;
+      for (int stop = 1; stop <= 30; ++stop) {
+        const double t_stop = stop * 10.01 * h;
+        while (integrator->step(t_stop).t < t_stop) continue;
+        integrator->interpolate(t_stop, state);
+      }
+      EXPECT_LE(std::hypot(state.v[0] / omega, state.q[0]), 1 + 1e-2) << method << ", omega " << omega;
+    }
 }
 
 // The force of a state between the ends of a step is that of a rod shortened by its turn: it would gain energy.
