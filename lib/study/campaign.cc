@@ -11,9 +11,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A process is killed when it has had the time of all its runs and this much more, s.
-constexpr double kSetUpTime = 60;
-
 bool is_finished(const fs::path& folder, const Json& result, const Job& job) {
   if (!result.is_object()) return false;
   return !job.keep_trajectory || result.at("status") != "completed" || Trajectory::is_whole(folder / kTrajectoryFile);

@@ -66,7 +66,12 @@ class Crew {
 
   bool work(int jobs) {
     std::vector<std::jthread> threads;
-    for (int i = 1; i < jobs; ++i) threads.emplace_back([this] { take_turns(); });
+    try {
+      for (int i = 1; i < jobs; ++i) threads.emplace_back([this] { take_turns(); });
+    } catch (...) {  // no further thread can be had
+      stop_ = true;
+      throw;
+    }
     take_turns();
     threads.clear();
     if (failure_) std::rethrow_exception(failure_);

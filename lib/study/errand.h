@@ -13,6 +13,9 @@
 
 namespace orthodyn {
 
+// A process is killed when it has had the time of its runs and this much more for the set-up, s.
+inline constexpr double kSetUpTime = 60;
+
 struct Errand {
   std::string title;              // "damped_beam, cvode_bdf, rtol 1e-3"
   std::string command;            // "measure"

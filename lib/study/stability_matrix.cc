@@ -17,9 +17,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A process is killed when it has had its time and this much more for the set-up, s.
-constexpr double kSetUpTime = 30;
-
 // Builds the scene, too: what is wrong with it shows before anything runs.
 std::string mesh_of(const Trial& trial) {
   try {

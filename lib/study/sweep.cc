@@ -121,7 +121,7 @@ void check_sweep(const Sweep& s, const Config& config) {
   for (const auto& v : s.vary) {
     if (s.combine == Combine::latin_hypercube) {
       if (v.range && v.range->count)
-        config.at("vary").at(v.path.empty() ? v.name : v.path).fail("a Latin hypercube has 'samples'; remove 'count'");
+        v.origin.fail("a Latin hypercube has 'samples'; remove 'count'");
     } else if (v.range && !v.range->count) {
       v.origin.fail("key 'count' is missing: how many values from 'from' to 'to'");
     }

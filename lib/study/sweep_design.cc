@@ -102,8 +102,7 @@ class Expansion {
                                       is_a_slip(e.what()) ? "" : "; impossible: keep goes on without such points"));
     }
     if (scene) check_times(*scene, point.title);
-    if (scene && !read_) read_ = scene;
-    if (read_ && !is_looked_up_) look_up_quantities(*read_);
+    if (scene && !is_looked_up_) try_to_look_up_quantities(*scene);
     return point;
   }
 
@@ -171,14 +170,26 @@ class Expansion {
     require(sweep_.frames->at, sweep_.frames->origin.where + ".at");
   }
 
-  void look_up_quantities(const Scene& scene) {
-    is_looked_up_ = true;
+  // In the first scene that can be built. One that cannot be is a point that fails, and says why.
+  void try_to_look_up_quantities(const Scene& scene) {
     const auto wants = [](const auto& q) { return !q.second.quantity.empty(); };
-    if (std::none_of(sweep_.quantities.begin(), sweep_.quantities.end(), wants)) return;
-    const BuiltScene built = build(scene);
+    is_looked_up_ = std::none_of(sweep_.quantities.begin(), sweep_.quantities.end(), wants);
+    if (is_looked_up_) return;
+    std::optional<BuiltScene> built;
+    try {
+      built = build(scene);
+    } catch (const ConfigError&) {
+      if (sweep_.impossible == Impossible::stop) throw;
+      return;
+    }
+    is_looked_up_ = true;
+    look_up_quantities(scene, *built->model);
+  }
+
+  void look_up_quantities(const Scene& scene, const FemModel& model) const {
     for (const auto& [name, f] : sweep_.quantities) {
       if (f.quantity.empty()) continue;
-      const Quantity q = find_quantity(f.quantity, scene, *built.model, f.origin);
+      const Quantity q = find_quantity(f.quantity, scene, model, f.origin);
       f.check_unit(q.unit);
       if (q.components == 3 && f.take != Take::drift)
         f.origin.fail(fmt::format("'{}' is a vector: choose .x, .y, .z or .magnitude", f.quantity));
@@ -187,7 +198,6 @@ class Expansion {
 
   const Sweep& sweep_;
   std::string scene_;
-  std::optional<Scene> read_;  // that of the first point that can be
   bool is_looked_up_ = false;
 };
 

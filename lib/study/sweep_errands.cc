@@ -15,9 +15,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A process is killed when it has had the time of its integration and this much more, s.
-constexpr double kSetUpTime = 60;
-
 PointJob job_of(const Sweep& sweep) {
   PointJob job{sweep.quantities, {}, {}, sweep.limits.seconds, code_fingerprint()};
   if (!sweep.frames) return job;

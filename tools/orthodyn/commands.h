@@ -1,5 +1,5 @@
 // The subcommands of `orthodyn`. Each returns the exit code: 0, 1 an expectation was missed, 2 bad
-// input, 3 could not go on or computed none of its points, 130 interrupted.
+// input, 3 could not go on, or computed no point of a comparison or sweep, 130 interrupted.
 #pragma once
 
 #include <optional>

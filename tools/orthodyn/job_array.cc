@@ -7,6 +7,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/run/files.h"
+#include "lib/study/errand.h"
 
 namespace orthodyn {
 
@@ -41,10 +42,11 @@ std::string command(const ArrayJob& job) {
                      quoted(job.folder.string()));
 }
 
-// Minutes that a task may take: every point at its limit, and a minute each to set up.
+// Minutes that a task may take: every point until its process is killed, and the task's own look at all points.
 long minutes(const ArrayJob& job) {
+  constexpr double kOwn = 300;
   const double points = std::ceil(static_cast<double>(job.points) / static_cast<double>(job.tasks));
-  return std::lround(std::ceil(points * (job.limits.seconds + 60) / 60));
+  return std::lround(std::ceil((points * (job.limits.seconds + kSetUpTime) + kOwn) / 60));
 }
 
 // What a command says; nothing if it fails.
@@ -69,13 +71,14 @@ std::string array_script(const ArrayJob& job) {
 #SBATCH --output={}
 #SBATCH --open-mode=append
 # {} points in {} tasks. A task that is lost or killed costs its points in progress: submit this script again, and only
-# what is missing is done. Then join what is there:
+# what is missing{} is done. Then join what is there:
 #   {} --collect
 exec {} --task "$SLURM_ARRAY_TASK_ID/{}" --jobs 1 --quiet{}
 )",
                      sbatch_quoted(job.name), job.tasks,
                      std::lround(std::ceil((job.limits.memory + kMargin) / 1e6)), minutes(job),
-                     sbatch_quoted(log_of(job)), job.points, job.tasks, command(job), command(job), job.tasks,
+                     sbatch_quoted(log_of(job)), job.points, job.tasks,
+                     job.retry ? " or has failed" : "", command(job), command(job), job.tasks,
                      job.retry ? " --retry" : "");
 }
 

@@ -29,7 +29,7 @@ Examples:
   orthodyn verify configs/cases
 
 Exit codes: 0 done, 1 an expectation was missed, 2 the input is at fault (nothing was written), 3 the run could not go on (what
-was computed is kept) or none of a study's points could be computed, 130 interrupted (likewise).)";
+was computed is kept), or no point of a comparison or sweep could be computed, 130 interrupted (likewise).)";
 
 void add_scene_options(CLI::App& command, orthodyn::RunArguments& arguments) {
   command.add_option("scene", arguments.scene, "A scene in YAML.")->required()->type_name("SCENE.yaml");
