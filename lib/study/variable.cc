@@ -212,6 +212,7 @@ double range_at(const NumberRange& r, double share) {
   if (share == 1) return r.to.number;
   const double from = r.from.number, to = r.to.number;
   const double x = r.scale == Scale::log ? from * std::pow(to / from, share) : from + (to - from) * share;
+  if (std::abs(x) < 1e-12 * std::max(std::abs(from), std::abs(to))) return 0;
   // Ends and their simple fractions stay what they look like: 0.3, not 0.30000000000000004.
   double simple = x;
   parse_number(fmt::format("{:.12g}", x), simple);

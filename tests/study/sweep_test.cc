@@ -59,6 +59,30 @@ quantities:
   hertz: {mode: 1}
 )";
 
+TEST_F(SweepCommand, ReplacesNoTableOfAnotherFile) {
+  const std::string text = "scene: scene.yaml\nvary: {time.end: [0.01]}\nquantities: {hertz: {mode: 1}}\n";
+  write("s.yaml", text);
+  write("t.yaml", text);
+  ASSERT_EQ(orthodyn("sweep s.yaml --quiet --no-report --out both").exit_code, 0);
+  const std::string before = read_text(folder_ / "both/sweep.json");
+  const auto other = orthodyn("sweep t.yaml --quiet --no-report --out both");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.output.find("both: holds the table of s.yaml"), std::string::npos) << other.output;
+  EXPECT_EQ(read_text(folder_ / "both/sweep.json"), before);
+  EXPECT_EQ(orthodyn("sweep ./s.yaml --quiet --no-report --out both").exit_code, 0);  // the same file
+}
+
+TEST_F(SweepCommand, SaysFiguresInTheirUnit) {
+  write("s.yaml", "scene: scene.yaml\nvary: {time.end: [0.01]}\n"
+                  "quantities: {hertz: {mode: 1}, kilo: {mode: 1, unit: kHz}}\n");
+  const auto done = sweep();
+  double hertz = 0, kilo = 0;
+  const auto at = done.output.find("hertz ");
+  ASSERT_NE(at, std::string::npos) << done.output;
+  ASSERT_EQ(std::sscanf(done.output.c_str() + at, "hertz %lf Hz, kilo %lf kHz", &hertz, &kilo), 2) << done.output;
+  EXPECT_NEAR(hertz, 1000 * kilo, 1e-4 * hertz);
+}
+
 TEST_F(SweepCommand, FindsFiguresOfEveryKind) {
   write("s.yaml", R"(scene: {file: scene.yaml, set: {damping: {mass: =2*zeta*omega}, time.end: =6/(zeta*omega)}}
 vary: {zeta: [0.05, 0.2]}

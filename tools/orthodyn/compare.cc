@@ -63,7 +63,7 @@ int compare_command(const CompareArguments& arguments) {
   const Comparison comparison = read_comparison(config);
   Design design = expand(comparison);
   const StudyFolder place(arguments.out ? fs::path(*arguments.out) : fs::path("out/comparisons") / comparison.name,
-                          "comparison");
+                          "comparison", arguments.file);
   const fs::path& folder = place.path();
 
   Teller teller;

@@ -97,7 +97,7 @@ int stability_command(const StabilityArguments& arguments) {
   const std::string name = stability.name;
   const fs::path out = arguments.out ? fs::path(*arguments.out) : fs::path("out/stability") / name;
   StabilityMatrix matrix(std::move(stability), out, fs::read_symlink("/proc/self/exe").string());
-  const StudyFolder place(out, "stability");
+  const StudyFolder place(out, "stability", arguments.file);
 
   Teller teller;
   const auto write_table = [&] {

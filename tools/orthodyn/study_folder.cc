@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "lib/core/errors.h"
+#include "lib/study/point_result.h"
 
 namespace orthodyn {
 
@@ -22,10 +23,24 @@ void refuse_other_folders(const fs::path& path, const std::string& kind) {
   throw ConfigError(fmt::format("{}: holds files that are no {}; use --out with another folder", path.string(), kind));
 }
 
+// A table says which file it is of; one that is gone may have been renamed.
+void refuse_other_tables(const fs::path& path, const std::string& kind, const fs::path& file) {
+  const Json table = read_json(path / (kind == "comparison" ? "compare.json" : kind + ".json"));
+  if (!table.is_object() || !table.contains("file")) return;
+  const std::string earlier = table.at("file");
+  std::error_code ec;
+  if (!fs::exists(earlier, ec) || fs::equivalent(earlier, file, ec)) return;
+  throw ConfigError(fmt::format("{}: holds the table of {}, which this one of {} would replace; use --out with another "
+                                "folder",
+                                path.string(), earlier, file.string()));
+}
+
 }  // namespace
 
-StudyFolder::StudyFolder(fs::path path, const std::string& kind, Sharing sharing) : path_(std::move(path)) {
+StudyFolder::StudyFolder(fs::path path, const std::string& kind, const fs::path& file, Sharing sharing)
+    : path_(std::move(path)) {
   refuse_other_folders(path_, kind);
+  refuse_other_tables(path_, kind, file);
   lock_.emplace(path_, mark_of(kind), kind, sharing);
 }
 

@@ -12,10 +12,11 @@ namespace orthodyn {
 
 class StudyFolder {
  public:
-  // Makes the folder if it is missing. `kind`: "comparison". Throws ConfigError if it holds anything else than a study
-  // of this kind, or if another process works there. What is finished is known by its fingerprint, so any study may
-  // go on in the folder of another of its kind.
-  StudyFolder(std::filesystem::path path, const std::string& kind, Sharing sharing = Sharing::alone);
+  // Makes the folder if it is missing. `kind`: "comparison"; `file`: the study's. Throws ConfigError if the folder
+  // holds anything else than a study of this kind, or the table of another file, or if another process works there.
+  // What is finished is known by its fingerprint: a file that has been edited goes on where it was.
+  StudyFolder(std::filesystem::path path, const std::string& kind, const std::filesystem::path& file,
+              Sharing sharing = Sharing::alone);
 
   const std::filesystem::path& path() const { return path_; }
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "lib/core/units.h"
 #include "lib/run/files.h"
 #include "lib/study/evaluate.h"
 #include "lib/study/sweep_errands.h"
@@ -39,11 +40,20 @@ std::pair<std::size_t, std::size_t> parse_task(const std::string& text) {
   return {part, parts};
 }
 
-std::string outcome_of(const Json& result) {
+// In the unit that the sweep asks for, else in SI.
+std::string outcome_of(const Json& result, const Sweep& sweep) {
   if (result.at("status") != "completed") return "failed: " + result.at("reason").get<std::string>();
+  const Json &figures = result.at("figures"), &units = result.at("units");
   std::vector<std::string> words;
-  for (const auto& [name, value] : result.at("figures").items())
-    words.push_back(name + (value.is_number() ? fmt::format(" {:.6g}", value.get<double>()) : " none"));
+  for (const auto& [name, figure] : sweep.quantities) {
+    if (!figures.contains(name) || !figures.at(name).is_number()) {
+      words.push_back(name + " none");
+      continue;
+    }
+    const std::string unit = figure.unit.empty() ? units.value(name, "") : figure.unit;
+    const double factor = figure.unit.empty() ? 1 : si_factor(figure.unit);
+    words.push_back(fmt::format("{} {:.6g}{}", name, figures.at(name).get<double>() / factor, unit.empty() ? "" : " " + unit));
+  }
   return join(words);
 }
 
@@ -61,7 +71,7 @@ class SweepCommand {
       work_ = slice(work_, part, parts);
     }
     const bool alone = !arguments_.task && !arguments_.collect;
-    const StudyFolder place(folder_, "sweep", alone ? Sharing::alone : Sharing::with_its_like);
+    const StudyFolder place(folder_, "sweep", arguments_.file, alone ? Sharing::alone : Sharing::with_its_like);
     warn_of_impossible_points();
     if (!arguments_.task) results_ = results_of(errands_);
     if (arguments_.collect) return collect();
@@ -99,7 +109,7 @@ class SweepCommand {
                               [&](std::size_t i, const Json& result, bool cached) {
                                 results_[work_[i].folder] = result;
                                 if (!arguments_.quiet)
-                                  teller.tell(work_.size(), work_[i].title, outcome_of(result), cached);
+                                  teller.tell(work_.size(), work_[i].title, outcome_of(result, sweep_), cached);
                                 if (!arguments_.task) write_table_now_and_then();
                               }};
     return carry_out_all(program(), work_, number_of_jobs(arguments_.jobs), interrupted(), events,
