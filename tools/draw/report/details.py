@@ -108,11 +108,14 @@ def _value(key, text):
         return text
 
 
+def facts(values):
+    """Of a machine, versions or settings: their names and values in words."""
+    return pairs((k.replace("_bytes", "").replace("_", " "), _value(k, v)) for k, v in values.items())
+
+
 def provenance(comparison, folder):
-    def listed(values):
-        return pairs((k.replace("_bytes", "").replace("_", " "), _value(k, v)) for k, v in values.items())
     file, place = shlex.quote(comparison.file or "FILE.yaml"), shlex.quote(str(folder))
     command = f"orthodyn compare {file} --out {place}\ntools/draw/draw report {place}"
     blocks = (("Machine", comparison.machine), ("Versions", comparison.versions), ("Settings", comparison.settings))
-    return joined([tag("div", *(tag("div", tag("h3", name), listed(values)) for name, values in blocks if values),
+    return joined([tag("div", *(tag("div", tag("h3", name), facts(values)) for name, values in blocks if values),
                        class_="columns"), tag("h3", "To reproduce"), tag("pre", tag("code", command))])

@@ -4,8 +4,7 @@ from ..report.markup import tag
 from ..report.tables import number, table
 from .grades import named
 from .grid import breakable, row_id
-from .phrases import own_reason
-from .phrases import number as figure_number
+from .phrases import computed, own_reason
 
 HEADS = (("Case", False), ("Variant", False), ("Integrator", False), ("Grade", False), ("Worst figure", False),
          ("Computed", True), ("Expected", True), ("Limit ±", True), ("Reached t [s]", True), ("Wall [s]", True),
@@ -14,7 +13,7 @@ HEADS = (("Case", False), ("Variant", False), ("Integrator", False), ("Grade", F
 
 def _row(trial):
     figure = trial.worst
-    cells = (figure.title, figure_number(figure.computed), words.exponent(figure.expected, 4),
+    cells = (figure.title, computed(figure), words.exponent(figure.expected, 4),
              words.exponent(figure.limit)) if figure else [""] * 4
     return tag("tr", tag("th", breakable(trial.case), scope="row"), tag("td", trial.variant, class_="word"),
                tag("td", trial.integrator, class_="word"), tag("td", named(trial.grade), class_="word"),

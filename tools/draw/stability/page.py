@@ -3,7 +3,7 @@ import shlex
 from pathlib import Path
 
 from ..report import words
-from ..report.details import pairs
+from ..report.details import facts, pairs
 from ..report.markup import Html, data_script, joined, tag
 from ..report.page import SCRIPT, head
 from . import grades
@@ -42,17 +42,12 @@ def _header(matrix, sections):
                    aria_label="Sections"))
 
 
-def _machine(key, value):
-    return (key.replace("_bytes", ""), f"{words.megabytes(float(value))} MB") if key == "memory_bytes" else (key, value)
-
-
 def _origin(matrix, folder):
     place = shlex.quote(str(folder))
     command = (f"orthodyn stability {shlex.quote(matrix.file or 'FILE.yaml')} --out {place}\n"
                f"tools/draw/draw report {place}")
     files = pairs((case.label, tag("code", case.file)) for case in matrix.cases)
-    blocks = (("Machine", pairs(_machine(k, v) for k, v in matrix.machine.items())),
-              ("Versions", pairs(matrix.versions.items())))
+    blocks = (("Machine", facts(matrix.machine)), ("Versions", facts(matrix.versions)))
     return joined([pairs([("File", tag("code", matrix.file) if matrix.file else ""), ("Written", matrix.at)]),
                    tag("div", *(tag("div", tag("h3", name), content) for name, content in blocks), class_="columns"),
                    tag("h3", "To reproduce"), tag("pre", tag("code", command)), tag("h3", "Scenes"), files])

@@ -6,9 +6,11 @@ from ..report import words
 LONG = 220  # letters of a reason under the pointer
 
 
-def number(x):
+def computed(figure):
     """'0.00135', '3.35e3'; a figure that is none is said to be none."""
-    return words.exponent(x, 3) if words.known(x) else "not finite"
+    if words.known(figure.computed):
+        return words.exponent(figure.computed, 3)
+    return "never" if figure.title.startswith("onset") else "not finite"
 
 
 def expected(figure):
@@ -22,7 +24,7 @@ def reached(trial):
 
 def own_reason(trial):
     """The reason, but where it only repeats the worst figure."""
-    if trial.worst and trial.reason.startswith(f"{trial.worst.title} is "):
+    if trial.worst and trial.reason.startswith((f"{trial.worst.title} is ", f"{trial.worst.title} never came")):
         return ""
     return trial.reason
 
@@ -31,7 +33,7 @@ def tip(trial):
     """What is shown under the pointer, as data for the page's script."""
     rows = [["Grade", trial.grade]]
     if trial.worst:
-        rows += [[trial.worst.title, number(trial.worst.computed)], ["Expected", expected(trial.worst)]]
+        rows += [[trial.worst.title, computed(trial.worst)], ["Expected", expected(trial.worst)]]
     reason = own_reason(trial)
     rows += [["Reason", reason if len(reason) <= LONG else reason[:LONG - 1] + "…"]] if reason else []
     rows += [["Reached", reached(trial)]] if words.known(trial.time_reached) else []
@@ -49,5 +51,5 @@ def spoken(trial):
     figure = trial.worst
     text = f"{trial.integrator} on {trial.case}: {trial.grade}"
     if trial.grade != "pass" and figure and not math.isnan(figure.limit):
-        text += f", {figure.title} {number(figure.computed)}, expected {expected(figure)}"
+        text += f", {figure.title} {computed(figure)}, expected {expected(figure)}"
     return text + (f", {own_reason(trial)}" if own_reason(trial) and trial.grade == "fail" else "")

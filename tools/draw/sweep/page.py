@@ -5,7 +5,7 @@ import shlex
 from pathlib import Path
 
 from ..report import words
-from ..report.details import pairs
+from ..report.details import facts, pairs
 from ..report.markup import Html, data_script, joined, scrolling, tag, void
 from ..report.page import SCRIPT, head
 from ..report.tables import caption, number
@@ -124,11 +124,12 @@ def _failures(sweep):
 
 def _details(sweep, folder):
     closed = [(f.name, f.closed_form) for f in sweep.figures if f.closed_form]
-    blocks = [("Closed forms (SI units)", closed), ("Definitions", sweep.about["definitions"].items()),
-              ("Machine of this page", sweep.about["machine"].items()), ("Versions", sweep.about["versions"].items())]
+    formulas = (("Closed forms (SI units)", closed), ("Definitions", sweep.about["definitions"].items()))
+    blocks = [*((name, pairs((k, str(v)) for k, v in values)) for name, values in formulas if values),
+              ("Machine of this page", facts(sweep.about["machine"])), ("Versions", facts(sweep.about["versions"]))]
     place = shlex.quote(str(folder))
     command = f"orthodyn sweep {shlex.quote(sweep.about['file'])} --out {place}\ntools/draw/draw report {place}"
-    listed = (joined([tag("h3", name), pairs((k, str(v)) for k, v in values)]) for name, values in blocks if values)
+    listed = (joined([tag("h3", name), content]) for name, content in blocks)
     return joined([*listed, tag("h3", "To reproduce"), tag("pre", tag("code", command))])
 
 
