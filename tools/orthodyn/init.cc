@@ -150,7 +150,7 @@ description: What is tried and why, in a sentence or two.
 cases:                     # scenes with an `expect` list, see orthodyn list expect
   - scene.yaml             # of `orthodyn init scene`
   # - {file: scene.yaml, label: fine, set: {mesh.cells: [40, 4, 4]}}
-integrators: [all]         # or names, or {type: cvode_bdf, label: order 2, max_order: 2}
+integrators: [cvode_bdf, ida_bdf, tr_bdf2, generalized_alpha, auto]   # or [all], or {type: cvode_bdf, max_order: 2}
 variants:                  # what every case is run with
   exact: {}
   warped: {elasticity.corotation: warped}
