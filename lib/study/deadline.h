@@ -1,12 +1,21 @@
 // Ends a run that takes too long, after the step in progress: run() looks at `over` as its interrupt.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <atomic>
 #include <chrono>
+#include <string>
 
 #include "lib/run/observer.h"
 
 namespace orthodyn {
+
+// What is said of a run that was ended so.
+inline std::string too_late(double seconds, double time_reached) {
+  return fmt::format("reached t = {:.4g} in the {:g} s of wall time that it may take; raise limits.seconds, or ask for less",
+                     time_reached, seconds);
+}
 
 class Deadline : public Observer {
  public:

@@ -159,7 +159,7 @@ class Evaluation {
     const bool late = outcome.status == Outcome::Status::interrupted;
     result_["status"] = "failed";
     result_["reason"] = late ? "time limit" : reason_name(outcome.reason);
-    result_["message"] = late ? "not done after the limit of the wall time" : outcome.message;
+    result_["message"] = late ? too_late(job_.seconds, outcome.last.t) : outcome.message;
     return false;
   }
 

@@ -237,7 +237,7 @@ output: {probes: {tip: {at: [1, 0, 0]}}}
   write("s.yaml", text + "1e-6}\n");
   const auto late = sweep();
   EXPECT_EQ(late.exit_code, 3);  // nothing was measured
-  EXPECT_NE(late.output.find("1 of 1 points failed; the first, nu 0: time limit: not done after"), std::string::npos)
+  EXPECT_NE(late.output.find("1 of 1 points failed; the first, nu 0: time limit: reached t = "), std::string::npos)
       << late.output;
   EXPECT_EQ(sweep("--collect").exit_code, 3);
   EXPECT_EQ(table().at("points")[0].at("reason"), "time limit");
