@@ -18,7 +18,7 @@ void ArkStep::initialise(double t) {
   memory_.reset(ARKStepCreate(parts_.explicit_part, parts_.implicit_part, t, y(), context_));
   void* m = memory();
   if (!m) throw RunError("ARKODE could not be created");
-  ORTHODYN_CAPTURE_ERRORS(ARKStepSetErrHandlerFn, context_, m, &border_.library_message);
+  ORTHODYN_CAPTURE_ERRORS(ARKStepSetErrHandlerFn, context_, m, &border_.message);
   require(ARKStepSetUserData(m, this));
   require(ARKStepWFtolerances(m, [](N_Vector, N_Vector weights, void* user) {
     self(user).settings_.set_weights(weights);

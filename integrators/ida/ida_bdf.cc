@@ -25,7 +25,7 @@ class IdaBdf : public SundialsIntegrator {
   void initialise(double t) override {
     void* m = memory_.get();
     make_consistent(t);
-    ORTHODYN_CAPTURE_ERRORS(IDASetErrHandlerFn, context_, m, &border_.library_message);
+    ORTHODYN_CAPTURE_ERRORS(IDASetErrHandlerFn, context_, m, &border_.message);
     require(IDAInit(m, residual, t, y(), y_dot_.get()));
     require(IDASetUserData(m, this));
     require(IDAWFtolerances(m, [](N_Vector, N_Vector weights, void* user) {

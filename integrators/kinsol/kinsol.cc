@@ -101,7 +101,7 @@ class Kinsol : public EquilibriumSolver {
 
   void initialise() {
     void* m = memory_.get();
-    ORTHODYN_CAPTURE_ERRORS(KINSetErrHandlerFn, context_, m, &border_.library_message);
+    ORTHODYN_CAPTURE_ERRORS(KINSetErrHandlerFn, context_, m, &border_.message);
     require(KINInit(m, [](N_Vector q, N_Vector f, void* user) { return self(user).evaluate(q, f); }, q_.get()));
     require(KINSetUserData(m, this));
     functions_.setup = [this] { return factor(); };
@@ -128,7 +128,7 @@ class Kinsol : public EquilibriumSolver {
   static Kinsol& self(void* user) { return *static_cast<Kinsol*>(user); }
 
   void require(int flag) const {
-    if (flag < 0) throw RunError("kinsol refused its set-up: " + border_.library_message);
+    if (flag < 0) throw RunError("kinsol refused its set-up: " + border_.message);
   }
 
   int evaluate(N_Vector q, N_Vector minus_f) {
@@ -196,7 +196,7 @@ class Kinsol : public EquilibriumSolver {
       case KIN_LINESEARCH_NONCONV:
       case KIN_LINESEARCH_BCFAIL: return "the residual does not fall along Newton's direction" + cause;
       case KIN_STEP_LT_STPTOL: return "Newton's corrections have become too small for the residual that is left" + cause;
-      default: return "KINSOL says: " + border_.library_message;
+      default: return "KINSOL says: " + border_.message;
     }
   }
 

@@ -14,7 +14,7 @@ namespace orthodyn::sundials {
 struct Border {
   std::exception_ptr failure;     // a fatal exception on its way past the C code
   std::string recoverable_cause;  // why the last evaluation asked for a smaller step
-  std::string library_message;    // what SUNDIALS said last
+  std::string message;    // what SUNDIALS said last
 };
 
 // Runs a callback's body: 0, +1 (recoverable: try a smaller step) or -1 (fatal).

@@ -67,7 +67,7 @@ std::string SundialsIntegrator::cause() const {
 void SundialsIntegrator::interpolate(double t, State& out) const {
   const auto dense = make_vector(size(), context_);
   if (dense_output(t, dense.get()) < 0)
-    throw RunError(fmt::format("{} cannot interpolate at t = {:.17g} s: {}", name_, t, border_.library_message));
+    throw RunError(fmt::format("{} cannot interpolate at t = {:.17g} s: {}", name_, t, border_.message));
   out.t = t;
   out.q = positions(dense.get());
   out.v = velocities(dense.get());
@@ -86,7 +86,7 @@ Decisions SundialsIntegrator::decisions() const {
 }
 
 void SundialsIntegrator::require(int flag) const {
-  if (flag < 0) throw RunError(name_ + " refused its set-up: " + border_.library_message);
+  if (flag < 0) throw RunError(name_ + " refused its set-up: " + border_.message);
 }
 
 void SundialsIntegrator::make_reduced_solver(std::function<double()> gamma,
@@ -154,7 +154,7 @@ void SundialsIntegrator::fail(int flag) {
     case Reason::step_too_small:
       throw RunError(position() + "the time left is below the resolution of time", reason);
     default:
-      throw RunError(position() + border_.library_message + fmt::format(" (flag {})", flag), reason);
+      throw RunError(position() + border_.message + fmt::format(" (flag {})", flag), reason);
   }
 }
 
