@@ -22,7 +22,7 @@ Json to_json(const Check& check) {
 }
 
 std::string reason_of(const CaseResult& result, const Verdict& verdict) {
-  if (result.outcome.status == Outcome::Status::interrupted) return "time limit";
+  if (result.outcome.status == Outcome::Status::interrupted) return kTimeLimit;
   return verdict.reason;
 }
 

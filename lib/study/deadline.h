@@ -11,6 +11,9 @@
 
 namespace orthodyn {
 
+// The reason of such an end, in tables.
+inline constexpr const char* kTimeLimit = "time limit";
+
 // What is said of a run that was ended so.
 inline std::string too_late(double seconds, double time_reached) {
   return fmt::format("reached t = {:.4g} in the {:g} s of wall time that it may take; raise limits.seconds, or ask for less",

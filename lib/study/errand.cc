@@ -13,6 +13,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/run/files.h"
+#include "lib/study/deadline.h"
 #include "lib/study/measure.h"
 
 namespace orthodyn {
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char *kCrashed = "crashed", *kTimeLimit = "time limit";
+constexpr const char* kCrashed = "crashed";
 
 bool has(const Json& result, const char* key, const char* word) {
   return result.is_object() && result.contains(key) && result.at(key) == word;

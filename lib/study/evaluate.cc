@@ -158,7 +158,7 @@ class Evaluation {
     if (outcome.status == Outcome::Status::completed) return true;
     const bool late = outcome.status == Outcome::Status::interrupted;
     result_["status"] = "failed";
-    result_["reason"] = late ? "time limit" : reason_name(outcome.reason);
+    result_["reason"] = late ? kTimeLimit : reason_name(outcome.reason);
     result_["message"] = late ? too_late(job_.seconds, outcome.last.t) : outcome.message;
     return false;
   }

@@ -117,7 +117,7 @@ bool Measurement::run_once(const std::vector<Observer*>& observers, const Plan& 
   outcome = run(*setup_.built.model, integrator, setup_.built.initial, plan, all, deadline.over);
   result_["time_reached"] = outcome.last.t;
   if (outcome.status == Outcome::Status::completed) return true;
-  if (outcome.status == Outcome::Status::interrupted) fail("time limit", too_late(seconds, outcome.last.t));
+  if (outcome.status == Outcome::Status::interrupted) fail(kTimeLimit, too_late(seconds, outcome.last.t));
   else fail(reason_name(outcome.reason), outcome.message);
   result_["statistics"] = to_json(integrator.statistics());
   return false;

@@ -7,6 +7,7 @@
 #include "lib/scene/build.h"
 #include "lib/scene/mesh_materials.h"
 #include "lib/study/csv_cell.h"
+#include "lib/study/deadline.h"
 #include "lib/study/expand.h"
 #include "lib/study/fingerprint.h"
 #include "lib/study/machine.h"
@@ -33,7 +34,7 @@ void grade(Json& result) {
   if (result.contains("grade")) return;
   const std::string reason = result.at("reason");
   result["grade"] = reason == "refused" ? "refused" : "fail";
-  if (reason != "time limit") result["reason"] = result.at("message");
+  if (reason != kTimeLimit) result["reason"] = result.at("message");
 }
 
 Json member(const Json& object, const char* key) { return object.contains(key) ? object.at(key) : Json(nullptr); }

@@ -25,7 +25,6 @@ namespace {
 void check_range(const NumberRange& r, const Config& config) {
   if (r.scale == Scale::log && !(r.from.number > 0 && r.to.number > 0))
     config.fail("scale: log needs 'from' and 'to' above 0");
-  if (r.from.number == r.to.number && r.from.unit == r.to.unit) config.at("to").fail("is equal to 'from'");
 }
 
 void check_figure(const WantedFigure& f, const Config& config) {
