@@ -1,0 +1,127 @@
+// `orthodyn sweep` in several processes and on several machines: kills, tasks, job arrays.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "lib/scene/expectation.h"
+#include "tests/study/sweep_command.h"
+
+namespace orthodyn {
+namespace {
+
+TEST_F(SweepCommand, LosesAtMostThePointsInProgressWhenItIsKilled) {
+  write("s.yaml", kMany);
+  ASSERT_EQ(sweep("--jobs 2 --quiet").exit_code, 0);
+  const std::string undisturbed = figures();
+  fs::remove_all(folder_ / "out");
+  std::map<std::string, std::string> finished;
+  int kills = 0;  // of sweeps that had finished something, but not all
+  for (const char* seconds : {"0", "0.013", "0.029", "0.007", "0.02"}) {
+    shell("cd " + folder_.string() +
+          " && { " ORTHODYN_EXECUTABLE " sweep s.yaml --jobs 2 --quiet --no-report & pid=$!; "
+          "while kill -0 $pid && [ $(find out -name result.json | wc -l) -le " + std::to_string(finished.size()) +
+          " ]; do sleep 0.005; done; sleep " + seconds + "; kill -9 $pid; wait $pid; sleep 0.05; } 2>/dev/null");
+    ASSERT_TRUE(fs::exists(folder_ / "out/sweeps/s/points"));
+    const auto now = results();
+    kills += now.size() > finished.size() && now.size() < 24;
+    for (const auto& [file, text] : finished) EXPECT_EQ(now.at(file), text);
+    for (const auto& [file, text] : now) EXPECT_FALSE(Json::parse(text, nullptr, false).is_discarded()) << file;
+    std::size_t begun = 0;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out/sweeps/s/points")) begun += entry.is_directory();
+    EXPECT_LE(begun - now.size(), 2u);
+    finished = now;
+  }
+  EXPECT_GE(kills, 2);
+  const auto last = sweep("--jobs 2");
+  ASSERT_EQ(last.exit_code, 0) << last.output;
+  EXPECT_EQ(figures(), undisturbed);
+  for (const auto& [file, text] : finished) EXPECT_EQ(read_text(file), text);
+}
+
+TEST_F(SweepCommand, IsDoneByIndependentTasksAndJoined) {
+  write("s.yaml", kMany);
+  sweep("--quiet");
+  const std::string whole = figures();
+  fs::remove_all(folder_ / "out");
+  EXPECT_EQ(sweep("--task 1/3 --jobs 1").exit_code, 0);
+  EXPECT_EQ(sweep("--task 3/3 --jobs 1").exit_code, 0);
+  const auto part = sweep("--collect");
+  EXPECT_EQ(part.exit_code, 3);
+  EXPECT_NE(part.output.find("8 of 24 points are missing"), std::string::npos) << part.output;
+  EXPECT_EQ(table().at("missing"), 8);
+  // Two at a time in one folder, as on a cluster.
+  shell("cd " + folder_.string() +
+        " && { " ORTHODYN_EXECUTABLE " sweep s.yaml --task 2/3 --jobs 1 --quiet & " ORTHODYN_EXECUTABLE
+        " sweep s.yaml --task 1/3 --jobs 1 --quiet; wait; }");
+  EXPECT_EQ(sweep("--collect").exit_code, 0);
+  EXPECT_EQ(figures(), whole);
+}
+
+TEST_F(SweepCommand, CollectListsAsManyPointsAsItCounts) {
+  write("s.yaml", kMany);
+  EXPECT_EQ(sweep("--task 1/8 --jobs 1").exit_code, 0);
+  const auto lines_in = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+  const auto missing = [&] {
+    const std::string said = sweep("--collect").output;
+    const auto head = said.find("points are missing:\n"), tail = said.find("the same command without");
+    return head == std::string::npos ? 0 : lines_in(said.substr(head, tail - head)) - 1;
+  };
+  EXPECT_EQ(sweep("--task 2/8 --jobs 1").exit_code, 0);
+  EXPECT_EQ(missing(), 18);
+  EXPECT_EQ(table().at("missing"), 18);
+  // A process that died has left a reason: the point is in the table, and not missing.
+  const std::string crashed = R"({"status": "failed", "reason": "crashed", "message": "ended by signal 9"})";
+  const std::string some = results().begin()->first;
+  std::ofstream(some) << crashed;
+  EXPECT_EQ(missing(), 18);
+  EXPECT_EQ(table().at("missing"), 18);
+  EXPECT_EQ(sweep("--quiet").exit_code, 0);
+  EXPECT_EQ(missing(), 0);
+  EXPECT_EQ(read_text(some).find("crashed"), std::string::npos);
+  EXPECT_EQ(table().at("missing"), 0);
+}
+
+TEST_F(SweepCommand, LeavesNoFolderForATaskThatCannotBe) {
+  write("s.yaml", kMany);
+  for (const char* task : {"0/3", "4/3", "1", "x"})
+    EXPECT_EQ(sweep(std::string("--task ") + task).exit_code, 2) << task;
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(SweepCommand, PrintsAnArrayWithATaskForEveryShareOfThePoints) {
+  write("s.yaml", kMany);
+  const std::string script = sweep("--slurm --tasks 6").output;
+  EXPECT_NE(script.find("#SBATCH --array=1-6\n"), std::string::npos) << script;
+  EXPECT_NE(script.find("--task \"$SLURM_ARRAY_TASK_ID/6\" --jobs 1"), std::string::npos) << script;
+  EXPECT_FALSE(fs::exists(folder_ / "out/sweeps/s"));
+  // A shell that plays the scheduler.
+  write("array.sh", script);
+  shell("cd / && for i in 1 2 3 4 5 6; do SLURM_ARRAY_TASK_ID=$i sh " + (folder_ / "array.sh").string() + "; done");
+  EXPECT_EQ(sweep("--collect").exit_code, 0);
+}
+
+TEST_F(SweepCommand, PrintsAnArrayForNamesWithBlanksAndPatterns) {
+  write("my 5% \"s\".yaml", std::string(kMany) + "limits: {memory: 1e9}\n");
+  const std::string script = orthodyn("sweep 'my 5% \"s\".yaml' --slurm").output;
+  EXPECT_NE(script.find(R"(--job-name="my 5% \"s\""
+)"), std::string::npos) << script;
+  EXPECT_NE(script.find(R"(out/sweeps/my 5%% \"s\".log"
+)"), std::string::npos) << script;
+  EXPECT_NE(script.find("#SBATCH --mem=1512M\n"), std::string::npos) << script;
+}
+
+TEST_F(SweepCommand, RefusesAFolderOfSomethingElse) {
+  write("s.yaml", kMany);
+  fs::create_directories(folder_ / "other");
+  write("other/thesis.txt", "mine");
+  const auto refused = sweep("--out other");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.output.find("holds files that are no sweep"), std::string::npos) << refused.output;
+}
+
+}  // namespace
+}  // namespace orthodyn
