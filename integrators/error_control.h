@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/core/spec.h"
+#include "lib/config/spec.h"
 #include "lib/ode/integrator.h"
 
 namespace orthodyn {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "lib/run/run.h"
+#include "lib/simulation/run.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <array>
 #include <utility>
 
-#include "lib/core/values.h"
+#include "lib/config/values.h"
 
 namespace orthodyn {
 

@@ -16,7 +16,7 @@
 #include "integrators/fixed_step.h"
 #include "integrators/native/explicit_step.h"
 #include "integrators/native/stability_watch.h"
-#include "lib/core/auto_or.h"
+#include "lib/config/auto_or.h"
 
 namespace orthodyn {
 namespace {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "lib/fem/elastic_term.h"
+#include "lib/fem/terms/elastic_term.h"
 #include "lib/fem/mass.h"
-#include "lib/fem/moved_nodes.h"
+#include "lib/fem/motion/moved_nodes.h"
 #include "lib/fem/support_mass.h"
 #include "lib/fem/term.h"
 #include "lib/mesh/tet_mesh.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/core/registry.h"
+#include "lib/config/registry.h"
 #include "lib/material/stiffness.h"
 
 namespace orthodyn {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/core/values.h"
+#include "lib/config/values.h"
 #include "lib/material/orthotropy.h"
 #include "lib/material/preset_table.h"
 

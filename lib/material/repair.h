@@ -2,7 +2,7 @@
 // couples the strains by the largest common factor that makes it so. Never silently.
 #pragma once
 
-#include "lib/core/values.h"
+#include "lib/config/values.h"
 
 namespace orthodyn {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "lib/core/registry.h"
+#include "lib/config/registry.h"
 #include "lib/ode/model.h"
 #include "lib/ode/statistics.h"
 

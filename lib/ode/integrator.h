@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/core/registry.h"
+#include "lib/config/registry.h"
 #include "lib/ode/model.h"
 #include "lib/ode/statistics.h"
 

@@ -6,7 +6,7 @@
 // to within that step. Only then, and only if it may, it looks anywhere for an equilibrium, on whatever branch.
 #pragma once
 
-#include "lib/core/spec.h"
+#include "lib/config/spec.h"
 #include "lib/ode/equilibrium.h"
 #include "lib/ode/integrator.h"
 #include "lib/ode/load_path.h"

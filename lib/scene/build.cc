@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <map>
 
-#include "lib/fem/dead_load.h"
-#include "lib/fem/gravity.h"
+#include "lib/fem/terms/dead_load.h"
+#include "lib/fem/terms/gravity.h"
 #include "lib/scene/initial_state.h"
 #include "lib/scene/mesh_materials.h"
 #include "lib/scene/supports.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "lib/scene/rigid_freedom.h"
+#include "lib/analysis/rigid_freedom.h"
 
 namespace orthodyn {
 

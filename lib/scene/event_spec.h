@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "lib/core/spec.h"
+#include "lib/config/spec.h"
 #include "lib/ode/event.h"
 
 namespace orthodyn {

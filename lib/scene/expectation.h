@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "lib/core/spec.h"
+#include "lib/config/spec.h"
 
 namespace orthodyn {
 

@@ -1,7 +1,7 @@
 // Where a scene's mesh comes from: one kind per entry of Registry<MeshSource>.
 #pragma once
 
-#include "lib/core/registry.h"
+#include "lib/config/registry.h"
 #include "lib/mesh/loaded_mesh.h"
 
 namespace orthodyn {

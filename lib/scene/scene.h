@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "lib/core/formula.h"
-#include "lib/core/registry.h"
-#include "lib/fem/elastic_term.h"
+#include "lib/config/formula.h"
+#include "lib/config/registry.h"
+#include "lib/fem/terms/elastic_term.h"
 #include "lib/fem/mass.h"
-#include "lib/fem/time_function.h"
+#include "lib/fem/time_functions/time_function.h"
 #include "lib/material/material.h"
 #include "lib/ode/integrator.h"
-#include "lib/scene/axes/axes_source.h"
+#include "lib/axes/axes_source.h"
 #include "lib/scene/event_spec.h"
 #include "lib/scene/expectation.h"
 #include "lib/scene/mesh_source.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/core/spec.h"
+#include "lib/config/spec.h"
 #include "lib/mesh/tet_mesh.h"
 
 namespace orthodyn {

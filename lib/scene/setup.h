@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "lib/core/config.h"
+#include "lib/config/config.h"
 #include "lib/ode/event.h"
 #include "lib/ode/integrator.h"
 #include "lib/scene/build.h"

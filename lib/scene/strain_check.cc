@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "lib/element/strain_limits.h"
+#include "lib/analysis/strain_limits.h"
 
 namespace orthodyn {
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "lib/scene/build.h"
-#include "lib/scene/static_response.h"
+#include "lib/analysis/static_response.h"
 
 namespace orthodyn {
 

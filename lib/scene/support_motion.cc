@@ -1,8 +1,8 @@
 #include "lib/scene/support_motion.h"
 
 #include "lib/fem/differences.h"
-#include "lib/fem/formula_motion.h"
-#include "lib/fem/rigid_motion.h"
+#include "lib/fem/motion/formula_motion.h"
+#include "lib/fem/motion/rigid_motion.h"
 
 namespace orthodyn {
 

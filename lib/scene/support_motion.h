@@ -6,9 +6,9 @@
 #include <memory>
 #include <optional>
 
-#include "lib/core/formula.h"
-#include "lib/fem/motion.h"
-#include "lib/fem/time_function.h"
+#include "lib/config/formula.h"
+#include "lib/fem/motion/motion.h"
+#include "lib/fem/time_functions/time_function.h"
 #include "lib/scene/selection.h"
 
 namespace orthodyn {

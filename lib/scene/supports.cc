@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "lib/fem/still_motion.h"
+#include "lib/fem/motion/still_motion.h"
 
 namespace orthodyn {
 

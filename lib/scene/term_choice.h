@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "lib/core/registry.h"
+#include "lib/config/registry.h"
 #include "lib/fem/fem_model.h"
 
 namespace orthodyn {

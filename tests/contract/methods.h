@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/core/registry.h"
+#include "lib/config/registry.h"
 #include "lib/linear/solver.h"
 #include "lib/ode/integrator.h"
 

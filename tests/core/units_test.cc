@@ -5,8 +5,8 @@
 
 #include <numbers>
 
-#include "lib/core/spec.h"
-#include "tests/core/messages.h"
+#include "lib/config/spec.h"
+#include "tests/config/messages.h"
 
 namespace orthodyn {
 namespace {

@@ -1,6 +1,6 @@
 // The limits of a corotational material along its axes against the acoustic tensor: the smallest
 // eigenvalue over all directions of travel changes its sign there, and not before.
-#include "lib/element/strain_limits.h"
+#include "lib/analysis/strain_limits.h"
 
 #include <gtest/gtest.h>
 

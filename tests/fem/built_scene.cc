@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "lib/core/registry.h"
+#include "lib/config/registry.h"
 #include "lib/scene/mesh_source.h"
 
 namespace orthodyn {

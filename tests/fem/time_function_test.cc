@@ -6,7 +6,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/fem/differences.h"
-#include "lib/fem/time_function.h"
+#include "lib/fem/time_functions/time_function.h"
 
 namespace orthodyn {
 namespace {

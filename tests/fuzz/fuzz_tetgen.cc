@@ -1,4 +1,4 @@
-#include "lib/mesh/tetgen.h"
+#include "lib/mesh/io/tetgen.h"
 #include "tests/fuzz/only_refuses.h"
 
 // The three files stand one after the other, divided by lines "%%".

@@ -1,4 +1,4 @@
-#include "lib/mesh/vega.h"
+#include "lib/mesh/io/vega.h"
 #include "tests/fuzz/only_refuses.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,4 +1,4 @@
-#include "lib/mesh/vtk.h"
+#include "lib/mesh/io/vtk.h"
 #include "tests/fuzz/only_refuses.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -4,7 +4,7 @@
 
 #include "lib/material/anisotropy.h"
 #include "lib/material/material.h"
-#include "tests/core/messages.h"
+#include "tests/config/messages.h"
 #include "tests/material/constants.h"
 
 namespace orthodyn {

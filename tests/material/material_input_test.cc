@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lib/material/material.h"
-#include "tests/core/messages.h"
+#include "tests/config/messages.h"
 #include "tests/material/constants.h"
 
 namespace orthodyn {

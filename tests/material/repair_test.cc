@@ -4,7 +4,7 @@
 
 #include "lib/material/material.h"
 #include "lib/material/orthotropy.h"
-#include "tests/core/messages.h"
+#include "tests/config/messages.h"
 #include "tests/material/constants.h"
 
 namespace orthodyn {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "lib/material/material.h"
-#include "tests/core/messages.h"
+#include "tests/config/messages.h"
 #include "tests/material/constants.h"
 
 namespace orthodyn {

@@ -1,4 +1,4 @@
-#include "lib/mesh/abaqus.h"
+#include "lib/mesh/io/abaqus.h"
 
 #include <gtest/gtest.h>
 

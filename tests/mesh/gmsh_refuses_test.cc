@@ -8,7 +8,7 @@
 #include <string>
 
 #include "lib/core/errors.h"
-#include "lib/mesh/gmsh.h"
+#include "lib/mesh/io/gmsh.h"
 #include "tests/mesh/gmsh_test_file.h"
 
 namespace orthodyn {

@@ -1,4 +1,4 @@
-#include "lib/mesh/gmsh.h"
+#include "lib/mesh/io/gmsh.h"
 
 #include <gtest/gtest.h>
 

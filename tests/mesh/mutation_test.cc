@@ -11,12 +11,12 @@
 #include <string_view>
 
 #include "lib/core/errors.h"
-#include "lib/mesh/abaqus.h"
-#include "lib/mesh/gmsh.h"
-#include "lib/mesh/tetgen.h"
-#include "lib/mesh/vega.h"
-#include "lib/mesh/vtk.h"
-#include "lib/mesh/vtu.h"
+#include "lib/mesh/io/abaqus.h"
+#include "lib/mesh/io/gmsh.h"
+#include "lib/mesh/io/tetgen.h"
+#include "lib/mesh/io/vega.h"
+#include "lib/mesh/io/vtk.h"
+#include "lib/mesh/io/vtu.h"
 
 namespace orthodyn {
 namespace {

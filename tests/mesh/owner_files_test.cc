@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "lib/mesh/mesh_file.h"
+#include "lib/mesh/io/mesh_file.h"
 #include "tests/mesh/refusal.h"
 
 namespace orthodyn {

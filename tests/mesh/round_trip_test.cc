@@ -6,7 +6,7 @@
 #include <csignal>
 
 #include "lib/mesh/box.h"
-#include "lib/mesh/mesh_file.h"
+#include "lib/mesh/io/mesh_file.h"
 #include "tests/mesh/refusal.h"
 
 namespace orthodyn {

@@ -1,4 +1,4 @@
-#include "lib/mesh/vega.h"
+#include "lib/mesh/io/vega.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "lib/mesh/vtu.h"
+#include "lib/mesh/io/vtu.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "lib/mesh/vtk.h"
+#include "lib/mesh/io/vtk.h"
 #include "tests/mesh/refusal.h"
 
 namespace orthodyn {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "lib/study/verify.h"
+#include "lib/study/quantities/verify.h"
 
 namespace orthodyn {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "lib/run/run.h"
+#include "lib/simulation/run.h"
 #include "lib/scene/setup.h"
 #include "tests/fem/built_scene.h"
 

@@ -5,10 +5,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "lib/run/modes.h"
-#include "lib/run/statics.h"
+#include "lib/analysis/modes.h"
+#include "lib/simulation/statics.h"
 #include "lib/scene/equilibrium.h"
-#include "lib/scene/rigid_freedom.h"
+#include "lib/analysis/rigid_freedom.h"
 #include "tests/problems/running.h"
 
 namespace orthodyn {

@@ -1,5 +1,5 @@
 // What is left free of a block that is clamped at a few of its corners.
-#include "lib/scene/rigid_freedom.h"
+#include "lib/analysis/rigid_freedom.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "lib/scene/setup.h"
-#include "tests/core/messages.h"
+#include "tests/config/messages.h"
 
 namespace orthodyn {
 namespace {

@@ -1,5 +1,5 @@
 // What is read off the points of a method.
-#include "lib/study/answers.h"
+#include "lib/study/compare/answers.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <thread>
 
-#include "tests/run/command.h"
+#include "tests/simulation/command.h"
 
 namespace orthodyn {
 namespace {

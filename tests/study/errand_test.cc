@@ -1,10 +1,10 @@
 // Work in processes: what is done stays done, several at a time, and what dies says how.
-#include "lib/study/errand.h"
+#include "lib/study/jobs/errand.h"
 
 #include <chrono>
 
-#include "lib/run/files.h"
-#include "tests/run/command.h"
+#include "lib/simulation/files.h"
+#include "tests/simulation/command.h"
 
 namespace orthodyn {
 namespace {

@@ -1,5 +1,5 @@
 // Distances between trajectories, where they are known.
-#include "lib/study/error_norms.h"
+#include "lib/study/errors/error_norms.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "lib/scene/setup.h"
-#include "tests/run/command.h"
+#include "tests/simulation/command.h"
 
 namespace orthodyn {
 namespace {

@@ -1,10 +1,10 @@
 // From a comparison file to its points.
-#include "lib/study/expand.h"
+#include "lib/study/compare/expand.h"
 
-#include "lib/core/registry.h"
+#include "lib/config/registry.h"
 #include "lib/ode/integrator.h"
 
-#include "tests/run/command.h"
+#include "tests/simulation/command.h"
 
 namespace orthodyn {
 namespace {

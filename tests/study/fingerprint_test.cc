@@ -1,12 +1,12 @@
 // What figures depend on besides their input.
-#include "lib/study/fingerprint.h"
+#include "lib/study/jobs/fingerprint.h"
 
 #include <chrono>
 #include <cstdlib>
 #include <functional>
 
 #include "lib/core/errors.h"
-#include "tests/run/command.h"
+#include "tests/simulation/command.h"
 
 namespace orthodyn {
 namespace {

@@ -1,4 +1,4 @@
-#include "lib/study/latin_hypercube.h"
+#include "lib/study/sweep/latin_hypercube.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The exact solution of linear models: it satisfies the initial values and the equation of motion.
-#include "lib/study/modal_solution.h"
+#include "lib/study/errors/modal_solution.h"
 
 #include <gtest/gtest.h>
 

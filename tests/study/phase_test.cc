@@ -1,5 +1,5 @@
 // The dominant oscillation, on signals made of known ones.
-#include "lib/study/phase.h"
+#include "lib/study/errors/phase.h"
 
 #include <gtest/gtest.h>
 

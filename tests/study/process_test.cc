@@ -1,12 +1,12 @@
 // Child processes and their limits.
-#include "lib/study/process.h"
+#include "lib/study/jobs/process.h"
 
 #include <atomic>
 #include <csignal>
 #include <thread>
 
-#include "lib/run/files.h"
-#include "tests/run/command.h"
+#include "lib/simulation/files.h"
+#include "tests/simulation/command.h"
 
 namespace orthodyn {
 namespace {

@@ -1,5 +1,5 @@
 // Figures of a series, on functions whose figures are known.
-#include "lib/study/series.h"
+#include "lib/study/quantities/series.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 #include <map>
 #include <random>
 
-#include "lib/study/point_result.h"
-#include "lib/study/verdict.h"
-#include "tests/run/command.h"
+#include "lib/study/compare/point_result.h"
+#include "lib/study/quantities/verdict.h"
+#include "tests/simulation/command.h"
 
 namespace orthodyn {
 namespace {

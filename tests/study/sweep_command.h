@@ -4,7 +4,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "tests/run/command.h"
+#include "tests/simulation/command.h"
 
 namespace orthodyn {
 

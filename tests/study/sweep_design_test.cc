@@ -1,12 +1,12 @@
 // From a sweep to its points: values, formulas, and errors with their places.
-#include "lib/study/sweep_design.h"
+#include "lib/study/sweep/sweep_design.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <set>
 
-#include "tests/run/command.h"
+#include "tests/simulation/command.h"
 
 namespace orthodyn {
 namespace {

@@ -1,7 +1,7 @@
 // Verification: what passes, what misses, what is refused.
-#include "lib/study/verify.h"
+#include "lib/study/quantities/verify.h"
 
-#include "tests/run/command.h"
+#include "tests/simulation/command.h"
 
 namespace orthodyn {
 namespace {

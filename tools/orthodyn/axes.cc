@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "lib/run/vtu.h"
+#include "lib/simulation/vtu.h"
 #include "tools/orthodyn/draw.h"
 
 namespace orthodyn {

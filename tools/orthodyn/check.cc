@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "lib/element/strain_limits.h"
+#include "lib/analysis/strain_limits.h"
 #include "lib/scene/equilibrium.h"
 #include "tools/orthodyn/axes.h"
 #include "tools/orthodyn/commands.h"

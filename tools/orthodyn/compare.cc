@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "lib/run/files.h"
-#include "lib/study/comparison_table.h"
-#include "lib/study/measure.h"
+#include "lib/simulation/files.h"
+#include "lib/study/compare/comparison_table.h"
+#include "lib/study/compare/measure.h"
 #include "tools/orthodyn/commands.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/failures.h"

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "lib/core/errors.h"
-#include "lib/mesh/mesh_file.h"
+#include "lib/mesh/io/mesh_file.h"
 #include "tools/orthodyn/commands.h"
 
 namespace orthodyn {

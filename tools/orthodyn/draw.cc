@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/study/process.h"
+#include "lib/study/jobs/process.h"
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/places.h"
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "lib/study/point_result.h"
+#include "lib/study/compare/point_result.h"
 
 namespace orthodyn {
 

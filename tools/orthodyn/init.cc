@@ -6,7 +6,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/core/words.h"
-#include "lib/run/files.h"
+#include "lib/simulation/files.h"
 #include "tools/orthodyn/commands.h"
 #include "tools/orthodyn/places.h"
 

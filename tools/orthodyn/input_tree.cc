@@ -2,10 +2,10 @@
 
 #include <set>
 
-#include "lib/core/config.h"
+#include "lib/config/config.h"
 #include "lib/scene/scene.h"
-#include "lib/study/stability.h"
-#include "lib/study/sweep.h"
+#include "lib/study/stability/stability.h"
+#include "lib/study/sweep/sweep.h"
 
 namespace orthodyn {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/core/shape.h"
+#include "lib/config/shape.h"
 
 namespace orthodyn {
 

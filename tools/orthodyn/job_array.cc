@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "lib/core/errors.h"
-#include "lib/run/files.h"
-#include "lib/study/errand.h"
+#include "lib/simulation/files.h"
+#include "lib/study/jobs/errand.h"
 
 namespace orthodyn {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "lib/study/comparison.h"
+#include "lib/study/compare/comparison.h"
 
 namespace orthodyn {
 

@@ -3,13 +3,13 @@
 
 #include <functional>
 
-#include "lib/core/registry.h"
+#include "lib/config/registry.h"
 #include "lib/linear/solver.h"
 #include "lib/material/presets.h"
 #include "lib/scene/build.h"
 #include "lib/scene/scene.h"
-#include "lib/study/stability.h"
-#include "lib/study/sweep.h"
+#include "lib/study/stability/stability.h"
+#include "lib/study/sweep/sweep.h"
 #include "tools/orthodyn/commands.h"
 
 namespace orthodyn {

@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "lib/core/errors.h"
-#include "lib/run/modes.h"
-#include "lib/run/vtu.h"
+#include "lib/analysis/modes.h"
+#include "lib/simulation/vtu.h"
 #include "lib/scene/equilibrium.h"
-#include "lib/scene/rigid_freedom.h"
+#include "lib/analysis/rigid_freedom.h"
 #include "tools/orthodyn/commands.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/setup.h"

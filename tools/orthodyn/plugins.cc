@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "lib/core/errors.h"
-#include "lib/core/registry.h"
+#include "lib/config/registry.h"
 
 namespace orthodyn {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "lib/study/machine.h"
+#include "lib/study/jobs/machine.h"
 
 namespace orthodyn {
 

@@ -5,11 +5,11 @@
 #include <optional>
 #include <string>
 
-#include "lib/run/checkpoint.h"
-#include "lib/run/curves.h"
-#include "lib/run/run.h"
-#include "lib/study/error_estimate.h"
-#include "lib/study/point_result.h"
+#include "lib/simulation/checkpoint.h"
+#include "lib/simulation/curves.h"
+#include "lib/simulation/run.h"
+#include "lib/study/errors/error_estimate.h"
+#include "lib/study/compare/point_result.h"
 #include "tools/orthodyn/setup.h"
 
 namespace orthodyn {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "lib/study/fingerprint.h"
-#include "lib/study/machine.h"
+#include "lib/study/jobs/fingerprint.h"
+#include "lib/study/jobs/machine.h"
 #include "tools/orthodyn/scene_changes.h"
 
 namespace orthodyn {

@@ -1,8 +1,8 @@
 // Going on from a checkpoint: whether it fits the scene, and what follows from it.
 #pragma once
 
-#include "lib/run/checkpoint.h"
-#include "lib/run/run.h"
+#include "lib/simulation/checkpoint.h"
+#include "lib/simulation/run.h"
 #include "lib/scene/setup.h"
 #include "tools/orthodyn/result_folder.h"
 

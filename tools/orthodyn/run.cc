@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "lib/core/values.h"
+#include "lib/config/values.h"
 #include "lib/core/versions.h"
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/report.h"

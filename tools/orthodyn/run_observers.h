@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "lib/run/checkpointer.h"
-#include "lib/run/curves.h"
-#include "lib/run/event_writer.h"
-#include "lib/run/progress.h"
-#include "lib/run/vtu.h"
+#include "lib/simulation/checkpointer.h"
+#include "lib/simulation/curves.h"
+#include "lib/simulation/event_writer.h"
+#include "lib/simulation/progress.h"
+#include "lib/simulation/vtu.h"
 #include "lib/scene/setup.h"
 
 namespace orthodyn {

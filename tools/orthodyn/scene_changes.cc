@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "lib/core/values.h"
+#include "lib/config/values.h"
 
 namespace orthodyn {
 

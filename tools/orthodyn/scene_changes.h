@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/core/config.h"
+#include "lib/config/config.h"
 
 namespace orthodyn {
 

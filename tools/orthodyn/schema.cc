@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "lib/core/config.h"
+#include "lib/config/config.h"
 #include "tools/orthodyn/commands.h"
 #include "tools/orthodyn/input_tree.h"
 

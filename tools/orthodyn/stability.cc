@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <map>
 
-#include "lib/run/files.h"
-#include "lib/study/assess.h"
-#include "lib/study/stability_matrix.h"
+#include "lib/simulation/files.h"
+#include "lib/study/stability/assess.h"
+#include "lib/study/stability/stability_matrix.h"
 #include "tools/orthodyn/commands.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/failures.h"

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "lib/run/statics.h"
-#include "lib/run/vtu.h"
+#include "lib/simulation/statics.h"
+#include "lib/simulation/vtu.h"
 #include "lib/scene/equilibrium.h"
-#include "lib/study/machine.h"
+#include "lib/study/jobs/machine.h"
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/report.h"
 #include "tools/orthodyn/run_observers.h"

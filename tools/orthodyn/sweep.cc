@@ -9,10 +9,10 @@
 #include <optional>
 
 #include "lib/core/units.h"
-#include "lib/run/files.h"
-#include "lib/study/evaluate.h"
-#include "lib/study/sweep_errands.h"
-#include "lib/study/sweep_table.h"
+#include "lib/simulation/files.h"
+#include "lib/study/sweep/evaluate.h"
+#include "lib/study/sweep/sweep_errands.h"
+#include "lib/study/sweep/sweep_table.h"
 #include "tools/orthodyn/commands.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/failures.h"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "lib/run/files.h"
-#include "lib/study/verify.h"
+#include "lib/simulation/files.h"
+#include "lib/study/quantities/verify.h"
 #include "tools/orthodyn/setup.h"
 
 namespace orthodyn {

@@ -1,6 +1,6 @@
-#include "lib/fem/time_function.h"
+#include "lib/fem/time_functions/time_function.h"
 
-#include "lib/core/formula.h"
+#include "lib/config/formula.h"
 #include "lib/fem/differences.h"
 
 namespace orthodyn {

@@ -1,4 +1,4 @@
-#include "lib/fem/time_function.h"
+#include "lib/fem/time_functions/time_function.h"
 
 #include <cmath>
 #include <numbers>

@@ -2,9 +2,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "lib/mesh/gmsh.h"
-#include "lib/mesh/mesh_file.h"
-#include "lib/mesh/vega.h"
+#include "lib/mesh/io/gmsh.h"
+#include "lib/mesh/io/mesh_file.h"
+#include "lib/mesh/io/vega.h"
 #include "lib/scene/mesh_source.h"
 
 namespace orthodyn {

@@ -1,4 +1,4 @@
-#include "lib/fem/dashpot.h"
+#include "lib/fem/terms/dashpot.h"
 
 #include "lib/scene/term_choice.h"
 #include "lib/scene/terms/ends.h"

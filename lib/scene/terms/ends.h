@@ -5,7 +5,7 @@
 #include <array>
 #include <optional>
 
-#include "lib/fem/link.h"
+#include "lib/fem/terms/link.h"
 #include "lib/scene/selection.h"
 
 namespace orthodyn {

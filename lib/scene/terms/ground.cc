@@ -1,4 +1,4 @@
-#include "lib/fem/ground.h"
+#include "lib/fem/terms/ground.h"
 
 #include "lib/fem/surface.h"
 #include "lib/scene/term_choice.h"

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "lib/fem/dead_load.h"
+#include "lib/fem/terms/dead_load.h"
 #include "lib/scene/selection.h"
 #include "lib/scene/term_choice.h"
 

@@ -1,4 +1,4 @@
-#include "lib/fem/pressure.h"
+#include "lib/fem/terms/pressure.h"
 
 #include "lib/scene/term_choice.h"
 #include "lib/scene/terms/outer_surface.h"

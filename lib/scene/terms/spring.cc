@@ -1,4 +1,4 @@
-#include "lib/fem/spring.h"
+#include "lib/fem/terms/spring.h"
 
 #include "lib/scene/term_choice.h"
 #include "lib/scene/terms/ends.h"

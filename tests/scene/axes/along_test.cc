@@ -5,7 +5,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "lib/scene/axes/curve.h"
+#include "lib/axes/curve.h"
 #include "tests/scene/axes/axes_of.h"
 
 namespace orthodyn {

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "lib/scene/axes/axes_source.h"
-#include "tests/core/messages.h"
+#include "lib/axes/axes_source.h"
+#include "tests/config/messages.h"
 #include "tests/material/constants.h"
 
 namespace orthodyn {

@@ -3,8 +3,8 @@
 
 #include <numbers>
 
-#include "lib/scene/axes/frame.h"
-#include "lib/scene/axes/given_axes.h"
+#include "lib/axes/frame.h"
+#include "lib/axes/given_axes.h"
 #include "tests/scene/axes/axes_of.h"
 
 namespace orthodyn {

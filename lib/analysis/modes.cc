@@ -1,0 +1,67 @@
+#include "lib/analysis/modes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "lib/core/errors.h"
+#include "lib/linear/eigenmodes.h"
+
+namespace orthodyn {
+
+namespace {
+
+bool tells_momentum(const Model& model) {
+  const auto outputs = model.outputs();
+  return std::any_of(outputs.begin(), outputs.end(), [](const auto& info) { return info.name == "momentum.linear"; });
+}
+
+// Its largest entry is positive: the same sign whoever computes it.
+void fix_sign(Vector& shape) {
+  Eigen::Index k = 0;
+  shape.cwiseAbs().maxCoeff(&k);
+  if (shape[k] < 0) shape = -shape;
+}
+
+// The linear momentum of the body if it moved with a velocity of the mode's shape.
+Vec3 participation(const Model& model, const State& about, const Vector& shape) {
+  const auto momentum = model.evaluate("momentum.linear", {about.t, about.q, shape});
+  return Eigen::Map<const Vec3>(momentum.data());
+}
+
+}  // namespace
+
+double Mode::angular_frequency() const { return std::copysign(std::sqrt(std::abs(lambda)), lambda); }
+double Mode::frequency() const { return angular_frequency() / (2 * std::numbers::pi); }
+
+Modes natural_modes(const Model& model, const State& about, int count) {
+  if (!model.pattern().symmetric)
+    throw ConfigError("modes need a symmetric tangent: not that of elasticity.warped_tangent: unsymmetric");
+  const Pattern& pattern = model.pattern();
+  Linearization at;
+  model.linearize(about.t, about.q, Vector::Zero(about.q.size()), TangentKind::exact, at);
+  std::vector<double> K(pattern.row.size()), M(pattern.row.size());
+  model.combine({0, 0, 1}, at, K.data());
+  model.combine({1, 0, 0}, at, M.data());
+  EigenPairs pairs = lowest_eigenpairs(pattern, K, M, count);
+
+  const bool has_momentum = tells_momentum(model);
+  double lowest_elastic = 0;
+  for (const double lambda : pairs.values)
+    if (lowest_elastic == 0) lowest_elastic = std::abs(lambda);
+  Modes out{{}, pairs.zeros, std::sqrt(pairs.resolution) / (2 * std::numbers::pi)};
+  for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
+    Mode mode{pairs.values[k], pairs.shapes.col(k)};
+    fix_sign(mode.shape);
+    if (has_momentum) mode.participation = participation(model, about, mode.shape);
+    Vector stiff(mode.shape.size()), inert(mode.shape.size());
+    pattern.multiply(K.data(), mode.shape, stiff);
+    pattern.multiply(M.data(), mode.shape, inert);
+    const double reference = std::max(std::abs(mode.lambda), lowest_elastic) * inert.norm();
+    mode.residual = reference > 0 ? (stiff - mode.lambda * inert).norm() / reference : 0;
+    out.modes.push_back(std::move(mode));
+  }
+  return out;
+}
+
+}  // namespace orthodyn

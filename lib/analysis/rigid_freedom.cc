@@ -1,0 +1,183 @@
+#include "lib/analysis/rigid_freedom.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "lib/config/values.h"
+
+namespace orthodyn {
+
+namespace {
+
+using Motions = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+
+constexpr double kHeld = 1e-9;       // of the motion that the clamps hold best
+constexpr double kRoundOff = 1e-14;  // of the stiffness that each coordinate has of its own
+
+// For each node the number of its connected part; -1 for nodes of no element.
+std::vector<int> parts_of(const TetMesh& mesh) {
+  std::vector<int> parent(mesh.nodes.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int i) {
+    const auto up = [&](int k) -> int& { return parent[static_cast<std::size_t>(k)]; };
+    while (up(i) != i) i = up(i) = up(up(i));
+    return i;
+  };
+  for (const auto& tet : mesh.tets)
+    for (const int node : tet) parent[static_cast<std::size_t>(root(node))] = root(tet[0]);
+  std::vector<int> number(mesh.nodes.size(), -1), part(mesh.nodes.size(), -1);
+  int count = 0;
+  for (const auto& tet : mesh.tets)
+    for (const int node : tet) {
+      int& k = number[static_cast<std::size_t>(root(node))];
+      if (k < 0) k = count++;
+      part[static_cast<std::size_t>(node)] = k;
+    }
+  return part;
+}
+
+// One part's six rigid motions, all of size one.
+class RigidMotions {
+ public:
+  RigidMotions(const FemModel& model, const std::vector<int>& part_of, int part) : model_(model) {
+    for (std::size_t i = 0; i < part_of.size(); ++i)
+      if (part_of[i] == part) nodes_.push_back(static_cast<int>(i));
+    const auto& x = *model.parts().rest;
+    center_ = Vec3::Zero();
+    for (const int i : nodes_) center_ += x.col(i) / static_cast<double>(nodes_.size());
+    for (const int i : nodes_) radius_ = std::max(radius_, (x.col(i) - center_).norm());
+  }
+
+  const Vec3& center() const { return center_; }
+
+  // The combinations of the six that vanish at all clamped coordinates, as columns.
+  Eigen::MatrixXd not_clamped() const {
+    const Motions held = at_clamps();
+    if (held.rows() == 0) return Eigen::MatrixXd::Identity(6, 6);
+    // Triangular, with the singular values of all rows; those of the Gram matrix would be squared, below round-off.
+    Eigen::Matrix<double, 6, 6> R = Eigen::Matrix<double, 6, 6>::Zero();
+    const Eigen::HouseholderQR<Motions> qr(held);
+    const Eigen::Index rank = std::min<Eigen::Index>(6, held.rows());
+    R.topRows(rank) = qr.matrixQR().topRows(rank).triangularView<Eigen::Upper>();
+    const Eigen::JacobiSVD<Eigen::Matrix<double, 6, 6>> svd(R, Eigen::ComputeFullV);
+    const auto free = (svd.singularValues().array() <= kHeld * svd.singularValues()[0]).count();
+    return svd.matrixV().rightCols(free);
+  }
+
+  // At the free coordinates.
+  Eigen::MatrixXd on_dofs(const Eigen::MatrixXd& combinations) const {
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(model_.num_dofs(), combinations.cols());
+    for (const int i : nodes_) {
+      const Motions at_node = motions(i);
+      const Eigen::MatrixXd moved = at_node * combinations;
+      for (std::size_t c = 0; c < 3; ++c)
+        if (const int dof = model_.parts().dofs->node(i)[c]; dof >= 0)
+          out.row(dof) = moved.row(static_cast<Eigen::Index>(c));
+    }
+    return out;
+  }
+
+ private:
+  // A row per clamped coordinate.
+  Motions at_clamps() const {
+    std::vector<Eigen::Matrix<double, 1, 6>> rows;
+    for (const int i : nodes_)
+      for (std::size_t c = 0; c < 3; ++c)
+        if (model_.parts().dofs->node(i)[c] < 0) rows.push_back(motions(i).row(static_cast<Eigen::Index>(c)));
+    Motions out(static_cast<Eigen::Index>(rows.size()), 6);
+    for (std::size_t k = 0; k < rows.size(); ++k) out.row(static_cast<Eigen::Index>(k)) = rows[k];
+    return out;
+  }
+
+  Eigen::Matrix<double, 3, 6> motions(int node) const {
+    const Vec3 arm = (model_.parts().rest->col(node) - center_) / radius_;
+    Eigen::Matrix<double, 3, 6> out;
+    out.leftCols<3>().setIdentity();
+    for (int k = 0; k < 3; ++k) out.col(3 + k) = Vec3::Unit(k).cross(arm);
+    return out;
+  }
+
+  const FemModel& model_;
+  std::vector<int> nodes_;
+  Vec3 center_;
+  double radius_ = 0;
+};
+
+// Those combinations of `motions` that K does not resist.
+Eigen::MatrixXd without_stiffness(const Eigen::MatrixXd& combinations, const Eigen::MatrixXd& motions,
+                                  const Pattern& pattern, const std::vector<double>& stiffness) {
+  Eigen::MatrixXd resisted(motions.rows(), motions.cols());
+  for (Eigen::Index k = 0; k < motions.cols(); ++k) {
+    Vector force(motions.rows());
+    pattern.multiply(stiffness.data(), motions.col(k), force);
+    resisted.col(k) = force;
+  }
+  const Vector own = SparseMatrix(pattern.matrix(stiffness.data())).diagonal().cwiseAbs();
+  const double round_off = kRoundOff * (motions.array().square().colwise() * own.array()).colwise().sum().maxCoeff();
+  const Eigen::MatrixXd energy = motions.transpose() * resisted;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen((energy + energy.transpose()) / 2);
+  const auto free = (eigen.eigenvalues().array() <= round_off).count();
+  return combinations * eigen.eigenvectors().leftCols(free);
+}
+
+std::string sentence(const Eigen::MatrixXd& free) {
+  constexpr double kAlong = 1 - 1e-6;
+  std::vector<std::string> along, about;
+  for (int k = 0; k < 6; ++k)
+    if (free.row(k).norm() > kAlong) (k < 3 ? along : about).push_back(std::string(1, static_cast<char>('x' + k % 3)));
+  std::vector<std::string> words;
+  if (!along.empty()) words.push_back("be translated along " + join(along));
+  if (!about.empty()) words.push_back((along.empty() ? "be rotated about " : "rotated about ") + join(about));
+  if (const auto more = free.cols() - static_cast<Eigen::Index>(along.size() + about.size()); more > 0)
+    words.push_back(fmt::format("move in {} {}combined way{}", more, words.empty() ? "" : "further ",
+                                more > 1 ? "s" : ""));
+  std::string text = "can " + words[0];
+  for (std::size_t k = 1; k < words.size(); ++k) text += " and " + words[k];
+  return text;
+}
+
+// Of each part that hangs together: its centre, and as columns the combinations of its six rigid motions that are free.
+struct FreePart {
+  Vec3 center;
+  Eigen::MatrixXd motions;
+};
+
+std::vector<FreePart> freedom_of_parts(const FemModel& model, double t) {
+  const auto part_of = parts_of(model.parts().mesh);
+  const int count = part_of.empty() ? 0 : *std::max_element(part_of.begin(), part_of.end()) + 1;
+  Linearization at;
+  std::vector<FreePart> all;
+  for (int part = 0; part < count; ++part) {
+    const RigidMotions rigid(model, part_of, part);
+    Eigen::MatrixXd free = rigid.not_clamped();
+    if (free.cols() > 0 && at.stiffness.empty()) {
+      const Vector zero = Vector::Zero(model.num_dofs());
+      model.linearize(t, zero, zero, TangentKind::gauss_newton, at);
+    }
+    if (free.cols() > 0) free = without_stiffness(free, rigid.on_dofs(free), model.pattern(), at.stiffness);
+    all.push_back({rigid.center(), std::move(free)});
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string describe_rigid_freedom(const FemModel& model, double t) {
+  const auto parts = freedom_of_parts(model, t);
+  for (const auto& part : parts) {
+    if (part.motions.cols() == 0) continue;
+    return (parts.size() == 1 ? "the body " : "the part of the body about " + Value<Vec3>::yaml(part.center) + " m ") +
+           sentence(part.motions);
+  }
+  return "";
+}
+
+int count_rigid_freedom(const FemModel& model, double t) {
+  Eigen::Index sum = 0;
+  for (const auto& part : freedom_of_parts(model, t)) sum += part.motions.cols();
+  return static_cast<int>(sum);
+}
+
+}  // namespace orthodyn

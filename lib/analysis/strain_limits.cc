@@ -1,0 +1,144 @@
+#include "lib/analysis/strain_limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/analysis/acoustic.h"
+#include "lib/element/corotational_law.h"
+
+namespace orthodyn {
+
+namespace {
+
+// Axis i against axis j under stress along i.
+struct Plane {
+  int j;
+  double young, nu, mu;
+};
+
+// Below this strain the body has collapsed. (An isotropic one has a double root of all conditions at -1.)
+constexpr double kCollapse = -0.99;
+
+// Keeps the candidate if it lies nearer to rest.
+void tighten(AxisLimits& limits, const StrainLimit& candidate) {
+  auto& side = candidate.strain < 0 ? limits.compression : limits.tension;
+  if (candidate.strain <= kCollapse) return;
+  if (!side || std::abs(candidate.strain) < std::abs(side->strain)) side = candidate;
+}
+
+// 4 mu (1 - nu e)^2 + E e (3 + (1 - 2 nu) e) = 0.
+void add_kink(const Plane& p, AxisLimits& limits) {
+  const double a = 4 * p.mu * p.nu * p.nu + p.young * (1 - 2 * p.nu);
+  const double b = 3 * p.young - 8 * p.mu * p.nu;
+  const double c = 4 * p.mu;
+  const double discriminant = b * b - 4 * a * c;
+  if (discriminant < 0) return;
+  const double q = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
+  if (q != 0) tighten(limits, {c / q, LimitKind::kink, p.j});
+  if (a != 0) tighten(limits, {q / a, LimitKind::kink, p.j});
+}
+
+void add_slide(const Plane& p, AxisLimits& limits) {
+  if (p.young > 4 * p.mu) tighten(limits, {4 * p.mu / (p.young - 4 * p.mu), LimitKind::slide, p.j});
+}
+
+void add_flattening(const Plane& p, AxisLimits& limits) {
+  if (p.nu != 0) tighten(limits, {1 / p.nu, LimitKind::flat, p.j});
+}
+
+// 1 / S_ii and so on need the compliance; the moduli may be decades apart, so of a unit diagonal.
+Mat6 compliance(const Mat6& C) {
+  const Vec6 scale = C.diagonal().cwiseSqrt().cwiseInverse();
+  const Mat6 unit = scale.asDiagonal() * C * scale.asDiagonal();
+  return scale.asDiagonal() * unit.inverse() * scale.asDiagonal();
+}
+
+std::array<AxisLimits, 3> orthotropic_limits(const Mat6& S) {
+  constexpr int shear[3][3] = {{-1, 3, 5}, {3, -1, 4}, {5, 4, -1}};
+  std::array<AxisLimits, 3> out;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      if (i == j) continue;
+      const Plane plane{j, 1 / S(i, i), -S(i, j) / S(i, i), 1 / S(shear[i][j], shear[i][j])};
+      AxisLimits& limits = out[static_cast<std::size_t>(i)];
+      add_kink(plane, limits);
+      add_slide(plane, limits);
+      add_flattening(plane, limits);
+    }
+  return out;
+}
+
+// S = I + e of a unit strain along the axis under stress along it alone.
+Mat3 uniaxial_strain(const Mat6& S, int axis) {
+  const Vec6 e = S.col(axis) / S(axis, axis);
+  return (Mat3() << e[0], e[3] / 2, e[5] / 2, e[3] / 2, e[1], e[4] / 2, e[5] / 2, e[4] / 2, e[2]).finished();
+}
+
+// The strain nearest to rest on the side of `end` at which the law holds no more; none up to `end`.
+template <class Holds>
+std::optional<double> first_failure(const Holds& holds, double end) {
+  constexpr int kSteps = 50, kBisections = 10;
+  double good = 0;
+  for (int k = 1; k <= kSteps; ++k) {
+    double bad = end * k / kSteps;
+    if (holds(bad)) {
+      good = bad;
+      continue;
+    }
+    for (int i = 0; i < kBisections; ++i) {
+      const double middle = 0.5 * (good + bad);
+      (holds(middle) ? good : bad) = middle;
+    }
+    return bad;
+  }
+  return std::nullopt;
+}
+
+std::array<AxisLimits, 3> searched_limits(const AnisotropicStiffness& C) {
+  const CorotationalLaw law(AnisotropicStiffness{C.c / C.c.diagonal().maxCoeff()});
+  const Mat6 S = compliance(C.c);
+  std::array<AxisLimits, 3> out;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Mat3 unit = uniaxial_strain(S, axis);
+    const auto holds = [&](double strain) {
+      const Mat3 F = Mat3::Identity() + strain * unit;
+      if (!(Eigen::SelfAdjointEigenSolver<Mat3>(F, Eigen::EigenvaluesOnly).eigenvalues()[0] > 0)) return false;
+      return is_strongly_elliptic(expand(law.tangent(F, Mat3::Identity(), TangentKind::exact, 0, nullptr)));
+    };
+    AxisLimits& limits = out[static_cast<std::size_t>(axis)];
+    if (const auto e = first_failure(holds, -0.95)) limits.compression = {*e, LimitKind::oblique, axis};
+    if (const auto e = first_failure(holds, 1)) limits.tension = {*e, LimitKind::oblique, axis};
+  }
+  return out;
+}
+
+}  // namespace
+
+std::array<AxisLimits, 3> strain_limits(const Stiffness& stiffness) {
+  if (const auto* full = std::get_if<AnisotropicStiffness>(&stiffness)) return searched_limits(*full);
+  return orthotropic_limits(compliance(voigt(stiffness)));
+}
+
+Mat36 stress_over_young(const Stiffness& stiffness) {
+  const Mat6 C = voigt(stiffness);
+  return compliance(C).diagonal().head<3>().asDiagonal() * C.topRows<3>();
+}
+
+std::string describe(const StrainLimit& limit, int axis) {
+  const int low = std::min(axis, limit.plane) + 1, high = std::max(axis, limit.plane) + 1;
+  switch (limit.kind) {
+    case LimitKind::kink:
+      return fmt::format("kinks in the plane {}-{}", low, high);
+    case LimitKind::slide:
+      return fmt::format("slides in the plane {}-{}", low, high);
+    case LimitKind::flat:
+      break;
+    case LimitKind::oblique:
+      return "waves of some direction stop travelling";
+  }
+  return fmt::format("is flat along {}", limit.plane + 1);
+}
+
+}  // namespace orthodyn

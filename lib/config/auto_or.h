@@ -1,0 +1,31 @@
+// A value of the input, or the word `auto` in its place.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "lib/config/values.h"
+#include "lib/core/words.h"
+
+namespace orthodyn {
+
+template <class V>
+struct AutoOr {
+  std::optional<V> value;
+};
+
+template <class V>
+struct Value<AutoOr<V>> {
+  static Shape shape() {
+    return {.kind = Shape::Kind::either, .items = {Value<V>::shape(), {.kind = Shape::Kind::word, .names = {"auto"}}}};
+  }
+  static AutoOr<V> read(const Config& c, const Rule& r) {
+    if (c.is_scalar() && c.text() == "auto") return {};
+    if (c.is_scalar() && nearest_name(c.text(), {"auto"}) == "auto")
+      c.fail("expected " + type_text(shape()) + ", found " + c.shown() + "; did you mean 'auto'?");
+    return {Value<V>::read(c, r)};
+  }
+  static std::string yaml(const AutoOr<V>& x) { return x.value ? Value<V>::yaml(*x.value) : "auto"; }
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,66 @@
+#include "lib/config/formula.h"
+
+#include <fmt/format.h>
+#include <muParser.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "lib/core/versions.h"
+
+namespace orthodyn {
+
+namespace {
+
+const bool version_registered =
+    library_versions().emplace("muParser", mu::Parser().GetVersion(mu::pviBRIEF)).second;
+
+}  // namespace
+
+struct Formula::Parsed {
+  std::vector<std::string> names;
+  mutable std::vector<double> variables;  // where muParser looks them up
+  mu::Parser parser;
+};
+
+Formula::Formula(const std::string& text, const std::vector<std::string>& variables, std::string where)
+    : text_(text), where_(std::move(where)) {
+  auto parsed = std::make_shared<Parsed>();
+  parsed->names = variables;
+  parsed->variables.assign(variables.size(), 1);
+  try {
+    auto& parser = parsed->parser;
+    parser.ClearConst();
+    parser.DefineConst("pi", std::numbers::pi);
+    parser.DefineConst("e", std::numbers::e);
+    for (std::size_t i = 0; i < variables.size(); ++i) parser.DefineVar(variables[i], &parsed->variables[i]);
+    parser.SetExpr(text);
+    parser.Eval();
+  } catch (const mu::Parser::exception_type& e) {
+    throw std::invalid_argument(e.GetMsg());
+  }
+  parsed_ = std::move(parsed);
+}
+
+double Formula::evaluate(const double* values) const {
+  std::copy_n(values, parsed_->variables.size(), parsed_->variables.begin());
+  double value = std::nan("");
+  try {
+    value = parsed_->parser.Eval();
+  } catch (const mu::Parser::exception_type&) {  // no std::exception; the value stays what it is
+  }
+  if (std::isfinite(value)) return value;
+  std::vector<std::string> place;
+  for (std::size_t i = 0; i < parsed_->names.size(); ++i)
+    place.push_back(fmt::format("{} = {}", parsed_->names[i], values[i]));
+  throw ConfigError(fmt::format("{}: '{}' is {} at {}", where_, text_,
+                                std::isnan(value) ? "not a number" : "infinite", join(place)));
+}
+
+void fail_formula(const Config& c, const std::string& known, const std::string& complaint) {
+  c.fail(fmt::format("cannot read the formula {}: {} Known: {}, pi, e, and functions such as sin, exp, sqrt.", c.shown(),
+                     complaint, known));
+}
+
+}  // namespace orthodyn

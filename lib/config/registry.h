@@ -1,0 +1,87 @@
+// Things that the input chooses by name: `type: box`. One file declares one thing and registers it:
+//
+//   const bool registered = Registry<MeshSource>::add<BoxSource>("box", "A box of tetrahedra.");
+//
+// T derives from Base and has a static spec(); a static facts() may tell more about it, for lists.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lib/config/spec.h"
+
+namespace orthodyn {
+
+// Names that were to be registered although they were taken: a plugin's mistake.
+std::vector<std::string>& registry_conflicts();
+
+template <class Base>
+class Registry {
+ public:
+  struct Entry : Alternative {
+    std::function<std::shared_ptr<const Base>(const Config&)> read;
+  };
+
+  static const std::map<std::string, Entry>& entries() { return mutable_entries(); }
+
+  template <class T>
+  static bool add(const std::string& name, const std::string& sentence) {
+    Entry entry{{sentence, T::spec().keys()}, [](const Config& config) -> std::shared_ptr<const Base> {
+                  auto item = std::make_shared<T>();
+                  T::spec().read_into(config, *item, {"type"});
+                  return item;
+                }};
+    if constexpr (requires { T::facts(); }) entry.facts = T::facts();
+    const bool is_new = mutable_entries().emplace(name, std::move(entry)).second;
+    if (!is_new) registry_conflicts().push_back(name);
+    return is_new;
+  }
+
+  // Reads a section by its key `type`. Throws ConfigError.
+  static std::shared_ptr<const Base> read(const Config& config) {
+    if (!config.is_map())
+      config.fail("expected a section with the key 'type' (" + join(names()) + "), found " +
+                  config.shown());
+    if (!config.has("type")) config.fail("key 'type' is missing; one of " + join(names()));
+    const Config type = config.at("type");
+    const auto it = entries().find(type.text());
+    if (it == entries().end()) {
+      const auto near = nearest_name(type.text(), names());
+      type.fail("unknown '" + type.text() + "'" +
+                (near.empty() ? "." : "; did you mean '" + near + "'?") +
+                " Known: " + join(names()) + ".");
+    }
+    return it->second.read(config);
+  }
+
+  static std::vector<std::string> names() {
+    std::vector<std::string> out;
+    for (const auto& [name, entry] : entries()) out.push_back(name);
+    return out;
+  }
+
+ private:
+  static std::map<std::string, Entry>& mutable_entries() {
+    static std::map<std::string, Entry> all;
+    return all;
+  }
+};
+
+template <class Base>
+struct Value<std::shared_ptr<const Base>> {
+  static Shape shape() {
+    return {.kind = Shape::Kind::choice, .title = type_title(typeid(Base).name()), .alternatives = [] {
+              const auto& entries = Registry<Base>::entries();
+              return std::map<std::string, Alternative>(entries.begin(), entries.end());
+            }};
+  }
+  static std::shared_ptr<const Base> read(const Config& c, const Rule&) {
+    return Registry<Base>::read(c);
+  }
+  static std::string yaml(const std::shared_ptr<const Base>&) { return ""; }
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,220 @@
+// How each type of value is read from and written to YAML: Value<V>::shape(), read(), yaml().
+// yaml() of a default that means "absent" is empty.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <typeinfo>
+#include <utility>
+#include <vector>
+
+#include "lib/config/config.h"
+#include "lib/config/shape.h"
+#include "lib/core/types.h"
+
+namespace orthodyn {
+
+inline constexpr Range kPositive{0, std::numeric_limits<double>::infinity(), true, false};
+inline constexpr Range kNonNegative{0, std::numeric_limits<double>::infinity(), false, false};
+
+// Where a key means something: only if another one of the section, read before it, has this word.
+struct Condition {
+  std::string key, word;
+};
+
+struct Rule {
+  bool required = false;
+  std::string unit = "";
+  Range range = {};           // of a number, and of each number of a list
+  std::string fallback = "";  // YAML that stands for an absent section, such as "{type: box}"
+  Condition with = {};        // elsewhere it is refused, and its default not filled in
+};
+
+// Named entries in the order of the file.
+template <class V>
+using Named = std::vector<std::pair<std::string, V>>;
+
+// The words of an enum: specialise with `static constexpr std::array<std::pair<E, const char*>, N> list`.
+template <class E>
+struct Words;
+
+template <class V>
+struct Value;
+
+// A plain number in the key's SI unit, or a text with a unit of the same dimension ("11.9 GPa").
+double read_number(const Config& config, const Rule& rule);
+std::string number_text(double x);
+std::vector<double> read_numbers(const Config& config, const Rule& rule, std::size_t count);
+
+inline Shape list_shape(Shape item, std::size_t count = 0, std::string words = "") {
+  return {.kind = Shape::Kind::list, .words = std::move(words), .items = {std::move(item)}, .count = count};
+}
+
+template <>
+struct Value<double> {
+  static Shape shape() { return {.kind = Shape::Kind::number}; }
+  static double read(const Config& c, const Rule& r) { return read_number(c, r); }
+  static std::string yaml(double x) { return number_text(x); }
+};
+
+template <std::integral V>
+struct Value<V> {
+  static Shape shape() { return {.kind = Shape::Kind::integer}; }
+  static V read(const Config& c, const Rule& r) {
+    using Limits = std::numeric_limits<V>;
+    const long i = c.integer();
+    const double x = read_number(c, r);
+    if (x > static_cast<double>(Limits::max()) || x < static_cast<double>(Limits::min()))
+      c.fail(fmt::format("must be in [{}, {}], found {}", Limits::min(), Limits::max(), c.shown()));
+    return static_cast<V>(i);
+  }
+  static std::string yaml(V x) { return std::to_string(x); }
+};
+
+template <>
+struct Value<bool> {
+  static Shape shape() { return {.kind = Shape::Kind::boolean}; }
+  static bool read(const Config& c, const Rule&) { return c.boolean(); }
+  static std::string yaml(bool x) { return x ? "true" : "false"; }
+};
+
+template <>
+struct Value<std::string> {
+  static Shape shape() { return {.kind = Shape::Kind::text}; }
+  static std::string read(const Config& c, const Rule&) { return c.text(); }
+  static std::string yaml(const std::string& x) { return x; }
+};
+
+// A path in the input, made relative to the file that names it.
+struct FilePath {
+  std::string path;
+  std::string where = "";  // in the input, for messages
+};
+
+template <>
+struct Value<FilePath> {
+  static Shape shape() { return {.kind = Shape::Kind::file}; }
+  static FilePath read(const Config& c, const Rule&) { return {c.file_path(), c.where()}; }
+  static std::string yaml(const FilePath& x) { return x.path; }
+};
+
+template <>
+struct Value<Vec3> {
+  static Shape shape() { return list_shape(Value<double>::shape(), 3, "[x, y, z]"); }
+  static Vec3 read(const Config& c, const Rule& r) {
+    return Eigen::Map<const Vec3>(read_numbers(c, r, 3).data());
+  }
+  static std::string yaml(const Vec3& x) {
+    return fmt::format("[{}, {}, {}]", number_text(x[0]), number_text(x[1]), number_text(x[2]));
+  }
+};
+
+template <>
+struct Value<Mat3> {
+  static Shape shape() { return list_shape(Value<Vec3>::shape(), 3, "[[row], [row], [row]]"); }
+  static Mat3 read(const Config& c, const Rule& r) {
+    if (!c.is_sequence() || c.size() != 3) c.fail("expected three rows of three numbers, found " + c.shown());
+    Mat3 m;
+    for (int i = 0; i < 3; ++i) m.row(i) = Value<Vec3>::read(c.at(static_cast<std::size_t>(i)), r);
+    return m;
+  }
+  static std::string yaml(const Mat3& m) {
+    return "[" + Value<Vec3>::yaml(m.row(0)) + ", " + Value<Vec3>::yaml(m.row(1)) + ", " +
+           Value<Vec3>::yaml(m.row(2)) + "]";
+  }
+};
+
+template <class E>
+  requires std::is_enum_v<E>
+struct Value<E> {
+  static std::vector<std::string> words() {
+    std::vector<std::string> out;
+    for (const auto& [value, word] : Words<E>::list) out.emplace_back(word);
+    return out;
+  }
+  static Shape shape() { return {.kind = Shape::Kind::word, .names = words()}; }
+  static E read(const Config& c, const Rule&) {
+    const std::string given = c.text();
+    for (const auto& [value, word] : Words<E>::list)
+      if (given == word) return value;
+    const auto near = nearest_name(given, words());
+    c.fail("expected one of " + join(words()) + ", found '" + given + "'" +
+           (near.empty() ? "" : "; did you mean '" + near + "'?"));
+  }
+  static std::string yaml(E x) {
+    for (const auto& [value, word] : Words<E>::list)
+      if (value == x) return word;
+    return "";
+  }
+};
+
+template <class V>
+struct Value<std::optional<V>> {
+  static Shape shape() { return Value<V>::shape(); }
+  static std::optional<V> read(const Config& c, const Rule& r) { return Value<V>::read(c, r); }
+  static std::string yaml(const std::optional<V>& x) { return x ? Value<V>::yaml(*x) : ""; }
+};
+
+template <class V, std::size_t N>
+struct Value<std::array<V, N>> {
+  static Shape shape() { return list_shape(Value<V>::shape(), N); }
+  static std::array<V, N> read(const Config& c, const Rule& r) {
+    if (!c.is_sequence() || c.size() != N)
+      c.fail(fmt::format("expected a list of {}, found {}", N, c.shown()));
+    std::array<V, N> out;
+    for (std::size_t i = 0; i < N; ++i) out[i] = Value<V>::read(c.at(i), r);
+    return out;
+  }
+  static std::string yaml(const std::array<V, N>& x) {
+    std::vector<std::string> parts;
+    for (const auto& v : x) parts.push_back(Value<V>::yaml(v));
+    return "[" + join(parts) + "]";
+  }
+};
+
+template <class V>
+struct Value<std::vector<V>> {
+  static Shape shape() { return list_shape(Value<V>::shape()); }
+  static std::vector<V> read(const Config& c, const Rule& r) {
+    if (!c.is_sequence()) c.fail("expected a list, found " + c.shown());
+    std::vector<V> out;
+    for (std::size_t i = 0; i < c.size(); ++i) out.push_back(Value<V>::read(c.at(i), r));
+    return out;
+  }
+  static std::string yaml(const std::vector<V>& x) {
+    if constexpr (requires { V::spec(); }) return "";  // a list of sections has no default
+    std::vector<std::string> parts;
+    for (const auto& v : x) parts.push_back(Value<V>::yaml(v));
+    return "[" + join(parts) + "]";
+  }
+};
+
+template <class V>
+struct Value<Named<V>> {
+  static Shape shape() { return {.kind = Shape::Kind::named, .items = {Value<V>::shape()}}; }
+  static Named<V> read(const Config& c, const Rule& r) {
+    if (!c.is_map()) c.fail("expected named sections, found " + c.shown());
+    Named<V> out;
+    for (const auto& name : c.keys()) out.emplace_back(name, Value<V>::read(c.at(name), r));
+    return out;
+  }
+  static std::string yaml(const Named<V>&) { return ""; }
+};
+
+// A struct that declares its keys.
+template <class V>
+  requires requires { V::spec(); }
+struct Value<V> {
+  static Shape shape() {
+    return {.kind = Shape::Kind::section, .title = type_title(typeid(V).name()), .keys = [] { return V::spec().keys(); }};
+  }
+  static V read(const Config& c, const Rule&) { return V::spec().read(c); }
+  static std::string yaml(const V&) { return ""; }
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,178 @@
+#include "lib/config/yaml_document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "lib/core/errors.h"
+
+namespace orthodyn {
+
+namespace {
+
+// yaml-cpp keeps duplicate keys and ignores merge keys in silence; an alias may contain itself.
+class StructureCheck {
+ public:
+  explicit StructureCheck(const std::string& file) : file_(file) {}
+
+  void visit(const YAML::Node& node, int depth) {
+    if (++visited_ > 1'000'000 || depth > 100)
+      fail(node, "nested too deeply (an alias that contains itself?)");
+    if (const std::string& tag = node.Tag(); tag.size() > 1 && tag[0] == '!')
+      fail(node, fmt::format("the tag {} is not supported; to read another file write the key `include: FILE`", tag));
+    if (node.IsSequence())
+      for (const auto& child : node) visit(child, depth + 1);
+    if (node.IsMap()) visit_map(node, depth);
+  }
+
+ private:
+  void visit_map(const YAML::Node& node, int depth) {
+    std::set<std::string> seen;
+    for (const auto& entry : node) {
+      if (!entry.first.IsScalar()) fail(entry.first, "a key must be a plain word");
+      const std::string key = entry.first.Scalar();
+      if (key == "<<") fail(entry.first, "merge keys (<<) are not supported; write the keys out");
+      if (!seen.insert(key).second)
+        fail(entry.first, fmt::format("key '{}' stands twice in the same section; keep one", key));
+      visit(entry.second, depth + 1);
+    }
+  }
+
+  [[noreturn]] void fail(const YAML::Node& node, const std::string& message) const {
+    throw ConfigError(mark_text(file_, node.Mark()) + ": " + message);
+  }
+
+  std::string file_;
+  long visited_ = 0;
+};
+
+// Joins other files into sections that say `include`.
+class Inclusion {
+ public:
+  explicit Inclusion(const YAML::Node& root) : root_(root) {}
+
+  // Changes the node; returns where what was joined came from.
+  Origins resolve(YAML::Node node, const std::string& path, const std::string& file) {
+    Origins origins;
+    for (const auto& [key, child] : children(node)) origins.merge(resolve(child, child_path(path, key), file));
+    if (!node.IsMap() || !node[kKey].IsDefined()) return origins;
+    const YAML::Node named = node[kKey];
+    if (occurrences(root_, node) > 1) fail(named, file, "stands in several places by an alias; write the section out");
+    node.remove(kKey);
+    if (named.IsScalar()) join(node, path, file, named, origins);
+    else if (!named.IsSequence()) fail(named, file, "expected a file, or a list of files");
+    else for (std::size_t i = named.size(); i-- > 0;) join(node, path, file, named[i], origins);
+    return origins;
+  }
+
+ private:
+  static constexpr const char* kKey = "include";
+
+  [[noreturn]] static void fail(const YAML::Node& node, const std::string& file, const std::string& message) {
+    throw ConfigError(fmt::format("{}: {}: {}", mark_text(file, node.Mark()), kKey, message));
+  }
+
+  static std::vector<std::pair<std::string, YAML::Node>> children(const YAML::Node& node) {
+    std::vector<std::pair<std::string, YAML::Node>> out;
+    if (node.IsMap())
+      for (const auto& entry : node) out.emplace_back(entry.first.Scalar(), entry.second);
+    if (node.IsSequence())
+      for (std::size_t i = 0; i < node.size(); ++i) out.emplace_back(std::to_string(i), node[i]);
+    return out;
+  }
+
+  void join(YAML::Node& node, const std::string& path, const std::string& file, const YAML::Node& named,
+            Origins& origins) {
+    namespace fs = std::filesystem;
+    if (!named.IsScalar()) fail(named, file, "expected the name of a file");
+    const std::string other = (fs::path(file).parent_path() / named.Scalar()).string();
+    if (!fs::is_regular_file(other)) fail(named, file, "no such file: " + other);
+    const std::string identity = fs::weakly_canonical(other).string();
+    if (std::find(open_.begin(), open_.end(), identity) != open_.end())
+      fail(named, file, other + " includes itself");
+    open_.push_back(identity);
+    const YAML::Node content = parse_yaml(read_yaml_file(other), other);
+    if (!content.IsMap()) fail(named, file, other + " holds no section of keys");
+    const YAML::Node outer = root_;
+    root_.reset(content);
+    const Origins theirs = resolve(content, path, other);
+    root_.reset(outer);
+    open_.pop_back();
+    add_missing(node, content, path, other, theirs, origins);
+  }
+
+  static void add_missing(YAML::Node into, const YAML::Node& from, const std::string& path, const std::string& file,
+                          const Origins& theirs, Origins& origins) {
+    for (const auto& [key, child] : children(from)) {
+      const YAML::Node& own = into;
+      const std::string place = child_path(path, key);
+      if (!own[key].IsDefined()) {
+        into[key] = child;
+        origins[place] = file;
+        for (auto it = theirs.lower_bound(place); it != theirs.end() && it->first.starts_with(place); ++it)
+          if (it->first == place || it->first[place.size()] == '.') origins[it->first] = it->second;
+      } else if (own[key].IsMap() && child.IsMap()) {
+        add_missing(into[key], child, place, file, theirs, origins);
+      }
+    }
+  }
+
+  YAML::Node root_;                // of the file being read
+  std::vector<std::string> open_;  // files being read, outermost first
+};
+
+}  // namespace
+
+std::string mark_text(const std::string& file, const YAML::Mark& mark) {
+  if (mark.is_null()) return file;
+  return fmt::format("{}:{}:{}", file, mark.line + 1, mark.column + 1);
+}
+
+std::string read_yaml_file(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code ec;
+  if (!fs::exists(path, ec)) throw ConfigError(path + ": no such file");
+  if (fs::is_directory(path, ec)) throw ConfigError(path + ": is a folder, expected a YAML file");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw ConfigError(path + ": cannot be opened for reading");
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+YAML::Node parse_yaml(const std::string& text, const std::string& file) {
+  try {
+    auto documents = YAML::LoadAll(text);
+    if (documents.empty()) throw ConfigError(file + ": the file is empty");
+    if (documents.size() > 1)
+      throw ConfigError(file + ": more than one YAML document; keep what stands before '---'");
+    StructureCheck(file).visit(documents[0], 0);
+    return documents[0];
+  } catch (const YAML::Exception& e) {
+    throw ConfigError(
+        fmt::format("{}: not YAML: {}", mark_text(file, e.mark), e.msg));
+  }
+}
+
+std::string child_path(const std::string& parent, const std::string& key) {
+  return parent.empty() ? key : parent + "." + key;
+}
+
+int occurrences(const YAML::Node& root, const YAML::Node& node) {
+  int count = root.is(node) ? 1 : 0;
+  if (root.IsSequence())
+    for (const auto& child : root) count += occurrences(child, node);
+  if (root.IsMap())
+    for (const auto& entry : root) count += occurrences(entry.second, node);
+  return count;
+}
+
+Origins resolve_includes(YAML::Node root, const std::string& file) { return Inclusion(root).resolve(root, "", file); }
+
+}  // namespace orthodyn

@@ -1,0 +1,27 @@
+#include "lib/fem/terms/dead_load.h"
+
+namespace orthodyn {
+
+DeadLoad::DeadLoad(std::string description, NodalForces forces, std::shared_ptr<const TimeFunction> factor)
+    : description_(std::move(description)), forces_(std::move(forces)), factor_(std::move(factor)) {}
+
+void DeadLoad::add_force(const NodalState& s, NodalVector& f) const {
+  const double factor = factor_->value(s.t);
+  for (const auto& [node, force] : forces_) f.col(node) += factor * force;
+}
+
+void DeadLoad::add_peak_force(const NodalState&, NodalVector& f) const {
+  for (const auto& [node, force] : forces_) f.col(node) += factor_->peak() * force;
+}
+
+double DeadLoad::load_power(const NodalState& s) const {
+  double power = 0;
+  for (const auto& [node, force] : forces_) power += force.dot(s.v.col(node));
+  return factor_->value(s.t) * power;
+}
+
+std::vector<double> DeadLoad::breakpoints(double start, double end) const {
+  return times_between(factor_->kinks(), start, end);
+}
+
+}  // namespace orthodyn

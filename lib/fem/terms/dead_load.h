@@ -1,0 +1,31 @@
+// Forces on nodes that keep their direction: f_i = factor(t) F_i.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lib/fem/surface.h"
+#include "lib/fem/term.h"
+#include "lib/fem/time_functions/time_function.h"
+
+namespace orthodyn {
+
+class DeadLoad : public Term {
+ public:
+  // forces: at factor 1.
+  DeadLoad(std::string description, NodalForces forces, std::shared_ptr<const TimeFunction> factor);
+
+  std::string description() const override { return description_; }
+  void add_force(const NodalState& s, NodalVector& f) const override;
+  void add_peak_force(const NodalState& s, NodalVector& f) const override;
+  double load_power(const NodalState& s) const override;
+  std::vector<double> breakpoints(double start, double end) const override;
+
+ private:
+  std::string description_;
+  NodalForces forces_;
+  std::shared_ptr<const TimeFunction> factor_;
+};
+
+}  // namespace orthodyn

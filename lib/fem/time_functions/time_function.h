@@ -1,0 +1,26 @@
+// A factor in time, for loads and for the motion of supports. One kind per file, chosen by `type`.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "lib/config/registry.h"
+
+namespace orthodyn {
+
+class TimeFunction {
+ public:
+  virtual ~TimeFunction() = default;
+  virtual double value(double t) const = 0;
+  virtual double rate(double t) const = 0;       // 1/s; at a jump, from the right
+  virtual double curvature(double t) const = 0;  // 1/s^2, likewise
+  virtual bool constant() const { return false; }
+  virtual std::vector<double> kinks() const { return {}; }                 // where it is not smooth
+  virtual bool has_continuous_rate() const { return kinks().empty(); }
+  virtual double peak() const = 0;  // the largest magnitude it reaches
+};
+
+// The times of `all` within (start, end).
+std::vector<double> times_between(const std::vector<double>& all, double start, double end);
+
+}  // namespace orthodyn

@@ -1,0 +1,307 @@
+#include "lib/mesh/io/abaqus_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+#include <utility>
+
+#include "lib/mesh/io/text_tokens.h"
+
+namespace orthodyn {
+namespace {
+
+std::string stripped(std::string_view text) {
+  const auto is_edge = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '"'; };
+  while (!text.empty() && is_edge(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_edge(text.back())) text.remove_suffix(1);
+  return std::string(text);
+}
+
+// The next comma that does not stand in quotes; a quote that nothing closes is a character like others.
+std::size_t next_comma(std::string_view line) {
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    if (line[k] == ',') return k;
+    if (line[k] != '"') continue;
+    const std::size_t close = line.find('"', k + 1);
+    if (close == std::string_view::npos) return std::min(line.find(',', k), line.size());
+    k = close;
+  }
+  return line.size();
+}
+
+std::vector<std::string> fields_of(std::string_view line) {
+  std::vector<std::string> fields;
+  for (;;) {
+    const std::size_t comma = next_comma(line);
+    fields.push_back(stripped(line.substr(0, comma)));
+    if (comma == line.size()) return fields;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+// "*ELEMENT, TYPE=C3D4, ELSET=body"
+struct Keyword {
+  std::string name = {};  // in capitals, without the star
+  std::map<std::string, std::string> parameters = {};
+  FilePlace place = {};
+
+  std::string parameter(const std::string& key) const {
+    const auto found = parameters.find(key);
+    return found == parameters.end() ? "" : found->second;
+  }
+};
+
+// Three-node elements of planes, shells, membranes and rigid bodies.
+bool is_triangle(const std::string& type) {
+  for (const char* start : {"CPS3", "CPE3", "CPEG3", "CAX3", "S3", "STRI3", "M3D3", "R3D3", "DS3", "SFM3D3", "DC2D3"}) {
+    if (type.starts_with(start) && type.find_first_of("0123456789", std::string(start).size()) == std::string::npos) return true;
+  }
+  return false;
+}
+
+class AbaqusReader {
+ public:
+  AbaqusReader(const std::string& path, std::string_view text) : tokens_(path, text, {.commas = true, .comment = "**"}) {
+    file_.draft.files = {path};
+    file_.draft.nodes_section = "*NODE";
+  }
+
+  AbaqusFile read() {
+    if (!tokens_.at_end() && tokens_.peek() != '*') {
+      tokens_.fail(fmt::format("expected a keyword (*NODE), found {}; this is not an Abaqus input file (.inp)",
+                               TextTokens::quoted(tokens_.word("a keyword"))));
+    }
+    while (!tokens_.at_end()) read_keyword(next_keyword());
+    warn_of_skipped();
+    return std::move(file_);
+  }
+
+ private:
+  // A line that ends with a comma goes on in the next one.
+  Keyword next_keyword() {
+    Keyword keyword{.place = {tokens_.line()}};
+    std::vector<std::string> fields = fields_of(tokens_.rest_of_line());
+    tokens_.skip_line();
+    while (fields.size() > 1 && fields.back().empty() && !at_keyword()) {
+      fields.pop_back();
+      for (std::string& field : fields_of(tokens_.rest_of_line())) fields.push_back(std::move(field));
+      tokens_.skip_line();
+    }
+    keyword.name = in_capitals(stripped(std::string_view(fields[0]).substr(1)));
+    for (std::size_t k = 1; k < fields.size(); ++k) {
+      const std::size_t equals = std::min(fields[k].find('='), fields[k].size());
+      const std::string value = equals < fields[k].size() ? stripped(std::string_view(fields[k]).substr(equals + 1)) : "";
+      keyword.parameters[in_capitals(stripped(std::string_view(fields[k]).substr(0, equals)))] = value;
+    }
+    return keyword;
+  }
+
+  bool at_keyword() { return tokens_.at_end() || tokens_.peek() == '*'; }
+
+  void read_keyword(const Keyword& keyword) {
+    const std::string& name = keyword.name;
+    if (name == "NODE") return read_nodes(keyword);
+    if (name == "ELEMENT") return read_elements(keyword);
+    if (name == "NSET") return read_set(keyword, "NSET", file_.node_sets);
+    if (name == "ELSET") return read_set(keyword, "ELSET", file_.element_sets);
+    if (name == "SURFACE") return read_surface(keyword);
+    if (name == "SOLID SECTION") {
+      file_.sections.push_back({.set = set_name(keyword.parameter("ELSET")), .place = keyword.place});
+      return skip_data();
+    }
+    if (name == "PART" || name == "INSTANCE") return read_part(keyword);
+    if (name == "END PART" || name == "END INSTANCE" || name == "ASSEMBLY" || name == "END ASSEMBLY" ||
+        name == "HEADING" || name == "PREPRINT") {
+      return skip_data();
+    }
+    refuse_what_makes_nodes(keyword);
+    skipped_.insert("*" + name);
+    skip_data();
+  }
+
+  void refuse_what_makes_nodes(const Keyword& keyword) const {
+    if (keyword.name == "INCLUDE") {
+      file_.draft.fail(keyword.place, "*INCLUDE is not read; put the included lines in its place");
+    }
+    for (const char* name : {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "SUBMODEL"}) {
+      if (keyword.name == name) {
+        file_.draft.fail(keyword.place, fmt::format("*{} is not read; write the nodes and elements themselves, in global coordinates", name));
+      }
+    }
+  }
+
+  void read_part(const Keyword& keyword) {
+    if (++parts_[keyword.name] > 1) {
+      file_.draft.fail(keyword.place, fmt::format("a second *{}; only one is read: write the model without parts and assemblies "
+                                                  "(Abaqus/CAE: Model attributes, \"Do not use parts and assemblies in input files\")",
+                                                  keyword.name));
+    }
+    if (keyword.name == "INSTANCE" && !at_keyword()) {
+      tokens_.fail("an instance that is moved; write the nodes in global coordinates, without parts and assemblies");
+    }
+    skip_data();
+  }
+
+  void skip_data() {
+    while (!at_keyword()) tokens_.skip_line();
+  }
+
+  void read_nodes(const Keyword& keyword) {
+    const std::string set = keyword.parameter("NSET");
+    while (!at_keyword()) {
+      FileNode node;
+      node.place.line = tokens_.line();
+      node.tag = tokens_.integer("the number of a node");
+      for (double& x : node.x) x = tokens_.real("a coordinate");
+      tokens_.skip_line();  // direction cosines may follow
+      file_.draft.nodes.push_back(node);
+      if (!set.empty()) add({node.tag, node.tag, 1, "", node.place}, set, file_.node_sets);
+    }
+  }
+
+  void read_elements(const Keyword& keyword) {
+    const std::string type = in_capitals(keyword.parameter("TYPE"));
+    const std::string set = keyword.parameter("ELSET");
+    if (type == "C3D4" || type == "C3D4H") {
+      while (!at_keyword()) read_element(file_.draft.tets, set);
+    } else if (is_triangle(type)) {
+      while (!at_keyword()) read_element(file_.triangles, set);
+    } else if (type.empty() || type.find("3D") != std::string::npos) {
+      // Trusses and beams in space have 3D in their names, too.
+      if (type.starts_with("T3D") || type.starts_with("R3D") || type.starts_with("M3D")) return ignore(type);
+      file_.draft.fail(keyword.place, fmt::format("elements of type {}; only linear tetrahedra (C3D4) are read: mesh again with these",
+                                                  type.empty() ? "(none given)" : type));
+    } else {
+      ignore(type);
+    }
+  }
+
+  void ignore(const std::string& type) {
+    skipped_.insert("elements " + TextTokens::quoted(type));
+    skip_data();
+  }
+
+  // The nodes may go on in the next line.
+  template <class Element>
+  void read_element(std::vector<Element>& elements, const std::string& set) {
+    Element element;
+    element.place.line = tokens_.line();
+    element.tag = tokens_.integer("the number of an element");
+    for (std::int64_t& node : element.nodes) {
+      if (tokens_.peek() == '\0') tokens_.skip_line();
+      if (at_keyword()) tokens_.fail(fmt::format("element {} ends early; is the file truncated?", element.tag));
+      node = tokens_.integer("a node");
+    }
+    tokens_.finish_line();
+    elements.push_back(element);
+    if (!set.empty()) add({element.tag, element.tag, 1, "", element.place}, set, file_.element_sets);
+  }
+
+  // Names of an instance's sets carry its name: "PART-1-1.SIDE".
+  static std::string set_name(const std::string& name) {
+    const std::size_t dot = name.rfind('.');
+    return in_capitals(dot == std::string::npos ? name : name.substr(dot + 1));
+  }
+
+  void add(AbaqusMembers members, const std::string& name, AbaqusSets& sets) {
+    AbaqusSet& set = sets.try_emplace(in_capitals(name), AbaqusSet{name, {}, 0}).first->second;
+    set.order = ++order_;
+    // Consecutive numbers of one keyword need no more room than a range.
+    if (!set.members.empty() && members.set.empty()) {
+      AbaqusMembers& last = set.members.back();
+      if (last.set.empty() && last.step == 1 && members.step == 1 && members.first == members.last &&
+          members.first > last.last && members.first - 1 == last.last) {
+        last.last = members.last;
+        return;
+      }
+    }
+    set.members.push_back(std::move(members));
+  }
+
+  void read_set(const Keyword& keyword, const char* parameter, AbaqusSets& sets) {
+    const std::string name = keyword.parameter(parameter);
+    if (name.empty()) file_.draft.fail(keyword.place, fmt::format("*{} without {}=name", keyword.name, parameter));
+    sets.try_emplace(in_capitals(name), AbaqusSet{name, {}, ++order_});
+    const bool generate = keyword.parameters.contains("GENERATE");
+    while (!at_keyword()) {
+      if (generate) {
+        add(read_range(), name, sets);
+        tokens_.finish_line();
+        continue;
+      }
+      while (tokens_.peek() != '\0') add(read_member(), name, sets);
+      tokens_.skip_line();
+    }
+  }
+
+  AbaqusMembers read_range() {
+    AbaqusMembers range{.place = {tokens_.line()}};
+    range.first = tokens_.integer("the first number");
+    range.last = tokens_.integer("the last number");
+    if (tokens_.peek() != '\0') range.step = tokens_.integer("the increment");
+    if (range.step == 0 && range.first == range.last) range.step = 1;
+    if (range.step < 1 || range.first < 0 || range.last < range.first) {
+      tokens_.fail(fmt::format("from {} to {} by {}; the numbers must ascend", range.first, range.last, range.step));
+    }
+    return range;
+  }
+
+  AbaqusMembers read_member() {
+    AbaqusMembers member{.place = {tokens_.line()}};
+    const char first = tokens_.peek();
+    if (std::isdigit(static_cast<unsigned char>(first)) || first == '-' || first == '+') {
+      member.first = member.last = tokens_.integer("a number");
+    } else {
+      member.set = set_name(stripped(tokens_.word("a set")));
+    }
+    return member;
+  }
+
+  void read_surface(const Keyword& keyword) {
+    const std::string name = keyword.parameter("NAME");
+    const std::string type = in_capitals(keyword.parameter("TYPE"));
+    if (name.empty()) file_.draft.fail(keyword.place, "*SURFACE without NAME=name");
+    if (!type.empty() && type != "ELEMENT") {
+      skipped_.insert("*SURFACE of type " + TextTokens::quoted(type));
+      return skip_data();
+    }
+    AbaqusSurface& surface = file_.surfaces.try_emplace(in_capitals(name), AbaqusSurface{name, {}}).first->second;
+    while (!at_keyword()) {
+      AbaqusFace face{.elements = read_member()};
+      if (tokens_.peek() == '\0') tokens_.fail("a surface of elements without a face; give S1, S2, S3 or S4");
+      const std::string side = in_capitals(std::string(tokens_.word("a face")));
+      if (side.size() != 2 || side[0] != 'S' || side[1] < '1' || side[1] > '4') {
+        tokens_.fail(fmt::format("face {}; a tetrahedron has S1, S2, S3, S4", TextTokens::quoted(side)));
+      }
+      face.side = side[1] - '1';
+      tokens_.finish_line();
+      surface.faces.push_back(std::move(face));
+    }
+  }
+
+  void warn_of_skipped() {
+    if (skipped_.empty()) return;
+    std::string all;
+    for (const std::string& what : skipped_) all += (all.empty() ? "" : ", ") + what;
+    file_.draft.warnings.push_back(fmt::format("{}: only the mesh is read; skipped: {}", tokens_.path(), all));
+  }
+
+  TextTokens tokens_;
+  AbaqusFile file_;
+  std::map<std::string, int> parts_;
+  std::set<std::string> skipped_;
+  int order_ = 0;
+};
+
+}  // namespace
+
+std::string in_capitals(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+AbaqusFile read_abaqus_keywords(const std::string& path, std::string_view text) { return AbaqusReader(path, text).read(); }
+
+}  // namespace orthodyn

@@ -1,0 +1,223 @@
+#include "lib/mesh/io/gmsh_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <string_view>
+
+namespace orthodyn {
+namespace {
+
+constexpr const char* kConvert =
+    "save it as ASCII 2.2 or 4.1: \"gmsh in.msh -save -format msh22 -o out.msh\"";
+
+GmshSection begin_section(TextTokens& tokens) {
+  const int line = tokens.line();
+  const std::string_view word = tokens.word("a section");
+  if (word.size() < 2 || word[0] != '$') {
+    tokens.fail(
+        fmt::format("expected the start of a section ($...), found {}", TextTokens::quoted(word)));
+  }
+  GmshSection section{std::string(word.substr(1)), line};
+  tokens.finish_line();
+  return section;
+}
+
+void skip_section(TextTokens& tokens, const GmshSection& section) {
+  const std::string end = "$End" + section.name;
+  while (!tokens.at_end()) {
+    const bool ended = tokens.word("a word") == end;
+    tokens.skip_line();
+    if (ended) return;
+  }
+  tokens.fail(fmt::format("the file ends inside {} (line {}); is it truncated?",
+                          TextTokens::quoted("$" + section.name), section.line));
+}
+
+// The text between the first and the last quote: names may hold blanks and quotes.
+std::string read_name(TextTokens& tokens) {
+  tokens.peek();
+  std::string_view rest = tokens.rest_of_line();
+  const std::size_t last = rest.find_last_not_of(" \t\r");
+  rest = rest.substr(0, last == std::string_view::npos ? 0 : last + 1);
+  if (rest.size() < 2 || rest.front() != '"' || rest.back() != '"') {
+    tokens.fail(fmt::format("expected a name in quotes, found {}", TextTokens::quoted(rest)));
+  }
+  return std::string(rest.substr(1, rest.size() - 2));
+}
+
+void read_physical_names(TextTokens& tokens, const GmshSection& section, GmshFile& file) {
+  const std::int64_t announced = tokens.count("the number of physical names");
+  tokens.finish_line();
+  for (std::int64_t i = 0; i < announced; ++i) {
+    expect_record(tokens, section, i, announced, "names");
+    const std::int64_t dim = tokens.integer("the dimension of a physical group");
+    if (dim < 0 || dim > 3) tokens.fail(fmt::format("dimension {}; expected 0 to 3", dim));
+    const int tag = read_tag(tokens, "the tag of a physical group");
+    if (!file.names.emplace(GmshFile::DimTag(static_cast<int>(dim), tag), read_name(tokens))
+             .second) {
+      tokens.fail(fmt::format("physical group {} of dimension {} is named twice", tag, dim));
+    }
+    tokens.skip_line();
+  }
+  end_section(tokens, section);
+}
+
+[[noreturn]] void refuse_version(const TextTokens& tokens, int line, const std::string& version) {
+  tokens.fail_at(line,
+                 fmt::format("Gmsh format {}; only 2.2 and 4.1 are read; {}", version, kConvert));
+}
+
+// Leaves the cursor behind $EndMeshFormat.
+GmshSectionReaders read_format(TextTokens& tokens, const GmshSection& section) {
+  const double version = tokens.real("the version of the format");
+  const std::int64_t binary = tokens.integer("the file type (0 = ASCII)");
+  if (version != 2.2 && version != 4.1) {
+    refuse_version(tokens, tokens.line(), fmt::format("{}", version));
+  };
+  if (binary != 0) tokens.fail(fmt::format("a binary file; {}", kConvert));
+  tokens.integer("the size of numbers");
+  tokens.finish_line();
+  end_section(tokens, section);
+  return version == 2.2 ? gmsh_v2_sections() : gmsh_v4_sections();
+}
+
+// Gmsh allows $Comments before $MeshFormat.
+GmshSection find_format(TextTokens& tokens) {
+  while (!tokens.at_end()) {
+    if (tokens.peek() != '$') break;
+    GmshSection section = begin_section(tokens);
+    if (section.name == "MeshFormat") return section;
+    if (section.name == "NOD") refuse_version(tokens, section.line, "1");
+    skip_section(tokens, section);
+  }
+  tokens.fail("no $MeshFormat: this is not a Gmsh mesh file (.msh)");
+}
+
+}  // namespace
+
+GmshFile read_gmsh_sections(TextTokens& tokens) {
+  GmshSectionReaders readers = read_format(tokens, find_format(tokens));
+  readers["PhysicalNames"] = read_physical_names;
+  GmshFile file;
+  while (!tokens.at_end()) {
+    const GmshSection section = begin_section(tokens);
+    const auto reader = readers.find(section.name);
+    if (reader == readers.end()) {
+      skip_section(tokens, section);
+      continue;
+    }
+    const auto [first, is_new] = file.section_lines.emplace(section.name, section.line);
+    if (!is_new) {
+      tokens.fail_at(section.line, fmt::format("a second ${} (the first is in line {})",
+                                               section.name, first->second));
+    }
+    reader->second(tokens, section, file);
+  }
+  return file;
+}
+
+int read_tag(TextTokens& tokens, const char* what) {
+  const std::int64_t tag = tokens.integer(what);
+  constexpr std::int64_t kMax = std::numeric_limits<int>::max();
+  if (tag < -kMax || tag > kMax) {
+    tokens.fail(fmt::format("{} is {}; at most {} is allowed", what, tag, kMax));
+  }
+  return static_cast<int>(tag);
+}
+
+void expect_record(TextTokens& tokens, const GmshSection& section, std::int64_t done,
+                   std::int64_t announced, const char* records) {
+  if (tokens.at_end()) {
+    tokens.fail(fmt::format("the file ends after {} of {} {} (${} in line {}); is it truncated?",
+                            done, announced, records, section.name, section.line));
+  }
+  if (tokens.peek() == '$') {
+    tokens.fail(fmt::format("found {} after {} of the {} {} announced (${} in line {})",
+                            TextTokens::quoted(tokens.word("a word")), done, announced, records,
+                            section.name, section.line));
+  }
+}
+
+void end_section(TextTokens& tokens, const GmshSection& section) {
+  const std::string end = "$End" + section.name;
+  const std::string_view found = tokens.word(end.c_str());
+  if (found != end) {
+    tokens.fail(
+        fmt::format("expected {}, found {}; the count at the start of the section (line {}) "
+                    "may be too small",
+                    end, TextTokens::quoted(found), section.line));
+  }
+  tokens.finish_line();
+}
+
+int intern_groups(GmshFile& file, std::vector<int> groups) {
+  std::sort(groups.begin(), groups.end());
+  groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+  const auto [entry, is_new] =
+      file.group_set_index.emplace(groups, static_cast<int>(file.group_sets.size()));
+  if (is_new) file.group_sets.push_back(std::move(groups));
+  return entry->second;
+}
+
+GmshKind check_element_type(const TextTokens& tokens, std::int64_t type) {
+  switch (type) {
+    case 1:
+    case 8:
+    case 26:
+    case 27:
+    case 28:  // lines of any order
+      return GmshKind::ignored;
+    case 15:
+      return GmshKind::point;
+    case 2:
+      return GmshKind::triangle;
+    case 4:
+      return GmshKind::tet;
+    case 3:
+    case 5:
+    case 6:
+    case 7: {
+      const char* name = type == 3   ? "quadrangle"
+                         : type == 5 ? "hexahedron"
+                         : type == 6 ? "prism"
+                                     : "pyramid";
+      tokens.fail(
+          fmt::format("a {} (element type {}); only tetrahedra are read: mesh again without "
+                      "\"Recombine\"",
+                      name, type));
+    }
+    case 9:
+    case 11:
+      tokens.fail(
+          fmt::format("a second-order {} (element type {}); only linear tetrahedra are read: "
+                      "set Mesh.ElementOrder = 1 (gmsh -order 1) and mesh again",
+                      type == 9 ? "triangle" : "tetrahedron", type));
+    default:
+      tokens.fail(
+          fmt::format("element type {}; only linear tetrahedra (4) with triangles (2), lines "
+                      "and points are read: set Mesh.ElementOrder = 1 and mesh again without "
+                      "\"Recombine\"",
+                      type));
+  }
+}
+
+void read_element_nodes(TextTokens& tokens, GmshKind kind, std::int64_t tag, int groups,
+                        GmshFile& file) {
+  const int line = tokens.line();
+  const auto read = [&]<std::size_t N>(std::vector<GmshElement<N>>& elements) {
+    GmshElement<N> element{tag, {}, line, groups};
+    for (std::int64_t& node : element.nodes) node = tokens.integer("a node tag");
+    tokens.finish_line();
+    elements.push_back(element);
+  };
+  if (kind == GmshKind::tet) return read(file.tets);
+  // A triangle of no surface, or a point of no set, is of no use.
+  const bool grouped = !file.group_sets[static_cast<std::size_t>(groups)].empty();
+  if (kind == GmshKind::triangle && grouped) return read(file.triangles);
+  if (kind == GmshKind::point && grouped) return read(file.points);
+  tokens.skip_line();
+}
+
+}  // namespace orthodyn

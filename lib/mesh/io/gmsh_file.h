@@ -1,0 +1,85 @@
+// What a Gmsh file says, before it becomes a TetMesh: tags instead of indices, and the line of
+// everything. Filled by the readers of the formats, turned into a mesh by read_gmsh().
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lib/mesh/mesh_draft.h"
+#include "lib/mesh/io/text_tokens.h"
+
+namespace orthodyn {
+
+template <std::size_t N>
+struct GmshElement {
+  std::int64_t tag;
+  std::array<std::int64_t, N> nodes;
+  int line;
+  int groups;  // index into GmshFile::group_sets
+};
+
+struct GmshFile {
+  using DimTag = std::pair<int, int>;
+
+  std::map<DimTag, std::string> names;  // of physical groups
+  std::vector<FileNode> nodes;
+  std::vector<GmshElement<1>> points;     // only those in a physical point
+  std::vector<GmshElement<3>> triangles;  // only those in a physical surface
+  std::vector<GmshElement<4>> tets;
+  // Sets of physical tags that elements refer to; ascending, no duplicates. The first is empty.
+  // Negative where the group is oriented against the element.
+  std::vector<std::vector<int>> group_sets = {{}};
+  std::map<std::vector<int>, int> group_set_index = {{{}, 0}};
+  std::map<std::string, int> section_lines;  // where each section began
+
+  // 4.1 only: the group set of each model entity.
+  std::map<DimTag, int> entity_groups;
+};
+
+// `$Nodes` and the line it is on.
+struct GmshSection {
+  std::string name;
+  int line;
+};
+
+using GmshSectionReader = std::function<void(TextTokens&, const GmshSection&, GmshFile&)>;
+using GmshSectionReaders = std::map<std::string, GmshSectionReader>;
+
+GmshSectionReaders gmsh_v2_sections();
+GmshSectionReaders gmsh_v4_sections();
+
+// Reads $MeshFormat, chooses the readers by version, and reads all sections; unknown ones are
+// skipped.
+GmshFile read_gmsh_sections(TextTokens& tokens);
+
+// Of use to both formats. ---------------------------------------------------------------------
+
+// The tag of a model entity or physical group.
+int read_tag(TextTokens& tokens, const char* what);
+
+// Before each record of a list: the section must not be over while `done` of `announced` are read.
+void expect_record(TextTokens& tokens, const GmshSection& section, std::int64_t done,
+                   std::int64_t announced, const char* records);
+
+// The line `$End<name>`.
+void end_section(TextTokens& tokens, const GmshSection& section);
+
+// The index of this set of physical tags in group_sets.
+int intern_groups(GmshFile& file, std::vector<int> groups);
+
+enum class GmshKind { ignored, point, triangle, tet };
+
+// Refuses everything but points, lines, triangles and linear tets.
+GmshKind check_element_type(const TextTokens& tokens, std::int64_t type);
+
+// Reads the nodes of an element up to the end of the line.
+void read_element_nodes(TextTokens& tokens, GmshKind kind, std::int64_t tag, int groups,
+                        GmshFile& file);
+
+}  // namespace orthodyn

@@ -1,0 +1,132 @@
+#include "lib/mesh/io/tetgen.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include "lib/mesh/mesh_draft.h"
+#include "lib/mesh/io/text_file.h"
+#include "lib/mesh/io/text_tokens.h"
+
+namespace orthodyn {
+namespace {
+
+class TetgenReader {
+ public:
+  explicit TetgenReader(const std::string& stem) {
+    draft_.files = {stem + ".node", stem + ".ele", stem + ".face"};
+    draft_.nodes_section = draft_.files[0];
+  }
+
+  MeshDraft read(const TetgenTexts& texts) {
+    read_nodes(texts.node);
+    read_elements(texts.ele);
+    if (!texts.face.empty()) read_faces(texts.face);
+    return std::move(draft_);
+  }
+
+ private:
+  // Calls `record` with the tokens on each of the announced lines; nothing may follow.
+  template <class Record>
+  void read_records(TextTokens& tokens, std::int64_t announced, const char* what, Record&& record) {
+    for (std::int64_t i = 0; i < announced; ++i) {
+      if (tokens.at_end()) tokens.fail(fmt::format("the file ends after {} of {} {}; is it truncated?", i, announced, what));
+      record();
+      tokens.finish_line();
+    }
+    if (!tokens.at_end()) {
+      tokens.fail(fmt::format("expected the end of the file after {} {}, found {}", announced, what,
+                              TextTokens::quoted(tokens.word("a word"))));
+    }
+  }
+
+  void read_nodes(std::string_view text) {
+    TextTokens tokens(draft_.files[0], text, {.comment = "#"});
+    const std::int64_t count = tokens.count("the number of nodes");
+    const std::int64_t dimension = tokens.integer("the dimension");
+    if (dimension != 3) tokens.fail(fmt::format("dimension {}; expected 3", dimension));
+    const std::int64_t attributes = tokens.peek() ? tokens.count("the number of attributes") : 0;
+    const bool markers = tokens.peek() && read_flag(tokens);
+    tokens.finish_line();
+    read_records(tokens, count, "nodes", [&] {
+      FileNode node{.tag = 0, .place = {tokens.line(), 0}};
+      node.tag = tokens.integer("the number of a node");
+      for (double& x : node.x) x = tokens.real("a coordinate");
+      for (std::int64_t k = 0; k < attributes; ++k) tokens.real("an attribute");
+      if (markers) {
+        if (const std::int64_t marker = tokens.integer("a marker"); marker != 0) {
+          draft_.node_sets[fmt::format("marker{}", marker)].push_back({node.tag, node.place});
+        }
+      }
+      draft_.nodes.push_back(node);
+    });
+  }
+
+  void read_elements(std::string_view text) {
+    TextTokens tokens(draft_.files[1], text, {.comment = "#"});
+    const std::int64_t count = tokens.count("the number of tetrahedra");
+    const std::int64_t nodes = tokens.integer("the nodes per tetrahedron");
+    if (nodes != 4) {
+      tokens.fail(fmt::format("{} nodes per tetrahedron; only linear ones (4) are read: run tetgen without -o2", nodes));
+    }
+    const std::int64_t attributes = tokens.peek() ? tokens.count("the number of attributes") : 0;
+    tokens.finish_line();
+    if (count == 0) tokens.fail("no tetrahedra");
+    read_records(tokens, count, "tetrahedra", [&] {
+      FileTet tet{.tag = 0, .nodes = {}, .place = {tokens.line(), 1}};
+      tet.tag = tokens.integer("the number of a tetrahedron");
+      for (std::int64_t& node : tet.nodes) node = tokens.integer("a node");
+      tet.region = region_of(attributes > 0 ? fmt::format("region{}", tokens.real("the attribute of a region")) : "body");
+      for (std::int64_t k = 1; k < attributes; ++k) tokens.real("an attribute");
+      draft_.tets.push_back(tet);
+    });
+  }
+
+  void read_faces(std::string_view text) {
+    TextTokens tokens(draft_.files[2], text, {.comment = "#"});
+    const std::int64_t count = tokens.count("the number of faces");
+    const bool markers = tokens.peek() && read_flag(tokens);
+    tokens.finish_line();
+    read_records(tokens, count, "faces", [&] {
+      FileTriangle face{.tag = 0, .nodes = {}, .place = {tokens.line(), 2}};
+      face.tag = tokens.integer("the number of a face");
+      for (std::int64_t& node : face.nodes) node = tokens.integer("a node");
+      const std::int64_t marker = markers ? tokens.integer("a marker") : 0;
+      while (tokens.peek()) tokens.integer("a neighbour");  // with tetgen -nn
+      if (marker != 0) draft_.surfaces[fmt::format("marker{}", marker)].push_back(face);
+    });
+  }
+
+  static bool read_flag(TextTokens& tokens) {
+    const std::int64_t flag = tokens.integer("0 or 1 (markers)");
+    if (flag != 0 && flag != 1) tokens.fail(fmt::format("{} markers; expected 0 or 1", flag));
+    return flag == 1;
+  }
+
+  int region_of(const std::string& name) {
+    const auto [entry, is_new] = regions_.emplace(name, static_cast<int>(regions_.size()));
+    if (is_new) draft_.region_names.push_back(name);
+    return entry->second;
+  }
+
+  MeshDraft draft_;
+  std::map<std::string, int> regions_;
+};
+
+}  // namespace
+
+LoadedMesh read_tetgen(const std::string& path) {
+  const std::string stem = std::filesystem::path(path).replace_extension().string();
+  const std::string node = read_text_file(stem + ".node");
+  const std::string ele = read_text_file(stem + ".ele");
+  const std::string face = std::filesystem::exists(stem + ".face") ? read_text_file(stem + ".face") : "";
+  return read_tetgen_text(stem, {node, ele, face});
+}
+
+LoadedMesh read_tetgen_text(const std::string& stem, const TetgenTexts& texts) {
+  return build_mesh(TetgenReader(stem).read(texts));
+}
+
+}  // namespace orthodyn

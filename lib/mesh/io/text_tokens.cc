@@ -1,0 +1,123 @@
+#include "lib/mesh/io/text_tokens.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lib/core/errors.h"
+#include "lib/core/parse_number.h"
+
+namespace orthodyn {
+namespace {
+
+}  // namespace
+
+TextTokens::TextTokens(std::string path, std::string_view text, Punctuation punctuation)
+    : path_(std::move(path)), text_(text), punctuation_(punctuation) {
+  skip_blank_lines();
+}
+
+bool TextTokens::is_blank(char c) const {
+  return c == ' ' || c == '\t' || c == '\r' || (c == ',' && punctuation_.commas);
+}
+
+bool TextTokens::at_comment(std::size_t position) const {
+  return !punctuation_.comment.empty() && text_.substr(position).starts_with(punctuation_.comment);
+}
+
+char TextTokens::peek() {
+  while (!at_end() && is_blank(text_[position_])) ++position_;
+  return at_end() || text_[position_] == '\n' || at_comment(position_) ? '\0' : text_[position_];
+}
+
+std::string_view TextTokens::word(const char* what) {
+  if (at_end()) fail(fmt::format("the file ends where {} is expected; is it truncated?", what));
+  peek();
+  const std::size_t begin = position_;
+  while (!at_end() && !at_comment(begin) && text_[position_] != '\n' && !is_blank(text_[position_])) ++position_;
+  if (position_ == begin) fail(fmt::format("expected {}, found the end of the line", what));
+  return text_.substr(begin, position_ - begin);
+}
+
+std::int64_t TextTokens::integer(const char* what) {
+  const std::string_view found = word(what);
+  std::int64_t value = 0;
+  if (!parse_number(found, value)) {
+    fail(fmt::format("expected {} (an integer), found {}", what, quoted(found)));
+  }
+  return value;
+}
+
+std::int64_t TextTokens::count(const char* what) {
+  const std::int64_t found = integer(what);
+  if (found < 0) fail(fmt::format("{} is {}; it cannot be negative", what, found));
+  return found;
+}
+
+double TextTokens::real(const char* what) {
+  const std::string_view found = word(what);
+  double value = 0;
+  if (!parse_number(found, value) || !std::isfinite(value)) {
+    fail(fmt::format("expected {} (a finite number), found {}", what, quoted(found)));
+  }
+  return value;
+}
+
+std::string_view TextTokens::rest_of_line() const {
+  const std::string_view rest = text_.substr(position_);
+  return rest.substr(0, std::min(rest.find('\n'), rest.size()));
+}
+
+void TextTokens::finish_line() {
+  if (peek() != '\0') {
+    fail(fmt::format("expected the end of the line, found {}", quoted(word("a word"))));
+  }
+  skip_line();
+}
+
+void TextTokens::skip_line() {
+  position_ = std::min(text_.find('\n', position_), text_.size());
+  skip_blank_lines();
+}
+
+void TextTokens::skip_blank_lines() {
+  std::size_t p = position_;
+  int line = line_;
+  while (p < text_.size() && (is_blank(text_[p]) || text_[p] == '\n' || at_comment(p))) {
+    if (at_comment(p)) {
+      p = std::min(text_.find('\n', p), text_.size());
+      continue;
+    }
+    line += text_[p] == '\n';
+    ++p;
+  }
+  // At the end of the file the last line that holds something is the one to name.
+  if (p < text_.size()) line_ = line;
+  position_ = p;
+}
+
+void TextTokens::skip_bytes(std::size_t bytes) {
+  const std::size_t end = position_ + std::min(bytes, text_.size() - position_);
+  line_ += static_cast<int>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(position_),
+                                       text_.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+  position_ = end;
+  skip_blank_lines();
+}
+
+void TextTokens::fail(const std::string& message) const { fail_at(line_, message); }
+
+void TextTokens::fail_at(int line, const std::string& message) const {
+  throw ConfigError(fmt::format("{}:{}: {}", path_, line, message));
+}
+
+std::string TextTokens::quoted(std::string_view word) {
+  constexpr std::size_t kLongest = 40;
+  std::string shown(word.substr(0, kLongest));
+  std::replace_if(
+      shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return "\"" + shown + (word.size() > kLongest ? "..." : "") + "\"";
+}
+
+}  // namespace orthodyn

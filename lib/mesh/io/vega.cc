@@ -1,0 +1,155 @@
+#include "lib/mesh/io/vega.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "lib/mesh/io/text_file.h"
+#include "lib/mesh/io/text_tokens.h"
+#include "lib/mesh/io/vega_file.h"
+
+namespace orthodyn {
+namespace {
+
+constexpr const char* kAll = "allElements";
+
+// Regions of the mesh in the order of the file, for each the set and the material ("" for none).
+std::vector<VegaRegion> wanted_regions(const VegaFile& file) {
+  if (!file.regions.empty()) return file.regions;
+  std::vector<VegaRegion> regions;
+  for (const VegaSet& set : file.sets) regions.push_back({set.name, "", set.place});
+  return regions;
+}
+
+const VegaSet* find_set(const VegaFile& file, const std::string& name) {
+  const auto found = std::find_if(file.sets.begin(), file.sets.end(), [&](const VegaSet& s) { return s.name == name; });
+  return found == file.sets.end() ? nullptr : &*found;
+}
+
+std::vector<std::size_t> elements_of(const VegaFile& file, const VegaRegion& region) {
+  std::vector<std::size_t> elements;
+  const VegaSet* set = find_set(file, region.set);
+  if (!set) {
+    if (region.set != kAll) file.draft.fail(region.place, fmt::format("no *SET {}", TextTokens::quoted(region.set)));
+    for (std::size_t e = 0; e < file.draft.tets.size(); ++e) elements.push_back(e);
+    return elements;
+  }
+  const auto count = static_cast<std::int64_t>(file.draft.tets.size());
+  for (const FileNodeUse& use : set->elements) {
+    const std::int64_t index = use.tag < 0 ? -1 : use.tag - file.first_element;
+    if (index < 0 || index >= count) {
+      file.draft.fail(use.place, fmt::format("set {}: element {}; there are {} to {}", TextTokens::quoted(set->name), use.tag,
+                                             file.first_element, file.first_element + count - 1));
+    }
+    elements.push_back(static_cast<std::size_t>(index));
+  }
+  return elements;
+}
+
+// The region of each element, an index into `regions`; -1 for none. Later regions win.
+std::vector<int> assign_regions(VegaFile& file, const std::vector<VegaRegion>& regions) {
+  std::vector<int> region_of(file.draft.tets.size(), -1);
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    std::size_t taken = 0;
+    for (const std::size_t e : elements_of(file, regions[r])) {
+      taken += region_of[e] >= 0 && region_of[e] != static_cast<int>(r);
+      region_of[e] = static_cast<int>(r);
+    }
+    if (taken == 0) continue;
+    file.draft.warnings.push_back(fmt::format("{}: region \"{}\" takes {} elements from earlier regions",
+                                              file.draft.where(regions[r].place), regions[r].set, taken));
+  }
+  return region_of;
+}
+
+// Gives the draft its regions; those without elements are dropped.
+std::map<std::string, MeshMaterial> settle_regions(VegaFile& file) {
+  const std::vector<VegaRegion> regions = wanted_regions(file);
+  const std::vector<int> region_of = assign_regions(file, regions);
+  std::vector<std::size_t> elements_in(regions.size(), 0);
+  for (const int r : region_of) {
+    if (r >= 0) ++elements_in[static_cast<std::size_t>(r)];
+  }
+  std::map<std::string, MeshMaterial> materials;
+  std::map<std::string, int> index;
+  const auto index_of = [&](const std::string& name) {
+    const auto [entry, is_new] = index.emplace(name, static_cast<int>(index.size()));
+    if (is_new) file.draft.region_names.push_back(name);
+    return entry->second;
+  };
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    const VegaRegion& region = regions[r];
+    if (!region.material.empty()) {
+      const auto material = file.materials.find(region.material);
+      if (material == file.materials.end()) {
+        file.draft.fail(region.place, fmt::format("no *MATERIAL {}", TextTokens::quoted(region.material)));
+      }
+      materials[region.set] = material->second;
+    }
+    if (elements_in[r] > 0) {
+      index_of(region.set);
+    } else {
+      materials.erase(region.set);
+      file.draft.warnings.push_back(fmt::format("{}: region \"{}\" has no elements", file.draft.where(region.place), region.set));
+    }
+  }
+  const char* rest = regions.empty() ? "body" : "unassigned";
+  std::size_t unassigned = 0;
+  for (std::size_t e = 0; e < region_of.size(); ++e) {
+    const int r = region_of[e];
+    unassigned += r < 0;
+    file.draft.tets[e].region = index_of(r < 0 ? rest : regions[static_cast<std::size_t>(r)].set);
+  }
+  if (unassigned > 0 && !regions.empty()) {
+    file.draft.warnings.push_back(fmt::format("{}: {} of {} elements are in no region; they are in region \"unassigned\"",
+                                              file.draft.files.front(), unassigned, region_of.size()));
+  }
+  return materials;
+}
+
+LoadedMesh build(VegaFile& file) {
+  if (file.draft.tets.empty()) file.draft.fail({}, "no tetrahedra");
+  auto materials = settle_regions(file);
+  LoadedMesh loaded = build_mesh(std::move(file.draft));
+  loaded.materials = std::move(materials);
+  return loaded;
+}
+
+// Lists of vertices that count from 1; so does the set, whatever the mesh counts from.
+void add_fixed(const FixedVertices& fixed, VegaFile& file) {
+  const std::string text = read_text_file(fixed.path);
+  TextTokens tokens(fixed.path, text, {.commas = true, .comment = "#"});
+  const int number = static_cast<int>(file.draft.files.size());
+  file.draft.files.push_back(fixed.path);
+  auto& set = file.draft.node_sets[fixed.set];
+  const std::int64_t first = file.draft.nodes.empty() ? 1 : file.draft.nodes.front().tag;
+  const auto count = static_cast<std::int64_t>(file.draft.nodes.size());
+  while (!tokens.at_end()) {
+    const FilePlace place{tokens.line(), number};
+    while (tokens.peek() != '\0') {
+      const std::int64_t vertex = tokens.integer("a vertex");
+      if (vertex < 1 || vertex > count) tokens.fail(fmt::format("vertex {}; the mesh has 1 to {}", vertex, count));
+      set.push_back({vertex - 1 + first, place});
+    }
+    tokens.skip_line();
+  }
+  if (set.empty()) tokens.fail("no vertices");
+}
+
+}  // namespace
+
+LoadedMesh read_vega(const std::string& path) { return read_vega_text(path, read_text_file(path)); }
+
+LoadedMesh read_vega_text(const std::string& path, std::string_view text) {
+  VegaFile file = read_vega_sections(path, text);
+  return build(file);
+}
+
+LoadedMesh read_vega(const std::string& path, const FixedVertices& fixed) {
+  VegaFile file = read_vega_sections(path, read_text_file(path));
+  add_fixed(fixed, file);
+  return build(file);
+}
+
+}  // namespace orthodyn

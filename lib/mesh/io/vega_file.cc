@@ -1,0 +1,257 @@
+#include "lib/mesh/io/vega_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "lib/mesh/io/text_file.h"
+#include "lib/mesh/io/text_tokens.h"
+#include "lib/mesh/io/vega_material.h"
+
+namespace orthodyn {
+namespace {
+
+constexpr Punctuation kPunctuation{.commas = true, .comment = "#"};
+constexpr std::size_t kMostIncludes = 1000;
+// One file may be included at several places, but not so often that a small one fills the memory.
+constexpr std::uintmax_t kMostReadings = 10;  // of all bytes, on average
+constexpr std::uintmax_t kFreeBytes = 1'000'000;
+
+enum class Section { none, vertices, element_type, elements, set, material, region };
+
+// One spelling for each file: without "./", "..", and links.
+std::string spelled_alike(const std::string& path) {
+  std::error_code error;
+  const std::string alike = std::filesystem::weakly_canonical(path, error).string();
+  return error ? path : alike;
+}
+
+// Vega ignores blanks in names.
+std::string name_on_line(TextTokens& tokens) {
+  std::string name;
+  while (tokens.peek() != '\0') name += tokens.word("a name");
+  return name;
+}
+
+class VegaReader {
+ public:
+  VegaFile read(const std::string& path, std::string_view text) {
+    file_.draft.nodes_section = "*VERTICES";
+    read_lines(path, text);
+    finish_section(last_);
+    if (!has_vertices_ || !has_elements_) {
+      file_.draft.fail(last_, fmt::format("the file ends without *{}; is it truncated?",
+                                          has_vertices_ ? "ELEMENTS" : "VERTICES"));
+    }
+    return std::move(file_);
+  }
+
+ private:
+  void read_lines(const std::string& path, std::string_view text) {
+    const int number = static_cast<int>(file_.draft.files.size());
+    file_.draft.files.push_back(path);
+    const std::string alike = spelled_alike(path);
+    open_files_.push_back(alike);
+    if (known_files_.insert(alike).second) known_bytes_ += text.size();
+    TextTokens tokens(path, text, kPunctuation);
+    while (!tokens.at_end()) {
+      last_ = {tokens.line(), number};
+      if (tokens.peek() == '*') {
+        read_keyword(tokens);
+      } else {
+        read_data(tokens);
+      }
+    }
+    open_files_.pop_back();
+  }
+
+  void read_keyword(TextTokens& tokens) {
+    const FilePlace place = last_;
+    const std::string keyword(tokens.word("a keyword"));
+    if (keyword == "*INCLUDE") return include(tokens);
+    finish_section(place);
+    section_place_ = place;
+    if (keyword == "*VERTICES") {
+      begin_once(has_vertices_, "*VERTICES", Section::vertices);
+    } else if (keyword == "*ELEMENTS") {
+      begin_once(has_elements_, "*ELEMENTS", Section::element_type);
+    } else if (keyword == "*SET") {
+      section_ = Section::set;
+      file_.sets.push_back({name_on_line(tokens), {}, place});
+      if (file_.sets.back().name.empty()) tokens.fail("*SET without a name");
+    } else if (keyword == "*MATERIAL") {
+      section_ = Section::material;
+      material_name_ = name_on_line(tokens);
+      if (material_name_.empty()) tokens.fail("*MATERIAL without a name");
+    } else if (keyword == "*REGION") {
+      section_ = Section::region;
+    } else {
+      tokens.fail(fmt::format("unknown keyword {}; known: *VERTICES, *ELEMENTS, *MATERIAL, *SET, *REGION, *INCLUDE",
+                              TextTokens::quoted(keyword)));
+    }
+    tokens.finish_line();
+  }
+
+  void begin_once(bool& seen, const char* keyword, Section section) {
+    if (seen) file_.draft.fail(section_place_, fmt::format("a second {}", keyword));
+    seen = true;
+    section_ = section;
+    announced_ = -1;
+  }
+
+  void include(TextTokens& tokens) {
+    namespace fs = std::filesystem;
+    const std::string name(tokens.word("a file name"));
+    const std::string path = (fs::path(tokens.path()).parent_path() / name).string();
+    if (std::count(open_files_.begin(), open_files_.end(), spelled_alike(path)) > 0) {
+      tokens.fail(fmt::format("{} includes itself", TextTokens::quoted(name)));
+    }
+    if (file_.draft.files.size() >= kMostIncludes) {
+      tokens.fail(fmt::format("more than {} included files", kMostIncludes));
+    }
+    std::error_code error;  // a name may be too long, too
+    if (!fs::is_regular_file(path, error)) {
+      tokens.fail(fmt::format("*INCLUDE {}: no such file: {}", TextTokens::quoted(name), path));
+    }
+    tokens.finish_line();
+    const std::string text = read_text_file(path);
+    included_bytes_ += text.size();
+    if (included_bytes_ > kFreeBytes + kMostReadings * (known_bytes_ + text.size())) {
+      tokens.fail(fmt::format("*INCLUDE {}: what is included so far is more than {} times the size of the files; "
+                              "include each once",
+                              TextTokens::quoted(name), kMostReadings));
+    }
+    read_lines(path, text);
+  }
+
+  void read_data(TextTokens& tokens) {
+    switch (section_) {
+      case Section::none:
+        tokens.fail(fmt::format("expected a keyword (*VERTICES), found {}; this is not a Vega mesh file (.veg)",
+                                TextTokens::quoted(tokens.word("a keyword"))));
+      case Section::vertices: return read_vertex(tokens);
+      case Section::element_type: return read_element_type(tokens);
+      case Section::elements: return read_element(tokens);
+      case Section::set: return read_set(tokens);
+      case Section::material: return read_material(tokens);
+      case Section::region: return read_region(tokens);
+    }
+  }
+
+  // "count 3 0 0" resp. "count 4 0"; what follows the first two does not matter.
+  void read_header(TextTokens& tokens, const char* what, std::int64_t width) {
+    announced_ = tokens.count(what);
+    if (tokens.peek() != '\0') {
+      const std::int64_t found = tokens.integer("the numbers per line");
+      if (found != width) tokens.fail(fmt::format("{} numbers per line; expected {}", found, width));
+    }
+    tokens.skip_line();
+  }
+
+  // The number in the first column counts up from 0 or 1.
+  std::int64_t read_number(TextTokens& tokens, const char* what, std::size_t done, std::int64_t& first) {
+    if (static_cast<std::int64_t>(done) >= announced_) {
+      const char* records = section_ == Section::vertices ? "vertices" : "elements";
+      tokens.fail(fmt::format("more than the {} {} announced after line {}", announced_, records, section_place_.line));
+    }
+    const std::int64_t number = tokens.integer(what);
+    if (done == 0) {
+      if (number != 0 && number != 1) tokens.fail(fmt::format("the first {} is {}; they count from 0 or 1", what, number));
+      first = number;
+    }
+    const std::int64_t expected = first + static_cast<std::int64_t>(done);
+    if (number != expected) tokens.fail(fmt::format("{} {} where {} is expected; they count without gaps", what, number, expected));
+    return number;
+  }
+
+  void read_vertex(TextTokens& tokens) {
+    if (announced_ < 0) return read_header(tokens, "the number of vertices", 3);
+    FileNode node{.place = last_};
+    node.tag = read_number(tokens, "vertex", file_.draft.nodes.size(), first_vertex_);
+    for (double& x : node.x) x = tokens.real("a coordinate");
+    tokens.finish_line();
+    file_.draft.nodes.push_back(node);
+  }
+
+  void read_element_type(TextTokens& tokens) {
+    const std::string type(tokens.word("TET"));
+    if (type == "CUBIC") {
+      tokens.fail("CUBIC: a mesh of cubes; only tetrahedra are read: take the TET mesh of the model, or cut each cube into tets");
+    }
+    if (type != "TET" && type != "TETS") tokens.fail(fmt::format("element type {}; expected TET", TextTokens::quoted(type)));
+    tokens.finish_line();
+    section_ = Section::elements;
+  }
+
+  void read_element(TextTokens& tokens) {
+    if (announced_ < 0) return read_header(tokens, "the number of elements", 4);
+    FileTet tet{.place = last_};
+    tet.tag = read_number(tokens, "element", file_.draft.tets.size(), file_.first_element);
+    for (std::int64_t& node : tet.nodes) node = tokens.integer("a vertex");
+    tokens.finish_line();
+    file_.draft.tets.push_back(tet);
+  }
+
+  void read_set(TextTokens& tokens) {
+    while (tokens.peek() != '\0') file_.sets.back().elements.push_back({tokens.integer("an element"), last_});
+    tokens.skip_line();
+  }
+
+  void read_material(TextTokens& tokens) {
+    MeshMaterial material = read_vega_material(tokens, material_name_, file_.draft.warnings);
+    if (!file_.materials.emplace(material_name_, std::move(material)).second) {
+      file_.draft.fail(section_place_, fmt::format("a second *MATERIAL {}", TextTokens::quoted(material_name_)));
+    }
+    section_ = Section::none;
+  }
+
+  void read_region(TextTokens& tokens) {
+    VegaRegion region{.set = std::string(tokens.word("a set")), .material = name_on_line(tokens), .place = last_};
+    if (region.material.empty()) tokens.fail("expected \"set, material\"; the material is missing");
+    tokens.finish_line();
+    file_.regions.push_back(std::move(region));
+    section_ = Section::none;
+  }
+
+  void finish_section(FilePlace next) {
+    const auto expect = [&](const char* keyword, const char* what, std::size_t found) {
+      if (announced_ < 0) file_.draft.fail(next, fmt::format("{} (line {}) ends without its count of {}", keyword, section_place_.line, what));
+      if (static_cast<std::int64_t>(found) == announced_) return;
+      file_.draft.fail(next, fmt::format("{} of the {} {} announced after line {}; is the file truncated?", found,
+                                         announced_, what, section_place_.line));
+    };
+    switch (section_) {
+      case Section::vertices: expect("*VERTICES", "vertices", file_.draft.nodes.size()); break;
+      case Section::elements: expect("*ELEMENTS", "elements", file_.draft.tets.size()); break;
+      case Section::element_type:
+      case Section::material:
+      case Section::region:
+        file_.draft.fail(next, fmt::format("the section of line {} is empty; is the file truncated?", section_place_.line));
+      case Section::none:
+      case Section::set: break;
+    }
+    section_ = Section::none;
+  }
+
+  VegaFile file_;
+  std::vector<std::string> open_files_;
+  std::set<std::string> known_files_;
+  std::uintmax_t known_bytes_ = 0, included_bytes_ = 0;  // each file once; each as often as it is read
+  Section section_ = Section::none;
+  FilePlace section_place_, last_;
+  bool has_vertices_ = false, has_elements_ = false;
+  std::int64_t announced_ = -1;  // -1: its line is still to come
+  std::int64_t first_vertex_ = 1;
+  std::string material_name_;
+};
+
+}  // namespace
+
+VegaFile read_vega_sections(const std::string& path, std::string_view text) { return VegaReader().read(path, text); }
+
+}  // namespace orthodyn

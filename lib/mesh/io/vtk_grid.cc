@@ -1,0 +1,170 @@
+#include "lib/mesh/io/vtk_grid.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "lib/core/errors.h"
+#include "lib/mesh/mesh_draft.h"
+
+namespace orthodyn {
+namespace {
+
+constexpr int kTet = 10;
+
+[[noreturn]] void fail(const VtkGrid& grid, const std::string& message) {
+  throw ConfigError(grid.path + ": " + message);
+}
+
+std::string name_of_type(int type) {
+  static const std::map<int, const char*> names{
+      {6, "triangle strip"},       {7, "polygon"},           {8, "pixel"},         {9, "quadrangle"},
+      {11, "voxel"},               {12, "hexahedron"},       {13, "wedge"},        {14, "pyramid"},
+      {22, "quadratic triangle"},  {23, "quadratic quad"},   {24, "quadratic tet"}, {25, "quadratic hexahedron"},
+      {42, "polyhedron"},          {71, "Lagrange tet"}};
+  const auto found = names.find(type);
+  return found == names.end() ? fmt::format("cell type {}", type) : fmt::format("{} (type {})", found->second, type);
+}
+
+// An integer in [low, high].
+std::int64_t whole(const VtkGrid& grid, double x, double low, double high, const std::string& what) {
+  if (x >= low && x <= high && x == std::floor(x)) return static_cast<std::int64_t>(x);
+  fail(grid, fmt::format("{} is {}; expected an integer from {} to {}", what, x, low, high));
+}
+
+void check_sizes(const VtkGrid& grid) {
+  if (grid.points.size() % 3 != 0) fail(grid, fmt::format("{} coordinates are not three per point", grid.points.size()));
+  if (grid.types.size() != grid.offsets.size()) {
+    fail(grid, fmt::format("{} types and {} offsets for the same cells", grid.types.size(), grid.offsets.size()));
+  }
+  const auto check = [&](const std::vector<CellData>& arrays, std::size_t tuples, const char* what) {
+    for (const CellData& data : arrays) {
+      if (data.components >= 1 && data.values.size() == tuples * static_cast<std::size_t>(data.components)) continue;
+      fail(grid, fmt::format("array \"{}\" has {} values; expected {} {} with {} components", data.name,
+                             data.values.size(), tuples, what, data.components));
+    }
+  };
+  check(grid.cell_data, grid.types.size(), "cells");
+  check(grid.point_data, grid.points.size() / 3, "points");
+}
+
+// The cells that are tets; the others are counted or refused.
+std::vector<std::size_t> select_tets(const VtkGrid& grid, MeshDraft& draft) {
+  std::vector<std::size_t> tets;
+  double begin = 0;
+  for (std::size_t c = 0; c < grid.types.size(); ++c) {
+    const auto size = static_cast<double>(grid.connectivity.size());
+    const double end = static_cast<double>(whole(grid, grid.offsets[c], begin, size, fmt::format("the offset of cell {}", c)));
+    const int type = static_cast<int>(whole(grid, grid.types[c], 0, 255, fmt::format("the type of cell {}", c)));
+    if (type == kTet) {
+      if (end - begin != 4) fail(grid, fmt::format("cell {}: a tetrahedron of {} points", c, end - begin));
+      tets.push_back(c);
+    } else if (type > 5) {
+      fail(grid, fmt::format("cell {}: a {}; only linear tetrahedra (10) are read, with vertices, lines and triangles "
+                             "beside them: mesh again, or cut the cells (ParaView: Tetrahedralize)",
+                             c, name_of_type(type)));
+    }
+    begin = end;
+  }
+  if (begin != static_cast<double>(grid.connectivity.size())) {
+    fail(grid, fmt::format("connectivity has {} entries, but the cells end at {}", grid.connectivity.size(), begin));
+  }
+  if (tets.empty()) fail(grid, "no tetrahedra (cell type 10)");
+  if (tets.size() < grid.types.size()) {
+    draft.warnings.push_back(fmt::format("{}: {} vertices, lines and triangles are ignored", grid.path,
+                                         grid.types.size() - tets.size()));
+  }
+  return tets;
+}
+
+void add_nodes_and_tets(const VtkGrid& grid, const std::vector<std::size_t>& tets, MeshDraft& draft) {
+  const std::size_t points = grid.points.size() / 3;
+  for (std::size_t p = 0; p < points; ++p) {
+    draft.nodes.push_back({static_cast<std::int64_t>(p), {}, Vec3(grid.points[3 * p], grid.points[3 * p + 1], grid.points[3 * p + 2])});
+  }
+  for (const std::size_t c : tets) {
+    FileTet tet;
+    tet.tag = static_cast<std::int64_t>(c);
+    const auto begin = static_cast<std::size_t>(grid.offsets[c]) - 4;
+    for (std::size_t i = 0; i < 4; ++i) {
+      tet.nodes[i] = whole(grid, grid.connectivity[begin + i], 0, static_cast<double>(points) - 1,
+                           fmt::format("element {}: a point", c));
+    }
+    draft.tets.push_back(tet);
+  }
+}
+
+const CellData* region_data(const VtkGrid& grid) {
+  for (const char* name : {"region", "gmsh:physical"}) {
+    for (const CellData& data : grid.cell_data) {
+      if (data.name == name && data.components == 1) return &data;
+    }
+  }
+  return nullptr;
+}
+
+void add_regions(const VtkGrid& grid, const std::vector<std::size_t>& tets, MeshDraft& draft) {
+  const CellData* data = region_data(grid);
+  if (!data) {
+    draft.region_names = {"body"};
+    return;
+  }
+  std::map<std::int64_t, int> index;
+  for (const std::size_t c : tets) {
+    index[whole(grid, data->values[c], -1e9, 1e9, fmt::format("cell data \"{}\" of cell {}", data->name, c))] = 0;
+  }
+  std::map<std::string, int> by_name;
+  for (auto& [number, region] : index) {
+    const bool named = number >= 0 && number < static_cast<std::int64_t>(grid.region_names.size());
+    const std::string name = named ? grid.region_names[static_cast<std::size_t>(number)] : fmt::format("region{}", number);
+    const auto [entry, is_new] = by_name.emplace(name, static_cast<int>(draft.region_names.size()));
+    if (is_new) draft.region_names.push_back(name);
+    region = entry->second;
+  }
+  for (std::size_t t = 0; t < tets.size(); ++t) {
+    draft.tets[t].region = index.at(static_cast<std::int64_t>(data->values[tets[t]]));
+  }
+}
+
+void add_node_sets(const VtkGrid& grid, MeshDraft& draft) {
+  const std::string prefix = "nodes:";
+  for (const CellData& data : grid.point_data) {
+    if (!data.name.starts_with(prefix) || data.components != 1) continue;
+    auto& set = draft.node_sets[data.name.substr(prefix.size())];
+    for (std::size_t p = 0; p < data.values.size(); ++p) {
+      if (data.values[p] != 0) set.push_back({static_cast<std::int64_t>(p), {}});
+    }
+  }
+}
+
+std::vector<CellData> data_of_tets(std::vector<CellData> all, const std::vector<std::size_t>& tets) {
+  for (CellData& data : all) {
+    const auto components = static_cast<std::size_t>(data.components);
+    for (std::size_t t = 0; t < tets.size(); ++t) {  // tets[t] >= t: moves towards the front
+      for (std::size_t k = 0; k < components; ++k) data.values[components * t + k] = data.values[components * tets[t] + k];
+    }
+    data.values.resize(components * tets.size());
+  }
+  return all;
+}
+
+}  // namespace
+
+LoadedMesh build_vtk_mesh(VtkGrid grid) {
+  check_sizes(grid);
+  MeshDraft draft;
+  draft.files = {grid.path};
+  draft.nodes_section = "Points";
+  const std::vector<std::size_t> tets = select_tets(grid, draft);
+  add_nodes_and_tets(grid, tets, draft);
+  add_regions(grid, tets, draft);
+  add_node_sets(grid, draft);
+  LoadedMesh loaded = build_mesh(std::move(draft));
+  loaded.cell_data = data_of_tets(std::move(grid.cell_data), tets);
+  return loaded;
+}
+
+}  // namespace orthodyn

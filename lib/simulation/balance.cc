@@ -1,0 +1,145 @@
+#include "lib/simulation/balance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace orthodyn {
+
+namespace {
+
+// To the larger of the two; NaN stays.
+void raise(double& largest, double value) {
+  if (!(value <= largest) && !std::isnan(largest)) largest = value;
+}
+
+std::vector<double> kept(const EnergyBalance& e) {
+  return {e.kinetic, e.elastic, e.gravitational, e.dissipated, e.loads};
+}
+
+EnergyBalance balance_from(const std::vector<double>& e) { return {e[0], e[1], e[2], e[3], e[4]}; }
+
+std::vector<double> kept(const Vec3& x) { return {x[0], x[1], x[2]}; }
+
+Vec3 vector_from(const std::vector<double>& x) { return {x[0], x[1], x[2]}; }
+
+}  // namespace
+
+void PowerIntegral::start(const State& state) {
+  t_ = state.t;
+  last_ = model_.evaluate(power_, state)[0];
+}
+
+double PowerIntegral::advance(const State& to, const Integrator& integrator) {
+  if (!(to.t > t_)) return sum_;
+  State middle;
+  integrator.interpolate(0.5 * (t_ + to.t), middle);
+  const double end = model_.evaluate(power_, to)[0];
+  sum_ += (to.t - t_) / 6 * (last_ + 4 * model_.evaluate(power_, middle)[0] + end);
+  t_ = to.t;
+  last_ = end;
+  return sum_;
+}
+
+void PowerIntegral::restore(const std::vector<double>& kept) {
+  t_ = kept[0];
+  last_ = kept[1];
+  sum_ = kept[2];
+}
+
+EnergyMeter::EnergyMeter(const Model& model, const Integrator& integrator)
+    : model_(model), integrator_(integrator), dissipation_(model, "power.dissipated"),
+      load_work_(model, "power.loads") {}
+
+void EnergyMeter::on_start(const State& state) {
+  if (model_.traits().dissipative) dissipation_.start(state);
+  if (model_.traits().loaded) load_work_.start(state);
+  look(state);
+  first_ = last_;
+  drift_ = 0;
+}
+
+void EnergyMeter::look(const State& state) {
+  if (model_.traits().dissipative) dissipation_.advance(state, integrator_);
+  if (model_.traits().loaded) load_work_.advance(state, integrator_);
+  const auto energy = [&](const char* name) { return model_.evaluate(name, state)[0]; };
+  last_ = {energy("energy.kinetic"), energy("energy.elastic"), energy("energy.gravitational"),
+           dissipation_.value(), load_work_.value()};
+  raise(drift_, std::abs(change()));
+  scale_ = std::max({scale_, last_.kinetic, last_.elastic});
+}
+
+void EnergyMeter::save(Archive& archive) {
+  archive.put("dissipation", dissipation_.kept());
+  archive.put("load_work", load_work_.kept());
+  archive.put("first", kept(first_));
+  archive.put("last", kept(last_));
+  archive.put("drift", drift_);
+  archive.put("scale", scale_);
+}
+
+void EnergyMeter::restore(const Archive& archive) {
+  dissipation_.restore(archive.numbers("dissipation", 3));
+  load_work_.restore(archive.numbers("load_work", 3));
+  first_ = balance_from(archive.numbers("first", 5));
+  last_ = balance_from(archive.numbers("last", 5));
+  drift_ = archive.number("drift");
+  scale_ = archive.number("scale");
+}
+
+void MomentumMeter::on_start(const State& state) {
+  look(state);
+  first_linear_ = linear_;
+  first_angular_ = angular_;
+  linear_drift_ = angular_drift_ = 0;
+}
+
+void MomentumMeter::look(const State& state) {
+  const auto vector = [&](const char* name) {
+    const auto values = model_.evaluate(name, state);
+    return Vec3(values[0], values[1], values[2]);
+  };
+  linear_ = vector("momentum.linear");
+  angular_ = vector("momentum.angular");
+  raise(linear_drift_, (linear_ - first_linear_).norm());
+  raise(angular_drift_, (angular_ - first_angular_).norm());
+}
+
+void MomentumMeter::save(Archive& archive) {
+  archive.put("linear", kept(linear_));
+  archive.put("angular", kept(angular_));
+  archive.put("first_linear", kept(first_linear_));
+  archive.put("first_angular", kept(first_angular_));
+  archive.put("linear_drift", linear_drift_);
+  archive.put("angular_drift", angular_drift_);
+}
+
+void MomentumMeter::restore(const Archive& archive) {
+  linear_ = vector_from(archive.numbers("linear", 3));
+  angular_ = vector_from(archive.numbers("angular", 3));
+  first_linear_ = vector_from(archive.numbers("first_linear", 3));
+  first_angular_ = vector_from(archive.numbers("first_angular", 3));
+  linear_drift_ = archive.number("linear_drift");
+  angular_drift_ = archive.number("angular_drift");
+}
+
+void InversionWatch::save(Archive& archive) {
+  archive.put("smallest", smallest_);
+  archive.put("time", time_);
+  archive.put("element", element_);
+}
+
+void InversionWatch::restore(const Archive& archive) {
+  smallest_ = archive.number("smallest");
+  time_ = archive.number("time");
+  element_ = static_cast<int>(archive.count("element"));
+}
+
+void InversionWatch::look(const State& state) {
+  const auto now = model_.evaluate("det_f.smallest", state);
+  if (element_ >= 0 && now[0] >= smallest_) return;
+  smallest_ = now[0];
+  element_ = static_cast<int>(now[1]);
+  time_ = state.t;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,42 @@
+// Finds when quantities pass values within the steps of any integrator, on its dense output.
+//
+// Each step is looked at at its end and three times within; where the sign of quantity - value has changed
+// between two of these, the root between them is found to round-off (algorithm 748, Alefeld, Potra & Shi 1995).
+// Passings there and back between two looks are missed. A quantity that has the value at the start has not passed
+// it until it was elsewhere; one that reaches the value exactly has.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "lib/ode/event.h"
+#include "lib/simulation/archive.h"
+
+namespace orthodyn {
+
+class EventFinder {
+ public:
+  using Interpolate = std::function<void(double t, State& out)>;
+
+  explicit EventFinder(std::vector<Event> events) : events_(std::move(events)), side_(events_.size(), 0) {}
+
+  bool empty() const { return events_.empty(); }
+
+  // At the start, or anew. Throws RunError if a quantity is not finite.
+  void start(const State& state);
+
+  // Those in (begin, end], in the order of time; none after the first that stops the run.
+  std::vector<Crossing> find(double begin, double end, const Interpolate& interpolate);
+
+  void save(Archive& archive) const;
+  void restore(const Archive& archive);
+
+ private:
+  void look_at(std::size_t event, double begin, double end, const Interpolate& interpolate, std::vector<Crossing>& found);
+  double excess(const Event& event, const State& state) const;
+
+  std::vector<Event> events_;
+  std::vector<int> side_;  // of its value, where each quantity was last seen
+};
+
+}  // namespace orthodyn

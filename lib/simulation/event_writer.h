@@ -1,0 +1,29 @@
+// events.csv: when which event happened, at which value and in which direction.
+#pragma once
+
+#include <filesystem>
+
+#include "lib/simulation/event_finder.h"
+#include "lib/simulation/files.h"
+#include "lib/simulation/observer.h"
+
+namespace orthodyn {
+
+class EventWriter : public Observer {
+ public:
+  // Keeps the finder's memory in checkpoints, too. `finder` must outlive it.
+  EventWriter(const std::filesystem::path& path, EventFinder& finder);
+
+  void on_start(const State&) override { file_.begin(); }
+  void on_resume(const State&) override { file_.go_on(kept_); }
+  void on_event(const Crossing& crossing) override;
+  void save(Archive& archive) override;
+  void restore(const Archive& archive) override;
+
+ private:
+  EventFinder& finder_;
+  GrowingFile file_;
+  std::size_t kept_ = 0;  // bytes, of a checkpoint
+};
+
+}  // namespace orthodyn

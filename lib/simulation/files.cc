@@ -1,0 +1,114 @@
+#include "lib/simulation/files.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+
+#include "lib/core/errors.h"
+
+namespace orthodyn {
+
+namespace {
+constexpr std::size_t kReserved = 16384;
+
+std::string padded(std::string text) {
+  if (text.size() < kReserved) text.append(kReserved - text.size(), '\n');
+  return text;
+}
+}  // namespace
+
+ReservedFile::ReservedFile(std::filesystem::path path, const std::string& content) : path_(std::move(path)) {
+  write_file(path_, {padded(content)});
+}
+
+void ReservedFile::rewrite(const std::string& content) const {
+  std::fstream out(path_, std::ios::in | std::ios::out | std::ios::binary);
+  const std::string text = padded(content);
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  out.close();
+  if (!out) fail_to_write(path_);
+  std::filesystem::resize_file(path_, content.size());
+}
+
+GrowingFile::GrowingFile(std::filesystem::path path, std::string head, std::string tail)
+    : path_(std::move(path)), head_(std::move(head)), tail_(std::move(tail)) {}
+
+GrowingFile::~GrowingFile() {
+  if (file_ >= 0) ::close(file_);
+}
+
+void GrowingFile::open(int flags) {
+  if (file_ >= 0) ::close(file_);
+  file_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666);
+  if (file_ < 0) fail_to_write(path_);
+}
+
+void GrowingFile::begin() {
+  std::error_code ignored;
+  if (path_.has_parent_path()) std::filesystem::create_directories(path_.parent_path(), ignored);
+  open(O_CREAT | O_TRUNC);
+  size_ = 0;
+  append(head_);
+}
+
+// One call to the system: somebody who reads, or a signal that ends us, finds the old end or the new one.
+void GrowingFile::append(const std::string& entry) {
+  write_at_end(entry + tail_);
+  size_ += entry.size();
+}
+
+void GrowingFile::write_at_end(const std::string& text) {
+  const auto written = ::pwrite(file_, text.data(), text.size(), static_cast<off_t>(size_));
+  if (written == static_cast<ssize_t>(text.size())) return;
+  const int error = written < 0 ? errno : ENOSPC;
+  // Back to the end mark, for which there was room before.
+  if (::pwrite(file_, tail_.data(), tail_.size(), static_cast<off_t>(size_)) == static_cast<ssize_t>(tail_.size()) &&
+      ::ftruncate(file_, static_cast<off_t>(size_ + tail_.size())) != 0)
+    errno = error;
+  errno = error;
+  fail_to_write(path_);
+}
+
+void GrowingFile::require(std::size_t size) const {
+  std::error_code ec;
+  const auto found = std::filesystem::file_size(path_, ec);
+  if (ec)
+    throw ConfigError(fmt::format("{}: cannot be read ({}), but the checkpoint goes on writing to it; put it back, or "
+                                  "start anew with --force in place of --resume",
+                                  path_.string(), ec.message()));
+  if (found < size)
+    throw ConfigError(fmt::format("{}: has {} bytes, but the checkpoint knows of {}: the end is lost; start anew with "
+                                  "--force in place of --resume",
+                                  path_.string(), found, size));
+}
+
+void GrowingFile::go_on(std::size_t size) {
+  open(0);
+  size_ = size;
+  write_at_end(tail_);
+  if (::ftruncate(file_, static_cast<off_t>(size_ + tail_.size())) != 0) fail_to_write(path_);
+}
+
+void GrowingFile::make_lasting() const { orthodyn::make_lasting(path_); }
+
+CsvFile::CsvFile(const std::filesystem::path& path, const std::vector<std::string>& header)
+    : file_(path, fmt::format("{}\n", fmt::join(header, ",")), "") {}
+
+void CsvFile::row(const std::vector<double>& values) { file_.append(fmt::format("{}\n", fmt::join(values, ","))); }
+
+void CsvFile::save(Archive& archive) const {
+  file_.make_lasting();
+  archive.put_count("bytes", file_.size());
+}
+
+void CsvFile::restore(const Archive& archive) {
+  kept_ = archive.count("bytes");
+  file_.require(kept_);
+}
+
+}  // namespace orthodyn

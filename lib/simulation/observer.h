@@ -1,0 +1,43 @@
+// Something that looks on while a model is integrated: writes frames, curves, progress.
+#pragma once
+
+#include "lib/ode/event.h"
+#include "lib/ode/integrator.h"
+#include "lib/simulation/archive.h"
+
+namespace orthodyn {
+
+class Observer {
+ public:
+  virtual ~Observer() = default;
+
+  // At the initial state.
+  virtual void on_start(const State&) {}
+
+  // In place of on_start where a run goes on from a checkpoint, after restore().
+  virtual void on_resume(const State&) {}
+
+  // At each output time, within the last step.
+  virtual void on_output(const State&) {}
+
+  // At each event, within the last step, in the order of time with the outputs.
+  virtual void on_event(const Crossing&) {}
+
+  // After each step, and after the outputs that fell into it: the state at its end.
+  // `integrator.interpolate` works for times within the step.
+  virtual void on_step(const StepInfo&, const State&, const Integrator&) {}
+
+  // When the run is over, however it ended.
+  virtual void on_end() noexcept {}
+
+  // Puts down what is needed to go on from here in another process: sums, extremes, lengths of files.
+  // What has been written so far is on the disk afterwards, as far as it matters then. Asked between
+  // steps only. Throws RunError.
+  virtual void save(Archive&) {}
+
+  // Takes that back, and sees that the files are at least as long as then. Changes nothing on the
+  // disk. Throws ConfigError.
+  virtual void restore(const Archive&) {}
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,34 @@
+// How a computation that observers look on at has ended.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "lib/core/errors.h"
+#include "lib/simulation/observer.h"
+
+namespace orthodyn {
+
+struct Outcome {
+  enum class Status { completed, interrupted, failed };
+  Status status = Status::completed;
+  std::string message;            // of a failure: what, where, what to try
+  std::string remark;             // of a run that was completed before its end: which event it was
+  Reason reason = Reason::other;  // of a failure, for tables
+  State last;                     // the last state reached
+  bool between_steps = true;      // false: an observer failed, and not all have seen the last state
+  double wall_seconds = 0, cpu_seconds = 0;
+};
+
+const char* status_word(Outcome::Status status);  // "completed"
+
+// Processor time of this process, s.
+double cpu_seconds_now();
+
+// Does the work from this state on, turns what stops it into the outcome and tells observers of the end. Lets
+// ConfigError pass.
+Outcome supervise(const State& initial, const std::vector<Observer*>& observers,
+                  const std::function<void(Outcome&)>& work);
+
+}  // namespace orthodyn

@@ -1,0 +1,140 @@
+#include "lib/simulation/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace orthodyn {
+
+namespace {
+
+class Driver {
+ public:
+  Driver(const Model& model, Integrator& integrator, const Plan& plan, const std::vector<Observer*>& observers,
+         const std::atomic<bool>& interrupt, Outcome& outcome)
+      : integrator_(integrator), plan_(plan), observers_(observers), interrupt_(interrupt), outcome_(outcome),
+        tiny_(1e-12 * std::max(std::abs(outcome.last.t), std::abs(plan.end))), outputs_(plan.output_times) {
+    for (const double t : model.breakpoints(outcome.last.t, plan.end))
+      if (t - (stops_.empty() ? outcome.last.t : stops_.back()) > tiny_ && plan.end - t > tiny_) stops_.push_back(t);
+    stops_.push_back(plan.end);
+    // An output that differs from a stop by round-off is meant to be there.
+    for (double& t : outputs_)
+      for (const double stop : stops_)
+        if (std::abs(t - stop) <= tiny_) t = stop;
+    if (plan.delivered) skip_delivered(*plan.delivered);
+  }
+
+  void advance() {
+    outcome_.between_steps = false;
+    for (auto* o : observers_) plan_.delivered ? o->on_resume(outcome_.last) : o->on_start(outcome_.last);
+    if (plan_.events && !plan_.delivered) plan_.events->start(outcome_.last);
+    outcome_.between_steps = true;
+    integrator_.start(outcome_.last);
+    for (const double stop : stops_) {
+      if (!advance_to(stop)) return;
+      if (stop < plan_.end) integrator_.start(outcome_.last);  // no step across a kink
+    }
+  }
+
+ private:
+  void skip_delivered(double last) {
+    while (next_ < outputs_.size() && outputs_[next_] <= last + tiny_) ++next_;
+    // A plan that differs by round-off from the earlier one must not ask for what lies behind.
+    for (double& t : outputs_) t = std::max(t, outcome_.last.t);
+  }
+
+  // False if interrupted or stopped by an event.
+  bool advance_to(double stop) {
+    while (outcome_.last.t < stop) {
+      if (interrupt_) {
+        outcome_.status = Outcome::Status::interrupted;
+        return false;
+      }
+      const double limit = plan_.exact_times && next_ < outputs_.size() ? std::min(stop, outputs_[next_]) : stop;
+      const double begin = outcome_.last.t;
+      StepInfo info = integrator_.step(limit);
+      outcome_.between_steps = false;
+      const Event* stopper = deliver_events(begin, info);
+      deliver_outputs(info.t);
+      if (stopper) deliver_last_output(info.t);
+      integrator_.interpolate(info.t, outcome_.last);
+      for (auto* o : observers_) o->on_step(info, outcome_.last, integrator_);
+      outcome_.between_steps = true;
+      if (stopper) {
+        outcome_.remark = fmt::format("stopped by the event '{}' at t = {:.9g} s", stopper->name, info.t);
+        return false;
+      }
+    }
+    return true;
+  }
+
+  // The event that stops the run, if any: the step then is taken to end there.
+  const Event* deliver_events(double begin, StepInfo& info) {
+    if (!plan_.events || plan_.events->empty()) return nullptr;
+    const auto interpolate = [&](double t, State& out) { integrator_.interpolate(t, out); };
+    for (const Crossing& crossing : plan_.events->find(begin, info.t, interpolate)) {
+      deliver_outputs(crossing.state.t);
+      for (auto* o : observers_) o->on_event(crossing);
+      if (!crossing.event->stops) continue;
+      info.t = crossing.state.t;
+      info.h = info.t - begin;
+      return crossing.event;
+    }
+    return nullptr;
+  }
+
+  void deliver_outputs(double until) {
+    while (next_ < outputs_.size() && outputs_[next_] <= until) deliver_output(outputs_[next_++]);
+  }
+
+  void deliver_output(double t) {
+    State state;
+    integrator_.interpolate(t, state);
+    for (auto* o : observers_) o->on_output(state);
+    last_output_ = t;
+  }
+
+  // Where outputs are wanted at all, there is one at the end.
+  void deliver_last_output(double t) {
+    if (!outputs_.empty() && last_output_ != t) deliver_output(t);
+  }
+
+  Integrator& integrator_;
+  const Plan& plan_;
+  const std::vector<Observer*>& observers_;
+  const std::atomic<bool>& interrupt_;
+  Outcome& outcome_;
+  double tiny_;                          // times closer than this are one
+  std::vector<double> outputs_, stops_;
+  std::optional<double> last_output_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+std::vector<double> evenly_spaced(double start, double end, int frames) {
+  std::vector<double> times;
+  for (int k = 1; k <= frames; ++k) times.push_back((start * (frames - k) + end * k) / frames);
+  return times;
+}
+
+std::vector<double> by_interval(double start, double end, double interval) {
+  std::vector<double> times;
+  for (long k = 1;; ++k) {
+    const double t = start + static_cast<double>(k) * interval;
+    if (t > end - 1e-9 * interval) break;
+    times.push_back(t);
+  }
+  times.push_back(end);
+  return times;
+}
+
+Outcome run(const Model& model, Integrator& integrator, const State& initial, const Plan& plan,
+            const std::vector<Observer*>& observers, const std::atomic<bool>& interrupt) {
+  return supervise(initial, observers, [&](Outcome& outcome) {
+    Driver(model, integrator, plan, observers, interrupt, outcome).advance();
+  });
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,32 @@
+// Drives one integration from start to end: steps, output times, breakpoints, observers.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <vector>
+
+#include "lib/simulation/event_finder.h"
+#include "lib/simulation/outcome.h"
+
+namespace orthodyn {
+
+struct Plan {
+  double end = 0;                    // s
+  std::vector<double> output_times;  // ascending, after the start
+  bool exact_times = false;          // steps end on output times
+  // The run goes on from a checkpoint: outputs up to this time have been delivered.
+  std::optional<double> delivered = std::nullopt;
+  EventFinder* events = nullptr;  // what to look for in each step, if anything
+};
+
+// `frames` + 1 evenly spaced times including both ends, resp. multiples of an interval; the start is
+// left out.
+std::vector<double> evenly_spaced(double start, double end, int frames);
+std::vector<double> by_interval(double start, double end, double interval);
+
+// Never throws for a computation that could not go on: that is an Outcome. Observers are told of the
+// end in every case. A resumed run calls on_resume in place of on_start. `interrupt` is looked at after each step.
+Outcome run(const Model& model, Integrator& integrator, const State& initial, const Plan& plan,
+            const std::vector<Observer*>& observers, const std::atomic<bool>& interrupt);
+
+}  // namespace orthodyn

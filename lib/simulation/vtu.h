@@ -1,0 +1,49 @@
+// Frames for ParaView: one .vtu file per output time (appended raw binary) and a .pvd with the times.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "lib/simulation/files.h"
+#include "lib/simulation/observer.h"
+
+namespace orthodyn {
+
+// Values of all nodes or cells, one set of `components` after the other.
+struct VtuField {
+  std::string name;
+  Location location;
+  int components;
+  std::vector<double> values;
+};
+
+// Writes one .vtu file of tetrahedra, in double precision. Throws RunError.
+void write_vtu(const std::filesystem::path& path, const Geometry& geometry, const std::vector<VtuField>& fields);
+
+class VtuWriter : public Observer {
+ public:
+  // Writes <folder>/frames.pvd and <folder>/frames/frame_00000.vtu ... `fields` are node or cell
+  // outputs of the model, which must outlive the writer.
+  VtuWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields);
+
+  void on_start(const State& state) override;
+  void on_resume(const State& state) override;
+  void on_output(const State& state) override { write(state); }
+  void save(Archive& archive) override;
+  void restore(const Archive& archive) override;
+
+ private:
+  void write(const State& state);
+  std::filesystem::path frame(std::size_t k) const;
+  void remove_frames_from(std::size_t count) const;
+
+  std::filesystem::path folder_;
+  const Model& model_;
+  std::vector<OutputInfo> fields_;
+  GrowingFile collection_;
+  std::size_t frames_ = 0, lasting_ = 0;  // written, and known to be on the disk
+  std::size_t kept_ = 0;                  // bytes of the collection, of a checkpoint
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,240 @@
+#include "lib/study/compare/comparison.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+
+#include "lib/config/registry.h"
+#include "lib/ode/integrator.h"
+#include "lib/study/jobs/input_kind.h"
+
+namespace orthodyn {
+
+template <>
+struct Words<ReferenceKind> {
+  static constexpr std::array<std::pair<ReferenceKind, const char*>, 3> list{
+      {{ReferenceKind::automatic, "automatic"}, {ReferenceKind::computed, "computed"}, {ReferenceKind::none, "none"}}};
+};
+
+namespace {
+
+constexpr Range kSeconds{0, 1e7, true, false};
+
+std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
+
+void require_known_integrator(const Config& c, const std::string& type) {
+  const auto names = Registry<IntegratorChoice>::names();
+  if (std::find(names.begin(), names.end(), type) != names.end()) return;
+  const auto near = nearest_name(type, names);
+  c.fail("unknown integrator '" + type + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
+         " Known: all, " + join(names) + ".");
+}
+
+// {type, label, any option of the integrator}
+IntegratorEntry read_section(const Config& c) {
+  if (!c.has("type")) c.fail("key 'type' is missing: the integrator's name");
+  IntegratorEntry entry{c.at("type").text(), "", {}, {c.where()}, false};
+  require_known_integrator(c.at("type"), entry.type);
+  entry.label = c.has("label") ? c.at("label").text() : entry.type;
+  for (const auto& key : c.keys())
+    if (key != "type" && key != "label") entry.options.emplace_back(key, Value<YamlText>::read(c.at(key), {}));
+  return entry;
+}
+
+template <class Entry>
+void refuse_equal_labels(const std::vector<Entry>& entries) {
+  for (auto a = entries.begin(); a != entries.end(); ++a)
+    if (std::any_of(entries.begin(), a, [&](const Entry& b) { return b.label == a->label; }))
+      a->origin.fail("'" + a->label + "' stands here twice; give one of them a different 'label'");
+}
+
+void refuse_repeated(std::vector<double> values, const Config& config, const char* key) {
+  std::sort(values.begin(), values.end());
+  if (std::adjacent_find(values.begin(), values.end()) != values.end()) config.at(key).fail("has a value twice");
+}
+
+void check_varied(const std::string& path, const std::vector<YamlText>& values, const Config& at) {
+  if (values.empty()) at.fail("is empty; list the values to compare");
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (values[i].text == values[j].text) at.at(i).fail("stands here twice");
+  if (path == "integrator.rtol" || path == "integrator.step")
+    at.fail("comes from 'tolerances' and 'steps' of the comparison; remove it here");
+  if (path == "integrator.type") at.fail("comes from 'integrators' of the comparison; remove it here");
+}
+
+// A key that none of the integrators has would be varied for nothing.
+void check_varied_options(const Comparison& c, const Config& config) {
+  for (const auto& [path, values] : c.vary) {
+    if (!path.starts_with("integrator.")) continue;
+    const std::string key = path.substr(std::string("integrator.").size());
+    std::vector<std::string> known;
+    for (const auto& entry : c.integrators)
+      for (const auto& k : Registry<IntegratorChoice>::entries().at(entry.type).keys) known.push_back(k.name);
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    const auto near = nearest_name(key, known);
+    config.at("vary").at(path).fail("none of the integrators has a key '" + key + "'" +
+                                    (near.empty() ? "" : "; did you mean '" + near + "'?"));
+  }
+}
+
+void refuse_unused(const Config& config, const std::string& name, const std::vector<double>& values,
+                   const Comparison& c, const std::string& key) {
+  if (values.empty()) return;
+  for (const auto& entry : c.integrators)
+    for (const auto& k : Registry<IntegratorChoice>::entries().at(entry.type).keys)
+      if (k.name == key) return;
+  config.at(name).fail("none of the integrators takes them (as '" + key + "'); remove them");
+}
+
+void check_comparison(const Comparison& c, const Config& config) {
+  if (c.scenes.empty()) config.at("scenes").fail("is empty; name at least one scene");
+  if (c.integrators.empty()) config.at("integrators").fail("is empty; name some, or 'all'");
+  if (c.tolerances.empty() && c.steps.empty()) config.fail("give 'tolerances', 'steps' or both");
+  refuse_repeated(c.tolerances, config, "tolerances");
+  refuse_repeated(c.steps, config, "steps");
+  for (const auto& [path, values] : c.vary) check_varied(path, values, config.at("vary").at(path));
+}
+
+}  // namespace
+
+std::string said_at_its_place(const std::string& message, const Assignments& assignments) {
+  constexpr std::string_view kSet = "--set ";
+  const auto at = message.find(kSet);
+  if (at == std::string::npos) return message;
+  const std::string wrong = message.substr(at + kSet.size());  // "a.b.0: must be ..." or "a.b.0=5: there is ..."
+  const std::pair<std::string, YamlText>* nearest = nullptr;
+  for (const auto& assignment : assignments) {
+    const std::string& path = assignment.first;
+    if (assignment.second.origin.where.empty() || !wrong.starts_with(path) || wrong.size() == path.size() ||
+        std::string(".:=").find(wrong[path.size()]) == std::string::npos)
+      continue;
+    if (!nearest || path.size() >= nearest->first.size()) nearest = &assignment;  // the last one holds
+  }
+  if (!nearest) return message;
+  const std::string rest = wrong.substr(nearest->first.size());
+  return nearest->second.origin.where + (rest.front() == '=' ? ": " + message : rest);
+}
+
+std::vector<IntegratorEntry> expand_all(const std::vector<IntegratorEntry>& entries) {
+  std::vector<IntegratorEntry> out;
+  for (const auto& entry : entries) {
+    if (entry.type != "all") out.push_back(entry);
+    else
+      for (const auto& name : Registry<IntegratorChoice>::names()) out.push_back({name, name, {}, entry.origin, true});
+  }
+  return out;
+}
+
+SceneEntry Value<SceneEntry>::read(const Config& c, const Rule&) {
+  SceneEntry entry;
+  if (c.is_map()) entry = SceneEntry::spec().read(c);
+  else entry.file = Value<FilePath>::read(c, {}), entry.origin.where = c.where();
+  if (entry.label.empty()) entry.label = stem(entry.file.path);
+  return entry;
+}
+
+Shape Value<IntegratorEntry>::shape() {
+  std::vector<std::string> names{"all"};
+  for (const auto& name : Registry<IntegratorChoice>::names()) names.push_back(name);
+  const auto alternatives = [] {
+    std::map<std::string, Alternative> out;
+    for (const auto& [name, entry] : Registry<IntegratorChoice>::entries()) {
+      Alternative one = entry;
+      std::erase_if(one.keys, [](const Key& key) { return key.name == "rtol" || key.name == "step"; });
+      one.keys.push_back({"label", Value<std::string>::shape(), "", {}, "", "Its name in the report.", false});
+      out.emplace(name, one);
+    }
+    return out;
+  };
+  return {.kind = Shape::Kind::either,
+          .items = {{.kind = Shape::Kind::word, .words = "name", .names = names},
+                    {.kind = Shape::Kind::choice, .title = "IntegratorEntry", .alternatives = alternatives}}};
+}
+
+Shape Value<ReferenceEntry>::shape() { return Value<std::shared_ptr<const IntegratorChoice>>::shape(); }
+
+IntegratorEntry Value<IntegratorEntry>::read(const Config& c, const Rule&) {
+  if (!c.is_map()) {
+    if (c.text() != "all") require_known_integrator(c, c.text());
+    return {c.text(), c.text(), {}, {c.where()}, false};
+  }
+  for (const char* control : {"rtol", "step", "safety"})
+    if (c.has(control))
+      c.at(control).fail("is what the comparison varies, by its 'tolerances' and 'steps' or by itself; remove it here");
+  return read_section(c);
+}
+
+ReferenceEntry Value<ReferenceEntry>::read(const Config& c, const Rule&) {
+  if (!c.is_map()) c.fail("expected a section with the key 'type', found " + c.shown());
+  return {read_section(c)};
+}
+
+const Spec<SceneEntry>& SceneEntry::spec() {
+  static const auto s = Spec<SceneEntry>()
+                            .key("file", &SceneEntry::file, "A scene.", {.required = true})
+                            .key("label", &SceneEntry::label, "Its name in the report; default the file's.")
+                            .key("set", &SceneEntry::set, "Changes by path: {mesh.cells: [45, 9, 9]}.");
+  return s;
+}
+
+const Spec<Limits>& Limits::spec() {
+  static const auto s =
+      Spec<Limits>()
+          .key("seconds", &Limits::seconds, "Wall time of one integration.", {.unit = "s", .range = kSeconds})
+          .key("memory", &Limits::memory, "Memory in use by one process.", {.unit = "bytes", .range = kPositive});
+  return s;
+}
+
+const Spec<ReferenceOptions>& ReferenceOptions::spec() {
+  static const auto s =
+      Spec<ReferenceOptions>()
+          .key("kind", &ReferenceOptions::kind,
+               "automatic: the exact solution where there is one, else computed. none: no errors.")
+          .key("integrator", &ReferenceOptions::integrator,
+               "The integrator of the reference, as in a scene; default arkode_dirk at a thousandth of the "
+               "smallest tolerance.")
+          .key("check", &ReferenceOptions::check,
+               "A second one, of another family, whose difference bounds the error of the reference; default "
+               "cvode_bdf of order 5 at a thousandth of the smallest tolerance.")
+          .key("seconds", &ReferenceOptions::seconds, "Limit of the wall time of either.",
+               {.unit = "s", .range = kSeconds});
+  return s;
+}
+
+const Spec<Comparison>& Comparison::spec() {
+  static const auto s =
+      Spec<Comparison>()
+          .key("title", &Comparison::title, "Heading of the report; default the file's name.")
+          .key("description", &Comparison::description, "What is compared and why, in a sentence or two.")
+          .key("scenes", &Comparison::scenes, "Scene files, or sections {file, label, set}.", {.required = true})
+          .key("integrators", &Comparison::integrators,
+               "Names, 'all', or sections {type, label, any option of the integrator}.", {.fallback = "[all]"})
+          .key("tolerances", &Comparison::tolerances, "rtol of the adaptive methods.", {.range = {0, 1, true, true}})
+          .key("steps", &Comparison::steps, "Steps of the fixed-step methods.", {.unit = "s", .range = kPositive})
+          .key("vary", &Comparison::vary,
+               "Further values by path, all combined: {integrator.linear_solver: [klu, cholmod]}. What lies below "
+               "'integrator' makes methods, everything else makes scenes.")
+          .key("repeats", &Comparison::repeats, "Timed integrations of each point.", {.range = {1, 100}})
+          .key("samples", &Comparison::samples, "Times at which errors are taken, evenly spaced.", {.range = {2, 2000}})
+          .key("limits", &Comparison::limits, "Of each point.")
+          .key("reference", &Comparison::reference, "What errors are measured against.")
+          .check(check_comparison);
+  return s;
+}
+
+Comparison read_comparison(const Config& config) {
+  refuse_other_kinds(config, InputFile::comparison);
+  Comparison comparison = Comparison::spec().read(config);
+  comparison.name = stem(config.file());
+  if (comparison.title.empty()) comparison.title = comparison.name;
+  comparison.integrators = expand_all(comparison.integrators);
+  check_varied_options(comparison, config);
+  refuse_unused(config, "tolerances", comparison.tolerances, comparison, "rtol");
+  refuse_unused(config, "steps", comparison.steps, comparison, "step");
+  refuse_equal_labels(comparison.scenes);
+  refuse_equal_labels(comparison.integrators);
+  return comparison;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,85 @@
+// compare.csv: the points of a comparison, one row each.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "lib/study/compare/comparison_table.h"
+#include "lib/study/jobs/csv_cell.h"
+
+namespace orthodyn {
+
+namespace {
+
+struct Column {
+  std::string title;
+  std::vector<std::string> path;  // into a point
+};
+
+std::vector<Column> columns_of(const Json& comparison) {
+  std::vector<Column> all{{"problem", {"problem"}},
+                          {"method", {"method"}},
+                          {"control", {"control", "kind"}},
+                          {"control_value", {"control", "value"}},
+                          {"status", {"status"}},
+                          {"reason", {"reason"}},
+                          {"time_reached [s]", {"time_reached"}},
+                          {"repeats", {"repeats"}}};
+  for (const char* clock : {"wall", "cpu"})
+    for (const char* figure : {"median", "min", "max"})
+      all.push_back({fmt::format("{}.{} [s]", clock, figure), {clock, figure}});
+  for (const char* count : {"steps", "rejected_steps", "error_test_failures", "convergence_failures",
+                            "newton_iterations", "gauss_newton_fallbacks"})
+    all.push_back({count, {"statistics", count}});
+  for (const char* work : {"force", "tangent", "factorization", "solve"}) {
+    all.push_back({fmt::format("{}.count", work), {"statistics", work, "count"}});
+    all.push_back({fmt::format("{}.seconds [s]", work), {"statistics", work, "seconds"}});
+  }
+  all.push_back({"peak_memory [bytes]", {"peak_memory_bytes"}});
+  all.push_back({"factor [bytes]", {"factor_bytes"}});
+  const auto add_errors = [&](std::vector<std::string> path, const std::string& name) {
+    for (const char* norm : {"final", "l2", "max"}) {
+      path.push_back(norm);
+      all.push_back({fmt::format("error.{}.{}", name, norm), path});
+      path.pop_back();
+    }
+  };
+  add_errors({"errors", "displacement"}, "displacement");
+  add_errors({"errors", "velocity"}, "velocity");
+  std::vector<std::string> probes;
+  for (const auto& problem : comparison.at("problems"))
+    if (problem.at("probe_scales").is_object())
+      for (const auto& [name, scale] : problem.at("probe_scales").items())
+        if (std::find(probes.begin(), probes.end(), name) == probes.end()) probes.push_back(name);
+  for (const auto& probe : probes) add_errors({"errors", "probes", probe}, "probe." + probe);
+  all.push_back({"error.phase [rad]", {"errors", "phase"}});
+  for (const char* drift : {"energy", "linear_momentum", "angular_momentum"})
+    all.push_back({fmt::format("drift.{}", drift), {"drift", drift}});
+  all.push_back({"smallest_det_f", {"smallest_det_f"}});
+  all.push_back({"scene", {"scene"}});
+  return all;
+}
+
+std::string cell(const Json& point, const Column& column) {
+  const Json* at = &point;
+  for (const auto& key : column.path) {
+    if (!at->is_object() || !at->contains(key)) return "";
+    at = &at->at(key);
+  }
+  return csv_cell(*at);
+}
+
+}  // namespace
+
+std::string comparison_csv(const Json& comparison) {
+  const auto columns = columns_of(comparison);
+  std::string out;
+  for (const auto& column : columns) out += (out.empty() ? "" : ",") + csv_cell(column.title);
+  out += fmt::format(",near_reference.{}\n", kLeadingError);
+  for (const auto& point : comparison.at("points")) {
+    for (const auto& column : columns) out += cell(point, column) + ",";
+    out += is_near_reference(point, kLeadingError) ? "true\n" : "false\n";
+  }
+  return out;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,37 @@
+// States at chosen times: what errors are computed from.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "lib/simulation/observer.h"
+
+namespace orthodyn {
+
+struct Trajectory {
+  std::vector<double> times;
+  Eigen::MatrixXd q, v;  // N x times
+
+  // Binary, whole or absent. Both throw RunError.
+  void save(const std::filesystem::path& path) const;
+  static Trajectory load(const std::filesystem::path& path);
+
+  // True if the file is whole, by its size.
+  static bool is_whole(const std::filesystem::path& path);
+};
+
+// Records the initial state and every output.
+class TrajectoryRecorder : public Observer {
+ public:
+  explicit TrajectoryRecorder(std::size_t outputs) : outputs_(outputs) {}
+  void on_start(const State& state) override;
+  void on_output(const State& state) override;
+
+  const Trajectory& trajectory() const { return trajectory_; }
+
+ private:
+  std::size_t outputs_;
+  Trajectory trajectory_;
+};
+
+}  // namespace orthodyn

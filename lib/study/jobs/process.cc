@@ -1,0 +1,92 @@
+#include "lib/study/jobs/process.h"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <thread>
+
+#include "lib/core/errors.h"
+
+namespace orthodyn {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto kPoll = std::chrono::milliseconds(5);
+
+// In the child, between fork and exec: only what is safe there.
+[[noreturn]] void become(char* const* argv, const char* log, pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // also when the parent is killed
+  if (getppid() != parent) _exit(127);
+  setpgid(0, 0);  // Ctrl-C goes to the parent alone, which ends the child
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+  if (const int in = open("/dev/null", O_RDONLY | O_CLOEXEC); in >= 0) dup2(in, STDIN_FILENO);
+  const int out = open(log, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (out >= 0) {
+    dup2(out, STDOUT_FILENO);
+    dup2(out, STDERR_FILENO);
+  }
+  execv(argv[0], argv);
+  _exit(127);
+}
+
+// Resident memory. Limiting the addresses instead (RLIMIT_AS) has OpenBLAS wait for memory for ever.
+double memory_in_use(pid_t process) {
+  std::ifstream in("/proc/" + std::to_string(process) + "/statm");
+  double addresses = 0, resident = 0;
+  in >> addresses >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+}
+
+ProcessEnd ended(int status) {
+  if (WIFSIGNALED(status)) return {ProcessEnd::Kind::signalled, WTERMSIG(status)};
+  return {ProcessEnd::Kind::exited, WEXITSTATUS(status)};
+}
+
+void kill_and_reap(pid_t child) {
+  kill(-child, SIGKILL);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+}
+
+}  // namespace
+
+ProcessEnd run_process(const std::vector<std::string>& argv, const std::filesystem::path& log,
+                       const ProcessLimits& limits, const Stop& stop) {
+  std::vector<char*> arguments;
+  for (const auto& a : argv) arguments.push_back(const_cast<char*>(a.c_str()));
+  arguments.push_back(nullptr);
+  const pid_t parent = getpid();
+  const pid_t child = fork();
+  if (child < 0) throw RunError(std::string("cannot start a process: ") + std::strerror(errno));
+  if (child == 0) become(arguments.data(), log.c_str(), parent);
+  setpgid(child, child);  // whoever of the two comes first
+
+  const auto end =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits.seconds));
+  for (;;) {
+    int status = 0;
+    const pid_t done = waitpid(child, &status, WNOHANG);
+    if (done == child) return ended(status);
+    if (done < 0 && errno != EINTR) throw RunError(std::string("a process was lost: ") + std::strerror(errno));
+    const auto killed = [&](ProcessEnd::Kind why) {
+      kill_and_reap(child);
+      return ProcessEnd{why, 0};
+    };
+    if (stop()) return killed(ProcessEnd::Kind::interrupted);
+    if (Clock::now() > end) return killed(ProcessEnd::Kind::timed_out);
+    if (memory_in_use(child) > limits.memory) return killed(ProcessEnd::Kind::out_of_memory);
+    std::this_thread::sleep_for(kPoll);
+  }
+}
+
+}  // namespace orthodyn

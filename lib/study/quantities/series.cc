@@ -1,0 +1,183 @@
+#include "lib/study/quantities/series.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace orthodyn {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr int kLooksPerStep = 4;
+
+// The vertex of the parabola through the largest sample and its neighbours.
+struct Vertex {
+  double t = kNone, value = kNone;
+};
+
+Vertex vertex(const Series& s, double sign) {
+  if (s.times.empty()) return {};
+  const auto better = [&](double a, double b) { return sign * a < sign * b; };
+  const auto k = static_cast<std::size_t>(std::max_element(s.values.begin(), s.values.end(), better) -
+                                          s.values.begin());
+  const Vertex sample{s.times[k], s.values[k]};
+  if (k == 0 || k + 1 == s.size()) return sample;
+  const double h0 = s.times[k - 1] - s.times[k], h1 = s.times[k + 1] - s.times[k];
+  const double y0 = s.values[k - 1] - s.values[k], y1 = s.values[k + 1] - s.values[k];
+  // y = b h + a h^2
+  const double a = (y1 / h1 - y0 / h0) / (h1 - h0), b = y0 / h0 - a * h0;
+  if (!(sign * a < 0)) return sample;
+  return {s.times[k] - b / (2 * a), s.values[k] - b * b / (4 * a)};
+}
+
+// The integral of the parabola through the samples k, k + 1, k + 2 from the first to the second of them,
+// by Newton's divided differences.
+double integral_over_first(const Series& s, std::size_t k) {
+  const double h = s.times[k + 1] - s.times[k], g = s.times[k + 2] - s.times[k + 1];
+  const double slope = (s.values[k + 1] - s.values[k]) / h, next = (s.values[k + 2] - s.values[k + 1]) / g;
+  return h * (s.values[k] + h * (slope / 2 - (next - slope) / (h + g) * h / 6));
+}
+
+// The same from the second to the third.
+double integral_over_last(const Series& s, std::size_t k) {
+  const double h = s.times[k + 1] - s.times[k], g = s.times[k + 2] - s.times[k + 1];
+  const double slope = (s.values[k + 1] - s.values[k]) / h, next = (s.values[k + 2] - s.values[k + 1]) / g;
+  return g * (s.values[k + 2] - g * (next / 2 + (next - slope) / (h + g) * g / 6));
+}
+
+}  // namespace
+
+double maximum(const Series& series, double sign) { return vertex(series, sign).value; }
+
+double time_of_maximum(const Series& series, double sign) { return vertex(series, sign).t; }
+
+double mean(const Series& s) {
+  const auto n = s.size();
+  if (n < 2) return kNone;
+  double sum = 0;
+  for (std::size_t k = 0; k + 1 < n; ++k) {
+    // Parabolas through either neighbour, averaged; at the ends there is one.
+    double pieces = 0;
+    int count = 0;
+    if (k > 0) pieces += integral_over_last(s, k - 1), ++count;
+    if (k + 2 < n) pieces += integral_over_first(s, k), ++count;
+    sum += count > 0 ? pieces / count : 0.5 * (s.values[0] + s.values[1]) * (s.times[1] - s.times[0]);
+  }
+  return sum / (s.times.back() - s.times.front());
+}
+
+double frequency(const Series& s) {
+  const double level = mean(s);
+  double first = kNone, last = kNone;
+  int crossings = 0;
+  for (std::size_t k = 1; k < s.size(); ++k) {
+    const double before = s.values[k - 1] - level, now = s.values[k] - level;
+    if (!(before < 0 && now >= 0)) continue;
+    last = s.times[k - 1] + (s.times[k] - s.times[k - 1]) * before / (before - now);
+    if (++crossings == 1) first = last;
+  }
+  return crossings < 2 ? kNone : (crossings - 1) / (last - first);
+}
+
+double settling_time(const Series& s, double share) {
+  if (s.size() < 2) return kNone;
+  const auto [least, most] = std::minmax_element(s.values.begin(), s.values.end());
+  const double last = s.values.back(), band = share * (*most - *least), start = s.times.front();
+  std::size_t k = s.size() - 1;
+  while (k > 0 && std::abs(s.values[k - 1] - last) <= band) --k;
+  if (k == 0) return 0;
+  // Between the last sample outside and the first inside.
+  const double outside = std::abs(s.values[k - 1] - last), inside = std::abs(s.values[k] - last);
+  const double t = s.times[k - 1] + (s.times[k] - s.times[k - 1]) * (outside - band) / (outside - inside);
+  return t - start > 0.9 * (s.times.back() - start) ? kNone : t - start;
+}
+
+double drift(const Series& s) {
+  const auto n = static_cast<std::size_t>(s.components);
+  double largest = s.size() == 0 ? kNone : 0;
+  for (std::size_t k = 0; k < s.size(); ++k) {
+    double squares = 0;
+    for (std::size_t c = 0; c < n; ++c) squares += std::pow(s.values[k * n + c] - s.values[c], 2);
+    if (std::isnan(squares)) return kNone;
+    largest = std::max(largest, std::sqrt(squares));
+  }
+  return largest;
+}
+
+double gain(const Series& s) {
+  double largest = s.size() == 0 ? kNone : 0;
+  for (const double value : s.values) {
+    if (std::isnan(value)) return kNone;
+    largest = std::max(largest, value - s.values[0]);
+  }
+  return largest;
+}
+
+double onset(const Series& s, double level) {
+  for (std::size_t k = 0; k < s.size(); ++k) {
+    const double now = std::abs(s.values[k]);
+    if (now < level) continue;
+    if (k == 0) return s.times[0];
+    const double before = std::abs(s.values[k - 1]);
+    return s.times[k - 1] + (s.times[k] - s.times[k - 1]) * (level - before) / (now - before);
+  }
+  return kNone;
+}
+
+SeriesRecorder::SeriesRecorder(const Model& model, const Integrator& integrator, std::vector<Quantity> quantities)
+    : quantities_(std::move(quantities)) {
+  for (const auto& q : quantities_) {
+    series_.push_back({q.components, {}, {}});
+    if (!q.values && !energy_) energy_ = std::make_unique<EnergyMeter>(model, integrator);
+  }
+}
+
+void SeriesRecorder::on_start(const State& state) {
+  if (energy_) energy_->on_start(state);
+  record(state);
+}
+
+// In the order of time with the other looks, as the energy balance needs: see on_step().
+void SeriesRecorder::on_output(const State& state) { pending_.push_back(state.t); }
+
+void SeriesRecorder::on_step(const StepInfo& info, const State& state, const Integrator& integrator) {
+  std::vector<double> looks = pending_;
+  for (int k = 1; k < kLooksPerStep; ++k) looks.push_back(last_t_ + (info.t - last_t_) * k / kLooksPerStep);
+  std::sort(looks.begin(), looks.end());
+  for (const double t : looks) {
+    if (t <= last_t_ || t >= info.t) continue;
+    State within;
+    integrator.interpolate(t, within);
+    record(within);
+  }
+  record(state);
+  pending_.clear();
+}
+
+double SeriesRecorder::at(std::size_t quantity, double t) const {
+  const Series& s = series_[quantity];
+  const auto after = std::lower_bound(s.times.begin(), s.times.end(), t);
+  const auto nearest = after == s.times.begin()                                      ? after
+                       : after == s.times.end() || t - *(after - 1) < *after - t ? after - 1
+                                                                                     : after;
+  return s.values[static_cast<std::size_t>(nearest - s.times.begin())];
+}
+
+void SeriesRecorder::record(const State& state) {
+  if (energy_) energy_->on_output(state);
+  for (std::size_t q = 0; q < quantities_.size(); ++q) {
+    const auto v = values(q, state);
+    series_[q].times.push_back(state.t);
+    series_[q].values.insert(series_[q].values.end(), v.begin(), v.end());
+  }
+  last_t_ = state.t;
+}
+
+std::vector<double> SeriesRecorder::values(std::size_t quantity, const State& state) const {
+  const auto& q = quantities_[quantity];
+  if (!q.values) return {energy_->last().balance()};
+  return q.values(state);
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,93 @@
+#include "lib/study/quantities/verify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "lib/simulation/run.h"
+#include "lib/simulation/statics.h"
+#include "lib/scene/equilibrium.h"
+#include "lib/scene/setup.h"
+#include "lib/study/quantities/figure.h"
+
+namespace orthodyn {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<Quantity> quantities_of(const Setup& setup) {
+  const Origin origin{setup.config.where()};
+  std::vector<Quantity> quantities;
+  for (const auto& e : setup.scene.expect)
+    quantities.push_back(find_quantity(e.quantity, setup.scene, *setup.built.model, origin));
+  return quantities;
+}
+
+CaseResult verify_equilibrium(const Setup& setup, const std::atomic<bool>& interrupt) {
+  const auto quantities = quantities_of(setup);
+  const StaticProblem problem = static_problem(setup.scene, setup.built);
+  CaseResult result{setup.config.file(), run_static(*problem.stepper, {}, interrupt), {}};
+  const State state{problem.path->time(), result.outcome.last.q, result.outcome.last.v};
+  for (std::size_t q = 0; q < quantities.size(); ++q)
+    result.checks.push_back(
+        {setup.scene.expect[q], problem.stepper->done() ? quantities[q].values(state)[0] : std::nan(""), quantities[q].unit});
+  return result;
+}
+
+CaseResult verify_motion(const Setup& setup, std::vector<Observer*> observers, const std::atomic<bool>& interrupt) {
+  const auto& expectations = setup.scene.expect;
+  const auto quantities = quantities_of(setup);
+  SeriesRecorder recorder(*setup.built.model, *setup.integrator, quantities);
+  observers.push_back(&recorder);
+  Plan plan{setup.scene.time.end, times_asked_for(expectations, setup.scene.time.start), false};
+  EventFinder events(setup.events);
+  if (!events.empty()) plan.events = &events;
+  CaseResult result{setup.config.file(),
+                    run(*setup.built.model, *setup.integrator, setup.built.initial, plan, observers, interrupt), {}};
+  for (std::size_t q = 0; q < expectations.size(); ++q)
+    result.checks.push_back(
+        {expectations[q], result.completed() ? figure(expectations[q], recorder, q) : std::nan(""),
+                             figure_unit(expectations[q].take, quantities[q].unit)});
+  return result;
+}
+
+}  // namespace
+
+bool Check::passed() const { return std::abs(difference()) <= expectation.limit(); }
+
+bool CaseResult::passed() const {
+  return completed() && std::all_of(checks.begin(), checks.end(), [](const Check& c) { return c.passed(); });
+}
+
+std::vector<std::string> find_cases(const std::vector<std::string>& places) {
+  std::vector<std::string> files;
+  for (const auto& place : places) {
+    if (!fs::exists(place)) throw ConfigError(place + ": no such file or folder");
+    if (!fs::is_directory(place)) {
+      files.push_back(place);
+      continue;
+    }
+    std::vector<std::string> here;
+    for (const auto& entry : fs::directory_iterator(place))
+      if (entry.path().extension() == ".yaml") here.push_back(entry.path().string());
+    if (here.empty()) throw ConfigError(place + ": holds no *.yaml files");
+    std::sort(here.begin(), here.end());
+    files.insert(files.end(), here.begin(), here.end());
+  }
+  return files;
+}
+
+CaseResult verify(const Config& scene) {
+  const std::atomic<bool> never{false};
+  return verify(set_up(scene), {}, never);
+}
+
+CaseResult verify(const Setup& setup, const std::vector<Observer*>& observers, const std::atomic<bool>& interrupt) {
+  if (setup.scene.expect.empty())
+    setup.config.fail("expects nothing; add a list 'expect' (see `orthodyn list expect`)");
+  if (setup.scene.analysis == Analysis::statical) return verify_equilibrium(setup, interrupt);
+  return verify_motion(setup, observers, interrupt);
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,47 @@
+#include "lib/study/quantities/wanted_modes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace orthodyn {
+
+namespace {
+
+constexpr int kAlong = 20;  // modes among which that of the largest effective mass is looked for
+constexpr int kRigid = 6;   // modes of a free body
+
+// `count` modes that are not zero, or all that there are. How many are zero shows only in those that were computed.
+Modes elastic_modes(const Model& model, const State& about, int count) {
+  const int all = static_cast<int>(about.q.size());
+  int size = std::min(count, all);
+  Modes modes = natural_modes(model, about, size);
+  while (size < all && size - modes.zeros < count) {
+    size = std::min(count + std::max(modes.zeros, kRigid), all);
+    modes = natural_modes(model, about, size);
+  }
+  return modes;
+}
+
+double frequency_of(const WantedFigure& f, const Modes& modes) {
+  const auto first = modes.modes.begin() + std::min<std::ptrdiff_t>(modes.zeros, std::ssize(modes.modes));
+  if (f.mode) return modes.modes.end() - first < *f.mode ? std::nan("") : first[*f.mode - 1].frequency();
+  const auto last = first + std::min<std::ptrdiff_t>(kAlong, modes.modes.end() - first);
+  const auto axis = static_cast<Eigen::Index>(*f.along);
+  const auto less = [&](const Mode& a, const Mode& b) { return a.effective_mass()[axis] < b.effective_mass()[axis]; };
+  const auto found = std::max_element(first, last, less);
+  return found == last ? std::nan("") : found->frequency();
+}
+
+}  // namespace
+
+std::vector<double> wanted_frequencies(const std::vector<WantedFigure>& figures, const Model& model,
+                                       const State& about) {
+  int count = 1;
+  for (const auto& f : figures) count = std::max(count, f.along ? kAlong : f.mode.value_or(1));
+  const Modes modes = elastic_modes(model, about, count);
+  std::vector<double> out;
+  for (const auto& f : figures) out.push_back(frequency_of(f, modes));
+  return out;
+}
+
+}  // namespace orthodyn

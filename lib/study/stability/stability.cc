@@ -1,0 +1,131 @@
+#include "lib/study/stability/stability.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "lib/config/registry.h"
+#include "lib/ode/integrator.h"
+#include "lib/scene/scene.h"
+#include "lib/study/compare/expand.h"
+#include "lib/study/jobs/input_kind.h"
+
+namespace orthodyn {
+
+namespace {
+
+std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
+
+template <class Entry>
+void refuse_equal_labels(const std::vector<Entry>& entries) {
+  for (auto a = entries.begin(); a != entries.end(); ++a)
+    if (std::any_of(entries.begin(), a, [&](const Entry& b) { return b.label == a->label; }))
+      a->origin.fail("'" + a->label + "' stands here twice; give one of them a different 'label'");
+}
+
+void check(const Stability& stability, const Config& config) {
+  if (stability.cases.empty()) config.at("cases").fail("is empty; name at least one scene with an 'expect' list");
+  if (stability.integrators.empty()) config.at("integrators").fail("is empty; name some, or 'all'");
+  if (stability.variants.empty()) config.at("variants").fail("is empty; leave it out for the force as it is");
+}
+
+// Reads it, too: wrong input shows before anything runs.
+Config scene_of(const Problem& problem, const TrialIntegrator& entry) {
+  Config config = with_integrator(problem, entry.type, entry.options, [](const std::string&) { return true; });
+  for (const char* silent : {"output.fields=[]", "output.energy=false", "output.steps=false"})
+    config.override_with(silent);
+  if (read_scene(config).expect.empty())
+    config.fail("expects nothing, so nothing can be judged; add a list 'expect' (see `orthodyn list expect`)");
+  return config;
+}
+
+}  // namespace
+
+HardCase Value<HardCase>::read(const Config& c, const Rule&) {
+  HardCase entry;
+  if (c.is_map()) entry = HardCase::spec().read(c);
+  else entry.file = Value<FilePath>::read(c, {}), entry.origin.where = c.where();
+  if (entry.label.empty()) entry.label = stem(entry.file.path);
+  return entry;
+}
+
+Shape Value<TrialIntegrator>::shape() {
+  auto names = Registry<IntegratorChoice>::names();
+  names.insert(names.begin(), "all");
+  return {.kind = Shape::Kind::either,
+          .items = {{.kind = Shape::Kind::word, .words = "name", .names = names}, Value<ReferenceEntry>::shape()}};
+}
+
+TrialIntegrator Value<TrialIntegrator>::read(const Config& c, const Rule& rule) {
+  if (c.is_map()) return {Value<ReferenceEntry>::read(c, rule)};
+  return {Value<IntegratorEntry>::read(c, rule)};
+}
+
+const Spec<HardCase>& HardCase::spec() {
+  static const auto s =
+      Spec<HardCase>()
+          .key("file", &HardCase::file, "A scene with an `expect` list.", {.required = true})
+          .key("label", &HardCase::label, "Its name in the matrix; default the file's.")
+          .key("set", &HardCase::set, "Changes by path: {mesh.cells: [45, 9, 9]}.")
+          .key("model", &HardCase::model,
+               "Where the model itself is at fault and no integrator can help: why, in words for the row.");
+  return s;
+}
+
+const Spec<Stability>& Stability::spec() {
+  static const auto s =
+      Spec<Stability>()
+          .key("title", &Stability::title, "Heading of the report; default the file's name.")
+          .key("description", &Stability::description, "What is tried and why, in a sentence or two.")
+          .key("cases", &Stability::cases, "Scenes with an `expect` list, or sections {file, label, set, model}.",
+               {.required = true})
+          .key("integrators", &Stability::integrators,
+               "Names, 'all', or sections {type, label, any option of the integrator}.", {.fallback = "[all]"})
+          .key("variants", &Stability::variants,
+               "What every case is run with, by name: changes by path, such as {warped: {elasticity.corotation: warped}}.",
+               {.fallback = "{default: {}}"})
+          .key("limits", &Stability::limits, "Of each trial.")
+          .check(check);
+  return s;
+}
+
+Stability read_stability(const Config& config) {
+  refuse_other_kinds(config, InputFile::stability);
+  Stability stability = Stability::spec().read(config);
+  stability.name = stem(config.file());
+  if (stability.title.empty()) stability.title = stability.name;
+  const std::vector<IntegratorEntry> named(stability.integrators.begin(), stability.integrators.end());
+  stability.integrators.clear();
+  for (auto& entry : expand_all(named)) stability.integrators.push_back({std::move(entry)});
+  refuse_equal_labels(stability.cases);
+  refuse_equal_labels(stability.integrators);
+  return stability;
+}
+
+std::vector<Trial> trials(const Stability& stability) {
+  std::vector<Trial> all;
+  for (std::size_t c = 0; c < stability.cases.size(); ++c) {
+    const HardCase& hard = stability.cases[c];
+    const std::string text = read_yaml(hard.file);
+    for (std::size_t v = 0; v < stability.variants.size(); ++v) {
+      const auto& [variant, changes] = stability.variants[v];
+      Problem problem{"", hard.label, hard.file.path, text, hard.set};
+      problem.set.insert(problem.set.end(), changes.begin(), changes.end());
+      for (std::size_t i = 0; i < stability.integrators.size(); ++i) {
+        const std::string title = fmt::format("{}, {}, {}", hard.label, variant, stability.integrators[i].label);
+        try {
+          all.push_back({c, v, i, title, scene_of(problem, stability.integrators[i])});
+        } catch (const ConfigError& e) {
+          Assignments made_of = problem.set;
+          for (const auto& [key, value] : stability.integrators[i].options)
+            made_of.emplace_back("integrator." + key, value);
+          throw ConfigError(fmt::format("{} (in {})", said_at_its_place(e.what(), made_of), title));
+        }
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,216 @@
+#include "lib/study/sweep/sweep_design.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "lib/core/units.h"
+#include "lib/scene/build.h"
+#include "lib/scene/quantity.h"
+#include "lib/study/compare/expand.h"
+#include "lib/study/sweep/formula_scope.h"
+#include "lib/study/sweep/latin_hypercube.h"
+
+namespace orthodyn {
+
+namespace {
+
+using Values = std::vector<VariedValue>;
+
+std::vector<Values> cartesian(const std::vector<Variable>& vary) {
+  std::vector<Values> all{{}};
+  for (const auto& variable : vary) {
+    std::vector<Values> longer;
+    for (const auto& values : all) {
+      for (const auto& value : variable.values) {
+        longer.push_back(values);
+        longer.back().push_back(value);
+      }
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+std::vector<Values> side_by_side(const std::vector<Variable>& vary) {
+  std::vector<Values> all(vary.front().values.size());
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (const auto& variable : vary) all[i].push_back(variable.values[i]);
+  return all;
+}
+
+std::vector<Values> sampled(const Sweep& sweep) {
+  std::vector<Values> all;
+  for (const auto& shares : latin_hypercube(sweep.samples.value_or(50), static_cast<int>(sweep.vary.size()), sweep.seed.value_or(1))) {
+    all.emplace_back();
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+      const Variable& v = sweep.vary[k];
+      if (v.range) all.back().push_back(v.at(range_at(*v.range, shares[k])));
+      else all.back().push_back(v.values[static_cast<std::size_t>(shares[k] * static_cast<double>(v.values.size()))]);
+    }
+  }
+  return all;
+}
+
+std::vector<Values> combined(const Sweep& sweep) {
+  switch (sweep.combine) {
+    case Combine::cartesian: return cartesian(sweep.vary);
+    case Combine::zip: return side_by_side(sweep.vary);
+    case Combine::latin_hypercube: break;
+  }
+  return sampled(sweep);
+}
+
+std::string title_of(const Sweep& sweep, const Values& values) {
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const Variable& v = sweep.vary[k];
+    parts.push_back(v.name + " " + values[k].label + (v.unit.empty() || !values[k].number ? "" : " " + v.unit));
+  }
+  return join(parts);
+}
+
+class Expansion {
+ public:
+  explicit Expansion(const Sweep& sweep) : sweep_(sweep), scene_(read_yaml(sweep.scene.file)) {}
+
+  SweepPoint point(const Values& values) {
+    SweepPoint point{values, title_of(sweep_, values), "", "", {}, "", {}};
+    const FormulaScope scope = scope_of(values);
+    for (const auto& [name, figure] : sweep_.quantities)
+      point.closed_forms.push_back(
+          figure.closed_form.empty() ? std::nan("") : scope.evaluate(figure.closed_form, figure.origin.where));
+    Assignments assignments = sweep_.scene.set;
+    for (const auto& value : values) assignments.insert(assignments.end(), value.set.begin(), value.set.end());
+    Config config = Config::from_text(scene_, sweep_.scene.file.path);
+    try {
+      set(config, assignments, scope);
+    } catch (const ConfigError& e) {
+      throw ConfigError(fmt::format("{} (in {})", said_at_its_place(e.what(), assignments), point.title));
+    }
+    std::optional<Scene> scene;
+    try {
+      scene = read_scene(config);
+      fill(config, point);
+    } catch (const ConfigError& e) {
+      point.impossible = e.what();
+      if (sweep_.impossible == Impossible::stop)
+        throw ConfigError(fmt::format("{} (in {}{})", said_at_its_place(e.what(), assignments), point.title,
+                                      is_a_slip(e.what()) ? "" : "; impossible: keep goes on without such points"));
+    }
+    if (scene) check_times(*scene, point.title);
+    if (scene && !is_looked_up_) try_to_look_up_quantities(*scene);
+    return point;
+  }
+
+ private:
+  // Of the form of the input, not of what the values mean: no other value helps.
+  static bool is_a_slip(const std::string& message) {
+    return message.find("unknown key") != std::string::npos || message.find(": expected ") != std::string::npos;
+  }
+
+  FormulaScope scope_of(const Values& values) const {
+    FormulaScope scope;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (values[k].number && is_identifier(sweep_.vary[k].name))
+        scope.add(sweep_.vary[k].name, sweep_.vary[k].si(*values[k].number));
+    for (std::size_t k = 0; k < values.size(); ++k)
+      for (const auto& [name, value] : values[k].let)
+        scope.add(name, number_of(value, scope));
+    for (const auto& [name, value] : sweep_.definitions) scope.add(name, number_of(value, scope));
+    return scope;
+  }
+
+  // In SI units: of "0.84 GPa" or of a formula.
+  static double number_of(const YamlText& value, const FormulaScope& scope) {
+    const Config given = Config::from_text("v: " + value.text).at("v");
+    if (!given.is_scalar()) value.origin.fail("expected a number or a formula, found " + given.shown());
+    const auto parts = split_quantity(given.text());
+    try {
+      if (parts) return parts->number * si_factor(parts->unit);
+    } catch (const std::invalid_argument&) {  // then it is a formula
+    }
+    return scope.evaluate(given.text(), value.origin.where);
+  }
+
+  static void set(Config& config, const Assignments& assignments, const FormulaScope& scope) {
+    for (const auto& [path, value] : assignments) {
+      const Config given = Config::from_text("v: " + value.text).at("v");
+      config.override_with(path + "=" + scope.resolved(given, value.origin.where));
+    }
+  }
+
+  static void fill(const Config& config, SweepPoint& point) {
+    point.scene = config.dump_for("");
+    point.mesh = config.at("mesh").yaml();
+    point.files = config.file_paths();
+  }
+
+  // Of every point: its time span may be varied.
+  void check_times(const Scene& scene, const std::string& title) const {
+    const bool is_static = scene.analysis == Analysis::statical;
+    const auto require = [&](const std::optional<double>& at, const std::string& place) {
+      if (at && (*at < scene.time.start || *at > scene.time.end))
+        throw ConfigError(fmt::format("{}: {} s is outside of the time span of '{}', which is {} to {} s", place, *at,
+                                      title, scene.time.start, scene.time.end));
+    };
+    for (const auto& [name, f] : sweep_.quantities) {
+      if (f.quantity.empty()) continue;
+      if (!is_static) require(f.at, f.origin.where + ".at");
+      else if (f.at || f.take != Take::end || f.settled_within || f.quantity == kEnergyBalance)
+        f.origin.fail("of a static analysis only values in equilibrium are known: remove 'take', 'at' and "
+                      "'settled_within', choose another quantity than energy.balance");
+    }
+    if (!sweep_.frames || !sweep_.frames->at) return;
+    if (is_static)
+      sweep_.frames->origin.fail("a static analysis has one picture, of the equilibrium: remove 'at'");
+    require(sweep_.frames->at, sweep_.frames->origin.where + ".at");
+  }
+
+  // In the first scene that can be built. One that cannot be is a point that fails, and says why.
+  void try_to_look_up_quantities(const Scene& scene) {
+    const auto wants = [](const auto& q) { return !q.second.quantity.empty(); };
+    is_looked_up_ = std::none_of(sweep_.quantities.begin(), sweep_.quantities.end(), wants);
+    if (is_looked_up_) return;
+    std::optional<BuiltScene> built;
+    try {
+      built = build(scene);
+    } catch (const ConfigError&) {
+      if (sweep_.impossible == Impossible::stop) throw;
+      return;
+    }
+    is_looked_up_ = true;
+    look_up_quantities(scene, *built->model);
+  }
+
+  void look_up_quantities(const Scene& scene, const FemModel& model) const {
+    for (const auto& [name, f] : sweep_.quantities) {
+      if (f.quantity.empty()) continue;
+      const Quantity q = find_quantity(f.quantity, scene, model, f.origin);
+      f.check_unit(q.unit);
+      if (q.components == 3 && f.take != Take::drift)
+        f.origin.fail(fmt::format("'{}' is a vector: choose .x, .y, .z or .magnitude", f.quantity));
+    }
+  }
+
+  const Sweep& sweep_;
+  std::string scene_;
+  bool is_looked_up_ = false;
+};
+
+}  // namespace
+
+std::vector<SweepPoint> expand(const Sweep& sweep) {
+  Expansion expansion(sweep);
+  std::vector<SweepPoint> points;
+  for (const auto& values : combined(sweep)) points.push_back(expansion.point(values));
+  if (std::all_of(points.begin(), points.end(), [](const SweepPoint& p) { return !p.impossible.empty(); }))
+    throw ConfigError("none of the points can be computed; the first, " + points.front().title + ": " +
+                      points.front().impossible);
+  return points;
+}
+
+}  // namespace orthodyn

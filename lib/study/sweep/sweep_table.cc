@@ -1,0 +1,196 @@
+#include "lib/study/sweep/sweep_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lib/core/units.h"
+#include "lib/study/jobs/csv_cell.h"
+#include "lib/study/sweep/key_unit.h"
+#include "lib/study/jobs/machine.h"
+#include "lib/study/compare/measure.h"
+
+namespace orthodyn {
+
+namespace {
+
+Json field(const Json& object, const std::string& key) {
+  return object.is_object() && object.contains(key) ? object.at(key) : Json();
+}
+
+// Numbers without a unit are in that of their key, as the first scene that can be says.
+Json variables_json(const Sweep& sweep, const std::vector<SweepPoint>& points) {
+  const auto first = std::find_if(points.begin(), points.end(), [](const auto& p) { return p.impossible.empty(); });
+  Json all = Json::array();
+  for (const auto& v : sweep.vary) {
+    const bool is_plain = v.unit.empty() && v.numeric() && !v.path.empty() && first != points.end();
+    all.push_back({{"name", v.name}, {"path", v.path},
+                   {"unit", is_plain ? unit_at(v.path, Config::from_text(first->scene)) : v.unit},
+                   {"numeric", v.numeric()}, {"scale", Value<Scale>::yaml(v.scale)}});
+  }
+  return all;
+}
+
+// The unit that people see, and what one of it is in SI.
+Json figures_json(const Sweep& sweep, const Json& units) {
+  Json all = Json::array();
+  for (const auto& [name, f] : sweep.quantities) {
+    const Json found = field(units, name);
+    const std::string si = found.is_string() ? found.get<std::string>() : "";
+    all.push_back({{"name", name}, {"title", f.title.empty() ? name : f.title}, {"unit", f.unit.empty() ? si : f.unit},
+                   {"factor", f.unit.empty() ? 1 : si_factor(f.unit)}, {"scale", Value<Scale>::yaml(f.scale)},
+                   {"closed_form", f.closed_form}});
+  }
+  return all;
+}
+
+Json plots_json(const Sweep& sweep) {
+  Json all = Json::array();
+  for (const auto& p : sweep.plots) all.push_back({{"figure", p.figure}, {"x", p.x}, {"lines", p.lines}});
+  return all;
+}
+
+Json frames_json(const Sweep& sweep) {
+  if (!sweep.frames) return nullptr;
+  const FrameWish& f = *sweep.frames;
+  return {{"at", f.at ? Json(*f.at) : Json()}, {"color", f.color},       {"view", f.view}, {"up", f.up},
+          {"enlarged", f.enlarged}, {"most", f.most}, {"ghost", f.ghost}};
+}
+
+Json result_of(const SweepPoint& point, const Errand& errand, const PointResults& results) {
+  if (!point.impossible.empty())
+    return {{"status", "failed"}, {"reason", "impossible"}, {"message", point.impossible}};
+  const auto found = results.find(errand.folder);
+  return found == results.end() ? Json{{"status", "missing"}} : found->second;
+}
+
+Json point_json(const Sweep& sweep, const SweepPoint& point, const Errand& errand, const Json& result) {
+  Json out{{"title", point.title}, {"status", result.at("status")}};
+  out["folder"] = errand.folder.empty() ? "" : "points/" + errand.folder.filename().string();
+  for (std::size_t k = 0; k < sweep.vary.size(); ++k) {
+    const VariedValue& value = point.values[k];
+    out["values"][sweep.vary[k].name] = value.number ? Json(*value.number) : Json(value.label);
+  }
+  out["figures"] = Json::object();
+  out["closed_forms"] = Json::object();
+  for (std::size_t q = 0; q < sweep.quantities.size(); ++q) {
+    const std::string& name = sweep.quantities[q].first;
+    out["figures"][name] = field(field(result, "figures"), name);
+    out["closed_forms"][name] = finite_or_null(point.closed_forms[q]);
+  }
+  for (const char* key : {"reason", "message", "cost", "model", "frame"}) out[key] = field(result, key);
+  return out;
+}
+
+}  // namespace
+
+PointResults results_of(const std::vector<Errand>& errands) {
+  PointResults all;
+  for (const auto& errand : errands) {
+    if (errand.command.empty() || all.contains(errand.folder)) continue;
+    if (Json result = read_json(errand.folder / kResultFile); result.is_object())
+      all.emplace(errand.folder, std::move(result));
+  }
+  return all;
+}
+
+Json sweep_json(const Sweep& sweep, const std::vector<SweepPoint>& points, const std::vector<Errand>& errands,
+                const PointResults& results, const std::string& file) {
+  Json rows = Json::array(), units = Json::object();
+  std::size_t missing = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Json result = result_of(points[i], errands[i], results);
+    if (result.contains("units")) units.update(result.at("units"));
+    missing += result.at("status") == "missing";
+    rows.push_back(point_json(sweep, points[i], errands[i], result));
+  }
+  Json definitions = Json::object();
+  for (const auto& [name, text] : sweep.definitions) definitions[name] = text.text;
+  return {{"orthodyn_sweep", 1},
+          {"name", sweep.name},
+          {"title", sweep.title},
+          {"description", sweep.description},
+          {"combine", Value<Combine>::yaml(sweep.combine)},
+          {"file", file},
+          {"scene", sweep.scene.file.path},
+          {"written", utc_now()},
+          {"missing", missing},
+          {"machine", machine_json()},
+          {"versions", versions_json()},
+          {"variables", variables_json(sweep, points)},
+          {"figures", figures_json(sweep, units)},
+          {"definitions", definitions},
+          {"plots", plots_json(sweep)},
+          {"frames", frames_json(sweep)},
+          {"points", rows}};
+}
+
+namespace {
+
+// "angle [deg]"
+std::string heading(const Json& column) {
+  const std::string unit = column.at("unit");
+  return column.at("name").get<std::string>() + (unit.empty() ? "" : " [" + unit + "]");
+}
+
+Json divided(const Json& x, double factor) { return x.is_number() ? Json(x.get<double>() / factor) : x; }
+
+Json difference(const Json& x, const Json& reference) {
+  if (!x.is_number() || !reference.is_number() || reference == 0) return nullptr;
+  return x.get<double>() / reference.get<double>() - 1;
+}
+
+constexpr std::pair<const char*, const char*> kCosts[] = {
+    {"wall_seconds", "wall_seconds [s]"}, {"cpu_seconds", "cpu_seconds [s]"}, {"steps", "steps"}};
+
+bool has_figure(const Json& table, const std::string& name) {
+  const Json& figures = table.at("figures");
+  return std::any_of(figures.begin(), figures.end(), [&](const Json& f) { return f.at("name") == name; });
+}
+
+std::string csv_head(const Json& table) {
+  std::string out = "point";
+  for (const auto& v : table.at("variables")) out += "," + csv_cell(heading(v));
+  for (const auto& f : table.at("figures")) {
+    out += "," + csv_cell(heading(f));
+    if (f.at("closed_form") == "") continue;
+    Json closed = f;
+    closed["name"] = f.at("name").get<std::string>() + ".closed_form";
+    out += "," + csv_cell(heading(closed)) + "," + csv_cell(f.at("name").get<std::string>() + ".relative_difference");
+  }
+  out += ",status,reason,message";
+  for (const auto& [cost, heading] : kCosts)
+    if (!has_figure(table, cost)) out += std::string(",") + heading;
+  return out + ",unknowns,folder\n";
+}
+
+std::string csv_row(const Json& table, const Json& point, std::size_t number) {
+  std::string out = std::to_string(number);
+  const auto add = [&](const Json& value) { out += "," + csv_cell(value); };
+  for (const auto& v : table.at("variables")) add(point.at("values").at(v.at("name").get<std::string>()));
+  for (const auto& f : table.at("figures")) {
+    const std::string name = f.at("name");
+    const Json &value = point.at("figures").at(name), &closed = point.at("closed_forms").at(name);
+    add(divided(value, f.at("factor")));
+    if (f.at("closed_form") == "") continue;
+    add(divided(closed, f.at("factor")));
+    add(difference(value, closed));
+  }
+  for (const char* key : {"status", "reason", "message"}) add(point.at(key));
+  for (const auto& [cost, heading] : kCosts)
+    if (!has_figure(table, cost)) add(field(point.at("cost"), cost));
+  add(field(point.at("model"), "unknowns"));
+  add(point.at("folder"));
+  return out + "\n";
+}
+
+}  // namespace
+
+std::string sweep_csv(const Json& table) {
+  std::string out = csv_head(table);
+  std::size_t number = 0;
+  for (const auto& point : table.at("points")) out += csv_row(table, point, ++number);
+  return out;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,251 @@
+// The section `vary` of a sweep.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+
+#include "lib/core/parse_number.h"
+#include "lib/core/units.h"
+#include "lib/study/sweep/formula_scope.h"
+#include "lib/study/sweep/sweep.h"
+#include "lib/study/sweep/sweep_names.h"
+
+namespace orthodyn {
+
+namespace {
+
+bool is_path(const std::string& key) {
+  const auto keys = scene_keys();
+  return key.find('.') != std::string::npos || std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+// The last step, with the indices after it: "young.0".
+std::string usual_name(const std::string& path) {
+  std::size_t begin = path.size();
+  do {
+    begin = begin == 0 ? 0 : path.rfind('.', begin - 1);
+    if (begin == std::string::npos) return path;
+  } while (begin > 0 && std::isdigit(static_cast<unsigned char>(path[begin + 1])) != 0);
+  return path.substr(begin + 1);
+}
+
+// "30" as it stands in a scene: "30 deg".
+std::string with_unit(double number, const std::string& unit) {
+  return number_text(number) + (unit.empty() ? "" : " " + unit);
+}
+
+std::vector<double> divided(const NumberRange& r) {
+  const int n = r.count.value_or(0);
+  std::vector<double> out;
+  for (int i = 0; i < n; ++i) out.push_back(range_at(r, n == 1 ? 0 : static_cast<double>(i) / (n - 1)));
+  return out;
+}
+
+bool is_unit(const std::string& unit) {
+  try {
+    return si_factor(unit) > 0;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+}
+
+void check_unit(const std::string& unit, const Config& at) {
+  if (unit.empty()) return;
+  try {
+    si_factor(unit);
+  } catch (const std::invalid_argument& e) {
+    at.fail(e.what());
+  }
+}
+
+void take_name(const std::string& name, const Config& c, Variable& v) {
+  if (name.empty()) return;
+  check_formula_name(name, c.at("name"));
+  v.name = name;
+}
+
+// "10 MPa" as a number of the unit; nothing for a text that is no such quantity.
+std::optional<double> converted(const std::string& text, const std::string& unit) {
+  const auto parts = split_quantity(text);
+  if (!parts) return {};
+  if (parts->unit == unit) return parts->number;
+  try {
+    return quantity_in(text, unit);
+  } catch (const std::invalid_argument&) {
+    return {};
+  }
+}
+
+// In one unit: that of the section, or else of `from`.
+void settle_units(NumberRange& r, const Config& c) {
+  check_unit(r.unit, c);
+  if (r.unit.empty() && r.from.unit.empty() != r.to.unit.empty())
+    c.fail("one of 'from' and 'to' has a unit; give it to both, or as 'unit'");
+  if (r.unit.empty()) r.unit = r.from.unit;
+  const auto settle = [&](Amount& a, const char* key) {
+    if (a.unit.empty()) return;
+    const auto number = converted(c.at(key).text(), r.unit);
+    if (!number) c.at(key).fail("expected a quantity that has the unit " + r.unit + ", found " + c.at(key).shown());
+    a = {*number, r.unit};
+  };
+  settle(r.from, "from");
+  settle(r.to, "to");
+  if (r.from.number == r.to.number) c.at("to").fail("is equal to 'from'");
+}
+
+void read_range(const Config& c, Variable& v) {
+  NumberRange r = NumberRange::spec().read(c);
+  settle_units(r, c);
+  v.unit = r.unit;
+  v.scale = r.scale;
+  take_name(r.name, c, v);
+  v.range = r;
+  for (const double x : divided(r)) v.values.push_back(v.at(x));
+}
+
+// A scalar of a list: a number, or anything that a key of the scene can be.
+VariedValue listed_value(const Variable& v, const Config& c) {
+  if (c.is_scalar() && c.reads_as_number()) return v.at(c.number());
+  const auto number = c.is_scalar() && !v.unit.empty() ? converted(c.text(), v.unit) : std::nullopt;
+  if (v.path.empty() && number) return v.at(*number);
+  if (v.path.empty())
+    c.fail("'" + v.name + "' is no key of a scene" + scene_key_near(v.name) + ", so its values must be numbers for "
+           "formulas; found " + c.shown());
+  VariedValue value{number ? number_text(*number) : c.is_scalar() ? c.text() : c.yaml(), number, {}, {}};
+  value.set.emplace_back(v.path, Value<YamlText>::read(c, {}));
+  return value;
+}
+
+// The unit of the first value that has one of its own.
+std::string unit_in(const Config& list) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (!list.at(i).is_scalar()) continue;
+    const auto parts = split_quantity(list.at(i).text());
+    if (parts && is_unit(parts->unit)) return parts->unit;
+  }
+  return "";
+}
+
+void read_list(const Config& list, Variable& v) {
+  if (v.unit.empty()) {
+    v.unit = unit_in(list);
+    for (std::size_t i = 0; i < list.size() && !v.unit.empty(); ++i)
+      if (list.at(i).reads_as_number())
+        list.at(i).fail("has no unit, but another value has; give one to all of them, or as {values: [...], unit: " +
+                        v.unit + "}");
+  }
+  for (std::size_t i = 0; i < list.size(); ++i) v.values.push_back(listed_value(v, list.at(i)));
+}
+
+// {name: {path: value}}; what is no path is a variable of formulas.
+void read_sets(const Config& c, Variable& v) {
+  if (v.path.find('.') != std::string::npos)
+    c.fail("a list of values, {from, to, count} or {values} belongs here; found " + c.shown());
+  for (const auto& label : c.keys()) {
+    const Config set = c.at(label);
+    if (label.find_first_not_of(' ') == std::string::npos) set.fail("has no name; give one, which people read");
+    if (!set.is_map()) set.fail("expected a set of keys of the scene {path: value}, found " + set.shown());
+    VariedValue value{label, {}, {}, {}};
+    for (const auto& key : set.keys()) {
+      auto& list = is_path(key) ? value.set : value.let;
+      if (!is_path(key)) check_formula_name(key, set.at(key));
+      list.emplace_back(key, Value<YamlText>::read(set.at(key), {}));
+    }
+    v.values.push_back(std::move(value));
+  }
+}
+
+void refuse_repeated_values(const Variable& v, const Config& c) {
+  std::set<double> numbers;
+  std::set<std::string> others;
+  for (const auto& value : v.values)
+    if (!(value.number ? numbers.insert(*value.number).second : others.insert(value.label).second))
+      c.fail("has the value " + value.label + " twice");
+}
+
+Variable read_variable(const std::string& key, const Config& c) {
+  Variable v;
+  v.path = is_path(key) ? key : "";
+  v.name = v.path.empty() ? key : usual_name(key);
+  v.origin.where = c.where();
+  if (c.is_sequence()) {
+    read_list(c, v);
+  } else if (c.is_map() && c.has("from")) {
+    read_range(c, v);
+  } else if (c.is_map() && c.has("values")) {
+    const ValueList list = ValueList::spec().read(c);
+    check_unit(list.unit, c);
+    v.unit = list.unit;
+    take_name(list.name, c, v);
+    read_list(c.at("values"), v);
+  } else if (c.is_map()) {
+    read_sets(c, v);
+    v.path.clear();
+  } else {
+    c.fail("expected a list, {from, to, count}, {values} or named sets of keys, found " + c.shown());
+  }
+  if (!v.range && v.values.empty()) c.fail("is empty; list the values");
+  // Formulas do not see the usual name of an entry of a list, which has a dot.
+  if (v.path.empty() || is_identifier(v.name)) check_formula_name(v.name, c);
+  refuse_repeated_values(v, c);
+  return v;
+}
+
+}  // namespace
+
+bool Variable::numeric() const {
+  return range || std::all_of(values.begin(), values.end(), [](const VariedValue& v) { return v.number.has_value(); });
+}
+
+double Variable::si(double number) const { return unit.empty() ? number : number * si_factor(unit); }
+
+VariedValue Variable::at(double x) const {
+  VariedValue value{number_text(x), x, {}, {}};
+  if (!path.empty()) value.set.emplace_back(path, YamlText{with_unit(x, unit), origin});
+  return value;
+}
+
+double range_at(const NumberRange& r, double share) {
+  if (share == 0) return r.from.number;
+  if (share == 1) return r.to.number;
+  const double from = r.from.number, to = r.to.number;
+  const double x = r.scale == Scale::log ? from * std::pow(to / from, share) : from + (to - from) * share;
+  if (std::abs(x) < 1e-12 * std::max(std::abs(from), std::abs(to))) return 0;
+  // Ends and their simple fractions stay what they look like: 0.3, not 0.30000000000000004.
+  double simple = x;
+  parse_number(fmt::format("{:.12g}", x), simple);
+  return simple;
+}
+
+Amount Value<Amount>::read(const Config& c, const Rule&) {
+  if (!c.is_scalar() || c.reads_as_number()) return {c.number(), ""};
+  const auto parts = split_quantity(c.text());
+  if (!parts) return {c.number(), ""};  // says what is expected
+  check_unit(parts->unit, c);
+  return {parts->number, parts->unit};
+}
+
+std::vector<Variable> Value<std::vector<Variable>>::read(const Config& c, const Rule&) {
+  if (!c.is_map() || c.size() == 0) c.fail("expected what is varied {path: values}, found " + c.shown());
+  std::vector<Variable> all;
+  for (const auto& key : c.keys()) {
+    all.push_back(read_variable(key, c.at(key)));
+    for (std::size_t i = 0; i + 1 < all.size(); ++i)
+      if (all[i].name == all.back().name)
+        c.at(key).fail("the name '" + all.back().name + "' is taken; give another: {values: [...], name: ...}");
+  }
+  return all;
+}
+
+Shape Value<std::vector<Variable>>::shape() {
+  const Shape list = list_shape({.kind = Shape::Kind::anything});
+  const Shape sets{.kind = Shape::Kind::named, .items = {{.kind = Shape::Kind::anything}}};
+  return {.kind = Shape::Kind::named,
+          .items = {{.kind = Shape::Kind::either,
+                     .words = "values",
+                     .items = {list, Value<NumberRange>::shape(), Value<ValueList>::shape(), sets}}}};
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,108 @@
+// What is not accepted as input, and the words with which it is refused.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "lib/config/config.h"
+#include "tests/config/messages.h"
+
+namespace orthodyn {
+namespace {
+
+std::string refusal_of(const std::string& text) {
+  return refusal([&] { Config::from_text(text, "a.yaml"); });
+}
+
+TEST(ConfigRefuses, AMissingFile) {
+  EXPECT_EQ(refusal([] { Config::from_file("no/such.yaml"); }), "no/such.yaml: no such file");
+}
+
+TEST(ConfigRefuses, AFolder) {
+  const std::string folder = std::filesystem::temp_directory_path().string();
+  EXPECT_TRUE(holds(refusal([&] { Config::from_file(folder); }), "is a folder"));
+}
+
+TEST(ConfigRefuses, AnEmptyFile) {
+  EXPECT_EQ(refusal_of(""), "a.yaml: the file is empty");
+  EXPECT_EQ(refusal_of("# only a comment\n"), "a.yaml: the file is empty");
+}
+
+TEST(ConfigRefuses, WhatIsNotYamlWithItsLine) {
+  const std::string message = refusal_of("a: 1\nb: [1, 2\nc: 3\n");
+  EXPECT_TRUE(starts(message, "a.yaml:3:"));
+  EXPECT_TRUE(holds(message, "not YAML"));
+}
+
+TEST(ConfigRefuses, SeveralDocuments) {
+  EXPECT_TRUE(holds(refusal_of("a: 1\n---\nb: 2\n"), "more than one YAML document"));
+}
+
+TEST(ConfigRefuses, AKeyGivenTwice) {
+  EXPECT_EQ(refusal_of("a:\n  x: 1\n  y: 2\n  x: 3\n"),
+            "a.yaml:4:3: key 'x' stands twice in the same section; keep one");
+}
+
+TEST(ConfigRefuses, AKeyGivenTwiceInAnEntryOfAList) {
+  EXPECT_TRUE(starts(refusal_of("- {x: 1, x: 2}\n"), "a.yaml:1:10: key 'x'"));
+}
+
+TEST(ConfigRefuses, MergeKeys) {
+  EXPECT_TRUE(starts(refusal_of("a: &a {x: 1}\nb:\n  <<: *a\n"), "a.yaml:3:3: merge keys"));
+}
+
+TEST(ConfigRefuses, AKeyThatIsNotAWord) { EXPECT_TRUE(holds(refusal_of("[1, 2]: x\n"), "a key must be a plain word")); }
+
+TEST(ConfigRefuses, AnAliasThatContainsItself) {
+  EXPECT_TRUE(holds(refusal_of("a: &x\n  b: *x\n"), "alias that contains itself"));
+}
+
+TEST(ConfigRefuses, AliasesThatMultiplyWithoutEnd) {
+  std::string text = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
+  for (int i = 1; i < 9; ++i) {
+    const std::string last = "*a" + std::to_string(i - 1);
+    text += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [";
+    for (int k = 0; k < 9; ++k) text += last + ", ";
+    text += last + "]\n";
+  }
+  EXPECT_TRUE(holds(refusal_of(text), "nested too deeply"));
+}
+
+TEST(ConfigRefuses, AnAliasWithoutAnAnchor) { EXPECT_TRUE(starts(refusal_of("a: *nothing\n"), "a.yaml:1:")); }
+
+std::string number_refusal(const std::string& text) {
+  return refusal([&] { Config::from_text(text, "a.yaml").number(); });
+}
+
+TEST(ConfigRefuses, NumbersThatAreNotFinite) {
+  for (const char* text : {"nan", "inf", "-inf"})
+    EXPECT_TRUE(holds(number_refusal(text), "expected a finite number")) << text;
+}
+
+TEST(ConfigRefuses, WhatIsNotANumber) {
+  for (const char* text : {".nan", ".inf", "1e400", "1 2", "1,5", "0x10", "5 Pa", "--5", "+-5", "true", "''"})
+    EXPECT_TRUE(holds(number_refusal(text), "expected a number, found '")) << text;
+}
+
+TEST(ConfigRefuses, ASectionListOrNothingWhereANumberBelongs) {
+  EXPECT_TRUE(holds(number_refusal("{a: 1}"), "found a section of keys"));
+  EXPECT_TRUE(holds(number_refusal("[1, 2]"), "found a list of 2"));
+  EXPECT_TRUE(holds(number_refusal("~"), "found nothing"));
+}
+
+TEST(ConfigRefuses, AFractionWhereAWholeNumberBelongs) {
+  EXPECT_TRUE(holds(refusal([] { Config::from_text("1.5").integer(); }), "expected a whole number"));
+  EXPECT_TRUE(holds(refusal([] { Config::from_text("1e16").integer(); }), "expected a whole number"));
+}
+
+TEST(ConfigRefuses, AnythingButTrueAndFalseAsABoolean) {
+  for (const char* text : {"yes", "1", "True", "[true]"})
+    EXPECT_TRUE(holds(refusal([&] { Config::from_text(text).boolean(); }), "expected true or false"));
+}
+
+TEST(ConfigRefuses, AListWhereATextBelongs) {
+  EXPECT_TRUE(holds(refusal([] { Config::from_text("[a]").text(); }), "expected a text"));
+}
+
+}  // namespace
+}  // namespace orthodyn

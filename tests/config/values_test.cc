@@ -1,0 +1,129 @@
+// How each type of value is read, checked and written.
+#include "lib/config/values.h"
+
+#include <gtest/gtest.h>
+
+#include "lib/config/spec.h"
+#include "tests/config/messages.h"
+
+namespace orthodyn {
+
+namespace {
+enum class Split { five, six };
+}
+template <>
+struct Words<Split> {
+  static constexpr std::array<std::pair<Split, const char*>, 2> list{{{Split::five, "five"}, {Split::six, "six"}}};
+};
+
+namespace {
+
+template <class V>
+V read(const std::string& text, const Rule& rule = {}) {
+  return Value<V>::read(Config::from_text(text, "a.yaml"), rule);
+}
+
+template <class V>
+std::string refusal_of(const std::string& text, const Rule& rule = {}) {
+  return refusal([&] { read<V>(text, rule); });
+}
+
+TEST(Range, OpenEndsExcludeTheirNumber) {
+  const Range range{-1, 0.5, true, true};
+  EXPECT_FALSE(range.contains(-1));
+  EXPECT_FALSE(range.contains(0.5));
+  EXPECT_TRUE(range.contains(0.5 - 1e-16));
+}
+
+TEST(Range, ClosedEndsIncludeTheirNumber) {
+  const Range range{-1, 0.5};
+  EXPECT_TRUE(range.contains(-1));
+  EXPECT_TRUE(range.contains(0.5));
+  EXPECT_FALSE(range.contains(0.5 + 1e-15));
+}
+
+TEST(Range, IsSaidInWords) {
+  EXPECT_EQ(range_text({}), "");
+  EXPECT_EQ(range_text(kPositive), "> 0");
+  EXPECT_EQ(range_text(kNonNegative), ">= 0");
+  EXPECT_EQ(range_text({-1, 0.5, true, false}), "in (-1, 0.5]");
+  EXPECT_EQ(range_text({.high = 2}), "<= 2");
+}
+
+TEST(ReadNumber, OutsideTheRangeIsRefusedWithRangeUnitAndValue) {
+  EXPECT_EQ(refusal_of<double>("-3", {.unit = "Pa", .range = kPositive}), "a.yaml:1:1: must be > 0 Pa, found -3");
+}
+
+TEST(ReadInteger, OutsideItsTypeIsRefused) {
+  EXPECT_EQ(read<int>("2147483647"), 2147483647);
+  EXPECT_TRUE(holds(refusal_of<int>("2147483648"), "must be in [-2147483648, 2147483647]"));
+  EXPECT_TRUE(holds(refusal_of<unsigned>("-1"), "must be in [0, 4294967295]"));
+}
+
+TEST(ReadEnum, TakesItsWords) {
+  EXPECT_EQ(read<Split>("six"), Split::six);
+  EXPECT_EQ(type_text(Value<Split>::shape()), "five|six");
+}
+
+TEST(ReadEnum, RefusesOtherWordsWithTheNearestOne) {
+  EXPECT_TRUE(holds(refusal_of<Split>("fiv"), "expected one of five, six, found 'fiv'; did you mean 'five'?"));
+}
+
+TEST(ReadVec3, NeedsThreeNumbers) {
+  EXPECT_EQ(read<Vec3>("[1, 2, 3]"), Vec3(1, 2, 3));
+  EXPECT_TRUE(holds(refusal_of<Vec3>("[1, 2]"), "expected a list of 3 numbers, found a list of 2"));
+  EXPECT_TRUE(holds(refusal_of<Vec3>("5"), "expected a list of 3 numbers, found '5'"));
+}
+
+TEST(ReadVec3, ChecksTheRangeOfEachNumber) {
+  EXPECT_TRUE(starts(refusal_of<Vec3>("[1, -2, 3]", {.range = kPositive}), "a.yaml:1:5: 1: must be > 0"));
+}
+
+TEST(ReadMat3, TakesRows) {
+  const Mat3 m = read<Mat3>("[[1, 2, 3], [4, 5, 6], [7, 8, 9]]");
+  EXPECT_EQ(m(0, 2), 3);
+  EXPECT_EQ(m(2, 0), 7);
+  EXPECT_TRUE(holds(refusal_of<Mat3>("[[1, 2, 3]]"), "expected three rows"));
+}
+
+TEST(ReadOptional, HasAValueIfThereIsOne) {
+  EXPECT_EQ(read<std::optional<double>>("3"), 3.0);
+  EXPECT_EQ(Value<std::optional<double>>::yaml(std::nullopt), "");
+}
+
+TEST(ReadVector, TakesAnyNumberOfEntries) {
+  EXPECT_EQ(read<std::vector<int>>("[]").size(), 0u);
+  EXPECT_EQ(read<std::vector<int>>("[3, 1, 2]"), (std::vector<int>{3, 1, 2}));
+  EXPECT_TRUE(holds(refusal_of<std::vector<int>>("3"), "expected a list"));
+}
+
+TEST(ReadArray, NeedsItsNumberOfEntries) {
+  using Pair = std::array<int, 2>;
+  EXPECT_EQ(read<Pair>("[3, 1]"), (Pair{3, 1}));
+  EXPECT_TRUE(holds(refusal_of<Pair>("[3]"), "expected a list of 2, found a list of 1"));
+}
+
+TEST(ReadNamed, KeepsTheOrderOfTheFile) {
+  const auto named = read<Named<int>>("{z: 1, a: 2, m: 3}");
+  ASSERT_EQ(named.size(), 3u);
+  EXPECT_EQ(named[0].first, "z");
+  EXPECT_EQ(named[1].second, 2);
+  EXPECT_EQ(named[2].first, "m");
+}
+
+TEST(ReadNamed, RefusesAList) {
+  EXPECT_TRUE(holds(refusal_of<Named<int>>("[1]"), "expected named sections, found a list of 1"));
+}
+
+TEST(WriteValue, IsReadBackToTheSameValue) {
+  const Vec3 v(1.0 / 3, -1e-300, 6.02214076e23);
+  EXPECT_EQ(read<Vec3>(Value<Vec3>::yaml(v)), v);
+  const Mat3 m = v * v.transpose();
+  EXPECT_EQ(read<Mat3>(Value<Mat3>::yaml(m)), m);
+  EXPECT_EQ(read<bool>(Value<bool>::yaml(true)), true);
+  EXPECT_EQ(read<Split>(Value<Split>::yaml(Split::six)), Split::six);
+  EXPECT_EQ(read<std::vector<double>>(Value<std::vector<double>>::yaml({0.1, 2})), (std::vector<double>{0.1, 2}));
+}
+
+}  // namespace
+}  // namespace orthodyn

@@ -1,0 +1,182 @@
+#include "lib/mesh/box.h"
+#include "lib/mesh/io/mesh_file.h"
+#include "tests/simulation/command.h"
+
+namespace orthodyn {
+namespace {
+
+using CommandLine = InFolder;
+
+TEST_F(CommandLine, RunWritesEverythingThatItPromises) {
+  write("swing.yaml", kSwing);
+  const auto result = orthodyn("run swing.yaml");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  for (const char* name : {"scene.yaml", "run.json", "frames.pvd", "energy.csv", "steps.csv", "probes.csv",
+                           "frames/frame_00000.vtu", "frames/frame_00005.vtu"})
+    EXPECT_TRUE(fs::exists(folder_ / "out/swing" / name)) << name;
+  EXPECT_FALSE(fs::exists(folder_ / "out/swing/frames/frame_00006.vtu"));
+  for (const char* word : {"steps", "force", "tangent", "factorisation", "solve", "balance drift", "det F", "max_order"})
+    EXPECT_NE(result.output.find(word), std::string::npos) << word;
+  EXPECT_NE(read_text(folder_ / "out/swing/run.json").find("\"completed\""), std::string::npos);
+}
+
+TEST_F(CommandLine, TheResolvedSceneRunsToTheSameResult) {
+  write("swing.yaml", kSwing);
+  ASSERT_EQ(orthodyn("run swing.yaml --quiet").exit_code, 0);
+  const auto again = orthodyn("run out/swing/scene.yaml --quiet --out again");
+  ASSERT_EQ(again.exit_code, 0) << again.output;
+  EXPECT_EQ(read_text(folder_ / "out/swing/probes.csv"), read_text(folder_ / "again/probes.csv"));
+}
+
+TEST_F(CommandLine, ReactionsAreRecordedWhereTheSceneAsksForThem) {
+  write("swing.yaml", kSwing);
+  ASSERT_EQ(orthodyn("run swing.yaml --quiet --set output.reactions=true --set clamps.0.name=wall").exit_code, 0);
+  const std::string probes = read_text(folder_ / "out/swing/probes.csv"), header = probes.substr(0, probes.find('\n'));
+  EXPECT_EQ(header, "t [s],tip.displacement.x [m],tip.displacement.y [m],tip.displacement.z [m],reaction.wall.x [N],"
+                    "reaction.wall.y [N],reaction.wall.z [N],torque.wall.x [N m],torque.wall.y [N m],torque.wall.z [N m]");
+  ASSERT_EQ(orthodyn("run swing.yaml --quiet --force").exit_code, 0);
+  EXPECT_EQ(read_text(folder_ / "out/swing/probes.csv").find("reaction"), std::string::npos);
+}
+
+TEST_F(CommandLine, FramesConvertBackToTheMesh) {
+  write("swing.yaml", kSwing);
+  ASSERT_EQ(orthodyn("run swing.yaml --quiet").exit_code, 0);
+  const auto converted = orthodyn("convert out/swing/frames/frame_00000.vtu back.msh");
+  ASSERT_EQ(converted.exit_code, 0) << converted.output;
+  const TetMesh back = read_mesh((folder_ / "back.msh").string()).mesh;
+  const TetMesh box = make_box({.size = Vec3(1, 0.2, 0.2), .cells = {4, 1, 1}});
+  EXPECT_EQ(back.nodes, box.nodes);
+  EXPECT_EQ(back.tets, box.tets);
+}
+
+TEST_F(CommandLine, AnEarlierResultIsKeptUnlessForced) {
+  write("swing.yaml", kSwing);
+  ASSERT_EQ(orthodyn("run swing.yaml --quiet").exit_code, 0);
+  const auto before = read_text(folder_ / "out/swing/probes.csv");
+  const auto refused = orthodyn("run swing.yaml --quiet --set gravity.2=-2");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.output.find("--force"), std::string::npos);
+  EXPECT_EQ(read_text(folder_ / "out/swing/probes.csv"), before);
+  EXPECT_EQ(orthodyn("run swing.yaml --quiet --force --set gravity.2=-2").exit_code, 0);
+  EXPECT_NE(read_text(folder_ / "out/swing/probes.csv"), before);
+}
+
+TEST_F(CommandLine, ABadSceneLeavesAnEarlierResultAloneEvenWithForce) {
+  write("swing.yaml", kSwing);
+  ASSERT_EQ(orthodyn("run swing.yaml --quiet").exit_code, 0);
+  EXPECT_EQ(orthodyn("run swing.yaml --quiet --force --set time.end=-1").exit_code, 2);
+  EXPECT_TRUE(fs::exists(folder_ / "out/swing/frames/frame_00005.vtu"));
+}
+
+TEST_F(CommandLine, ForceDoesNotTouchAFolderOfSomethingElse) {
+  write("swing.yaml", kSwing);
+  fs::create_directories(folder_ / "mine");
+  write("mine/thesis.txt", "years of work");
+  const auto result = orthodyn("run swing.yaml --force --out mine");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(read_text(folder_ / "mine/thesis.txt"), "years of work");
+}
+
+TEST_F(CommandLine, BadInputExitsWith2AndWritesNothing) {
+  write("swing.yaml", kSwing);
+  write("torn.yaml", "mesh: {type: box\nmaterials: [");
+  write("binary.yaml", std::string("\x7f\x45\x4c\x46\0\1\2\3", 8));
+  for (const std::string arguments :
+       {"run nowhere.yaml", "run torn.yaml", "run binary.yaml", "run .", "run swing.yaml --set gravity=[0,0]",
+        "run swing.yaml --set nothing", "run swing.yaml --set mesh.cells.7=1", "run swing.yaml --integrator cvode_bfd",
+        "run swing.yaml --set output.fields=[displacment]",
+        "run swing.yaml --set elasticity.kinematics=linear --set elasticity.corotation=warped",
+        "run swing.yaml --set elasticity.warped_tangent=unsymmetric",
+        "run swing.yaml --set integrator.h_min=1 --set integrator.h_max=0.1", "run swing.yaml --set materials.soft.young=.inf",
+        "check swing.yaml --set clamps.0.surface=x7", "run", "fly swing.yaml", "list gravity"}) {
+    const auto result = orthodyn(arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments << "\n" << result.output;
+    EXPECT_FALSE(result.output.empty()) << arguments;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(CommandLine, ASetValueIsNamedWhenItIsAtFault) {
+  write("swing.yaml", kSwing);
+  const auto result = orthodyn("run swing.yaml --set materials.soft.nu=0.7");
+  EXPECT_NE(result.output.find("swing.yaml: --set materials.soft.nu: must be in (-1, 0.5), found 0.7"), std::string::npos)
+      << result.output;
+}
+
+TEST_F(CommandLine, ARunThatCannotGoOnExitsWith3AndKeepsItsFrames) {
+  write("swing.yaml", kSwing);
+  const auto result = orthodyn("run swing.yaml --set integrator.max_steps=12 --set integrator.h_max=0.01");
+  EXPECT_EQ(result.exit_code, 3) << result.output;
+  EXPECT_NE(result.output.find("max_steps"), std::string::npos) << result.output;
+  EXPECT_TRUE(fs::exists(folder_ / "out/swing/frames/frame_00000.vtu"));
+  const auto json = read_text(folder_ / "out/swing/run.json");
+  for (const char* word : {"\"failed\"", "\"failure\"", "\"time\"", "element_with_smallest_det_f", "fastest_node", "raise"})
+    EXPECT_NE(json.find(word), std::string::npos) << word;
+}
+
+TEST_F(CommandLine, AFullDiskEndsTheRunWithWholeFrames) {
+  write("swing.yaml", kSwing);
+  // No file may grow past 20 kB: the first frame does not fit.
+  const auto result = shell("cd " + folder_.string() + " && trap '' XFSZ; ulimit -f 40; " ORTHODYN_EXECUTABLE
+                            " run swing.yaml --quiet --set 'mesh.cells=[16, 4, 4]'");
+  EXPECT_EQ(result.exit_code, 3) << result.output;
+  EXPECT_NE(result.output.find("cannot write"), std::string::npos) << result.output;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out"))
+    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+  EXPECT_NE(read_text(folder_ / "out/swing/run.json").find("\"failed\""), std::string::npos);
+}
+
+TEST_F(CommandLine, DriftIsThatOfTheWholeRunNotOfItsFrames) {
+  write("swing.yaml", kSwing);
+  const auto drift = [&](const std::string& frames) {
+    EXPECT_EQ(orthodyn("run swing.yaml --quiet --force --set output.frames=" + frames).exit_code, 0);
+    const auto json = read_text(folder_ / "out/swing/run.json");
+    const auto at = json.find("\"balance_drift\": ");
+    EXPECT_NE(at, std::string::npos);
+    return std::stod(json.substr(at + 17));
+  };
+  const double none = drift("0");
+  EXPECT_GT(none, 0);
+  EXPECT_NEAR(none, drift("20"), 0.2 * none);
+}
+
+TEST_F(CommandLine, SaysWhichForceIsAtWork) {
+  write("swing.yaml", kSwing);
+  EXPECT_NE(orthodyn("check swing.yaml").output.find("exact gradient"), std::string::npos);
+  EXPECT_NE(orthodyn("run swing.yaml --set elasticity.corotation=warped").output.find("WARPED"), std::string::npos);
+  EXPECT_NE(read_text(folder_ / "out/swing/run.json").find("WARPED"), std::string::npos);
+}
+
+TEST_F(CommandLine, CtrlCEndsCleanlyWithTheFramesSoFar) {
+  write("swing.yaml", kSwing);
+  const auto result = shell("cd " + folder_.string() + " && " ORTHODYN_EXECUTABLE
+                            " run swing.yaml --quiet --set time.end=1e3 --set integrator.h_max=1e-3 --set "
+                            "output.interval=0.01 --set output.frames=null & pid=$!; for i in $(seq 100); do [ -e " +
+                            folder_.string() + "/out/swing/frames/frame_00003.vtu ] && break; sleep 0.1; done; "
+                            "kill -INT $pid; wait $pid");
+  EXPECT_EQ(result.exit_code, 130) << result.output;
+  EXPECT_NE(result.output.find("interrupted at t ="), std::string::npos) << result.output;
+  EXPECT_NE(read_text(folder_ / "out/swing/run.json").find("\"interrupted\""), std::string::npos);
+  EXPECT_NE(read_text(folder_ / "out/swing/frames.pvd").find("frame_00003.vtu"), std::string::npos);
+}
+
+TEST_F(CommandLine, CheckPredictsAndWritesNothing) {
+  write("swing.yaml", kSwing);
+  const auto result = orthodyn("check swing.yaml");
+  EXPECT_EQ(result.exit_code, 0);
+  for (const char* word : {"unknowns", "non-zeros", "MiB", "mass", "eigenvalues of C", "critical step", "gravity"})
+    EXPECT_NE(result.output.find(word), std::string::npos) << word;
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(CommandLine, ListNamesEverythingThatCanBeNamed) {
+  const auto result = orthodyn("list");
+  EXPECT_EQ(result.exit_code, 0);
+  for (const char* name : {"orthotropic_stable", "cvode_bdf", "ida_bdf", "klu_full", "eigen_ldlt", "gmsh", "gravity", "table",
+                           "stress_material", "nonlinear_coefficient"})
+    EXPECT_NE(result.output.find(name), std::string::npos) << name;
+  EXPECT_EQ(orthodyn("list materials").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace orthodyn

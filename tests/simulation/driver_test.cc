@@ -1,0 +1,214 @@
+// The driver and its files, on small scenes.
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <limits>
+#include <thread>
+
+#include "lib/simulation/checkpoint.h"
+#include "lib/simulation/checkpointer.h"
+#include "lib/simulation/curves.h"
+#include "lib/simulation/run.h"
+#include "lib/simulation/vtu.h"
+#include "lib/scene/build.h"
+#include "tests/simulation/command.h"
+
+namespace orthodyn {
+namespace {
+
+struct Recorder : Observer {
+  void on_start(const State& s) override { outputs.push_back(s.t); }
+  void on_output(const State& s) override { outputs.push_back(s.t); }
+  void on_step(const StepInfo& info, const State&, const Integrator&) override { steps.push_back(info.t); }
+  void on_end() noexcept override { ++ends; }
+  std::vector<double> outputs, steps;
+  int ends = 0;
+};
+
+struct Case {
+  explicit Case(const std::string& yaml)
+      : scene(read_scene(Config::from_text(yaml))), built(build(scene)),
+        integrator(scene.integrator->make(*built.model, {[] { return Scales{0.1, 1}; }, built.initial, scene.time.end, 0})) {}
+  Outcome run_with(Plan plan, std::vector<Observer*> observers) {
+    plan.end = scene.time.end;
+    return run(*built.model, *integrator, built.initial, plan, observers, never);
+  }
+  Scene scene;
+  BuiltScene built;
+  std::unique_ptr<Integrator> integrator;
+  std::atomic<bool> never{false};
+};
+
+TEST(OutputTimes, CoverTheSpanEvenlyAndEndOnIt) {
+  EXPECT_EQ(evenly_spaced(0, 1, 4), (std::vector<double>{0.25, 0.5, 0.75, 1}));
+  EXPECT_EQ(by_interval(0, 1, 0.4), (std::vector<double>{0.4, 0.8, 1}));
+  EXPECT_EQ(by_interval(0, 0.3, 0.1).size(), 3u);  // no doubled end from rounding
+  EXPECT_TRUE(evenly_spaced(0, 1, 0).empty());
+}
+
+TEST(Driver, DeliversEveryOutputOnceAndInOrder) {
+  for (const bool exact : {false, true}) {
+    Case swing(kSwing);
+    Recorder seen;
+    const Plan plan{0, evenly_spaced(0, 0.5, 37), exact};
+    EXPECT_EQ(swing.run_with(plan, {&seen}).status, Outcome::Status::completed);
+    ASSERT_EQ(seen.outputs.size(), 38u);
+    for (std::size_t k = 0; k < 37; ++k) EXPECT_EQ(seen.outputs[k + 1], plan.output_times[k]);
+    EXPECT_EQ(seen.ends, 1);
+    for (const double t : plan.output_times)
+      EXPECT_TRUE(!exact || std::find(seen.steps.begin(), seen.steps.end(), t) != seen.steps.end()) << t;
+  }
+}
+
+TEST(Driver, NeverStepsAcrossAKinkOfTheLoads) {
+  Case swing(std::string(kSwing) + "loads: [{surface: x1, force: [0, 1, 0], factor: {type: ramp, start: 0.1, end: 0.2}}]\n");
+  Recorder seen;
+  EXPECT_EQ(swing.run_with({}, {&seen}).status, Outcome::Status::completed);
+  for (const double kink : {0.1, 0.2})
+    EXPECT_NE(std::find(seen.steps.begin(), seen.steps.end(), kink), seen.steps.end()) << kink;
+}
+
+TEST(Driver, TakesTimesThatDifferByRoundOffForOne) {
+  for (const char* type : {"cvode_bdf", "ida_bdf"}) {
+    Case swing(std::string(kSwing).replace(std::string(kSwing).find("cvode_bdf"), 9, type) +
+               "loads:\n- {surface: x1, force: [0, 1, 0], factor: {type: ramp, end: 0.3}}\n"
+               "- {surface: x1, force: [0, 1, 0], factor: {type: ramp, end: 0.30000000000000004}}\n");
+    Recorder seen;
+    const auto outcome = swing.run_with({0, by_interval(0, 0.5, 0.1), true}, {&seen});
+    EXPECT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
+    EXPECT_EQ(seen.outputs.size(), 6u);
+  }
+}
+
+TEST(Driver, TurnsAFailureIntoAnOutcomeThatKeepsTheLastState) {
+  Case swing(kSwing + std::string("mass: lumped\n"));
+  struct Fails : Observer {
+    void on_step(const StepInfo& info, const State&, const Integrator&) override {
+      if (info.t > 0.1) throw RunError("no space left", Reason::diverged);
+    }
+  } fails;
+  Recorder seen;
+  const auto outcome = swing.run_with({}, {&seen, &fails});
+  EXPECT_EQ(outcome.status, Outcome::Status::failed);
+  EXPECT_EQ(outcome.message, "no space left");
+  EXPECT_EQ(outcome.reason, Reason::diverged);
+  EXPECT_EQ(seen.ends, 1);
+  EXPECT_GT(outcome.last.t, 0.1);
+}
+
+TEST(Driver, TurnsALackOfMemoryIntoAnOutcomeThatSaysSo) {
+  Case swing(kSwing + std::string("mass: lumped\n"));
+  struct Fails : Observer {
+    void on_step(const StepInfo&, const State&, const Integrator&) override { throw std::bad_alloc(); }
+  } fails;
+  const auto outcome = swing.run_with({}, {&fails});
+  EXPECT_EQ(outcome.status, Outcome::Status::failed);
+  EXPECT_STREQ(reason_name(outcome.reason), "out of memory");
+}
+
+class Files : public InFolder {};
+
+TEST_F(Files, FrameZeroIsTheInitialStateAndTimesAreReal) {
+  Case swing(kSwing);
+  VtuWriter frames(folder_, *swing.built.model, {"displacement", "stress"});
+  ASSERT_EQ(swing.run_with({0, {0.125, 0.5}, false}, {&frames}).status, Outcome::Status::completed);
+  const auto pvd = read_text(folder_ / "frames.pvd");
+  for (const char* entry : {"timestep=\"0\" part=\"0\" file=\"frames/frame_00000.vtu\"", "timestep=\"0.125\"", "timestep=\"0.5\""})
+    EXPECT_NE(pvd.find(entry), std::string::npos) << entry;
+}
+
+TEST_F(Files, AVtuHoldsAsManyBytesAsItsOffsetsSay) {
+  Case swing(kSwing);
+  VtuWriter frames(folder_, *swing.built.model, {"displacement", "velocity", "det_f", "stress_material", "region"});
+  frames.on_start(swing.built.initial);
+  const auto text = read_text(folder_ / "frames/frame_00000.vtu");
+  const auto base = text.find("<AppendedData encoding=\"raw\">\n_") + 31;
+  ASSERT_NE(base, std::string::npos + 31);
+  std::size_t expected = 0;
+  for (std::size_t at = text.find("offset=\""); at < base && at != std::string::npos; at = text.find("offset=\"", at + 1)) {
+    EXPECT_EQ(std::stoul(text.substr(at + 8)), expected);
+    std::uint64_t bytes = 0;
+    std::memcpy(&bytes, text.data() + base + expected, sizeof bytes);
+    expected += sizeof bytes + bytes;
+  }
+  EXPECT_EQ(text.substr(base + expected), "\n</AppendedData>\n</VTKFile>\n");
+}
+
+TEST_F(Files, AGrowingFileIsWholeAfterEachEntryAndCanBeCutBack) {
+  GrowingFile file(folder_ / "list", "<a>\n", "</a>\n");
+  file.begin();
+  EXPECT_EQ(read_text(folder_ / "list"), "<a>\n</a>\n");
+  file.append("first\n");
+  const auto size = file.size();
+  file.append("a longer second entry\n");
+  EXPECT_EQ(read_text(folder_ / "list"), "<a>\nfirst\na longer second entry\n</a>\n");
+  GrowingFile again(folder_ / "list", "<a>\n", "</a>\n");
+  again.go_on(size);
+  EXPECT_EQ(read_text(folder_ / "list"), "<a>\nfirst\n</a>\n");
+  again.append("2\n");
+  EXPECT_EQ(read_text(folder_ / "list"), "<a>\nfirst\n2\n</a>\n");
+  EXPECT_THROW(again.require(1000), ConfigError);
+}
+
+TEST_F(Files, ACheckpointComesBackBitByBit) {
+  Checkpoint written;
+  written.scene = "time: {end: 1}\n";
+  written.begun = true;
+  written.state = {0.1, Vector::Random(50) * 1e-300, Vector::Random(50)};
+  written.state.v[3] = std::numeric_limits<double>::infinity();
+  written.rhythm = {0, 1.0 / 3, 1e-9};
+  written.effort.statistics.newton_iterations = 123456789;
+  written.effort.statistics.solve = {7, 0.3};
+  written.restarts = {{0.05, "2026-01-31T12:00:00Z", "killed", {"time.end"}}};
+  written.observers["energy"].put("last", {0.1, -2e300, 5});
+  written.save(folder_ / "c");
+  const auto read = Checkpoint::load(folder_ / "c");
+  EXPECT_EQ(read.scene, written.scene);
+  EXPECT_EQ(read.state.t, written.state.t);
+  EXPECT_EQ(read.state.q, written.state.q);
+  EXPECT_EQ(read.state.v, written.state.v);
+  EXPECT_EQ(read.rhythm.end, written.rhythm.end);
+  EXPECT_EQ(read.effort.statistics.newton_iterations, 123456789);
+  EXPECT_EQ(read.effort.statistics.solve.seconds, 0.3);
+  EXPECT_EQ(read.restarts.at(0).changed, written.restarts[0].changed);
+  EXPECT_EQ(read.observers.at("energy").numbers("last", 3), (std::vector<double>{0.1, -2e300, 5}));
+  EXPECT_THROW(read.observers.at("energy").number("last"), ConfigError);
+}
+
+TEST_F(Files, TheEnergyBalanceClosesAsTheToleranceFalls) {
+  const auto drift = [&](const char* rtol) {
+    Case swing(std::string(kSwing).replace(std::string(kSwing).find("1e-3"), 4, rtol) +
+               "loads: [{surface: x1, force: [0, 2, 0], factor: {type: sine, frequency: 3}}]\n");
+    EnergyWriter energy(folder_ / "energy.csv", *swing.built.model, *swing.integrator);
+    swing.run_with({0, evenly_spaced(0, 0.5, 10), false}, {&energy});
+    EXPECT_GT(energy.last().dissipated, 0);
+    EXPECT_NE(energy.last().loads, 0);
+    return energy.drift() / energy.scale();
+  };
+  const double loose = drift("1e-4"), tight = drift("1e-7");
+  EXPECT_LT(loose, 1e-2);
+  EXPECT_LT(tight, loose / 30);
+}
+
+// Keeping its part takes a while, as for a large model on a slow disk.
+struct SlowKeeper : Observer {
+  void save(Archive&) override {
+    ++saved;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  int saved = 0;
+};
+
+class CheckpointTime : public InFolder {};
+
+TEST_F(CheckpointTime, IsSpentOnATenthOfTheRunAtMost) {
+  Case swing(kSwing);
+  SlowKeeper slow;
+  Checkpointer checkpointer(folder_ / "checkpoint.cbor", {}, {.every = 1e-9}, {{"slow", &slow}}, *swing.integrator);
+  checkpointer.on_start(swing.built.initial);
+  for (int step = 0; step < 5; ++step) checkpointer.on_step({}, swing.built.initial, *swing.integrator);
+  EXPECT_EQ(slow.saved, 1);
+}
+
+}  // namespace
+}  // namespace orthodyn

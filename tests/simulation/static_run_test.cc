@@ -1,0 +1,140 @@
+// `orthodyn run` of static scenes, and events of dynamic ones, as a user sees them.
+#include "tests/simulation/command.h"
+#include "tests/simulation/result_reader.h"
+
+namespace orthodyn {
+namespace {
+
+const char* const kShelf = R"(analysis: static
+mesh: {type: box, size: [1, 0.2, 0.1], cells: [4, 1, 1]}
+materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
+clamps: [{surface: x0}]
+loads: [{surface: x1, traction: [1e5, 0, 0]}]
+output: {probes: {end: {at: [1, 0.1, 0.05]}}}
+)";
+
+class StaticRun : public InFolder {};
+
+TEST_F(StaticRun, WritesAFrameAndARowPerLoadStep) {
+  write("shelf.yaml", kShelf);
+  const auto result = orthodyn("run shelf.yaml --out out");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  for (const char* part : {"load factor 0.25", "completed at load factor 1", "load steps", "largest displacement"})
+    EXPECT_NE(result.output.find(part), std::string::npos) << part << "\nin: " << result.output;
+  const auto rows = read_rows(folder_ / "out/probes.csv");
+  ASSERT_EQ(rows.size(), 4u);  // load factors 0, 0.25, 0.75, 1
+  for (const auto& row : rows) EXPECT_NEAR(row[1], 0.1 * row[0], 1e-7);
+  EXPECT_EQ(read_rows(folder_ / "out/load_steps.csv").size(), 4u);
+  EXPECT_NE(read_text(folder_ / "out/frames.pvd").find("timestep=\"0.75\""), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder_ / "out/frames/frame_00003.vtu"));
+  const auto record = read_text(folder_ / "out/run.json");
+  for (const char* part : {"\"status\": \"completed\"", "\"load_factor_reached\": 1.0", "\"load_steps\": 3"})
+    EXPECT_NE(record.find(part), std::string::npos) << part << "\nin: " << record;
+}
+
+TEST_F(StaticRun, OfItsResolvedSceneIsTheSame) {
+  write("shelf.yaml", kShelf);
+  ASSERT_EQ(orthodyn("run shelf.yaml --out out --quiet").exit_code, 0);
+  const auto again = orthodyn("run out/scene.yaml --out again --quiet");
+  ASSERT_EQ(again.exit_code, 0) << again.output;
+  EXPECT_EQ(read_text(folder_ / "out/probes.csv"), read_text(folder_ / "again/probes.csv"));
+}
+
+TEST_F(StaticRun, ThatCannotGoOnKeepsItsStepsAndSaysWhere) {
+  write("shelf.yaml", kShelf);
+  const auto result = orthodyn("run shelf.yaml --out out --set statics.max_steps=2");
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_NE(result.output.find("load factor"), std::string::npos) << result.output;
+  EXPECT_EQ(read_rows(folder_ / "out/load_steps.csv").size(), 3u);  // load factors 0, 0.25, 0.75
+  EXPECT_NE(read_text(folder_ / "out/run.json").find("\"status\": \"failed\""), std::string::npos);
+}
+
+TEST_F(StaticRun, RefusesAFreeBodyBeforeItWritesAnything) {
+  write("shelf.yaml", kShelf);
+  const auto result = orthodyn("run shelf.yaml --out out --set clamps=[]");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.output.find("no definite place at rest"), std::string::npos) << result.output;
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(StaticRun, RefusesWhatOnlyAMotionCanDo) {
+  write("shelf.yaml", kShelf);
+  for (const char* option : {"--resume", "--estimate-error"}) {
+    const auto result = orthodyn(std::string("run shelf.yaml --out out ") + option);
+    EXPECT_EQ(result.exit_code, 2) << option;
+    EXPECT_NE(result.output.find("a static analysis"), std::string::npos) << result.output;
+  }
+}
+
+TEST_F(StaticRun, IsCheckedAndBegunLikeADynamicOne) {
+  write("shelf.yaml", kShelf);
+  const auto check = orthodyn("check shelf.yaml");
+  EXPECT_EQ(check.exit_code, 0);
+  EXPECT_NE(check.output.find("all rigid motions are held"), std::string::npos) << check.output;
+  ASSERT_EQ(orthodyn("init static mine.yaml").exit_code, 0);
+  EXPECT_EQ(orthodyn("check mine.yaml").exit_code, 0);
+}
+
+class EventRun : public InFolder {};
+
+std::string swing_with(const std::string& events) { return std::string(kSwing) + "events:\n" + events; }
+
+TEST_F(EventRun, LogsEachCrossingAndStopsWhereItIsTold) {
+  write("swing.yaml", swing_with("- {quantity: tip.displacement.z, crosses: -0.01, name: low}\n"
+                                 "- {quantity: tip.displacement.z, crosses: -0.05, direction: down, action: stop}\n"));
+  const auto result = orthodyn("run swing.yaml --out out");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_NE(result.output.find("stopped by the event 'tip.displacement.z' at t = "), std::string::npos) << result.output;
+  std::istringstream table(read_text(folder_ / "out/events.csv"));
+  std::string header, low, stop, none;
+  std::getline(table, header);
+  std::getline(table, low);
+  std::getline(table, stop);
+  EXPECT_EQ(header, "t [s],event,value,direction");
+  EXPECT_NE(low.find(",low,-0.01,down"), std::string::npos) << low;
+  EXPECT_NE(stop.find(",tip.displacement.z,-0.05,down"), std::string::npos) << stop;
+  EXPECT_FALSE(std::getline(table, none));
+  const auto rows = read_rows(folder_ / "out/probes.csv");
+  EXPECT_NEAR(rows.back()[0], std::stod(stop), 1e-12);
+  EXPECT_NEAR(rows.back()[3], -0.05, 1e-10);
+  EXPECT_NE(read_text(folder_ / "out/run.json").find("\"remark\": \"stopped by the event"), std::string::npos);
+}
+
+TEST_F(EventRun, IsTheSameAcrossARestart) {
+  write("swing.yaml", swing_with("- {quantity: tip.displacement.z, crosses: -0.01}\n"
+                                 "- {quantity: energy.kinetic, crosses: 0.05}\n") +
+                          "checkpoint: {every: 1000}\n");
+  ASSERT_EQ(orthodyn("run swing.yaml --out whole --quiet").exit_code, 0);
+  ASSERT_EQ(orthodyn("run swing.yaml --out parts --quiet --set integrator.max_steps=12").exit_code, 3);
+  const auto resumed = orthodyn("run swing.yaml --out parts --quiet --resume");
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.output;
+  std::istringstream whole(read_text(folder_ / "whole/events.csv")), parts(read_text(folder_ / "parts/events.csv"));
+  std::string a, b;
+  int rows = 0;
+  while (std::getline(whole, a)) {
+    ASSERT_TRUE(std::getline(parts, b));
+    ++rows;
+    if (rows == 1) continue;
+    EXPECT_NEAR(std::stod(a), std::stod(b), 2e-3);
+    EXPECT_EQ(a.substr(a.find(',')), b.substr(b.find(',')));
+  }
+  EXPECT_FALSE(std::getline(parts, b));
+  EXPECT_GT(rows, 2);
+}
+
+TEST_F(EventRun, RefusesVectorsUnknownQuantitiesAndAnErrorEstimateOfAStoppedRun) {
+  write("swing.yaml", swing_with("- {quantity: tip.displacement, crosses: 1}\n"));
+  auto result = orthodyn("run swing.yaml --out out");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.output.find("events.0: 'tip.displacement' is a vector"), std::string::npos) << result.output;
+  write("swing.yaml", swing_with("- {quantity: top.displacement.z, crosses: 1}\n"));
+  result = orthodyn("run swing.yaml --out out");
+  EXPECT_NE(result.output.find("did you mean 'tip.displacement.z'"), std::string::npos) << result.output;
+  write("swing.yaml", swing_with("- {quantity: tip.displacement.z, crosses: -0.01, action: stop}\n"));
+  result = orthodyn("run swing.yaml --out out --estimate-error");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.output.find("--estimate-error compares two runs"), std::string::npos) << result.output;
+}
+
+}  // namespace
+}  // namespace orthodyn
