@@ -20,12 +20,19 @@ if(ORTHODYN_SANITIZE)
   target_link_options(orthodyn_options INTERFACE -fsanitize=address,undefined)
 endif()
 
+# The library's precompiled headers, which its modules and the program share.
+file(WRITE ${PROJECT_BINARY_DIR}/precompiled.cc "")
+add_library(orthodyn_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cc)
+target_link_libraries(orthodyn_precompiled PRIVATE Eigen3::Eigen fmt::fmt orthodyn_options)
+target_precompile_headers(orthodyn_precompiled PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.h)
+
 # orthodyn_module(NAME FOLDER DEPENDENCIES...): the sources below FOLDER as object library
 # orthodyn_NAME, which sees only what it depends on.
 function(orthodyn_module name folder)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cc)
   add_library(orthodyn_${name} OBJECT ${sources})
   target_link_libraries(orthodyn_${name} PUBLIC Eigen3::Eigen ${ARGN} PRIVATE orthodyn_options)
+  target_precompile_headers(orthodyn_${name} REUSE_FROM orthodyn_precompiled)
 endfunction()
 
 # orthodyn_library(NAMES...): all modules as one shared library `orthodyn`.
