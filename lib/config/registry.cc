@@ -1,10 +1,24 @@
 #include "lib/config/registry.h"
 
+#include <algorithm>
+
 namespace orthodyn {
 
 std::vector<std::string>& registry_conflicts() {
   static std::vector<std::string> all;
   return all;
+}
+
+std::string registered_type(const Config& config, const std::vector<std::string>& names) {
+  if (!config.is_map())
+    config.fail("expected a section with the key 'type' (" + join(names) + "), found " + config.shown());
+  if (!config.has("type")) config.fail("key 'type' is missing; one of " + join(names));
+  const Config type = config.at("type");
+  const std::string name = type.text();
+  if (std::find(names.begin(), names.end(), name) != names.end()) return name;
+  const auto near = nearest_name(name, names);
+  type.fail("unknown '" + name + "'" + (near.empty() ? "." : "; did you mean '" + near + "'?") +
+            " Known: " + join(names) + ".");
 }
 
 }  // namespace orthodyn

@@ -18,6 +18,9 @@ namespace orthodyn {
 // Names that were to be registered although they were taken: a plugin's mistake.
 std::vector<std::string>& registry_conflicts();
 
+// The key `type` of a section, which must be one of the names. Throws ConfigError.
+std::string registered_type(const Config& config, const std::vector<std::string>& names);
+
 template <class Base>
 class Registry {
  public:
@@ -42,19 +45,7 @@ class Registry {
 
   // Reads a section by its key `type`. Throws ConfigError.
   static std::shared_ptr<const Base> read(const Config& config) {
-    if (!config.is_map())
-      config.fail("expected a section with the key 'type' (" + join(names()) + "), found " +
-                  config.shown());
-    if (!config.has("type")) config.fail("key 'type' is missing; one of " + join(names()));
-    const Config type = config.at("type");
-    const auto it = entries().find(type.text());
-    if (it == entries().end()) {
-      const auto near = nearest_name(type.text(), names());
-      type.fail("unknown '" + type.text() + "'" +
-                (near.empty() ? "." : "; did you mean '" + near + "'?") +
-                " Known: " + join(names()) + ".");
-    }
-    return it->second.read(config);
+    return entries().at(registered_type(config, names())).read(config);
   }
 
   static std::vector<std::string> names() {

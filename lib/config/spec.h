@@ -11,11 +11,10 @@
 // The default of a key is what a default-constructed T holds: it stands in one place.
 #pragma once
 
-#include <algorithm>
 #include <concepts>
 #include <functional>
-#include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -33,22 +32,60 @@ struct Origin {
   }
 };
 
+// What a Spec does with the type of a member.
+struct ValueType {
+  Shape (*shape)();
+  void (*read)(const Config& config, const Rule& rule, void* target);
+  std::string (*yaml)(const void* value);  // "" where the value means "absent"
+  bool section;                            // has keys of its own, with their defaults
+};
+
+template <class V>
+inline constexpr ValueType kValueType{
+    [] { return Value<V>::shape(); },
+    [](const Config& config, const Rule& rule, void* target) {
+      *static_cast<V*>(target) = Value<V>::read(config, rule);
+    },
+    [](const void* value) { return std::string(Value<V>::yaml(*static_cast<const V*>(value))); },
+    requires { V::spec(); }};
+
+// The part of a Spec that knows no types: few instructions for each key, wherever keys are declared.
+class Keys {
+ public:
+  Keys();
+  Keys(const Keys&);
+  Keys& operator=(const Keys&) = delete;
+  ~Keys();
+
+  const std::vector<Key>& keys() const { return keys_; }
+
+ protected:
+  using Member = std::function<void*(void* target)>;
+  struct Field {
+    Key doc;
+    std::string fallback, with_key, with_word;  // the views of its Rule
+    const ValueType* type;
+    Member member;
+  };
+
+  void add(std::string_view name, std::string_view sentence, const Rule& rule, const ValueType& type,
+           const void* default_value, Member member);
+  void read_fields(const Config& section, void* target, const std::vector<std::string>& also) const;
+
+ private:
+  std::vector<Field> fields_;
+  std::vector<Key> keys_;
+};
+
 template <class T>
-class Spec {
+class Spec : public Keys {
  public:
   // The member may be one of T's base class.
   template <class V, class Owner>
     requires std::derived_from<T, Owner>
-  Spec& key(const std::string& name, V Owner::*member, const std::string& sentence, Rule rule = {}) {
-    const T defaults{};
-    const std::string fallback = rule.required            ? ""
-                                 : rule.fallback.empty() ? Value<V>::yaml(defaults.*member)
-                                                         : rule.fallback;
-    Key doc{name, Value<V>::shape(), rule.unit, rule.range, fallback, sentence, rule.required};
-    fields_.push_back({doc, [=](const Config& section, T& target) {
-                         read_field<V>(section, name, rule, target.*member);
-                       }});
-    keys_.push_back(doc);
+  Spec& key(std::string_view name, V Owner::*member, std::string_view sentence, const Rule& rule = {}) {
+    add(name, sentence, rule, kValueType<V>, &(defaults().*member),
+        [member](void* target) -> void* { return &(static_cast<T*>(target)->*member); });
     return *this;
   }
 
@@ -58,14 +95,9 @@ class Spec {
     return *this;
   }
 
-  const std::vector<Key>& keys() const { return keys_; }
-
   // Reads a section. `also` names keys that somebody else reads ("type").
   void read_into(const Config& section, T& target, const std::vector<std::string>& also = {}) const {
-    if (!section.is_map())
-      section.fail("expected a section of keys (" + join(names()) + "), found " + section.shown());
-    refuse_unknown_keys(section, also);
-    for (const auto& field : fields_) field.read(section, target);
+    read_fields(section, &target, also);
     if constexpr (requires { target.origin.where; }) target.origin.where = section.where();
     for (const auto& condition : checks_) condition(target, section);
   }
@@ -77,63 +109,11 @@ class Spec {
   }
 
  private:
-  struct Field {
-    Key doc;
-    std::function<void(const Config&, T&)> read;
-  };
-
-  std::vector<std::string> names() const {
-    std::vector<std::string> out;
-    for (const auto& key : keys_) out.push_back(key.name);
-    return out;
+  static const T& defaults() {
+    static const T all{};
+    return all;
   }
 
-  void refuse_unknown_keys(const Config& section, const std::vector<std::string>& also) const {
-    auto known = names();
-    known.insert(known.end(), also.begin(), also.end());
-    for (const auto& given : section.keys()) {
-      if (std::find(known.begin(), known.end(), given) != known.end()) continue;
-      const std::string near = nearest_name(given, known);
-      section.at(given).fail("unknown key" + (near.empty() ? "." : "; did you mean '" + near + "'?") +
-                             " Known here: " + join(known) + ".");
-    }
-  }
-
-  template <class V>
-  static void read_field(const Config& section, const std::string& name, const Rule& rule,
-                         V& target) {
-    if (!rule.with.key.empty() && section.at(rule.with.key).text() != rule.with.word)
-      refuse_meaningless(section, name, rule.with);
-    else if (section.has(name) && !section.at(name).is_null()) {
-      if (!rule.fallback.empty()) complete_type(section.at(name), rule.fallback);
-      target = Value<V>::read(section.at(name), rule);
-    } else if (rule.required) {
-      section.fail("key '" + name + "' is missing (" + type_text(Value<V>::shape()) +
-                   (rule.unit.empty() ? "" : ", " + rule.unit) + ")");
-    } else if (!rule.fallback.empty()) {
-      target = Value<V>::read(section.fill(name, rule.fallback), rule);
-    } else if constexpr (requires { V::spec(); }) {
-      target = V::spec().read(section.fill(name, "{}"));
-    } else if (const std::string text = Value<V>::yaml(target); !text.empty()) {
-      section.fill(name, text);
-    }
-  }
-
-  static void refuse_meaningless(const Config& section, const std::string& name, const Condition& with) {
-    if (!section.has(name) || section.at(name).is_null()) return;
-    section.at(name).fail("has a meaning only with " + with.key + ": " + with.word + ", found " + with.key + ": " +
-                          section.at(with.key).text() + "; remove it (--set " + name + "=null)");
-  }
-
-  // `integrator: {rtol: 1e-5}` keeps the type of the fallback "{type: cvode_bdf}".
-  static void complete_type(const Config& given, const std::string& fallback) {
-    const Config usual = Config::from_text(fallback);
-    if (given.is_map() && usual.has("type") && !given.has("type"))
-      given.fill_text("type", usual.at("type").text());
-  }
-
-  std::vector<Field> fields_;
-  std::vector<Key> keys_;
   std::vector<std::function<void(const T&, const Config&)>> checks_;
 };
 

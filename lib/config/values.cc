@@ -1,5 +1,6 @@
 #include "lib/config/values.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "lib/core/units.h"
@@ -8,17 +9,26 @@ namespace orthodyn {
 
 namespace {
 
-double quantity(const Config& config, const std::string& unit) {
+double quantity(const Config& config, std::string_view unit) {
   if (!config.is_scalar() || config.reads_as_number() || config.text().find_first_of("0123456789") == std::string::npos)
     return config.number();
   try {
-    return quantity_in(config.text(), unit);
+    return quantity_in(config.text(), std::string(unit));
   } catch (const std::invalid_argument& e) {
     config.fail(e.what());
   }
 }
 
 }  // namespace
+
+std::size_t index_of_word(const Config& config, const std::vector<std::string>& words) {
+  const std::string given = config.text();
+  const auto found = std::find(words.begin(), words.end(), given);
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  const auto near = nearest_name(given, words);
+  config.fail("expected one of " + join(words) + ", found '" + given + "'" +
+              (near.empty() ? "" : "; did you mean '" + near + "'?"));
+}
 
 double read_number(const Config& config, const Rule& rule) {
   const double x = quantity(config, rule.unit);

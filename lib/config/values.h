@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <typeinfo>
 #include <utility>
 #include <vector>
@@ -24,15 +25,16 @@ inline constexpr Range kNonNegative{0, std::numeric_limits<double>::infinity(), 
 
 // Where a key means something: only if another one of the section, read before it, has this word.
 struct Condition {
-  std::string key, word;
+  std::string_view key = {}, word = {};
 };
 
+// What holds for a key's value. Views, so that declaring a key is little code.
 struct Rule {
   bool required = false;
-  std::string unit = "";
-  Range range = {};           // of a number, and of each number of a list
-  std::string fallback = "";  // YAML that stands for an absent section, such as "{type: box}"
-  Condition with = {};        // elsewhere it is refused, and its default not filled in
+  std::string_view unit = {};
+  Range range = {};                // of a number, and of each number of a list
+  std::string_view fallback = {};  // YAML that stands for an absent section, such as "{type: box}"
+  Condition with = {};             // elsewhere it is refused, and its default not filled in
 };
 
 // Named entries in the order of the file.
@@ -129,6 +131,9 @@ struct Value<Mat3> {
   }
 };
 
+// Which of the words stands there. Throws ConfigError for another one.
+std::size_t index_of_word(const Config& config, const std::vector<std::string>& words);
+
 template <class E>
   requires std::is_enum_v<E>
 struct Value<E> {
@@ -138,14 +143,7 @@ struct Value<E> {
     return out;
   }
   static Shape shape() { return {.kind = Shape::Kind::word, .names = words()}; }
-  static E read(const Config& c, const Rule&) {
-    const std::string given = c.text();
-    for (const auto& [value, word] : Words<E>::list)
-      if (given == word) return value;
-    const auto near = nearest_name(given, words());
-    c.fail("expected one of " + join(words()) + ", found '" + given + "'" +
-           (near.empty() ? "" : "; did you mean '" + near + "'?"));
-  }
+  static E read(const Config& c, const Rule&) { return Words<E>::list[index_of_word(c, words())].first; }
   static std::string yaml(E x) {
     for (const auto& [value, word] : Words<E>::list)
       if (value == x) return word;
