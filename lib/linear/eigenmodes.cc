@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "lib/core/errors.h"
+#include "lib/core/symmetric_eigen.h"
 #include "lib/linear/solver.h"
 
 namespace orthodyn {
@@ -97,9 +98,8 @@ EigenPairs lanczos(Problem& problem, double shift, int count) {
 }
 
 EigenPairs dense(const Problem& problem, int count) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(problem.dense(problem.K()),
-                                                                        problem.dense(problem.M()));
-  return {eigen.eigenvalues().head(count), eigen.eigenvectors().leftCols(count)};
+  const auto pairs = symmetric_eigenpairs(problem.dense(problem.K()), problem.dense(problem.M()));
+  return {pairs.values.head(count), pairs.vectors.leftCols(count)};
 }
 
 int zeros_among(const Vector& values, double largest) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "lib/core/symmetric_eigen.h"
 #include "lib/material/orthotropy.h"
 
 namespace orthodyn {
@@ -17,7 +18,7 @@ const double kRootOfTwo = std::sqrt(2.0);
 double smallest_unit_diagonal_eigenvalue(const Mat6& C) {
   const Vec6 scale = C.diagonal().cwiseSqrt().cwiseInverse();
   const Mat6 unit = scale.asDiagonal() * C * scale.asDiagonal();
-  return Eigen::SelfAdjointEigenSolver<Mat6>(unit, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  return symmetric_eigenvalues(unit)[0];
 }
 
 }  // namespace
@@ -44,8 +45,8 @@ AnisotropicStiffness shrink_couplings(const AnisotropicStiffness& C, double fact
 }
 
 std::string describe_softest_strain(const AnisotropicStiffness& C) {
-  const Eigen::SelfAdjointEigenSolver<Mat6> eigen(mandel(C.c));
-  Vec6 e = eigen.eigenvectors().col(0);
+  const auto pairs = symmetric_eigenpairs(mandel(C.c));
+  Vec6 e = pairs.vectors.col(0);
   e.tail<3>() /= kRootOfTwo;
   int largest = 0;
   e.cwiseAbs().maxCoeff(&largest);
@@ -54,7 +55,7 @@ std::string describe_softest_strain(const AnisotropicStiffness& C) {
   std::vector<std::string> parts;
   for (int i = 0; i < 6; ++i)
     if (std::abs(e[i]) > 0.005) parts.push_back(fmt::format("{}={:.2f}", names[i], e[i]));
-  return fmt::format("smallest eigenvalue {:.3g} Pa, of the strain {}", eigen.eigenvalues()[0], fmt::join(parts, ", "));
+  return fmt::format("smallest eigenvalue {:.3g} Pa, of the strain {}", pairs.values[0], fmt::join(parts, ", "));
 }
 
 }  // namespace orthodyn

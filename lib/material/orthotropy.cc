@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "lib/core/symmetric_eigen.h"
+
 namespace orthodyn {
 
 namespace {
@@ -82,7 +84,7 @@ std::string smallest_eigenvalue(const OrthotropicConstants& c, const Vec3& r) {
     return fmt::format("C does not exist (smallest eigenvalue of the unit-diagonal compliance {:.3g})",
                        lambda);
   const Mat6 C = voigt(stiffness(c));
-  const double smallest = Eigen::SelfAdjointEigenSolver<Mat6>(C).eigenvalues()[0];
+  const double smallest = symmetric_eigenvalues(C)[0];
   return fmt::format("smallest eigenvalue of C {:.3g} Pa, of the unit-diagonal compliance {:.3g}",
                      smallest, lambda);
 }
@@ -103,7 +105,7 @@ Vec3 rho_eigenvalues(const OrthotropicConstants& c) {
   const Vec3 r = scaled_ratios(c);
   Mat3 rho;
   rho << 1, -r[0], -r[2], -r[0], 1, -r[1], -r[2], -r[1], 1;
-  return Eigen::SelfAdjointEigenSolver<Mat3>(rho, Eigen::EigenvaluesOnly).eigenvalues();
+  return symmetric_eigenvalues(rho);
 }
 
 bool is_stable(const OrthotropicConstants& c) {

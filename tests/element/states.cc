@@ -1,3 +1,4 @@
+#include "lib/core/symmetric_eigen.h"
 #include "tests/element/states.h"
 
 namespace orthodyn {
@@ -26,7 +27,7 @@ Mat3 unit_matrix(int k) {
 double asymmetry(const Mat9& H) { return (H - H.transpose()).norm() / H.norm(); }
 
 double smallest_eigenvalue(const Mat9& H) {
-  const auto lambda = Eigen::SelfAdjointEigenSolver<Mat9>(H, Eigen::EigenvaluesOnly).eigenvalues();
+  const auto lambda = symmetric_eigenvalues(Eigen::MatrixXd(H));
   return lambda[0] / lambda.cwiseAbs().maxCoeff();
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "lib/core/symmetric_eigen.h"
 #include "lib/element/corotational_law.h"
 #include "tests/element/states.h"
 
@@ -24,7 +25,7 @@ double softest_wave(const Mat9& H, const Vec3& n) {
   Mat3 A = Mat3::Zero();
   for (int b = 0; b < 3; ++b)
     for (int d = 0; d < 3; ++d) A += n[b] * n[d] * H.block<3, 3>(3 * b, 3 * d);
-  return Eigen::SelfAdjointEigenSolver<Mat3>(A, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  return symmetric_eigenvalues(A)[0];
 }
 
 // The smallest eigenvalue of the acoustic tensor over directions: a half sphere of samples, the axes among

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "lib/core/symmetric_eigen.h"
 #include "lib/material/material.h"
 #include "tests/config/messages.h"
 #include "tests/material/constants.h"
@@ -63,7 +64,7 @@ TEST(TransverselyIsotropic, WhenShrunkStaysIsotropicAcrossTheFibre) {
   for (const auto& yaml : {fibre_with(4, 0.5, ", repair: shrink"), fibre_with(0.1, -1.5, ", repair: shrink")}) {
     const Mat6 C = voigt(stiffness_of(yaml));
     EXPECT_NEAR(C(4, 4), 0.5 * (C(1, 1) - C(1, 2)), 16 * kEps * C.norm());
-    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Mat6>(C).eigenvalues()[0], 0);
+    EXPECT_GT(symmetric_eigenvalues(C)[0], 0);
     EXPECT_EQ(read(yaml)->notes().size(), 1u);
   }
 }

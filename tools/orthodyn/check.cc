@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "lib/analysis/strain_limits.h"
+#include "lib/core/symmetric_eigen.h"
 #include "lib/scene/equilibrium.h"
 #include "tools/orthodyn/axes.h"
 #include "tools/orthodyn/commands.h"
@@ -37,7 +38,7 @@ void print_strain_limits(const Stiffness& stiffness) {
 void print_materials(const Scene& scene) {
   for (const auto& [name, material] : scene.materials) {
     const Mat6 C = voigt(material->stiffness());
-    const Vec6 lambda = Eigen::SelfAdjointEigenSolver<Mat6>(C).eigenvalues();
+    const Vec6 lambda = symmetric_eigenvalues(C);
     fmt::print("  {}: density {} kg/m^3, eigenvalues of C {:.4g} Pa\n", name, material->density(),
                fmt::join(lambda, ", "));
     if (scene.elasticity.kinematics == Kinematics::corotational) print_strain_limits(material->stiffness());
