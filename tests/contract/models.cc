@@ -1,3 +1,4 @@
+#include "lib/core/symmetric_eigen.h"
 #include "tests/contract/models.h"
 
 #include <cmath>
@@ -83,9 +84,9 @@ LinearModel::LinearModel(const Given& given)
   traits_.time_dependent = given.load.size() > 0;
   traits_.conservative = !traits_.damped && !traits_.time_dependent;
   if (!given_.start.size()) given_.start = Vector::Zero(given.mass.rows());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> modes(given.stiffness, given.mass);
-  shapes_ = modes.eigenvectors();  // V^T M V = I
-  omega_squared_ = modes.eigenvalues();
+  const auto modes = symmetric_eigenpairs(given.stiffness, given.mass);
+  shapes_ = modes.vectors;  // V^T M V = I
+  omega_squared_ = modes.values;
 }
 
 void LinearModel::force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const {
@@ -235,16 +236,20 @@ void CirculatoryModel::force(double, const ConstVectorRef& q, const ConstVectorR
 
 State CirculatoryModel::initial() const { return {0, Vector::Unit(2, 0), Vector::Zero(2)}; }
 
+// The stiffness has the eigenvalues 13/2 -+ sqrt(21)/2 with eigenvectors (1, lambda - 4); each mode moves by
+// z'' + z' + lambda z = 0, z(0) = 1, z'(0) = 0.
 State CirculatoryModel::exact(double t) const {
-  Matrix A = Matrix::Zero(4, 4);
-  A.topRightCorner(2, 2).setIdentity();
-  A.bottomLeftCorner(2, 2) = -kCirculatory;
-  A.bottomRightCorner(2, 2) = -Matrix::Identity(2, 2);
-  const Eigen::EigenSolver<Matrix> modes(A);
-  const Eigen::MatrixXcd V = modes.eigenvectors();
-  const Eigen::VectorXcd growth = (modes.eigenvalues() * t).array().exp();
-  const Vector y = (V * growth.asDiagonal() * V.inverse().col(0)).real();
-  return {t, y.head(2), y.tail(2)};
+  const double low = (13 - std::sqrt(21.0)) / 2, high = (13 + std::sqrt(21.0)) / 2;
+  State state{t, Vector::Zero(2), Vector::Zero(2)};
+  const auto add = [&](double lambda, double other) {
+    const double share = (other - 4) / (other - lambda), omega = std::sqrt(lambda - 0.25), decay = std::exp(-t / 2);
+    const Vector shape = Vector{{1, lambda - 4}};
+    state.q += share * decay * (std::cos(omega * t) + std::sin(omega * t) / (2 * omega)) * shape;
+    state.v -= share * decay * lambda / omega * std::sin(omega * t) * shape;
+  };
+  add(low, high);
+  add(high, low);
+  return state;
 }
 
 Matrix CirculatoryModel::stiffness(double, const Vector&, const Vector&, TangentKind) const { return kCirculatory; }
