@@ -20,11 +20,17 @@ if(ORTHODYN_SANITIZE)
   target_link_options(orthodyn_options INTERFACE -fsanitize=address,undefined)
 endif()
 
-# The library's precompiled headers, which its modules and the program share.
-file(WRITE ${PROJECT_BINARY_DIR}/precompiled.cc "")
-add_library(orthodyn_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cc)
-target_link_libraries(orthodyn_precompiled PRIVATE Eigen3::Eigen fmt::fmt orthodyn_options)
-target_precompile_headers(orthodyn_precompiled PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.h)
+# Position-independent code as in a library for programs, too: else they could not share its precompiled headers.
+target_compile_options(orthodyn_options INTERFACE -fPIC)
+
+# orthodyn_precompiled_headers(NAME HEADER LIBRARIES...): target NAME, for REUSE_FROM of target_precompile_headers().
+function(orthodyn_precompiled_headers name header)
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${name}.cc CONTENT "")
+  add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/${name}.cc)
+  target_link_libraries(${name} PRIVATE ${ARGN} orthodyn_options)
+  target_precompile_headers(${name} PRIVATE ${PROJECT_SOURCE_DIR}/${header})
+endfunction()
+orthodyn_precompiled_headers(orthodyn_precompiled cmake/precompiled.h Eigen3::Eigen fmt::fmt)
 
 # orthodyn_module(NAME FOLDER DEPENDENCIES...): the sources below FOLDER as object library
 # orthodyn_NAME, which sees only what it depends on.

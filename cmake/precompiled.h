@@ -4,6 +4,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -28,3 +29,4 @@
 
 #include "lib/config/spec.h"
 #include "lib/core/types.h"
+#include "lib/config/registry.h"
