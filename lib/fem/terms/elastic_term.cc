@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "lib/element/linear_law.h"
+#include "lib/element/warped_law.h"
 #include "lib/fem/element_batches.h"
 #include "lib/fem/element_stiffness.h"
 
