@@ -10,7 +10,8 @@ class GroundSprings : public Term {
   GroundSprings(double stiffness, std::vector<int> nodes, const FemModel::Parts& parts)
       : k_(stiffness), nodes_(std::move(nodes)), rest_(*parts.rest), pattern_(*parts.pattern) {}
 
-  std::string description() const override { return "springs to ground at " + std::to_string(nodes_.size()) + " nodes"; }
+  std::string name() const override { return "springs to ground"; }
+  std::string description() const override { return name() + ": " + std::to_string(nodes_.size()) + " nodes"; }
 
   void add_force(const NodalState& s, NodalVector& f) const override {
     for (const int i : nodes_) f.col(i) -= k_ * (s.x.col(i) - rest_.col(i));

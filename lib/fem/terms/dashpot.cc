@@ -6,7 +6,9 @@
 
 namespace orthodyn {
 
-std::string Dashpots::description() const { return fmt::format("dashpots: {} of {:.6g} N s/m", links_.size(), c_); }
+std::string Dashpots::description() const {
+  return fmt::format("{}: {} of {:.6g} N s/m", name(), links_.size(), c_);
+}
 
 Mat3 Dashpots::matrix(const Link& link, const NodalVector& x) const {
   if (law_ == DashpotLaw::all_directions) return c_ * Mat3::Identity();

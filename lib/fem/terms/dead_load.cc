@@ -2,8 +2,8 @@
 
 namespace orthodyn {
 
-DeadLoad::DeadLoad(std::string description, NodalForces forces, std::shared_ptr<const TimeFunction> factor)
-    : description_(std::move(description)), forces_(std::move(forces)), factor_(std::move(factor)) {}
+DeadLoad::DeadLoad(std::string name, NodalForces forces, std::shared_ptr<const TimeFunction> factor, std::string amount)
+    : name_(std::move(name)), amount_(std::move(amount)), forces_(std::move(forces)), factor_(std::move(factor)) {}
 
 void DeadLoad::add_force(const NodalState& s, NodalVector& f) const {
   const double factor = factor_->value(s.t);

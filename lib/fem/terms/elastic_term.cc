@@ -24,8 +24,10 @@ class Elastic final : public ElasticTerm {
     for (const int cell : cells_) offsets_.emplace_back(mesh.tets[static_cast<std::size_t>(cell)], pattern);
   }
 
+  std::string name() const override { return "elasticity of region " + region_; }
+
   std::string description() const override {
-    return fmt::format("elasticity of region {}: {}, {} elements{}", region_, law(), size(),
+    return fmt::format("{}: {}, {} elements{}", name(), law(), size(),
                        beta_ > 0 ? ", stiffness-proportional damping" : "");
   }
 

@@ -11,7 +11,7 @@ class Gravity : public Term {
   Gravity(const Vec3& g, const Vector& nodal_masses, const NodalVector& rest)
       : g_(g), masses_(nodal_masses), rest_(rest) {}
 
-  std::string description() const override { return "gravity"; }
+  std::string name() const override { return "gravity"; }
   void add_force(const NodalState&, NodalVector& f) const override { f += g_ * masses_.transpose(); }
   EnergyKind energy_kind() const override { return EnergyKind::gravitational; }
   double energy(const NodalState& s) const override { return -g_.dot((s.x - rest_) * masses_); }

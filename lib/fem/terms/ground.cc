@@ -25,7 +25,7 @@ double mean_slope(double a, double b, double w) {
 }  // namespace
 
 std::string Ground::description() const {
-  return fmt::format("ground: {} nodes, {:.6g} Pa/m", areas_.size(), plane_.stiffness);
+  return fmt::format("{}: {} nodes, {:.6g} Pa/m", name(), areas_.size(), plane_.stiffness);
 }
 
 void Ground::add_force(const NodalState& s, NodalVector& f) const {

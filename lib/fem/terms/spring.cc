@@ -19,7 +19,9 @@ double contraction(const SpringLink& link, double length) {
 
 }  // namespace
 
-std::string Springs::description() const { return fmt::format("springs: {} of {:.6g} N/m", links_.size(), k_); }
+std::string Springs::description() const {
+  return fmt::format("{}: {} of {:.6g} N/m", name(), links_.size(), k_);
+}
 
 void Springs::add_force(const NodalState& s, NodalVector& f) const {
   for (const SpringLink& link : links_) {

@@ -23,8 +23,8 @@ class PointLoadChoice : public TermChoice, public Selection {
     const auto selected = selected_nodes(*this, parts.mesh);
     NodalForces forces;
     for (const int node : selected) forces.emplace_back(node, force_ / static_cast<double>(selected.size()));
-    return std::make_unique<DeadLoad>(fmt::format("point load: {} nodes", selected.size()), std::move(forces),
-                                      factor_);
+    return std::make_unique<DeadLoad>("point load", std::move(forces), factor_,
+                                      fmt::format("{} nodes", selected.size()));
   }
 
   void declare(Traits& traits) const override {
