@@ -17,7 +17,7 @@
 #include "lib/axes/axes_source.h"
 #include "lib/scene/event_spec.h"
 #include "lib/scene/expectation.h"
-#include "lib/scene/mesh_source.h"
+#include "lib/mesh/mesh_source.h"
 #include "lib/scene/statics.h"
 #include "lib/scene/support_motion.h"
 #include "lib/scene/term_choice.h"

@@ -9,7 +9,7 @@
 #include "lib/config/formula.h"
 #include "lib/fem/motion/motion.h"
 #include "lib/fem/time_functions/time_function.h"
-#include "lib/scene/selection.h"
+#include "lib/mesh/selection.h"
 
 namespace orthodyn {
 

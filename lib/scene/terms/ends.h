@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "lib/fem/terms/link.h"
-#include "lib/scene/selection.h"
+#include "lib/mesh/selection.h"
 
 namespace orthodyn {
 

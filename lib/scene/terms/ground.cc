@@ -1,8 +1,8 @@
 #include "lib/fem/terms/ground.h"
 
 #include "lib/fem/surface.h"
+#include "lib/mesh/selection.h"
 #include "lib/scene/term_choice.h"
-#include "lib/scene/terms/outer_surface.h"
 
 namespace orthodyn {
 namespace {

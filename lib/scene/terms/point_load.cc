@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "lib/fem/terms/dead_load.h"
-#include "lib/scene/selection.h"
+#include "lib/mesh/selection.h"
 #include "lib/scene/term_choice.h"
 
 namespace orthodyn {

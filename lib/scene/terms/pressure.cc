@@ -1,7 +1,7 @@
 #include "lib/fem/terms/pressure.h"
 
+#include "lib/mesh/selection.h"
 #include "lib/scene/term_choice.h"
-#include "lib/scene/terms/outer_surface.h"
 
 namespace orthodyn {
 namespace {

@@ -1,6 +1,6 @@
 // The mesh source `box`.
 #include "lib/mesh/box.h"
-#include "lib/scene/mesh_source.h"
+#include "lib/mesh/mesh_source.h"
 
 namespace orthodyn {
 

@@ -1,6 +1,6 @@
 // The mesh sources `cylinder` and `tube`.
 #include "lib/mesh/cylinder.h"
-#include "lib/scene/mesh_source.h"
+#include "lib/mesh/mesh_source.h"
 
 namespace orthodyn {
 namespace {

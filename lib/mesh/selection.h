@@ -54,4 +54,7 @@ int nearest_node(const TetMesh& mesh, const Vec3& point);
 // Throws ConfigError naming the mesh's surfaces if there is none of this name.
 const std::vector<Triangle>& find_surface(const TetMesh& mesh, const std::string& name, const Origin& origin);
 
+// The same, without a name all outer faces of the body.
+std::vector<Triangle> surface_or_all(const TetMesh& mesh, const std::optional<std::string>& name, const Origin& origin);
+
 }  // namespace orthodyn

@@ -5,7 +5,7 @@
 #include "lib/mesh/io/gmsh.h"
 #include "lib/mesh/io/mesh_file.h"
 #include "lib/mesh/io/vega.h"
-#include "lib/scene/mesh_source.h"
+#include "lib/mesh/mesh_source.h"
 
 namespace orthodyn {
 namespace {

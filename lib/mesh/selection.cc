@@ -1,9 +1,12 @@
-#include "lib/scene/selection.h"
+#include "lib/mesh/selection.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+
+#include "lib/core/words.h"
 
 namespace orthodyn {
 
@@ -94,6 +97,11 @@ const std::vector<Triangle>& find_surface(const TetMesh& mesh, const std::string
   const auto it = mesh.surfaces.find(name);
   if (it != mesh.surfaces.end() && !it->second.empty()) return it->second;
   fail_unknown(origin, "surface", name, mesh.surfaces, "in Gmsh, make a Physical Surface");
+}
+
+std::vector<Triangle> surface_or_all(const TetMesh& mesh, const std::optional<std::string>& name,
+                                     const Origin& origin) {
+  return name ? find_surface(mesh, *name, origin) : boundary_triangles(mesh);
 }
 
 std::vector<int> selected_nodes(const Selection& selection, const TetMesh& mesh) {
