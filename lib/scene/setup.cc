@@ -9,7 +9,6 @@
 #include "lib/linear/blas.h"
 #include "lib/scene/equilibrium.h"
 #include "lib/scene/events.h"
-#include "lib/scene/initial_state.h"
 #include "lib/scene/quantity.h"
 #include "lib/scene/scales.h"
 #include "lib/scene/strain_check.h"
@@ -85,7 +84,7 @@ std::unique_ptr<Integrator> make_integrator(Config& config, const Scene& scene, 
 
 void start_from_equilibrium(const Scene& scene, BuiltScene& built) {
   try {
-    built.initial = initial_state_at(equilibrium(scene, built), scene, built.model->parts());
+    built.initial = initial_state_at(equilibrium(scene, built), scene.initial, scene.time.start, *built.model);
   } catch (const RunError& e) {
     throw RunError(std::string("start: equilibrium: ") + e.what(), e.reason());
   }

@@ -17,12 +17,6 @@ bool wants_reactions(const Scene& scene) {
          });
 }
 
-std::array<bool, 3> mask(const std::vector<Component>& components) {
-  std::array<bool, 3> out{};
-  for (const Component c : components) out[static_cast<std::size_t>(c)] = true;
-  return out;
-}
-
 // Who holds which coordinate.
 class Register {
  public:
@@ -96,11 +90,12 @@ Supports make_supports(const Scene& scene, const TetMesh& mesh) {
   Register held(mesh);
   for (std::size_t k = 0; k < scene.clamps.size(); ++k) {
     const Clamp& clamp = scene.clamps[k];
-    held.add(named(clamp.name, "clamp", k), clamp, selected_nodes(clamp, mesh), mask(clamp.components), false);
+    held.add(named(clamp.name, "clamp", k), clamp, selected_nodes(clamp, mesh), component_mask(clamp.components),
+             false);
   }
   for (std::size_t k = 0; k < scene.motions.size(); ++k) {
     const SupportMotion& given = scene.motions[k];
-    out.moved.push_back({motion_in(scene, given), selected_nodes(given, mesh), mask(given.components)});
+    out.moved.push_back({motion_in(scene, given), selected_nodes(given, mesh), component_mask(given.components)});
     check_velocity(scene, given, *out.moved.back().motion);
     held.add(named(given.name, "motion", k), given, out.moved.back().nodes, out.moved.back().components, true);
   }

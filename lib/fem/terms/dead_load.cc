@@ -24,4 +24,11 @@ std::vector<double> DeadLoad::breakpoints(double start, double end) const {
   return times_between(factor_->kinks(), start, end);
 }
 
+void declare_load(const TimeFunction& factor, Traits& traits) {
+  traits.loaded = true;
+  if (factor.constant()) return;
+  traits.time_dependent = true;
+  traits.conservative = false;
+}
+
 }  // namespace orthodyn

@@ -8,6 +8,7 @@
 #include "lib/fem/surface.h"
 #include "lib/fem/term.h"
 #include "lib/fem/time_functions/time_function.h"
+#include "lib/ode/model.h"
 
 namespace orthodyn {
 
@@ -28,5 +29,8 @@ class DeadLoad : public Term {
   NodalForces forces_;
   std::shared_ptr<const TimeFunction> factor_;
 };
+
+// The traits of a model with a load that has this factor in time.
+void declare_load(const TimeFunction& factor, Traits& traits);
 
 }  // namespace orthodyn

@@ -1,7 +1,8 @@
 // Uniform gravity: f_i = m_i g, energy - sum m_i g . (x_i - X_i).
 #pragma once
 
-#include "lib/fem/term.h"
+#include "lib/config/values.h"
+#include "lib/fem/term_choice.h"
 
 namespace orthodyn {
 
@@ -20,6 +21,26 @@ class Gravity : public Term {
   Vec3 g_;
   const Vector& masses_;
   const NodalVector& rest_;
+};
+
+// The key `gravity` of a scene: three numbers, m/s^2.
+struct GravityChoice : TermChoice {
+  Vec3 g = Vec3::Zero();
+
+  std::unique_ptr<Term> make(const Discretization& body) const override {
+    return std::make_unique<Gravity>(g, body.nodal_masses, body.rest);
+  }
+};
+
+template <>
+struct Value<GravityChoice> {
+  static Shape shape() { return Value<Vec3>::shape(); }
+  static GravityChoice read(const Config& c, const Rule& r) {
+    GravityChoice gravity;
+    gravity.g = Value<Vec3>::read(c, r);
+    return gravity;
+  }
+  static std::string yaml(const GravityChoice& gravity) { return Value<Vec3>::yaml(gravity.g); }
 };
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-#include "lib/scene/support_motion.h"
+#include "lib/fem/motion/support_motion.h"
 
 #include "lib/fem/differences.h"
 #include "lib/fem/motion/formula_motion.h"
@@ -64,6 +64,11 @@ const Spec<SupportMotion>& SupportMotion::spec() {
                {.unit = "s", .range = kPositive})
           .check(check_motion);
   return s;
+}
+
+void SupportMotion::declare(Traits& traits) const {
+  traits.loaded = traits.time_dependent = true;
+  traits.conservative = false;
 }
 
 std::shared_ptr<const Motion> SupportMotion::motion(double start) const {

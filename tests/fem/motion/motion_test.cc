@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "lib/fem/differences.h"
-#include "lib/scene/support_motion.h"
+#include "lib/fem/motion/support_motion.h"
 #include "tests/fem/built_scene.h"
 #include "tests/fem/derivatives.h"
 

@@ -7,19 +7,13 @@
 #include <optional>
 
 #include "lib/config/formula.h"
+#include "lib/fem/motion/component.h"
 #include "lib/fem/motion/motion.h"
 #include "lib/fem/time_functions/time_function.h"
 #include "lib/mesh/selection.h"
+#include "lib/ode/model.h"
 
 namespace orthodyn {
-
-enum class Component { x, y, z };
-
-template <>
-struct Words<Component> {
-  static constexpr std::array<std::pair<Component, const char*>, 3> list{
-      {{Component::x, "x"}, {Component::y, "y"}, {Component::z, "z"}}};
-};
 
 struct Rotation {
   Vec3 point = Vec3::Zero(), axis{0, 0, 1};
@@ -38,6 +32,9 @@ struct SupportMotion : Selection {
   std::vector<double> kinks;                                    // s
   std::optional<double> resolution;                             // s
   static const Spec<SupportMotion>& spec();
+
+  // What changes for integrators when supports are moved.
+  void declare(Traits& traits) const;
 
   // start: the time before which it is never asked for, s.
   std::shared_ptr<const Motion> motion(double start = -std::numeric_limits<double>::infinity()) const;

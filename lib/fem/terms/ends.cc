@@ -1,4 +1,4 @@
-#include "lib/scene/terms/ends.h"
+#include "lib/fem/terms/ends.h"
 
 namespace orthodyn {
 

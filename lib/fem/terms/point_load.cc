@@ -1,8 +1,9 @@
+// The term `point_load`.
 #include <fmt/format.h>
 
+#include "lib/fem/term_choice.h"
 #include "lib/fem/terms/dead_load.h"
 #include "lib/mesh/selection.h"
-#include "lib/scene/term_choice.h"
 
 namespace orthodyn {
 namespace {
@@ -19,20 +20,15 @@ class PointLoadChoice : public TermChoice, public Selection {
     return s;
   }
 
-  std::unique_ptr<Term> make(const FemModel::Parts& parts) const override {
-    const auto selected = selected_nodes(*this, parts.mesh);
+  std::unique_ptr<Term> make(const Discretization& body) const override {
+    const auto selected = selected_nodes(*this, body.mesh);
     NodalForces forces;
     for (const int node : selected) forces.emplace_back(node, force_ / static_cast<double>(selected.size()));
     return std::make_unique<DeadLoad>("point load", std::move(forces), factor_,
                                       fmt::format("{} nodes", selected.size()));
   }
 
-  void declare(Traits& traits) const override {
-    traits.loaded = true;
-    if (factor_->constant()) return;
-    traits.time_dependent = true;
-    traits.conservative = false;
-  }
+  void declare(Traits& traits) const override { declare_load(*factor_, traits); }
 
  private:
   Vec3 force_ = Vec3::Zero();
