@@ -31,6 +31,8 @@ class Elastic final : public ElasticTerm {
                        beta_ > 0 ? ", stiffness-proportional damping" : "");
   }
 
+  const std::string& region() const override { return region_; }
+
   std::string law() const override { return Law::kName; }
 
   std::size_t bytes() const override {

@@ -16,6 +16,9 @@ class ElasticTerm : public Term {
  public:
   EnergyKind energy_kind() const override { return EnergyKind::elastic; }
 
+  // The region of the mesh that its elements are.
+  virtual const std::string& region() const = 0;
+
   // The law in words, e.g. "corotational, exact".
   virtual std::string law() const = 0;
 

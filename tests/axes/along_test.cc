@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "lib/axes/curve.h"
-#include "tests/scene/axes/axes_of.h"
+#include "tests/axes/axes_of.h"
 
 namespace orthodyn {
 namespace {

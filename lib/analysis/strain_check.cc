@@ -1,4 +1,4 @@
-#include "lib/scene/strain_check.h"
+#include "lib/analysis/strain_check.h"
 
 #include <fmt/format.h>
 
@@ -13,11 +13,6 @@ namespace {
 
 constexpr double kOvershoot = 2;        // of a load applied at once, over its static response
 constexpr int kLargestSystem = 30000;   // unknowns that are factorised for a warning's sake
-
-std::string region_of(const FemModel& model, const ElasticTerm& term) {
-  const auto& mesh = model.parts().mesh;
-  return mesh.region_names[static_cast<std::size_t>(mesh.region_of[static_cast<std::size_t>(term.cell(0))])];
-}
 
 // The elements of a region beyond one limit.
 struct Excess {
@@ -54,7 +49,7 @@ Excess find_excess(const ElasticTerm& term, const std::array<AxisLimits, 3>& lim
   return most;
 }
 
-std::string warning(const std::string& region, const ElasticTerm& term, const Excess& e, const std::string& cause) {
+std::string warning(const ElasticTerm& term, const Excess& e, const std::string& cause) {
   const std::string means =
       e.limit.kind == LimitKind::flat
           ? fmt::format("a bar of it that is pulled along this axis has no thickness left ({})",
@@ -66,47 +61,41 @@ std::string warning(const std::string& region, const ElasticTerm& term, const Ex
   return fmt::format(
       "region {}: {} puts {} of {} elements along material axis {} under the stress of a strain of {:+.3g} "
       "%; beyond {:+.3g} % {}. Lower the load, or look for a mistake in the constants and axes.",
-      region, cause, e.count, term.size(), e.axis + 1, 100 * e.worst, 100 * e.limit.strain, means);
-}
-
-bool is_deformed(const Scene& scene) {
-  const auto& initial = scene.initial;
-  return initial && (initial->deformation_gradient || initial->displacement_field || initial->noise);
+      term.region(), cause, e.count, term.size(), e.axis + 1, 100 * e.worst, 100 * e.limit.strain, means);
 }
 
 }  // namespace
 
-bool needs_strain_check(const Scene& scene, const BuiltScene& built) {
-  const FemModel& model = *built.model;
-  if (scene.elasticity.kinematics != Kinematics::corotational || model.num_dofs() > kLargestSystem) return false;
-  for (const auto& term : model.parts().elastic)
-    for (const AxisLimits& axis : strain_limits(material_in(scene, region_of(model, *term)).stiffness()))
+bool needs_strain_check(const FemModel& model, const std::vector<Stiffness>& stiffness) {
+  if (model.num_dofs() > kLargestSystem) return false;
+  for (const Stiffness& C : stiffness)
+    for (const AxisLimits& axis : strain_limits(C))
       if (axis.compression || (axis.tension && axis.tension->strain < 1)) return true;
   return false;
 }
 
-Warnings strain_warnings(const Scene& scene, const BuiltScene& built, const StaticResponse& statics) {
-  const FemModel& model = *built.model;
+Warnings strain_warnings(const FemModel& model, const std::vector<Stiffness>& stiffness, const State& initial,
+                         const StaticResponse& statics) {
   Warnings out;
   NodalVector u = NodalVector::Zero(3, model.parts().rest->cols());
   if (statics.exists()) model.parts().dofs->add_to(statics.displacement, u);
-  const NodalExpansion initial(model.parts(), 0, built.initial.q, built.initial.v);
-  for (const auto& term : model.parts().elastic) {
-    const Stiffness C = material_in(scene, region_of(model, *term)).stiffness();
-    const auto limits = strain_limits(C);
-    const Mat36 equivalent = stress_over_young(C);
-    const auto look = [&](const std::string& cause, const std::function<Mat3(int)>& strain) {
+  const NodalExpansion start(model.parts(), initial.t, initial.q, initial.v);
+  for (std::size_t r = 0; r < stiffness.size(); ++r) {
+    const auto& term = model.parts().elastic[r];
+    const auto limits = strain_limits(stiffness[r]);
+    const Mat36 equivalent = stress_over_young(stiffness[r]);
+    const auto check = [&](const std::string& cause, const std::function<Mat3(int)>& strain) {
       const Excess excess = find_excess(*term, limits, [&](int k) -> Vec3 {
         const Mat3 e = strain(k);
         return equivalent * (Vec6() << e.diagonal(), 2 * e(0, 1), 2 * e(1, 2), 2 * e(2, 0)).finished();
       });
-      if (excess.count > 0) out.push_back(warning(region_of(model, *term), *term, excess, cause));
+      if (excess.count > 0) out.push_back(warning(*term, excess, cause));
     };
     if (statics.exists())
-      look("twice the linear static response to the loads",
+      check("twice the linear static response to the loads",
            [&](int k) -> Mat3 { return kOvershoot * term->small_strain(k, u); });
-    if (is_deformed(scene))
-      look("the initial deformation", [&](int k) -> Mat3 { return term->observe(k, initial.state()).strain; });
+    if (!initial.q.isZero(0))
+      check("the initial deformation", [&](int k) -> Mat3 { return term->observe(k, start.state()).strain; });
   }
   return out;
 }

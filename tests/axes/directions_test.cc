@@ -5,7 +5,7 @@
 
 #include "lib/axes/frame.h"
 #include "lib/axes/given_axes.h"
-#include "tests/scene/axes/axes_of.h"
+#include "tests/axes/axes_of.h"
 
 namespace orthodyn {
 namespace {

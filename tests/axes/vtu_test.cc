@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "lib/mesh/box.h"
-#include "tests/scene/axes/axes_of.h"
+#include "tests/axes/axes_of.h"
 
 namespace orthodyn {
 namespace {

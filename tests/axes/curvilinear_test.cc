@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "tests/scene/axes/axes_of.h"
+#include "tests/axes/axes_of.h"
 
 namespace orthodyn {
 namespace {

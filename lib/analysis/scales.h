@@ -8,13 +8,13 @@
 // speed of moved supports.
 #pragma once
 
-#include "lib/scene/build.h"
 #include "lib/analysis/static_response.h"
+#include "lib/ode/integrator.h"
 
 namespace orthodyn {
 
-// `statics` is the response of this very model, where the caller has it.
-Scales estimate_scales(const Scene& scene, const BuiltScene& built, const StaticResponse& statics);
-Scales estimate_scales(const Scene& scene, const BuiltScene& built);
+// Of a body that moves from its initial state to the time `end` (s). `statics` is static_response() of this very model.
+// Throws ConfigError if the initial state has no finite energy.
+Scales estimate_scales(const FemModel& model, const State& initial, double end, const StaticResponse& statics);
 
 }  // namespace orthodyn

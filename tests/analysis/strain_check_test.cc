@@ -90,15 +90,5 @@ TEST(StrainCheck, DoesNotTakeARotationForAStrain) {
   EXPECT_TRUE(warnings_of(kFree + "initial: {deformation_gradient: [[0, -1, 0], [1, 0, 0], [0, 0, 1]]}\n").empty());
 }
 
-TEST(MaterialNotes, AreWarningsOfTheScene) {
-  const std::string repaired =
-      "mesh: {type: box, size: [1, 1, 1], cells: [1, 1, 1]}\nmaterials: {odd: {type: orthotropic, density: 1, young: [1, 1, 1], nu12: 0.8, nu23: 0.8, "
-      "nu13: 0.8, g12: 1, g23: 1, g13: 1, repair: shrink}}\ntime: {end: 1}\n";
-  const auto setup = set_up(Config::from_text(repaired));
-  ASSERT_FALSE(setup.built.warnings.empty());
-  EXPECT_TRUE(
-      starts(setup.built.warnings[0], "material odd: nu12=0.8, nu23=0.8, nu13=0.8 make the stiffness indefinite"));
-}
-
 }  // namespace
 }  // namespace orthodyn
