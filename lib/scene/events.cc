@@ -40,7 +40,8 @@ std::vector<Event> make_events(const Scene& scene, const FemModel& model) {
   std::vector<Event> events;
   for (const auto& spec : scene.events) {
     const Quantity quantity = find_quantity(spec.quantity, scene, model, spec.origin);
-    if (!quantity.values) spec.origin.fail(fmt::format("'{}' is known at output times only; choose another quantity", spec.quantity));
+    if (!quantity.values)
+      spec.origin.fail(fmt::format("'{}' is known at output times only; choose another quantity", spec.quantity));
     if (quantity.components != 1)
       spec.origin.fail(fmt::format("'{}' is a vector: choose .x, .y, .z or .magnitude", spec.quantity));
     events.push_back({spec.name.value_or(spec.quantity),

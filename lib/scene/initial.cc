@@ -39,7 +39,9 @@ double symmetric_uniform(std::mt19937_64& generator) {
   return static_cast<double>(generator() >> 11) * 0x1p-52 - 1;
 }
 
-Vec3 at(const std::array<PointFormula, 3>& field, const Vec3& x) { return {field[0].at(x), field[1].at(x), field[2].at(x)}; }
+Vec3 at(const std::array<PointFormula, 3>& field, const Vec3& x) {
+  return {field[0].at(x), field[1].at(x), field[2].at(x)};
+}
 
 Vec3 center_of_mass(const FemModel::Parts& parts) {
   return *parts.rest * parts.mass->nodal() / parts.mass->total();

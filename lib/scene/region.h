@@ -23,8 +23,8 @@ struct Region {
   static const Spec<Region>& spec();
 };
 
-// Completes a scene that says nothing of regions: its only material everywhere. Throws ConfigError if there are several,
-// or for a material that the scene does not have.
+// Completes a scene without regions: its only material is everywhere. Throws ConfigError if there are several, or for a
+// material that the scene does not have.
 void complete_regions(const Config& config, Scene& scene);
 
 // For each region of the mesh the entry of scene.regions that describes it. Throws ConfigError for regions without an

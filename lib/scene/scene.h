@@ -21,9 +21,9 @@
 #include "lib/scene/events.h"
 #include "lib/scene/expectation.h"
 #include "lib/scene/initial.h"
-#include "lib/scene/output.h"
+#include "lib/scene/output_files.h"
 #include "lib/scene/region.h"
-#include "lib/scene/statics.h"
+#include "lib/scene/static_analysis.h"
 #include "lib/scene/time_span.h"
 
 namespace orthodyn {

@@ -113,5 +113,19 @@ TEST(MaterialNotes, AreWarningsOfTheScene) {
   EXPECT_TRUE(starts(built.warnings[0], "material odd: nu12=0.8, nu23=0.8, nu13=0.8 make the stiffness indefinite"));
 }
 
+TEST(Regions, HaveTheEntryOfTheirNameBeforeThatOfAll) {
+  const Scene scene = read_scene(Config::from_text(R"(
+mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1], parts: {tip: {min: [1, 0, 0], max: [2, 1, 1]}}}
+materials:
+  soft: {type: isotropic, density: 1, young: 1e6, nu: 0.3}
+  hard: {type: isotropic, density: 2, young: 1e9, nu: 0.3}
+regions: {tip: {material: hard}, all: {material: soft}}
+time: {end: 1}
+)"));
+  EXPECT_EQ(material_in(scene, "tip").density(), 2);
+  EXPECT_EQ(material_in(scene, "body").density(), 1);
+  EXPECT_NEAR(build(scene).model->parts().mass->total(), 3, 1e-14);
+}
+
 }  // namespace
 }  // namespace orthodyn

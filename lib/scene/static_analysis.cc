@@ -1,4 +1,4 @@
-#include "lib/scene/statics.h"
+#include "lib/scene/static_analysis.h"
 
 namespace orthodyn {
 

@@ -1,4 +1,4 @@
-#include "lib/scene/output.h"
+#include "lib/scene/output_files.h"
 
 namespace orthodyn {
 
