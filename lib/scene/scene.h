@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/config/registry.h"
+#include "lib/config/spec.h"
 #include "lib/fem/mass.h"
 #include "lib/fem/motion/support_motion.h"
 #include "lib/fem/term_choice.h"
