@@ -22,7 +22,7 @@ ALLOWED = {
     "lib/element": {"lib/core", "lib/material"},
     "lib/axes": BASIC | {"lib/mesh", "lib/fem"},
     "lib/fem": BASIC | {"lib/material", "lib/mesh", "lib/element", "lib/ode", "lib/linear"},
-    "lib/analysis": PHYSICS,
+    "lib/analysis": BASIC | {"lib/material", "lib/mesh", "lib/element", "lib/ode", "lib/linear", "lib/fem"},
     "lib/scene": PHYSICS,
     "lib/simulation": PHYSICS | {"lib/scene"},
     "lib/study": STUDY,

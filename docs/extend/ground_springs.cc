@@ -1,5 +1,5 @@
 // A term of one's own: every node within a sphere is tied to its place at rest by a spring.
-#include "lib/scene/term_choice.h"
+#include "lib/fem/term_choice.h"
 
 namespace {
 
@@ -7,10 +7,11 @@ using namespace orthodyn;
 
 class GroundSprings : public Term {
  public:
-  GroundSprings(double stiffness, std::vector<int> nodes, const FemModel::Parts& parts)
-      : k_(stiffness), nodes_(std::move(nodes)), rest_(*parts.rest), pattern_(*parts.pattern) {}
+  GroundSprings(double stiffness, std::vector<int> nodes, const Discretization& body)
+      : k_(stiffness), nodes_(std::move(nodes)), rest_(body.rest), pattern_(body.pattern) {}
 
-  std::string description() const override { return "springs to ground at " + std::to_string(nodes_.size()) + " nodes"; }
+  std::string name() const override { return "springs to ground"; }
+  std::string description() const override { return name() + ": " + std::to_string(nodes_.size()) + " nodes"; }
 
   void add_force(const NodalState& s, NodalVector& f) const override {
     for (const int i : nodes_) f.col(i) -= k_ * (s.x.col(i) - rest_.col(i));
@@ -53,12 +54,12 @@ class GroundSpringsChoice : public TermChoice {
     return s;
   }
 
-  std::unique_ptr<Term> make(const FemModel::Parts& parts) const override {
+  std::unique_ptr<Term> make(const Discretization& body) const override {
     std::vector<int> nodes;
-    for (int i = 0; i < parts.rest->cols(); ++i)
-      if ((parts.rest->col(i) - center_).norm() <= radius_) nodes.push_back(i);
+    for (int i = 0; i < body.rest.cols(); ++i)
+      if ((body.rest.col(i) - center_).norm() <= radius_) nodes.push_back(i);
     if (nodes.empty()) origin.fail("no node lies in the sphere; make the radius larger");
-    return std::make_unique<GroundSprings>(stiffness_, std::move(nodes), parts);
+    return std::make_unique<GroundSprings>(stiffness_, std::move(nodes), body);
   }
 
   Origin origin;  // filled in: where it stands in the input

@@ -20,11 +20,11 @@ std::vector<Vec3> half_sphere() {
   return out;
 }
 
+}  // namespace
+
 bool is_positive_definite(const Mat3& A) {
   return A(0, 0) > 0 && A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0) > 0 && A.determinant() > 0;
 }
-
-}  // namespace
 
 bool is_strongly_elliptic(const Mat9& H) {
   static const std::vector<Vec3> directions = half_sphere();

@@ -9,6 +9,9 @@
 
 namespace orthodyn {
 
+// Of a symmetric matrix, by its leading minors.
+bool is_positive_definite(const Mat3& A);
+
 // H acting on dF in the rotated frame (expand()).
 bool is_strongly_elliptic(const Mat9& H);
 

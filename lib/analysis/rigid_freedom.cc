@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <numeric>
 
+#include "lib/analysis/singular_vectors.h"
 #include "lib/config/values.h"
+#include "lib/core/words.h"
 
 namespace orthodyn {
 
 namespace {
-
-using Motions = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 
 constexpr double kHeld = 1e-9;       // of the motion that the clamps hold best
 constexpr double kRoundOff = 1e-14;  // of the stiffness that each coordinate has of its own
@@ -38,6 +38,15 @@ std::vector<int> parts_of(const TetMesh& mesh) {
   return part;
 }
 
+using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
+Eigen::MatrixXd columns_where(const Eigen::MatrixXd& all, const Flags& wanted) {
+  Eigen::MatrixXd out(all.rows(), wanted.count());
+  for (Eigen::Index k = 0, next = 0; k < all.cols(); ++k)
+    if (wanted[k]) out.col(next++) = all.col(k);
+  return out;
+}
+
 // One part's six rigid motions, all of size one.
 class RigidMotions {
  public:
@@ -54,24 +63,17 @@ class RigidMotions {
 
   // The combinations of the six that vanish at all clamped coordinates, as columns.
   Eigen::MatrixXd not_clamped() const {
-    const Motions held = at_clamps();
+    const Eigen::MatrixXd held = at_clamps();
     if (held.rows() == 0) return Eigen::MatrixXd::Identity(6, 6);
-    // Triangular, with the singular values of all rows; those of the Gram matrix would be squared, below round-off.
-    Eigen::Matrix<double, 6, 6> R = Eigen::Matrix<double, 6, 6>::Zero();
-    const Eigen::HouseholderQR<Motions> qr(held);
-    const Eigen::Index rank = std::min<Eigen::Index>(6, held.rows());
-    R.topRows(rank) = qr.matrixQR().topRows(rank).triangularView<Eigen::Upper>();
-    const Eigen::JacobiSVD<Eigen::Matrix<double, 6, 6>> svd(R, Eigen::ComputeFullV);
-    const auto free = (svd.singularValues().array() <= kHeld * svd.singularValues()[0]).count();
-    return svd.matrixV().rightCols(free);
+    const SingularVectors combinations = right_singular_vectors(held);
+    return columns_where(combinations.V, combinations.values.array() <= kHeld * combinations.values.maxCoeff());
   }
 
   // At the free coordinates.
   Eigen::MatrixXd on_dofs(const Eigen::MatrixXd& combinations) const {
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(model_.num_dofs(), combinations.cols());
     for (const int i : nodes_) {
-      const Motions at_node = motions(i);
-      const Eigen::MatrixXd moved = at_node * combinations;
+      const Eigen::MatrixXd moved = motions(i).lazyProduct(combinations);
       for (std::size_t c = 0; c < 3; ++c)
         if (const int dof = model_.parts().dofs->node(i)[c]; dof >= 0)
           out.row(dof) = moved.row(static_cast<Eigen::Index>(c));
@@ -81,12 +83,12 @@ class RigidMotions {
 
  private:
   // A row per clamped coordinate.
-  Motions at_clamps() const {
+  Eigen::MatrixXd at_clamps() const {
     std::vector<Eigen::Matrix<double, 1, 6>> rows;
     for (const int i : nodes_)
       for (std::size_t c = 0; c < 3; ++c)
         if (model_.parts().dofs->node(i)[c] < 0) rows.push_back(motions(i).row(static_cast<Eigen::Index>(c)));
-    Motions out(static_cast<Eigen::Index>(rows.size()), 6);
+    Eigen::MatrixXd out(static_cast<Eigen::Index>(rows.size()), 6);
     for (std::size_t k = 0; k < rows.size(); ++k) out.row(static_cast<Eigen::Index>(k)) = rows[k];
     return out;
   }
@@ -116,10 +118,10 @@ Eigen::MatrixXd without_stiffness(const Eigen::MatrixXd& combinations, const Eig
   }
   const Vector own = SparseMatrix(pattern.matrix(stiffness.data())).diagonal().cwiseAbs();
   const double round_off = kRoundOff * (motions.array().square().colwise() * own.array()).colwise().sum().maxCoeff();
-  const Eigen::MatrixXd energy = motions.transpose() * resisted;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen((energy + energy.transpose()) / 2);
-  const auto free = (eigen.eigenvalues().array() <= round_off).count();
-  return combinations * eigen.eigenvectors().leftCols(free);
+  const Eigen::MatrixXd energy = motions.transpose().lazyProduct(resisted);
+  const Eigen::MatrixXd axes = right_singular_vectors((energy + energy.transpose()) / 2).V;  // its eigenvectors
+  const Flags free = axes.cwiseProduct(energy.lazyProduct(axes)).colwise().sum().transpose().array() <= round_off;
+  return combinations.lazyProduct(columns_where(axes, free));
 }
 
 std::string sentence(const Eigen::MatrixXd& free) {

@@ -104,7 +104,7 @@ std::array<AxisLimits, 3> searched_limits(const AnisotropicStiffness& C) {
     const Mat3 unit = uniaxial_strain(S, axis);
     const auto holds = [&](double strain) {
       const Mat3 F = Mat3::Identity() + strain * unit;
-      if (!(Eigen::SelfAdjointEigenSolver<Mat3>(F, Eigen::EigenvaluesOnly).eigenvalues()[0] > 0)) return false;
+      if (!is_positive_definite(F)) return false;
       return is_strongly_elliptic(expand(law.tangent(F, Mat3::Identity(), TangentKind::exact, 0, nullptr)));
     };
     AxisLimits& limits = out[static_cast<std::size_t>(axis)];

@@ -27,7 +27,7 @@ struct StrainLimit {
   int plane;  // the other axis, 0 to 2; meaningless where oblique
 };
 
-// The limits nearest to rest; none where the law holds down to strain -1, resp. up to any.
+// The limits nearest to rest; none where the law holds down to strain -1 or up to any.
 struct AxisLimits {
   std::optional<StrainLimit> compression, tension;
 };

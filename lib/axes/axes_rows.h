@@ -20,7 +20,7 @@ struct AxesRows {
   bool third = false;  // whether axis 3 was given too; otherwise it is 1 x 2
   bool every = false;  // whether rows stand for elements 0, 1, 2, ... without saying so
   std::string path;
-  std::optional<TetMesh> mesh;  // that the file has them for, if it says
+  std::optional<TetMesh> mesh;  // of the elements that they belong to, where the file has one
 
   std::string where(const Row& row) const {
     return fmt::format("{}{}{}", path, mesh ? ": cell " : ":", row.place);

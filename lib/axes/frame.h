@@ -13,7 +13,7 @@ Mat3 frame(const Vec3& first, const Vec3& second);
 bool are_independent(const Vec3& first, const Vec3& second);
 
 // A unit vector normal to `direction`: the coordinate axis that is least along it (the first of equal
-// ones), less its part along it. It stands in where nothing else tells a direction.
+// ones), less its part along it. For where nothing else gives a direction.
 Vec3 any_normal(const Vec3& direction);
 
 // `directions` (orthonormal columns named by `letters`, say "LRT") in the order of `word`, say "RTL"; the

@@ -6,10 +6,9 @@
 #pragma once
 
 #include "lib/element/corotational_law.h"
+#include "lib/element/warped_tangent.h"
 
 namespace orthodyn {
-
-enum class WarpedTangent { rotated, unsymmetric };
 
 template <class C>
 class WarpedLaw : public RotatingLaw<WarpedLaw<C>, C> {

@@ -20,7 +20,7 @@ std::vector<const Term*> all_terms(const FemModel::Parts& parts) {
 std::vector<std::string> term_names(const std::vector<const Term*>& terms) {
   std::vector<std::string> names;
   for (const Term* term : terms) {
-    const std::string text = term->description(), base = text.substr(0, text.find_first_of(":,"));
+    const std::string base = term->name();
     std::string name = base;
     for (int k = 2; std::find(names.begin(), names.end(), name) != names.end(); ++k)
       name = base + " (" + std::to_string(k) + ")";

@@ -9,8 +9,8 @@
 
 namespace orthodyn {
 
-// A part is named as its term describes itself, without the numbers: "elasticity of region wood",
-// "traction on x1"; "mass damping". Of several with one name the second is "traction on x1 (2)".
+// A part has the name of its term ("elasticity of region wood", "traction on x1"), or is "mass damping" or "pull of
+// moved supports". Of several with one name the second is "traction on x1 (2)".
 std::vector<std::string> part_names(const FemModel::Parts& parts);
 
 class PartModel : public Model {

@@ -23,8 +23,11 @@ class Term {
  public:
   virtual ~Term() = default;
 
-  // What it is and on how much, for `orthodyn check`: "elasticity of region wood, 2500 elements".
-  virtual std::string description() const = 0;
+  // What it is, and on what: "gravity", "traction on x1". It names this part of the force (part_model.h).
+  virtual std::string name() const = 0;
+
+  // Its name, with how much there is of it, for `orthodyn check`: "springs: 4 of 200 N/m".
+  virtual std::string description() const { return name(); }
   virtual std::size_t bytes() const { return 0; }
 
   virtual void add_force(const NodalState& s, NodalVector& f) const = 0;

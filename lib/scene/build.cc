@@ -5,41 +5,13 @@
 #include <algorithm>
 #include <map>
 
-#include "lib/fem/terms/dead_load.h"
-#include "lib/fem/terms/gravity.h"
-#include "lib/scene/initial_state.h"
+#include "lib/axes/axes_source.h"
 #include "lib/scene/mesh_materials.h"
 #include "lib/scene/supports.h"
 
 namespace orthodyn {
 
 namespace {
-
-// For each region of the mesh the entry of scene.regions that describes it.
-std::vector<const Region*> assign_regions(const Scene& scene, const TetMesh& mesh) {
-  std::vector<const Region*> out(mesh.region_names.size(), nullptr);
-  const Region* everywhere = nullptr;
-  for (const auto& [name, region] : scene.regions) {
-    const auto it = std::find(mesh.region_names.begin(), mesh.region_names.end(), name);
-    if (it != mesh.region_names.end()) out[static_cast<std::size_t>(it - mesh.region_names.begin())] = &region;
-    else if (name == "all") everywhere = &region;
-    else region.origin.fail(fmt::format("the mesh has no region '{}'; it has {} (or use 'all')", name,
-                                        join(mesh.region_names)));
-  }
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    if (!out[i]) out[i] = everywhere;
-    if (!out[i])
-      scene.regions.front().second.origin.fail(
-          fmt::format("region '{}' of the mesh has no material; add it, or 'all'", mesh.region_names[i]));
-  }
-  return out;
-}
-
-const Material& material_of(const Scene& scene, const Region& region) {
-  for (const auto& [name, material] : scene.materials)
-    if (name == region.material) return *material;
-  region.origin.fail("unknown material");  // read_scene() has seen to this
-}
 
 double stiffness_damping(const Scene& scene, const Region& region) {
   return region.stiffness_damping.value_or(scene.damping ? scene.damping->stiffness : 0);
@@ -72,16 +44,9 @@ void add_elasticity(const Scene& scene, const std::vector<const Region*>& region
   }
 }
 
-void add_loads(const Scene& scene, FemModel::Parts& parts) {
-  if (scene.gravity)
-    parts.loads.push_back(std::make_unique<Gravity>(*scene.gravity, parts.mass->nodal(), *parts.rest));
-  for (const Load& load : scene.loads) {
-    const auto& triangles = find_surface(parts.mesh, load.surface, load.origin);
-    const Vec3 traction = load.traction ? *load.traction : *load.force / surface_area(parts.mesh, triangles);
-    parts.loads.push_back(std::make_unique<DeadLoad>("traction on " + load.surface,
-                                                     surface_forces(parts.mesh, triangles, traction), load.factor));
-  }
-  for (const auto& term : scene.terms) parts.loads.push_back(term->make(parts));
+void add_force_terms(const Scene& scene, FemModel::Parts& parts) {
+  const Discretization body{parts.mesh, *parts.rest, *parts.pattern, parts.mass->nodal()};
+  for (const TermChoice* term : scene.force_terms()) parts.loads.push_back(term->make(body));
 }
 
 void add_supports(Supports supports, const std::vector<double>& density, FemModel::Parts& parts) {
@@ -98,21 +63,16 @@ Traits traits_of(const Scene& scene, const std::vector<const Region*>& regions) 
   traits.damped = std::all_of(regions.begin(), regions.end(), is_damped);
   traits.damping_matrix = std::any_of(regions.begin(), regions.end(), is_damped);
   traits.lumped_mass = scene.mass == MassKind::lumped;
-  traits.time_dependent = std::any_of(scene.loads.begin(), scene.loads.end(), [](const Load& load) {
-    return !load.factor->constant();
-  });
-  traits.time_dependent |= !scene.motions.empty();
   traits.dissipative = traits.damping_matrix || (scene.damping && scene.damping->mass > 0);
-  traits.loaded = !scene.loads.empty() || !scene.motions.empty();
-  const bool warped = scene.elasticity.corotation == Corotation::warped && !traits.linear;
-  traits.conservative = !warped && !traits.dissipative && !traits.time_dependent;
-  for (const auto& term : scene.terms) term->declare(traits);
+  traits.conservative = !scene.elasticity.is_warped() && !traits.dissipative;
+  for (const SupportMotion& motion : scene.motions) motion.declare(traits);
+  for (const TermChoice* term : scene.force_terms()) term->declare(traits);
   return traits;
 }
 
 NodePairs couplings(const Scene& scene, const TetMesh& mesh) {
   NodePairs all;
-  for (const auto& term : scene.terms)
+  for (const TermChoice* term : scene.force_terms())
     for (const auto& pair : term->couplings(mesh)) all.push_back(pair);
   return all;
 }
@@ -125,17 +85,6 @@ void add_notes(const Scene& scene, Warnings& warnings) {
 
 }  // namespace
 
-const Material& material_in(const Scene& scene, const std::string& mesh_region) {
-  const Region* found = nullptr;
-  for (const auto& [name, region] : scene.regions)
-    if (name == mesh_region || (name == "all" && !found)) found = &region;
-  return material_of(scene, *found);
-}
-
-double density_of(const Scene& scene, const std::string& mesh_region) {
-  return material_in(scene, mesh_region).density();
-}
-
 BuiltScene build(const Scene& scene) {
   LoadedMesh loaded = load_mesh(scene);
   FemModel::Parts parts;
@@ -147,9 +96,7 @@ BuiltScene build(const Scene& scene) {
   if (parts.dofs->num_dofs() == 0)
     (scene.clamps.empty() ? scene.motions.front().origin : scene.clamps.front().origin)
         .fail("all nodes are clamped or moved: nothing is left to compute");
-  const bool symmetric = !(scene.elasticity.kinematics == Kinematics::corotational &&
-                           scene.elasticity.corotation == Corotation::warped &&
-                           scene.elasticity.warped_tangent == WarpedTangent::unsymmetric);
+  const bool symmetric = scene.elasticity.has_symmetric_tangent();
   parts.pattern = std::make_unique<BlockPattern>(parts.mesh.tets, *parts.dofs, symmetric, couplings(scene, parts.mesh));
   const auto density = densities(scene, parts.mesh, regions);
   parts.mass = std::make_unique<Mass>(scene.mass, parts.mesh, density, *parts.dofs, *parts.pattern);
@@ -159,10 +106,10 @@ BuiltScene build(const Scene& scene) {
   parts.mass_damping = scene.damping ? scene.damping->mass : 0;
   parts.traits = traits_of(scene, regions);
   add_elasticity(scene, regions, parts, loaded.warnings);
-  add_loads(scene, parts);
+  add_force_terms(scene, parts);
   BuiltScene built{std::make_unique<FemModel>(std::move(parts)), {}, std::move(loaded.warnings)};
   add_notes(scene, built.warnings);
-  built.initial = initial_state(scene, built.model->parts());
+  built.initial = initial_state(scene.initial, scene.time.start, *built.model);
   return built;
 }
 

@@ -18,8 +18,4 @@ struct BuiltScene {
 // Loads the mesh and makes the terms that the scene names. Throws ConfigError.
 BuiltScene build(const Scene& scene);
 
-// The material of a region of the mesh, and its density, kg/m^3.
-const Material& material_in(const Scene& scene, const std::string& mesh_region);
-double density_of(const Scene& scene, const std::string& mesh_region);
-
 }  // namespace orthodyn

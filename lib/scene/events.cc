@@ -3,14 +3,45 @@
 #include <fmt/format.h>
 
 #include "lib/scene/quantity.h"
+#include "lib/scene/scene.h"
 
 namespace orthodyn {
+
+template <>
+struct Words<Direction> {
+  static constexpr std::array<std::pair<Direction, const char*>, 3> list{
+      {{Direction::up, "up"}, {Direction::down, "down"}, {Direction::both, "both"}}};
+};
+template <>
+struct Words<EventAction> {
+  static constexpr std::array<std::pair<EventAction, const char*>, 2> list{
+      {{EventAction::log, "log"}, {EventAction::stop, "stop"}}};
+};
+
+const Spec<EventSpec>& EventSpec::spec() {
+  static const auto s =
+      Spec<EventSpec>()
+          .key("quantity", &EventSpec::quantity,
+               "A probe's field and component (tip.displacement.z, or .magnitude) or a scalar of the whole body "
+               "(energy.kinetic, det_f.smallest).",
+               {.required = true})
+          .key("crosses", &EventSpec::crosses, "The value that it passes, in SI units.", {.required = true})
+          .key("direction", &EventSpec::direction, "Which passings count.")
+          .key("action", &EventSpec::action, "log: a row in events.csv; stop: the run ends there, too.")
+          .key("name", &EventSpec::name, "Its name in events.csv; default the quantity.")
+          .check([](const EventSpec& e, const Config& config) {
+            if (e.name && e.name->find_first_of(",\"\n") != std::string::npos)
+              config.at("name").fail("goes into a CSV file: no commas, quotes or line breaks");
+          });
+  return s;
+}
 
 std::vector<Event> make_events(const Scene& scene, const FemModel& model) {
   std::vector<Event> events;
   for (const auto& spec : scene.events) {
     const Quantity quantity = find_quantity(spec.quantity, scene, model, spec.origin);
-    if (!quantity.values) spec.origin.fail(fmt::format("'{}' is known at output times only; choose another quantity", spec.quantity));
+    if (!quantity.values)
+      spec.origin.fail(fmt::format("'{}' is known at output times only; choose another quantity", spec.quantity));
     if (quantity.components != 1)
       spec.origin.fail(fmt::format("'{}' is a vector: choose .x, .y, .z or .magnitude", spec.quantity));
     events.push_back({spec.name.value_or(spec.quantity),

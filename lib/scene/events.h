@@ -1,16 +1,32 @@
-// A scene's events, ready to be looked for.
+// Events, the list `events`: a quantity passes a value, which is logged or ends the run.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "lib/config/spec.h"
 #include "lib/ode/event.h"
-#include "lib/scene/scene.h"
 
 namespace orthodyn {
 
 class FemModel;
+struct Scene;
 
-// Throws ConfigError for a quantity that the scene does not have or that is a vector. `model` must outlive them.
+enum class EventAction { log, stop };
+
+struct EventSpec {
+  std::string quantity;  // "tip.displacement.z", "det_f.smallest"
+  double crosses = 0;    // in the quantity's unit, SI
+  Direction direction = Direction::both;
+  EventAction action = EventAction::log;
+  std::optional<std::string> name;  // default the quantity
+  Origin origin;
+  static const Spec<EventSpec>& spec();
+};
+
+// A scene's events, ready to be looked for. Throws ConfigError for a quantity that the scene does not have or that is a
+// vector. `model` must outlive them.
 std::vector<Event> make_events(const Scene& scene, const FemModel& model);
 
 }  // namespace orthodyn

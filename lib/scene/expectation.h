@@ -28,7 +28,7 @@ struct Words<Take> {
                                                                      {Take::onset, "onset"}}};
 };
 
-// What is wrong with a `take` beside the keys `at` and `of`, it says at `config`.
+// Throws ConfigError at `config` for a `take` that does not go with the keys `at` and `of`.
 void check_take(Take take, const std::optional<double>& at, const std::optional<double>& of, const Config& config);
 
 // The SI unit of a figure of a quantity that has the given one; "" for a plain number.

@@ -6,13 +6,12 @@
 #include <optional>
 #include <string_view>
 
+#include "lib/analysis/scales.h"
+#include "lib/analysis/strain_check.h"
 #include "lib/linear/blas.h"
 #include "lib/scene/equilibrium.h"
 #include "lib/scene/events.h"
-#include "lib/scene/initial_state.h"
 #include "lib/scene/quantity.h"
-#include "lib/scene/scales.h"
-#include "lib/scene/strain_check.h"
 
 namespace orthodyn {
 
@@ -83,9 +82,16 @@ std::unique_ptr<Integrator> make_integrator(Config& config, const Scene& scene, 
   return integrator;
 }
 
+// Of each elastic term of the model, in their order.
+std::vector<Stiffness> elastic_stiffness(const Scene& scene, const FemModel& model) {
+  std::vector<Stiffness> out;
+  for (const auto& term : model.parts().elastic) out.push_back(material_in(scene, term->region()).stiffness());
+  return out;
+}
+
 void start_from_equilibrium(const Scene& scene, BuiltScene& built) {
   try {
-    built.initial = initial_state_at(equilibrium(scene, built), scene, built.model->parts());
+    built.initial = initial_state_at(equilibrium(scene, built), scene.initial, scene.time.start, *built.model);
   } catch (const RunError& e) {
     throw RunError(std::string("start: equilibrium: ") + e.what(), e.reason());
   }
@@ -97,7 +103,10 @@ Task task_of(const Scene& scene, const BuiltScene& built) {
   const auto& [start, end] = scene.time;
   const double frames = scene.output.frames.value_or(50);
   const double interval = scene.output.interval.value_or((end - start) / std::max(frames, 1.0));
-  return {[&] { return estimate_scales(scene, built); }, built.initial, end, interval};
+  const auto scales = [&built, end = end] {
+    return estimate_scales(*built.model, built.initial, end, static_response(*built.model));
+  };
+  return {scales, built.initial, end, interval};
 }
 
 Setup set_up(Config config) {
@@ -111,14 +120,16 @@ Setup set_up(Config config) {
     if (!statics) statics = static_response(*built.model);
     return *statics;
   };
-  if (needs_strain_check(scene, built))
-    for (auto& warning : strain_warnings(scene, built, response())) built.warnings.push_back(std::move(warning));
+  const auto stiffness = elastic_stiffness(scene, *built.model);
+  if (scene.elasticity.kinematics == Kinematics::corotational && needs_strain_check(*built.model, stiffness))
+    for (auto& warning : strain_warnings(*built.model, stiffness, built.initial, response()))
+      built.warnings.push_back(std::move(warning));
   std::vector<Event> events = make_events(scene, *built.model);
   std::unique_ptr<Integrator> integrator;
   if (scene.analysis == Analysis::dynamic) {
     if (scene.start == Start::equilibrium) start_from_equilibrium(scene, built);
     Task task = task_of(scene, built);
-    task.scales = [&] { return estimate_scales(scene, built, response()); };
+    task.scales = [&] { return estimate_scales(*built.model, built.initial, scene.time.end, response()); };
     integrator = make_integrator(config, scene, task, *built.model);
   }
   if (!blas_is_openblas())

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "lib/fem/motion/component.h"
 #include "lib/fem/motion/still_motion.h"
 
 namespace orthodyn {
@@ -17,16 +18,10 @@ bool wants_reactions(const Scene& scene) {
          });
 }
 
-std::array<bool, 3> mask(const std::vector<Component>& components) {
-  std::array<bool, 3> out{};
-  for (const Component c : components) out[static_cast<std::size_t>(c)] = true;
-  return out;
-}
-
-// Who holds which coordinate.
-class Register {
+// Which support each coordinate belongs to.
+class CoordinateOwners {
  public:
-  explicit Register(const TetMesh& mesh) : mesh_(mesh), owner_(3 * mesh.nodes.size(), -1) {}
+  explicit CoordinateOwners(const TetMesh& mesh) : mesh_(mesh), owner_(3 * mesh.nodes.size(), -1) {}
 
   // Clamps may share coordinates; motions may not.
   void add(const std::string& name, const Selection& selection, const std::vector<int>& nodes,
@@ -93,19 +88,20 @@ std::shared_ptr<const Motion> motion_in(const Scene& scene, const SupportMotion&
 
 Supports make_supports(const Scene& scene, const TetMesh& mesh) {
   Supports out;
-  Register held(mesh);
+  CoordinateOwners owners(mesh);
   for (std::size_t k = 0; k < scene.clamps.size(); ++k) {
     const Clamp& clamp = scene.clamps[k];
-    held.add(named(clamp.name, "clamp", k), clamp, selected_nodes(clamp, mesh), mask(clamp.components), false);
+    owners.add(named(clamp.name, "clamp", k), clamp, selected_nodes(clamp, mesh), component_mask(clamp.components),
+               false);
   }
   for (std::size_t k = 0; k < scene.motions.size(); ++k) {
     const SupportMotion& given = scene.motions[k];
-    out.moved.push_back({motion_in(scene, given), selected_nodes(given, mesh), mask(given.components)});
+    out.moved.push_back({motion_in(scene, given), selected_nodes(given, mesh), component_mask(given.components)});
     check_velocity(scene, given, *out.moved.back().motion);
-    held.add(named(given.name, "motion", k), given, out.moved.back().nodes, out.moved.back().components, true);
+    owners.add(named(given.name, "motion", k), given, out.moved.back().nodes, out.moved.back().components, true);
   }
-  out.held = held.held();
-  if (wants_reactions(scene)) out.named = held.take();
+  out.held = owners.held();
+  if (wants_reactions(scene)) out.named = owners.take();
   return out;
 }
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "lib/config/registry.h"
-#include "lib/scene/mesh_source.h"
+#include "lib/mesh/mesh_source.h"
 
 namespace orthodyn {
 namespace {

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "lib/mesh/box.h"
-#include "lib/scene/selection.h"
+#include "lib/mesh/selection.h"
 #include "tests/fem/built_scene.h"
 
 namespace orthodyn {

@@ -42,7 +42,7 @@ std::vector<double> combined(const Model& model, const Weights& w, const Vector&
   return values;
 }
 
-TEST(ForceParts, AreNamedAsTheirTermsDescribeThemselves) {
+TEST(ForceParts, HaveTheNamesOfTheirTerms) {
   const std::vector<std::string> expected = {"elasticity of region body", "gravity", "traction on x1",
                                              "traction on x1 (2)", "mass damping"};
   EXPECT_EQ(scene().model().force_parts(), expected);

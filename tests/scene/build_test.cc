@@ -1,7 +1,7 @@
 #include <filesystem>
 
-#include "lib/scene/scales.h"
 #include "lib/scene/setup.h"
+#include "tests/config/messages.h"
 #include "tests/scene/scenes.h"
 
 namespace orthodyn {
@@ -105,39 +105,26 @@ TEST(Noise, IsTheSameForTheSameSeedAndBounded) {
   EXPECT_LE(with_seed(3).cwiseAbs().maxCoeff(), 0.01);
 }
 
-TEST(Scales, FollowTheStaticDeflectionOfAStiffBodyAndTheSizeOfASoftOne) {
-  // A bar pulled along itself: u = F L / (E A) at nu = 0, W = F u.
-  const std::string bar = R"(mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1]}
-materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
-clamps: [{surface: x0}]
-loads: [{surface: x1, force: [1000, 0, 0], factor: {type: ramp, end: 0.05}}]
-time: {end: 0.1}
-)";
-  const auto scales = [](const std::string& yaml) {
-    const Scene scene = read_scene(Config::from_text(yaml));
-    return estimate_scales(scene, build(scene));
-  };
-  const double u = 1000 * 2 / 1e6, work = 1000 * u;
-  EXPECT_NEAR(scales(bar).position, 2 * u, 1e-10);
-  EXPECT_NEAR(scales(bar).velocity, 3 * std::sqrt(2 * work / 2000), 1e-10);
-  EXPECT_NEAR(scales(replaced(bar, "1e6", "1e2")).position, 0.1 * 2, 1e-12);
+TEST(MaterialNotes, AreWarningsOfTheScene) {
+  const auto built = build_text(replaced(kValidScene, "soft: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}",
+                                         "odd: {type: orthotropic, density: 1, young: [1, 1, 1], nu12: 0.8, nu23: 0.8, "
+                                         "nu13: 0.8, g12: 1, g23: 1, g13: 1, repair: shrink}"));
+  ASSERT_FALSE(built.warnings.empty());
+  EXPECT_TRUE(starts(built.warnings[0], "material odd: nu12=0.8, nu23=0.8, nu13=0.8 make the stiffness indefinite"));
 }
 
-TEST(Scales, DoNotHangOnRoundOffInTheRestShapeOrOnWhereALoadIsSampled) {
-  const std::string bar = R"(mesh: {type: box, size: [0.7, 0.3, 0.1], cells: [3, 3, 1]}
-materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
-clamps: [{surface: x0}]
-loads: [{surface: x1, force: [3, 0, 0], factor: {type: sine, frequency: 50}}]
+TEST(Regions, HaveTheEntryOfTheirNameBeforeThatOfAll) {
+  const Scene scene = read_scene(Config::from_text(R"(
+mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1], parts: {tip: {min: [1, 0, 0], max: [2, 1, 1]}}}
+materials:
+  soft: {type: isotropic, density: 1, young: 1e6, nu: 0.3}
+  hard: {type: isotropic, density: 2, young: 1e9, nu: 0.3}
+regions: {tip: {material: hard}, all: {material: soft}}
 time: {end: 1}
-)";
-  const Scene scene = read_scene(Config::from_text(bar));
-  EXPECT_NEAR(estimate_scales(scene, build(scene)).position, 2 * 3 * 0.7 / (1e6 * 0.03), 1e-7);
-}
-
-TEST(Scales, OfASpinningFreeBodyComeFromItsKineticEnergy) {
-  const auto yaml = replaced(kValidScene, "clamps:\n  - surface: x0\n", "initial: {velocity: [3, 0, 0]}\n");
-  const Scene scene = read_scene(Config::from_text(yaml));
-  EXPECT_NEAR(estimate_scales(scene, build(scene)).velocity, 3 * 3.0, 1e-12);
+)"));
+  EXPECT_EQ(material_in(scene, "tip").density(), 2);
+  EXPECT_EQ(material_in(scene, "body").density(), 1);
+  EXPECT_NEAR(build(scene).model->parts().mass->total(), 3, 1e-14);
 }
 
 }  // namespace

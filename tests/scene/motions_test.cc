@@ -1,10 +1,9 @@
-// Motions and terms in the words of the input: what is refused, and how, and the scales that follow from them.
+// Motions and terms in the words of the input: what is refused, and how.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "lib/core/errors.h"
-#include "lib/scene/scales.h"
 #include "lib/scene/setup.h"
 #include "tests/scene/scenes.h"
 
@@ -132,15 +131,6 @@ TEST(FormulaMotion, IsNeverEvaluatedBeforeTheStart) {
     EXPECT_NEAR(moved.a(0, 0), 3.75 * std::sqrt(t), 3.75 * std::sqrt(h)) << t;
   }
   EXPECT_TRUE(motion->has_continuous_velocity());
-}
-
-TEST(Scales, OfABodyThatIsOnlyMovedComeFromItsSupports) {
-  const auto yaml = kValidScene + "motions: [{surface: x1, translation: [3e-3, 4e-3, 0], "
-                                  "factor: {type: smooth_step, end: 0.1}}]\n";
-  const Scene scene = read_scene(Config::from_text(yaml));
-  const Scales scales = estimate_scales(scene, build(scene));
-  EXPECT_NEAR(scales.position, 2 * 5e-3, 1e-12);
-  EXPECT_NEAR(scales.velocity, 3 * 5e-3 / 0.1 * 15 / 8, 1e-12);  // the step's largest rate, in its middle
 }
 
 }  // namespace

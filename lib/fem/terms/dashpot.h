@@ -20,6 +20,7 @@ class Dashpots : public Term {
   Dashpots(double coefficient, DashpotLaw law, std::vector<Link> links, const BlockPattern& pattern)
       : c_(coefficient), law_(law), links_(std::move(links)), pattern_(pattern) {}
 
+  std::string name() const override { return "dashpots"; }
   std::string description() const override;
   std::size_t bytes() const override { return links_.capacity() * sizeof(Link); }
   void add_force(const NodalState& s, NodalVector& f) const override;

@@ -2,8 +2,8 @@
 
 namespace orthodyn {
 
-DeadLoad::DeadLoad(std::string description, NodalForces forces, std::shared_ptr<const TimeFunction> factor)
-    : description_(std::move(description)), forces_(std::move(forces)), factor_(std::move(factor)) {}
+DeadLoad::DeadLoad(std::string name, NodalForces forces, std::shared_ptr<const TimeFunction> factor, std::string amount)
+    : name_(std::move(name)), amount_(std::move(amount)), forces_(std::move(forces)), factor_(std::move(factor)) {}
 
 void DeadLoad::add_force(const NodalState& s, NodalVector& f) const {
   const double factor = factor_->value(s.t);
@@ -22,6 +22,13 @@ double DeadLoad::load_power(const NodalState& s) const {
 
 std::vector<double> DeadLoad::breakpoints(double start, double end) const {
   return times_between(factor_->kinks(), start, end);
+}
+
+void declare_load(const TimeFunction& factor, Traits& traits) {
+  traits.loaded = true;
+  if (factor.constant()) return;
+  traits.time_dependent = true;
+  traits.conservative = false;
 }
 
 }  // namespace orthodyn

@@ -8,24 +8,29 @@
 #include "lib/fem/surface.h"
 #include "lib/fem/term.h"
 #include "lib/fem/time_functions/time_function.h"
+#include "lib/ode/model.h"
 
 namespace orthodyn {
 
 class DeadLoad : public Term {
  public:
-  // forces: at factor 1.
-  DeadLoad(std::string description, NodalForces forces, std::shared_ptr<const TimeFunction> factor);
+  // forces: N, at factor 1. `amount` follows the name in the description: "4 nodes".
+  DeadLoad(std::string name, NodalForces forces, std::shared_ptr<const TimeFunction> factor, std::string amount = "");
 
-  std::string description() const override { return description_; }
+  std::string name() const override { return name_; }
+  std::string description() const override { return amount_.empty() ? name_ : name_ + ": " + amount_; }
   void add_force(const NodalState& s, NodalVector& f) const override;
   void add_peak_force(const NodalState& s, NodalVector& f) const override;
   double load_power(const NodalState& s) const override;
   std::vector<double> breakpoints(double start, double end) const override;
 
  private:
-  std::string description_;
+  std::string name_, amount_;
   NodalForces forces_;
   std::shared_ptr<const TimeFunction> factor_;
 };
+
+// The traits of a model with a load that has this factor in time.
+void declare_load(const TimeFunction& factor, Traits& traits);
 
 }  // namespace orthodyn

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "lib/element/linear_law.h"
+#include "lib/element/warped_law.h"
 #include "lib/fem/element_batches.h"
 #include "lib/fem/element_stiffness.h"
 
@@ -23,10 +24,14 @@ class Elastic final : public ElasticTerm {
     for (const int cell : cells_) offsets_.emplace_back(mesh.tets[static_cast<std::size_t>(cell)], pattern);
   }
 
+  std::string name() const override { return "elasticity of region " + region_; }
+
   std::string description() const override {
-    return fmt::format("elasticity of region {}: {}, {} elements{}", region_, law(), size(),
+    return fmt::format("{}: {}, {} elements{}", name(), law(), size(),
                        beta_ > 0 ? ", stiffness-proportional damping" : "");
   }
+
+  const std::string& region() const override { return region_; }
 
   std::string law() const override { return Law::kName; }
 

@@ -5,25 +5,19 @@
 
 #include "lib/element/corotational_law.h"
 #include "lib/element/observation.h"
-#include "lib/element/warped_law.h"
 #include "lib/fem/block_pattern.h"
 #include "lib/fem/element_axes.h"
 #include "lib/fem/term.h"
+#include "lib/fem/terms/elasticity_options.h"
 
 namespace orthodyn {
-
-enum class Kinematics { corotational, linear };
-enum class Corotation { exact, warped };
-
-struct ElasticityOptions {
-  Kinematics kinematics = Kinematics::corotational;
-  Corotation corotation = Corotation::exact;
-  WarpedTangent warped_tangent = WarpedTangent::rotated;
-};
 
 class ElasticTerm : public Term {
  public:
   EnergyKind energy_kind() const override { return EnergyKind::elastic; }
+
+  // The region of the mesh that its elements are.
+  virtual const std::string& region() const = 0;
 
   // The law in words, e.g. "corotational, exact".
   virtual std::string law() const = 0;

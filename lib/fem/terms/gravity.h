@@ -1,7 +1,8 @@
 // Uniform gravity: f_i = m_i g, energy - sum m_i g . (x_i - X_i).
 #pragma once
 
-#include "lib/fem/term.h"
+#include "lib/config/values.h"
+#include "lib/fem/term_choice.h"
 
 namespace orthodyn {
 
@@ -11,7 +12,7 @@ class Gravity : public Term {
   Gravity(const Vec3& g, const Vector& nodal_masses, const NodalVector& rest)
       : g_(g), masses_(nodal_masses), rest_(rest) {}
 
-  std::string description() const override { return "gravity"; }
+  std::string name() const override { return "gravity"; }
   void add_force(const NodalState&, NodalVector& f) const override { f += g_ * masses_.transpose(); }
   EnergyKind energy_kind() const override { return EnergyKind::gravitational; }
   double energy(const NodalState& s) const override { return -g_.dot((s.x - rest_) * masses_); }
@@ -20,6 +21,26 @@ class Gravity : public Term {
   Vec3 g_;
   const Vector& masses_;
   const NodalVector& rest_;
+};
+
+// The key `gravity` of a scene: three numbers, m/s^2.
+struct GravityChoice : TermChoice {
+  Vec3 g = Vec3::Zero();
+
+  std::unique_ptr<Term> make(const Discretization& body) const override {
+    return std::make_unique<Gravity>(g, body.nodal_masses, body.rest);
+  }
+};
+
+template <>
+struct Value<GravityChoice> {
+  static Shape shape() { return Value<Vec3>::shape(); }
+  static GravityChoice read(const Config& c, const Rule& r) {
+    GravityChoice gravity;
+    gravity.g = Value<Vec3>::read(c, r);
+    return gravity;
+  }
+  static std::string yaml(const GravityChoice& gravity) { return Value<Vec3>::yaml(gravity.g); }
 };
 
 }  // namespace orthodyn

@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/fem/surface.h"
+#include "lib/fem/term_choice.h"
+#include "lib/mesh/selection.h"
+
 namespace orthodyn {
 
 namespace {
@@ -25,7 +29,7 @@ double mean_slope(double a, double b, double w) {
 }  // namespace
 
 std::string Ground::description() const {
-  return fmt::format("ground: {} nodes, {:.6g} Pa/m", areas_.size(), plane_.stiffness);
+  return fmt::format("{}: {} nodes, {:.6g} Pa/m", name(), areas_.size(), plane_.stiffness);
 }
 
 void Ground::add_force(const NodalState& s, NodalVector& f) const {
@@ -58,4 +62,52 @@ void Ground::add_stiffness_bound(Vector& row_sums) const {
   for (const auto& [node, area] : areas_) row_sums[node] += plane_.stiffness * area;
 }
 
+namespace {
+
+constexpr double kUsualOnset = 1e-3;  // of the mesh's diagonal
+
+class GroundChoice : public TermChoice {
+ public:
+  static const Spec<GroundChoice>& spec() {
+    using G = GroundChoice;
+    static const auto s =
+        Spec<G>()
+            .key("point", &G::point_, "A point of the plane.", {.unit = "m"})
+            .key("normal", &G::normal_, "Away from the ground, of any length.")
+            .key("stiffness", &G::stiffness_, "Pressure per depth.",
+                 {.required = true, .unit = "Pa/m", .range = kPositive})
+            .key("onset", &G::onset_, "Depth over which contact sets in; default 1e-3 of the mesh's diagonal.",
+                 {.unit = "m", .range = kPositive})
+            .key("surface", &G::surface_, "What can touch it: a named surface; default the whole outer surface.")
+            .check([](const G& ground, const Config& config) {
+              if (ground.normal_.norm() == 0) config.at("normal").fail("is zero; give a direction");
+            });
+    return s;
+  }
+
+  std::unique_ptr<Term> make(const Discretization& body) const override {
+    const auto triangles = surface_or_all(body.mesh, surface_, origin);
+    std::vector<std::pair<int, double>> areas;
+    for (const auto& [node, share] : surface_forces(body.mesh, triangles, Vec3::UnitX()))
+      areas.emplace_back(node, share[0]);
+    const double onset = onset_.value_or(kUsualOnset * bounding_box(body.mesh).diagonal());
+    return std::make_unique<Ground>(GroundPlane{point_, normal_.normalized(), stiffness_, onset}, std::move(areas),
+                                    body.pattern);
+  }
+
+  void declare(Traits& traits) const override { traits.linear = false; }
+
+  Origin origin;
+
+ private:
+  Vec3 point_ = Vec3::Zero(), normal_{0, 0, 1};
+  double stiffness_ = 0;
+  std::optional<double> onset_;
+  std::optional<std::string> surface_;
+};
+
+const bool registered = Registry<TermChoice>::add<GroundChoice>(
+    "ground", "A rigid plane that pushes back what is below it, by a smooth penalty; no friction, no damping.");
+
+}  // namespace
 }  // namespace orthodyn

@@ -24,6 +24,7 @@ class Ground : public Term {
   Ground(const GroundPlane& plane, std::vector<std::pair<int, double>> areas, const BlockPattern& pattern)
       : plane_(plane), areas_(std::move(areas)), pattern_(pattern) {}
 
+  std::string name() const override { return "ground"; }
   std::string description() const override;
   std::size_t bytes() const override { return areas_.capacity() * sizeof(areas_[0]); }
   void add_force(const NodalState& s, NodalVector& f) const override;

@@ -1,6 +1,9 @@
 #include "lib/fem/terms/pressure.h"
 
 #include "lib/element/axial.h"
+#include "lib/fem/term_choice.h"
+#include "lib/fem/terms/dead_load.h"
+#include "lib/mesh/selection.h"
 
 namespace orthodyn {
 
@@ -62,4 +65,41 @@ std::vector<double> Pressure::breakpoints(double start, double end) const {
   return times_between(factor_->kinks(), start, end);
 }
 
+namespace {
+
+class PressureChoice : public TermChoice {
+ public:
+  static const Spec<PressureChoice>& spec() {
+    using P = PressureChoice;
+    static const auto s =
+        Spec<P>()
+            .key("surface", &P::surface_, "A named surface; default the whole outer surface.")
+            .key("pressure", &P::pressure_, "Positive where it pushes on the body.", {.required = true, .unit = "Pa"})
+            .key("factor", &P::factor_, "Factor in time.", {.fallback = "{type: constant}"});
+    return s;
+  }
+
+  std::unique_ptr<Term> make(const Discretization& body) const override {
+    return std::make_unique<Pressure>(surface_.value_or("the whole outer surface"),
+                                      surface_or_all(body.mesh, surface_, origin), pressure_, factor_, body.pattern);
+  }
+
+  // Its stiffness changes with the shape; an open surface's work depends on the path.
+  void declare(Traits& traits) const override {
+    declare_load(*factor_, traits);
+    traits.linear = traits.conservative = false;
+  }
+
+  Origin origin;
+
+ private:
+  std::optional<std::string> surface_;
+  double pressure_ = 0;
+  std::shared_ptr<const TimeFunction> factor_;
+};
+
+const bool registered = Registry<TermChoice>::add<PressureChoice>(
+    "pressure", "Pressure on a surface that follows its motion; the symmetric part of its stiffness enters K.");
+
+}  // namespace
 }  // namespace orthodyn

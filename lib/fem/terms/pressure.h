@@ -22,7 +22,7 @@ class Pressure : public Term {
   Pressure(std::string surface, std::vector<Triangle> triangles, double pressure,
            std::shared_ptr<const TimeFunction> factor, const BlockPattern& pattern);
 
-  std::string description() const override { return "pressure on " + surface_; }
+  std::string name() const override { return "pressure on " + surface_; }
   std::size_t bytes() const override { return triangles_.capacity() * sizeof(Triangle); }
   void add_force(const NodalState& s, NodalVector& f) const override;
   void add_peak_force(const NodalState& s, NodalVector& f) const override;

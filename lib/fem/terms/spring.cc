@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "lib/core/errors.h"
+#include "lib/fem/term_choice.h"
+#include "lib/fem/terms/ends.h"
 
 namespace orthodyn {
 
@@ -19,7 +21,7 @@ double contraction(const SpringLink& link, double length) {
 
 }  // namespace
 
-std::string Springs::description() const { return fmt::format("springs: {} of {:.6g} N/m", links_.size(), k_); }
+std::string Springs::description() const { return fmt::format("{}: {} of {:.6g} N/m", name(), links_.size(), k_); }
 
 void Springs::add_force(const NodalState& s, NodalVector& f) const {
   for (const SpringLink& link : links_) {
@@ -60,4 +62,52 @@ void Springs::add_stiffness_bound(Vector& row_sums) const {
   for (const SpringLink& link : links_) link.add_row_sum(k_, row_sums);
 }
 
+namespace {
+
+class SpringChoice : public TermChoice, public Ends {
+ public:
+  static const Spec<SpringChoice>& spec() {
+    using S = SpringChoice;
+    static const auto s =
+        ends_spec<S>()
+            .key("stiffness", &S::stiffness_, "Of all springs together, shared evenly by the selected nodes.",
+                 {.required = true, .unit = "N/m", .range = kPositive})
+            .key("rest_length", &S::rest_length_, "Length without force; default that at rest.",
+                 {.unit = "m", .range = kNonNegative})
+            .check([](const S& spring, const Config& config) {
+              spring.Ends::check(config);
+              if (spring.in_place() && spring.rest_length_.value_or(0) > 0)
+                config.at("rest_length").fail("has no direction: a node is tied to its own place; give an 'anchor'");
+            });
+    return s;
+  }
+
+  std::unique_ptr<Term> make(const Discretization& body) const override {
+    std::vector<SpringLink> springs;
+    for (const Link& link : links(body.mesh)) {
+      const double length = link.span(body.rest).norm();
+      const double rest_length = rest_length_.value_or(length);
+      if (length == 0 && rest_length > 0) origin.fail("a node lies on the anchor, so that its spring has no direction");
+      springs.push_back({link, rest_length});
+    }
+    const double each = stiffness_ / static_cast<double>(springs.size());
+    return std::make_unique<Springs>(each, std::move(springs), body.pattern);
+  }
+
+  NodePairs couplings(const TetMesh& mesh) const override { return Ends::couplings(mesh); }
+
+  void declare(Traits& traits) const override {
+    if (!in_place() && rest_length_ != 0.0) traits.linear = false;
+  }
+
+ private:
+  double stiffness_ = 0;
+  std::optional<double> rest_length_;
+};
+
+const bool registered = Registry<TermChoice>::add<SpringChoice>(
+    "spring",
+    "Springs between two nodes, or from nodes to the ground: k (l - l0) along the spring, for any displacement.");
+
+}  // namespace
 }  // namespace orthodyn

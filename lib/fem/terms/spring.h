@@ -24,6 +24,7 @@ class Springs : public Term {
   Springs(double stiffness, std::vector<SpringLink> links, const BlockPattern& pattern)
       : k_(stiffness), links_(std::move(links)), pattern_(pattern) {}
 
+  std::string name() const override { return "springs"; }
   std::string description() const override;
   std::size_t bytes() const override { return links_.capacity() * sizeof(SpringLink); }
   void add_force(const NodalState& s, NodalVector& f) const override;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "lib/fem/motion/component.h"
 #include "lib/scene/expectation.h"
-#include "lib/scene/support_motion.h"
 #include "lib/study/compare/comparison.h"
 
 namespace orthodyn {

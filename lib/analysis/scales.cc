@@ -1,0 +1,53 @@
+#include "lib/analysis/scales.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/errors.h"
+
+namespace orthodyn {
+
+namespace {
+
+double initial_energy(const FemModel& model, const State& state) {
+  return model.evaluate("energy.kinetic", state)[0] + model.evaluate("energy.elastic", state)[0];
+}
+
+// How far and how fast moved nodes go; zero if there are none.
+struct Reach {
+  double distance = 0, speed = 0;  // m, m/s
+};
+
+Reach reach_of_supports(const FemModel& model, double start, double end) {
+  constexpr int kSamples = 200;
+  const auto& parts = model.parts();
+  Reach reach;
+  if (!parts.moved) return reach;
+  for (int k = 0; k <= kSamples; ++k) {
+    NodalVector x = *parts.rest, v = NodalVector::Zero(3, x.cols());
+    parts.moved->place(start + (end - start) * k / kSamples, x, v);
+    reach.distance = std::max(reach.distance, (x - *parts.rest).colwise().norm().maxCoeff());
+    reach.speed = std::max(reach.speed, v.colwise().norm().maxCoeff());
+  }
+  return reach;
+}
+
+}  // namespace
+
+Scales estimate_scales(const FemModel& model, const State& initial, double end, const StaticResponse& statics) {
+  const double extent = bounding_box(model.parts().mesh).size().maxCoeff();
+  const double mass = model.parts().mass->total();
+  const bool at_rest = initial.q.isZero(0) && initial.v.isZero(0);
+  const double energy = at_rest ? 0 : initial_energy(model, initial);  // not round-off
+  if (!std::isfinite(energy)) throw ConfigError("the initial state has no finite energy; check `initial`");
+  const double work = statics.exists() ? statics.work : extent * statics.load.lpNorm<1>();
+  const Reach reach = reach_of_supports(model, initial.t, end);
+  Scales scales{0.1 * extent, 3 * std::sqrt(2 * (energy + work) / mass + reach.speed * reach.speed)};
+  const double deflection = statics.exists() ? statics.displacement.cwiseAbs().maxCoeff() : 0;
+  const bool known = statics.exists() || (reach.distance > 0 && statics.load.isZero(0));
+  if (known && at_rest) scales.position = std::min(scales.position, 2 * std::max(deflection, reach.distance));
+  if (scales.velocity == 0) scales.velocity = extent / (end - initial.t);
+  return scales;
+}
+
+}  // namespace orthodyn

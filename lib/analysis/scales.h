@@ -1,0 +1,20 @@
+// How large motion and velocity will be, roughly: what error tolerances are relative to.
+//
+// Position: a tenth of the body's largest extent L; less if a body that starts at rest is known to
+// move less: twice the linear static deflection u under all loads at their peaks, or twice as far as moved
+// supports go.
+// Velocity: 3 sqrt(2 (E0 + W) / m + V^2), with E0 the initial elastic and kinetic energy, m the mass, W
+// the work of the peak loads through that deflection, for an unclamped body through L, and V the largest
+// speed of moved supports.
+#pragma once
+
+#include "lib/analysis/static_response.h"
+#include "lib/ode/integrator.h"
+
+namespace orthodyn {
+
+// Of a body that moves from its initial state to the time `end` (s). `statics` is static_response() of this very model.
+// Throws ConfigError if the initial state has no finite energy.
+Scales estimate_scales(const FemModel& model, const State& initial, double end, const StaticResponse& statics);
+
+}  // namespace orthodyn

@@ -1,0 +1,103 @@
+#include "lib/analysis/strain_check.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+
+#include "lib/analysis/strain_limits.h"
+
+namespace orthodyn {
+
+namespace {
+
+constexpr double kOvershoot = 2;        // of a load applied at once, over its static response
+constexpr int kLargestSystem = 30000;   // unknowns that are factorised for a warning's sake
+
+// The elements of a region beyond one limit.
+struct Excess {
+  int axis = 0, count = 0;
+  double worst = 0;  // sigma / E, as a strain
+  StrainLimit limit{};
+  double severity() const { return worst / limit.strain; }
+};
+
+// Of all axes and signs the limit that is exceeded most; count 0 if none is.
+Excess find_excess(const ElasticTerm& term, const std::array<AxisLimits, 3>& limits,
+                   const std::function<Vec3(int)>& strain) {
+  std::array<std::array<Excess, 2>, 3> found;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto& [compression, tension] = limits[axis];
+    for (std::size_t side = 0; side < 2; ++side) {
+      const auto& limit = side == 0 ? compression : tension;
+      if (limit) found[axis][side] = {static_cast<int>(axis), 0, 0, *limit};
+    }
+  }
+  for (int k = 0; k < term.size(); ++k) {
+    const Vec3 e = strain(k);
+    for (auto& sides : found)
+      for (Excess& one : sides) {
+        if (one.limit.strain == 0 || !(e[one.axis] / one.limit.strain > 1)) continue;
+        ++one.count;
+        if (std::abs(e[one.axis]) > std::abs(one.worst)) one.worst = e[one.axis];
+      }
+  }
+  Excess most;
+  for (const auto& sides : found)
+    for (const Excess& one : sides)
+      if (one.count > 0 && (most.count == 0 || one.severity() > most.severity())) most = one;
+  return most;
+}
+
+std::string warning(const ElasticTerm& term, const Excess& e, const std::string& cause) {
+  const std::string means =
+      e.limit.kind == LimitKind::flat
+          ? fmt::format("a bar of it that is pulled along this axis has no thickness left ({})",
+                        describe(e.limit, e.axis))
+          : fmt::format(
+                "the corotational law is not elliptic any more ({}): patterns as small as the elements then come "
+                "from the mesh, not from the material",
+                describe(e.limit, e.axis));
+  return fmt::format(
+      "region {}: {} puts {} of {} elements along material axis {} under the stress of a strain of {:+.3g} "
+      "%; beyond {:+.3g} % {}. Lower the load, or look for a mistake in the constants and axes.",
+      term.region(), cause, e.count, term.size(), e.axis + 1, 100 * e.worst, 100 * e.limit.strain, means);
+}
+
+}  // namespace
+
+bool needs_strain_check(const FemModel& model, const std::vector<Stiffness>& stiffness) {
+  if (model.num_dofs() > kLargestSystem) return false;
+  for (const Stiffness& C : stiffness)
+    for (const AxisLimits& axis : strain_limits(C))
+      if (axis.compression || (axis.tension && axis.tension->strain < 1)) return true;
+  return false;
+}
+
+Warnings strain_warnings(const FemModel& model, const std::vector<Stiffness>& stiffness, const State& initial,
+                         const StaticResponse& statics) {
+  Warnings out;
+  NodalVector u = NodalVector::Zero(3, model.parts().rest->cols());
+  if (statics.exists()) model.parts().dofs->add_to(statics.displacement, u);
+  const NodalExpansion start(model.parts(), initial.t, initial.q, initial.v);
+  for (std::size_t r = 0; r < stiffness.size(); ++r) {
+    const auto& term = model.parts().elastic[r];
+    const auto limits = strain_limits(stiffness[r]);
+    const Mat36 equivalent = stress_over_young(stiffness[r]);
+    const auto check = [&](const std::string& cause, const std::function<Mat3(int)>& strain) {
+      const Excess excess = find_excess(*term, limits, [&](int k) -> Vec3 {
+        const Mat3 e = strain(k);
+        return equivalent * (Vec6() << e.diagonal(), 2 * e(0, 1), 2 * e(1, 2), 2 * e(2, 0)).finished();
+      });
+      if (excess.count > 0) out.push_back(warning(*term, excess, cause));
+    };
+    if (statics.exists())
+      check("twice the linear static response to the loads",
+           [&](int k) -> Mat3 { return kOvershoot * term->small_strain(k, u); });
+    if (!initial.q.isZero(0))
+      check("the initial deformation", [&](int k) -> Mat3 { return term->observe(k, start.state()).strain; });
+  }
+  return out;
+}
+
+}  // namespace orthodyn

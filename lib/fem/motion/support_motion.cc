@@ -1,0 +1,82 @@
+#include "lib/fem/motion/support_motion.h"
+
+#include "lib/fem/differences.h"
+#include "lib/fem/motion/formula_motion.h"
+#include "lib/fem/motion/rigid_motion.h"
+
+namespace orthodyn {
+
+const Spec<Rotation>& Rotation::spec() {
+  static const auto s =
+      Spec<Rotation>()
+          .key("point", &Rotation::point, "A point of the axis, at rest; a translation takes it along.", {.unit = "m"})
+          .key("axis", &Rotation::axis, "Its direction, of any length.", {.required = true})
+          .key("angle", &Rotation::angle, "At factor 1, by the right-hand rule; more than a turn is possible.",
+               {.required = true, .unit = "rad"})
+          .check([](const Rotation& r, const Config& config) {
+            if (r.axis.norm() == 0) config.at("axis").fail("is zero; give a direction");
+          });
+  return s;
+}
+
+namespace {
+
+// A translation along coordinates that stay free would be lost without a word.
+void check_translation(const SupportMotion& m, const Config& config) {
+  if (!m.translation || m.translation->isZero(0)) return;
+  for (const Component c : m.components)
+    if ((*m.translation)[static_cast<int>(c)] != 0) return;
+  config.at("translation").fail("moves nothing: its parts along the chosen components are zero; add those that it "
+                                "is to move to 'components'");
+}
+
+void check_motion(const SupportMotion& m, const Config& config) {
+  m.check(config);
+  if (m.components.empty()) config.at("components").fail("is empty; give some of x, y, z");
+  const bool rigid = m.translation || m.rotation;
+  if (rigid == m.displacement.has_value())
+    config.fail("give either translation and rotation (one or both), or three formulas as displacement");
+  if (rigid && !m.factor)
+    config.fail("key 'factor' is missing: how the motion goes in time, such as factor: {type: smooth_step, end: 1}");
+  if (!rigid && m.factor) config.at("factor").fail("goes with translation and rotation; a formula has its own t");
+  if (rigid && !m.kinks.empty()) config.at("kinks").fail("goes with displacement; a factor knows its own");
+  if (rigid && m.resolution) config.at("resolution").fail("goes with displacement; a factor has exact rates");
+  check_translation(m, config);
+}
+
+}  // namespace
+
+const Spec<SupportMotion>& SupportMotion::spec() {
+  static const auto s =
+      selection_spec<SupportMotion>()
+          .key("name", &SupportMotion::name, "For its reaction; default motion_1, motion_2 and so on.")
+          .key("components", &SupportMotion::components, "Which coordinates are moved; the others stay free.")
+          .key("translation", &SupportMotion::translation, "At factor 1.", {.unit = "m"})
+          .key("rotation", &SupportMotion::rotation, "About an axis.")
+          .key("factor", &SupportMotion::factor, "Factor of translation and angle in time.")
+          .key("displacement", &SupportMotion::displacement,
+               "From the place at rest, in m: three formulas of the time t and the rest position x, y, z.")
+          .key("kinks", &SupportMotion::kinks, "Times where the formulas are not smooth; integrators restart there.",
+               {.unit = "s"})
+          .key("resolution", &SupportMotion::resolution,
+               "Step of the differences that give the formulas' velocity and acceleration: a sixtieth of their shortest "
+               "period, or less; default 1e-3 s.",
+               {.unit = "s", .range = kPositive})
+          .check(check_motion);
+  return s;
+}
+
+void SupportMotion::declare(Traits& traits) const {
+  traits.loaded = traits.time_dependent = true;
+  traits.conservative = false;
+}
+
+std::shared_ptr<const Motion> SupportMotion::motion(double start) const {
+  if (displacement)
+    return std::make_shared<FormulaMotion>(*displacement, resolution.value_or(kUsualResolution), kinks, start);
+  const Rotation turn = rotation.value_or(Rotation{});
+  return std::make_shared<RigidMotion>(translation.value_or(Vec3::Zero()), turn.point, turn.axis.normalized(),
+                                       turn.angle, factor);
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,38 @@
+// A term as the input asks for it: its keys, checked, and how it is made for a body. Those of a scene's list `terms` are
+// chosen by `type`, one kind per entry of Registry<TermChoice>; gravity and loads on surfaces have their own keys.
+#pragma once
+
+#include <memory>
+
+#include "lib/config/registry.h"
+#include "lib/fem/block_pattern.h"
+#include "lib/fem/term.h"
+#include "lib/mesh/tet_mesh.h"
+#include "lib/ode/model.h"
+
+namespace orthodyn {
+
+// The body that a term acts on. All but the mesh outlives the term.
+struct Discretization {
+  const TetMesh& mesh;
+  const NodalVector& rest;      // node positions, m
+  const BlockPattern& pattern;
+  const Vector& nodal_masses;   // kg
+};
+
+class TermChoice {
+ public:
+  virtual ~TermChoice() = default;
+
+  // A tangent may couple nodes of one element, and those of couplings(). Throws ConfigError.
+  virtual std::unique_ptr<Term> make(const Discretization& body) const = 0;
+
+  // Pairs of nodes that the term's tangent couples although they share no element.
+  virtual NodePairs couplings(const TetMesh& /*mesh*/) const { return {}; }
+
+  // What changes for integrators when the model has such a term (damping_matrix, time_dependent,
+  // conservative, dissipative, loaded, linear); nothing for a conservative linear force.
+  virtual void declare(Traits&) const {}
+};
+
+}  // namespace orthodyn

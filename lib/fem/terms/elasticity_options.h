@@ -1,0 +1,21 @@
+// Which elastic law the elements have, as plain options: the laws themselves are behind elastic_term.h.
+#pragma once
+
+#include "lib/element/warped_tangent.h"
+
+namespace orthodyn {
+
+enum class Kinematics { corotational, linear };
+enum class Corotation { exact, warped };
+
+struct ElasticityOptions {
+  Kinematics kinematics = Kinematics::corotational;
+  Corotation corotation = Corotation::exact;
+  WarpedTangent warped_tangent = WarpedTangent::rotated;
+
+  // Whether the elastic force has no energy: it is neither conservative nor free of a net torque.
+  bool is_warped() const { return kinematics == Kinematics::corotational && corotation == Corotation::warped; }
+  bool has_symmetric_tangent() const { return !(is_warped() && warped_tangent == WarpedTangent::unsymmetric); }
+};
+
+}  // namespace orthodyn

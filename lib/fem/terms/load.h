@@ -1,0 +1,25 @@
+// An entry of a scene's list `loads`: a dead traction on a surface, or a total force that is spread evenly over it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "lib/fem/term_choice.h"
+#include "lib/fem/time_functions/time_function.h"
+
+namespace orthodyn {
+
+struct Load : TermChoice {
+  std::string surface;
+  std::optional<Vec3> traction;  // Pa, per undeformed area
+  std::optional<Vec3> force;     // N in total
+  std::shared_ptr<const TimeFunction> factor;
+  Origin origin;
+  static const Spec<Load>& spec();
+
+  std::unique_ptr<Term> make(const Discretization& body) const override;
+  void declare(Traits& traits) const override;
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,80 @@
+// The mesh source `box`.
+#include "lib/mesh/box.h"
+#include "lib/mesh/mesh_source.h"
+
+namespace orthodyn {
+
+template <>
+struct Words<BoxMesh::Split> {
+  static constexpr std::array<std::pair<BoxMesh::Split, const char*>, 2> list{
+      {{BoxMesh::Split::five, "five"}, {BoxMesh::Split::six, "six"}}};
+};
+
+namespace {
+
+// A part of a box: the elements whose centroid lies in it.
+struct BoxRegion {
+  Vec3 min = Vec3::Zero(), max = Vec3::Zero();
+  Origin origin;
+  static const Spec<BoxRegion>& spec() {
+    static const auto s = Spec<BoxRegion>()
+                              .key("min", &BoxRegion::min, "Lowest coordinates.", {.required = true, .unit = "m"})
+                              .key("max", &BoxRegion::max, "Highest coordinates.", {.required = true, .unit = "m"});
+    return s;
+  }
+  bool contains(const Vec3& x) const { return (x.array() >= min.array()).all() && (x.array() <= max.array()).all(); }
+};
+
+Vec3 centroid(const TetMesh& mesh, std::size_t element) {
+  Vec3 sum = Vec3::Zero();
+  for (const int node : mesh.tets[element]) sum += mesh.nodes[static_cast<std::size_t>(node)];
+  return sum / 4;
+}
+
+// Later parts win where they overlap.
+void assign(TetMesh& mesh, const std::string& name, const BoxRegion& part) {
+  if (name == mesh.region_names.front()) part.origin.fail("'" + name + "' is the name of the rest; choose another");
+  const int region = static_cast<int>(mesh.region_names.size());
+  mesh.region_names.push_back(name);
+  bool any = false;
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
+    if (!part.contains(centroid(mesh, e))) continue;
+    mesh.region_of[e] = region;
+    any = true;
+  }
+  if (!any) part.origin.fail("no element has its centroid in this part; widen it, or use more cells");
+}
+
+class BoxSource : public MeshSource, public BoxMesh {
+ public:
+  static const Spec<BoxSource>& spec() {
+    static const auto s =
+        Spec<BoxSource>()
+            .key("size", &BoxMesh::size, "Edge lengths.", {.required = true, .unit = "m", .range = kPositive})
+            .key("cells", &BoxMesh::cells, "Cells along x, y, z.", {.required = true, .range = {1, 1e6}})
+            .key("origin", &BoxMesh::origin, "The corner with the lowest coordinates.", {.unit = "m"})
+            .key("split", &BoxMesh::split,
+                 "Tets per cell: five (mirror symmetric for even cells) or six (all cells alike).")
+            .key("parts", &BoxSource::parts_,
+                 "Further regions by name: the elements whose centroid lies between `min` and `max`.")
+            .check([](const BoxSource& box, const Config& config) {
+              const double tets = 6.0 * box.cells[0] * box.cells[1] * box.cells[2];
+              if (tets > 5e8) config.at("cells").fail("more than 5e8 elements; use fewer cells");
+            });
+    return s;
+  }
+  LoadedMesh load() const override {
+    TetMesh mesh = make_box(*this);
+    for (const auto& [name, part] : parts_) assign(mesh, name, part);
+    return {std::move(mesh), {}};
+  }
+
+ private:
+  Named<BoxRegion> parts_;
+};
+
+const bool registered = Registry<MeshSource>::add<BoxSource>(
+    "box", "A box of tetrahedra. Region: body, and `parts`. Surfaces: x0, x1, y0, y1, z0, z1.");
+
+}  // namespace
+}  // namespace orthodyn

@@ -1,0 +1,42 @@
+#include "lib/scene/elasticity.h"
+
+namespace orthodyn {
+
+template <>
+struct Words<Kinematics> {
+  static constexpr std::array<std::pair<Kinematics, const char*>, 2> list{
+      {{Kinematics::corotational, "corotational"}, {Kinematics::linear, "linear"}}};
+};
+
+template <>
+struct Words<Corotation> {
+  static constexpr std::array<std::pair<Corotation, const char*>, 2> list{
+      {{Corotation::exact, "exact"}, {Corotation::warped, "warped"}}};
+};
+
+template <>
+struct Words<WarpedTangent> {
+  static constexpr std::array<std::pair<WarpedTangent, const char*>, 2> list{
+      {{WarpedTangent::rotated, "rotated"}, {WarpedTangent::unsymmetric, "unsymmetric"}}};
+};
+
+const Spec<Elasticity>& Elasticity::spec() {
+  static const auto s =
+      Spec<Elasticity>()
+          .key("kinematics", &Elasticity::kinematics, "Large rotations, or small strain with a constant K.")
+          .key("corotation", &Elasticity::corotation,
+               "exact: gradient of the energy. warped: R sigma as in Mueller & Gross 2004 and Vega FEM, for "
+               "comparison; it gains energy and exerts a net torque for anisotropic materials.")
+          .key("warped_tangent", &Elasticity::warped_tangent,
+               "Of the warped force: R K R^T, or its exact unsymmetric derivative (klu, klu_full).")
+          .check([](const Elasticity& e, const Config& config) {
+            const bool warped = e.corotation == Corotation::warped;
+            if (warped && e.kinematics == Kinematics::linear)
+              config.at("corotation").fail("has no meaning with kinematics: linear; remove one of them");
+            if (e.warped_tangent == WarpedTangent::unsymmetric && !warped)
+              config.at("warped_tangent").fail("has no meaning without corotation: warped; remove it");
+          });
+  return s;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,92 @@
+#include "lib/scene/initial.h"
+
+#include <random>
+
+#include "lib/fem/fem_model.h"
+
+namespace orthodyn {
+
+const Spec<Noise>& Noise::spec() {
+  static const auto s =
+      Spec<Noise>()
+          .key("amplitude", &Noise::amplitude, "Largest offset of each free coordinate, uniform.",
+               {.required = true, .unit = "m", .range = kNonNegative})
+          .key("seed", &Noise::seed, "Seed of the generator.", {.range = kNonNegative});
+  return s;
+}
+
+const Spec<Initial>& Initial::spec() {
+  static const auto s =
+      Spec<Initial>()
+          .key("velocity", &Initial::velocity, "Rigid velocity.", {.unit = "m/s"})
+          .key("spin", &Initial::spin, "Rigid angular velocity about the centre.", {.unit = "rad/s"})
+          .key("velocity_field", &Initial::velocity_field,
+               "Velocity added to the rigid one: three formulas of the rest position.", {.unit = "m/s"})
+          .key("center", &Initial::center, "Centre of spin and deformation; default the centre of mass.",
+               {.unit = "m"})
+          .key("deformation_gradient", &Initial::deformation_gradient,
+               "Uniform F about the centre; a singular one flattens the body, a negative determinant mirrors it.")
+          .key("displacement_field", &Initial::displacement_field,
+               "Displacement added to the uniform one: three formulas of the rest position.", {.unit = "m"})
+          .key("noise", &Initial::noise, "Random offsets.");
+  return s;
+}
+
+namespace {
+
+// Uniform in [-1, 1), the same on every platform.
+double symmetric_uniform(std::mt19937_64& generator) {
+  return static_cast<double>(generator() >> 11) * 0x1p-52 - 1;
+}
+
+Vec3 at(const std::array<PointFormula, 3>& field, const Vec3& x) {
+  return {field[0].at(x), field[1].at(x), field[2].at(x)};
+}
+
+Vec3 center_of_mass(const FemModel::Parts& parts) {
+  return *parts.rest * parts.mass->nodal() / parts.mass->total();
+}
+
+// Of each node, for a body displaced by u.
+NodalVector initial_velocity(const Initial& initial, const FemModel::Parts& parts, const NodalVector& u) {
+  const Vec3 center = initial.center.value_or(center_of_mass(parts));
+  NodalVector v(3, u.cols());
+  for (Eigen::Index i = 0; i < u.cols(); ++i) {
+    const Vec3 arm = parts.rest->col(i) + u.col(i) - center;
+    v.col(i) = initial.velocity + initial.spin.cross(arm);
+    if (initial.velocity_field) v.col(i) += at(*initial.velocity_field, parts.rest->col(i));
+  }
+  return v;
+}
+
+}  // namespace
+
+State initial_state(const std::optional<Initial>& initial, double time, const FemModel& model) {
+  const FemModel::Parts& parts = model.parts();
+  State state{time, Vector::Zero(model.num_dofs()), Vector::Zero(model.num_dofs())};
+  if (!initial) return state;
+  const Vec3 center = initial->center.value_or(center_of_mass(parts));
+  const Mat3 F = initial->deformation_gradient.value_or(Mat3::Identity());
+  NodalVector u = (F - Mat3::Identity()) * (parts.rest->colwise() - center);
+  if (initial->displacement_field)
+    for (Eigen::Index i = 0; i < u.cols(); ++i) u.col(i) += at(*initial->displacement_field, parts.rest->col(i));
+  if (initial->noise) {
+    std::mt19937_64 generator(static_cast<std::uint64_t>(initial->noise->seed));
+    for (double& x : u.reshaped()) x += initial->noise->amplitude * symmetric_uniform(generator);
+  }
+  parts.dofs->restrict_to(u, state.q);
+  parts.dofs->restrict_to(initial_velocity(*initial, parts, u), state.v);
+  return state;
+}
+
+State initial_state_at(const Vector& q, const std::optional<Initial>& initial, double time, const FemModel& model) {
+  State state{time, q, Vector::Zero(q.size())};
+  if (!initial) return state;
+  const FemModel::Parts& parts = model.parts();
+  NodalVector u = NodalVector::Zero(3, parts.rest->cols());
+  parts.dofs->add_to(q, u);
+  parts.dofs->restrict_to(initial_velocity(*initial, parts, u), state.v);
+  return state;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,39 @@
+// The state at the start, the section `initial`: uniform deformation about the centre, displacement by formulas, noise;
+// then rigid motion and velocity by formulas.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "lib/config/formula.h"
+#include "lib/config/spec.h"
+#include "lib/ode/output.h"
+
+namespace orthodyn {
+
+class FemModel;
+
+struct Noise {
+  double amplitude = 0;  // m
+  long seed = 1;
+  static const Spec<Noise>& spec();
+};
+
+struct Initial {
+  Vec3 velocity = Vec3::Zero();                                   // m/s
+  Vec3 spin = Vec3::Zero();                                       // rad/s
+  std::optional<std::array<PointFormula, 3>> velocity_field;      // m/s, of the rest position
+  std::optional<Vec3> center;                                     // m; default the centre of mass
+  std::optional<Mat3> deformation_gradient;                       // about the centre
+  std::optional<std::array<PointFormula, 3>> displacement_field;  // m, of the rest position
+  std::optional<Noise> noise;
+  static const Spec<Initial>& spec();
+};
+
+// The state at `time` (s); without `initial` the rest shape, at rest.
+State initial_state(const std::optional<Initial>& initial, double time, const FemModel& model);
+
+// The same velocities, of a body whose free coordinates are at q (m).
+State initial_state_at(const Vector& q, const std::optional<Initial>& initial, double time, const FemModel& model);
+
+}  // namespace orthodyn

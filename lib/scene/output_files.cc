@@ -1,0 +1,49 @@
+#include "lib/scene/output_files.h"
+
+namespace orthodyn {
+
+template <>
+struct Words<OutputTimes> {
+  static constexpr std::array<std::pair<OutputTimes, const char*>, 2> list{
+      {{OutputTimes::interpolated, "interpolated"}, {OutputTimes::exact, "exact"}}};
+};
+
+const Spec<Probe>& Probe::spec() {
+  static const auto s =
+      Spec<Probe>()
+          .key("at", &Probe::at, "The node nearest to this point of the rest shape.",
+               {.required = true, .unit = "m"})
+          .key("fields", &Probe::fields, "Node fields to record.");
+  return s;
+}
+
+const Spec<Output>& Output::spec() {
+  static const auto s =
+      Spec<Output>()
+          .key("interval", &Output::interval, "Time between frames.", {.unit = "s", .range = kPositive})
+          .key("frames", &Output::frames, "Frames after the initial one, evenly spaced; default 50.",
+               {.range = {0, 1e6}})
+          .key("times", &Output::times,
+               "interpolated: frames from the integrator's own polynomial; exact: steps end on them.")
+          .key("fields", &Output::fields, "Node and cell fields of the frames (see `orthodyn list fields`).")
+          .key("probes", &Output::probes, "Named points whose fields go to probes.csv.")
+          .key("reactions", &Output::reactions,
+               "Record force and torque of every clamp and motion on the body in probes.csv.")
+          .key("energy", &Output::energy, "Write energy.csv.")
+          .key("steps", &Output::steps, "Write steps.csv.")
+          .key("momentum", &Output::momentum, "Write momentum.csv.")
+          .check([](const Output& output, const Config& config) {
+            if (output.interval && output.frames) config.fail("give one of interval, frames");
+          });
+  return s;
+}
+
+const Spec<CheckpointSchedule>& CheckpointSchedule::spec() {
+  static const auto s =
+      Spec<CheckpointSchedule>()
+          .key("every", &CheckpointSchedule::every, "Wall time between checkpoints.", {.unit = "s", .range = kPositive})
+          .key("frames", &CheckpointSchedule::frames, "Also after every so many frames.", {.range = {1, 1e6}});
+  return s;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,40 @@
+// What a run writes, and when: the sections `output`, with its probes, and `checkpoint`.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/config/spec.h"
+
+namespace orthodyn {
+
+enum class OutputTimes { interpolated, exact };
+
+// A point whose fields go to probes.csv.
+struct Probe {
+  Vec3 at = Vec3::Zero();  // m, in the rest shape
+  std::vector<std::string> fields{"displacement"};
+  Origin origin;
+  static const Spec<Probe>& spec();
+};
+
+struct Output {
+  std::optional<double> interval;  // s
+  std::optional<int> frames;
+  OutputTimes times = OutputTimes::interpolated;
+  std::vector<std::string> fields{"displacement", "velocity"};
+  Named<Probe> probes;
+  bool reactions = false, energy = true, steps = true, momentum = false;
+  Origin origin;
+  static const Spec<Output>& spec();
+};
+
+// When the state is kept for `orthodyn run --resume`: whichever comes first.
+struct CheckpointSchedule {
+  double every = 60;          // s of wall time
+  std::optional<int> frames;  // after so many frames
+  static const Spec<CheckpointSchedule>& spec();
+};
+
+}  // namespace orthodyn

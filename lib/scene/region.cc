@@ -1,0 +1,83 @@
+#include "lib/scene/region.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "lib/axes/axes_source.h"
+#include "lib/core/words.h"
+#include "lib/scene/scene.h"
+
+namespace orthodyn {
+
+const Spec<Region>& Region::spec() {
+  static const auto s =
+      Spec<Region>()
+          .key("material", &Region::material, "One of `materials`.", {.required = true})
+          .key("axes", &Region::axes, "Directions of the material axes, the same everywhere or following the shape.",
+               {.fallback = "{type: directions}"})
+          .key("stiffness_damping", &Region::stiffness_damping, "Overrides damping.stiffness here.",
+               {.unit = "s", .range = kNonNegative});
+  return s;
+}
+
+namespace {
+
+void fill_regions(const Config& config, Scene& scene) {
+  if (!scene.regions.empty()) return;
+  if (scene.materials.size() != 1)
+    config.fail("key 'regions' is missing: with " + std::to_string(scene.materials.size()) +
+                " materials, say which region has which");
+  const Config regions = config.fill("regions", "{all: {}}");
+  regions.at("all").fill_text("material", scene.materials.front().first);
+  scene.regions = Value<Named<Region>>::read(regions, {});
+}
+
+void check_materials_exist(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const auto& [name, material] : scene.materials) names.push_back(name);
+  for (const auto& [name, region] : scene.regions)
+    if (std::find(names.begin(), names.end(), region.material) == names.end())
+      region.origin.fail("material '" + region.material + "' is not among the materials: " + join(names));
+}
+
+}  // namespace
+
+void complete_regions(const Config& config, Scene& scene) {
+  fill_regions(config, scene);
+  check_materials_exist(scene);
+}
+
+std::vector<const Region*> assign_regions(const Scene& scene, const TetMesh& mesh) {
+  std::vector<const Region*> out(mesh.region_names.size(), nullptr);
+  const Region* everywhere = nullptr;
+  for (const auto& [name, region] : scene.regions) {
+    const auto it = std::find(mesh.region_names.begin(), mesh.region_names.end(), name);
+    if (it != mesh.region_names.end()) out[static_cast<std::size_t>(it - mesh.region_names.begin())] = &region;
+    else if (name == "all") everywhere = &region;
+    else region.origin.fail(fmt::format("the mesh has no region '{}'; it has {} (or use 'all')", name,
+                                        join(mesh.region_names)));
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (!out[i]) out[i] = everywhere;
+    if (!out[i])
+      scene.regions.front().second.origin.fail(
+          fmt::format("region '{}' of the mesh has no material; add it, or 'all'", mesh.region_names[i]));
+  }
+  return out;
+}
+
+const Material& material_of(const Scene& scene, const Region& region) {
+  for (const auto& [name, material] : scene.materials)
+    if (name == region.material) return *material;
+  region.origin.fail("unknown material");  // read_scene() has seen to this
+}
+
+const Material& material_in(const Scene& scene, const std::string& mesh_region) {
+  const Region* found = nullptr;
+  for (const auto& [name, region] : scene.regions)
+    if (name == mesh_region || (name == "all" && !found)) found = &region;
+  return material_of(scene, *found);
+}
+
+}  // namespace orthodyn

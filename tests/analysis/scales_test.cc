@@ -1,0 +1,57 @@
+// The sizes that tolerances are relative to, of bodies whose motion is known beforehand.
+#include "lib/analysis/scales.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/scene/scenes.h"
+
+namespace orthodyn {
+namespace {
+
+Scales scales_of(const std::string& yaml) {
+  const Scene scene = read_scene(Config::from_text(yaml));
+  const BuiltScene built = build(scene);
+  return estimate_scales(*built.model, built.initial, scene.time.end, static_response(*built.model));
+}
+
+TEST(Scales, FollowTheStaticDeflectionOfAStiffBodyAndTheSizeOfASoftOne) {
+  // A bar pulled along itself: u = F L / (E A) at nu = 0, W = F u.
+  const std::string bar = R"(mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1]}
+materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
+clamps: [{surface: x0}]
+loads: [{surface: x1, force: [1000, 0, 0], factor: {type: ramp, end: 0.05}}]
+time: {end: 0.1}
+)";
+  const double u = 1000 * 2 / 1e6, work = 1000 * u;
+  EXPECT_NEAR(scales_of(bar).position, 2 * u, 1e-10);
+  EXPECT_NEAR(scales_of(bar).velocity, 3 * std::sqrt(2 * work / 2000), 1e-10);
+  EXPECT_NEAR(scales_of(replaced(bar, "1e6", "1e2")).position, 0.1 * 2, 1e-12);
+}
+
+TEST(Scales, DoNotHangOnRoundOffInTheRestShapeOrOnWhereALoadIsSampled) {
+  const std::string bar = R"(mesh: {type: box, size: [0.7, 0.3, 0.1], cells: [3, 3, 1]}
+materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
+clamps: [{surface: x0}]
+loads: [{surface: x1, force: [3, 0, 0], factor: {type: sine, frequency: 50}}]
+time: {end: 1}
+)";
+  EXPECT_NEAR(scales_of(bar).position, 2 * 3 * 0.7 / (1e6 * 0.03), 1e-7);
+}
+
+TEST(Scales, OfASpinningFreeBodyComeFromItsKineticEnergy) {
+  const auto yaml = replaced(kValidScene, "clamps:\n  - surface: x0\n", "initial: {velocity: [3, 0, 0]}\n");
+  EXPECT_NEAR(scales_of(yaml).velocity, 3 * 3.0, 1e-12);
+}
+
+TEST(Scales, OfABodyThatIsOnlyMovedComeFromItsSupports) {
+  const auto yaml = kValidScene + "motions: [{surface: x1, translation: [3e-3, 4e-3, 0], "
+                                  "factor: {type: smooth_step, end: 0.1}}]\n";
+  const Scales scales = scales_of(yaml);
+  EXPECT_NEAR(scales.position, 2 * 5e-3, 1e-12);
+  EXPECT_NEAR(scales.velocity, 3 * 5e-3 / 0.1 * 15 / 8, 1e-12);  // the step's largest rate, in its middle
+}
+
+}  // namespace
+}  // namespace orthodyn
