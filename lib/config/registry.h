@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "lib/config/spec.h"
+#include "lib/core/words.h"
 
 namespace orthodyn {
 
@@ -23,6 +24,7 @@ class Registry {
  public:
   struct Entry : Alternative {
     std::function<std::shared_ptr<const Base>(const Config&)> read;
+    std::function<std::shared_ptr<const Base>()> make;  // with the defaults of its keys
   };
 
   static const std::map<std::string, Entry>& entries() { return mutable_entries(); }
@@ -33,7 +35,7 @@ class Registry {
                   auto item = std::make_shared<T>();
                   T::spec().read_into(config, *item, {"type"});
                   return item;
-                }};
+                }, [] { return std::make_shared<const T>(); }};
     if constexpr (requires { T::facts(); }) entry.facts = T::facts();
     const bool is_new = mutable_entries().emplace(name, std::move(entry)).second;
     if (!is_new) registry_conflicts().push_back(name);
@@ -43,17 +45,14 @@ class Registry {
   // Reads a section by its key `type`. Throws ConfigError.
   static std::shared_ptr<const Base> read(const Config& config) {
     if (!config.is_map())
-      config.fail("expected a section with the key 'type' (" + join(names()) + "), found " +
-                  config.shown());
+      config.fail("expected a section with the key 'type' (" + join(names()) + "), found " + config.shown(),
+                  InputFault::form);
     if (!config.has("type")) config.fail("key 'type' is missing; one of " + join(names()));
     const Config type = config.at("type");
     const auto it = entries().find(type.text());
-    if (it == entries().end()) {
-      const auto near = nearest_name(type.text(), names());
-      type.fail("unknown '" + type.text() + "'" +
-                (near.empty() ? "." : "; did you mean '" + near + "'?") +
-                " Known: " + join(names()) + ".");
-    }
+    if (it == entries().end())
+      type.fail("unknown '" + type.text() + "'" + did_you_mean(type.text(), names(), ".") + " Known: " + join(names()) +
+                ".");
     return it->second.read(config);
   }
 

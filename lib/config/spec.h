@@ -21,15 +21,16 @@
 
 #include "lib/config/config.h"
 #include "lib/config/values.h"
+#include "lib/core/words.h"
 
 namespace orthodyn {
 
-// Where a part of the input stands, for errors that show only later (an empty selection, a surface
-// that the mesh does not have). A struct with a member `Origin origin` has it filled by its Spec.
+// Where a part of the input stands, for errors that show only later (an empty selection, a surface that the mesh does
+// not have). A struct with a member `Origin origin` gets it from its Spec.
 struct Origin {
   std::string where;
   [[noreturn]] void fail(const std::string& message) const {
-    throw ConfigError(where + ": " + message);
+    throw ConfigError(where, message);
   }
 };
 
@@ -61,9 +62,10 @@ class Spec {
   const std::vector<Key>& keys() const { return keys_; }
 
   // Reads a section. `also` names keys that somebody else reads ("type").
-  void read_into(const Config& section, T& target, const std::vector<std::string>& also = {}) const {
-    if (!section.is_map())
-      section.fail("expected a section of keys (" + join(names()) + "), found " + section.shown());
+  void read_into(const Config& given, T& target, const std::vector<std::string>& also = {}) const {
+    if (!given.is_map())
+      given.fail("expected a section of keys (" + join(names()) + "), found " + given.shown(), InputFault::form);
+    const Config section = given.resolving();
     refuse_unknown_keys(section, also);
     for (const auto& field : fields_) field.read(section, target);
     if constexpr (requires { target.origin.where; }) target.origin.where = section.where();
@@ -93,9 +95,8 @@ class Spec {
     known.insert(known.end(), also.begin(), also.end());
     for (const auto& given : section.keys()) {
       if (std::find(known.begin(), known.end(), given) != known.end()) continue;
-      const std::string near = nearest_name(given, known);
-      section.at(given).fail("unknown key" + (near.empty() ? "." : "; did you mean '" + near + "'?") +
-                             " Known here: " + join(known) + ".");
+      section.at(given).fail("unknown key" + did_you_mean(given, known, ".") + " Known here: " + join(known) + ".",
+                             InputFault::form);
     }
   }
 

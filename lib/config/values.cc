@@ -14,7 +14,7 @@ double quantity(const Config& config, const std::string& unit) {
   try {
     return quantity_in(config.text(), unit);
   } catch (const std::invalid_argument& e) {
-    config.fail(e.what());
+    config.fail(e.what(), InputFault::form);
   }
 }
 
@@ -32,7 +32,7 @@ std::string number_text(double x) { return fmt::format("{}", x); }
 
 std::vector<double> read_numbers(const Config& config, const Rule& rule, std::size_t count) {
   if (!config.is_sequence() || config.size() != count)
-    config.fail(fmt::format("expected a list of {} numbers, found {}", count, config.shown()));
+    config.fail(fmt::format("expected a list of {} numbers, found {}", count, config.shown()), InputFault::form);
   std::vector<double> out;
   for (std::size_t i = 0; i < count; ++i) out.push_back(read_number(config.at(i), rule));
   return out;

@@ -135,7 +135,7 @@ struct Scene {
   static const Spec<Scene>& spec();
 };
 
-// Reads a scene and fills its defaults into `config`. Throws ConfigError.
-Scene read_scene(const Config& config);
+// Reads a scene; a resolving() input records its defaults. Throws ConfigError.
+Scene read_scene(const Config& input);
 
 }  // namespace orthodyn
