@@ -5,8 +5,8 @@
 // which is 2/omega where nothing is damped and 2/omega (sqrt(1 + 4 xi^2) - 2 xi) where kappa = omega^2 and
 // delta = 2 xi omega belong to one mode, as with stiffness-proportional damping; else it is below the limit.
 //
-// Contact sets in between two looks at the stiffness. kappa therefore is that of the state plus what the forces
-// that bound their own stiffness can come to: a bound at every depth of contact, for eigenvalues of a sum are at
+// Contact may set in between two evaluations of the stiffness. kappa therefore is that of the state plus what the
+// forces that bound their own stiffness can come to: a bound at every depth of contact, for eigenvalues of a sum are at
 // most the sum of the largest ones (Weyl).
 #pragma once
 
@@ -23,12 +23,13 @@ class CriticalStep {
   // Both must outlive this.
   CriticalStep(const Model& model, Statistics& statistics);
 
-  // About a state, s; infinite where nothing resists. Throws RecoverableError where the model does.
+  // At a state, s; infinite where there is neither stiffness nor damping. Throws RecoverableError where the model does.
+  // Keeps what the next call begins with: not thread-safe.
   double at(const State& state) { return limit(state, reserve_); }
-  // Without what may set in later.
+  // The same without the stiffness that may set in later.
   double at_present(const State& state) { return limit(state, 0); }
 
-  // What is kept for stiffness that may set in, 1/s^2; 0 where none can.
+  // The largest eigenvalue of stiffness that may set in later, 1/s^2; 0 where none can.
   double reserve() const { return reserve_; }
 
   // delta / kappa at the state of the last call, s: beta of damping beta K. 0 where nothing is damped or resists.

@@ -1,5 +1,5 @@
-// The keys of error control: a local error of rtol times the scale of positions, resp. velocities, in
-// every coordinate (root mean square) is at tolerance.
+// The keys of error control. A local error is at tolerance if it is rtol times the scale of positions in every position
+// and rtol times the scale of velocities in every velocity (root mean square).
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lib/config/spec.h"
-#include "lib/ode/integrator.h"
+#include "lib/ode/settable_choice.h"
 
 namespace orthodyn {
 
@@ -29,6 +29,7 @@ struct ErrorControl {
   static Spec<T> spec_for();
 };
 
+// Throws ConfigError unless h_min <= h_max and h0 <= h_max, where they are given.
 void check_error_control(const ErrorControl& control, const Config& config);
 
 // How the scales appear among an integrator's decisions.

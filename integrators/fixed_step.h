@@ -24,8 +24,8 @@ struct FixedStep {
   }
 };
 
-// The next step towards a stop that is `rest` away: the last two are equal, rather than one and a sliver, of which
-// methods that remember the last step take harm.
+// The next step towards a stop that is `rest` away, s. The last two are equal: a tiny last one would spoil the
+// extrapolation of methods that remember the step before. `round_off` is relative.
 inline double length_of_step(double step, double rest, double round_off = 0) {
   if (rest <= step * (1 + round_off)) return rest;
   return rest < 2 * step * (1 - round_off) ? 0.5 * rest : step;

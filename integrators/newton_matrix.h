@@ -1,7 +1,8 @@
 // The symmetric n x n matrix of every implicit scheme, A = w_m M + w_d D + w_k K, and its factor.
 //
 // When the exact tangent makes A indefinite, K is rebuilt from the Gauss-Newton part, which is
-// positive semidefinite, and stays so for the next few set-ups.
+// positive semidefinite, and stays so for the next ten set-ups. Weights: w_m is 1, w_d in s, w_k in s^2 for the schemes
+// of second order. Not thread-safe: one per integrator.
 #pragma once
 
 #include <memory>
@@ -19,13 +20,15 @@ class NewtonMatrix {
   // must outlive this.
   NewtonMatrix(const Model& model, const std::string& solver, TangentKind tangent, Statistics& statistics);
 
-  // K and D at a state; factor() then may be called for any weights.
+  // K and D at a state (t in s, q and v of num_dofs()); factor() then may be called for any weights. Throws
+  // RecoverableError where the model does.
   void linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v);
 
-  // False if no factor could be had: a smaller step may help.
+  // Precondition: linearize(). False if the matrix is singular or indefinite: a smaller step may help. Throws RunError
+  // if memory does not suffice.
   bool factor(const Weights& weights);
 
-  // x = A^-1 b. b and x may be the same.
+  // x = A^-1 b. b and x may be the same. Precondition: the last factor() was true.
   void solve(const ConstVectorRef& b, VectorRef x);
 
   // y = K x

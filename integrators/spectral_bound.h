@@ -14,8 +14,8 @@ class SpectralBound {
   // `model` must outlive this.
   explicit SpectralBound(const Model& model);
 
-  // `values` on model.pattern(). Begins with the last call's Ritz vector: cheap where little has changed.
-  // At least 0.
+  // `values` on model.pattern(). In the unit of A over that of M: 1/s^2 for a stiffness, 1/s for a damping matrix. At
+  // least 0. Begins with the last call's Ritz vector: cheap where little has changed. Not thread-safe for this reason.
   double largest(const double* values);
 
  private:

@@ -18,9 +18,8 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 void refuse_unknown(const std::vector<std::string>& names, const std::vector<std::string>& parts) {
   for (const auto& name : names) {
     if (contains(parts, name)) continue;
-    const auto near = nearest_name(name, parts);
     throw ConfigError(fmt::format("explicit: the force has no part '{}'{}; its parts: {}", name,
-                                  near.empty() ? "" : "; did you mean '" + near + "'?", join(parts)));
+                                  did_you_mean(name, parts), join(parts)));
   }
 }
 

@@ -15,7 +15,7 @@ struct SplitForce {
 };
 
 // Throws ConfigError, with the parts that there are, if a name is unknown, if the model's force has no parts
-// or if either sum would be empty. `model` must outlive the result.
+// or if either sum would be empty: without a place, for the caller knows the key. `model` must outlive the result.
 SplitForce split_force(const Model& model, const std::vector<std::string>& explicit_names);
 
 }  // namespace orthodyn

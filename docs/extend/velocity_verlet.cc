@@ -1,7 +1,7 @@
 // An integrator of one's own: velocity Verlet (leapfrog), explicit, second order, with a fixed step.
 #include "lib/core/errors.h"
 #include "lib/ode/hermite.h"
-#include "lib/ode/integrator.h"
+#include "lib/ode/settable_choice.h"
 
 namespace {
 
@@ -50,26 +50,25 @@ class VelocityVerlet : public Integrator {
 
   const Model& model_;
   double step_;
-  Knot begin_, end_;
+  StepEnd begin_, end_;
   Statistics statistics_;
 };
 
-class VelocityVerletChoice : public IntegratorChoice {
+class VelocityVerletChoice : public SettableChoice<VelocityVerletChoice> {
  public:
   static const Spec<VelocityVerletChoice>& spec() {
     static const auto s = Spec<VelocityVerletChoice>().key(
-        "step", &VelocityVerletChoice::step_, "Step.", {.required = true, .unit = "s", .range = kPositive});
+        "step", &VelocityVerletChoice::step, "Step.", {.required = true, .unit = "s", .range = kPositive});
     return s;
   }
 
   std::unique_ptr<Integrator> make(const Model& model, const Task&) const override {
     if (model.traits().dissipative)
       throw ConfigError("velocity_verlet takes no forces that depend on velocity; remove the damping");
-    return std::make_unique<VelocityVerlet>(model, step_);
+    return std::make_unique<VelocityVerlet>(model, step);
   }
 
- private:
-  double step_ = 0;
+  double step = 0;  // s
 };
 
 const bool registered = Registry<IntegratorChoice>::add<VelocityVerletChoice>(

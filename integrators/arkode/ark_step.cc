@@ -18,7 +18,7 @@ void ArkStep::initialise(double t) {
   memory_.reset(ARKStepCreate(parts_.explicit_part, parts_.implicit_part, t, y(), context_));
   void* m = memory();
   if (!m) throw RunError("ARKODE could not be created");
-  ORTHODYN_CAPTURE_ERRORS(ARKStepSetErrHandlerFn, context_, m, &border_.message);
+  ORTHODYN_CAPTURE_ERRORS(ARKStepSetErrHandlerFn, context_, m, &callback_context_.message);
   require(ARKStepSetUserData(m, this));
   require(ARKStepWFtolerances(m, [](N_Vector, N_Vector weights, void* user) {
     self(user).settings_.set_weights(weights);
@@ -59,7 +59,7 @@ int ArkStep::advance(double t_stop, double& t) {
 // beginning. False if no shorter one is allowed.
 bool ArkStep::retry_with_shorter_step() {
   const double h = kRetryFactor * current_step();
-  if (step_ || border_.failure || h < settings_.options.h_min || end_.t + h == end_.t) return false;
+  if (step_ || callback_context_.failure || h < settings_.options.h_min || end_.t + h == end_.t) return false;
   ++retries_;
   positions(y()) = end_.q;
   velocities(y()) = end_.v;

@@ -25,7 +25,7 @@ class ArkStep : public FirstOrderIntegrator {
 
   // Sets tables, and Newton's method with attach_newton() where there is any.
   virtual void choose_method() = 0;
-  // M^-1 f at y(), where the integration begins, resp. at the end of the step just taken.
+  // M^-1 f at y(): where the integration begins, and at the end of the step just taken.
   virtual void begin_acceleration(double t, VectorRef a) { initial_acceleration(model_, t, a); }
   virtual void end_acceleration(VectorRef a) = 0;
 
@@ -34,7 +34,7 @@ class ArkStep : public FirstOrderIntegrator {
   // True at the end of the last step, where the derivative is known: the first stage of the next step asks
   // for it, and a force that could not be evaluated there would end the integration.
   bool at_end(double t, N_Vector y) const { return t == end_.t && positions(y) == end_.q && velocities(y) == end_.v; }
-  const Knot& end() const { return end_; }
+  const StepEnd& end() const { return end_; }
 
   // The derivative of the last stage that was solved for, M^-1 f where that is the step's end.
   Eigen::Map<Vector> stage_acceleration() const;
@@ -67,7 +67,7 @@ class ArkStep : public FirstOrderIntegrator {
   std::optional<double> step_;
   int order_;
   long retries_ = 0;  // steps begun anew because a force could not be evaluated, since the last (re-)start
-  Knot begin_, end_;  // of the last step
+  StepEnd begin_, end_;  // of the last step
   std::unique_ptr<void, FreeMemory> memory_;
 };
 

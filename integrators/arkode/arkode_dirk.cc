@@ -51,7 +51,7 @@ class ArkodeDirk : public ArkStep {
   Vector last_acceleration_;  // of the stage that is the step's end, unless stiffly accurate
 };
 
-class ArkodeDirkChoice : public IntegratorChoice, public DirkOptions {
+class ArkodeDirkChoice : public SettableChoice<ArkodeDirkChoice>, public DirkOptions {
  public:
   static const Spec<ArkodeDirkChoice>& spec() {
     static const auto s = [] {

@@ -50,7 +50,7 @@ class ArkodeErk : public ArkStep {
   Vector last_acceleration_;  // after a step that of its end
 };
 
-class ArkodeErkChoice : public IntegratorChoice, public ErkOptions {
+class ArkodeErkChoice : public SettableChoice<ArkodeErkChoice>, public ErkOptions {
  public:
   static const Spec<ArkodeErkChoice>& spec() {
     static const auto s = [] {

@@ -96,7 +96,7 @@ class ArkodeImex : private Split, public ArkStep {
   Vector end_explicit_;  // the explicit share of the acceleration at the last step's end
 };
 
-class ArkodeImexChoice : public IntegratorChoice, public ImexOptions {
+class ArkodeImexChoice : public SettableChoice<ArkodeImexChoice>, public ImexOptions {
  public:
   static const Spec<ArkodeImexChoice>& spec() {
     using C = ArkodeImexChoice;

@@ -20,7 +20,7 @@ Cvode::Cvode(const std::string& name, const Model& model, const Settings& settin
 
 void Cvode::initialise(double t) {
   void* m = memory();
-  ORTHODYN_CAPTURE_ERRORS(CVodeSetErrHandlerFn, context_, m, &border_.message);
+  ORTHODYN_CAPTURE_ERRORS(CVodeSetErrHandlerFn, context_, m, &callback_context_.message);
   require(CVodeInit(m, [](sunrealtype time, N_Vector y, N_Vector y_dot, void* user) {
     return self(user).evaluate(time, y, y_dot);
   }, t, y()));

@@ -70,7 +70,7 @@ void refuse_newton_keys(const AdamsOptions& options, const Config& config) {
     config.at("gauss_newton").fail("has no meaning with nonlinear: fixed_point; remove it");
 }
 
-class CvodeAdamsChoice : public IntegratorChoice, public AdamsOptions {
+class CvodeAdamsChoice : public SettableChoice<CvodeAdamsChoice>, public AdamsOptions {
  public:
   static const Spec<CvodeAdamsChoice>& spec() {
     using C = CvodeAdamsChoice;

@@ -16,7 +16,7 @@ class CvodeBdf : public Cvode {
   void choose_iteration() override { attach_newton(); }
 };
 
-class CvodeBdfChoice : public IntegratorChoice, public MultistepOptions {
+class CvodeBdfChoice : public SettableChoice<CvodeBdfChoice>, public MultistepOptions {
  public:
   static const Spec<CvodeBdfChoice>& spec() {
     static const auto s = MultistepOptions::spec_for<CvodeBdfChoice>();

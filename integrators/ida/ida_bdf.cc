@@ -25,7 +25,7 @@ class IdaBdf : public SundialsIntegrator {
   void initialise(double t) override {
     void* m = memory_.get();
     make_consistent(t);
-    ORTHODYN_CAPTURE_ERRORS(IDASetErrHandlerFn, context_, m, &border_.message);
+    ORTHODYN_CAPTURE_ERRORS(IDASetErrHandlerFn, context_, m, &callback_context_.message);
     require(IDAInit(m, residual, t, y(), y_dot_.get()));
     require(IDASetUserData(m, this));
     require(IDAWFtolerances(m, [](N_Vector, N_Vector weights, void* user) {
@@ -107,7 +107,7 @@ class IdaBdf : public SundialsIntegrator {
 
   static int residual(sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector r, void* user) {
     auto& me = self(user);
-    return guarded(me.border_, [&] {
+    return guarded(me.callback_context_, [&] {
       const Measure measure(me.statistics_.force);
       positions(r) = positions(y_dot) - velocities(y);
       me.model_.force(t, positions(y), velocities(y), velocities(r));
@@ -128,7 +128,7 @@ class IdaBdf : public SundialsIntegrator {
     require(IDASetJacFn(memory_.get(), [](sunrealtype t, sunrealtype cj, N_Vector y, N_Vector, N_Vector, SUNMatrix,
                                           void* user, N_Vector, N_Vector, N_Vector) {
       auto& me = self(user);
-      return guarded(me.border_, [&] {
+      return guarded(me.callback_context_, [&] {
         me.gamma_ = 1 / cj;
         me.reduced_->linearize(t, positions(y), velocities(y));
       });
@@ -141,7 +141,7 @@ class IdaBdf : public SundialsIntegrator {
     require(IDASetJacFn(memory_.get(), [](sunrealtype t, sunrealtype cj, N_Vector y, N_Vector, N_Vector, SUNMatrix J,
                                           void* user, N_Vector, N_Vector, N_Vector) {
       auto& me = self(user);
-      return guarded(me.border_, [&] {
+      return guarded(me.callback_context_, [&] {
         me.linearize_full(t, y);
         me.full_->fill_ida(cj, me.linearization_, J);
       });
@@ -154,7 +154,7 @@ class IdaBdf : public SundialsIntegrator {
   std::unique_ptr<void, FreeMemory> memory_;
 };
 
-class IdaBdfChoice : public IntegratorChoice, public MultistepOptions {
+class IdaBdfChoice : public SettableChoice<IdaBdfChoice>, public MultistepOptions {
  public:
   static const Spec<IdaBdfChoice>& spec() {
     static const auto s = MultistepOptions::spec_for<IdaBdfChoice>();

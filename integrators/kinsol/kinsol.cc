@@ -17,10 +17,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "integrators/linear_solver_key.h"
 #include "integrators/newton_matrix.h"
+#include "integrators/solver_options.h"
 #include "integrators/sundials/callbacks.h"
-#include "integrators/sundials/plug.h"
+#include "integrators/sundials/solver_adapter.h"
 #include "lib/core/words.h"
 #include "lib/ode/equilibrium.h"
 #include "lib/ode/integrator.h"
@@ -55,7 +55,7 @@ class Kinsol : public EquilibriumSolver {
   Attempt solve(double t, Vector& q, Where where) override {
     t_ = t;
     where_ = where;
-    border_ = {};
+    callback_context_ = {};
     renew_matrix(where == Where::nearby ? TangentKind::exact : TangentKind::gauss_newton);
     indefinite_ = false;
     corrections_.clear();
@@ -65,17 +65,18 @@ class Kinsol : public EquilibriumSolver {
     require(KINSetMaxNewtonStep(memory_.get(), longest));
     const int flag = KINSol(memory_.get(), q_.get(), searches_line() ? KIN_LINESEARCH : KIN_NONE,
                             position_weights_.get(), force_weights_.get());
-    if (border_.failure) std::rethrow_exception(border_.failure);
+    if (callback_context_.failure) std::rethrow_exception(callback_context_.failure);
     Attempt attempt;
     KINGetNumNonlinSolvIters(memory_.get(), &attempt.iterations);
     statistics_.newton_iterations += attempt.iterations;
-    attempt.indefinite = indefinite_ || (flag == KIN_LINSOLV_NO_RECOVERY && border_.recoverable_cause.empty());
+    attempt.indefinite =
+        indefinite_ || (flag == KIN_LINSOLV_NO_RECOVERY && callback_context_.recoverable_cause.empty());
     attempt.found = flag == KIN_SUCCESS || flag == KIN_INITIAL_GUESS_OK || (!indefinite_ && is_settled());
     if (attempt.found) {
       q = view(q_.get());
       attempt.residual = residual();
     } else {
-      attempt.trouble = sentence(flag);
+      attempt.failure_reason = sentence(flag);
     }
     return attempt;
   }
@@ -101,20 +102,20 @@ class Kinsol : public EquilibriumSolver {
 
   void initialise() {
     void* m = memory_.get();
-    ORTHODYN_CAPTURE_ERRORS(KINSetErrHandlerFn, context_, m, &border_.message);
+    ORTHODYN_CAPTURE_ERRORS(KINSetErrHandlerFn, context_, m, &callback_context_.message);
     require(KINInit(m, [](N_Vector q, N_Vector f, void* user) { return self(user).evaluate(q, f); }, q_.get()));
     require(KINSetUserData(m, this));
     functions_.setup = [this] { return factor(); };
     functions_.solve = [this](N_Vector dq, N_Vector b) {
       bool good = false;
-      const int thrown = guarded(border_, [&] {
+      const int thrown = guarded(callback_context_, [&] {
         matrix_->solve(view(b), view(dq));
         good = contracts(view(dq).lpNorm<Eigen::Infinity>());
       });
       return thrown ? thrown : good ? 0 : 1;
     };
-    plug_ = make_matrix_plug(context_);
-    solver_ = make_solver_plug(functions_, context_);
+    plug_ = make_placeholder_matrix(context_);
+    solver_ = make_solver_adapter(functions_, context_);
     require(KINSetLinearSolver(m, solver_.get(), plug_.get()));
     require(KINSetJacFn(m, [](N_Vector q, N_Vector, SUNMatrix, void* user, N_Vector, N_Vector) {
       return self(user).linearize(q);
@@ -128,11 +129,11 @@ class Kinsol : public EquilibriumSolver {
   static Kinsol& self(void* user) { return *static_cast<Kinsol*>(user); }
 
   void require(int flag) const {
-    if (flag < 0) throw RunError("kinsol refused its set-up: " + border_.message);
+    if (flag < 0) throw RunError("kinsol refused its set-up: " + callback_context_.message);
   }
 
   int evaluate(N_Vector q, N_Vector minus_f) {
-    return guarded(border_, [&] {
+    return guarded(callback_context_, [&] {
       const Measure measure(statistics_.force);
       auto out = view(minus_f);
       model_.force(t_, view(q), still_, out);
@@ -142,7 +143,7 @@ class Kinsol : public EquilibriumSolver {
   }
 
   int linearize(N_Vector q) {
-    return guarded(border_, [&] { matrix_->linearize(t_, view(q), still_); });
+    return guarded(callback_context_, [&] { matrix_->linearize(t_, view(q), still_); });
   }
 
   bool contracts(double correction) {
@@ -155,7 +156,7 @@ class Kinsol : public EquilibriumSolver {
   int factor() {
     bool factored = false;
     const long before = statistics_.gauss_newton_fallbacks;
-    const int thrown = guarded(border_, [&] { factored = matrix_->factor({0, 0, 1}); });
+    const int thrown = guarded(callback_context_, [&] { factored = matrix_->factor({0, 0, 1}); });
     if (thrown) return thrown;
     if (!factored || (where_ == Where::nearby && statistics_.gauss_newton_fallbacks > before)) indefinite_ = true;
     return indefinite_ ? 1 : 0;
@@ -183,7 +184,8 @@ class Kinsol : public EquilibriumSolver {
   }
 
   std::string sentence(int flag) const {
-    const std::string cause = border_.recoverable_cause.empty() ? "" : " (" + border_.recoverable_cause + ")";
+    const std::string cause =
+        callback_context_.recoverable_cause.empty() ? "" : " (" + callback_context_.recoverable_cause + ")";
     switch (flag) {
       case KIN_MAXITER_REACHED:
         return fmt::format("Newton's method did not converge within {} iterations (statics.solver.max_iterations)",
@@ -196,7 +198,8 @@ class Kinsol : public EquilibriumSolver {
       case KIN_LINESEARCH_NONCONV:
       case KIN_LINESEARCH_BCFAIL: return "the residual does not fall along Newton's direction" + cause;
       case KIN_STEP_LT_STPTOL: return "Newton's corrections have become too small for the residual that is left" + cause;
-      default: return "KINSOL says: " + border_.message;
+      default:
+        return "KINSOL says: " + callback_context_.message;
     }
   }
 
@@ -209,7 +212,7 @@ class Kinsol : public EquilibriumSolver {
   Where where_ = Where::nearby;
   bool indefinite_ = false;
   std::vector<double> corrections_;  // the largest of each iteration
-  Border border_;
+  CallbackContext callback_context_;
   TangentKind tangent_ = TangentKind::exact;
   std::unique_ptr<NewtonMatrix> matrix_;
   long fallbacks_ = 0;  // when the matrix was made
@@ -224,18 +227,18 @@ class Kinsol : public EquilibriumSolver {
 class KinsolChoice : public EquilibriumChoice, public KinsolOptions {
  public:
   static const Spec<KinsolChoice>& spec() {
-    static const auto s =
-        Spec<KinsolChoice>()
-            .key("rtol", &KinsolChoice::rtol, "Largest residual, relative to the largest load on a coordinate.",
-                 {.range = {0, 1e-2, true, false}})
-            .key("line_search", &KinsolChoice::line_search,
-                 "Shorten steps until the residual falls, in place of the test that corrections contract.")
-            .key("max_iterations", &KinsolChoice::max_iterations, "Newton iterations per load step.",
-                 {.range = {1, 10'000}})
-            .key("linear_solver", &KinsolChoice::linear_solver, "One of `orthodyn list solvers`, klu_full aside.")
-            .check([](const KinsolChoice& options, const Config& config) {
-              require_linear_solver(options.linear_solver, SolverPaths::reduced, config);
-            });
+    using C = KinsolChoice;
+    static const auto s = [] {
+      auto spec =
+          Spec<C>()
+              .key("rtol", &C::rtol, "Largest residual, relative to the largest load on a coordinate.",
+                   {.range = {0, 1e-2, true, false}})
+              .key("line_search", &C::line_search,
+                   "Shorten steps until the residual falls, in place of the test that corrections contract.")
+              .key("max_iterations", &C::max_iterations, "Newton iterations per load step.", {.range = {1, 10'000}});
+      add_linear_solver(spec, SolverPaths::reduced);
+      return spec;
+    }();
     return s;
   }
   static MethodFacts facts() {

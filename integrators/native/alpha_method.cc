@@ -25,7 +25,7 @@ void AlphaMethod::restarted() {
 
 bool AlphaMethod::attempt(double h) {
   const auto& [alpha_m, alpha_f, beta, gamma] = p_;
-  const Knot& from = now();
+  const StepEnd& from = now();
   w0_ = w_;
   // From a short step's change no long one's can be told.
   if (p_.theta() != 0 && last_h_ > 0) w0_ += p_.theta() * (std::min(h / last_h_, kMostGrowth) - 1) * last_change_;

@@ -1,6 +1,6 @@
 // Anderson's acceleration of an iteration x <- x + g(x) (Anderson 1965; Walker & Ni, SIAM J. Numer. Anal. 49,
 // 2011): the next iterate combines the latest ones so that the same combination of their corrections is smallest.
-// A linearly convergent iteration becomes about as fast as GMRES on its matrix.
+// A linearly convergent iteration becomes about as fast as GMRES on its matrix. Remembers iterates: not thread-safe.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +13,10 @@ class Anderson {
  public:
   Anderson(Eigen::Index size, int depth) : dx_(size, depth), dg_(size, depth), x_(size), g_(size) {}
 
+  // Forgets earlier iterates: a new equation.
   void restart() { met_ = 0; }
 
-  // g(x) becomes the accelerated correction of x.
+  // In: the iterate x and its correction g(x). Out: g is the accelerated correction, to be added to x.
   void accelerate(const ConstVectorRef& x, VectorRef g) {
     if (met_ > 0) {
       const Eigen::Index at = (met_ - 1) % dx_.cols();

@@ -7,7 +7,7 @@ namespace {
 // The local error is half the difference of the slopes at both ends: that to the trapezoidal rule.
 DirkTable backward_euler() { return {1, 2, {0, 1}, {{0, 1}}, {0.5, -0.5}}; }
 
-class BackwardEulerChoice : public IntegratorChoice, public NewtonOptions {
+class BackwardEulerChoice : public SettableChoice<BackwardEulerChoice>, public NewtonOptions {
  public:
   static const Spec<BackwardEulerChoice>& spec() {
     static const auto s = NewtonOptions::spec_for<BackwardEulerChoice>();

@@ -4,7 +4,7 @@
 namespace orthodyn {
 namespace {
 
-class BatheChoice : public IntegratorChoice, public NewtonOptions {
+class BatheChoice : public SettableChoice<BatheChoice>, public NewtonOptions {
  public:
   double rho_inf = 0, splitting = 0.5;
 

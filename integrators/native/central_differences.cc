@@ -45,7 +45,7 @@ class CentralDifferences : public ExplicitStep {
       : ExplicitStep(model, words(options), 2, options.max_steps), options_(options), watch_(model, statistics_),
         unbounded_(task.output_interval > 0 ? task.output_interval : task.end - task.initial.t),
         extent_(extent(model)) {
-    look_before_the_start(task);
+    check_start(task);
     choose_step();
   }
 
@@ -65,9 +65,9 @@ class CentralDifferences : public ExplicitStep {
     return {"central_differences", "lower integrator.safety", "integrator.safety"};
   }
 
-  void look_before_the_start(const Task& task) {
+  void check_start(const Task& task) {
     try {
-      watch_.look(task.initial);
+      watch_.update(task.initial);
     } catch (const RecoverableError& e) {
       throw ConfigError(fmt::format("central_differences needs the stiffness at the start, which cannot be had: {}",
                                     e.what()));
@@ -99,15 +99,15 @@ class CentralDifferences : public ExplicitStep {
     return omega > 0 ? fmt::format(", {:.6g} s by elements at rest, undamped", 2 / omega) : "";
   }
 
-  void begin() override { look({end().t, end().q, end().v}); }
+  void begin() override { update({end().t, end().q, end().v}); }
 
-  void look(const State& state) {
-    watch_.look(state);
+  void update(const State& state) {
+    watch_.update(state);
     choose_step();
   }
 
   void advance(double t_stop) override {
-    const Knot& from = end();
+    const StepEnd& from = end();
     const double rest = t_stop - from.t, h = length(rest);
     next_.t = h == rest ? t_stop : from.t + h;
     next_.q = from.q + h * from.v + (0.5 * h * h) * from.a;
@@ -116,7 +116,7 @@ class CentralDifferences : public ExplicitStep {
     acceleration(next_.t, next_.q, predicted_, next_.a);
     if (has_exploded(h)) fail_by_growth();
     next_.v = from.v + (0.5 * h) * (from.a + next_.a);
-    if (watch_.due()) look({next_.t, next_.q, next_.v});
+    if (watch_.due()) update({next_.t, next_.q, next_.v});
   }
 
   // A wave crosses about an element in a stable step: no force moves a node by the whole body in one.
@@ -130,7 +130,7 @@ class CentralDifferences : public ExplicitStep {
          Reason::diverged);
   }
 
-  // Steps chosen here divide what is left evenly: the map stays symplectic, and no sliver comes last.
+  // Steps chosen here divide what is left evenly: the map stays symplectic, and no tiny step comes last.
   double length(double rest) const {
     return options_.step.value ? length_of_fixed_step(step_, rest) : rest / std::ceil(rest / step_ * (1 - 1e-9));
   }
@@ -158,7 +158,7 @@ class CentralDifferences : public ExplicitStep {
   Vector predicted_;
 };
 
-class CentralDifferencesChoice : public IntegratorChoice, public CentralOptions {
+class CentralDifferencesChoice : public SettableChoice<CentralDifferencesChoice>, public CentralOptions {
  public:
   static const Spec<CentralDifferencesChoice>& spec() {
     using C = CentralDifferencesChoice;

@@ -137,7 +137,7 @@ class EnergyMomentum : public OneStep {
     middle(h);
     {
       const Measure measure(statistics_.force);
-      const Knot& from = now();
+      const StepEnd& from = now();
       gradient_.mean_force(from.t, from.q, from.t + h, from.q + h * v_, v_, r_);
     }
     if (!r_.allFinite()) throw RecoverableError("the force is not finite");
@@ -157,7 +157,7 @@ class EnergyMomentum : public OneStep {
   Vector last_change_;  // of accelerations, over the last step
 };
 
-class EnergyMomentumChoice : public IntegratorChoice, public EnergyMomentumOptions {
+class EnergyMomentumChoice : public SettableChoice<EnergyMomentumChoice>, public EnergyMomentumOptions {
  public:
   static const Spec<EnergyMomentumChoice>& spec() {
     static const auto s = LinearOptions::spec_for<EnergyMomentumChoice>().key(

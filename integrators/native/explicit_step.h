@@ -1,5 +1,5 @@
-// What our own one-step methods without Newton iterations share: the ends of the last step, dense output
-// between them, counting, and the sentences of failure.
+// What our own one-step methods without Newton iterations share: the ends of the last step, dense output between them,
+// counting, and the messages of failure.
 #pragma once
 
 #include <string>
@@ -18,33 +18,34 @@ class ExplicitStep : public Integrator {
   const Statistics& statistics() const override { return statistics_; }
 
  protected:
-  // For messages: the integrator's name and what makes its steps shorter, resp. fewer.
+  // For messages: the integrator's name and what makes its steps shorter, and what makes them fewer.
   struct Words {
     std::string name, shorter, fewer;  // "lower integrator.step", "raise integrator.step"
   };
   ExplicitStep(const Model& model, const Words& words, int order, long max_steps);
 
-  // Something to do at a (re-)start, at end().
+  // A start or restart, at end().
   virtual void begin() {}
-  // Makes next_ from end(), at t_stop at the latest. Throws RecoverableError or RunError.
+  // One step from end() to next_ (t, q, v and a), at t_stop at the latest. A RecoverableError becomes a RunError.
   virtual void advance(double t_stop) = 0;
 
-  // a = M^-1 f. Throws RecoverableError where f cannot be evaluated or is not finite.
+  // a = M^-1 f, m/s^2. Throws RecoverableError where f cannot be evaluated or is not finite.
   void acceleration(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef a);
 
+  // Throws RunError with the integrator, the time and what is wrong.
   [[noreturn]] void fail(const std::string& what, Reason reason) const;
 
-  const Knot& end() const { return end_; }
+  const StepEnd& end() const { return end_; }
 
   const Model& model_;
   Statistics statistics_;
-  Knot next_;
+  StepEnd next_;
 
  private:
   Words words_;
   int order_;
   long max_steps_;
-  Knot begin_, end_;  // of the last step
+  StepEnd begin_, end_;  // of the last step
 };
 
 }  // namespace orthodyn

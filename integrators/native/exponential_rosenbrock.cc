@@ -67,7 +67,7 @@ class ExponentialRosenbrock : public ExplicitStep {
 
   // F and J at the beginning of the step, and the Krylov space of F.
   void linearize(double t_stop) {
-    const Knot& from = end();
+    const StepEnd& from = end();
     {
       const Measure measure(statistics_.tangent);
       system_.linearize({from.t, from.q, from.v});
@@ -111,7 +111,7 @@ class ExponentialRosenbrock : public ExplicitStep {
       ++statistics_.rejected_steps;
       ++(error ? statistics_.error_test_failures : statistics_.convergence_failures);
       h_ = h * (error ? control_.after_failure(*error) : kRetryFactor);
-      refuse_to_creep(error.has_value());
+      refuse_tiny_steps(error.has_value());
     }
   }
 
@@ -119,7 +119,7 @@ class ExponentialRosenbrock : public ExplicitStep {
     return length_of_step(std::min(h_, options_.h_max.value_or(std::numeric_limits<double>::infinity())), rest);
   }
 
-  void refuse_to_creep(bool by_error) const {
+  void refuse_tiny_steps(bool by_error) const {
     const double resolution = 4 * std::numeric_limits<double>::epsilon() * std::abs(end().t);
     if (h_ > std::max({options_.h_min, resolution, std::numeric_limits<double>::min()})) return;
     if (by_error)
@@ -146,7 +146,7 @@ class ExponentialRosenbrock : public ExplicitStep {
 
   // The error in units of the tolerance; none if a Krylov space is too small.
   std::optional<double> try_step(double h, double t_stop) {
-    const Knot& from = end();
+    const StepEnd& from = end();
     next_.t = h == t_stop - from.t ? t_stop : from.t + h;
     next_.q = from.q;
     next_.v = from.v;
@@ -199,7 +199,7 @@ class ExponentialRosenbrock : public ExplicitStep {
   KrylovPhi from_rate_, from_defect_;
 };
 
-class ExponentialRosenbrockChoice : public IntegratorChoice, public ExponentialOptions {
+class ExponentialRosenbrockChoice : public SettableChoice<ExponentialRosenbrockChoice>, public ExponentialOptions {
  public:
   static const Spec<ExponentialRosenbrockChoice>& spec() {
     using C = ExponentialRosenbrockChoice;
@@ -224,8 +224,8 @@ class ExponentialRosenbrockChoice : public IntegratorChoice, public ExponentialO
   }
 
  private:
-  // In critical steps of the leapfrog, 2/omega resp. 1/delta: a space of dimension m reaches h omega of about m
-  // undamped, and h delta of m^2/4 where damping makes the spectrum real (Hochbruck & Lubich 1997).
+  // In critical steps of the leapfrog, 2/omega, or 1/delta where it is damped: a space of dimension m reaches h omega
+  // of about m undamped, and h delta of m^2/4 where damping makes the spectrum real (Hochbruck & Lubich 1997).
   double krylov_reach(const Model& model) const {
     const double m = krylov_dimension;
     return model.traits().damping_matrix ? std::max(m / 2, m * m / 4) : m / 2;

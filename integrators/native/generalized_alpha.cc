@@ -10,7 +10,7 @@ AlphaParameters least_damping(double rho) {
   return {alpha_m, alpha_f, 0.25 * (1 - theta) * (1 - theta), 0.5 - theta};
 }
 
-class GeneralizedAlphaChoice : public IntegratorChoice, public NewtonOptions {
+class GeneralizedAlphaChoice : public SettableChoice<GeneralizedAlphaChoice>, public NewtonOptions {
  public:
   double rho_inf = 0.8;
 

@@ -4,7 +4,7 @@
 namespace orthodyn {
 namespace {
 
-class HhtAlphaChoice : public IntegratorChoice, public NewtonOptions {
+class HhtAlphaChoice : public SettableChoice<HhtAlphaChoice>, public NewtonOptions {
  public:
   double alpha = -0.05;
 

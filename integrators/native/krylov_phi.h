@@ -3,7 +3,7 @@
 // From J V = V H + eta v_{m+1} e_m^T and b = beta v_1,
 //     phi_k(h J) b ~ beta (V phi_k(h H) e_1 + h eta [phi_{k+1}(h H) e_1]_m v_{m+1}),
 // whose last part is the estimate of the error without it (Saad 1992, 5). The small functions are columns of
-// one exponential (Al-Mohy & Higham 2011, theorem 2.1). The space grows until the estimate is small.
+// one exponential (Al-Mohy & Higham 2011, theorem 2.1). The space grows until the estimate is small. Not thread-safe.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,8 @@ class KrylovPhi {
 
   KrylovPhi(Eigen::Index size, int max_dimension);
 
-  // Begins a space. `J` is called by apply() too and must stay what it is.
+  // Begins a space for a vector of the given size. `J` is called by apply() too and must not change until the next
+  // begin().
   void begin(const Operator& J, const Vector& b);
 
   // out = phi_k(h J) b for any k >= 1 and h; false if its error, root mean square, would exceed the tolerance in

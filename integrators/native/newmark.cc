@@ -5,7 +5,7 @@
 namespace orthodyn {
 namespace {
 
-class NewmarkChoice : public IntegratorChoice, public NewtonOptions {
+class NewmarkChoice : public SettableChoice<NewmarkChoice>, public NewtonOptions {
  public:
   double beta = 0.25, gamma = 0.5;
 

@@ -42,7 +42,7 @@ void OneStep::start(const State& state) {
   }
   model_.solve_mass(now_.a);
   before_ = now_;
-  control_ = HeldStep(orders().estimate);
+  control_ = DeadbandStepControl(orders().estimate);
   h_ = options_.h0.value_or(0);
   newton_limit_ = std::numeric_limits<double>::infinity();
   restarted();
@@ -69,7 +69,8 @@ void OneStep::interpolate(double t, State& out) const {
     out.v = now_.v;
     return;
   }
-  // Positions and velocities of a method of order 1 do not fit one polynomial: between them its velocity would swing.
+  // Positions and velocities of a method of order 1 do not fit one polynomial: between them its velocity would
+  // oscillate.
   if (orders().method == 1) interpolate_linearly(before_, now_, t, out.q, out.v);
   else orthodyn::interpolate(before_, now_, t, out.q, out.v);
 }
@@ -80,24 +81,24 @@ void OneStep::accept(double h) {
   std::swap(now_, next_);
 }
 
-OneStep::Verdict OneStep::try_step(double h) {
+OneStep::StepResult OneStep::try_step(double h) {
   cause_.clear();
   try {
-    if (!attempt(h)) return Verdict::newton;
-    if (options_.step) return Verdict::good;
+    if (!attempt(h)) return StepResult::newton;
+    if (options_.step) return StepResult::good;
     estimate(h, e_q_, e_v_);
     error_ = norm_(e_q_, e_v_);
-    return error_ <= 1 ? Verdict::good : Verdict::error_test;
+    return error_ <= 1 ? StepResult::good : StepResult::error_test;
   } catch (const RecoverableError& e) {
     cause_ = e.what();
-    return Verdict::force;
+    return StepResult::force;
   }
 }
 
-void OneStep::count(Verdict verdict) {
-  if (verdict == Verdict::good) return;
+void OneStep::count(StepResult result) {
+  if (result == StepResult::good) return;
   ++statistics_.rejected_steps;
-  ++(verdict == Verdict::error_test ? statistics_.error_test_failures : statistics_.convergence_failures);
+  ++(result == StepResult::error_test ? statistics_.error_test_failures : statistics_.convergence_failures);
 }
 
 double OneStep::resolution() const { return 4 * std::numeric_limits<double>::epsilon() * std::abs(now_.t); }
@@ -109,9 +110,9 @@ void OneStep::advance_adaptively(double t_stop) {
   for (int attempts = 0;; ++attempts) {
     const double h = length(t_stop);
     next_.t = h == t_stop - now_.t ? t_stop : now_.t + h;
-    const Verdict verdict = try_step(h);
-    count(verdict);
-    if (verdict == Verdict::good) {
+    const StepResult result = try_step(h);
+    count(result);
+    if (result == StepResult::good) {
       accept(h);
       const double factor = control_.after_success(h, error_);
       h_ = h * (refused ? std::min(factor, 1.0) : factor);
@@ -121,9 +122,9 @@ void OneStep::advance_adaptively(double t_stop) {
       return;
     }
     refused = true;
-    if (verdict == Verdict::error_test && std::isfinite(error_)) h_ = h * control_.after_failure(error_);
+    if (result == StepResult::error_test && std::isfinite(error_)) h_ = h * control_.after_failure(error_);
     else h_ = newton_limit_ = kAfterNewton * h;
-    if (attempts == kMostAttempts || h_ <= resolution() || h_ < options_.h_min) give_up(verdict, now_.t, h);
+    if (attempts == kMostAttempts || h_ <= resolution() || h_ < options_.h_min) give_up(result, now_.t, h);
   }
 }
 
@@ -159,32 +160,32 @@ void OneStep::advance_by_fixed_step(double t_stop) {
   const double h = length_of_fixed_step(*options_.step, t_stop - now_.t);
   const double t_end = h == t_stop - now_.t ? t_stop : now_.t + h;
   next_.t = t_end;
-  Verdict verdict = try_step(h);
-  count(verdict);
-  if (verdict == Verdict::good) return accept(h);
+  StepResult result = try_step(h);
+  count(result);
+  if (result == StepResult::good) return accept(h);
 
-  const Knot begin = now_;
+  const StepEnd begin = now_;
   const double least = h * std::ldexp(1, -kMostHalvings);
   for (double part = h / 2; now_.t < t_end;) {
-    if (part < least) give_up(verdict, begin.t, h);
+    if (part < least) give_up(result, begin.t, h);
     const double rest = t_end - now_.t, tried = length_of_fixed_step(part, rest);
     next_.t = tried == rest ? t_end : now_.t + tried;
-    verdict = try_step(tried);
-    count(verdict);
-    if (verdict == Verdict::good) accept(tried);
+    result = try_step(tried);
+    count(result);
+    if (result == StepResult::good) accept(tried);
     else part = tried / 2;
   }
   before_ = begin;
 }
 
-void OneStep::give_up(Verdict verdict, double t, double h) const {
+void OneStep::give_up(StepResult result, double t, double h) const {
   const std::string where = fmt::format("{} stopped at t = {:.6g} s, step {:.3g} s: ", name_, t, h);
   const std::string shorter = options_.step ? "lower integrator.step" : "lower integrator.h_max or rtol";
-  switch (verdict) {
-    case Verdict::force:
+  switch (result) {
+    case StepResult::force:
       throw RunError(where + "the force cannot be evaluated (" + cause_ + "); " + shorter + " or check the loads",
                      Reason::force);
-    case Verdict::newton:
+    case StepResult::newton:
       throw RunError(where + "Newton's method does not converge" +
                          (options_.step ? fmt::format(" in {} halvings of the step", kMostHalvings) : "") + "; " +
                          shorter + ", set integrator.gauss_newton: true, or check for inverted elements",

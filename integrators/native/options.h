@@ -2,11 +2,11 @@
 #pragma once
 
 #include <array>
-#include <string>
+#include <utility>
 
 #include "integrators/error_control.h"
 #include "integrators/fixed_step.h"
-#include "integrators/linear_solver_key.h"
+#include "integrators/solver_options.h"
 
 namespace orthodyn {
 
@@ -20,22 +20,15 @@ struct Words<NewtonKind> {
 };
 
 // Of methods that solve with A = M + w_d D + w_k K.
-struct LinearOptions : ErrorControl, FixedStep {
-  std::string linear_solver = "cholmod";
-  bool gauss_newton = false;
-
-  TangentKind tangent() const { return gauss_newton ? TangentKind::gauss_newton : TangentKind::exact; }
-
+struct LinearOptions : ErrorControl, FixedStep, SolverOptions {
   // These keys, in a Spec of a struct derived from this one.
   template <class T>
   static Spec<T> spec_for();
 };
 
 // Of methods whose stages are found by Newton's method.
-struct NewtonOptions : LinearOptions {
+struct NewtonOptions : LinearOptions, NewtonLimits {
   NewtonKind newton = NewtonKind::lazy;
-  double nonlinear_coefficient = 0.01;
-  int max_newton_iterations = 6;
 
   template <class T>
   static Spec<T> spec_for();
@@ -43,27 +36,19 @@ struct NewtonOptions : LinearOptions {
 
 template <class T>
 Spec<T> LinearOptions::spec_for() {
-  using O = LinearOptions;
   auto spec = ErrorControl::spec_for<T>();
   FixedStep::add_to(spec, "Fixed step, in place of error control.");
-  spec.key("linear_solver", &O::linear_solver, "One of `orthodyn list solvers`, but for klu_full.")
-      .key("gauss_newton", &O::gauss_newton,
-           "Use the positive semidefinite Gauss-Newton part of the tangent from the start.")
-      .check([](const T& options, const Config& config) {
-        require_linear_solver(options.linear_solver, SolverPaths::reduced, config);
-      });
+  SolverOptions::add_to(spec, SolverPaths::reduced);
   return spec;
 }
 
 template <class T>
 Spec<T> NewtonOptions::spec_for() {
-  using O = NewtonOptions;
-  return LinearOptions::spec_for<T>()
-      .key("newton", &O::newton,
-           "When the tangent is made anew: when convergence asks for it, at each step, at each iteration.")
-      .key("nonlinear_coefficient", &O::nonlinear_coefficient,
-           "Newton stops at this fraction of rtol, with a fixed step too.", {.range = {0, 1, true, false}})
-      .key("max_newton_iterations", &O::max_newton_iterations, "Newton iterations per stage.", {.range = {1, 50}});
+  auto spec = LinearOptions::spec_for<T>().key(
+      "newton", &NewtonOptions::newton,
+      "When the tangent is made anew: when convergence asks for it, at each step, at each iteration.");
+  NewtonLimits::add_to(spec, "rtol, with a fixed step too", "stage");
+  return spec;
 }
 
 }  // namespace orthodyn

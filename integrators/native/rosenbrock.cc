@@ -85,7 +85,7 @@ class Rosenbrock : public LinearlyImplicit {
   Vector f_, p_, f_t_;
 };
 
-class RosenbrockChoice : public IntegratorChoice, public LinearOptions {
+class RosenbrockChoice : public SettableChoice<RosenbrockChoice>, public LinearOptions {
  public:
   int tangent_steps = 1;
 

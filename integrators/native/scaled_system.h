@@ -25,10 +25,12 @@ class ScaledSystem {
   // F, of v and a = M^-1 f.
   void rate(const Vector& v, const Vector& a, Vector& F) const;
 
-  // Takes K and D, and d(M^-1 f)/dt where f depends on time. Throws RecoverableError.
+  // Takes K and D at a state; where f depends on time set_slope() gives d(M^-1 f)/dt, m/s^3, too. Throws
+  // RecoverableError where the model does.
   void linearize(const State& at);
   void set_slope(const Vector& slope) { slope_ = slope; }
 
+  // Precondition: linearize(). Uses work space: not thread-safe.
   void multiply(const Eigen::Ref<const Vector>& x, VectorRef y);  // y = J x
 
   // q and v moved by a change of z.

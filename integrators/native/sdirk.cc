@@ -37,7 +37,7 @@ DirkTable order_4() {
           {0, 59.0 / 48 - b1, -17.0 / 96 - b2, 225.0 / 32 - b3, 0, -g}};
 }
 
-class SdirkChoice : public IntegratorChoice, public NewtonOptions {
+class SdirkChoice : public SettableChoice<SdirkChoice>, public NewtonOptions {
  public:
   int order = 3;
 

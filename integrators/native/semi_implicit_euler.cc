@@ -37,7 +37,7 @@ class SemiImplicitEuler : public LinearlyImplicit {
   Vector dq_, dv_;
 };
 
-class SemiImplicitEulerChoice : public IntegratorChoice, public LinearOptions {
+class SemiImplicitEulerChoice : public SettableChoice<SemiImplicitEulerChoice>, public LinearOptions {
  public:
   static const Spec<SemiImplicitEulerChoice>& spec() {
     static const auto s = LinearOptions::spec_for<SemiImplicitEulerChoice>();

@@ -12,7 +12,7 @@ constexpr double kSmallChange = 0.005, kLargeChange = 0.02;
 
 }  // namespace
 
-void StabilityWatch::look(const State& state) {
+void StabilityWatch::update(const State& state) {
   if (constant_ && step_ > 0) return;
   const double before = step_;
   step_ = critical_.at(state);

@@ -12,7 +12,7 @@ constexpr double kWeightDrift = 0.25;  // of w_k, up to which the factor is kept
 constexpr double kSameWeight = 1e-12;  // two equal steps are equal but for round-off
 constexpr double kSlow = 0.5;          // a rate at which a new tangent pays
 constexpr double kRoundOff = 1e-10;    // of the scales: corrections below it that do not shrink are round-off
-constexpr double kLeastSlowness = 1e-3;  // of a nonlinear model: what is less is round-off
+constexpr double kLeastContractionFactor = 1e-3;  // of a nonlinear model: what is less is round-off
 }  // namespace
 
 StageSolver::StageSolver(const Model& model, const NewtonOptions& options, const ScaledNorm& norm,
@@ -51,10 +51,10 @@ double StageSolver::drift(const Stage& stage) const {
 bool StageSolver::prepare(const Stage& stage, const ConstVectorRef& x, bool anew) {
   if (anew) linearize(stage, x);
   if (factored_ && drift(stage) <= (anew ? 0 : kWeightDrift)) {
-    if (drift(stage) > 0) slowness_ = 1;
+    if (drift(stage) > 0) contraction_factor_ = 1;
     return true;
   }
-  slowness_ = 1;
+  contraction_factor_ = 1;
   return factored_ = matrix_.factor({1, stage.w_d, stage.w_k});
 }
 
@@ -68,7 +68,8 @@ void StageSolver::linearize(const Stage& stage, const ConstVectorRef& x) {
 
 bool StageSolver::iterate(const Stage& stage, VectorRef x, VectorRef q, VectorRef v, bool renew_each_time) {
   // The rate may have become worse since it was measured, but not that of a linear model.
-  if (!model_.traits().linear) slowness_ = std::pow(std::max(slowness_, kLeastSlowness), 0.8);
+  if (!model_.traits().linear)
+    contraction_factor_ = std::pow(std::max(contraction_factor_, kLeastContractionFactor), 0.8);
   double last = 0;
   for (int k = 1; k <= max_iterations_; ++k) {
     q = stage.q + stage.w_k * x;
@@ -78,7 +79,7 @@ bool StageSolver::iterate(const Stage& stage, VectorRef x, VectorRef q, VectorRe
     x += dx_;
     const double size = norm_(dx_, stage.w_k, stage.w_d);
     if (!std::isfinite(size) || !shrinks(size, last)) return false;
-    if (slowness_ * size <= tolerance_) {
+    if (contraction_factor_ * size <= tolerance_) {
       q += stage.w_k * dx_;
       v += stage.w_d * dx_;
       return true;
@@ -109,10 +110,10 @@ bool StageSolver::shrinks(double size, double last) {
   if (last == 0) return true;
   const double rate = size / last;
   if (rate >= 1) {
-    slowness_ = 0;  // round-off is as good as it gets
+    contraction_factor_ = 0;  // round-off is as good as it gets
     return size * norm_.rtol() <= kRoundOff;
   }
-  slowness_ = rate / (1 - rate);
+  contraction_factor_ = rate / (1 - rate);
   if (rate > kSlow) stale_ = true;
   return true;
 }

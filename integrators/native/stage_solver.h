@@ -17,20 +17,20 @@ namespace orthodyn {
 class StageSolver {
  public:
   struct Stage {
-    double t = 0;
-    Vector q, v;  // q*, v*
-    double w_d = 0, w_k = 0;
+    double t = 0;             // s
+    Vector q, v;              // q*, v*
+    double w_d = 0, w_k = 0;  // s, s^2
   };
 
   // Throws ConfigError if the linear solver does not take the model's matrices. `model` and `statistics`
   // must outlive this.
   StageSolver(const Model& model, const NewtonOptions& options, const ScaledNorm& norm, Statistics& statistics);
 
-  // A new step begins; after a restart the state may be far from the last one.
+  // To be called when a new step begins, and when the state may be far from the last one.
   void begin_step();
   void restart() { stale_ = true; }
 
-  // From a guess of x to the solution, and q and v there. False if there is none within reach. Throws
+  // From a guess of x, m/s^2, to the solution, and q and v there. False if Newton's method does not converge. Throws
   // RecoverableError where the force cannot be evaluated.
   bool solve(const Stage& stage, VectorRef x, VectorRef q, VectorRef v);
 
@@ -43,7 +43,7 @@ class StageSolver {
   std::string description() const { return matrix_.description(); }
 
  private:
-  // A factor for the stage, of a new tangent if `anew`. False if there is none.
+  // Factors the stage's matrix, with a new tangent if `anew`. False if there is no factor.
   bool prepare(const Stage& stage, const ConstVectorRef& x, bool anew);
   double drift(const Stage& stage) const;
   void linearize(const Stage& stage, const ConstVectorRef& x);
@@ -61,7 +61,7 @@ class StageSolver {
   NewtonMatrix matrix_;
   bool stale_ = true;      // K and D are to be made anew before they are used
   bool linearized_ = false, factored_ = false;
-  double slowness_ = 1;    // rate / (1 - rate) of the last iteration with this factor
+  double contraction_factor_ = 1;  // rate / (1 - rate) of the last iteration with this matrix factor
   Vector r_, dx_, guess_, work_;
 };
 

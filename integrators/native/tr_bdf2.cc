@@ -12,7 +12,7 @@ DirkTable tr_bdf2() {
   return composite_table(g, std::numbers::sqrt2 / 4, g / 2);
 }
 
-class TrBdf2Choice : public IntegratorChoice, public NewtonOptions {
+class TrBdf2Choice : public SettableChoice<TrBdf2Choice>, public NewtonOptions {
  public:
   static const Spec<TrBdf2Choice>& spec() {
     static const auto s = NewtonOptions::spec_for<TrBdf2Choice>();

@@ -1,4 +1,4 @@
-// The border between SUNDIALS' C code and the model: no exception crosses it.
+// Callbacks from SUNDIALS' C code into the model: no exception passes through C.
 #pragma once
 
 #include <exception>
@@ -11,23 +11,23 @@
 namespace orthodyn::sundials {
 
 // What callbacks share with their integrator.
-struct Border {
+struct CallbackContext {
   std::exception_ptr failure;     // a fatal exception on its way past the C code
   std::string recoverable_cause;  // why the last evaluation asked for a smaller step
-  std::string message;    // what SUNDIALS said last
+  std::string message;            // what SUNDIALS said last
 };
 
 // Runs a callback's body: 0, +1 (recoverable: try a smaller step) or -1 (fatal).
 template <class Body>
-int guarded(Border& border, Body&& body) {
+int guarded(CallbackContext& context, Body&& body) {
   try {
     body();
     return 0;
   } catch (const RecoverableError& e) {
-    border.recoverable_cause = e.what();
+    context.recoverable_cause = e.what();
     return 1;
   } catch (...) {
-    border.failure = std::current_exception();
+    context.failure = std::current_exception();
     return -1;
   }
 }

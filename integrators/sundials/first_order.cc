@@ -16,7 +16,7 @@ int FirstOrderIntegrator::evaluate(double t, N_Vector y, N_Vector y_dot) {
 }
 
 int FirstOrderIntegrator::evaluate_acceleration(const Model& model, double t, N_Vector y, VectorRef a) {
-  return guarded(border_, [&] {
+  return guarded(callback_context_, [&] {
     const Measure measure(statistics_.force);
     model.force(t, positions(y), velocities(y), a);
     require_finite(a);
@@ -26,13 +26,13 @@ int FirstOrderIntegrator::evaluate_acceleration(const Model& model, double t, N_
 
 int FirstOrderIntegrator::linearize_reduced(double t, N_Vector y, bool keep, sunbooleantype* renewed) {
   *renewed = !keep;
-  return guarded(border_, [&] {
+  return guarded(callback_context_, [&] {
     if (!keep) reduced_->linearize(t, positions(y), velocities(y));
   });
 }
 
 int FirstOrderIntegrator::fill_full(double t, N_Vector y, SUNMatrix J) {
-  return guarded(border_, [&] {
+  return guarded(callback_context_, [&] {
     linearize_full(t, y);
     full_->fill_first_order(linearization_, J);
   });

@@ -17,7 +17,7 @@ class FullJacobian {
 
   OwnedMatrix make_matrix(SUNContext context) const;
 
-  // Pattern and values: CVODE and IDA wipe both before they ask.
+  // Pattern and values, since CVODE and IDA erase both before they ask. `cj` in 1/s.
   void fill_first_order(const Linearization& at, SUNMatrix J);
   void fill_ida(double cj, const Linearization& at, SUNMatrix J);
 

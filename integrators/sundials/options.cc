@@ -1,6 +1,5 @@
 #include "integrators/sundials/options.h"
 
-#include "integrators/linear_solver_key.h"
 #include "lib/core/versions.h"
 #include "lib/linear/solver.h"
 
@@ -18,10 +17,6 @@ const bool version_registered = library_versions().emplace("SUNDIALS", library_v
 
 }  // namespace
 
-void check_options(const Options& options, const Config& config) {
-  require_linear_solver(options.linear_solver, SolverPaths::all, config);
-}
-
 Settings Settings::complete(const Options& options, const Task& task) {
   const Scales scales = options.scales(task);
   return {options, scales, true, options.linear_solver == "klu_full", scale_decisions(scales)};
@@ -29,7 +24,7 @@ Settings Settings::complete(const Options& options, const Task& task) {
 
 Settings Settings::complete_explicit(const ErrorControl& control, const Task& task) {
   const Scales scales = control.scales(task);
-  return {{control}, scales, false, false, scale_decisions(scales)};
+  return {{control, {}, {}}, scales, false, false, scale_decisions(scales)};
 }
 
 void Settings::set_weights(N_Vector weights) const {

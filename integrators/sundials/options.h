@@ -1,20 +1,13 @@
 // What all integrators of SUNDIALS have in common: their keys and their tolerances.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "integrators/error_control.h"
+#include "integrators/solver_options.h"
 #include "integrators/sundials/handles.h"
 
 namespace orthodyn::sundials {
 
-struct Options : ErrorControl {
-  double nonlinear_coefficient = 0.01;
-  int max_newton_iterations = 6;
-  std::string linear_solver = "cholmod";
-  bool gauss_newton = false;
-
+struct Options : ErrorControl, NewtonLimits, SolverOptions {
   // These keys, in a Spec of a struct derived from this one.
   template <class T>
   static Spec<T> spec_for();
@@ -28,10 +21,6 @@ struct Settings {
   bool full;            // klu_full
   Decisions decisions;  // what the input left open
 
-  TangentKind tangent() const {
-    return options.gauss_newton ? TangentKind::gauss_newton : TangentKind::exact;
-  }
-
   static Settings complete(const Options& options, const Task& task);
   // Of a method that solves with no matrix.
   static Settings complete_explicit(const ErrorControl& control, const Task& task);
@@ -41,19 +30,12 @@ struct Settings {
   void set_weights(N_Vector weights) const;
 };
 
-void check_options(const Options& options, const Config& config);
-
 template <class T>
 Spec<T> Options::spec_for() {
-  using O = Options;
-  return ErrorControl::spec_for<T>()
-      .key("nonlinear_coefficient", &O::nonlinear_coefficient,
-           "Newton stops at this fraction of the error test.", {.range = {0, 1, true, false}})
-      .key("max_newton_iterations", &O::max_newton_iterations, "Newton iterations per step.", {.range = {1, 50}})
-      .key("linear_solver", &O::linear_solver, "One of `orthodyn list solvers`.")
-      .key("gauss_newton", &O::gauss_newton,
-           "Use the positive semidefinite Gauss-Newton part of the tangent from the start.")
-      .check([](const T& options, const Config& config) { check_options(options, config); });
+  auto spec = ErrorControl::spec_for<T>();
+  NewtonLimits::add_to(spec, "the error test", "step");
+  SolverOptions::add_to(spec, SolverPaths::all);
+  return spec;
 }
 
 }  // namespace orthodyn::sundials

@@ -12,7 +12,7 @@ SundialsIntegrator::SundialsIntegrator(std::string name, const Model& model, con
       name_(std::move(name)) {
   if (!settings.implicit) return;
   if (settings.full) full_.emplace(model);
-  else reduced_.emplace(model, settings.options.linear_solver, settings.tangent(), statistics_);
+  else reduced_.emplace(model, settings.options.linear_solver, settings.options.tangent(), statistics_);
 }
 
 void SundialsIntegrator::start(const State& state) {
@@ -38,18 +38,18 @@ StepInfo SundialsIntegrator::step(double t_stop) {
                                "or integrator.{}",
                                name_, t_, statistics_.steps, adaptive() ? "rtol" : "step"),
                    Reason::too_many_steps);
-  border_ = {};
+  callback_context_ = {};
   const int flag = advance(t_stop, t_);
   update_statistics();
   if (flag < 0) fail(flag);
   StepInfo info = last_step();
   info.t = t_;
-  refuse_to_creep(info, t_stop);
+  refuse_tiny_steps(info, t_stop);
   return info;
 }
 
 // In front of a time past which the model cannot be evaluated the library takes ever smaller steps.
-void SundialsIntegrator::refuse_to_creep(const StepInfo& info, double t_stop) const {
+void SundialsIntegrator::refuse_tiny_steps(const StepInfo& info, double t_stop) const {
   if (info.t >= t_stop || info.h > 4 * std::numeric_limits<double>::epsilon() * std::abs(info.t)) return;
   throw RunError(position() + "the step has shrunk to the resolution of time" + cause() +
                      "; raise integrator.rtol, lower integrator.h_max or check the loads",
@@ -61,13 +61,13 @@ std::string SundialsIntegrator::position() const {
 }
 
 std::string SundialsIntegrator::cause() const {
-  return border_.recoverable_cause.empty() ? "" : " (" + border_.recoverable_cause + ")";
+  return callback_context_.recoverable_cause.empty() ? "" : " (" + callback_context_.recoverable_cause + ")";
 }
 
 void SundialsIntegrator::interpolate(double t, State& out) const {
   const auto dense = make_vector(size(), context_);
   if (dense_output(t, dense.get()) < 0)
-    throw RunError(fmt::format("{} cannot interpolate at t = {:.17g} s: {}", name_, t, border_.message));
+    throw RunError(fmt::format("{} cannot interpolate at t = {:.17g} s: {}", name_, t, callback_context_.message));
   out.t = t;
   out.q = positions(dense.get());
   out.v = velocities(dense.get());
@@ -86,21 +86,21 @@ Decisions SundialsIntegrator::decisions() const {
 }
 
 void SundialsIntegrator::require(int flag) const {
-  if (flag < 0) throw RunError(name_ + " refused its set-up: " + border_.message);
+  if (flag < 0) throw RunError(name_ + " refused its set-up: " + callback_context_.message);
 }
 
 void SundialsIntegrator::make_reduced_solver(std::function<double()> gamma,
                                               std::function<void(N_Vector, N_Vector)> solve) {
-  matrix_ = make_matrix_plug(context_);
+  matrix_ = make_placeholder_matrix(context_);
   functions_.setup = [this, gamma = std::move(gamma)] {
     bool factored = false;
-    const int thrown = guarded(border_, [&] { factored = reduced_->factor(gamma()); });
+    const int thrown = guarded(callback_context_, [&] { factored = reduced_->factor(gamma()); });
     return thrown ? thrown : factored ? 0 : 1;
   };
   functions_.solve = [this, solve = std::move(solve)](N_Vector x, N_Vector b) {
-    return guarded(border_, [&] { solve(x, b); });
+    return guarded(callback_context_, [&] { solve(x, b); });
   };
-  solver_ = make_solver_plug(functions_, context_);
+  solver_ = make_solver_adapter(functions_, context_);
 }
 
 void SundialsIntegrator::make_full_solver() {
@@ -114,12 +114,12 @@ void SundialsIntegrator::make_full_solver() {
     const Measure measure(statistics_.solve);
     return static_cast<int>(SUNLinSolSolve(klu_.get(), matrix_.get(), x, b, 0));
   };
-  solver_ = make_solver_plug(functions_, context_);
+  solver_ = make_solver_adapter(functions_, context_);
 }
 
 void SundialsIntegrator::linearize_full(double t, N_Vector y) {
   const Measure measure(statistics_.tangent);
-  model_.linearize(t, positions(y), velocities(y), settings_.tangent(), linearization_);
+  model_.linearize(t, positions(y), velocities(y), settings_.options.tangent(), linearization_);
 }
 
 void SundialsIntegrator::update_statistics() {
@@ -133,7 +133,7 @@ void SundialsIntegrator::update_statistics() {
 }
 
 void SundialsIntegrator::fail(int flag) {
-  if (border_.failure) std::rethrow_exception(border_.failure);
+  if (callback_context_.failure) std::rethrow_exception(callback_context_.failure);
   const Reason reason = classify(flag);
   switch (reason) {
     case Reason::error_test:
@@ -154,7 +154,7 @@ void SundialsIntegrator::fail(int flag) {
     case Reason::step_too_small:
       throw RunError(position() + "the time left is below the resolution of time", reason);
     default:
-      throw RunError(position() + border_.message + fmt::format(" (flag {})", flag), reason);
+      throw RunError(position() + callback_context_.message + fmt::format(" (flag {})", flag), reason);
   }
 }
 

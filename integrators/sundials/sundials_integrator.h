@@ -1,5 +1,5 @@
-// What all integrators of SUNDIALS share: the state, the model behind its border, the linear solver
-// (reduced or full), counting, and the sentences of failure. The libraries' own calls stay in theirs.
+// What all integrators of SUNDIALS share: the state, the callbacks into the model, the linear solver
+// (reduced or full), counting, and the messages of failure. The calls of each library stay in its own integrators.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 #include "integrators/sundials/callbacks.h"
 #include "integrators/sundials/full_jacobian.h"
 #include "integrators/sundials/options.h"
-#include "integrators/sundials/plug.h"
+#include "integrators/sundials/solver_adapter.h"
 
 namespace orthodyn::sundials {
 
@@ -34,18 +34,19 @@ class SundialsIntegrator : public Integrator {
   // `name` is the integrator's, for messages.
   SundialsIntegrator(std::string name, const Model& model, const Settings& settings);
 
-  // First, resp. further starts, from y(); may set up more.
+  // The first start and further ones, from y(); the first may set up more.
   virtual void initialise(double t) = 0;
   virtual void reinitialise(double t) = 0;
-  // One library step towards t_stop: sets t and returns the flag.
+  // One step of the library from y() to y(), at t_stop at the latest: sets t and returns the library's flag.
   virtual int advance(double t_stop, double& t) = 0;
   virtual StepInfo last_step() const = 0;
-  virtual double current_step() const = 0;
+  virtual double current_step() const = 0;  // s, of the step that is being tried
+  // (q, v) at a time within the last step; returns the library's flag.
   virtual int dense_output(double t, N_Vector out) const = 0;
   virtual Counters counters() const = 0;
   virtual Reason classify(int flag) const = 0;  // of a negative flag
   virtual std::size_t workspace_bytes() const = 0;
-  virtual bool adaptive() const { return true; }
+  virtual bool adaptive() const { return true; }  // error control decides on the steps
   // What to say when the iteration of a step does not converge, and the remedy.
   virtual std::string iteration_failure() const;
   std::string cause() const;  // why the model refused the last state, if it did
@@ -53,10 +54,10 @@ class SundialsIntegrator : public Integrator {
   // Throws RunError with the library's words if the flag is negative.
   void require(int flag) const;
 
-  // M^-1 f at y(), where the integration begins. Throws RunError where it cannot be evaluated.
+  // a = M^-1 f at y(), m/s^2, where the integration begins. Throws RunError where it cannot be evaluated.
   void initial_acceleration(const Model& model, double t, VectorRef a);
 
-  // The linear solver: `setup` and `solve` go to the reduced solve, resp. SUNDIALS' KLU.
+  // The linear solver: its calls go to the reduced solve, or to SUNDIALS' KLU.
   void make_reduced_solver(std::function<double()> gamma, std::function<void(N_Vector x, N_Vector b)> solve);
   void make_full_solver();
   void linearize_full(double t, N_Vector y);
@@ -67,20 +68,20 @@ class SundialsIntegrator : public Integrator {
   const Model& model_;
   Settings settings_;
   Statistics statistics_;
-  Border border_;
+  CallbackContext callback_context_;
   Context context_;  // before everything made in it
   OwnedVector y_;
   Vector momentum_;
   std::optional<ReducedSolve> reduced_;
   std::optional<FullJacobian> full_;
   Linearization linearization_;  // of the full path
-  SolverFunctions functions_;    // before the plug that calls them
+  SolverFunctions functions_;    // before the adapter that calls them
   OwnedMatrix matrix_;
-  OwnedSolver klu_, solver_;  // SUNDIALS' KLU of the full path stands behind the plug
+  OwnedSolver klu_, solver_;  // SUNDIALS' KLU of the full path is called by the adapter
 
  private:
   void update_statistics();
-  void refuse_to_creep(const StepInfo& info, double t_stop) const;
+  void refuse_tiny_steps(const StepInfo& info, double t_stop) const;
   std::string position() const;  // where it stopped, to begin a message
   [[noreturn]] void fail(int flag);
 

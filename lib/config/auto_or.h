@@ -21,8 +21,8 @@ struct Value<AutoOr<V>> {
   }
   static AutoOr<V> read(const Config& c, const Rule& r) {
     if (c.is_scalar() && c.text() == "auto") return {};
-    if (c.is_scalar() && nearest_name(c.text(), {"auto"}) == "auto")
-      c.fail("expected " + type_text(shape()) + ", found " + c.shown() + "; did you mean 'auto'?");
+    if (const auto hint = c.is_scalar() ? did_you_mean(c.text(), {"auto"}) : ""; !hint.empty())
+      c.fail("expected " + type_text(shape()) + ", found " + c.shown() + hint, InputFault::form);
     return {Value<V>::read(c, r)};
   }
   static std::string yaml(const AutoOr<V>& x) { return x.value ? Value<V>::yaml(*x.value) : "auto"; }

@@ -2,16 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <set>
-#include <sstream>
+#include <optional>
 
-#include "lib/core/parse_number.h"
 #include "lib/config/yaml_document.h"
+#include "lib/config/yaml_write.h"
+#include "lib/core/parse_number.h"
 
 namespace orthodyn {
 
@@ -20,41 +19,21 @@ namespace {
 struct Document {
   std::string file;
   YAML::Node root;
-  Origins included;                  // what does not stand in `file`
-  std::set<std::string> overridden;  // paths given by --set
-  std::set<std::string> filled;      // paths of defaults: they stand on no line
+  bool records_defaults = false;
+  Origins included;                                                 // what does not stand in `file`
+  std::map<std::string, std::string> set;                           // by path: places of values set later, or ""
   std::map<std::string, std::pair<YAML::Node, std::string>> files;  // by path: values that name files
 };
 
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  std::stringstream stream(text);
-  for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
-  return parts;
+// "mesh.cells.0" of "mesh.cells" is ".0"; nothing if it is neither that nor below it.
+std::optional<std::string> rest_below(const std::string& path, const std::string& top) {
+  if (!path.starts_with(top) || (path.size() > top.size() && path[top.size()] != '.')) return {};
+  return path.substr(top.size());
 }
 
-void put_on_one_line(YAML::Node node) {
-  if (node.IsMap() || node.IsSequence()) node.SetStyle(YAML::EmitterStyle::Flow);
-  for (auto child : node) put_on_one_line(node.IsMap() ? child.second : YAML::Node(child));
-}
-
-// Of a list or a section, for writing: a missing key is made.
-YAML::Node entry(YAML::Node& parent, const std::string& step, const std::string& path,
-                 const std::string& origin) {
-  if (parent.IsMap() || parent.IsNull()) return parent[step];
-  if (!parent.IsSequence())
-    throw ConfigError(fmt::format("{}: there is nothing below '{}', which is a value", origin,
-                                  path.substr(0, path.size() - step.size() - 1)));
-  std::size_t index = 0;
-  if (!parse_number(step, index) || index >= parent.size())
-    throw ConfigError(fmt::format("{}: '{}' is not an index below {}", origin, step, parent.size()));
-  return parent[index];
-}
-
-bool is_at_or_below(const std::string& path, const std::set<std::string>& places) {
-  return std::any_of(places.begin(), places.end(), [&](const std::string& place) {
-    return path == place || path.starts_with(place + ".");
-  });
+void remember(std::map<std::string, std::string>& set, const std::string& path, const std::string& place) {
+  std::erase_if(set, [&](const auto& entry) { return rest_below(entry.first, path).has_value(); });
+  set[path] = place;
 }
 
 }  // namespace
@@ -62,6 +41,7 @@ bool is_at_or_below(const std::string& path, const std::set<std::string>& places
 struct Config::Place {
   std::shared_ptr<Document> document;
   YAML::Node node;
+  YAML::Node parsed;  // the node that was read from a file, which has the line; undefined for a default
   std::string path;
 };
 
@@ -74,33 +54,45 @@ Config Config::from_text(const std::string& text, const std::string& name) {
   document->file = name;
   document->root = parse_yaml(text, name);
   document->included = resolve_includes(document->root, name);
-  return Config(std::make_shared<Place>(Place{document, document->root, ""}));
+  return Config(std::make_shared<Place>(Place{document, document->root, document->root, ""}));
+}
+
+Config Config::copy() const { return copy(false); }
+
+Config Config::resolving() const { return place_->document->records_defaults ? *this : copy(true); }
+
+Config Config::copy(bool resolving) const {
+  const Document& original = *place_->document;
+  auto document = std::make_shared<Document>(
+      Document{original.file, YAML::Clone(place_->node), resolving, original.included, original.set, {}});
+  return Config(std::make_shared<Place>(Place{document, document->root, place_->parsed, place_->path}));
+}
+
+void Config::set(const std::string& path, const ConfigValue& value, const std::string& place) {
+  write_at(place_->document->root, place_->node, path, node_of(value), place.empty() ? "--set " + path : place);
+  remember(place_->document->set, child_path(place_->path, path), place);
+}
+
+void Config::set(const std::string& path, const Config& value, const std::string& place) {
+  YAML::Node copy = YAML::Clone(value.place_->node);
+  put_on_one_line(copy);
+  write_at(place_->document->root, place_->node, path, copy, place.empty() ? "--set " + path : place);
+  remember(place_->document->set, child_path(place_->path, path), place);
+}
+
+void Config::set_yaml(const std::string& path, const std::string& yaml, const std::string& place) {
+  const std::string origin = place.empty() ? fmt::format("--set {}={}", path, yaml) : place;
+  write_at(place_->document->root, place_->node, path, parse_yaml(yaml + "\n", origin), origin);
+  remember(place_->document->set, child_path(place_->path, path), place);
 }
 
 void Config::override_with(const std::string& assignment) {
   const auto equals = assignment.find('=');
-  const std::string origin = fmt::format("--set {}", assignment);
-  const auto steps = split(assignment.substr(0, equals) + ".", '.');
-  if (equals == std::string::npos || std::count(steps.begin(), steps.end(), "") > 0 ||
+  const std::string path = "." + assignment.substr(0, equals) + ".";
+  if (equals == std::string::npos || path.find("..") != std::string::npos ||
       assignment.find_first_not_of(' ', equals + 1) == std::string::npos)
-    throw ConfigError(origin + ": expected PATH=VALUE, such as integrator.rtol=1e-5");
-  const YAML::Node value = parse_yaml(assignment.substr(equals + 1) + "\n", origin);
-
-  YAML::Node node = place_->document->root;  // a handle: writing through it changes the document
-  std::string path;
-  for (const auto& step : steps) {
-    path = child_path(path, step);
-    YAML::Node next = entry(node, step, path, origin);
-    if (next.IsDefined() && occurrences(place_->document->root, next) > 1)
-      throw ConfigError(
-          fmt::format("{}: '{}' stands in several places by an alias; change the file", origin, path));
-    const bool last = path.size() == equals;
-    if (!last && (!next.IsDefined() || next.IsNull()))
-      next = YAML::Node(YAML::NodeType::Map);
-    node.reset(next);
-  }
-  node = value;
-  place_->document->overridden.insert(path);
+    throw ConfigError("--set " + assignment, "expected PATH=VALUE, such as integrator.rtol=1e-5", InputFault::form);
+  set_yaml(assignment.substr(0, equals), assignment.substr(equals + 1));
 }
 
 bool Config::is_map() const { return place_->node.IsMap(); }
@@ -109,11 +101,18 @@ bool Config::is_scalar() const { return place_->node.IsScalar(); }
 bool Config::is_null() const { return place_->node.IsNull(); }
 std::size_t Config::size() const { return place_->node.size(); }
 
-Config Config::at(std::size_t index) const {
-  const YAML::Node child = place_->node[index];
-  return Config(std::make_shared<Place>(
-      Place{place_->document, child, child_path(place_->path, std::to_string(index))}));
+template <class Step>
+Config Config::child(const Step& step, const std::string& name) const {
+  const YAML::Node &node = place_->node, &parsed = place_->parsed;  // const: operator[] must not create the key
+  const bool has_lines = parsed.IsDefined() && (parsed.IsMap() || parsed.IsSequence());
+  return Config(std::make_shared<Place>(Place{place_->document, node[step],
+                                              has_lines ? parsed[step] : YAML::Node(YAML::NodeType::Undefined),
+                                              child_path(place_->path, name)}));
 }
+
+Config Config::at(std::size_t index) const { return child(index, std::to_string(index)); }
+
+Config Config::at(const std::string& key) const { return child(key, key); }
 
 std::vector<std::string> Config::keys() const {
   std::vector<std::string> names;
@@ -126,12 +125,6 @@ bool Config::has(const std::string& key) const {
   return node.IsMap() && node[key].IsDefined();
 }
 
-Config Config::at(const std::string& key) const {
-  const YAML::Node& node = place_->node;
-  return Config(
-      std::make_shared<Place>(Place{place_->document, node[key], child_path(place_->path, key)}));
-}
-
 bool Config::reads_as_number() const {
   double value = 0;
   return is_scalar() && parse_number(place_->node.Scalar(), value);
@@ -140,15 +133,15 @@ bool Config::reads_as_number() const {
 double Config::number() const {
   double value = 0;
   if (!is_scalar() || !parse_number(place_->node.Scalar(), value))
-    fail(fmt::format("expected a number, found {}", shown()));
-  if (!std::isfinite(value)) fail(fmt::format("expected a finite number, found {}", shown()));
+    fail(fmt::format("expected a number, found {}", shown()), InputFault::form);
+  if (!std::isfinite(value)) fail(fmt::format("expected a finite number, found {}", shown()), InputFault::form);
   return value;
 }
 
 long Config::integer() const {
   const double value = number();
   if (value != std::floor(value) || std::abs(value) > 9e15)
-    fail(fmt::format("expected a whole number, found {}", shown()));
+    fail(fmt::format("expected a whole number, found {}", shown()), InputFault::form);
   return static_cast<long>(value);
 }
 
@@ -156,25 +149,25 @@ bool Config::boolean() const {
   const std::string value = is_scalar() ? place_->node.Scalar() : "";
   if (value == "true") return true;
   if (value == "false") return false;
-  fail(fmt::format("expected true or false, found {}", shown()));
+  fail(fmt::format("expected true or false, found {}", shown()), InputFault::form);
 }
 
 std::string Config::text() const {
-  if (!is_scalar()) fail(fmt::format("expected a text, found {}", shown()));
+  if (!is_scalar()) fail(fmt::format("expected a text, found {}", shown()), InputFault::form);
   return place_->node.Scalar();
 }
 
 Config Config::fill(const std::string& key, const std::string& yaml) const {
+  assert(place_->document->records_defaults);
   YAML::Node node = place_->node;
   node[key] = YAML::Load(yaml);
-  place_->document->filled.insert(child_path(place_->path, key));
   return at(key);
 }
 
 Config Config::fill_text(const std::string& key, const std::string& text) const {
+  assert(place_->document->records_defaults);
   YAML::Node node = place_->node;
   node[key] = text;
-  place_->document->filled.insert(child_path(place_->path, key));
   return at(key);
 }
 
@@ -189,12 +182,11 @@ std::string Config::shown() const {
 
 std::string Config::where() const {
   const auto& document = *place_->document;
-  if (is_at_or_below(place_->path, document.overridden))
-    return fmt::format("{}: --set {}", document.file, place_->path);
-  if (is_at_or_below(place_->path, document.filled))
-    return fmt::format("{}: {}", document.file, place_->path);
-  const std::string mark = mark_text(file(), place_->node.Mark());
-  return place_->path.empty() ? mark : mark + ": " + place_->path;
+  for (auto it = document.set.rbegin(); it != document.set.rend(); ++it)  // what is further below comes first
+    if (const auto rest = rest_below(place_->path, it->first))
+      return it->second.empty() ? fmt::format("{}: --set {}", document.file, place_->path) : it->second + *rest;
+  const std::string place = place_->parsed.IsDefined() ? mark_text(file(), place_->parsed.Mark()) : document.file;
+  return place_->path.empty() ? place : place + ": " + place_->path;
 }
 
 std::string Config::path() const { return place_->path; }
@@ -213,7 +205,8 @@ std::string Config::file() const {
 std::string Config::file_path() const {
   namespace fs = std::filesystem;
   const std::string found = (fs::path(file()).parent_path() / text()).string();
-  place_->document->files.insert_or_assign(place_->path, std::pair(place_->node, found));
+  if (place_->document->records_defaults)
+    place_->document->files.insert_or_assign(place_->path, std::pair(place_->node, found));
   return found;
 }
 
@@ -223,9 +216,7 @@ std::vector<std::string> Config::file_paths() const {
   return out;
 }
 
-void Config::fail(const std::string& message) const {
-  throw ConfigError(where() + ": " + message);
-}
+void Config::fail(const std::string& message, InputFault fault) const { throw ConfigError(where(), message, fault); }
 
 std::string Config::yaml() const {
   YAML::Node copy = YAML::Clone(place_->node);

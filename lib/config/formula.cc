@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 
 #include "lib/core/versions.h"
+#include "lib/core/words.h"
 
 namespace orthodyn {
 
@@ -19,10 +21,23 @@ const bool version_registered =
 }  // namespace
 
 struct Formula::Parsed {
+  double at(const double* values) const;
+
   std::vector<std::string> names;
+  mutable std::mutex mutex;               // of the next two: muParser keeps its stack between calls
   mutable std::vector<double> variables;  // where muParser looks them up
   mu::Parser parser;
 };
+
+double Formula::Parsed::at(const double* values) const {
+  const std::lock_guard lock(mutex);
+  std::copy_n(values, variables.size(), variables.begin());
+  try {
+    return parser.Eval();
+  } catch (const mu::Parser::exception_type&) {  // no std::exception
+    return std::nan("");
+  }
+}
 
 Formula::Formula(const std::string& text, const std::vector<std::string>& variables, std::string where)
     : text_(text), where_(std::move(where)) {
@@ -44,18 +59,13 @@ Formula::Formula(const std::string& text, const std::vector<std::string>& variab
 }
 
 double Formula::evaluate(const double* values) const {
-  std::copy_n(values, parsed_->variables.size(), parsed_->variables.begin());
-  double value = std::nan("");
-  try {
-    value = parsed_->parser.Eval();
-  } catch (const mu::Parser::exception_type&) {  // no std::exception; the value stays what it is
-  }
+  const double value = parsed_->at(values);
   if (std::isfinite(value)) return value;
   std::vector<std::string> place;
   for (std::size_t i = 0; i < parsed_->names.size(); ++i)
     place.push_back(fmt::format("{} = {}", parsed_->names[i], values[i]));
-  throw ConfigError(fmt::format("{}: '{}' is {} at {}", where_, text_,
-                                std::isnan(value) ? "not a number" : "infinite", join(place)));
+  throw ConfigError(where_, fmt::format("'{}' is {} at {}", text_, std::isnan(value) ? "not a number" : "infinite",
+                                        join(place)));
 }
 
 void fail_formula(const Config& c, const std::string& known, const std::string& complaint) {

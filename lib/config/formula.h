@@ -1,6 +1,6 @@
 // Formulas of the input, such as "105*sin(pi*y/12)": muParser's syntax, the constants pi and e, and
 // variables that depend on where the formula stands: the coordinates x, y, z of a point in m, the time t
-// in s. The only door to muParser.
+// in s. The only door to muParser. Formulas may be evaluated by several threads; copies of one wait for each other.
 #pragma once
 
 #include <concepts>
@@ -21,8 +21,7 @@ class Formula {
   const std::string& text() const { return text_; }
 
  protected:
-  // The values of the variables, in their order. Throws ConfigError where the result is not a number. Not to
-  // be called by two threads at once.
+  // The values of the variables, in their order. Throws ConfigError where the result is not a number.
   double evaluate(const double* values) const;
 
  private:

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lib/core/words.h"
+
 namespace orthodyn {
 
 std::vector<std::string>& registry_conflicts() {
@@ -11,14 +13,13 @@ std::vector<std::string>& registry_conflicts() {
 
 std::string registered_type(const Config& config, const std::vector<std::string>& names) {
   if (!config.is_map())
-    config.fail("expected a section with the key 'type' (" + join(names) + "), found " + config.shown());
+    config.fail("expected a section with the key 'type' (" + join(names) + "), found " + config.shown(),
+                InputFault::form);
   if (!config.has("type")) config.fail("key 'type' is missing; one of " + join(names));
   const Config type = config.at("type");
   const std::string name = type.text();
   if (std::find(names.begin(), names.end(), name) != names.end()) return name;
-  const auto near = nearest_name(name, names);
-  type.fail("unknown '" + name + "'" + (near.empty() ? "." : "; did you mean '" + near + "'?") +
-            " Known: " + join(names) + ".");
+  type.fail("unknown '" + name + "'" + did_you_mean(name, names, ".") + " Known: " + join(names) + ".");
 }
 
 }  // namespace orthodyn

@@ -26,6 +26,7 @@ class Registry {
  public:
   struct Entry : Alternative {
     std::function<std::shared_ptr<const Base>(const Config&)> read;
+    std::function<std::shared_ptr<const Base>()> make;  // with the defaults of its keys
   };
 
   static const std::map<std::string, Entry>& entries() { return mutable_entries(); }
@@ -36,7 +37,7 @@ class Registry {
                   auto item = std::make_shared<T>();
                   T::spec().read_into(config, *item, {"type"});
                   return item;
-                }};
+                }, [] { return std::make_shared<const T>(); }};
     if constexpr (requires { T::facts(); }) entry.facts = T::facts();
     const bool is_new = mutable_entries().emplace(name, std::move(entry)).second;
     if (!is_new) registry_conflicts().push_back(name);

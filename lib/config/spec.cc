@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lib/core/words.h"
+
 namespace orthodyn {
 
 namespace {
@@ -16,9 +18,8 @@ void refuse_unknown_keys(const Config& section, std::vector<std::string> known, 
   known.insert(known.end(), also.begin(), also.end());
   for (const auto& given : section.keys()) {
     if (std::find(known.begin(), known.end(), given) != known.end()) continue;
-    const std::string near = nearest_name(given, known);
-    section.at(given).fail("unknown key" + (near.empty() ? "." : "; did you mean '" + near + "'?") +
-                           " Known here: " + join(known) + ".");
+    section.at(given).fail("unknown key" + did_you_mean(given, known, ".") + " Known here: " + join(known) + ".",
+                           InputFault::form);
   }
 }
 
@@ -56,9 +57,10 @@ void Keys::add(std::string_view name, std::string_view sentence, const Rule& rul
                      std::string(rule.with.word), &type, std::move(member)});
 }
 
-void Keys::read_fields(const Config& section, void* target, const std::vector<std::string>& also) const {
-  if (!section.is_map())
-    section.fail("expected a section of keys (" + join(names_of(keys_)) + "), found " + section.shown());
+Config Keys::read_fields(const Config& given, void* target, const std::vector<std::string>& also) const {
+  if (!given.is_map())
+    given.fail("expected a section of keys (" + join(names_of(keys_)) + "), found " + given.shown(), InputFault::form);
+  const Config section = given.resolving();
   refuse_unknown_keys(section, names_of(keys_), also);
   for (const Field& field : fields_) {
     const Key& key = field.doc;
@@ -80,6 +82,7 @@ void Keys::read_fields(const Config& section, void* target, const std::vector<st
       section.fill(key.name, text);
     }
   }
+  return section;
 }
 
 }  // namespace orthodyn

@@ -20,15 +20,16 @@
 
 #include "lib/config/config.h"
 #include "lib/config/values.h"
+#include "lib/core/words.h"
 
 namespace orthodyn {
 
-// Where a part of the input stands, for errors that show only later (an empty selection, a surface
-// that the mesh does not have). A struct with a member `Origin origin` has it filled by its Spec.
+// Where a part of the input stands, for errors that show only later (an empty selection, a surface that the mesh does
+// not have). A struct with a member `Origin origin` gets it from its Spec.
 struct Origin {
   std::string where;
   [[noreturn]] void fail(const std::string& message) const {
-    throw ConfigError(where + ": " + message);
+    throw ConfigError(where, message);
   }
 };
 
@@ -70,7 +71,8 @@ class Keys {
 
   void add(std::string_view name, std::string_view sentence, const Rule& rule, const ValueType& type,
            const void* default_value, Member member);
-  void read_fields(const Config& section, void* target, const std::vector<std::string>& also) const;
+  // Returns the section with its defaults, as far as it is a resolving() one.
+  Config read_fields(const Config& given, void* target, const std::vector<std::string>& also) const;
 
  private:
   std::vector<Field> fields_;
@@ -96,8 +98,8 @@ class Spec : public Keys {
   }
 
   // Reads a section. `also` names keys that somebody else reads ("type").
-  void read_into(const Config& section, T& target, const std::vector<std::string>& also = {}) const {
-    read_fields(section, &target, also);
+  void read_into(const Config& given, T& target, const std::vector<std::string>& also = {}) const {
+    const Config section = read_fields(given, &target, also);
     if constexpr (requires { target.origin.where; }) target.origin.where = section.where();
     for (const auto& condition : checks_) condition(target, section);
   }

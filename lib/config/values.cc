@@ -15,7 +15,7 @@ double quantity(const Config& config, std::string_view unit) {
   try {
     return quantity_in(config.text(), std::string(unit));
   } catch (const std::invalid_argument& e) {
-    config.fail(e.what());
+    config.fail(e.what(), InputFault::form);
   }
 }
 
@@ -25,9 +25,7 @@ std::size_t index_of_word(const Config& config, const std::vector<std::string>& 
   const std::string given = config.text();
   const auto found = std::find(words.begin(), words.end(), given);
   if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  const auto near = nearest_name(given, words);
-  config.fail("expected one of " + join(words) + ", found '" + given + "'" +
-              (near.empty() ? "" : "; did you mean '" + near + "'?"));
+  config.fail(expected_one_of(words, given), InputFault::form);
 }
 
 double read_number(const Config& config, const Rule& rule) {
@@ -42,7 +40,7 @@ std::string number_text(double x) { return fmt::format("{}", x); }
 
 std::vector<double> read_numbers(const Config& config, const Rule& rule, std::size_t count) {
   if (!config.is_sequence() || config.size() != count)
-    config.fail(fmt::format("expected a list of {} numbers, found {}", count, config.shown()));
+    config.fail(fmt::format("expected a list of {} numbers, found {}", count, config.shown()), InputFault::form);
   std::vector<double> out;
   for (std::size_t i = 0; i < count; ++i) out.push_back(read_number(config.at(i), rule));
   return out;

@@ -17,6 +17,7 @@
 #include "lib/config/config.h"
 #include "lib/config/shape.h"
 #include "lib/core/types.h"
+#include "lib/core/words.h"
 
 namespace orthodyn {
 
@@ -120,7 +121,8 @@ template <>
 struct Value<Mat3> {
   static Shape shape() { return list_shape(Value<Vec3>::shape(), 3, "[[row], [row], [row]]"); }
   static Mat3 read(const Config& c, const Rule& r) {
-    if (!c.is_sequence() || c.size() != 3) c.fail("expected three rows of three numbers, found " + c.shown());
+    if (!c.is_sequence() || c.size() != 3)
+      c.fail("expected three rows of three numbers, found " + c.shown(), InputFault::form);
     Mat3 m;
     for (int i = 0; i < 3; ++i) m.row(i) = Value<Vec3>::read(c.at(static_cast<std::size_t>(i)), r);
     return m;
@@ -163,7 +165,7 @@ struct Value<std::array<V, N>> {
   static Shape shape() { return list_shape(Value<V>::shape(), N); }
   static std::array<V, N> read(const Config& c, const Rule& r) {
     if (!c.is_sequence() || c.size() != N)
-      c.fail(fmt::format("expected a list of {}, found {}", N, c.shown()));
+      c.fail(fmt::format("expected a list of {}, found {}", N, c.shown()), InputFault::form);
     std::array<V, N> out;
     for (std::size_t i = 0; i < N; ++i) out[i] = Value<V>::read(c.at(i), r);
     return out;
@@ -179,7 +181,7 @@ template <class V>
 struct Value<std::vector<V>> {
   static Shape shape() { return list_shape(Value<V>::shape()); }
   static std::vector<V> read(const Config& c, const Rule& r) {
-    if (!c.is_sequence()) c.fail("expected a list, found " + c.shown());
+    if (!c.is_sequence()) c.fail("expected a list, found " + c.shown(), InputFault::form);
     std::vector<V> out;
     for (std::size_t i = 0; i < c.size(); ++i) out.push_back(Value<V>::read(c.at(i), r));
     return out;
@@ -196,7 +198,7 @@ template <class V>
 struct Value<Named<V>> {
   static Shape shape() { return {.kind = Shape::Kind::named, .items = {Value<V>::shape()}}; }
   static Named<V> read(const Config& c, const Rule& r) {
-    if (!c.is_map()) c.fail("expected named sections, found " + c.shown());
+    if (!c.is_map()) c.fail("expected named sections, found " + c.shown(), InputFault::form);
     Named<V> out;
     for (const auto& name : c.keys()) out.emplace_back(name, Value<V>::read(c.at(name), r));
     return out;

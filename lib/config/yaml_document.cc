@@ -45,7 +45,7 @@ class StructureCheck {
   }
 
   [[noreturn]] void fail(const YAML::Node& node, const std::string& message) const {
-    throw ConfigError(mark_text(file_, node.Mark()) + ": " + message);
+    throw ConfigError(mark_text(file_, node.Mark()), message);
   }
 
   std::string file_;
@@ -75,7 +75,7 @@ class Inclusion {
   static constexpr const char* kKey = "include";
 
   [[noreturn]] static void fail(const YAML::Node& node, const std::string& file, const std::string& message) {
-    throw ConfigError(fmt::format("{}: {}: {}", mark_text(file, node.Mark()), kKey, message));
+    throw ConfigError(fmt::format("{}: {}", mark_text(file, node.Mark()), kKey), message);
   }
 
   static std::vector<std::pair<std::string, YAML::Node>> children(const YAML::Node& node) {
@@ -137,10 +137,10 @@ std::string mark_text(const std::string& file, const YAML::Mark& mark) {
 std::string read_yaml_file(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code ec;
-  if (!fs::exists(path, ec)) throw ConfigError(path + ": no such file");
-  if (fs::is_directory(path, ec)) throw ConfigError(path + ": is a folder, expected a YAML file");
+  if (!fs::exists(path, ec)) throw ConfigError(path, "no such file");
+  if (fs::is_directory(path, ec)) throw ConfigError(path, "is a folder, expected a YAML file");
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw ConfigError(path + ": cannot be opened for reading");
+  if (!in) throw ConfigError(path, "cannot be opened for reading");
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();
@@ -149,14 +149,13 @@ std::string read_yaml_file(const std::string& path) {
 YAML::Node parse_yaml(const std::string& text, const std::string& file) {
   try {
     auto documents = YAML::LoadAll(text);
-    if (documents.empty()) throw ConfigError(file + ": the file is empty");
+    if (documents.empty()) throw ConfigError(file, "the file is empty");
     if (documents.size() > 1)
-      throw ConfigError(file + ": more than one YAML document; keep what stands before '---'");
+      throw ConfigError(file, "more than one YAML document; keep what stands before '---'");
     StructureCheck(file).visit(documents[0], 0);
     return documents[0];
   } catch (const YAML::Exception& e) {
-    throw ConfigError(
-        fmt::format("{}: not YAML: {}", mark_text(file, e.mark), e.msg));
+    throw ConfigError(mark_text(file, e.mark), "not YAML: " + e.msg);
   }
 }
 

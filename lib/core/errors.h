@@ -1,4 +1,4 @@
-// The three ways in which orthodyn says no.
+// The three kinds of failure: of the input, of a computation, of one state.
 #pragma once
 
 #include <stdexcept>
@@ -6,11 +6,26 @@
 
 namespace orthodyn {
 
-// The user's input is at fault. what() reads "file:line:column: key: found, allowed, remedy".
-// The command line exits with 2 and has written nothing.
+// What is wrong with the input: its form (an unknown key, a text where a number is expected), which no other value of a
+// varied key mends, or a value.
+enum class InputFault { value, form };
+
+// The user's input is at fault. what() is "place: message", or the message alone where there is no place, as for options
+// of the command line. The command line exits with 2 and has written nothing.
 class ConfigError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit ConfigError(const std::string& message) : ConfigError("", message) {}
+  ConfigError(const std::string& place, const std::string& message, InputFault fault = InputFault::value)
+      : std::runtime_error(place.empty() ? message : place + ": " + message),
+        place_(place), message_(message), fault_(fault) {}
+
+  const std::string& place() const { return place_; }      // "file:line:column: path of the key", or ""
+  const std::string& message() const { return message_; }  // what was found, what is allowed, what to do
+  InputFault fault() const { return fault_; }
+
+ private:
+  std::string place_, message_;
+  InputFault fault_;
 };
 
 // Why a computation could not go on, in one word for a table.

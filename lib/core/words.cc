@@ -5,28 +5,46 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 namespace orthodyn {
 
-std::string nearest_name(const std::string& name, const std::vector<std::string>& names) {
-  const auto distance = [&](const std::string& other) {
-    std::vector<std::size_t> row(other.size() + 1);
-    std::iota(row.begin(), row.end(), 0u);
-    for (std::size_t i = 1; i <= name.size(); ++i) {
-      std::size_t diagonal = row[0]++;
-      for (std::size_t j = 1; j <= other.size(); ++j) {
-        const std::size_t substitute = diagonal + (name[i - 1] != other[j - 1]);
-        diagonal = row[j];
-        row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
-      }
+namespace {
+
+// Levenshtein's: the insertions, deletions and substitutions that make one of the other.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0u);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substitute = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
     }
-    return row.back();
-  };
-  std::string best;
+  }
+  return row.back();
+}
+
+// Of names equally near the first; nothing if more than a third of the letters differ.
+std::optional<std::string> nearest(const std::string& name, const std::vector<std::string>& known) {
+  std::optional<std::string> best;
   std::size_t best_distance = std::max<std::size_t>(2, name.size() / 3) + 1;
-  for (const auto& other : names)
-    if (const auto d = distance(other); d < best_distance) best_distance = d, best = other;
+  for (const auto& other : known)
+    if (const auto d = edit_distance(name, other); d < best_distance) best_distance = d, best = other;
   return best;
+}
+
+}  // namespace
+
+std::string did_you_mean(const std::string& found, const std::vector<std::string>& known,
+                         const std::string& otherwise) {
+  const auto name = nearest(found, known);
+  return name && !name->empty() ? "; did you mean '" + *name + "'?" : otherwise;
+}
+
+std::string expected_one_of(const std::vector<std::string>& known, const std::string& found) {
+  return "expected one of " + join(known) + ", found '" + found + "'" + did_you_mean(found, known);
 }
 
 std::string join(const std::vector<std::string>& names, const std::string& separator) {

@@ -1,4 +1,4 @@
-// Lists of names in messages.
+// Names in messages: lists of them, and what may be meant by one that is not known.
 #pragma once
 
 #include <string>
@@ -6,8 +6,13 @@
 
 namespace orthodyn {
 
-// The entry of `names` nearest to `name` by edit distance, or "" if none is near.
-std::string nearest_name(const std::string& name, const std::vector<std::string>& names);
+// "; did you mean 'density'?" with the entry of `known` that is nearest to `found` by edit distance; `otherwise` where
+// none is near.
+std::string did_you_mean(const std::string& found, const std::vector<std::string>& known,
+                         const std::string& otherwise = "");
+
+// "expected one of a, b, found 'x'", and which of them may be meant.
+std::string expected_one_of(const std::vector<std::string>& known, const std::string& found);
 
 // "a, b, c"
 std::string join(const std::vector<std::string>& names, const std::string& separator = ", ");

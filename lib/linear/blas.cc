@@ -2,6 +2,8 @@
 
 #include <dlfcn.h>
 
+#include <mutex>
+
 namespace orthodyn {
 
 namespace {
@@ -10,6 +12,29 @@ namespace {
 template <class Function>
 Function* find(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
+}
+
+struct ThreadFunctions {
+  int (*get)();
+  void (*set)(int);
+};
+
+const ThreadFunctions& find_threads() {
+  static const ThreadFunctions functions{find<int()>("openblas_get_num_threads"),
+                                         find<void(int)>("openblas_set_num_threads")};
+  return functions;
+}
+
+// OpenBLAS has one number of threads for the whole process.
+struct ThreadCount {
+  std::mutex mutex;
+  int holders = 0;  // objects that ask for one thread
+  int before = 0;   // threads without them
+};
+
+ThreadCount& thread_count() {
+  static ThreadCount count;
+  return count;
 }
 
 }  // namespace
@@ -21,17 +46,20 @@ std::string blas_name() {
 
 bool blas_is_openblas() { return find<char*()>("openblas_get_config") != nullptr; }
 
-OneBlasThread::OneBlasThread(bool one) {
-  static auto* get = find<int()>("openblas_get_num_threads");
-  static auto* set = find<void(int)>("openblas_set_num_threads");
-  if (!one || !get || !set || get() == 1) return;
-  before_ = get();
-  set(1);
+OneBlasThread::OneBlasThread(bool one) : held_(one && find_threads().get && find_threads().set) {
+  if (!held_) return;
+  ThreadCount& threads = thread_count();
+  const std::lock_guard lock(threads.mutex);
+  if (threads.holders++ > 0) return;
+  threads.before = find_threads().get();
+  if (threads.before > 1) find_threads().set(1);
 }
 
 OneBlasThread::~OneBlasThread() {
-  static auto* set = find<void(int)>("openblas_set_num_threads");
-  if (before_ > 0) set(before_);
+  if (!held_) return;
+  ThreadCount& threads = thread_count();
+  const std::lock_guard lock(threads.mutex);
+  if (--threads.holders == 0 && threads.before > 1) find_threads().set(threads.before);
 }
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// Which BLAS is loaded, and how many threads it uses.
+// Which BLAS is loaded, and how many threads it uses. All functions may be called by several threads.
 #pragma once
 
 #include <string>
@@ -12,8 +12,9 @@ inline constexpr int kBlasThreadsFrom = 15'000;
 std::string blas_name();
 bool blas_is_openblas();
 
-// One BLAS thread while it lives, if `one` is set; then as many as before. Without effect if the BLAS
-// is not OpenBLAS.
+// One BLAS thread while it lives, if `one` is set; then as many as before. The number belongs to the process: where
+// several threads of ours hold such objects, it is one until the last has gone. Without effect if the BLAS is not
+// OpenBLAS. Thread-safe.
 class OneBlasThread {
  public:
   explicit OneBlasThread(bool one);
@@ -22,7 +23,7 @@ class OneBlasThread {
   OneBlasThread& operator=(const OneBlasThread&) = delete;
 
  private:
-  int before_ = 0;  // 0: nothing to restore
+  bool held_;
 };
 
 }  // namespace orthodyn

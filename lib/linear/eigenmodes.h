@@ -1,10 +1,11 @@
 // The lowest pairs (lambda, x) of K x = lambda M x with symmetric K and M on one pattern, M positive definite:
 // Lanczos iteration on (K + s M)^-1 M (Ericsson & Ruhe 1980, through Spectra), dense for small matrices.
 //
-// The shift s > 0 makes K + s M positive definite where K alone is not, as that of a body that nothing holds. Zeros
-// are what round-off does not tell from it: eigenvalues within eps times a hundred of the largest, whether the matrix
-// is singular or its spectrum that wide; as soon as there are some,
-// a second pass with a shift of the size of the lowest other eigenvalue finds that to full accuracy.
+// The shift s > 0 makes K + s M positive definite where K alone is not, as for a body that nothing holds. Eigenvalues
+// that round-off does not tell from zero, those below a hundred eps of the largest, are set to zero. Where there are
+// some, a second pass with a shift of the size of the lowest other eigenvalue finds that one to full accuracy.
+//
+// No state is kept: may be called by several threads.
 #pragma once
 
 #include <vector>
@@ -14,10 +15,10 @@
 namespace orthodyn {
 
 struct EigenPairs {
-  Vector values;           // ascending; zeros are exactly 0
+  Vector values;           // ascending, in the unit of K over that of M (1/s^2); zeros are exactly 0
   Eigen::MatrixXd shapes;  // a column each, M-orthonormal
   int zeros = 0;
-  double resolution = 0;   // the eigenvalue up to which they are
+  double resolution = 0;   // eigenvalues below it count as zero
 };
 
 // K and M by their values on `pattern`. Throws ConfigError if the pattern is not symmetric or there are fewer

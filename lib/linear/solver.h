@@ -1,5 +1,8 @@
-// Direct solvers for sparse linear systems, factored many times on one pattern. One kind per file,
-// chosen in the input by name through solver_registry().
+// Direct solvers for sparse linear systems A x = b, factored many times on one pattern. One kind per file, chosen in the
+// input by name through solver_registry().
+//
+// A is n x n; of a symmetric pattern only the lower triangle is stored. Calls come in the order analyze(), factor(),
+// solve(). A solver is used by one thread at a time; different solvers by different threads.
 #pragma once
 
 #include <functional>
@@ -21,11 +24,11 @@ class LinearSolver {
   // memory does not suffice.
   virtual void analyze(const Pattern& pattern) = 0;
 
-  // Factors new values on the analysed pattern. A solver that does not look at definiteness never
-  // answers not_positive_definite.
+  // Factors new values, one for each entry of the pattern. Anything but `ok` leaves no factor. A solver that does not
+  // check definiteness never returns not_positive_definite. Throws RunError when memory does not suffice.
   virtual FactorStatus factor(const double* values) = 0;
 
-  // x = A^-1 b. x and b may be the same.
+  // x = A^-1 b, both of size n; they may be the same. Precondition: the last factor() was ok.
   virtual void solve(const ConstVectorRef& b, VectorRef x) = 0;
 
   // Bytes taken at the peak of a factorisation: the factor and the solver's workspace. After analyze()
@@ -38,10 +41,11 @@ class LinearSolver {
 
 struct SolverKind {
   std::string sentence;
-  bool takes_general;  // unsymmetric matrices
-  std::function<std::unique_ptr<LinearSolver>()> make;
+  bool takes_general;                                   // unsymmetric matrices too
+  std::function<std::unique_ptr<LinearSolver>()> make;  // null for one that SUNDIALS has of its own
 };
 
+// By name. Written while the program and its plugins are loaded, only read afterwards.
 std::map<std::string, SolverKind>& solver_registry();
 
 }  // namespace orthodyn

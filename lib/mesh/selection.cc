@@ -47,9 +47,8 @@ namespace {
                                const char* remedy) {
   std::vector<std::string> names;
   for (const auto& [known, members] : found) names.push_back(known);
-  const auto near = nearest_name(name, names);
   origin.fail(fmt::format("the mesh has no {} '{}'{} It has {}", kind, name,
-                          near.empty() ? "." : "; did you mean '" + near + "'?",
+                          did_you_mean(name, names, "."),
                           names.empty() ? fmt::format("none ({})", remedy) : join(names)));
 }
 

@@ -18,7 +18,7 @@ class EquilibriumSolver {
     bool indefinite = false;  // given up since the stiffness was not positive definite on the way
     long iterations = 0;
     double residual = 0;  // N, the largest component of f
-    std::string trouble;  // why not found
+    std::string failure_reason;  // why not found
   };
 
   virtual ~EquilibriumSolver() = default;

@@ -2,9 +2,9 @@
 
 namespace orthodyn {
 
-void interpolate(const Knot& begin, const Knot& end, double t, VectorRef q, VectorRef v) {
+void interpolate(const StepEnd& begin, const StepEnd& end, double t, VectorRef q, VectorRef v) {
   if (t == begin.t || t == end.t) {
-    const Knot& knot = t == end.t ? end : begin;
+    const StepEnd& knot = t == end.t ? end : begin;
     q = knot.q;
     v = knot.v;
     return;
@@ -19,7 +19,7 @@ void interpolate(const Knot& begin, const Knot& end, double t, VectorRef q, Vect
       0.5 * h * ((2 * s - 9 * s2 + 12 * s3 - 5 * s4) * begin.a + (3 * s2 - 8 * s3 + 5 * s4) * end.a);
 }
 
-void interpolate_linearly(const Knot& begin, const Knot& end, double t, VectorRef q, VectorRef v) {
+void interpolate_linearly(const StepEnd& begin, const StepEnd& end, double t, VectorRef q, VectorRef v) {
   const double s = (t - begin.t) / (end.t - begin.t);
   q = (1 - s) * begin.q + s * end.q;
   v = (1 - s) * begin.v + s * end.v;

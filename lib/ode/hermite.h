@@ -10,15 +10,15 @@
 namespace orthodyn {
 
 // The solution at an end of a step; a = M^-1 f.
-struct Knot {
+struct StepEnd {
   double t = 0;
   Vector q, v, a;
 };
 
 // q and v at a time between the ends. At an end, just what stands there.
-void interpolate(const Knot& begin, const Knot& end, double t, VectorRef q, VectorRef v);
+void interpolate(const StepEnd& begin, const StepEnd& end, double t, VectorRef q, VectorRef v);
 
 // The same by straight lines, of O(h^2): all that a method of order 1 has to give.
-void interpolate_linearly(const Knot& begin, const Knot& end, double t, VectorRef q, VectorRef v);
+void interpolate_linearly(const StepEnd& begin, const StepEnd& end, double t, VectorRef q, VectorRef v);
 
 }  // namespace orthodyn

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lib/config/registry.h"
+#include "lib/ode/integrator_settings.h"
 #include "lib/ode/model.h"
 #include "lib/ode/statistics.h"
 
@@ -65,10 +66,19 @@ inline MethodFacts method_facts(const std::string& order, const std::string& sta
   return {{"order", order}, {"stability", stability}, {"conserves", conserves}, {"source", source}};
 }
 
-// The options of one integrator, read from the input; makes the integrator for a model.
+// The options of one integrator, read from the input; makes the integrator for a model. Implemented by way of
+// SettableChoice (settable_choice.h).
 class IntegratorChoice {
  public:
   virtual ~IntegratorChoice() = default;
+
+  // The options that other methods may have too.
+  virtual IntegratorSettings settings() const = 0;
+
+  // The same options with those of the settings that have a value and that the method has. Throws ConfigError, without a
+  // place, for a number outside of the range of its key.
+  virtual std::unique_ptr<IntegratorChoice> with(const IntegratorSettings& settings) const = 0;
+
   // Throws ConfigError if the integrator cannot serve the model, which must outlive it.
   virtual std::unique_ptr<Integrator> make(const Model& model, const Task& task) const = 0;
 };

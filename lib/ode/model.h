@@ -16,7 +16,7 @@ namespace orthodyn {
 
 struct Traits {
   bool linear = false;             // K and D do not depend on the state
-  bool damped = false;             // stiffness-proportional damping everywhere: orders above 2 pay
+  bool damped = false;             // stiffness-proportional in every region: fast vibrations die out soonest
   bool damping_matrix = false;     // D is more than a multiple of M
   bool lumped_mass = true;         // M is diagonal
   bool time_dependent = false;     // f depends on t

@@ -50,7 +50,7 @@ void fill_mesh_materials(const Config& config, Scene& scene) {
       const Config filled = materials.fill(material.name, material_yaml(material));
       scene.materials.emplace_back(material.name, Registry<Material>::read(filled));
     } catch (const ConfigError& e) {
-      throw ConfigError(fmt::format("{}: material of the mesh: {}", material.where, e.what()));
+      throw ConfigError(material.where, std::string("material of the mesh: ") + e.what());
     }
   }
   if (!scene.regions.empty()) return;

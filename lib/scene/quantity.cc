@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "lib/core/words.h"
 #include "lib/scene/build.h"
 
 namespace orthodyn {
@@ -76,10 +77,9 @@ Quantity find_quantity(const std::string& name, const Scene& scene, const FemMod
     if (source.components != 3) continue;
     for (const char* component : kComponents) known.push_back(source_name + "." + component);
   }
-  const auto near = nearest_name(name, known);
   origin.fail(fmt::format("unknown quantity '{}'{}; a probe of the scene with a field and a component "
                           "(tip.displacement.z), or one of {}",
-                          name, near.empty() ? "" : "; did you mean '" + near + "'?", join(known)));
+                          name, did_you_mean(name, known), join(known)));
 }
 
 }  // namespace orthodyn

@@ -95,7 +95,8 @@ void check_static(const Config& config, Scene& scene, bool is_timed) {
 
 }  // namespace
 
-Scene read_scene(const Config& config) {
+Scene read_scene(const Config& input) {
+  const Config config = input.resolving();
   if (config.is_map() && config.has("scenes"))
     config.at("scenes").fail("a scene has no such key; a comparison of scenes is run by `orthodyn compare`");
   const bool is_timed = config.is_map() && config.has("time") && !config.at("time").is_null();

@@ -61,7 +61,7 @@ struct Scene {
   std::vector<const TermChoice*> force_terms() const;
 };
 
-// Reads a scene and fills its defaults into `config`. Throws ConfigError.
-Scene read_scene(const Config& config);
+// Reads a scene; a resolving() input records its defaults. Throws ConfigError.
+Scene read_scene(const Config& input);
 
 }  // namespace orthodyn

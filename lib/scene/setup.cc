@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <optional>
-#include <string_view>
 
 #include "lib/analysis/scales.h"
 #include "lib/analysis/strain_check.h"
+#include "lib/core/words.h"
 #include "lib/linear/blas.h"
 #include "lib/scene/equilibrium.h"
 #include "lib/scene/events.h"
@@ -25,9 +25,7 @@ void check_fields(const Model& model, const std::vector<std::string>& fields, st
     if (std::find(allowed.begin(), allowed.end(), info.location) != allowed.end()) names.push_back(info.name);
   for (const auto& field : fields) {
     if (std::find(names.begin(), names.end(), field) != names.end()) continue;
-    const auto near = nearest_name(field, names);
-    origin.fail(fmt::format("unknown field '{}'{}; known: {}", field,
-                            near.empty() ? "" : "; did you mean '" + near + "'?", join(names)));
+    origin.fail(fmt::format("unknown field '{}'{}; known: {}", field, did_you_mean(field, names), join(names)));
   }
 }
 
@@ -63,18 +61,13 @@ void check_expectations(const Scene& scene, const FemModel& model) {
   }
 }
 
-// It names a place of the input already, such as that of a formula which has no value.
-bool names_a_place(const ConfigError& error, const Config& config) {
-  return std::string_view(error.what()).starts_with(config.file() + ":");
-}
-
 std::unique_ptr<Integrator> make_integrator(Config& config, const Scene& scene, const Task& task, const Model& model) {
   std::unique_ptr<Integrator> integrator;
   try {
     integrator = scene.integrator->make(model, task);
   } catch (const ConfigError& e) {
-    if (names_a_place(e, config)) throw;
-    config.at("integrator").fail(e.what());
+    if (!e.place().empty()) throw;  // such as that of a formula which has no value
+    config.at("integrator").fail(e.message());
   }
   const Config section = config.at("integrator");
   for (const auto& [key, value] : integrator->decisions())
@@ -109,7 +102,8 @@ Task task_of(const Scene& scene, const BuiltScene& built) {
   return {scales, built.initial, end, interval};
 }
 
-Setup set_up(Config config) {
+Setup set_up(const Config& input) {
+  Config config = input.resolving();
   Scene scene = read_scene(config);
   BuiltScene built = build(scene);
   check_outputs(scene, *built.model);

@@ -21,7 +21,7 @@ struct Setup {
 // What the scene wants of its integrator. Both must outlive the task.
 Task task_of(const Scene& scene, const BuiltScene& built);
 
-// Reads, validates and builds. Throws ConfigError.
-Setup set_up(Config config);
+// Reads, validates and builds; the input stays as it is. Throws ConfigError.
+Setup set_up(const Config& input);
 
 }  // namespace orthodyn

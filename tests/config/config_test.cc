@@ -82,7 +82,7 @@ TEST(Config, DumpIsReadBackToTheSameDocument) {
 }
 
 TEST(Config, AFilledValueIsReadableAndInTheDump) {
-  const Config config = scene();
+  const Config config = scene().resolving();
   const Config filled = config.at("mesh").fill("split", "six");
   EXPECT_EQ(filled.text(), "six");
   EXPECT_EQ(filled.path(), "mesh.split");
@@ -90,40 +90,79 @@ TEST(Config, AFilledValueIsReadableAndInTheDump) {
 }
 
 TEST(Config, AFilledNumberSurvivesTheDumpToTheLastBit) {
-  const Config config = scene();
+  const Config config = scene().resolving();
   config.fill("x", "0.1000000000000000055511151231257827");
   EXPECT_EQ(Config::from_text(config.dump()).at("x").number(), 0.1);
 }
 
 TEST(Config, AFilledValueHasNoLineOfItsOwn) {
-  const Config filled = scene().at("mesh").fill("split", "{kind: six}");
+  const Config filled = scene().resolving().at("mesh").fill("split", "{kind: six}");
   EXPECT_EQ(filled.at("kind").where(), "in/beam.yaml: mesh.split.kind");
+}
+
+TEST(Config, ACopyIsADocumentOfItsOwnThatSpeaksOfTheSamePlaces) {
+  const Config config = scene();
+  Config copy = config.copy();
+  copy.set("mesh.size.0", 7.5);
+  EXPECT_EQ(copy.at("mesh").at("size").at(0).number(), 7.5);
+  EXPECT_EQ(config.dump(), scene().dump());
+  EXPECT_EQ(copy.at("mesh").at("size").at(2).where(), scene().at("mesh").at("size").at(2).where());
+  EXPECT_EQ(config.at("mesh").copy().at("file").where(), "in/beam.yaml:4:9: mesh.file");
+}
+
+TEST(Config, OnlyAResolvingCopyRecordsTheFilesThatItNames) {
+  const Config plain = scene(), resolving = scene().resolving();
+  for (const Config& config : {plain, resolving}) config.at("mesh").at("file").file_path();
+  EXPECT_TRUE(plain.file_paths().empty());
+  EXPECT_EQ(resolving.file_paths().size(), 1u);
+}
+
+TEST(Config, WhatIsSetReadsBackAsWhatItIs) {
+  Config config = scene();
+  config.set("new.number", 0.1);
+  config.set("new.count", 3);
+  config.set("new.flag", true);
+  config.set("new.text", "a: b");
+  config.set("new.list", std::vector<std::string>{"u", "v"});
+  config.set("new.nothing", nullptr);
+  config.set("new.mesh", config.at("mesh"));
+  const Config section = Config::from_text(config.dump()).at("new");
+  EXPECT_EQ(section.at("number").number(), 0.1);
+  EXPECT_EQ(section.at("count").integer(), 3);
+  EXPECT_TRUE(section.at("flag").boolean());
+  EXPECT_EQ(section.at("text").text(), "a: b");
+  EXPECT_EQ(section.at("list").at(1).text(), "v");
+  EXPECT_TRUE(section.at("nothing").is_null());
+  EXPECT_EQ(section.at("mesh").yaml(), config.at("mesh").yaml());
+}
+
+TEST(Config, WhatIsSetIsSaidToStandWhereItComesFrom) {
+  Config config = scene();
+  config.set("mesh.size", std::vector<std::string>{"1", "x", "3"}, "c.yaml:7:3: vary.size");
+  EXPECT_EQ(refusal([&] { config.at("mesh").at("size").at(1).number(); }),
+            "c.yaml:7:3: vary.size.1: expected a number, found 'x'");
+  config.set("mesh", Config::from_text("{size: [1, 2]}"));
+  EXPECT_EQ(config.at("mesh").at("size").at(1).where(), "in/beam.yaml: --set mesh.size.1");
+  EXPECT_EQ(refusal([&] { config.set("mesh.size.5", 1.0, "c.yaml:8:3: vary.x"); }),
+            "c.yaml:8:3: vary.x: '5' is not an index below 2");
+}
+
+TEST(Config, AnErrorCarriesItsPlaceApartFromItsMessage) {
+  try {
+    scene().at("mesh").at("file").number();
+    FAIL() << "accepted";
+  } catch (const ConfigError& e) {
+    EXPECT_EQ(e.place(), "in/beam.yaml:4:9: mesh.file");
+    EXPECT_TRUE(e.message().starts_with("expected a number, found")) << e.message();
+    EXPECT_EQ(e.what(), e.place() + ": " + e.message());
+    EXPECT_EQ(e.fault(), InputFault::form);
+  }
 }
 
 TEST(Config, AnAliasReadsAsWhatItNames) {
   const Config config = Config::from_text("a: &x {v: 3}\nb: *x\n");
   EXPECT_EQ(config.at("b").at("v").integer(), 3);
 }
-
-TEST(Config, JoinSeparatesNames) {
-  EXPECT_EQ(join({"a", "b", "c"}), "a, b, c");
-  EXPECT_EQ(join({"a", "b"}, "|"), "a|b");
-  EXPECT_EQ(join({}), "");
-}
-
-TEST(NearestName, IsTheEntryWithTheFewestEdits) {
-  const std::vector<std::string> names{"density", "young", "shear_factor"};
-  EXPECT_EQ(nearest_name("densty", names), "density");
-  EXPECT_EQ(nearest_name("yuong", names), "young");
-  EXPECT_EQ(nearest_name("shearfactor", names), "shear_factor");
-}
-
-TEST(NearestName, IsEmptyIfNothingIsNear) {
-  EXPECT_EQ(nearest_name("gravity", {"density", "young"}), "");
-  EXPECT_EQ(nearest_name("x", {}), "");
-}
-
-TEST(NearestName, PrefersTheExactEntry) { EXPECT_EQ(nearest_name("nu12", {"nu21", "nu13", "nu12"}), "nu12"); }
 
 }  // namespace
 }  // namespace orthodyn

@@ -104,7 +104,7 @@ TEST_F(Include, TagsAreRefusedWithTheRemedy) {
 }
 
 TEST_F(Include, ADumpForAnotherFolderNamesTheSameFiles) {
-  const Config c = read("include: parts/wood.yaml\n");
+  const Config c = read("include: parts/wood.yaml\n").resolving();
   c.at("mesh").at("file").file_path();
   const Config there = Config::from_text(c.dump_for(place("elsewhere")), place("elsewhere/scene.yaml"));
   EXPECT_EQ(std::filesystem::weakly_canonical(there.at("mesh").at("file").file_path()),

@@ -82,7 +82,7 @@ TEST(Registry, KeysAreListedWithEachName) {
 }
 
 TEST(Registry, TheDefaultOfAChosenTypeIsFilledIn) {
-  const Config config = text("{type: disc}");
+  const Config config = text("{type: disc}").resolving();
   Registry<Shape>::read(config);
   EXPECT_EQ(text(config.dump()).at("radius").number(), 1);
 }

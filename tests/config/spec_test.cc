@@ -70,7 +70,7 @@ TEST(Spec, ANullCountsAsAbsent) {
 }
 
 TEST(Spec, DefaultsTakenAreFilledIntoTheDump) {
-  const Config config = Config::from_text("{name: x, step: {most: 5}}");
+  const Config config = Config::from_text("{name: x, step: {most: 5}}").resolving();
   Solver::spec().read(config);
   const Config resolved = Config::from_text(config.dump());
   EXPECT_EQ(resolved.at("rtol").number(), Solver{}.rtol);
@@ -79,8 +79,18 @@ TEST(Spec, DefaultsTakenAreFilledIntoTheDump) {
   EXPECT_FALSE(resolved.has("limit"));
 }
 
+TEST(Spec, ReadingLeavesTheDocumentAsItIs) {
+  const Config config = Config::from_text("{name: x, step: {most: 5}}");
+  const std::string before = config.dump();
+  const Solver plain = Solver::spec().read(config), resolved = Solver::spec().read(config.resolving());
+  EXPECT_EQ(config.dump(), before);
+  EXPECT_FALSE(config.has("rtol"));
+  EXPECT_EQ(plain.rtol, resolved.rtol);
+  EXPECT_EQ(plain.step.first, resolved.step.first);
+}
+
 TEST(Spec, TheDumpReadsBackToTheSameValuesAndDump) {
-  const Config config = Config::from_text("{name: x}");
+  const Config config = Config::from_text("{name: x}").resolving();
   const Solver first = Solver::spec().read(config);
   const Config resolved = Config::from_text(config.dump());
   const Solver second = Solver::spec().read(resolved);

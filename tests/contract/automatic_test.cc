@@ -1,4 +1,10 @@
 // The integrator that chooses: says what and why, does what the chosen one does.
+#include <fmt/format.h>
+
+#include <set>
+
+#include "integrators/automatic/cost_estimate.h"
+#include "integrators/error_control.h"
 #include "tests/contract/integrators.h"
 
 namespace orthodyn {
@@ -14,19 +20,49 @@ std::map<std::string, std::string> decisions(const Integrator& integrator) {
   return {all.begin(), all.end()};
 }
 
-TEST(Automatic, TakesStepsOfTheMethodThatItNames) {
-  for (const std::string rtol : {"1e-3", "1e-6"}) {
-    const auto model = chain(false);
-    const auto automatic = make(model, "type: auto, rtol: " + rtol);
-    const auto said = decisions(*automatic);
-    EXPECT_FALSE(said.at("because").empty());
-    const std::string method = said.at("method");
-    const auto named = make(model, "type: " + method + (has_key(method, "rtol") ? ", rtol: " + rtol : "") +
-                                       (said.contains("safety") ? ", safety: " + said.at("safety") : ""));
-    const State a = integrate(model, *automatic), b = integrate(model, *named);
-    EXPECT_EQ(a.q, b.q);
-    EXPECT_EQ(automatic->statistics().steps, named->statistics().steps);
-  }
+// What the estimate of the model's cost says, of which cost_estimate_test.cc tests the thresholds.
+MethodChoice expected_choice(const SmallModel& model, double rtol) {
+  const Task task{[&] { return model.scales(); }, model.initial(), model.end(), model.end() / 50};
+  const long max_steps = ErrorControl{}.max_steps;
+  return choose_method(estimate_cost(model, task, model.scales(), "cholmod"), rtol, static_cast<double>(max_steps));
+}
+
+TEST(Automatic, TakesTheMethodOfItsEstimate) {
+  std::set<std::string> methods;
+  const auto slow = chain(false);
+  const auto stiff = stiff_pair();
+  for (const SmallModel* model : {static_cast<const SmallModel*>(&slow), static_cast<const SmallModel*>(&stiff)})
+    for (const double rtol : {1e-3, 1e-6}) {
+      const auto expected = expected_choice(*model, rtol);
+      const auto said = decisions(*make(*model, fmt::format("type: auto, rtol: {}", rtol)));
+      EXPECT_EQ(said.at("method"), expected.method);
+      EXPECT_EQ(said.at("because"), expected.rationale);
+      EXPECT_EQ(said.contains("safety"), expected.safety.has_value());
+      methods.insert(expected.method);
+    }
+  EXPECT_GE(methods.size(), 2u);  // the models are such that the choice matters
+}
+
+TEST(Automatic, TakesTheStepsThatTheMethodTakesWithItsOptions) {
+  const auto model = chain(false);
+  for (const std::string method : {"sdirk", "cvode_bdf", "central_differences"})
+    for (const std::string options : {"rtol: 1e-3", "rtol: 1e-6, h_max: 0.01", "safety: 0.3", "linear_solver: klu"}) {
+      const std::string key = options.substr(0, options.find(':'));
+      if (!has_key(method, key)) continue;
+      const auto automatic = make(model, "type: auto, method: " + method + ", " + options);
+      const auto named = make(model, "type: " + method + ", " + options);
+      const State a = integrate(model, *automatic), b = integrate(model, *named);
+      EXPECT_EQ(a.q, b.q) << method << ", " << options;
+      EXPECT_EQ(automatic->statistics().steps, named->statistics().steps) << method << ", " << options;
+      if (key == "linear_solver") EXPECT_TRUE(decisions(*automatic).at(key).starts_with("klu"));
+    }
+}
+
+TEST(Automatic, GivesUpAfterItsOwnMaximumOfSteps) {
+  const auto model = chain(false);
+  const auto automatic = make(model, "type: auto, method: sdirk, max_steps: 3");
+  EXPECT_THROW(integrate(model, *automatic), RunError);
+  EXPECT_EQ(automatic->statistics().steps, 3);
 }
 
 TEST(Automatic, SaysWhatItWouldReadAgain) {

@@ -52,7 +52,7 @@ TEST(Repair, LeavesAStableSetAloneAndSaysNothing) {
 }
 
 TEST(Repair, IsSpelledOutInTheResolvedInputWhichIsStableItself) {
-  const Config config = Config::from_text(orthotropic(kUnstable + ", repair: shrink"));
+  const Config config = Config::from_text(orthotropic(kUnstable + ", repair: shrink")).resolving();
   const Mat6 used = voigt(Registry<Material>::read(config)->stiffness());
   const auto again = read(config.dump());
   EXPECT_TRUE(again->notes().empty());
@@ -77,7 +77,7 @@ TEST(Symmetrise, UsesTheMeanOfBothReadings) {
 TEST(Symmetrise, MustBeAskedForAndIsSpelledOut) {
   const std::string both = "nu12: 0.4, nu21: 0.04, nu23: 0.44, nu31: 0.0225";
   EXPECT_TRUE(holds(refusal([&] { read(orthotropic(both)); }), "give one, or symmetrise: true"));
-  const Config config = Config::from_text(orthotropic(both + ", symmetrise: true"));
+  const Config config = Config::from_text(orthotropic(both + ", symmetrise: true")).resolving();
   const Mat6 used = voigt(Registry<Material>::read(config)->stiffness());
   EXPECT_NEAR(config.at("nu12").number() / 10.8, config.at("nu21").number() / 0.84, 1e-16);
   EXPECT_LE((stiffness_of(config.dump()) - used).norm(), 1e-13 * used.norm());

@@ -10,30 +10,30 @@ namespace {
 
 Vector one(double x) { return Vector::Constant(1, x); }
 
-Knot on_sine(double t) { return {t, one(std::sin(t)), one(std::cos(t)), one(-std::sin(t))}; }
+StepEnd on_sine(double t) { return {t, one(std::sin(t)), one(std::cos(t)), one(-std::sin(t))}; }
 
 // x = t^5 - 2 t^3 + t
-Knot on_quintic(double t) {
+StepEnd on_quintic(double t) {
   return {t, one(std::pow(t, 5) - 2 * std::pow(t, 3) + t), one(5 * std::pow(t, 4) - 6 * t * t + 1),
           one(20 * std::pow(t, 3) - 12 * t)};
 }
 
-Knot between(const Knot& begin, const Knot& end, double t) {
-  Knot out{t, one(0), one(0), {}};
+StepEnd between(const StepEnd& begin, const StepEnd& end, double t) {
+  StepEnd out{t, one(0), one(0), {}};
   interpolate(begin, end, t, out.q, out.v);
   return out;
 }
 
 TEST(Hermite, AQuinticIsReproduced) {
   for (const double t : {0.6, 0.9, 1.3, 1.69}) {
-    const Knot x = between(on_quintic(0.5), on_quintic(1.7), t), exact = on_quintic(t);
+    const StepEnd x = between(on_quintic(0.5), on_quintic(1.7), t), exact = on_quintic(t);
     EXPECT_NEAR(x.q[0], exact.q[0], 1e-13);
     EXPECT_NEAR(x.v[0], exact.v[0], 1e-13);
   }
 }
 
 TEST(Hermite, TheEndsAreReproducedToTheLastBit) {
-  const Knot begin = on_sine(0.1), end = on_sine(0.7);
+  const StepEnd begin = on_sine(0.1), end = on_sine(0.7);
   EXPECT_EQ(between(begin, end, 0.1).q, begin.q);
   EXPECT_EQ(between(begin, end, 0.1).v, begin.v);
   EXPECT_EQ(between(begin, end, 0.7).q, end.q);
@@ -44,7 +44,7 @@ TEST(Hermite, TheEndsAreReproducedToTheLastBit) {
 TEST(Hermite, PositionHasOrderSixAndVelocityOrderFive) {
   const auto error = [](double h) {
     const double t = 0.4 + 0.3 * h;
-    const Knot x = between(on_sine(0.4), on_sine(0.4 + h), t), exact = on_sine(t);
+    const StepEnd x = between(on_sine(0.4), on_sine(0.4 + h), t), exact = on_sine(t);
     return std::pair{std::abs(x.q[0] - exact.q[0]), std::abs(x.v[0] - exact.v[0])};
   };
   const auto [q1, v1] = error(0.4);

@@ -89,7 +89,7 @@ TEST(StaticScene, RefusesWhatBelongsToMotion) {
 }
 
 TEST(StaticScene, OfItsOwnDefaultsIsAccepted) {
-  const Config config = Config::from_text(kBlock + "clamps: [{surface: x0}]\n");
+  const Config config = Config::from_text(kBlock + "clamps: [{surface: x0}]\n").resolving();
   read_scene(config);
   read_scene(Config::from_text(config.dump()));
 }

@@ -36,16 +36,16 @@ TEST(ShippedScenes, EachLoadsBuildsAndMakesItsIntegrator) {
 
 TEST(ResolvedScene, ReadsBackToItself) {
   for (const auto& file : shipped_scenes()) {
-    Config once = Config::from_file(file);
+    const Config once = Config::from_file(file).resolving();
     read_scene(once);
-    Config twice = Config::from_text(once.dump(), file);
+    const Config twice = Config::from_text(once.dump(), file).resolving();
     read_scene(twice);
     EXPECT_EQ(once.dump(), twice.dump()) << file;
   }
 }
 
 TEST(ResolvedScene, SpellsOutDefaultsButNoTermThatIsAbsent) {
-  Config config = Config::from_text(kValidScene);
+  const Config config = Config::from_text(kValidScene).resolving();
   read_scene(config);
   const std::string text = config.dump();
   for (const char* key : {"rtol: 0.0001", "type: cvode_bdf", "corotation: exact", "split: five"})

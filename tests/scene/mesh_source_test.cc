@@ -69,10 +69,10 @@ TEST_F(VegaScene, MaterialsOfTheFileAreThoseTypedInAScene) {
 }
 
 TEST_F(VegaScene, TheResolvedSceneSpellsOutTheMaterialsOfTheFile) {
-  Config once = Config::from_text(scene(kWood, ""), "scene.yaml");
+  const Config once = Config::from_text(scene(kWood, ""), "scene.yaml").resolving();
   read_scene(once);
   EXPECT_NE(once.dump().find("wood"), std::string::npos);
-  Config twice = Config::from_text(once.dump(), "scene.yaml");
+  const Config twice = Config::from_text(once.dump(), "scene.yaml").resolving();
   read_scene(twice);
   EXPECT_EQ(once.dump(), twice.dump());
 }

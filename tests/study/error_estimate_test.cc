@@ -57,7 +57,7 @@ class Integrators : public testing::TestWithParam<const char*> {};
 
 TEST_P(Integrators, TheEstimateIsWithinAFactorOfThreeOfTheTrueError) {
   const Estimated run(GetParam());
-  ASSERT_TRUE(run.estimate.completed) << run.estimate.trouble;
+  ASSERT_TRUE(run.estimate.completed) << run.estimate.failure_reason;
   const auto truth = run.true_errors();
   EXPECT_GT(truth.displacement.l2, 1e-9);  // there is an error
   expect_within(3, run.estimate.displacement, truth.displacement);

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "lib/config/registry.h"
+#include "lib/core/words.h"
 #include "lib/linear/solver.h"
 #include "lib/material/presets.h"
 #include "lib/scene/build.h"
@@ -168,9 +169,8 @@ int list_command(const std::string& what, bool markdown) {
     fmt::print("\n");
   }
   if (found) return 0;
-  const auto near = nearest_name(what, names);
-  throw ConfigError(fmt::format("nothing to list under '{}'{}; known: {}", what,
-                                near.empty() ? "" : ", did you mean '" + near + "'?", join(names)));
+  throw ConfigError(
+      fmt::format("nothing to list under '{}'{}; known: {}", what, did_you_mean(what, names), join(names)));
 }
 
 }  // namespace orthodyn

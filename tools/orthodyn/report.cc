@@ -59,7 +59,7 @@ Json to_json(const ErrorNorms& e) { return {{"final", e.final}, {"rms", e.l2}, {
 Json to_json(const ErrorEstimate& e) {
   Json out{{"against", e.against}, {"wall_seconds", e.wall_seconds}};
   if (!e.completed) {
-    out["trouble"] = e.trouble;
+    out["trouble"] = e.failure_reason;
     return out;
   }
   out["samples"] = e.samples;
@@ -146,7 +146,7 @@ void print_summary(const RunReport& report, const std::filesystem::path& folder)
 void print_error(const ErrorEstimate& error) {
   if (!error.completed) {
     fmt::print(stderr, "warning: no estimate of the error: the run with {} did not complete: {}\n", error.against,
-               error.trouble);
+               error.failure_reason);
     return;
   }
   fmt::print("  {:<15} against {} ({:.2f} s), mass norm relative to the largest value:\n", "estimated error",

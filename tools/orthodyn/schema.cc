@@ -6,6 +6,7 @@
 #include <set>
 
 #include "lib/config/config.h"
+#include "lib/core/words.h"
 #include "tools/orthodyn/commands.h"
 #include "tools/orthodyn/input_tree.h"
 

@@ -10,7 +10,7 @@ Config read_config(const std::string& file, const std::optional<std::string>& in
                    const std::vector<std::string>& assignments) {
   Config config = Config::from_file(file);
   refuse_other_kinds(config, InputFile::scene);
-  if (integrator) config.override_with("integrator.type=" + *integrator);
+  if (integrator) config.set("integrator.type", *integrator);
   for (const auto& assignment : assignments) config.override_with(assignment);
   return config;
 }

@@ -90,8 +90,7 @@ const std::string& Campaign::mesh_of(const Task& task) {
   std::string& print = meshes_[task.problem];
   if (!print.empty()) return print;
   try {
-    // A copy: reading fills in defaults.
-    print = mesh_fingerprint(load_mesh(read_scene(Config::from_text(task.scene.dump(), task.scene.file()))));
+    print = mesh_fingerprint(load_mesh(read_scene(task.scene.copy())));
   } catch (const ConfigError& e) {
     print = e.what();  // every run of this problem will say so itself
   }

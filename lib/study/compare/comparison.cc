@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <string_view>
 
 #include "lib/config/registry.h"
+#include "lib/core/words.h"
 #include "lib/ode/integrator.h"
 #include "lib/study/jobs/input_kind.h"
 
@@ -25,9 +25,7 @@ std::string stem(const std::string& path) { return std::filesystem::path(path).s
 void require_known_integrator(const Config& c, const std::string& type) {
   const auto names = Registry<IntegratorChoice>::names();
   if (std::find(names.begin(), names.end(), type) != names.end()) return;
-  const auto near = nearest_name(type, names);
-  c.fail("unknown integrator '" + type + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
-         " Known: all, " + join(names) + ".");
+  c.fail("unknown integrator '" + type + "'" + did_you_mean(type, names) + " Known: all, " + join(names) + ".");
 }
 
 // {type, label, any option of the integrator}
@@ -72,9 +70,7 @@ void check_varied_options(const Comparison& c, const Config& config) {
     for (const auto& entry : c.integrators)
       for (const auto& k : Registry<IntegratorChoice>::entries().at(entry.type).keys) known.push_back(k.name);
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    const auto near = nearest_name(key, known);
-    config.at("vary").at(path).fail("none of the integrators has a key '" + key + "'" +
-                                    (near.empty() ? "" : "; did you mean '" + near + "'?"));
+    config.at("vary").at(path).fail("none of the integrators has a key '" + key + "'" + did_you_mean(key, known));
   }
 }
 
@@ -97,24 +93,6 @@ void check_comparison(const Comparison& c, const Config& config) {
 }
 
 }  // namespace
-
-std::string said_at_its_place(const std::string& message, const Assignments& assignments) {
-  constexpr std::string_view kSet = "--set ";
-  const auto at = message.find(kSet);
-  if (at == std::string::npos) return message;
-  const std::string wrong = message.substr(at + kSet.size());  // "a.b.0: must be ..." or "a.b.0=5: there is ..."
-  const std::pair<std::string, YamlText>* nearest = nullptr;
-  for (const auto& assignment : assignments) {
-    const std::string& path = assignment.first;
-    if (assignment.second.origin.where.empty() || !wrong.starts_with(path) || wrong.size() == path.size() ||
-        std::string(".:=").find(wrong[path.size()]) == std::string::npos)
-      continue;
-    if (!nearest || path.size() >= nearest->first.size()) nearest = &assignment;  // the last one holds
-  }
-  if (!nearest) return message;
-  const std::string rest = wrong.substr(nearest->first.size());
-  return nearest->second.origin.where + (rest.front() == '=' ? ": " + message : rest);
-}
 
 std::vector<IntegratorEntry> expand_all(const std::vector<IntegratorEntry>& entries) {
   std::vector<IntegratorEntry> out;

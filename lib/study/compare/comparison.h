@@ -23,12 +23,8 @@ struct Value<YamlText> {
   static std::string yaml(const YamlText& x) { return x.text; }
 };
 
-// Values of a scene by path.
+// Values of a scene by path, and where they come from: the place of what is wrong with them.
 using Assignments = Named<YamlText>;
-
-// What is wrong with a scene, said at the assignment that brought it in, where one of them did: "c.yaml:3:8: vary.gravty:
-// unknown key" for "scene.yaml: --set gravty: unknown key".
-std::string said_at_its_place(const std::string& message, const Assignments& assignments);
 
 // In the list of scenes: a file, or a section.
 struct SceneEntry {

@@ -152,20 +152,12 @@ Method usual_reference(const std::string& type, double rtol, Assignments more) {
   return method;
 }
 
-// What a scene is made of, by the paths that it has there.
-Assignments assignments_of(const Problem& problem, const Method& method) {
-  Assignments all = problem.set;
-  for (const auto& [key, value] : method.set) all.emplace_back(kIntegratorPrefix + key, value);
-  return all;
-}
-
 // Wrong input shows before anything runs.
 void check_point(const Design& design, const Point& point) {
   try {
     point_scene(design, point);
   } catch (const ConfigError& e) {
-    const auto assignments = assignments_of(design.problems[point.problem], design.methods[point.method]);
-    throw ConfigError(fmt::format("{} (in {})", said_at_its_place(e.what(), assignments), title(design, point)));
+    throw ConfigError(e.place(), fmt::format("{} (in {})", e.message(), title(design, point)));
   }
 }
 
@@ -173,9 +165,7 @@ void check_reference(const Problem& problem, const Method& method) {
   try {
     reference_scene(problem, method);
   } catch (const ConfigError& e) {
-    throw ConfigError(
-        fmt::format("{} (in the reference of {})", said_at_its_place(e.what(), assignments_of(problem, method)),
-                    problem.label));
+    throw ConfigError(e.place(), fmt::format("{} (in the reference of {})", e.message(), problem.label));
   }
 }
 
@@ -199,7 +189,7 @@ std::string read_yaml(const FilePath& file) {
   try {
     refuse_other_kinds(Config::from_file(file.path), InputFile::scene);
   } catch (const ConfigError& e) {
-    throw ConfigError(file.where + ": " + e.what());
+    throw ConfigError(file.where, e.what());
   }
   std::ifstream in(file.path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};

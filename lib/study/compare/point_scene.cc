@@ -21,7 +21,8 @@ Assignments own_options(const Config& scene, const std::string& integrator,
   if (!scene.has("integrator") || !scene.at("integrator").is_map()) return kept;
   const Config own = scene.at("integrator");
   for (const auto& key : own.keys())
-    if (key != "type" && wanted(key) && has_key(integrator, key)) kept.emplace_back(key, YamlText{own.at(key).yaml()});
+    if (key != "type" && wanted(key) && has_key(integrator, key))
+      kept.emplace_back(key, YamlText{own.at(key).yaml(), {own.at(key).where()}});
   return kept;
 }
 
@@ -35,21 +36,22 @@ bool is_kept_by_references(const std::string& key) {
   return kept.contains(key);
 }
 
-std::string section(const std::string& type, const Assignments& options) {
-  std::string yaml = "{type: " + type;
-  std::set<std::string> seen;
+void set_integrator(Config& config, const std::string& type, const Assignments& options) {
+  config.set("integrator", Config::from_text("{}"));
+  config.set("integrator.type", type);
+  Keys seen;
   // The last assignment of a key holds.
   for (auto it = options.rbegin(); it != options.rend(); ++it)
-    if (seen.insert(it->first).second) yaml += ", " + it->first + ": " + it->second.text;
-  return yaml + "}";
+    if (seen.insert(it->first).second)
+      config.set_yaml("integrator." + it->first, it->second.text, it->second.origin.where);
 }
 
 Config scene_of(const Problem& problem, const std::string& integrator,
                 const std::function<bool(const std::string&)>& kept, const Assignments& options) {
   Config config = with_integrator(problem, integrator, options, kept);
-  for (const char* silent : {"output.fields=[]", "output.energy=false", "output.steps=false", "output.momentum=false",
-                             "expect=null"})
-    config.override_with(silent);
+  config.set("output.fields", std::vector<std::string>());
+  for (const char* key : {"output.energy", "output.steps", "output.momentum"}) config.set(key, false);
+  config.set("expect", nullptr);
   read_scene(config);
   return config;
 }
@@ -63,11 +65,11 @@ bool has_key(const std::string& integrator, const std::string& key) {
 
 Config with_integrator(const Problem& problem, const std::string& integrator, const Assignments& options,
                        const std::function<bool(const std::string&)>& kept) {
-  Config config = Config::from_text(problem.text, problem.file);
-  for (const auto& [path, value] : problem.set) config.override_with(path + "=" + value.text);
+  Config config = Config::from_text(problem.text, problem.file).resolving();
+  for (const auto& [path, value] : problem.set) config.set_yaml(path, value.text, value.origin.where);
   Assignments all = own_options(config, integrator, kept);
   all.insert(all.end(), options.begin(), options.end());
-  config.override_with("integrator=" + section(integrator, all));
+  set_integrator(config, integrator, all);
   return config;
 }
 

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <string>
 
-#include "lib/config/values.h"
-#include "lib/scene/setup.h"
+#include "lib/config/registry.h"
 
 namespace orthodyn {
 
@@ -17,19 +19,39 @@ constexpr double kBytes = 1e9;      // for the samples of both runs
 constexpr double kRefinement = 10;  // of rtol
 constexpr long kMoreSteps = 10;
 
-bool is_given(const Config& section, const std::string& key) {
-  return section.has(key) && !section.at(key).is_null();
-}
-
 std::size_t stride_for(std::size_t outputs, std::size_t samples) { return (outputs + samples - 1) / samples; }
-
-// A time, with or without its unit.
-double seconds(const Config& value) { return read_number(value, {.unit = "s"}); }
 
 ErrorNorms scaled(const ErrorNorms& e, double factor) { return {factor * e.final, factor * e.l2, factor * e.max}; }
 
-// A copy that can be changed; files in it are found as before.
-Config copy(const Config& config) { return Config::from_text(config.dump(), config.file()); }
+// To the digits with which it is told.
+double rounded(double x) { return std::strtod(fmt::format("{:.12g}", x).c_str(), nullptr); }
+
+// What decides on the steps, so that the second run is more accurate.
+IntegratorSettings refined(const IntegratorSettings& own) {
+  IntegratorSettings more;
+  if (own.step) more.step = rounded(*own.step / 2);
+  if (own.rtol) more.rtol = rounded(*own.rtol / kRefinement);
+  if (own.h_max) more.h_max = rounded(*own.h_max / 2);
+  if (own.h_min && *own.h_min > 0) more.h_min = 0;
+  if (own.h0 && own.h_max) more.h0 = rounded(*own.h0 / 2);
+  if (own.max_steps) more.max_steps = kMoreSteps * *own.max_steps;
+  return more;
+}
+
+// As PATH=VALUE.
+std::vector<std::string> assignments(const IntegratorSettings& settings) {
+  std::vector<std::string> all;
+  const auto add = [&](const char* key, std::optional<double> value) {
+    if (value) all.push_back(fmt::format("integrator.{}={:.12g}", key, *value));
+  };
+  add("step", settings.step);
+  add("rtol", settings.rtol);
+  add("h_max", settings.h_max);
+  add("h_min", settings.h_min);
+  add("h0", settings.h0);
+  if (settings.max_steps) all.push_back(fmt::format("integrator.max_steps={}", *settings.max_steps));
+  return all;
+}
 
 }  // namespace
 
@@ -48,42 +70,38 @@ void ErrorEstimator::SampleRecorder::on_output(const State& state) {
 }
 
 ErrorEstimator::ErrorEstimator(const Setup& setup, Plan plan)
-    : setup_(setup), plan_(std::move(plan)), refined_(copy(setup.config)),
+    : setup_(setup),
+      plan_(std::move(plan)),
       samples_(samples_within(kBytes, static_cast<std::size_t>(setup.built.model->num_dofs()))),
       first_(plan_.output_times.size(), samples_) {
   if (plan_.output_times.empty())
     setup.config.at("output").fail("an error is estimated at the output times, and there are none; set frames");
-  const Config integrator = setup.config.at("integrator");
-  fixed_step_ = is_given(integrator, "step");
-  const auto change = [&](const std::string& key, double value) {
-    refinement_.push_back(fmt::format("integrator.{}={:.12g}", key, value));
-  };
-  if (fixed_step_) change("step", seconds(integrator.at("step")) / 2);
-  if (is_given(integrator, "rtol")) change("rtol", read_number(integrator.at("rtol"), {}) / kRefinement);
-  if (refinement_.empty()) integrator.fail("has neither rtol nor step, so that no more accurate run can be made");
-  // Where they, and not rtol, decide on the steps.
-  if (is_given(integrator, "h_max")) change("h_max", seconds(integrator.at("h_max")) / 2);
-  if (is_given(integrator, "h_min") && seconds(integrator.at("h_min")) > 0) change("h_min", 0);
-  if (is_given(integrator, "h0") && integrator.has("h_max")) change("h0", seconds(integrator.at("h0")) / 2);
-  if (is_given(integrator, "max_steps"))
-    refinement_.push_back(fmt::format("integrator.max_steps={}", kMoreSteps * integrator.at("max_steps").integer()));
-  for (const auto& assignment : refinement_) refined_.override_with(assignment);
-  refined_scene_ = read_scene(refined_);  // refused now, not after the first run
+  const Config section = setup.config.at("integrator");
+  const auto resolved = Registry<IntegratorChoice>::read(section);  // with what the first run decided
+  const IntegratorSettings own = resolved->settings();
+  if (!own.step && !own.rtol) section.fail("has neither rtol nor step, so that no more accurate run can be made");
+  fixed_step_ = own.step.has_value();
+  const IntegratorSettings finer = refined(own);
+  refinement_ = assignments(finer);
+  try {
+    refined_ = resolved->with(finer);
+  } catch (const ConfigError& e) {
+    section.fail(e.message());
+  }
 }
 
 ErrorEstimate ErrorEstimator::estimate(std::vector<Observer*> observers, const std::atomic<bool>& interrupt) const {
   const Model& model = *setup_.built.model;
   ErrorEstimate estimate;
   estimate.against = refinement_.front();
-  const auto integrator =
-      refined_scene_.integrator->make(model, task_of(setup_.scene, setup_.built));
+  const auto integrator = refined_->make(model, task_of(setup_.scene, setup_.built));
   SampleRecorder second(plan_.output_times.size(), samples_);
   observers.push_back(&second);
   const Outcome outcome = run(model, *integrator, setup_.built.initial, plan_, observers, interrupt);
   estimate.wall_seconds = outcome.wall_seconds;
   estimate.completed = outcome.status == Outcome::Status::completed;
   if (!estimate.completed) {
-    estimate.trouble = outcome.status == Outcome::Status::interrupted ? "interrupted" : outcome.message;
+    estimate.failure_reason = outcome.status == Outcome::Status::interrupted ? "interrupted" : outcome.message;
     return estimate;
   }
   const double factor = fixed_step_ ? 1 + 1 / (std::exp2(second.order()) - 1) : 1;

@@ -6,11 +6,13 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "lib/simulation/run.h"
+#include "lib/ode/integrator.h"
 #include "lib/scene/setup.h"
+#include "lib/simulation/run.h"
 #include "lib/study/errors/error_norms.h"
 #include "lib/study/errors/trajectory.h"
 
@@ -18,7 +20,7 @@ namespace orthodyn {
 
 struct ErrorEstimate {
   bool completed = false;
-  std::string trouble;   // why not
+  std::string failure_reason;  // why not completed
   std::string against;   // what the second run had: "integrator.rtol=1e-05"
   ErrorNorms displacement, velocity;  // mass norm relative to the largest; NaN where nothing moves
   int samples = 0;       // times that were compared, the initial one included
@@ -63,8 +65,7 @@ class ErrorEstimator {
 
   const Setup& setup_;
   Plan plan_;
-  Config refined_;
-  Scene refined_scene_;
+  std::shared_ptr<const IntegratorChoice> refined_;  // of the second run
   bool fixed_step_ = false;
   std::vector<std::string> refinement_;
   std::size_t samples_;

@@ -33,8 +33,8 @@ void check(const Stability& stability, const Config& config) {
 // Reads it, too: wrong input shows before anything runs.
 Config scene_of(const Problem& problem, const TrialIntegrator& entry) {
   Config config = with_integrator(problem, entry.type, entry.options, [](const std::string&) { return true; });
-  for (const char* silent : {"output.fields=[]", "output.energy=false", "output.steps=false"})
-    config.override_with(silent);
+  config.set("output.fields", std::vector<std::string>());
+  for (const char* key : {"output.energy", "output.steps"}) config.set(key, false);
   if (read_scene(config).expect.empty())
     config.fail("expects nothing, so nothing can be judged; add a list 'expect' (see `orthodyn list expect`)");
   return config;
@@ -117,10 +117,7 @@ std::vector<Trial> trials(const Stability& stability) {
         try {
           all.push_back({c, v, i, title, scene_of(problem, stability.integrators[i])});
         } catch (const ConfigError& e) {
-          Assignments made_of = problem.set;
-          for (const auto& [key, value] : stability.integrators[i].options)
-            made_of.emplace_back("integrator." + key, value);
-          throw ConfigError(fmt::format("{} (in {})", said_at_its_place(e.what(), made_of), title));
+          throw ConfigError(e.place(), fmt::format("{} (in {})", e.message(), title));
         }
       }
     }

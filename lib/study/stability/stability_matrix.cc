@@ -21,11 +21,11 @@ namespace {
 // Builds the scene, too: what is wrong with it shows before anything runs.
 std::string mesh_of(const Trial& trial) {
   try {
-    const Scene scene = read_scene(Config::from_text(trial.scene.dump(), trial.scene.file()));
+    const Scene scene = read_scene(trial.scene.copy());
     build(scene);
     return mesh_fingerprint(load_mesh(scene));
   } catch (const ConfigError& e) {
-    throw ConfigError(fmt::format("{} (in {})", e.what(), trial.title));
+    throw ConfigError(e.place(), fmt::format("{} (in {})", e.message(), trial.title));
   }
 }
 

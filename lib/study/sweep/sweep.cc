@@ -7,9 +7,10 @@
 #include <stdexcept>
 
 #include "lib/core/units.h"
+#include "lib/core/words.h"
 #include "lib/fem/fem_model.h"
-#include "lib/study/sweep/formula_scope.h"
 #include "lib/study/jobs/input_kind.h"
+#include "lib/study/sweep/formula_scope.h"
 #include "lib/study/sweep/sweep_names.h"
 
 namespace orthodyn {
@@ -40,9 +41,7 @@ void check_figure(const WantedFigure& f, const Config& config) {
     return;
   std::vector<std::string> names;
   for (const auto& [name, unit] : costs) names.push_back(name);
-  const auto near = nearest_name(f.cost, names);
-  config.at("cost").fail("unknown cost '" + f.cost + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
-                         " Known: " + join(names));
+  config.at("cost").fail("unknown cost '" + f.cost + "'" + did_you_mean(f.cost, names) + " Known: " + join(names));
 }
 
 std::vector<std::string> components_of(const OutputInfo& info) {
@@ -69,14 +68,13 @@ void check_color(const std::string& color, const Config& at) {
     at.fail("'" + field + "' has no component '" + color.substr(field.size() + 1) + "'" +
             (known.empty() ? "; it is a number" : "; known: " + join(known)));
   }
-  const auto near = nearest_name(field, fields);
-  at.fail("there is no field '" + field + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
-          " Known: " + join(fields));
+  at.fail("there is no field '" + field + "'" + did_you_mean(field, fields) + " Known: " + join(fields));
 }
 
 void check_frames(const FrameWish& f, const Config& config) {
   check_color(f.color, config.at("color"));
-  if (f.view.size() != 2) config.at("view").fail("expected two angles [azimuth, elevation] in degrees");
+  if (f.view.size() != 2)
+    config.at("view").fail("expected two angles [azimuth, elevation] in degrees", InputFault::form);
   if (f.up != "x" && f.up != "y" && f.up != "z") config.at("up").fail("expected x, y or z, found '" + f.up + "'");
 }
 

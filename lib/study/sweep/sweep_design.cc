@@ -85,11 +85,11 @@ class Expansion {
           figure.closed_form.empty() ? std::nan("") : scope.evaluate(figure.closed_form, figure.origin.where));
     Assignments assignments = sweep_.scene.set;
     for (const auto& value : values) assignments.insert(assignments.end(), value.set.begin(), value.set.end());
-    Config config = Config::from_text(scene_, sweep_.scene.file.path);
+    Config config = Config::from_text(scene_, sweep_.scene.file.path).resolving();
     try {
       set(config, assignments, scope);
     } catch (const ConfigError& e) {
-      throw ConfigError(fmt::format("{} (in {})", said_at_its_place(e.what(), assignments), point.title));
+      throw ConfigError(e.place(), fmt::format("{} (in {})", e.message(), point.title));
     }
     std::optional<Scene> scene;
     try {
@@ -98,8 +98,10 @@ class Expansion {
     } catch (const ConfigError& e) {
       point.impossible = e.what();
       if (sweep_.impossible == Impossible::stop)
-        throw ConfigError(fmt::format("{} (in {}{})", said_at_its_place(e.what(), assignments), point.title,
-                                      is_a_slip(e.what()) ? "" : "; impossible: keep goes on without such points"));
+        throw ConfigError(
+            e.place(),
+            fmt::format("{} (in {}{})", e.message(), point.title,
+                        e.fault() == InputFault::form ? "" : "; impossible: keep goes on without such points"));
     }
     if (scene) check_times(*scene, point.title);
     if (scene && !is_looked_up_) try_to_look_up_quantities(*scene);
@@ -107,11 +109,6 @@ class Expansion {
   }
 
  private:
-  // Of the form of the input, not of what the values mean: no other value helps.
-  static bool is_a_slip(const std::string& message) {
-    return message.find("unknown key") != std::string::npos || message.find(": expected ") != std::string::npos;
-  }
-
   FormulaScope scope_of(const Values& values) const {
     FormulaScope scope;
     for (std::size_t k = 0; k < values.size(); ++k)
@@ -139,7 +136,7 @@ class Expansion {
   static void set(Config& config, const Assignments& assignments, const FormulaScope& scope) {
     for (const auto& [path, value] : assignments) {
       const Config given = Config::from_text("v: " + value.text).at("v");
-      config.override_with(path + "=" + scope.resolved(given, value.origin.where));
+      config.set_yaml(path, scope.resolved(given, value.origin.where), value.origin.where);
     }
   }
 

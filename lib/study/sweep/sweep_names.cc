@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "lib/core/words.h"
 #include "lib/scene/scene.h"
 #include "lib/study/sweep/formula_scope.h"
 #include "lib/study/sweep/sweep_table.h"
@@ -125,10 +126,7 @@ std::vector<std::string> scene_keys() {
   return names;
 }
 
-std::string scene_key_near(const std::string& name) {
-  const std::string near = nearest_name(name, scene_keys());
-  return near.empty() ? "" : "; did you mean '" + near + "'?";
-}
+std::string scene_key_near(const std::string& name) { return did_you_mean(name, scene_keys()); }
 
 void check_names(const Sweep& sweep) {
   for (auto later = sweep.vary.begin(); later != sweep.vary.end(); ++later)

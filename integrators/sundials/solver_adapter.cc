@@ -1,4 +1,4 @@
-#include "integrators/sundials/plug.h"
+#include "integrators/sundials/solver_adapter.h"
 
 namespace orthodyn::sundials {
 
@@ -9,13 +9,11 @@ SolverFunctions& functions(SUNLinearSolver S) { return *static_cast<SolverFuncti
 SUNLinearSolver_Type type(SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; }
 SUNLinearSolver_ID id(SUNLinearSolver) { return SUNLINEARSOLVER_CUSTOM; }
 int setup(SUNLinearSolver S, SUNMatrix) { return functions(S).setup(); }
-int solve(SUNLinearSolver S, SUNMatrix, N_Vector x, N_Vector b, sunrealtype) {
-  return functions(S).solve(x, b);
-}
+int solve(SUNLinearSolver S, SUNMatrix, N_Vector x, N_Vector b, sunrealtype) { return functions(S).solve(x, b); }
 
 }  // namespace
 
-OwnedMatrix make_matrix_plug(SUNContext context) {
+OwnedMatrix make_placeholder_matrix(SUNContext context) {
   OwnedMatrix A(SUNMatNewEmpty(context));
   if (!A) throw RunError("SUNDIALS could not allocate a matrix", Reason::out_of_memory);
   A->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
@@ -24,7 +22,7 @@ OwnedMatrix make_matrix_plug(SUNContext context) {
   return A;
 }
 
-OwnedSolver make_solver_plug(SolverFunctions& solver, SUNContext context) {
+OwnedSolver make_solver_adapter(SolverFunctions& solver, SUNContext context) {
   OwnedSolver S(SUNLinSolNewEmpty(context));
   if (!S) throw RunError("SUNDIALS could not allocate a linear solver", Reason::out_of_memory);
   S->content = &solver;

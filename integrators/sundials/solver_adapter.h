@@ -1,4 +1,4 @@
-// A SUNMatrix and a SUNLinearSolver with no life of their own: SUNDIALS asks, C++ functions answer.
+// A SUNMatrix and a SUNLinearSolver whose work is done by C++ functions.
 #pragma once
 
 #include <functional>
@@ -7,8 +7,9 @@
 
 namespace orthodyn::sundials {
 
-// A matrix that nobody reads: the linear solver keeps its own. Its operations do nothing.
-OwnedMatrix make_matrix_plug(SUNContext context);
+// A matrix without entries, for a linear solver that keeps its own: its operations do nothing. Throws RunError if
+// memory is short, as does the next.
+OwnedMatrix make_placeholder_matrix(SUNContext context);
 
 // A direct linear solver. Both functions return 0, > 0 (recoverable) or < 0 (fatal); `solver` must
 // outlive the handle.
@@ -16,6 +17,6 @@ struct SolverFunctions {
   std::function<int()> setup;
   std::function<int(N_Vector x, N_Vector b)> solve;
 };
-OwnedSolver make_solver_plug(SolverFunctions& solver, SUNContext context);
+OwnedSolver make_solver_adapter(SolverFunctions& solver, SUNContext context);
 
 }  // namespace orthodyn::sundials

@@ -1,6 +1,7 @@
-// Control of a step that is better held than changed, for a change costs a factorisation: none between an eighth and
-// two thirds of the tolerance (at error order 3), and growth no further than the trend of the errors allows
-// (Gustafsson 1994; Hairer & Wanner 1996, IV.8).
+// Step control with a dead band, for methods to which a change of the step costs a factorisation: none between an
+// eighth and two thirds of the tolerance (at error order 3). The step grows no further than the trend of the errors
+// allows (Gustafsson 1994; Hairer & Wanner 1996, IV.8). Errors are in units of the tolerance; a step with one above 1
+// is refused.
 #pragma once
 
 #include <algorithm>
@@ -8,10 +9,10 @@
 
 namespace orthodyn {
 
-class HeldStep {
+class DeadbandStepControl {
  public:
   // The local error falls with h to the power of `error_order`.
-  explicit HeldStep(double error_order) : order_(error_order) {}
+  explicit DeadbandStepControl(double error_order) : order_(error_order) {}
 
   // By what the step may change after one of length h with an error of at most 1, in units of the tolerance.
   double after_success(double h, double error) {

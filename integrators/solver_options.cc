@@ -1,4 +1,4 @@
-#include "integrators/linear_solver_key.h"
+#include "integrators/solver_options.h"
 
 #include <algorithm>
 
@@ -20,9 +20,7 @@ void require_linear_solver(const std::string& name, SolverPaths paths, const Con
   const Config given = section.at("linear_solver");
   if (solver_registry().contains(name))
     given.fail("'" + name + "' is SUNDIALS' own; this integrator takes one of " + join(names));
-  const auto near = nearest_name(name, names);
-  given.fail("expected one of " + join(names) + ", found '" + name + "'" +
-             (near.empty() ? "" : "; did you mean '" + near + "'?"));
+  given.fail(expected_one_of(names, name), InputFault::form);
 }
 
 }  // namespace orthodyn

@@ -1,0 +1,80 @@
+#include "integrators/automatic/cost_estimate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integrators/critical_step.h"
+#include "integrators/newton_matrix.h"
+#include "lib/core/errors.h"
+
+namespace orthodyn {
+
+namespace {
+
+// Measured: a force takes about 2.2 ns per entry of the tangent's lower triangle, a tangent ten forces, a solve 1 ns
+// per entry of the factor, a factorisation 0.15 ns per multiplication.
+constexpr double kForce = 2.2, kTangent = 10, kSolve = 1, kFactor = 0.15;
+constexpr double kBytesPerEntry = 10;  // of the factor, workspace included
+
+// Of an L-stable method of order two, measured at rtol 1e-3: steps for each radian of the motion, iterations for each
+// step, and tangents with their factors for each step.
+constexpr double kSteps = 7, kIterations = 4, kTangents = 0.3;
+
+// A position scale, against which errors are measured, is about a tenth of the motion.
+constexpr double kScaleOfMotion = 0.1;
+
+// The damping ratio of the motion above which the faster vibrations are gone soon enough for BDF of high order; at a
+// loose tolerance it loses its way on a stiff part of a beam at 0.003.
+constexpr double kWellDamped = 1e-3, kWellDampedIfLoose = 5e-3, kLoose = 5e-3;
+
+}  // namespace
+
+CostEstimate estimate_cost(const Model& model, const Task& task, const Scales& scales,
+                           const std::string& linear_solver) {
+  CostEstimate cost;
+  const double span = task.end - task.initial.t, omega = kScaleOfMotion * scales.velocity / scales.position;
+  cost.phase = span * omega;
+  Statistics unused;
+  cost.explicit_steps = std::numeric_limits<double>::infinity();
+  try {
+    CriticalStep critical(model, unused);
+    cost.explicit_steps = span / critical.at(task.initial);
+    if (model.traits().damped) cost.damping_ratio = critical.damping_time() * omega / 2;
+  } catch (const RecoverableError&) {  // the start has its own sentence for it
+  }
+  const NewtonMatrix matrix(model, linear_solver, TangentKind::exact, unused);
+  const double n = model.num_dofs(), force = kForce * model.pattern().non_zeros();
+  const double entries = static_cast<double>(matrix.factor_bytes()) / kBytesPerEntry;
+  cost.solve_cost = kSolve * entries / force;
+  cost.factor_cost = kFactor * entries * entries / n / force;
+  return cost;
+}
+
+double safety_of_central_differences(const CostEstimate& cost, double rtol) {
+  constexpr double kErrorPerTolerance = 10, kEnergyPerTolerance = 100, kMost = 0.9;
+  const double at_limit = cost.phase * std::pow(cost.phase / cost.explicit_steps, 2) / 24;
+  return std::min({kMost, std::sqrt(kErrorPerTolerance * rtol / at_limit), std::sqrt(kEnergyPerTolerance * rtol)});
+}
+
+MethodChoice choose_method(const CostEstimate& cost, double rtol, double most_explicit_steps) {
+  const double implicit_steps = 10 + kSteps * cost.phase * std::pow(1e-3 / rtol, 1.0 / 3);
+  const double implicit_cost =
+      implicit_steps * (kIterations * (1 + cost.solve_cost) + kTangents * (kTangent + cost.factor_cost));
+  const double safety = safety_of_central_differences(cost, rtol);
+  const double explicit_cost = cost.explicit_steps / safety;  // a force a step
+  if (explicit_cost < std::min(implicit_cost, most_explicit_steps))
+    return {
+        "central_differences",
+        fmt::format("{:.2g} explicit steps cost less than about {:.2g} implicit ones", explicit_cost, implicit_steps),
+        safety};
+  if (cost.damping_ratio > (rtol < kLoose ? kWellDamped : kWellDampedIfLoose))
+    return {"cvode_bdf", "well damped, where multistep methods of high order take long steps"};
+  if (rtol < 1e-4)
+    return {"arkode_dirk", "hardly damped, where Runge-Kutta methods of high order keep fast oscillations"};
+  return {"tr_bdf2", "hardly damped and a moderate accuracy, where an L-stable method of order 2 is cheapest"};
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,38 @@
+// Formulas are evaluated by several threads at once.
+#include "lib/config/formula.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+namespace orthodyn {
+namespace {
+
+TEST(Formula, GivesEveryThreadTheValueAtItsOwnPoint) {
+  const PointFormula shared("x + 10*y - z"), copy = shared;
+  std::atomic<int> wrong = 0;
+  const auto evaluate = [&](const PointFormula& formula, double start) {
+    for (int i = 0; i < 20'000; ++i) {
+      const Vec3 x(start + i, 2 * start - i, 3 * start);
+      if (formula.at(x) != x[0] + 10 * x[1] - x[2]) ++wrong;
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int k = 0; k < 4; ++k) threads.emplace_back(evaluate, std::cref(k % 2 ? shared : copy), 1000.0 * k);
+  for (auto& thread : threads) thread.join();
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(Formula, WithoutAValueNamesItsPlaceAndThePoint) {
+  try {
+    PointFormula("1/x", "a.yaml:3:4: factor").at({0, 1, 2});
+    FAIL() << "accepted";
+  } catch (const ConfigError& e) {
+    EXPECT_EQ(e.place(), "a.yaml:3:4: factor");
+    EXPECT_EQ(e.message(), "'1/x' is infinite at x = 0, y = 1, z = 2");
+  }
+}
+
+}  // namespace
+}  // namespace orthodyn
