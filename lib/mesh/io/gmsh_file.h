@@ -1,5 +1,5 @@
 // What a Gmsh file says, before it becomes a TetMesh: tags instead of indices, and the line of
-// everything. Filled by the readers of the formats, turned into a mesh by read_gmsh().
+// everything. Filled by the readers of both versions, turned into a mesh by read_gmsh().
 #pragma once
 
 #include <array>

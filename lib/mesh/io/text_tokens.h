@@ -7,6 +7,10 @@
 
 namespace orthodyn {
 
+// The content of a file. Throws ConfigError for a file that is missing, unreadable, or not a regular file (a pipe
+// might never end).
+std::string read_text_file(const std::string& path);
+
 // What else than blanks and ends of lines has a meaning.
 struct Punctuation {
   bool commas = false;           // separate words, as blanks do

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "lib/mesh/io/text_file.h"
 #include "lib/mesh/io/text_tokens.h"
 #include "lib/mesh/io/vega_file.h"
 
@@ -136,6 +135,13 @@ void add_fixed(const FixedVertices& fixed, VegaFile& file) {
   }
   if (set.empty()) tokens.fail("no vertices");
 }
+
+const bool registered = register_mesh_format({.name = "Vega",
+                                              .endings = {".veg"},
+                                              .read = read_vega,
+                                              .write = write_vega,
+                                              .holds_materials = true,
+                                              .holds_surfaces = false});
 
 }  // namespace
 

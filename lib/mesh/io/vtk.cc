@@ -8,10 +8,8 @@
 #include <charconv>
 #include <utility>
 
-#include "lib/mesh/io/text_file.h"
 #include "lib/mesh/io/text_tokens.h"
 #include "lib/mesh/io/vtk_grid.h"
-#include "lib/mesh/io/vtk_numbers.h"
 
 namespace orthodyn {
 namespace {
@@ -219,6 +217,8 @@ class VtkReader {
   std::uint64_t tuples_ = 0;
   std::vector<CellData>* target_ = nullptr;
 };
+
+const bool registered = register_mesh_format({.name = "VTK legacy", .endings = {".vtk"}, .read = read_vtk});
 
 }  // namespace
 

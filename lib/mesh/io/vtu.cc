@@ -11,10 +11,8 @@
 #include <utility>
 
 #include "lib/core/errors.h"
-#include "lib/mesh/io/text_file.h"
 #include "lib/mesh/io/text_tokens.h"
 #include "lib/mesh/io/vtk_grid.h"
-#include "lib/mesh/io/vtk_numbers.h"
 #include "lib/mesh/io/vtu_bytes.h"
 
 namespace orthodyn {
@@ -202,6 +200,10 @@ class VtuReader {
   bool appended_base64_ = false;
   std::uint64_t budget_;  // bytes that packed arrays may still fill
 };
+
+const bool registered = register_mesh_format(
+    {.name = "VTK XML", .endings = {".vtu"}, .read = read_vtu, .write = write_vtu, .holds_surfaces = false,
+     .holds_cell_data = true});
 
 }  // namespace
 
