@@ -1,14 +1,16 @@
-#include "lib/simulation/vtu.h"
+#include "lib/simulation/frames.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
-#include <cstdint>
 #include <cstdio>
-#include <type_traits>
+#include <system_error>
+#include <utility>
 
 #include "lib/core/errors.h"
+#include "lib/core/write_file.h"
+#include "lib/mesh/io/vtk_grid.h"
+#include "lib/mesh/io/vtu_text.h"
 
 namespace orthodyn {
 
@@ -16,92 +18,24 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The XML part, and the binary blocks that it points into.
-class VtuFile {
- public:
-  template <class T>
-  void array(const std::string& name, int components, const std::vector<T>& values) {
-    xml_ += fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" "
-                        "offset=\"{}\"/>\n",
-                        type_name<T>(), name, components, offset_);
-    const std::uint64_t bytes = values.size() * sizeof(T);
-    std::string block(reinterpret_cast<const char*>(&bytes), sizeof bytes);
-    block.append(reinterpret_cast<const char*>(values.data()), bytes);
-    offset_ += block.size();
-    blocks_.push_back(std::move(block));
+VtuGrid grid_of(const Geometry& geometry, std::vector<VtuField> fields, VtuNumber type) {
+  VtuGrid grid{.points = geometry.points, .cell_type = kVtkTetra, .points_per_cell = 4, .connectivity = {}};
+  grid.connectivity.reserve(4 * geometry.cells.size());
+  for (const auto& cell : geometry.cells) grid.connectivity.insert(grid.connectivity.end(), cell.begin(), cell.end());
+  for (VtuField& field : fields) {
+    auto& data = field.location == Location::node ? grid.point_data : grid.cell_data;
+    data.push_back({std::move(field.name), field.components, type, std::move(field.values)});
   }
-
-  void text(const std::string& xml) { xml_ += xml; }
-
-  std::vector<std::string> finish() {
-    const char* order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
-    blocks_.insert(blocks_.begin(),
-                   fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-                               "byte_order=\"{}\" header_type=\"UInt64\">\n{}<AppendedData encoding=\"raw\">\n_",
-                               order, xml_));
-    blocks_.emplace_back("\n</AppendedData>\n</VTKFile>\n");
-    return std::move(blocks_);
-  }
-
- private:
-  template <class T>
-  static const char* type_name() {
-    if constexpr (std::is_same_v<T, float>) return "Float32";
-    else if constexpr (std::is_same_v<T, double>) return "Float64";
-    else if constexpr (std::is_same_v<T, std::int32_t>) return "Int32";
-    else return "UInt8";
-  }
-
-  std::string xml_;
-  std::vector<std::string> blocks_;
-  std::size_t offset_ = 0;
-};
-
-void write_geometry(const Geometry& geometry, VtuFile& file) {
-  std::vector<double> points;
-  points.reserve(3 * geometry.points.size());
-  for (const Vec3& x : geometry.points) points.insert(points.end(), x.begin(), x.end());
-  std::vector<std::int32_t> connectivity, offsets;
-  connectivity.reserve(4 * geometry.cells.size());
-  offsets.reserve(geometry.cells.size());
-  for (const auto& cell : geometry.cells) {
-    connectivity.insert(connectivity.end(), cell.begin(), cell.end());
-    offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
-  }
-  constexpr std::uint8_t kTetra = 10;
-  file.text("<Points>\n");
-  file.array("points", 3, points);
-  file.text("</Points>\n<Cells>\n");
-  file.array("connectivity", 1, connectivity);
-  file.array("offsets", 1, offsets);
-  file.array("types", 1, std::vector<std::uint8_t>(geometry.cells.size(), kTetra));
-  file.text("</Cells>\n");
-}
-
-template <class Real>
-std::vector<std::string> whole_file(const Geometry& geometry, const std::vector<VtuField>& fields) {
-  VtuFile file;
-  file.text(fmt::format("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-                        geometry.points.size(), geometry.cells.size()));
-  for (const auto& [location, tag] : {std::pair{Location::node, "PointData"}, {Location::cell, "CellData"}}) {
-    file.text(fmt::format("<{}>\n", tag));
-    for (const auto& field : fields)
-      if (field.location == location)
-        file.array(field.name, field.components, std::vector<Real>(field.values.begin(), field.values.end()));
-    file.text(fmt::format("</{}>\n", tag));
-  }
-  write_geometry(geometry, file);
-  file.text("</Piece>\n</UnstructuredGrid>\n");
-  return file.finish();
+  return grid;
 }
 
 }  // namespace
 
-void write_vtu(const std::filesystem::path& path, const Geometry& geometry, const std::vector<VtuField>& fields) {
-  write_file(path, whole_file<double>(geometry, fields));
+void write_vtu(const std::filesystem::path& path, const Geometry& geometry, std::vector<VtuField> fields) {
+  write_file(path, vtu_text(grid_of(geometry, std::move(fields), VtuNumber::float64), VtuStorage::raw));
 }
 
-VtuWriter::VtuWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields)
+FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields)
     : folder_(std::move(folder)), model_(model),
       collection_(folder_ / "frames.pvd",
                   "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n",
@@ -110,12 +44,13 @@ VtuWriter::VtuWriter(std::filesystem::path folder, const Model& model, const std
     if (std::find(fields.begin(), fields.end(), info.name) != fields.end()) fields_.push_back(info);
 }
 
-void VtuWriter::write(const State& state) {
+void FrameWriter::write(const State& state) {
   std::vector<VtuField> fields;
   for (const auto& info : fields_)
     fields.push_back({info.name, info.location, info.components, model_.evaluate(info.name, state)});
   const fs::path path = frame(frames_);
-  write_file(path, whole_file<float>(model_.geometry(), fields));
+  const Geometry geometry = model_.geometry();
+  write_file(path, vtu_text(grid_of(geometry, std::move(fields), VtuNumber::float32), VtuStorage::raw));
   try {
     collection_.append(fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"frames/{}\"/>\n", state.t,
                                    path.filename().string()));
@@ -127,14 +62,14 @@ void VtuWriter::write(const State& state) {
   ++frames_;
 }
 
-fs::path VtuWriter::frame(std::size_t k) const { return folder_ / "frames" / fmt::format("frame_{:05}.vtu", k); }
+fs::path FrameWriter::frame(std::size_t k) const { return folder_ / "frames" / fmt::format("frame_{:05}.vtu", k); }
 
-void VtuWriter::on_start(const State& state) {
+void FrameWriter::on_start(const State& state) {
   collection_.begin();
   write(state);
 }
 
-void VtuWriter::save(Archive& archive) {
+void FrameWriter::save(Archive& archive) {
   const bool any_new = lasting_ < frames_;
   for (; lasting_ < frames_; ++lasting_) make_lasting(frame(lasting_));
   if (any_new) make_lasting(folder_ / "frames");  // their names
@@ -143,7 +78,7 @@ void VtuWriter::save(Archive& archive) {
   archive.put_count("bytes", collection_.size());
 }
 
-void VtuWriter::restore(const Archive& archive) {
+void FrameWriter::restore(const Archive& archive) {
   frames_ = lasting_ = archive.count("frames");
   kept_ = archive.count("bytes");
   collection_.require(kept_);
@@ -154,13 +89,13 @@ void VtuWriter::restore(const Archive& archive) {
                                     frame(k).string(), frames_));
 }
 
-void VtuWriter::on_resume(const State&) {
+void FrameWriter::on_resume(const State&) {
   collection_.go_on(kept_);
   remove_frames_from(frames_);
 }
 
 // They are computed again. What was being written when the run was killed is removed too.
-void VtuWriter::remove_frames_from(std::size_t count) const {
+void FrameWriter::remove_frames_from(std::size_t count) const {
   std::error_code ec;
   std::vector<fs::path> surplus;
   for (const auto& entry : fs::directory_iterator(folder_ / "frames", ec)) {
