@@ -140,7 +140,8 @@ TEST(Cylinder, LiesAlongItsAxisFromItsOrigin) {
 // Also where the axis is opposite to z, or nearly so.
 TEST(Cylinder, TurnedToAnyAxisItIsTheSameBody) {
   const TetMesh upright = make_cylinder(cylinder_of(8));
-  for (const Vec3& axis : {Vec3(0, 0, -1), Vec3(1e-9, -2e-9, -1), Vec3(1e-200, 0, -3), Vec3(1, 2, -3), Vec3(0, 1e-12, 1)}) {
+  for (const Vec3& axis :
+       {Vec3(0, 0, -1), Vec3(1e-9, -2e-9, -1), Vec3(1e-200, 0, -3), Vec3(1, 2, -3), Vec3(0, 1e-12, 1)}) {
     CylinderMesh cylinder = cylinder_of(8);
     cylinder.axis = axis;
     const TetMesh turned = make_cylinder(cylinder);

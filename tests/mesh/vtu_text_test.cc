@@ -12,7 +12,8 @@ namespace {
 const std::vector<Vec3> kPoints{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1.0 / 3}};
 
 VtuGrid two_tets() {
-  VtuGrid grid{.points = kPoints, .cell_type = kVtkTetra, .points_per_cell = 4, .connectivity = {0, 1, 2, 3, 1, 2, 3, 4}};
+  VtuGrid grid{
+      .points = kPoints, .cell_type = kVtkTetra, .points_per_cell = 4, .connectivity = {0, 1, 2, 3, 1, 2, 3, 4}};
   grid.point_data = {{.name = "nodes:tip", .type = VtuNumber::uint8, .values = {0, 0, 0, 0, 1}}};
   grid.cell_data = {{.name = "region", .type = VtuNumber::int32, .values = {1, 0}},
                     {.name = "axis", .components = 3, .values = {0.1, 0, 0, 0, 1.0 / 3, 0}},
@@ -38,7 +39,9 @@ TEST_P(AnyStorage, KeepsTheGridAndItsFields) {
   EXPECT_EQ(read.mesh.node_sets.at("tip"), std::vector<int>{4});
   ASSERT_TRUE(find_cell_data(read, "axis") && find_cell_data(read, "rounded"));
   EXPECT_EQ(find_cell_data(read, "axis")->values, (std::vector<double>{0.1, 0, 0, 0, 1.0 / 3, 0}));
-  for (const int cell : {0, 1}) EXPECT_FLOAT_EQ(float(find_cell_data(read, "rounded")->values.at(std::size_t(cell))), cell == 0 ? 0.1f : 2);
+  EXPECT_EQ(find_cell_data(read, "rounded")->values.at(1), 2);
+  const bool exact = GetParam() == VtuStorage::ascii;  // where no number is rounded to the type of its array
+  EXPECT_EQ(find_cell_data(read, "rounded")->values.at(0), exact ? 0.1 : 0.1f);
 }
 
 // Only the reader of meshes asks for tetrahedra.

@@ -297,11 +297,6 @@ class AbaqusReader {
 
 }  // namespace
 
-std::string in_capitals(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
-
 AbaqusFile read_abaqus_keywords(const std::string& path, std::string_view text) { return AbaqusReader(path, text).read(); }
 
 }  // namespace orthodyn

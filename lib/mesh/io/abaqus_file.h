@@ -48,8 +48,6 @@ struct AbaqusFile {
   std::vector<AbaqusMembers> sections;  // the element set of each *SOLID SECTION
 };
 
-std::string in_capitals(std::string text);
-
 // Throws ConfigError.
 AbaqusFile read_abaqus_keywords(const std::string& path, std::string_view text);
 

@@ -14,7 +14,8 @@ namespace {
 
 // Within quotes only these cannot stand, and blanks at the edges are none of the name.
 std::string abaqus_name(std::string name) {
-  std::replace_if(name.begin(), name.end(), [](char c) { return (c >= '\0' && c < ' ') || c == '"'; }, '_');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return (c >= '\0' && c < ' ') || c == '"'; }, '_');
   if (!name.empty() && name.front() == ' ') name.front() = '_';
   if (!name.empty() && name.back() == ' ') name.back() = '_';
   return name;

@@ -64,11 +64,10 @@ class MeshBuilder {
     if (groups.empty()) return 0;
     for (int group : groups) {
       if (std::abs(group) == std::abs(groups[0])) continue;
-      tokens_.fail_at(
-          tet.line,
-          fmt::format("element {}: in two physical volumes, \"{}\" and \"{}\"; an element "
-                      "belongs to one region: put its volume in one physical group",
-                      tet.tag, group_name(3, std::abs(groups[0])), group_name(3, std::abs(group))));
+      tokens_.fail_at(tet.line,
+                      fmt::format("element {}: in two physical volumes, \"{}\" and \"{}\"; an element "
+                                  "belongs to one region: put its volume in one physical group",
+                                  tet.tag, group_name(3, std::abs(groups[0])), group_name(3, std::abs(group))));
     }
     return std::abs(groups[0]);
   }
@@ -77,17 +76,13 @@ class MeshBuilder {
   void add_regions() {
     std::map<int, int> tets_with;
     for (const GmshElement<4>& tet : file_.tets) ++tets_with[region_tag(tet)];
-    std::map<std::string, int> index;
     for (const auto& [tag, tets] : tets_with) {
-      const std::string name = tag == 0 ? "body" : group_name(3, tag);
-      const auto [entry, is_new] = index.emplace(name, static_cast<int>(index.size()));
-      if (is_new) draft_.region_names.push_back(name);
-      region_index_[tag] = entry->second;
+      region_index_[tag] = draft_.region_index(tag == 0 ? "body" : group_name(3, tag));
     }
     if (tets_with.contains(0) && tets_with.size() > 1) {
       draft_.warnings.push_back(
-          fmt::format("{}: {} of {} tetrahedra are in no physical volume; they are in region \"body\"",
-                      tokens_.path(), tets_with[0], file_.tets.size()));
+          fmt::format("{}: {} of {} tetrahedra are in no physical volume; they are in region \"body\"", tokens_.path(),
+                      tets_with[0], file_.tets.size()));
     }
   }
 

@@ -38,7 +38,8 @@ void replace_together(const std::vector<MeshText>& files, const std::function<st
     std::error_code error;
     fs::rename(beside(file), place(file), error);
     if (error) {
-      throw ConfigError(fmt::format("{}: cannot be written: {}; the mesh is in {}", place(file), error.message(), beside(file)));
+      throw ConfigError(
+          fmt::format("{}: cannot be written: {}; the mesh is in {}", place(file), error.message(), beside(file)));
     }
   }
 }
@@ -50,7 +51,8 @@ LoadedMesh read_mesh(const std::string& path) { return mesh_format_of(path).read
 Warnings write_mesh(const LoadedMesh& loaded, const std::string& path, bool replace) {
   namespace fs = std::filesystem;
   const MeshFormat& format = mesh_format_of(path);
-  if (!format.write) throw ConfigError(fmt::format("{}: {} files are only read; write .vtu instead", path, format.name));
+  if (!format.write)
+    throw ConfigError(fmt::format("{}: {} files are only read; write .vtu instead", path, format.name));
   WrittenMesh written = format.write(loaded);
   // The user's spelling for a single file, that of the format for several beside each other.
   const auto place = [&](const MeshText& file) {

@@ -9,6 +9,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/core/words.h"
+#include "lib/mesh/io/text_tokens.h"
 
 namespace orthodyn {
 namespace {
@@ -47,7 +48,8 @@ const MeshFormat& mesh_format_of(const std::string& path) {
   for (const MeshFormat& format : mesh_formats()) {
     if (std::count(format.endings.begin(), format.endings.end(), ending) > 0) return format;
   }
-  throw ConfigError(fmt::format("{}: no mesh format has the ending \"{}\"; known: {}", path, ending, known_mesh_endings()));
+  throw ConfigError(
+      fmt::format("{}: no mesh format has the ending \"{}\"; known: {}", path, ending, known_mesh_endings()));
 }
 
 Warnings losses_in(const MeshFormat& format, const LoadedMesh& loaded) {
@@ -69,11 +71,8 @@ void note_loss(Warnings& losses, const std::string& what, const std::vector<std:
 }
 
 std::string unique_name(TakenNames& taken, const std::string& name, const std::string& cleaned, Warnings& losses) {
-  const auto take = [&](std::string key) {
-    if (!taken.capitals_differ) {
-      for (char& c : key) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    }
-    return taken.names.insert(std::move(key)).second;
+  const auto take = [&](const std::string& key) {
+    return taken.names.insert(taken.capitals_differ ? key : in_capitals(key)).second;
   };
   const std::string start = cleaned.empty() ? "unnamed" : cleaned;
   std::string out = start;

@@ -35,7 +35,8 @@ class TetgenReader {
   template <class Record>
   void read_records(TextTokens& tokens, std::int64_t announced, const char* what, Record&& record) {
     for (std::int64_t i = 0; i < announced; ++i) {
-      if (tokens.at_end()) tokens.fail(fmt::format("the file ends after {} of {} {}; is it truncated?", i, announced, what));
+      if (tokens.at_end())
+        tokens.fail(fmt::format("the file ends after {} of {} {}; is it truncated?", i, announced, what));
       record();
       tokens.finish_line();
     }
@@ -72,7 +73,8 @@ class TetgenReader {
     const std::int64_t count = tokens.count("the number of tetrahedra");
     const std::int64_t nodes = tokens.integer("the nodes per tetrahedron");
     if (nodes != 4) {
-      tokens.fail(fmt::format("{} nodes per tetrahedron; only linear ones (4) are read: run tetgen without -o2", nodes));
+      tokens.fail(
+          fmt::format("{} nodes per tetrahedron; only linear ones (4) are read: run tetgen without -o2", nodes));
     }
     const std::int64_t attributes = tokens.peek() ? tokens.count("the number of attributes") : 0;
     tokens.finish_line();
@@ -81,7 +83,8 @@ class TetgenReader {
       FileTet tet{.tag = 0, .nodes = {}, .place = {tokens.line(), 1}};
       tet.tag = tokens.integer("the number of a tetrahedron");
       for (std::int64_t& node : tet.nodes) node = tokens.integer("a node");
-      tet.region = region_of(attributes > 0 ? fmt::format("region{}", tokens.real("the attribute of a region")) : "body");
+      const bool named = attributes > 0;
+      tet.region = draft_.region_index(named ? fmt::format("region{}", tokens.real("the attribute of a region")) : "body");
       for (std::int64_t k = 1; k < attributes; ++k) tokens.real("an attribute");
       draft_.tets.push_back(tet);
     });
@@ -108,14 +111,7 @@ class TetgenReader {
     return flag == 1;
   }
 
-  int region_of(const std::string& name) {
-    const auto [entry, is_new] = regions_.emplace(name, static_cast<int>(regions_.size()));
-    if (is_new) draft_.region_names.push_back(name);
-    return entry->second;
-  }
-
   MeshDraft draft_;
-  std::map<std::string, int> regions_;
 };
 
 // "marker7" keeps its 7; the others take the numbers that are free.
@@ -194,8 +190,8 @@ std::string face_text(const TetMesh& mesh, Warnings& losses) {
   return lines.take();
 }
 
-const bool registered = register_mesh_format(
-    {.name = "TetGen", .endings = {".node", ".ele"}, .read = read_tetgen, .write = write_tetgen});
+const bool registered =
+    register_mesh_format({.name = "TetGen", .endings = {".node", ".ele"}, .read = read_tetgen, .write = write_tetgen});
 
 }  // namespace
 

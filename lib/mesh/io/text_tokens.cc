@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -27,12 +28,16 @@ std::string read_text_file(const std::string& path) {
   }
   std::ifstream stream(path, std::ios::binary | std::ios::ate);
   const std::streamoff size = stream ? std::streamoff(stream.tellg()) : -1;
-  if (size < 0)
-    throw ConfigError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
+  if (size < 0) throw ConfigError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
   std::string text(static_cast<std::size_t>(size), '\0');
   stream.seekg(0);
   stream.read(text.data(), size);
   if (!stream) throw ConfigError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  return text;
+}
+
+std::string in_capitals(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return text;
 }
 

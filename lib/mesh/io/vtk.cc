@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
-#include <charconv>
 #include <utility>
 
 #include "lib/mesh/io/text_tokens.h"
@@ -45,11 +43,7 @@ class VtkReader {
     tokens_.finish_line();
   }
 
-  std::string keyword() {
-    std::string word(tokens_.word("a keyword"));
-    for (char& c : word) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return word;
-  }
+  std::string keyword() { return in_capitals(std::string(tokens_.word("a keyword"))); }
 
   void read_section() {
     const std::string word = keyword();

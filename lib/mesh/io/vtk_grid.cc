@@ -119,13 +119,10 @@ void add_regions(const VtkGrid& grid, const std::vector<std::size_t>& tets, Mesh
   for (const std::size_t c : tets) {
     index[whole(grid, data->values[c], -1e9, 1e9, fmt::format("cell data \"{}\" of cell {}", data->name, c))] = 0;
   }
-  std::map<std::string, int> by_name;
   for (auto& [number, region] : index) {
     const bool named = number >= 0 && number < static_cast<std::int64_t>(grid.region_names.size());
-    const std::string name = named ? grid.region_names[static_cast<std::size_t>(number)] : fmt::format("region{}", number);
-    const auto [entry, is_new] = by_name.emplace(name, static_cast<int>(draft.region_names.size()));
-    if (is_new) draft.region_names.push_back(name);
-    region = entry->second;
+    region = draft.region_index(named ? grid.region_names[static_cast<std::size_t>(number)]
+                                      : fmt::format("region{}", number));
   }
   for (std::size_t t = 0; t < tets.size(); ++t) {
     draft.tets[t].region = index.at(static_cast<std::int64_t>(data->values[tets[t]]));

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
 #include <iterator>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 
 namespace orthodyn {
@@ -25,97 +25,91 @@ std::string escaped(const std::string& name) {
   return out;
 }
 
+constexpr std::array<const char*, 4> kTypeNames{"UInt8", "Int32", "Float32", "Float64"};  // in the order of VtuNumber
+
+// The bytes of the values as numbers of type T, with their count in front.
 template <class T>
-constexpr const char* type_name() {
-  if constexpr (std::is_same_v<T, float>) return "Float32";
-  else if constexpr (std::is_same_v<T, double>) return "Float64";
-  else if constexpr (std::is_same_v<T, std::int32_t>) return "Int32";
-  else return "UInt8";
+std::string block_of(const std::vector<double>& values) {
+  const std::uint64_t bytes = values.size() * sizeof(T);
+  std::string block(sizeof bytes + bytes, '\0');
+  std::memcpy(block.data(), &bytes, sizeof bytes);
+  char* place = block.data() + sizeof bytes;
+  for (const double value : values) {
+    const T number = static_cast<T>(value);
+    std::memcpy(place, &number, sizeof number);
+    place += sizeof number;
+  }
+  return block;
 }
 
-// The XML, and the blocks of bytes that it points into: each has its length in front.
+std::string block_of(const VtuArray& data) {
+  switch (data.type) {
+    case VtuNumber::uint8:
+      return block_of<std::uint8_t>(data.values);
+    case VtuNumber::int32:
+      return block_of<std::int32_t>(data.values);
+    case VtuNumber::float32:
+      return block_of<float>(data.values);
+    case VtuNumber::float64:
+      break;
+  }
+  return block_of<double>(data.values);
+}
+
+// The XML, and the blocks of bytes that it points into.
 class VtuFile {
  public:
-  explicit VtuFile(VtuStorage storage) : storage_(storage) {}
+  explicit VtuFile(VtuStorage storage) : ascii_(storage == VtuStorage::ascii) {
+    const bool little = ascii_ || std::endian::native == std::endian::little;
+    xml_ = fmt::format(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"{}\" byte_order=\"{}\"{}>\n",
+        ascii_ ? "0.1" : "1.0", little ? "LittleEndian" : "BigEndian", ascii_ ? "" : " header_type=\"UInt64\"");
+  }
 
   void text(std::string_view xml) { xml_ += xml; }
 
-  // As numbers of type T.
-  template <class T, class Number>
-  void array(const std::string& name, int components, const std::vector<Number>& values) {
-    xml_ += fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" ", type_name<T>(), escaped(name),
-                        components);
-    if (storage_ == VtuStorage::ascii) {
-      add_ascii(values);
-    } else {
-      add_block<T>(values);
-    }
-  }
-
   void array(const VtuArray& data) {
-    switch (data.type) {
-      case VtuNumber::uint8: return array<std::uint8_t>(data.name, data.components, data.values);
-      case VtuNumber::int32: return array<std::int32_t>(data.name, data.components, data.values);
-      case VtuNumber::float32: return array<float>(data.name, data.components, data.values);
-      case VtuNumber::float64: return array<double>(data.name, data.components, data.values);
-    }
+    xml_ += fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" ",
+                        kTypeNames[static_cast<std::size_t>(data.type)], escaped(data.name), data.components);
+    if (ascii_) return add_ascii(data.values);
+    xml_ += "format=\"appended\" offset=\"" + std::to_string(offset_) + "\"/>\n";
+    blocks_.push_back(block_of(data));
+    offset_ += blocks_.back().size();
   }
 
   std::vector<std::string> finish() {
-    if (storage_ == VtuStorage::ascii) return {std::move(xml_) + "</VTKFile>\n"};
+    if (ascii_) return {std::move(xml_) + "</VTKFile>\n"};
     blocks_.insert(blocks_.begin(), std::move(xml_) + "<AppendedData encoding=\"raw\">\n_");
     blocks_.emplace_back("\n</AppendedData>\n</VTKFile>\n");
     return std::move(blocks_);
   }
 
  private:
-  template <class Number>
-  void add_ascii(const std::vector<Number>& values) {
+  void add_ascii(const std::vector<double>& values) {
     xml_ += "format=\"ascii\">\n";
     std::size_t count = 0;
-    for (const Number value : values) {
+    for (const double value : values) {
       fmt::format_to(std::back_inserter(xml_), "{}", value);
       xml_ += ++count % 12 == 0 ? '\n' : ' ';
     }
     xml_ += "\n</DataArray>\n";
   }
 
-  template <class T, class Number>
-  void add_block(const std::vector<Number>& values) {
-    xml_ += "format=\"appended\" offset=\"" + std::to_string(offset_) + "\"/>\n";
-    const std::uint64_t bytes = values.size() * sizeof(T);
-    std::string block(sizeof bytes + bytes, '\0');
-    std::memcpy(block.data(), &bytes, sizeof bytes);
-    char* place = block.data() + sizeof bytes;
-    for (const Number value : values) {
-      const T number = static_cast<T>(value);
-      std::memcpy(place, &number, sizeof number);
-      place += sizeof number;
-    }
-    offset_ += block.size();
-    blocks_.push_back(std::move(block));
-  }
-
-  VtuStorage storage_;
+  bool ascii_;
   std::string xml_;
   std::vector<std::string> blocks_;
   std::size_t offset_ = 0;
 };
-
-void add_head(VtuFile& file, VtuStorage storage) {
-  file.text("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" ");
-  if (storage == VtuStorage::ascii) return file.text("version=\"0.1\" byte_order=\"LittleEndian\">\n");
-  const bool little = std::endian::native == std::endian::little;
-  file.text(fmt::format("version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\">\n", little ? "LittleEndian" : "BigEndian"));
-}
 
 // As codes of characters, each name ended by a zero: not every reader takes arrays of strings.
 void add_region_names(VtuFile& file, const std::vector<std::string>& names) {
   if (names.empty()) return;
   std::size_t codes = names.size();
   for (const std::string& name : names) codes += name.size();
-  file.text(fmt::format("<FieldData>\n<DataArray type=\"UInt8\" Name=\"region_names\" NumberOfTuples=\"{}\" "
-                        "format=\"ascii\">\n", codes));
+  file.text(
+      fmt::format("<FieldData>\n<DataArray type=\"UInt8\" Name=\"region_names\" NumberOfTuples=\"{}\" "
+                  "format=\"ascii\">\n",
+                  codes));
   for (const std::string& name : names) {
     for (const char c : name) file.text(std::to_string(static_cast<unsigned char>(c)) + " ");
     file.text("0\n");
@@ -124,21 +118,21 @@ void add_region_names(VtuFile& file, const std::vector<std::string>& names) {
 }
 
 void add_points(VtuFile& file, const VtuGrid& grid, VtuStorage storage) {
-  std::vector<double> points;
-  points.reserve(3 * grid.points.size());
-  for (const Vec3& x : grid.points) points.insert(points.end(), x.begin(), x.end());
+  VtuArray points{.name = storage == VtuStorage::ascii ? "Points" : "points", .components = 3};
+  points.values.reserve(3 * grid.points.size());
+  for (const Vec3& x : grid.points) points.values.insert(points.values.end(), x.begin(), x.end());
   file.text("<Points>\n");
-  file.array<double>(storage == VtuStorage::ascii ? "Points" : "points", 3, points);
+  file.array(points);
   file.text("</Points>\n");
 }
 
 void add_cells(VtuFile& file, const VtuGrid& grid, std::size_t cells) {
-  std::vector<int> offsets(cells);
-  for (std::size_t c = 0; c < cells; ++c) offsets[c] = static_cast<int>((c + 1) * grid.points_per_cell);
+  std::vector<double> ends(cells);
+  for (std::size_t c = 0; c < cells; ++c) ends[c] = static_cast<double>((c + 1) * grid.points_per_cell);
   file.text("<Cells>\n");
-  file.array<std::int32_t>("connectivity", 1, grid.connectivity);
-  file.array<std::int32_t>("offsets", 1, offsets);
-  file.array<std::uint8_t>("types", 1, std::vector<int>(cells, grid.cell_type));
+  file.array({"connectivity", 1, VtuNumber::int32, {grid.connectivity.begin(), grid.connectivity.end()}});
+  file.array({"offsets", 1, VtuNumber::int32, std::move(ends)});
+  file.array({"types", 1, VtuNumber::uint8, std::vector<double>(cells, grid.cell_type)});
   file.text("</Cells>\n");
 }
 
@@ -147,10 +141,10 @@ void add_cells(VtuFile& file, const VtuGrid& grid, std::size_t cells) {
 std::vector<std::string> vtu_text(const VtuGrid& grid, VtuStorage storage) {
   const std::size_t cells = grid.connectivity.size() / grid.points_per_cell;
   VtuFile file(storage);
-  add_head(file, storage);
   file.text("<UnstructuredGrid>\n");
   add_region_names(file, grid.region_names);
-  file.text(fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n", grid.points.size(), cells));
+  file.text(
+      fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n", grid.points.size(), cells));
   for (const VtuArray& data : grid.point_data) file.array(data);
   file.text("</PointData>\n<CellData>\n");
   for (const VtuArray& data : grid.cell_data) file.array(data);
