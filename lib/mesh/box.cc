@@ -16,8 +16,7 @@ namespace {
 
 // Corners of the unit cell are i + 2 j + 4 k; all tets below are positive.
 constexpr Tet kFive[] = {{0, 5, 3, 6}, {1, 3, 0, 5}, {2, 0, 3, 6}, {4, 6, 5, 0}, {7, 5, 6, 3}};
-constexpr Tet kSix[] = {{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7},
-                        {0, 5, 1, 7}, {0, 6, 4, 7}, {0, 3, 2, 7}};
+constexpr Tet kSix[] = {{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}, {0, 6, 4, 7}, {0, 3, 2, 7}};
 
 std::span<const Tet> cell_tets(BoxMesh::Split split) {
   if (split == BoxMesh::Split::five) return kFive;
@@ -31,12 +30,10 @@ void check(const BoxMesh& box) {
   for (std::size_t a = 0; a < 3; ++a) {
     const double size = box.size[static_cast<Eigen::Index>(a)];
     if (!(size > 0) || !std::isfinite(size)) {
-      throw ConfigError(
-          fmt::format("box size {} m along {}; it must be positive and finite", size, kAxis[a]));
+      throw ConfigError(fmt::format("box size {} m along {}; it must be positive and finite", size, kAxis[a]));
     }
     if (box.cells[a] < 1) {
-      throw ConfigError(
-          fmt::format("{} cells along {}; there must be at least 1", box.cells[a], kAxis[a]));
+      throw ConfigError(fmt::format("{} cells along {}; there must be at least 1", box.cells[a], kAxis[a]));
     }
     nodes *= box.cells[a] + 1.0;
     tets *= box.cells[a];
@@ -44,9 +41,8 @@ void check(const BoxMesh& box) {
   if (!box.origin.allFinite()) throw ConfigError("the origin of the box is not finite");
   constexpr int kMax = std::numeric_limits<int>::max();
   if (nodes > kMax || tets > kMax) {
-    throw ConfigError(fmt::format(
-        "{} x {} x {} cells make {:.3g} nodes and {:.3g} tets; at most {} can be numbered",
-        box.cells[0], box.cells[1], box.cells[2], nodes, tets, kMax));
+    throw ConfigError(fmt::format("{} x {} x {} cells make {:.3g} nodes and {:.3g} tets; at most {} can be numbered",
+                                  box.cells[0], box.cells[1], box.cells[2], nodes, tets, kMax));
   }
 }
 
@@ -75,16 +71,13 @@ std::vector<Vec3> make_nodes(const BoxMesh& box) {
   return nodes;
 }
 
-void append_cell(const Grid& grid, std::array<int, 3> cell, BoxMesh::Split split,
-                 std::vector<Tet>& tets) {
-  const bool mirrored =
-      split == BoxMesh::Split::five && (cell[0] % 2 + cell[1] % 2 + cell[2] % 2) % 2 == 1;
+void append_cell(const Grid& grid, std::array<int, 3> cell, BoxMesh::Split split, std::vector<Tet>& tets) {
+  const bool mirrored = split == BoxMesh::Split::five && (cell[0] % 2 + cell[1] % 2 + cell[2] % 2) % 2 == 1;
   for (const Tet& local : cell_tets(split)) {
     Tet tet{};
     for (std::size_t v = 0; v < 4; ++v) {
       const int corner = mirrored ? local[v] ^ 1 : local[v];
-      tet[v] =
-          grid.node(cell[0] + (corner & 1), cell[1] + ((corner >> 1) & 1), cell[2] + (corner >> 2));
+      tet[v] = grid.node(cell[0] + (corner & 1), cell[1] + ((corner >> 1) & 1), cell[2] + (corner >> 2));
     }
     if (mirrored) std::swap(tet[2], tet[3]);  // a mirror image is inverted
     tets.push_back(tet);

@@ -143,6 +143,16 @@ std::vector<int> outline_of_core(int n) {
   return loop;
 }
 
+// The least rotation that takes z to the unit vector `a`, by Rodrigues' formula: about u = z x a / |z x a| by the angle
+// between both. Where a = -z every horizontal u does; x is taken.
+Mat3 rotation_from_z(const Vec3& a) {
+  const double sine = std::hypot(a[0], a[1]), cosine = a[2];
+  const Vec3 u = sine > 0 ? Vec3(-a[1] / sine, a[0] / sine, 0) : Vec3::UnitX();
+  Mat3 cross_u;
+  cross_u << 0, 0, u[1], 0, 0, -u[0], -u[1], u[0], 0;
+  return cosine * Mat3::Identity() + sine * cross_u + (1 - cosine) * u * u.transpose();
+}
+
 // Surfaces by which nodes of the plane lie on which circle; then the body is put into place.
 TetMesh finish(const PlaneMesh& plane, const std::vector<int>& outer, const std::vector<int>& inner, double length,
                int layers, const Vec3& origin, const Vec3& axis) {
@@ -161,7 +171,7 @@ TetMesh finish(const PlaneMesh& plane, const std::vector<int>& outer, const std:
       mesh.surfaces[side[static_cast<std::size_t>(t[0] % per_layer)] == 'o' ? "outer" : "inner"].push_back(t);
     }
   }
-  const Mat3 rotation = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis.stableNormalized()).toRotationMatrix();
+  const Mat3 rotation = rotation_from_z(axis.stableNormalized());
   const bool turned = axis.head<2>().norm() > 0 || axis[2] < 0;
   for (Vec3& x : mesh.nodes) x = origin + (turned ? Vec3(rotation * x) : x);
   return mesh;

@@ -93,6 +93,12 @@ MeshOrigin origin_of(const MeshDraft& draft) {
 
 }  // namespace
 
+int MeshDraft::region_index(const std::string& name) {
+  const auto [entry, is_new] = region_indices.emplace(name, static_cast<int>(region_names.size()));
+  if (is_new) region_names.push_back(name);
+  return entry->second;
+}
+
 std::string MeshDraft::where(FilePlace place) const {
   const std::string& file = files[static_cast<std::size_t>(place.file)];
   return place.line > 0 ? fmt::format("{}:{}", file, place.line) : file;

@@ -52,6 +52,10 @@ struct MeshDraft {
   std::map<std::string, std::vector<FileNodeUse>> node_sets;
   std::string nodes_section;  // what defines nodes, for messages: "$Nodes"
   Warnings warnings;
+  std::map<std::string, int> region_indices;  // of region_index()
+
+  // The index of the region of this name, which is added if it is new.
+  int region_index(const std::string& name);
 
   std::string where(FilePlace place) const;  // "beam.msh:120", or "beam.vtu"
   [[noreturn]] void fail(FilePlace place, const std::string& message) const;

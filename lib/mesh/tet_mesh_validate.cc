@@ -20,9 +20,7 @@ namespace {
 // angle of 0.01 degree gives about 1e-4).
 constexpr double kDegenerate = 1e-14;
 
-const Vec3& node(const TetMesh& mesh, int index) {
-  return mesh.nodes[static_cast<std::size_t>(index)];
-}
+const Vec3& node(const TetMesh& mesh, int index) { return mesh.nodes[static_cast<std::size_t>(index)]; }
 
 int count(const auto& container) { return static_cast<int>(container.size()); }
 
@@ -45,29 +43,27 @@ void check_sizes(const TetMesh& mesh, const MeshOrigin& origin) {
   }
   constexpr auto kMax = static_cast<std::size_t>(std::numeric_limits<int>::max());
   if (mesh.nodes.size() > kMax || mesh.tets.size() > kMax) {
-    throw ConfigError(
-        fmt::format("{}: {} nodes and {} elements; at most {} of each can be numbered",
-                    origin.source, mesh.nodes.size(), mesh.tets.size(), kMax));
+    throw ConfigError(fmt::format("{}: {} nodes and {} elements; at most {} of each can be numbered", origin.source,
+                                  mesh.nodes.size(), mesh.tets.size(), kMax));
   }
   if (mesh.region_of.size() != mesh.tets.size()) {
-    throw ConfigError(fmt::format("{}: {} elements but a region for {} of them", origin.source,
-                                  mesh.tets.size(), mesh.region_of.size()));
+    throw ConfigError(fmt::format("{}: {} elements but a region for {} of them", origin.source, mesh.tets.size(),
+                                  mesh.region_of.size()));
   }
 }
 
 void check_indices(const TetMesh& mesh, const MeshOrigin& origin) {
   const auto check_node = [&](int n, const auto& name) {
     if (n >= 0 && n < count(mesh.nodes)) return;
-    throw ConfigError(fmt::format("{}: uses node {}, but there are {} nodes (0 to {})", name(), n,
-                                  mesh.nodes.size(), count(mesh.nodes) - 1));
+    throw ConfigError(fmt::format("{}: uses node {}, but there are {} nodes (0 to {})", name(), n, mesh.nodes.size(),
+                                  count(mesh.nodes) - 1));
   };
   for (int t = 0; t < count(mesh.tets); ++t) {
     const auto i = static_cast<std::size_t>(t);
     for (int n : mesh.tets[i]) check_node(n, [&] { return tet_name(origin, t); });
     if (mesh.region_of[i] < 0 || mesh.region_of[i] >= count(mesh.region_names)) {
-      throw ConfigError(fmt::format("{}: in region {}, but there are {} regions",
-                                    tet_name(origin, t), mesh.region_of[i],
-                                    mesh.region_names.size()));
+      throw ConfigError(fmt::format("{}: in region {}, but there are {} regions", tet_name(origin, t),
+                                    mesh.region_of[i], mesh.region_names.size()));
     }
   }
   for (const auto& [surface, triangles] : mesh.surfaces) {
@@ -88,8 +84,8 @@ void check_coordinates(const TetMesh& mesh, const MeshOrigin& origin) {
   for (int n = 0; n < count(mesh.nodes); ++n) {
     const Vec3& x = node(mesh, n);
     if (x.allFinite()) continue;
-    throw ConfigError(fmt::format("{}: coordinates ({}, {}, {}) are not finite",
-                                  node_name(origin, n), x[0], x[1], x[2]));
+    throw ConfigError(
+        fmt::format("{}: coordinates ({}, {}, {}) are not finite", node_name(origin, n), x[0], x[1], x[2]));
   }
 }
 
@@ -101,8 +97,7 @@ std::vector<char> used_nodes(const TetMesh& mesh) {
   return used;
 }
 
-void check_coincident_nodes(const TetMesh& mesh, const std::vector<char>& used,
-                            const MeshOrigin& origin) {
+void check_coincident_nodes(const TetMesh& mesh, const std::vector<char>& used, const MeshOrigin& origin) {
   struct Place {
     double x, y, z;
     int node;
@@ -115,17 +110,16 @@ void check_coincident_nodes(const TetMesh& mesh, const std::vector<char>& used,
   std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
     return std::tie(a.x, a.y, a.z, a.node) < std::tie(b.x, b.y, b.z, b.node);
   });
-  const auto same =
-      std::adjacent_find(places.begin(), places.end(), [](const Place& a, const Place& b) {
-        return std::tie(a.x, a.y, a.z) == std::tie(b.x, b.y, b.z);
-      });
+  const auto same = std::adjacent_find(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    return std::tie(a.x, a.y, a.z) == std::tie(b.x, b.y, b.z);
+  });
   if (same == places.end()) return;
   const auto other = same + 1;
-  throw ConfigError(fmt::format(
-      "{}: at exactly the same place ({}, {}, {}) as {}; elements that only touch there "
-      "are not connected: merge the two nodes (Gmsh: \"Coherence\" before meshing, "
-      "\"Coherence Mesh\" after)",
-      node_name(origin, other->node), other->x, other->y, other->z, node_name(origin, same->node)));
+  throw ConfigError(
+      fmt::format("{}: at exactly the same place ({}, {}, {}) as {}; elements that only touch there "
+                  "are not connected: merge the two nodes (Gmsh: \"Coherence\" before meshing, "
+                  "\"Coherence Mesh\" after)",
+                  node_name(origin, other->node), other->x, other->y, other->z, node_name(origin, same->node)));
 }
 
 // Edges in units of the largest coordinate difference, so that nothing over- or underflows before
@@ -144,8 +138,7 @@ TetShape shape_of(const TetMesh& mesh, const Tet& tet) {
   edges /= scale;
   double longest = 0;
   for (int i = 0; i < 3; ++i) {
-    longest =
-        std::max({longest, edges.col(i).norm(), (edges.col(i) - edges.col((i + 1) % 3)).norm()});
+    longest = std::max({longest, edges.col(i).norm(), (edges.col(i) - edges.col((i + 1) % 3)).norm()});
   }
   const double volume6 = edges.col(0).dot(edges.col(1).cross(edges.col(2)));
   return {scale * longest, volume6 / (longest * longest * longest)};
@@ -155,12 +148,10 @@ TetShape shape_of(const TetMesh& mesh, const Tet& tet) {
   int inverted = 0;
   for (const Tet& tet : mesh.tets) inverted += shape_of(mesh, tet).ratio < -kDegenerate;
   const std::string more =
-      inverted == 1 ? ""
-                    : fmt::format("; {} of {} elements are inverted", inverted, mesh.tets.size());
-  throw ConfigError(
-      fmt::format("{}: inverted (volume {:.3g} m^3); reorder two of its nodes or remesh{}",
-                  tet_name(origin, first),
-                  signed_volume6(mesh, mesh.tets[static_cast<std::size_t>(first)]) / 6, more));
+      inverted == 1 ? "" : fmt::format("; {} of {} elements are inverted", inverted, mesh.tets.size());
+  throw ConfigError(fmt::format("{}: inverted (volume {:.3g} m^3); reorder two of its nodes or remesh{}",
+                                tet_name(origin, first),
+                                signed_volume6(mesh, mesh.tets[static_cast<std::size_t>(first)]) / 6, more));
 }
 
 void check_volumes(const TetMesh& mesh, const MeshOrigin& origin) {
@@ -194,18 +185,15 @@ void check_volumes(const TetMesh& mesh, const MeshOrigin& origin) {
                     "one of the two (Gmsh: a volume in two physical volumes?)",
                     tet_name(origin, b), tet_name(origin, a)));
   }
-  throw ConfigError(
-      fmt::format("{}: overlaps {} (both lie on the same side of a common face); remesh",
-                  tet_name(origin, b), tet_name(origin, a)));
+  throw ConfigError(fmt::format("{}: overlaps {} (both lie on the same side of a common face); remesh",
+                                tet_name(origin, b), tet_name(origin, a)));
 }
 
-void check_overlaps(const TetMesh& mesh, const std::vector<TetFace>& faces,
-                    const MeshOrigin& origin) {
+void check_overlaps(const TetMesh& mesh, const std::vector<TetFace>& faces, const MeshOrigin& origin) {
   int first = -1;  // the first element that overlaps an earlier one
   int earlier = -1;
   for (std::size_t f = 1; f < faces.size(); ++f) {
-    const bool same_side =
-        faces[f].nodes == faces[f - 1].nodes && faces[f].flipped == faces[f - 1].flipped;
+    const bool same_side = faces[f].nodes == faces[f - 1].nodes && faces[f].flipped == faces[f - 1].flipped;
     if (!same_side || (first >= 0 && faces[f].tet >= first)) continue;
     first = faces[f].tet;
     earlier = faces[f - 1].tet;
@@ -217,14 +205,11 @@ void check_overlaps(const TetMesh& mesh, const std::vector<TetFace>& faces,
 std::size_t find_face(const std::vector<TetFace>& faces, const Triangle& nodes) {
   const auto before = [](const TetFace& face, const Triangle& key) { return face.nodes < key; };
   const auto found = std::lower_bound(faces.begin(), faces.end(), nodes, before);
-  return found == faces.end() || found->nodes != nodes
-             ? faces.size()
-             : static_cast<std::size_t>(found - faces.begin());
+  return found == faces.end() || found->nodes != nodes ? faces.size() : static_cast<std::size_t>(found - faces.begin());
 }
 
-void settle_surface(const std::string& surface, std::vector<Triangle>& triangles,
-                    const std::vector<TetFace>& faces, const MeshOrigin& origin,
-                    Warnings& warnings) {
+void settle_surface(const std::string& surface, std::vector<Triangle>& triangles, const std::vector<TetFace>& faces,
+                    const MeshOrigin& origin, Warnings& warnings) {
   std::set<std::size_t> seen;
   std::vector<Triangle> kept;
   for (int k = 0; k < count(triangles); ++k) {
@@ -243,21 +228,18 @@ void settle_surface(const std::string& surface, std::vector<Triangle>& triangles
     kept.push_back(outer ? faces[face].outward() : triangle);
   }
   if (kept.size() != triangles.size()) {
-    warnings.push_back(fmt::format(
-        "{}: surface \"{}\": {} of {} triangles repeat an earlier one; each counts once",
-        origin.source, surface, triangles.size() - kept.size(), triangles.size()));
+    warnings.push_back(fmt::format("{}: surface \"{}\": {} of {} triangles repeat an earlier one; each counts once",
+                                   origin.source, surface, triangles.size() - kept.size(), triangles.size()));
   }
   triangles = std::move(kept);
 }
 
-void remove_unused_nodes(TetMesh& mesh, const std::vector<char>& used, const MeshOrigin& origin,
-                         Warnings& warnings) {
+void remove_unused_nodes(TetMesh& mesh, const std::vector<char>& used, const MeshOrigin& origin, Warnings& warnings) {
   const auto unused = std::count(used.begin(), used.end(), 0);
   if (unused == 0) return;
   const auto first = std::find(used.begin(), used.end(), 0) - used.begin();
-  warnings.push_back(fmt::format("{}: removed {} node{} that no element uses (first: {})",
-                                 origin.source, unused, unused == 1 ? "" : "s",
-                                 node_name(origin, static_cast<int>(first))));
+  warnings.push_back(fmt::format("{}: removed {} node{} that no element uses (first: {})", origin.source, unused,
+                                 unused == 1 ? "" : "s", node_name(origin, static_cast<int>(first))));
   std::vector<int> new_index(mesh.nodes.size(), -1);
   std::vector<Vec3> kept;
   for (std::size_t n = 0; n < used.size(); ++n) {

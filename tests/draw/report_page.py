@@ -1,24 +1,21 @@
 """A report's page read back, and the set-up of the tests that look at one."""
-import contextlib
-import io
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
-import unittest
 from html.parser import HTMLParser
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-TOOLS = Path(__file__).resolve().parents[2] / "tools"
-sys.path[:0] = [str(TOOLS), str(Path(__file__).resolve().parent)]
+sys.path[:0] = [str(Path(__file__).resolve().parent)]
 
-from draw.cli import main  # noqa: E402
-from draw.report import words  # noqa: E402
+from folder_test import InAFolder  # noqa: E402
+from synthetic_comparison import comparison, write_comparison  # noqa: E402
+
+from draw.report import formatting  # noqa: E402
 from draw.report.page import page  # noqa: E402
 from draw.report.reading import read_comparison  # noqa: E402
-from synthetic_comparison import comparison, write_comparison  # noqa: E402
 
 VOID = {"meta", "link", "input", "br", "img"}
 EVIL = '<script>alert("x")</script> & $\\frac{1}$ \'</title>'
@@ -67,7 +64,7 @@ class Page(HTMLParser):
 
     @property
     def text(self):
-        return " ".join("".join(self.words).replace(words.THIN, " ").split())
+        return " ".join("".join(self.words).replace(formatting.THIN, " ").split())
 
 
 CHROMIUM = shutil.which("chromium")
@@ -84,11 +81,10 @@ def dom_of(path, width=1280):
     return done.stdout, re.findall(r":CONSOLE.*", done.stderr)
 
 
-class OfAComparison(unittest.TestCase):
+class OfAComparison(InAFolder):
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = Path(holder.name) / "r"
+        super().setUp()
+        self.folder /= "r"
 
     def read(self, content):
         return read_comparison(write_comparison(self.folder, content))
@@ -106,7 +102,4 @@ class OfAComparison(unittest.TestCase):
         return {**content, **changes}
 
     def run_draw(self, *arguments):
-        out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            code = main(["report", *map(str, arguments)])
-        return code, out.getvalue().splitlines(), err.getvalue().splitlines()
+        return super().run_draw("report", *arguments)

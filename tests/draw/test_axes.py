@@ -14,9 +14,9 @@ import numpy as np  # noqa: E402
 from matplotlib.colors import to_rgb  # noqa: E402
 from PIL import Image  # noqa: E402
 
+from draw.annotations import AXIS_COLOURS  # noqa: E402
 from draw.axes import Axes, direction_colours  # noqa: E402
 from draw.cli import main  # noqa: E402
-from draw.furniture import AXIS_COLOURS  # noqa: E402
 from draw.slicing import Section  # noqa: E402
 from draw.surface import Surface, area_vectors  # noqa: E402
 from draw.vtu import Frame, read_vtu  # noqa: E402

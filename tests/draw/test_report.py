@@ -13,8 +13,8 @@ sys.dont_write_bytecode = True
 TOOLS = Path(__file__).resolve().parents[2] / "tools"
 sys.path[:0] = [str(TOOLS), str(Path(__file__).resolve().parent)]
 
-from draw.report import comparable, cost, theme, tolerance, words  # noqa: E402
-from draw.report.sheet import NARROW, WIDE  # noqa: E402
+from draw.report import comparable, cost, theme, tolerance, formatting  # noqa: E402
+from draw.report.layout import NARROW, WIDE  # noqa: E402
 from draw.report.work_precision import draw_work_precision  # noqa: E402
 from synthetic_comparison import comparison, failed  # noqa: E402
 from report_page import EVIL, OfAComparison, Page  # noqa: E402
@@ -27,14 +27,14 @@ class TheNumbers(OfAComparison):
         self.assertEqual(len(table) - 1, len(content["points"]))
         rows = {(row[0], row[1]): row for row in table[1:]}
         for point in self.read(content).points:
-            row = rows[point.method, words.control(point.control)]
+            row = rows[point.method, formatting.control(point.control)]
             if point.completed:
                 self.assertAlmostEqual(float(row[3]), point.error("displacement.l2"),
                                        delta=0.051 * point.error("displacement.l2"))
                 self.assertAlmostEqual(float(row[4]), point.seconds(), delta=5.1e-4)
-                self.assertEqual(row[7].replace(words.THIN, ""), f"{point.counts['steps']:.0f}")
+                self.assertEqual(row[7].replace(formatting.THIN, ""), f"{point.counts['steps']:.0f}")
             else:
-                self.assertEqual(row[2:4], [point.reason, words.UNKNOWN])
+                self.assertEqual(row[2:4], [point.reason, formatting.UNKNOWN])
 
     def test_the_answer_names_the_fastest_and_who_did_not_reach_it(self):
         answers = [{"problem": "damped_beam", "error": "displacement.l2", "target": 1e-3, "methods": [
@@ -70,15 +70,15 @@ class TheNumbers(OfAComparison):
 
     def test_markers_stand_at_their_runs_values(self):
         read = self.read(self.small())
-        sheet = draw_work_precision(read, read.problems[0], "displacement.l2", "wall", WIDE)
-        drawn = {line.get_gid(): line.get_xydata()[0] for line in sheet.figure.axes[0].lines}
+        layout = draw_work_precision(read, read.problems[0], "displacement.l2", "wall", WIDE)
+        drawn = {line.get_gid(): line.get_xydata()[0] for line in layout.figure.axes[0].lines}
         for point in read.points:
             gid = f"pt-{point.index}-{read.method_index(point.method)}"
             if point.completed:
                 self.assertEqual(tuple(drawn[gid]), (point.seconds(), point.error("displacement.l2")))
             else:
                 self.assertNotIn(gid, drawn)
-                lane = {line.get_gid(): line.get_xydata()[0] for line in sheet.figure.axes[1].lines}
+                lane = {line.get_gid(): line.get_xydata()[0] for line in layout.figure.axes[1].lines}
                 self.assertEqual(lane[gid][0], point.seconds())
 
     def test_parts_of_the_cost_sum_to_the_wall_time(self):
@@ -126,8 +126,8 @@ class WhatIsShown(OfAComparison):
         content = self.small()
         content["points"][0]["near_reference"] = ["displacement.l2"]
         read = self.read(content)
-        sheet = draw_work_precision(read, read.problems[0], "displacement.l2", "wall", NARROW)
-        faces = {line.get_gid(): line.get_markerfacecolor() for line in sheet.figure.axes[0].lines}
+        layout = draw_work_precision(read, read.problems[0], "displacement.l2", "wall", NARROW)
+        faces = {line.get_gid(): line.get_markerfacecolor() for line in layout.figure.axes[0].lines}
         self.assertEqual(faces["pt-0-0"], theme.LIGHT["paper"])
         self.assertEqual(faces["pt-1-0"], theme.colour(0))
 

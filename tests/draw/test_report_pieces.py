@@ -11,20 +11,21 @@ sys.dont_write_bytecode = True
 TOOLS = Path(__file__).resolve().parents[2] / "tools"
 sys.path[:0] = [str(TOOLS), str(Path(__file__).resolve().parent)]
 
-from draw.report import measures, scale, theme, words  # noqa: E402
+from draw.report import measures, scale, theme, formatting  # noqa: E402
 from draw.report.markup import Html, data_script, tag  # noqa: E402
 
 
 class SmallPieces(unittest.TestCase):
     def test_numbers_read_well(self):
-        self.assertEqual([words.exponent(x) for x in (1e-3, 3.2e-3, 0, math.nan, 9.99e-4)],
+        self.assertEqual([formatting.exponent(x) for x in (1e-3, 3.2e-3, 0, math.nan, 9.99e-4)],
                          ["1e-3", "3.2e-3", "0", "–", "1e-3"])
-        plain = [words.seconds(x).replace(words.THIN, " ") for x in (0.24, 1.4, 12.3, 0.0031, 61, 4000, 2e-5, 9e3)]
+        plain = [formatting.seconds(x).replace(formatting.THIN, " ")
+                 for x in (0.24, 1.4, 12.3, 0.0031, 61, 4000, 2e-5, 9e3)]
         self.assertEqual(plain, ["0.24 s", "1.4 s", "12 s", "3.1 ms", "61 s", "67 min", "20 µs", "2.5 h"])
-        self.assertEqual([words.percent(x).replace(words.THIN, " ") for x in (1e-3, 1e-5, 1e-9)],
+        self.assertEqual([formatting.percent(x).replace(formatting.THIN, " ") for x in (1e-3, 1e-5, 1e-9)],
                          ["0.1 %", "0.001 %", ""])
-        self.assertEqual(words.power_of_ten(1e-12), "10⁻¹²")
-        self.assertEqual(words.joined("abc"), "a, b and c")
+        self.assertEqual(formatting.power_of_ten(1e-12), "10⁻¹²")
+        self.assertEqual(formatting.joined("abc"), "a, b and c")
 
     def test_ticks_are_few_and_at_least_two(self):
         for low, high in ((1e-8, 1), (0.03, 0.5), (2e-3, 9e-3), (1e-200, 1e200), (0.9, 1.3e3)):

@@ -137,6 +137,24 @@ TEST(Cylinder, LiesAlongItsAxisFromItsOrigin) {
   EXPECT_NEAR(make_cylinder(cylinder).nodes[static_cast<std::size_t>(make_cylinder(cylinder).surfaces.at("end0")[0][0])][1], 2, 1e-12);
 }
 
+// Also where the axis is opposite to z, or nearly so.
+TEST(Cylinder, TurnedToAnyAxisItIsTheSameBody) {
+  const TetMesh upright = make_cylinder(cylinder_of(8));
+  for (const Vec3& axis :
+       {Vec3(0, 0, -1), Vec3(1e-9, -2e-9, -1), Vec3(1e-200, 0, -3), Vec3(1, 2, -3), Vec3(0, 1e-12, 1)}) {
+    CylinderMesh cylinder = cylinder_of(8);
+    cylinder.axis = axis;
+    const TetMesh turned = make_cylinder(cylinder);
+    for (std::size_t e = 0; e < turned.tets.size(); ++e) {
+      EXPECT_NEAR(signed_volume6(turned, turned.tets[e]), signed_volume6(upright, upright.tets[e]), 1e-13) << axis;
+    }
+    for (std::size_t n = 0; n < turned.nodes.size(); ++n) {
+      EXPECT_NEAR(turned.nodes[n].norm(), upright.nodes[n].norm(), 1e-13) << axis;
+      EXPECT_NEAR(turned.nodes[n].dot(axis.stableNormalized()), upright.nodes[n][2], 1e-13) << axis;
+    }
+  }
+}
+
 TEST(Cylinder, RefusesWhatMakesNoMesh) {
   EXPECT_CONTAINS(refusal_of([] { make_cylinder(cylinder_of(10)); }), "must be a multiple of 4, such as 12");
   EXPECT_CONTAINS(refusal_of([] { make_cylinder(cylinder_of(8, 0)); }), "grading 0; it must lie in");

@@ -4,9 +4,12 @@
 
 #include <cmath>
 #include <csignal>
+#include <set>
 
 #include "lib/mesh/box.h"
+#include "lib/mesh/io/abaqus.h"
 #include "lib/mesh/io/mesh_file.h"
+#include "lib/mesh/io/mesh_format.h"
 #include "tests/mesh/refusal.h"
 
 namespace orthodyn {
@@ -34,7 +37,7 @@ LoadedMesh through(const std::string& ending, const LoadedMesh& loaded, Warnings
   return read_mesh(folder.path("mesh" + ending));
 }
 
-class RoundTrip : public testing::TestWithParam<const char*> {};
+class RoundTrip : public testing::TestWithParam<std::string> {};
 
 TEST_P(RoundTrip, KeepsNodesElementsAndRegionsToTheLastDigit) {
   const LoadedMesh loaded = sample();
@@ -70,7 +73,24 @@ TEST_P(RoundTrip, KeepsOrNamesSurfacesAndNodeSets) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip, testing::Values(".msh", ".msh2", ".veg", ".vtu", ".node", ".inp"));
+std::vector<std::string> endings_that_are_written() {
+  std::vector<std::string> endings;
+  for (const MeshFormat& format : mesh_formats()) {
+    if (format.write) endings.insert(endings.end(), format.endings.begin(), format.endings.end());
+  }
+  return endings;
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip, testing::ValuesIn(endings_that_are_written()),
+                         [](const auto& test) { return test.param.substr(1); });
+
+TEST(MeshFormats, NoTwoHaveTheSameEnding) {
+  std::set<std::string> endings;
+  for (const MeshFormat& format : mesh_formats()) {
+    for (const std::string& ending : format.endings) EXPECT_TRUE(endings.insert(ending).second) << ending;
+  }
+  EXPECT_EQ(mesh_format_of("BEAM.MSH").name, "Gmsh");
+}
 
 TEST(WrittenVega, KeepsMaterialsAxesAndTheFixedNodes) {
   LoadedMesh loaded = sample();

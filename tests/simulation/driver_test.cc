@@ -9,7 +9,7 @@
 #include "lib/simulation/checkpointer.h"
 #include "lib/simulation/curves.h"
 #include "lib/simulation/run.h"
-#include "lib/simulation/vtu.h"
+#include "lib/simulation/frames.h"
 #include "lib/scene/build.h"
 #include "tests/simulation/command.h"
 
@@ -110,7 +110,7 @@ class Files : public InFolder {};
 
 TEST_F(Files, FrameZeroIsTheInitialStateAndTimesAreReal) {
   Case swing(kSwing);
-  VtuWriter frames(folder_, *swing.built.model, {"displacement", "stress"});
+  FrameWriter frames(folder_, *swing.built.model, {"displacement", "stress"});
   ASSERT_EQ(swing.run_with({0, {0.125, 0.5}, false}, {&frames}).status, Outcome::Status::completed);
   const auto pvd = read_text(folder_ / "frames.pvd");
   for (const char* entry : {"timestep=\"0\" part=\"0\" file=\"frames/frame_00000.vtu\"", "timestep=\"0.125\"", "timestep=\"0.5\""})
@@ -119,7 +119,7 @@ TEST_F(Files, FrameZeroIsTheInitialStateAndTimesAreReal) {
 
 TEST_F(Files, AVtuHoldsAsManyBytesAsItsOffsetsSay) {
   Case swing(kSwing);
-  VtuWriter frames(folder_, *swing.built.model, {"displacement", "velocity", "det_f", "stress_material", "region"});
+  FrameWriter frames(folder_, *swing.built.model, {"displacement", "velocity", "det_f", "stress_material", "region"});
   frames.on_start(swing.built.initial);
   const auto text = read_text(folder_ / "frames/frame_00000.vtu");
   const auto base = text.find("<AppendedData encoding=\"raw\">\n_") + 31;

@@ -5,10 +5,10 @@ import matplotlib
 import numpy as np
 from PIL import Image
 
+from .annotations import AXIS_COLOURS
 from .errors import DrawError
-from .furniture import AXIS_COLOURS
-from .look import TEXT, pyplot
 from .picture import frame_figure
+from .style import TEXT, pyplot
 
 DPI = 100
 COLOURS = 256

@@ -5,13 +5,13 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import to_rgb
 
-from . import furniture
+from . import annotations
 from .body import INK, Paint, add_body, front_faces
 from .camera import Camera, Window
 from .errors import DrawError, unknown
 from .grain import FIELD, Grain
-from .look import FAINT, pyplot, save
 from .slicing import Section
+from .style import FAINT, pyplot, save
 from .surface import Surface, unit
 from .units import length_label, prefix
 
@@ -25,7 +25,7 @@ WHITE = np.ones(3)
 
 def direction_colours(axis):
     """RGB (n,3): x red, y green, z blue, and in between in the proportion of the squared components."""
-    return unit(axis) ** 2 @ np.array([to_rgb(c) for c in furniture.AXIS_COLOURS])
+    return unit(axis) ** 2 @ np.array([to_rgb(c) for c in annotations.AXIS_COLOURS])
 
 
 def paler(rgb, part):
@@ -162,7 +162,7 @@ def _figure(body):
         height = sum(s[1] + extra for s in sizes) + LEGEND
         lows = [(SIDE, height - sum(t[1] + extra for t in sizes[:k]) - TITLE - s[1]) for k, s in enumerate(sizes)]
     figure = pyplot.figure(figsize=(width, height))
-    page = furniture.page(figure)
+    page = annotations.page(figure)
     for panel, size, (x, y) in zip(body.panels, sizes, lows):
         xlim, ylim = panel.window.fitted(*size)
         axes = figure.add_axes([x / width, y / height, size[0] / width, size[1] / height], xlim=xlim, ylim=ylim)
@@ -170,8 +170,8 @@ def _figure(body):
         metres_per_inch = (xlim[1] - xlim[0]) / size[0]
         panel.draw(axes, metres_per_inch)
         page.text(x, y + size[1] + 0.10, panel.title, ha="left", va="baseline", fontsize=10, weight="bold")
-        furniture.triad(page, panel.camera, x + 0.14, y - 0.38, 0.2)
-        furniture.scale_bar(page, x + 0.55, y - 0.38, metres_per_inch, min(1.1, 0.5 * size[0]))
+        annotations.triad(page, panel.camera, x + 0.14, y - 0.38, 0.2)
+        annotations.scale_bar(page, x + 0.55, y - 0.38, metres_per_inch, min(1.1, 0.5 * size[0]))
     _legend(page, width)
     return figure
 
@@ -183,13 +183,14 @@ def _legend(page, width):
     page.plot([SIDE + 0.95, SIDE + 1.23], [y, y], color="#9aa0aa", lw=3.0, solid_capstyle="butt")
     page.plot([SIDE + 0.99, SIDE + 1.19], [y, y], color="white", lw=1.4, solid_capstyle="round")
     page.text(SIDE + 1.31, y, "axis 2 (sections)", va="center", fontsize=8.5)
-    page.text(SIDE, y - 0.20, "dot or short: out of the plane; white lines on the surface: where the sections are", va="center", fontsize=7.5,
-              color=FAINT)
+    page.text(SIDE, y - 0.20, "dot or short: out of the plane; white lines on the surface: where the sections are",
+              va="center", fontsize=7.5, color=FAINT)
     x = SIDE + 2.75
     page.text(x, y, "axis 1 along", va="center", fontsize=8.5)
     for k, name in enumerate("xyz"):
-        colour = paler(np.array(to_rgb(furniture.AXIS_COLOURS[k])), 0.35)
-        page.add_patch(pyplot.Rectangle((x + 0.85 + 0.42 * k, y - 0.075), 0.15, 0.15, facecolor=colour, edgecolor="none"))
+        colour = paler(np.array(to_rgb(annotations.AXIS_COLOURS[k])), 0.35)
+        page.add_patch(pyplot.Rectangle((x + 0.85 + 0.42 * k, y - 0.075), 0.15, 0.15, facecolor=colour,
+                                        edgecolor="none"))
         page.text(x + 1.06 + 0.42 * k, y, name, va="center", fontsize=8.5)
 
 

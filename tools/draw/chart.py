@@ -1,7 +1,7 @@
 """Building blocks of curves over time: panels below each other, lines with names at their ends."""
 import numpy as np
 
-from .look import FAINT, pyplot
+from .style import FAINT, pyplot
 from .units import prefix
 
 COLOURS = ("#2f5fb3", "#d1622b", "#2e8b57", "#8e44ad", "#b8860b", "#c0392b", "#3aa0b5", "#6b7280")

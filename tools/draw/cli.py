@@ -134,7 +134,8 @@ def _parser():
                                 description="Natural modes side by side as PNG, with the rest shape's outline.")
     modes.add_argument("result", metavar="RESULT", help="folder that `orthodyn modes` wrote")
     modes.add_argument("--out", type=Path, metavar="PNG", help="default: RESULT/modes.png")
-    modes.add_argument("--count", type=_count, default=12, metavar="N", help="the N lowest that bend the body (default 12)")
+    modes.add_argument("--count", type=_count, default=12, metavar="N",
+                       help="the N lowest that bend the body (default 12)")
     modes.add_argument("--view", type=lambda s: _numbers(s, 2), default=(-60.0, 20.0), metavar="AZIM,ELEV",
                        help="where the eye is, degrees about the axis that is up (default -60,20)")
     modes.add_argument("--up", choices="xyz", default="z", help="the axis that is up (default z)")
@@ -143,7 +144,7 @@ def _parser():
     return parser
 
 
-def _wish(args):
+def _picture_spec(args):
     return {"color": args.color, "view": args.view, "up": args.up, "scale": args.scale, "grain": args.grain,
             "ghost": args.ghost, "limits": args.range}
 
@@ -157,7 +158,7 @@ def _frame(args):
     frames = series.Series(args.result)
     index = frames.index_at(args.time) if args.time is not None else frames.checked_index(
         -1 if args.index is None else args.index)
-    yield picture.draw_frame(scene.Scene(frames, [index], scene.Wish(**_wish(args))), index,
+    yield picture.draw_frame(scene.Scene(frames, [index], scene.PictureSpec(**_picture_spec(args))), index,
                              _out(args, f"frame_{index:05d}.png"), args.size)
 
 
@@ -165,14 +166,15 @@ def _strip(args):
     from . import picture, scene, series
     frames = series.Series(args.result)
     indices = [frames.index_at(t) for t in args.times] if args.times else frames.evenly(args.count)
-    yield picture.draw_strip(scene.Scene(frames, indices, scene.Wish(**_wish(args))), indices, _out(args, "strip.png"))
+    spec = scene.PictureSpec(**_picture_spec(args))
+    yield picture.draw_strip(scene.Scene(frames, indices, spec), indices, _out(args, "strip.png"))
 
 
 def _animate(args):
     from . import animation, scene, series
     frames = series.Series(args.result)
     indices = range(0, len(frames), args.every or math.ceil(len(frames) / MOST_FRAMES))
-    yield animation.draw_animation(scene.Scene(frames, indices, scene.Wish(**_wish(args))), indices,
+    yield animation.draw_animation(scene.Scene(frames, indices, scene.PictureSpec(**_picture_spec(args))), indices,
                                    _out(args, "animation.gif"), args.fps)
 
 
@@ -219,7 +221,8 @@ def _modes(args):
     yield draw_modes(args.result, args.out or Path(args.result) / "modes.png", args.count, args.view, args.up)
 
 
-COMMANDS = {"report": _report, "axes": _axes, "modes": _modes, "frame": _frame, "strip": _strip, "animate": _animate, "all": _all}
+COMMANDS = {"report": _report, "axes": _axes, "modes": _modes, "frame": _frame, "strip": _strip, "animate": _animate,
+            "all": _all}
 
 
 def _joined(arguments):

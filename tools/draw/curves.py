@@ -3,7 +3,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from .chart import COLOURS, draw_lines, panels, time_axis, title
-from .look import FAINT, save
+from .style import FAINT, save
 from .table import Column, Table
 
 ENERGY_STYLE = {"kinetic": {"color": COLOURS[0]}, "elastic": {"color": COLOURS[1]},

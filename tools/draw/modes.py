@@ -7,7 +7,7 @@ import numpy as np
 
 from .errors import DrawError
 from .picture import draw_strip
-from .scene import Scene, Wish
+from .scene import Scene, PictureSpec
 from .series import Series
 
 LARGEST = 0.12  # displacement in the picture, of the body's largest extent
@@ -53,6 +53,7 @@ def draw_modes(folder, path, count, view, up):
     if not chosen:
         raise DrawError(f"{folder}: all {len(hertz)} modes are rigid; ask for more with -n")
     scale = LARGEST * float(np.ptp(shapes.frame(chosen[0]).points, axis=0).max())
-    scene = Picture(shapes, chosen, Wish(color="shape", view=view, up=up, scale=scale, ghost=True, limits=(0, 1)))
+    spec = PictureSpec(color="shape", view=view, up=up, scale=scale, ghost=True, limits=(0, 1))
+    scene = Picture(shapes, chosen, spec)
     scene.labels = {k: f"{k + 1}: {frequency_label(hertz[k])}" for k in chosen}
     return draw_strip(scene, chosen, path)

@@ -3,8 +3,8 @@ import math
 
 import numpy as np
 
-from . import furniture
-from .look import DPI, pyplot, save
+from . import annotations
+from .style import DPI, pyplot, save
 
 TOP, BOTTOM, SIDE = 0.42, 0.78, 0.22  # inches around the body
 BUDGET = 14000  # small triangles on one page
@@ -15,7 +15,7 @@ def _page(scene, columns, rows, panel, indices, budget=BUDGET):
     width = columns * panel[0] + (columns + 1) * SIDE
     height = rows * (panel[1] + TOP) + BOTTOM
     figure = pyplot.figure(figsize=(width, height))
-    page = furniture.page(figure)
+    page = annotations.page(figure)
     xlim, ylim = scene.window.fitted(*panel)
     for k, index in enumerate(indices):
         row, column = divmod(k, columns)
@@ -24,11 +24,11 @@ def _page(scene, columns, rows, panel, indices, budget=BUDGET):
         axes = figure.add_axes([left / width, low / height, panel[0] / width, panel[1] / height], xlim=xlim, ylim=ylim)
         axes.axis("off")
         scene.draw(axes, index, budget // min(len(indices), 3))
-        furniture.time_label(page, left, low + panel[1] + 0.13, scene.labels[index],
+        annotations.time_label(page, left, low + panel[1] + 0.13, scene.labels[index],
                              scene.note if k == columns - 1 else "")
-    furniture.triad(page, scene.camera, SIDE + 0.34, 0.30)
-    furniture.scale_bar(page, SIDE + 0.98, 0.28, (xlim[1] - xlim[0]) / panel[0])
-    furniture.colour_bar(page, scene.colouring, width - SIDE - 0.08, 0.27, min(3.0, width - 3.0))
+    annotations.triad(page, scene.camera, SIDE + 0.34, 0.30)
+    annotations.scale_bar(page, SIDE + 0.98, 0.28, (xlim[1] - xlim[0]) / panel[0])
+    annotations.colour_bar(page, scene.colouring, width - SIDE - 0.08, 0.27, min(3.0, width - 3.0))
     return figure
 
 

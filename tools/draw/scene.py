@@ -14,7 +14,7 @@ from .units import time_labels
 
 
 @dataclass(frozen=True)
-class Wish:
+class PictureSpec:
     """What the user may choose about a picture of the body."""
     color: str = None
     view: tuple = (-60.0, 20.0)
@@ -28,24 +28,24 @@ class Wish:
 class Scene:
     """Made from all frames that will be drawn, so that they can be compared with each other."""
 
-    def __init__(self, series, indices, wish):
-        self.series, self.wish, self.camera = series, wish, Camera(*wish.view, wish.up)
+    def __init__(self, series, indices, spec):
+        self.series, self.spec, self.camera = series, spec, Camera(*spec.view, spec.up)
         first = series.frame(indices[0])
         if not len(first.tets):
             raise DrawError(f"{series.paths[indices[0]]}: no tetrahedra to draw")
         self.surface = Surface(first.points, first.tets)
         self.labels = dict(zip(indices, time_labels([series.times[i] for i in indices])))
         self._shape = first.points.shape, first.tets.shape
-        self.quantity = find_quantity(wish.color, first)
+        self.quantity = find_quantity(spec.color, first)
         self._grain = None
         self.window, samples = Window(), []
         for index in indices:
             frame = self._frame(index)
             self.window.include(self.camera.flat(self.positions(frame)[self.surface.nodes]))
             samples.append(self.corner_values(frame).ravel())
-        if wish.ghost:
+        if spec.ghost:
             self.window.include(self.camera.flat(first.points[self.surface.nodes]))
-        self.colouring = Colouring(self.quantity, samples, wish.limits)
+        self.colouring = Colouring(self.quantity, samples, spec.limits)
 
     def _frame(self, index):
         frame = self.series.frame(index)
@@ -55,7 +55,7 @@ class Scene:
 
     def positions(self, frame):
         moved = frame.node_fields.get("displacement")
-        points = frame.points if moved is None else frame.points + self.wish.scale * moved
+        points = frame.points if moved is None else frame.points + self.spec.scale * moved
         if not np.isfinite(points).all():
             raise DrawError("a displacement is not a finite number, the run has diverged; choose an earlier --time")
         return points
@@ -72,7 +72,7 @@ class Scene:
 
     @property
     def note(self):
-        return "" if self.wish.scale == 1 else f"deformation × {self.wish.scale:g}"
+        return "" if self.spec.scale == 1 else f"deformation × {self.spec.scale:g}"
 
     def draw(self, axes, index, budget):
         """The body at frame `index` into axes whose limits are set already."""
@@ -81,8 +81,8 @@ class Scene:
         values = self.corner_values(frame)
         paint = Paint()
         add_body(paint, self.surface, points, values, self.colouring, self.camera, budget)
-        if self.wish.grain:
+        if self.spec.grain:
             self._grain_on(axes, frame.points).add(paint, frame, points, values, self.colouring, self.camera)
         paint.draw(axes)
-        if self.wish.ghost:
+        if self.spec.ghost:
             draw_ghost(axes, self.surface, frame.points, self.camera)

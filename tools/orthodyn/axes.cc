@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "lib/simulation/vtu.h"
+#include "lib/simulation/frames.h"
 #include "tools/orthodyn/draw.h"
 
 namespace orthodyn {

@@ -5,6 +5,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/mesh/io/mesh_file.h"
+#include "lib/mesh/io/mesh_format.h"
 #include "tools/orthodyn/commands.h"
 
 namespace orthodyn {

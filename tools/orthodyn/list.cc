@@ -7,6 +7,7 @@
 #include "lib/core/words.h"
 #include "lib/linear/solver.h"
 #include "lib/material/presets.h"
+#include "lib/mesh/io/mesh_format.h"
 #include "lib/scene/build.h"
 #include "lib/scene/scene.h"
 #include "lib/study/stability/stability.h"
@@ -37,6 +38,11 @@ void print_registry() {
     for (const auto& [fact, text] : entry.facts) sentence += fmt::format("\n    {}: {}", fact, text);
     print_entry(name, sentence, entry.keys);
   }
+}
+
+void print_meshes() {
+  print_registry<MeshSource>();
+  fmt::print("  endings of mesh files: {}\n", known_mesh_endings());
 }
 
 void print_presets() {
@@ -133,7 +139,7 @@ const std::vector<std::pair<std::string, std::function<void()>>>& chapters() {
       {"scene", print_scene},
       {"materials", print_registry<Material>},
       {"presets", print_presets},
-      {"meshes", print_registry<MeshSource>},
+      {"meshes", print_meshes},
       {"axes", print_registry<AxesSource>},
       {"terms", print_terms},
       {"factors", print_registry<TimeFunction>},

@@ -9,6 +9,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/core/versions.h"
+#include "lib/mesh/io/mesh_format.h"
 #include "tools/orthodyn/commands.h"
 #include "tools/orthodyn/plugins.h"
 
@@ -198,7 +199,7 @@ Examples:
 
   ConvertArguments conversion;
   auto* convert = app.add_subcommand(
-      "convert", "A mesh from one format to another, by the endings: .msh .msh2 .veg .vtu .vtk .node .ele .inp.");
+      "convert", "A mesh from one format to another, by the endings: " + known_mesh_endings() + ".");
   convert->add_option("in", conversion.in, "The mesh to read.")->required()->type_name("IN");
   convert->add_option("out", conversion.out, "The mesh to write; what its format cannot hold is said.")->required()->type_name("OUT");
   convert->add_option("--scale", conversion.scale, "Multiplies coordinates: 0.001 from mm to m.")->type_name("FACTOR");

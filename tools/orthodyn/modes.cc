@@ -7,7 +7,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/analysis/modes.h"
-#include "lib/simulation/vtu.h"
+#include "lib/simulation/frames.h"
 #include "lib/scene/equilibrium.h"
 #include "lib/analysis/rigid_freedom.h"
 #include "tools/orthodyn/commands.h"

@@ -9,7 +9,7 @@
 #include "lib/simulation/curves.h"
 #include "lib/simulation/event_writer.h"
 #include "lib/simulation/progress.h"
-#include "lib/simulation/vtu.h"
+#include "lib/simulation/frames.h"
 #include "lib/scene/setup.h"
 
 namespace orthodyn {
@@ -38,7 +38,7 @@ class RunObservers {
   std::optional<MomentumWriter> momentum;
 
  private:
-  std::optional<VtuWriter> frames_;
+  std::optional<FrameWriter> frames_;
   std::optional<StepWriter> steps_;
   std::optional<ProbeWriter> probes_;
   EventFinder finder_;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "lib/simulation/statics.h"
-#include "lib/simulation/vtu.h"
+#include "lib/simulation/frames.h"
 #include "lib/scene/equilibrium.h"
 #include "lib/study/jobs/machine.h"
 #include "tools/orthodyn/interrupt.h"
@@ -48,7 +48,7 @@ class StaticObservers {
   }
 
  private:
-  std::optional<VtuWriter> frames_;
+  std::optional<FrameWriter> frames_;
   std::optional<LoadStepWriter> steps_;
   std::optional<ProbeWriter> probes_;
   std::optional<LoadProgress> progress_;

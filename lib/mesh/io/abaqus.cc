@@ -6,14 +6,10 @@
 #include <utility>
 
 #include "lib/mesh/io/abaqus_file.h"
-#include "lib/mesh/io/text_file.h"
 #include "lib/mesh/io/text_tokens.h"
 
 namespace orthodyn {
 namespace {
-
-// Nodes of the faces S1 to S4 of C3D4, by their places in the element.
-constexpr int kFaces[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
 
 // Numbers of nodes or elements, ascending, each with its index.
 using Numbers = std::vector<std::pair<std::int64_t, std::size_t>>;
@@ -156,9 +152,8 @@ class AbaqusMesh {
       for (const AbaqusFace& face : surface.faces) {
         const std::size_t found = each_element(face.elements, tets_, [&](std::size_t t) {
           const FileTet& tet = draft_.tets[t];
-          const auto& [a, b, c] = kFaces[face.side];
-          const auto node = [&](int i) { return tet.nodes[static_cast<std::size_t>(i)]; };
-          triangles.push_back({tet.tag, {node(a), node(b), node(c)}, face.elements.place});
+          const auto& [a, b, c] = kAbaqusFaces[face.side];
+          triangles.push_back({tet.tag, {tet.nodes[a], tet.nodes[b], tet.nodes[c]}, face.elements.place});
         });
         if (found == 0) draft_.fail(face.elements.place, fmt::format("surface {}: no such element of type C3D4", TextTokens::quoted(surface.name)));
       }
@@ -176,6 +171,9 @@ class AbaqusMesh {
   Numbers nodes_, tets_, triangles_;
   std::size_t budget_ = 0;
 };
+
+const bool registered = register_mesh_format(
+    {.name = "Abaqus", .endings = {".inp"}, .read = read_abaqus, .write = write_abaqus});
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Reads the mesh out of an Abaqus input file (.inp).
+// The mesh of an Abaqus input file (.inp).
 //
 // Format: Abaqus keywords reference; numbering of the faces of C3D4: Abaqus elements guide,
 // "three-dimensional solid element library".
@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "lib/mesh/loaded_mesh.h"
+#include "lib/mesh/io/mesh_format.h"
 
 namespace orthodyn {
 
@@ -22,5 +22,8 @@ LoadedMesh read_abaqus(const std::string& path);
 
 // The same from a text; `path` is for messages.
 LoadedMesh read_abaqus_text(const std::string& path, std::string_view text);
+
+// Regions, node sets and surfaces as *ELSET, *NSET and *SURFACE; names in quotes where they need it.
+WrittenMesh write_abaqus(const LoadedMesh& loaded);
 
 }  // namespace orthodyn

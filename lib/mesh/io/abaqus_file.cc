@@ -275,7 +275,7 @@ class AbaqusReader {
       if (side.size() != 2 || side[0] != 'S' || side[1] < '1' || side[1] > '4') {
         tokens_.fail(fmt::format("face {}; a tetrahedron has S1, S2, S3, S4", TextTokens::quoted(side)));
       }
-      face.side = side[1] - '1';
+      face.side = static_cast<std::size_t>(side[1] - '1');
       tokens_.finish_line();
       surface.faces.push_back(std::move(face));
     }
@@ -296,11 +296,6 @@ class AbaqusReader {
 };
 
 }  // namespace
-
-std::string in_capitals(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
 
 AbaqusFile read_abaqus_keywords(const std::string& path, std::string_view text) { return AbaqusReader(path, text).read(); }
 

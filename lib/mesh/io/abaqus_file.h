@@ -1,6 +1,7 @@
 // What an Abaqus input file says of its mesh. Names are compared in capitals.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -24,9 +25,12 @@ struct AbaqusSet {
   int order = 0;  // of the last line that added to it
 };
 
+// Nodes of the faces S1 to S4 of C3D4, by their places in the element.
+constexpr std::array<std::array<std::size_t, 3>, 4> kAbaqusFaces{{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
+
 struct AbaqusFace {
   AbaqusMembers elements;
-  int side = 0;  // 0 to 3 for S1 to S4
+  std::size_t side = 0;  // 0 to 3 for S1 to S4
 };
 
 struct AbaqusSurface {
@@ -43,8 +47,6 @@ struct AbaqusFile {
   std::map<std::string, AbaqusSurface> surfaces;
   std::vector<AbaqusMembers> sections;  // the element set of each *SOLID SECTION
 };
-
-std::string in_capitals(std::string text);
 
 // Throws ConfigError.
 AbaqusFile read_abaqus_keywords(const std::string& path, std::string_view text);

@@ -1,18 +1,149 @@
 #include "lib/mesh/io/gmsh.h"
 
-#include "lib/mesh/io/gmsh_build.h"
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "lib/mesh/io/gmsh_file.h"
-#include "lib/mesh/io/text_file.h"
 #include "lib/mesh/io/text_tokens.h"
 
 namespace orthodyn {
+namespace {
+
+constexpr const char* kKinds[] = {"points", "curve", "surface", "volume"};
+
+// Turns what the file says into a draft; takes the nodes out of the file. The file and the tokens, which name it in
+// messages, must outlive it.
+class MeshBuilder {
+ public:
+  MeshBuilder(GmshFile& file, const TextTokens& tokens) : file_(file), tokens_(tokens) {}
+
+  MeshDraft build() {
+    check_sections();
+    draft_.files = {tokens_.path()};
+    draft_.nodes_section = "$Nodes";
+    draft_.nodes = std::move(file_.nodes);
+    add_regions();
+    add_tets();
+    add_surfaces();
+    add_node_sets();
+    warn_of_empty_groups();
+    return std::move(draft_);
+  }
+
+ private:
+  void check_sections() const {
+    for (const char* name : {"Nodes", "Elements"}) {
+      if (!file_.section_lines.contains(name)) {
+        tokens_.fail(fmt::format("the file ends without ${}; is it truncated?", name));
+      }
+    }
+    if (file_.tets.empty()) {
+      tokens_.fail_at(file_.section_lines.at("Elements"), "no tetrahedra: did you mesh in 3D (gmsh -3)?");
+    }
+  }
+
+  std::string group_name(int dim, int tag) const {
+    const auto name = file_.names.find({dim, tag});
+    if (name != file_.names.end() && !name->second.empty()) return name->second;
+    return fmt::format("{}{}", kKinds[dim], tag);
+  }
+
+  const std::vector<int>& groups_of(const auto& element) const {
+    return file_.group_sets[static_cast<std::size_t>(element.groups)];
+  }
+
+  // The physical tag of a tet, 0 if it has none.
+  int region_tag(const GmshElement<4>& tet) const {
+    const std::vector<int>& groups = groups_of(tet);
+    if (groups.empty()) return 0;
+    for (int group : groups) {
+      if (std::abs(group) == std::abs(groups[0])) continue;
+      tokens_.fail_at(tet.line,
+                      fmt::format("element {}: in two physical volumes, \"{}\" and \"{}\"; an element "
+                                  "belongs to one region: put its volume in one physical group",
+                                  tet.tag, group_name(3, std::abs(groups[0])), group_name(3, std::abs(group))));
+    }
+    return std::abs(groups[0]);
+  }
+
+  // Groups of the same name are one region.
+  void add_regions() {
+    std::map<int, int> tets_with;
+    for (const GmshElement<4>& tet : file_.tets) ++tets_with[region_tag(tet)];
+    for (const auto& [tag, tets] : tets_with) {
+      region_index_[tag] = draft_.region_index(tag == 0 ? "body" : group_name(3, tag));
+    }
+    if (tets_with.contains(0) && tets_with.size() > 1) {
+      draft_.warnings.push_back(
+          fmt::format("{}: {} of {} tetrahedra are in no physical volume; they are in region \"body\"", tokens_.path(),
+                      tets_with[0], file_.tets.size()));
+    }
+  }
+
+  void add_tets() {
+    draft_.tets.reserve(file_.tets.size());
+    for (const GmshElement<4>& tet : file_.tets) {
+      draft_.tets.push_back({tet.tag, tet.nodes, {tet.line}, region_index_.at(region_tag(tet))});
+    }
+  }
+
+  // A negative tag means that the group is oriented against the triangle.
+  void add_surfaces() {
+    for (const GmshElement<3>& triangle : file_.triangles) {
+      const auto& [a, b, c] = triangle.nodes;
+      for (int tag : groups_of(triangle)) {
+        FileTriangle turned{triangle.tag, triangle.nodes, {triangle.line}};
+        if (tag < 0) turned.nodes = {a, c, b};
+        draft_.surfaces[group_name(2, std::abs(tag))].push_back(turned);
+      }
+    }
+  }
+
+  void add_node_sets() {
+    for (const GmshElement<1>& point : file_.points) {
+      for (int tag : groups_of(point)) {
+        draft_.node_sets[group_name(0, std::abs(tag))].push_back({point.nodes[0], {point.line}});
+      }
+    }
+  }
+
+  void warn_of_empty_groups() {
+    const auto& regions = draft_.region_names;
+    for (const auto& [dim_tag, name] : file_.names) {
+      const auto [dim, tag] = dim_tag;
+      const std::string used = group_name(dim, tag);
+      const bool empty = (dim == 2 && !draft_.surfaces.contains(used)) ||
+                         (dim == 3 && std::count(regions.begin(), regions.end(), used) == 0);
+      if (!empty) continue;
+      draft_.warnings.push_back(fmt::format("{}: physical {} \"{}\" has no {}", tokens_.path(), kKinds[dim], used,
+                                            dim == 3 ? "tetrahedra" : "triangles"));
+    }
+  }
+
+  GmshFile& file_;
+  const TextTokens& tokens_;
+  std::map<int, int> region_index_;  // by physical tag
+  MeshDraft draft_;
+};
+
+const bool registered[] = {
+    register_mesh_format({.name = "Gmsh", .endings = {".msh"}, .read = read_gmsh, .write = write_gmsh41}),
+    register_mesh_format({.name = "Gmsh 2.2", .endings = {".msh2"}, .read = read_gmsh, .write = write_gmsh22})};
+
+}  // namespace
 
 LoadedMesh read_gmsh(const std::string& path) { return read_gmsh_text(path, read_text_file(path)); }
 
 LoadedMesh read_gmsh_text(const std::string& path, std::string_view text) {
   TextTokens tokens(path, text);
   GmshFile file = read_gmsh_sections(tokens);
-  return build_gmsh_mesh(file, tokens);
+  return build_mesh(MeshBuilder(file, tokens).build());
 }
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// Reads tetrahedral meshes from Gmsh .msh files, formats 2.2 and 4.1, ASCII.
+// Tetrahedral meshes in Gmsh's .msh files, formats 2.2 and 4.1, ASCII.
 //
 // Format: Geuzaine and Remacle, Gmsh reference manual, "MSH file format" and "MSH file format
 // version 2 (Legacy)".
@@ -7,14 +7,15 @@
 #include <string>
 #include <string_view>
 
-#include "lib/mesh/loaded_mesh.h"
+#include "lib/mesh/io/mesh_format.h"
 
 namespace orthodyn {
 
 // Physical volumes become regions, physical surfaces become surfaces and physical points become node
-// sets, under their names or else as "volume<tag>", "surface<tag>" and "points<tag>". Tets in no physical volume form the region "body". Nodes are
-// numbered by ascending tag, regions by ascending physical tag, elements in the order of the file,
-// so that both formats of one mesh give the same. Coordinates are taken as metres.
+// sets, under their names or else as "volume<tag>", "surface<tag>" and "points<tag>". Tets in no physical
+// volume form the region "body". Nodes are numbered by ascending tag, regions by ascending physical tag,
+// elements in the order of the file, so that both formats of one mesh give the same. Coordinates are taken
+// as metres.
 //
 // Throws ConfigError "file:line: found, remedy" for anything that is not a complete and valid mesh
 // of linear tets (see validate()). Memory use is bounded by the size of the file, whatever counts
@@ -23,5 +24,9 @@ LoadedMesh read_gmsh(const std::string& path);
 
 // The same from a text; `path` is for messages.
 LoadedMesh read_gmsh_text(const std::string& path, std::string_view text);
+
+// Regions, surfaces and node sets as physical volumes, surfaces and points.
+WrittenMesh write_gmsh22(const LoadedMesh& loaded);
+WrittenMesh write_gmsh41(const LoadedMesh& loaded);
 
 }  // namespace orthodyn

@@ -9,15 +9,13 @@
 namespace orthodyn {
 namespace {
 
-constexpr const char* kConvert =
-    "save it as ASCII 2.2 or 4.1: \"gmsh in.msh -save -format msh22 -o out.msh\"";
+constexpr const char* kConvert = "save it as ASCII 2.2 or 4.1: \"gmsh in.msh -save -format msh22 -o out.msh\"";
 
 GmshSection begin_section(TextTokens& tokens) {
   const int line = tokens.line();
   const std::string_view word = tokens.word("a section");
   if (word.size() < 2 || word[0] != '$') {
-    tokens.fail(
-        fmt::format("expected the start of a section ($...), found {}", TextTokens::quoted(word)));
+    tokens.fail(fmt::format("expected the start of a section ($...), found {}", TextTokens::quoted(word)));
   }
   GmshSection section{std::string(word.substr(1)), line};
   tokens.finish_line();
@@ -31,8 +29,8 @@ void skip_section(TextTokens& tokens, const GmshSection& section) {
     tokens.skip_line();
     if (ended) return;
   }
-  tokens.fail(fmt::format("the file ends inside {} (line {}); is it truncated?",
-                          TextTokens::quoted("$" + section.name), section.line));
+  tokens.fail(fmt::format("the file ends inside {} (line {}); is it truncated?", TextTokens::quoted("$" + section.name),
+                          section.line));
 }
 
 // The text between the first and the last quote: names may hold blanks and quotes.
@@ -55,8 +53,7 @@ void read_physical_names(TextTokens& tokens, const GmshSection& section, GmshFil
     const std::int64_t dim = tokens.integer("the dimension of a physical group");
     if (dim < 0 || dim > 3) tokens.fail(fmt::format("dimension {}; expected 0 to 3", dim));
     const int tag = read_tag(tokens, "the tag of a physical group");
-    if (!file.names.emplace(GmshFile::DimTag(static_cast<int>(dim), tag), read_name(tokens))
-             .second) {
+    if (!file.names.emplace(GmshFile::DimTag(static_cast<int>(dim), tag), read_name(tokens)).second) {
       tokens.fail(fmt::format("physical group {} of dimension {} is named twice", tag, dim));
     }
     tokens.skip_line();
@@ -65,8 +62,7 @@ void read_physical_names(TextTokens& tokens, const GmshSection& section, GmshFil
 }
 
 [[noreturn]] void refuse_version(const TextTokens& tokens, int line, const std::string& version) {
-  tokens.fail_at(line,
-                 fmt::format("Gmsh format {}; only 2.2 and 4.1 are read; {}", version, kConvert));
+  tokens.fail_at(line, fmt::format("Gmsh format {}; only 2.2 and 4.1 are read; {}", version, kConvert));
 }
 
 // Leaves the cursor behind $EndMeshFormat.
@@ -110,8 +106,7 @@ GmshFile read_gmsh_sections(TextTokens& tokens) {
     }
     const auto [first, is_new] = file.section_lines.emplace(section.name, section.line);
     if (!is_new) {
-      tokens.fail_at(section.line, fmt::format("a second ${} (the first is in line {})",
-                                               section.name, first->second));
+      tokens.fail_at(section.line, fmt::format("a second ${} (the first is in line {})", section.name, first->second));
     }
     reader->second(tokens, section, file);
   }
@@ -127,16 +122,16 @@ int read_tag(TextTokens& tokens, const char* what) {
   return static_cast<int>(tag);
 }
 
-void expect_record(TextTokens& tokens, const GmshSection& section, std::int64_t done,
-                   std::int64_t announced, const char* records) {
+void expect_record(TextTokens& tokens, const GmshSection& section, std::int64_t done, std::int64_t announced,
+                   const char* records) {
   if (tokens.at_end()) {
-    tokens.fail(fmt::format("the file ends after {} of {} {} (${} in line {}); is it truncated?",
-                            done, announced, records, section.name, section.line));
+    tokens.fail(fmt::format("the file ends after {} of {} {} (${} in line {}); is it truncated?", done, announced,
+                            records, section.name, section.line));
   }
   if (tokens.peek() == '$') {
     tokens.fail(fmt::format("found {} after {} of the {} {} announced (${} in line {})",
-                            TextTokens::quoted(tokens.word("a word")), done, announced, records,
-                            section.name, section.line));
+                            TextTokens::quoted(tokens.word("a word")), done, announced, records, section.name,
+                            section.line));
   }
 }
 
@@ -155,8 +150,7 @@ void end_section(TextTokens& tokens, const GmshSection& section) {
 int intern_groups(GmshFile& file, std::vector<int> groups) {
   std::sort(groups.begin(), groups.end());
   groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
-  const auto [entry, is_new] =
-      file.group_set_index.emplace(groups, static_cast<int>(file.group_sets.size()));
+  const auto [entry, is_new] = file.group_set_index.emplace(groups, static_cast<int>(file.group_sets.size()));
   if (is_new) file.group_sets.push_back(std::move(groups));
   return entry->second;
 }
@@ -179,10 +173,7 @@ GmshKind check_element_type(const TextTokens& tokens, std::int64_t type) {
     case 5:
     case 6:
     case 7: {
-      const char* name = type == 3   ? "quadrangle"
-                         : type == 5 ? "hexahedron"
-                         : type == 6 ? "prism"
-                                     : "pyramid";
+      const char* name = type == 3 ? "quadrangle" : type == 5 ? "hexahedron" : type == 6 ? "prism" : "pyramid";
       tokens.fail(
           fmt::format("a {} (element type {}); only tetrahedra are read: mesh again without "
                       "\"Recombine\"",
@@ -203,8 +194,7 @@ GmshKind check_element_type(const TextTokens& tokens, std::int64_t type) {
   }
 }
 
-void read_element_nodes(TextTokens& tokens, GmshKind kind, std::int64_t tag, int groups,
-                        GmshFile& file) {
+void read_element_nodes(TextTokens& tokens, GmshKind kind, std::int64_t tag, int groups, GmshFile& file) {
   const int line = tokens.line();
   const auto read = [&]<std::size_t N>(std::vector<GmshElement<N>>& elements) {
     GmshElement<N> element{tag, {}, line, groups};

@@ -1,5 +1,5 @@
 // What a Gmsh file says, before it becomes a TetMesh: tags instead of indices, and the line of
-// everything. Filled by the readers of the formats, turned into a mesh by read_gmsh().
+// everything. Filled by the readers of both versions, turned into a mesh by read_gmsh().
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "lib/mesh/mesh_draft.h"
 #include "lib/mesh/io/text_tokens.h"
+#include "lib/mesh/mesh_draft.h"
 
 namespace orthodyn {
 
@@ -64,8 +64,8 @@ GmshFile read_gmsh_sections(TextTokens& tokens);
 int read_tag(TextTokens& tokens, const char* what);
 
 // Before each record of a list: the section must not be over while `done` of `announced` are read.
-void expect_record(TextTokens& tokens, const GmshSection& section, std::int64_t done,
-                   std::int64_t announced, const char* records);
+void expect_record(TextTokens& tokens, const GmshSection& section, std::int64_t done, std::int64_t announced,
+                   const char* records);
 
 // The line `$End<name>`.
 void end_section(TextTokens& tokens, const GmshSection& section);
@@ -79,7 +79,6 @@ enum class GmshKind { ignored, point, triangle, tet };
 GmshKind check_element_type(const TextTokens& tokens, std::int64_t type);
 
 // Reads the nodes of an element up to the end of the line.
-void read_element_nodes(TextTokens& tokens, GmshKind kind, std::int64_t tag, int groups,
-                        GmshFile& file);
+void read_element_nodes(TextTokens& tokens, GmshKind kind, std::int64_t tag, int groups, GmshFile& file);
 
 }  // namespace orthodyn

@@ -54,8 +54,7 @@ void refuse_parametric(TextTokens& tokens, const GmshSection& section, GmshFile&
 }  // namespace
 
 GmshSectionReaders gmsh_v2_sections() {
-  return {
-      {"Nodes", read_nodes}, {"Elements", read_elements}, {"ParametricNodes", refuse_parametric}};
+  return {{"Nodes", read_nodes}, {"Elements", read_elements}, {"ParametricNodes", refuse_parametric}};
 }
 
 }  // namespace orthodyn

@@ -18,7 +18,7 @@ int read_dimension(TextTokens& tokens) {
 
 void read_entity(TextTokens& tokens, int dim, GmshFile& file) {
   const int tag = read_tag(tokens, "the tag of an entity");
-  const int coordinates = dim == 0 ? 3 : 6;  // a point, or else a bounding box
+  const int coordinates = dim == 0 ? 3 : 6;                           // a point, or else a bounding box
   for (int i = 0; i < coordinates; ++i) tokens.word("a coordinate");  // may be infinite if empty
   const std::int64_t count = tokens.count("the number of physical groups");
   std::vector<int> groups;
@@ -61,11 +61,11 @@ Totals read_totals(TextTokens& tokens) {
   return totals;
 }
 
-void check_total(const TextTokens& tokens, const GmshSection& section, std::int64_t announced,
-                 std::size_t found, const char* records) {
+void check_total(const TextTokens& tokens, const GmshSection& section, std::int64_t announced, std::size_t found,
+                 const char* records) {
   if (static_cast<std::size_t>(announced) == found) return;
-  tokens.fail_at(section.line, fmt::format("${} announces {} {}, but its blocks hold {}",
-                                           section.name, announced, records, found));
+  tokens.fail_at(section.line,
+                 fmt::format("${} announces {} {}, but its blocks hold {}", section.name, announced, records, found));
 }
 
 // All tags of a block come first, one per line, then all coordinates.
@@ -115,8 +115,8 @@ std::int64_t read_element_block(TextTokens& tokens, const GmshSection& section, 
   const int entity = read_tag(tokens, "the tag of an entity");
   const GmshKind kind = check_element_type(tokens, tokens.integer("an element type"));
   if ((kind == GmshKind::triangle && dim != 2) || (kind == GmshKind::tet && dim != 3)) {
-    tokens.fail(fmt::format("{} in an entity of dimension {}",
-                            kind == GmshKind::tet ? "tetrahedra" : "triangles", dim));
+    tokens.fail(
+        fmt::format("{} in an entity of dimension {}", kind == GmshKind::tet ? "tetrahedra" : "triangles", dim));
   }
   const std::int64_t count = tokens.count("the number of elements");
   const int groups = groups_of_entity(tokens, file, dim, entity);
@@ -141,10 +141,9 @@ void read_elements(TextTokens& tokens, const GmshSection& section, GmshFile& fil
 }
 
 void refuse_partitions(TextTokens& tokens, const GmshSection& section, GmshFile&) {
-  tokens.fail_at(
-      section.line,
-      "a partitioned mesh ($PartitionedEntities); mesh again without -part, or open it in "
-      "Gmsh, choose Mesh > Unpartition, and save");
+  tokens.fail_at(section.line,
+                 "a partitioned mesh ($PartitionedEntities); mesh again without -part, or open it in "
+                 "Gmsh, choose Mesh > Unpartition, and save");
 }
 
 }  // namespace

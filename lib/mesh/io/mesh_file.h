@@ -1,26 +1,11 @@
-// Mesh files of every format, chosen by the ending of their name.
+// Meshes from and to files on the disk, in the format that the ending of the name says.
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "lib/mesh/loaded_mesh.h"
-#include "lib/mesh/io/mesh_writer.h"
 
 namespace orthodyn {
-
-struct MeshFormat {
-  std::string name;                  // "Gmsh"
-  std::vector<std::string> endings;  // ".msh"
-  LoadedMesh (*read)(const std::string& path);
-  bool materials;  // the format can hold them
-  WrittenMesh (*write)(const LoadedMesh& loaded);  // null: the format is only read
-};
-
-const std::vector<MeshFormat>& mesh_formats();
-
-// Throws ConfigError, listing the endings, if no format has this one (capitals do not matter).
-const MeshFormat& mesh_format_of(const std::string& path);
 
 // Throws ConfigError.
 LoadedMesh read_mesh(const std::string& path);

@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <filesystem>
 #include <map>
+#include <set>
+#include <system_error>
 #include <utility>
 
-#include "lib/mesh/mesh_draft.h"
-#include "lib/mesh/io/text_file.h"
+#include "lib/mesh/io/text_lines.h"
 #include "lib/mesh/io/text_tokens.h"
+#include "lib/mesh/mesh_draft.h"
 
 namespace orthodyn {
 namespace {
@@ -32,7 +35,8 @@ class TetgenReader {
   template <class Record>
   void read_records(TextTokens& tokens, std::int64_t announced, const char* what, Record&& record) {
     for (std::int64_t i = 0; i < announced; ++i) {
-      if (tokens.at_end()) tokens.fail(fmt::format("the file ends after {} of {} {}; is it truncated?", i, announced, what));
+      if (tokens.at_end())
+        tokens.fail(fmt::format("the file ends after {} of {} {}; is it truncated?", i, announced, what));
       record();
       tokens.finish_line();
     }
@@ -69,7 +73,8 @@ class TetgenReader {
     const std::int64_t count = tokens.count("the number of tetrahedra");
     const std::int64_t nodes = tokens.integer("the nodes per tetrahedron");
     if (nodes != 4) {
-      tokens.fail(fmt::format("{} nodes per tetrahedron; only linear ones (4) are read: run tetgen without -o2", nodes));
+      tokens.fail(
+          fmt::format("{} nodes per tetrahedron; only linear ones (4) are read: run tetgen without -o2", nodes));
     }
     const std::int64_t attributes = tokens.peek() ? tokens.count("the number of attributes") : 0;
     tokens.finish_line();
@@ -78,7 +83,8 @@ class TetgenReader {
       FileTet tet{.tag = 0, .nodes = {}, .place = {tokens.line(), 1}};
       tet.tag = tokens.integer("the number of a tetrahedron");
       for (std::int64_t& node : tet.nodes) node = tokens.integer("a node");
-      tet.region = region_of(attributes > 0 ? fmt::format("region{}", tokens.real("the attribute of a region")) : "body");
+      const bool named = attributes > 0;
+      tet.region = draft_.region_index(named ? fmt::format("region{}", tokens.real("the attribute of a region")) : "body");
       for (std::int64_t k = 1; k < attributes; ++k) tokens.real("an attribute");
       draft_.tets.push_back(tet);
     });
@@ -105,15 +111,87 @@ class TetgenReader {
     return flag == 1;
   }
 
-  int region_of(const std::string& name) {
-    const auto [entry, is_new] = regions_.emplace(name, static_cast<int>(regions_.size()));
-    if (is_new) draft_.region_names.push_back(name);
-    return entry->second;
-  }
-
   MeshDraft draft_;
-  std::map<std::string, int> regions_;
 };
+
+// "marker7" keeps its 7; the others take the numbers that are free.
+std::map<std::string, int> numbers_of(const std::string& prefix, const std::vector<std::string>& names,
+                                      Warnings& losses) {
+  std::map<std::string, int> numbers;
+  std::set<int> taken;
+  for (const std::string& name : names) {
+    if (!name.starts_with(prefix)) continue;
+    const char* end = name.data() + name.size();
+    int number = 0;
+    const auto [stop, error] = std::from_chars(name.data() + prefix.size(), end, number);
+    if (error == std::errc() && stop == end && number != 0 && taken.insert(number).second) numbers[name] = number;
+  }
+  int next = 1;
+  for (const std::string& name : names) {
+    if (numbers.contains(name)) continue;
+    while (taken.contains(next)) ++next;
+    taken.insert(next);
+    numbers[name] = next;
+    losses.push_back(fmt::format("the format cannot hold names: \"{}\" became \"{}{}\"", name, prefix, next));
+  }
+  return numbers;
+}
+
+// The marker of each node, 0 for none; of several sets the first wins.
+std::vector<int> markers_of(const TetMesh& mesh, Warnings& losses) {
+  const auto numbers = numbers_of("marker", names_of(mesh.node_sets), losses);
+  std::vector<int> markers(mesh.nodes.size(), 0);
+  for (const auto& [name, nodes] : mesh.node_sets) {
+    std::size_t lost = 0;
+    for (const int n : nodes) {
+      int& marker = markers[static_cast<std::size_t>(n)];
+      lost += marker != 0;
+      if (marker == 0) marker = numbers.at(name);
+    }
+    if (lost == 0) continue;
+    losses.push_back(fmt::format("a node has one marker: {} nodes of \"{}\" are in an earlier set", lost, name));
+  }
+  return markers;
+}
+
+std::string node_text(const TetMesh& mesh, Warnings& losses) {
+  const std::vector<int> markers = markers_of(mesh, losses);
+  TextLines lines;
+  lines.line(mesh.nodes.size(), 3, 0, 1);
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) lines.line(n + 1, mesh.nodes[n], markers[n]);
+  return lines.take();
+}
+
+std::string ele_text(const TetMesh& mesh, Warnings& losses) {
+  const bool plain = mesh.region_names == std::vector<std::string>{"body"};
+  std::map<std::string, int> numbers;
+  if (!plain) numbers = numbers_of("region", mesh.region_names, losses);
+  TextLines lines;
+  lines.line(mesh.tets.size(), 4, plain ? 0 : 1);
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
+    lines.add(e + 1);
+    lines.add(FromOne{mesh.tets[e]});
+    if (!plain) lines.add(numbers.at(mesh.region_names[static_cast<std::size_t>(mesh.region_of[e])]));
+    lines.end_line();
+  }
+  return lines.take();
+}
+
+std::string face_text(const TetMesh& mesh, Warnings& losses) {
+  const auto numbers = numbers_of("marker", names_of(mesh.surfaces), losses);
+  std::size_t count = 0;
+  for (const auto& [name, triangles] : mesh.surfaces) count += triangles.size();
+  TextLines lines;
+  lines.line(count, 1);
+  std::size_t face = 0;
+  for (const auto& [name, triangles] : mesh.surfaces) {
+    for (const Triangle& t : triangles) lines.line(++face, FromOne{t}, numbers.at(name));
+  }
+  return lines.take();
+}
+
+const bool registered =
+    register_mesh_format({.name = "TetGen", .endings = {".node", ".ele"}, .read = read_tetgen, .write = write_tetgen});
 
 }  // namespace
 
@@ -127,6 +205,15 @@ LoadedMesh read_tetgen(const std::string& path) {
 
 LoadedMesh read_tetgen_text(const std::string& stem, const TetgenTexts& texts) {
   return build_mesh(TetgenReader(stem).read(texts));
+}
+
+WrittenMesh write_tetgen(const LoadedMesh& loaded) {
+  const TetMesh& mesh = loaded.mesh;
+  WrittenMesh written;
+  written.files.push_back({".node", node_text(mesh, written.losses)});
+  written.files.push_back({".ele", ele_text(mesh, written.losses)});
+  if (!mesh.surfaces.empty()) written.files.push_back({".face", face_text(mesh, written.losses)});
+  return written;
 }
 
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// Reads TetGen's meshes: .node and .ele, and .face if it is there.
+// TetGen's meshes: .node and .ele, and .face if there are surfaces.
 //
 // Format: Hang Si, TetGen 1.5 user's manual, "file formats".
 #pragma once
@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "lib/mesh/loaded_mesh.h"
+#include "lib/mesh/io/mesh_format.h"
 
 namespace orthodyn {
 
@@ -22,5 +22,8 @@ struct TetgenTexts {
 
 // The same from texts; `stem` is the path without its ending, for messages.
 LoadedMesh read_tetgen_text(const std::string& stem, const TetgenTexts& texts);
+
+// Names are lost but for "region<k>" and "marker<k>".
+WrittenMesh write_tetgen(const LoadedMesh& loaded);
 
 }  // namespace orthodyn

@@ -7,6 +7,13 @@
 
 namespace orthodyn {
 
+// The content of a file. Throws ConfigError for a file that is missing, unreadable, or not a regular file (a pipe
+// might never end).
+std::string read_text_file(const std::string& path);
+
+// For keywords and names that may be spelled in any case.
+std::string in_capitals(std::string text);
+
 // What else than blanks and ends of lines has a meaning.
 struct Punctuation {
   bool commas = false;           // separate words, as blanks do

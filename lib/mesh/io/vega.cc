@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "lib/mesh/io/text_file.h"
 #include "lib/mesh/io/text_tokens.h"
 #include "lib/mesh/io/vega_file.h"
 
@@ -63,48 +62,52 @@ std::vector<int> assign_regions(VegaFile& file, const std::vector<VegaRegion>& r
   return region_of;
 }
 
-// Gives the draft its regions; those without elements are dropped.
-std::map<std::string, MeshMaterial> settle_regions(VegaFile& file) {
-  const std::vector<VegaRegion> regions = wanted_regions(file);
-  const std::vector<int> region_of = assign_regions(file, regions);
-  std::vector<std::size_t> elements_in(regions.size(), 0);
-  for (const int r : region_of) {
-    if (r >= 0) ++elements_in[static_cast<std::size_t>(r)];
+// Null for a region without one.
+const MeshMaterial* material_of(const VegaFile& file, const VegaRegion& region) {
+  if (region.material.empty()) return nullptr;
+  const auto found = file.materials.find(region.material);
+  if (found == file.materials.end()) {
+    file.draft.fail(region.place, fmt::format("no *MATERIAL {}", TextTokens::quoted(region.material)));
   }
-  std::map<std::string, MeshMaterial> materials;
-  std::map<std::string, int> index;
-  const auto index_of = [&](const std::string& name) {
-    const auto [entry, is_new] = index.emplace(name, static_cast<int>(index.size()));
-    if (is_new) file.draft.region_names.push_back(name);
-    return entry->second;
-  };
-  for (std::size_t r = 0; r < regions.size(); ++r) {
-    const VegaRegion& region = regions[r];
-    if (!region.material.empty()) {
-      const auto material = file.materials.find(region.material);
-      if (material == file.materials.end()) {
-        file.draft.fail(region.place, fmt::format("no *MATERIAL {}", TextTokens::quoted(region.material)));
-      }
-      materials[region.set] = material->second;
-    }
-    if (elements_in[r] > 0) {
-      index_of(region.set);
-    } else {
-      materials.erase(region.set);
-      file.draft.warnings.push_back(fmt::format("{}: region \"{}\" has no elements", file.draft.where(region.place), region.set));
-    }
-  }
-  const char* rest = regions.empty() ? "body" : "unassigned";
+  return &found->second;
+}
+
+// Gives the elements their regions in the draft; those in none are "unassigned", or "body" if the file has no regions.
+void assign_elements(VegaFile& file, const std::vector<int>& region_of, const std::vector<int>& index) {
+  const char* rest = index.empty() ? "body" : "unassigned";
   std::size_t unassigned = 0;
   for (std::size_t e = 0; e < region_of.size(); ++e) {
     const int r = region_of[e];
+    file.draft.tets[e].region = r < 0 ? file.draft.region_index(rest) : index[static_cast<std::size_t>(r)];
     unassigned += r < 0;
-    file.draft.tets[e].region = index_of(r < 0 ? rest : regions[static_cast<std::size_t>(r)].set);
   }
-  if (unassigned > 0 && !regions.empty()) {
-    file.draft.warnings.push_back(fmt::format("{}: {} of {} elements are in no region; they are in region \"unassigned\"",
-                                              file.draft.files.front(), unassigned, region_of.size()));
+  if (unassigned == 0 || index.empty()) return;
+  file.draft.warnings.push_back(fmt::format("{}: {} of {} elements are in no region; they are in region \"unassigned\"",
+                                            file.draft.files.front(), unassigned, region_of.size()));
+}
+
+// Gives the draft its regions, and returns their materials; regions without elements are dropped.
+std::map<std::string, MeshMaterial> settle_regions(VegaFile& file) {
+  const std::vector<VegaRegion> regions = wanted_regions(file);
+  const std::vector<int> region_of = assign_regions(file, regions);
+  std::vector<char> used(regions.size(), false);
+  for (const int r : region_of) {
+    if (r >= 0) used[static_cast<std::size_t>(r)] = true;
   }
+  std::map<std::string, MeshMaterial> materials;
+  std::vector<int> index(regions.size(), -1);  // of each region in the draft
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    const std::string& set = regions[r].set;
+    const MeshMaterial* material = material_of(file, regions[r]);
+    if (!used[r]) {
+      file.draft.warnings.push_back(
+          fmt::format("{}: region \"{}\" has no elements", file.draft.where(regions[r].place), set));
+      continue;
+    }
+    index[r] = file.draft.region_index(set);
+    if (material) materials[set] = *material;
+  }
+  assign_elements(file, region_of, index);
   return materials;
 }
 
@@ -136,6 +139,13 @@ void add_fixed(const FixedVertices& fixed, VegaFile& file) {
   }
   if (set.empty()) tokens.fail("no vertices");
 }
+
+const bool registered = register_mesh_format({.name = "Vega",
+                                              .endings = {".veg"},
+                                              .read = read_vega,
+                                              .write = write_vega,
+                                              .holds_materials = true,
+                                              .holds_surfaces = false});
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Reads Vega FEM's tetrahedral meshes (.veg, ASCII) and its lists of fixed vertices (.bou).
+// Vega FEM's tetrahedral meshes (.veg, ASCII) and its lists of fixed vertices (.bou).
 //
 // Format: Barbic, Sin, Schroeder, Vega FEM library, user's manual, "volumetric mesh files"; behaviour
 // of its reader, version 4.
@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "lib/mesh/loaded_mesh.h"
+#include "lib/mesh/io/mesh_format.h"
 
 namespace orthodyn {
 
@@ -34,5 +34,8 @@ struct FixedVertices {
 
 // Throws ConfigError for a vertex that the mesh does not have, too.
 LoadedMesh read_vega(const std::string& path, const FixedVertices& fixed);
+
+// Regions as sets, with materials where they have them; the node set "fixed" as .bou file.
+WrittenMesh write_vega(const LoadedMesh& loaded);
 
 }  // namespace orthodyn

@@ -9,9 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "lib/mesh/io/text_file.h"
 #include "lib/mesh/io/text_tokens.h"
-#include "lib/mesh/io/vega_material.h"
 
 namespace orthodyn {
 namespace {
@@ -143,7 +141,7 @@ class VegaReader {
     }
   }
 
-  // "count 3 0 0" resp. "count 4 0"; what follows the first two does not matter.
+  // "count 3 0 0" of vertices, "count 4 0" of elements; what follows the first two does not matter.
   void read_header(TextTokens& tokens, const char* what, std::int64_t width) {
     announced_ = tokens.count(what);
     if (tokens.peek() != '\0') {

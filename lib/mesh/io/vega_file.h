@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "lib/mesh/io/text_tokens.h"
 #include "lib/mesh/mesh_draft.h"
 
 namespace orthodyn {
@@ -32,5 +33,10 @@ struct VegaFile {
 
 // Reads the file and what it includes. Throws ConfigError.
 VegaFile read_vega_sections(const std::string& path, std::string_view text);
+
+// The line below *MATERIAL: "ENU, density, E, nu" or "ORTHOTROPIC..., density, E1, E2, E3, ...". Leaves the cursor
+// behind the line. Throws ConfigError for other kinds, for a wrong count of numbers, and for axes that are not
+// orthonormal by more than rounding; warns where these were repaired.
+MeshMaterial read_vega_material(TextTokens& tokens, const std::string& name, Warnings& warnings);
 
 }  // namespace orthodyn

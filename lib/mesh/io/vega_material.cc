@@ -1,8 +1,9 @@
-#include "lib/mesh/io/vega_material.h"
-
+// Materials of .veg files.
 #include <fmt/format.h>
 
 #include <cmath>
+
+#include "lib/mesh/io/vega_file.h"
 
 namespace orthodyn {
 namespace {

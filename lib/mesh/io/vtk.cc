@@ -4,14 +4,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
-#include <charconv>
 #include <utility>
 
-#include "lib/mesh/io/text_file.h"
 #include "lib/mesh/io/text_tokens.h"
 #include "lib/mesh/io/vtk_grid.h"
-#include "lib/mesh/io/vtk_numbers.h"
 
 namespace orthodyn {
 namespace {
@@ -47,11 +43,7 @@ class VtkReader {
     tokens_.finish_line();
   }
 
-  std::string keyword() {
-    std::string word(tokens_.word("a keyword"));
-    for (char& c : word) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return word;
-  }
+  std::string keyword() { return in_capitals(std::string(tokens_.word("a keyword"))); }
 
   void read_section() {
     const std::string word = keyword();
@@ -219,6 +211,8 @@ class VtkReader {
   std::uint64_t tuples_ = 0;
   std::vector<CellData>* target_ = nullptr;
 };
+
+const bool registered = register_mesh_format({.name = "VTK legacy", .endings = {".vtk"}, .read = read_vtk});
 
 }  // namespace
 

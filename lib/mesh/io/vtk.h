@@ -1,5 +1,5 @@
-// Reads tetrahedral meshes from VTK's legacy files of unstructured grids (.vtk), ASCII or binary,
-// with cells as up to version 4.2 or as from 5.0.
+// Tetrahedral meshes in VTK's legacy files of unstructured grids (.vtk), ASCII or binary, with cells as up
+// to version 4.2 or as from 5.0. They are only read.
 //
 // Format: Kitware, VTK file formats, "simple legacy formats".
 #pragma once
@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "lib/mesh/loaded_mesh.h"
+#include "lib/mesh/io/mesh_format.h"
 
 namespace orthodyn {
 

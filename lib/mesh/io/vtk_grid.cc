@@ -4,16 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 #include "lib/core/errors.h"
+#include "lib/core/parse_number.h"
+#include "lib/mesh/io/text_tokens.h"
 #include "lib/mesh/mesh_draft.h"
 
 namespace orthodyn {
 namespace {
-
-constexpr int kTet = 10;
 
 [[noreturn]] void fail(const VtkGrid& grid, const std::string& message) {
   throw ConfigError(grid.path + ": " + message);
@@ -59,7 +62,7 @@ std::vector<std::size_t> select_tets(const VtkGrid& grid, MeshDraft& draft) {
     const auto size = static_cast<double>(grid.connectivity.size());
     const double end = static_cast<double>(whole(grid, grid.offsets[c], begin, size, fmt::format("the offset of cell {}", c)));
     const int type = static_cast<int>(whole(grid, grid.types[c], 0, 255, fmt::format("the type of cell {}", c)));
-    if (type == kTet) {
+    if (type == kVtkTetra) {
       if (end - begin != 4) fail(grid, fmt::format("cell {}: a tetrahedron of {} points", c, end - begin));
       tets.push_back(c);
     } else if (type > 5) {
@@ -116,13 +119,10 @@ void add_regions(const VtkGrid& grid, const std::vector<std::size_t>& tets, Mesh
   for (const std::size_t c : tets) {
     index[whole(grid, data->values[c], -1e9, 1e9, fmt::format("cell data \"{}\" of cell {}", data->name, c))] = 0;
   }
-  std::map<std::string, int> by_name;
   for (auto& [number, region] : index) {
     const bool named = number >= 0 && number < static_cast<std::int64_t>(grid.region_names.size());
-    const std::string name = named ? grid.region_names[static_cast<std::size_t>(number)] : fmt::format("region{}", number);
-    const auto [entry, is_new] = by_name.emplace(name, static_cast<int>(draft.region_names.size()));
-    if (is_new) draft.region_names.push_back(name);
-    region = entry->second;
+    region = draft.region_index(named ? grid.region_names[static_cast<std::size_t>(number)]
+                                      : fmt::format("region{}", number));
   }
   for (std::size_t t = 0; t < tets.size(); ++t) {
     draft.tets[t].region = index.at(static_cast<std::int64_t>(data->values[tets[t]]));
@@ -151,7 +151,57 @@ std::vector<CellData> data_of_tets(std::vector<CellData> all, const std::vector<
   return all;
 }
 
+template <class T>
+std::vector<double> numbers(std::string_view bytes) {
+  std::vector<double> out(bytes.size() / sizeof(T));
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    T value;
+    std::memcpy(&value, bytes.data() + i * sizeof(T), sizeof(T));
+    out[i] = static_cast<double>(value);
+  }
+  return out;
+}
+
 }  // namespace
+
+std::optional<VtkType> vtk_type(std::string_view name) {
+  static const std::map<std::string_view, VtkType> types{
+      {"Int8", {'i', 1}},    {"UInt8", {'u', 1}},          {"Int16", {'i', 2}},         {"UInt16", {'u', 2}},
+      {"Int32", {'i', 4}},   {"UInt32", {'u', 4}},         {"Int64", {'i', 8}},         {"UInt64", {'u', 8}},
+      {"Float32", {'f', 4}}, {"Float64", {'f', 8}},        {"String", {'i', 1}},        {"char", {'i', 1}},
+      {"unsigned_char", {'u', 1}}, {"short", {'i', 2}},    {"unsigned_short", {'u', 2}}, {"int", {'i', 4}},
+      {"unsigned_int", {'u', 4}},  {"long", {'i', 8}},     {"unsigned_long", {'u', 8}}, {"float", {'f', 4}},
+      {"double", {'f', 8}},  {"vtktypeint64", {'i', 8}},   {"vtktypeint32", {'i', 4}},  {"vtkIdType", {'i', 4}},
+      {"vtktypeuint8", {'u', 1}}};
+  const auto found = types.find(name);
+  return found == types.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::vector<double> vtk_numbers(std::string_view bytes, VtkType type) {
+  if (type.kind == 'f') return type.width == 4 ? numbers<float>(bytes) : numbers<double>(bytes);
+  const bool is_signed = type.kind == 'i';
+  switch (type.width) {
+    case 1: return is_signed ? numbers<std::int8_t>(bytes) : numbers<std::uint8_t>(bytes);
+    case 2: return is_signed ? numbers<std::int16_t>(bytes) : numbers<std::uint16_t>(bytes);
+    case 4: return is_signed ? numbers<std::int32_t>(bytes) : numbers<std::uint32_t>(bytes);
+    default: return is_signed ? numbers<std::int64_t>(bytes) : numbers<std::uint64_t>(bytes);
+  }
+}
+
+std::vector<double> vtk_numbers(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  std::vector<double> out;
+  for (std::size_t p = text.find_first_not_of(kBlanks); p != std::string_view::npos;
+       p = text.find_first_not_of(kBlanks, p)) {
+    const std::size_t end = std::min(text.find_first_of(kBlanks, p), text.size());
+    const std::string_view word = text.substr(p, end - p);
+    double value = 0;
+    if (!parse_number(word, value)) throw std::runtime_error("expected a number, found " + TextTokens::quoted(word));
+    out.push_back(value);
+    p = end;
+  }
+  return out;
+}
 
 LoadedMesh build_vtk_mesh(VtkGrid grid) {
   check_sizes(grid);

@@ -1,12 +1,18 @@
-// What both kinds of VTK files say: an unstructured grid with values per cell and per point.
+// What both kinds of VTK files say: an unstructured grid with values per cell and per point, and its numbers as text
+// or as bytes.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lib/mesh/loaded_mesh.h"
 
 namespace orthodyn {
+
+inline constexpr int kVtkTetra = 10;  // the linear tetrahedron in vtkCellType.h
 
 // Numbers as read; nothing is checked yet.
 struct VtkGrid {
@@ -25,5 +31,18 @@ struct VtkGrid {
 // points where it is not zero. All cell data are kept, for the tets. Throws ConfigError "file: found,
 // remedy" with the number of the cell or point, counted from 0.
 LoadedMesh build_vtk_mesh(VtkGrid grid);
+
+// A type by its name in XML files ("Float64") or legacy ones ("double"); empty if there is none.
+struct VtkType {
+  char kind;          // 'i' signed, 'u' unsigned, 'f' floating point
+  std::size_t width;  // bytes
+};
+std::optional<VtkType> vtk_type(std::string_view name);
+
+// Bytes in this machine's order; their count must be a multiple of the width.
+std::vector<double> vtk_numbers(std::string_view bytes, VtkType type);
+
+// Numbers separated by blanks. Throws std::runtime_error naming the first word that is none.
+std::vector<double> vtk_numbers(std::string_view text);
 
 }  // namespace orthodyn

@@ -4,18 +4,16 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <optional>
 #include <pugixml.hpp>
 #include <stdexcept>
 #include <utility>
 
 #include "lib/core/errors.h"
-#include "lib/mesh/io/text_file.h"
 #include "lib/mesh/io/text_tokens.h"
 #include "lib/mesh/io/vtk_grid.h"
-#include "lib/mesh/io/vtk_numbers.h"
 #include "lib/mesh/io/vtu_bytes.h"
+#include "lib/mesh/io/vtu_text.h"
 
 namespace orthodyn {
 namespace {
@@ -91,7 +89,9 @@ class VtuReader {
     grid.types = read_array(named(cells, "types")).values;
     check_count(piece, "NumberOfPoints", grid.points.size() / 3);
     check_count(piece, "NumberOfCells", grid.types.size());
-    for (const pugi::xml_node& array : piece.child("CellData").children("DataArray")) grid.cell_data.push_back(read_array(array, grid.types.size()));
+    for (const pugi::xml_node& array : piece.child("CellData").children("DataArray")) {
+      grid.cell_data.push_back(read_array(array, grid.types.size()));
+    }
     for (const pugi::xml_node& array : piece.child("PointData").children("DataArray")) {
       if (std::string_view(array.attribute("Name").value()).starts_with("nodes:")) {
         grid.point_data.push_back(read_array(array, grid.points.size() / 3));
@@ -203,12 +203,39 @@ class VtuReader {
   std::uint64_t budget_;  // bytes that packed arrays may still fill
 };
 
+VtuArray membership(const std::string& name, const std::vector<int>& nodes, std::size_t num_nodes) {
+  VtuArray inside{.name = "nodes:" + name, .type = VtuNumber::uint8, .values = std::vector<double>(num_nodes, 0)};
+  for (const int n : nodes) inside.values[static_cast<std::size_t>(n)] = 1;
+  return inside;
+}
+
+const bool registered = register_mesh_format(
+    {.name = "VTK XML", .endings = {".vtu"}, .read = read_vtu, .write = write_vtu, .holds_surfaces = false,
+     .holds_cell_data = true});
+
 }  // namespace
 
 LoadedMesh read_vtu(const std::string& path) { return read_vtu_text(path, read_text_file(path)); }
 
 LoadedMesh read_vtu_text(const std::string& path, std::string_view text) {
   return build_vtk_mesh(VtuReader(path, text).read());
+}
+
+WrittenMesh write_vtu(const LoadedMesh& loaded) {
+  const TetMesh& mesh = loaded.mesh;
+  VtuGrid grid{.points = mesh.nodes, .cell_type = kVtkTetra, .points_per_cell = 4, .connectivity = {}};
+  for (const Tet& tet : mesh.tets) grid.connectivity.insert(grid.connectivity.end(), tet.begin(), tet.end());
+  for (const auto& [name, nodes] : mesh.node_sets) {
+    grid.point_data.push_back(membership(name, nodes, mesh.nodes.size()));
+  }
+  grid.cell_data.push_back(
+      {.name = "region", .type = VtuNumber::int32, .values = {mesh.region_of.begin(), mesh.region_of.end()}});
+  for (const CellData& data : loaded.cell_data) {
+    if (data.name == "region") continue;
+    grid.cell_data.push_back({.name = data.name, .components = data.components, .values = data.values});
+  }
+  grid.region_names = mesh.region_names;
+  return {.files = {{".vtu", std::move(vtu_text(grid, VtuStorage::ascii).front())}}};
 }
 
 }  // namespace orthodyn

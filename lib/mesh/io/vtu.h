@@ -1,5 +1,6 @@
-// Reads tetrahedral meshes from VTK's XML files of unstructured grids (.vtu): ASCII, base64, and
-// appended data (raw or base64), uncompressed or by zlib, either byte order.
+// Tetrahedral meshes in VTK's XML files of unstructured grids (.vtu). Read: ASCII, base64, and appended data (raw
+// or base64), uncompressed or by zlib, either byte order. Written: ASCII, exact to the last digit and readable by
+// every version.
 //
 // Format: Kitware, VTK file formats, "XML file formats". The frames of a run are such files.
 #pragma once
@@ -7,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "lib/mesh/loaded_mesh.h"
+#include "lib/mesh/io/mesh_format.h"
 
 namespace orthodyn {
 
@@ -20,5 +21,8 @@ LoadedMesh read_vtu(const std::string& path);
 
 // The same from a text; `path` is for messages.
 LoadedMesh read_vtu_text(const std::string& path, std::string_view text);
+
+// Regions as the cell data "region" with their names, node sets as point data "nodes:NAME", all other cell data.
+WrittenMesh write_vtu(const LoadedMesh& loaded);
 
 }  // namespace orthodyn

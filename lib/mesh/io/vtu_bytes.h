@@ -19,7 +19,7 @@ struct VtuEncoding {
 // Is told how many bytes will come, and throws std::runtime_error if these are too many or too few.
 using AdmitBytes = std::function<void(std::uint64_t bytes)>;
 
-// What stands at the start of `text`: a length and its bytes, resp. the table of compressed blocks
+// What stands at the start of `text`: a length and its bytes, or the table of compressed blocks
 // and these. Nothing is unpacked before it is admitted. Throws std::runtime_error with what is wrong.
 std::string vtu_bytes(std::string_view text, const VtuEncoding& encoding, const AdmitBytes& admit);
 

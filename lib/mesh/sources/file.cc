@@ -4,6 +4,7 @@
 
 #include "lib/mesh/io/gmsh.h"
 #include "lib/mesh/io/mesh_file.h"
+#include "lib/mesh/io/mesh_format.h"
 #include "lib/mesh/io/vega.h"
 #include "lib/mesh/mesh_source.h"
 
@@ -30,7 +31,7 @@ class FileSource : public MeshSource {
     scale_mesh(loaded.mesh, scale_, file_.path);
     return loaded;
   }
-  bool may_bring_materials() const override { return mesh_format_of(file_.path).materials; }
+  bool may_bring_materials() const override { return mesh_format_of(file_.path).holds_materials; }
 
  private:
   FilePath file_;

@@ -1,6 +1,6 @@
 #include "lib/study/stability/assess.h"
 
-#include "lib/simulation/vtu.h"
+#include "lib/simulation/frames.h"
 #include "lib/study/jobs/deadline.h"
 #include "lib/study/compare/measure.h"
 #include "lib/study/quantities/verdict.h"

@@ -7,7 +7,7 @@
 
 #include "lib/simulation/run.h"
 #include "lib/simulation/statics.h"
-#include "lib/simulation/vtu.h"
+#include "lib/simulation/frames.h"
 #include "lib/scene/equilibrium.h"
 #include "lib/scene/setup.h"
 #include "lib/study/jobs/deadline.h"

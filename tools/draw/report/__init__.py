@@ -4,7 +4,7 @@ from pathlib import Path
 
 def write_report(result, out=None):
     """Writes RESULT/report.html (or `out`) and RESULT/pictures; yields the paths."""
-    from .gallery import write_paper_figures
+    from .figures import write_paper_figures
     from .page import page
     from .reading import read_comparison
     comparison, folder = read_comparison(result), Path(result)

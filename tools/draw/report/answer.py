@@ -1,7 +1,7 @@
 """The answer in words, and the times to reach several errors as a table with bars."""
 import math
 
-from . import measures, words
+from . import measures, formatting
 from .comparable import main_target
 from .markup import Html, joined, scrolling, tag
 from .method_name import method_name
@@ -11,8 +11,8 @@ EQUAL = 1.1  # a ratio of times below it is hardly a difference
 
 
 def _with_percent(target, measure):
-    text = words.exponent(target)
-    percent = words.percent(target) if measure != "phase" else ""
+    text = formatting.exponent(target)
+    percent = formatting.percent(target) if measure != "phase" else ""
     return f"{text} ({percent})" if percent else f"{text} rad" if measure == "phase" else text
 
 
@@ -58,7 +58,7 @@ def headline(comparison):
     target = _with_percent(main_target(comparison), measures.primary(comparison))
     if len(comparison.problems) == 1:
         return tag("p", f"For an error of {target}, ", *_fastest(comparison, comparison.problems[0]), class_="headline")
-    nobody = words.joined(problem.label for problem in open_problems)
+    nobody = formatting.joined(problem.label for problem in open_problems)
     return tag("p", f"For an error of {target}, fastest (or within 10 % of it) is ", joined(_wins(comparison, wins), "; "),
                f"; nobody reached it on {nobody}." if nobody else ".", class_="headline")
 
@@ -67,21 +67,21 @@ def _fastest(comparison, problem):
     """'a is fastest: 0.2 s; next is b with 0.3 s.'; methods within 10 % of each other are named together."""
     ranked = _ranked(_main(comparison, problem))
     equal = [pair for pair in ranked if pair[1] <= EQUAL * ranked[0][1]]
-    names = words.joined(_label(comparison, method) for method, _ in equal)
-    first = words.seconds(ranked[0][1])
+    names = formatting.joined(_label(comparison, method) for method, _ in equal)
+    first = formatting.seconds(ranked[0][1])
     if len(equal) > 1:
         yield tag("strong", f"{names} are fastest")
-        yield f", {first} to {words.seconds(equal[-1][1])}"
+        yield f", {first} to {formatting.seconds(equal[-1][1])}"
     else:
         yield tag("strong", f"{names} is fastest")
         yield f": {first}"
     later = ranked[len(equal):]
-    yield f"; next is {_label(comparison, later[0][0])} with {words.seconds(later[0][1])}." if later else "."
+    yield f"; next is {_label(comparison, later[0][0])} with {formatting.seconds(later[0][1])}." if later else "."
 
 
 def _wins(comparison, wins):
     for method, won in sorted(wins.items(), key=lambda item: -len(item[1])):
-        named = words.joined(problem.label for problem, _ in won)
+        named = formatting.joined(problem.label for problem, _ in won)
         where = f" on {len(won)} of {len(comparison.problems)} problems ({named})" if len(won) > 1 else f" on {named}"
         if len(won) == len(comparison.problems):
             where = " on both problems" if len(won) == 2 else f" on all {len(won)} problems"
@@ -103,7 +103,8 @@ def sentence(comparison, problem):
         return None
     ranked = _ranked(answer)
     first = ranked[0][1] if ranked else math.nan
-    reached = [f"{_label(comparison, m)} {words.seconds(s)}" + (f" ({_ratio(s / first)})" if k and first > 0 else "")
+    reached = [f"{_label(comparison, m)} {formatting.seconds(s)}"
+               + (f" ({_ratio(s / first)})" if k and first > 0 else "")
                for k, (m, s) in enumerate(ranked)]
     missed = [f"{_label(comparison, m)} did not reach it ({_best(answer, m)})" for m in answer.seconds
               if not math.isfinite(answer.seconds[m])]
@@ -114,7 +115,7 @@ def sentence(comparison, problem):
 
 def _best(answer, method):
     best = answer.best_error.get(method, math.nan)
-    return f"best {words.exponent(best)}" if words.known(best) else "no finished run"
+    return f"best {formatting.exponent(best)}" if formatting.known(best) else "no finished run"
 
 
 def _ratio(x):
@@ -122,13 +123,13 @@ def _ratio(x):
 
 
 def _target_words(answer):
-    percent = words.percent(answer.target) if answer.error != "phase" else ""
-    return words.exponent(answer.target), tag("small", f" ({percent})") if percent else None
+    percent = formatting.percent(answer.target) if answer.error != "phase" else ""
+    return formatting.exponent(answer.target), tag("small", f" ({percent})") if percent else None
 
 
 def _cell(answer, method):
     if method not in answer.seconds:
-        return tag("td", words.UNKNOWN, class_="none")
+        return tag("td", formatting.UNKNOWN, class_="none")
     seconds = answer.seconds[method]
     if not math.isfinite(seconds):
         return tag("td", "not reached", tag("small", _best(answer, method)), class_="none")
@@ -136,7 +137,7 @@ def _cell(answer, method):
     fastest, slowest = ranked[0][1], ranked[-1][1]
     ratio = _ratio(seconds / fastest) if fastest > 0 and seconds > fastest else "fastest"
     share = max(1.0, 100 * seconds / slowest) if slowest > 0 else 1.0
-    return tag("td", tag("b" if seconds == fastest else "span", words.seconds(seconds)),
+    return tag("td", tag("b" if seconds == fastest else "span", formatting.seconds(seconds)),
                tag("small", ratio), Html(f'<i class="bar" style="width:{share:.1f}%"></i>'), )
 
 
@@ -189,8 +190,8 @@ def _why_no_answer(comparison, problem):
     if not finished:
         return "No run has finished."
     if problem.reference.kind == "none":
-        return f"{words.plural(finished, 'run')} finished, but there is no reference to measure an error against."
-    return f"{words.plural(finished, 'run')} finished; times to given errors were not asked for."
+        return f"{formatting.plural(finished, 'run')} finished, but there is no reference to measure an error against."
+    return f"{formatting.plural(finished, 'run')} finished; times to given errors were not asked for."
 
 
 def _scene(problem):
@@ -203,7 +204,7 @@ def _scene(problem):
 def answer_section(comparison):
     parts = [headline(comparison), tag("p", MEANING, class_="scene"), overview(comparison)]
     for problem in comparison.problems:
-        size = f"{words.count(problem.unknowns)} unknowns" if words.known(problem.unknowns) else ""
+        size = f"{formatting.count(problem.unknowns)} unknowns" if formatting.known(problem.unknowns) else ""
         content = [sentence(comparison, problem), table(comparison, problem)]
         if not any(content):
             content = [tag("p", _why_no_answer(comparison, problem), class_="empty")]

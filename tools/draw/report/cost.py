@@ -1,10 +1,10 @@
 """Where the time goes: stacked bars of one run per method, all of about the same error."""
 import numpy as np
 
-from . import measures, theme, words
+from . import measures, theme, formatting
 from .comparable import representatives, target_of
 from .comparison import PARTS
-from .sheet import LETTER, Sheet, shortened, styled
+from .layout import LETTER, PixelLayout, shortened, styled
 from .theme import LIGHT
 
 NAMES = {"force": "force", "tangent": "tangent", "factorization": "factorisation", "solve": "solve", "rest": "rest"}
@@ -21,12 +21,12 @@ def parts_of(point):
 
 def _note(point, reached, measure, narrow, cut):
     """The words right of a bar; `cut` says that the bar should be longer."""
-    total = words.seconds(point.seconds())
-    error = f"error {words.exponent(point.error(measure))}"
+    total = formatting.seconds(point.seconds())
+    error = f"error {formatting.exponent(point.error(measure))}"
     if not reached:
         end = "; bar cut off" if cut else ""
         return f"{total} ({error}{end})" if narrow else f"{total}, {error}: target not reached{end}"
-    return f"{total} ({error})" if narrow else f"{total}, {error}, {words.control(point.control)}"
+    return f"{total} ({error})" if narrow else f"{total}, {error}, {formatting.control(point.control)}"
 
 
 def _bar(axes, point, index, faint):
@@ -39,14 +39,14 @@ def _bar(axes, point, index, faint):
     return start
 
 
-def _key(sheet, top):
+def _key(layout, top):
     """The parts' colours in their order."""
     left = 0
     for part, name in NAMES.items():
-        if left + 24 + LETTER * len(name) > sheet.width:
+        if left + 24 + LETTER * len(name) > layout.width:
             left, top = 0, top + 20
-        sheet.line([left + 6], [top], marker="s", ms=10, ls="none", color=LIGHT[COLOURS[part]], mew=0)
-        sheet.text(left + 16, top, name)
+        layout.line([left + 6], [top], marker="s", ms=10, ls="none", color=LIGHT[COLOURS[part]], mew=0)
+        layout.text(left + 16, top, name)
         left += 38 + 6.6 * len(name)
 
 
@@ -64,19 +64,19 @@ def draw_cost_breakdown(comparison, problem, width):
     left = 2 if narrow else 36 + LETTER * max(map(len, labels))
     across = width - left - LETTER * max(map(len, notes)) - 10
     pitch, top = (46, 94) if narrow else (32, 62)
-    sheet = Sheet(width, top + pitch * len(found) + 8, _description(comparison, problem, found))
-    heading = f"Wall time for an error below {words.exponent(target_of(comparison, problem))}"
-    sheet.text(0, 16, heading if narrow else f"{heading}, {measures.label(measure)}", weight="bold")
-    _key(sheet, 44)
+    layout = PixelLayout(width, top + pitch * len(found) + 8, _description(comparison, problem, found))
+    heading = f"Wall time for an error below {formatting.exponent(target_of(comparison, problem))}"
+    layout.text(0, 16, heading if narrow else f"{heading}, {measures.label(measure)}", weight="bold")
+    _key(layout, 44)
     for row, ((point, reached), label, note) in enumerate(zip(found, labels, notes)):
         y = top + pitch * row + (20 if narrow else 0)
-        axes = sheet.axes(left, y, across, BAR, xlim=(0, largest), ylim=(-0.5, 0.5))
+        axes = layout.axes(left, y, across, BAR, xlim=(0, largest), ylim=(-0.5, 0.5))
         axes.set_axis_off()
         index = comparison.method_index(point.method)
         total = min(largest, _bar(axes, point, index, not reached))
-        sheet.text(left + across * total / largest + 8, y + BAR / 2, note, color=LIGHT["ink" if reached else "muted"])
-        _name(sheet, 0, y - 10 if narrow else y + BAR / 2, index, label)
-    return sheet
+        layout.text(left + across * total / largest + 8, y + BAR / 2, note, color=LIGHT["ink" if reached else "muted"])
+        _name(layout, 0, y - 10 if narrow else y + BAR / 2, index, label)
+    return layout
 
 
 def _scale(found):
@@ -89,15 +89,15 @@ def _method(comparison, point):
     return comparison.methods[comparison.method_index(point.method)]
 
 
-def _name(sheet, x, y, index, label):
-    sheet.line([x + 6], [y], marker=theme.marker(index), ms=theme.marker_size(index, 8), ls="none",
+def _name(layout, x, y, index, label):
+    layout.line([x + 6], [y], marker=theme.marker(index), ms=theme.marker_size(index, 8), ls="none",
                color=theme.colour(index), mec=LIGHT["paper"], mew=0.8)
-    sheet.text(x + 18, y, label)
+    layout.text(x + 18, y, label)
 
 
 def _description(comparison, problem, found):
     rows = []
     for point, _ in found:
-        parts = ", ".join(f"{NAMES[k]} {words.seconds(s)}" for k, s in parts_of(point).items())
-        rows.append(f"{_method(comparison, point).label} {words.seconds(point.seconds())} ({parts})")
+        parts = ", ".join(f"{NAMES[k]} {formatting.seconds(s)}" for k, s in parts_of(point).items())
+        rows.append(f"{_method(comparison, point).label} {formatting.seconds(point.seconds())} ({parts})")
     return f"Cost breakdown for {problem.label}: {'; '.join(rows)}."

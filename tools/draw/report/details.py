@@ -1,7 +1,7 @@
 """What a reader needs to trust the numbers: references, definitions, methods, machine, the command."""
 import shlex
 
-from . import measures, words
+from . import measures, formatting
 from .markup import joined, scrolling, tag
 from .method_name import method_name
 from .tables import caption
@@ -14,8 +14,8 @@ def _reference_words(problem):
     if reference.kind == "none" or not reference.kind:
         return "None, so errors are not known." + (f" {reference.message}" if reference.message else "")
     parts = [f"Computed by {reference.method or 'an unnamed method'}"]
-    if words.known(reference.seconds):
-        parts.append(f" in {words.seconds(reference.seconds)}")
+    if formatting.known(reference.seconds):
+        parts.append(f" in {formatting.seconds(reference.seconds)}")
     if reference.check and not reference.errors:
         parts.append(f". The check by {reference.check} failed, so its own error is not known and nothing is "
                      "concluded from it")
@@ -41,7 +41,7 @@ def _own_errors(problem):
 
 
 def _own_row(name, values):
-    cells = (tag("td", "" if v is None else words.fixed_exponent(v), class_="num") for v in values)
+    cells = (tag("td", "" if v is None else formatting.fixed_exponent(v), class_="num") for v in values)
     return tag("tr", tag("th", name, scope="row"), *cells)
 
 
@@ -56,15 +56,18 @@ def _settings(changes):
 
 def _size(problem):
     sizes = ((problem.unknowns, "unknowns"), (problem.elements, "elements"), (problem.nodes, "nodes"))
-    return ", ".join(f"{words.count(value)} {name}" for value, name in sizes if words.known(value))
+    return ", ".join(f"{formatting.count(value)} {name}" for value, name in sizes if formatting.known(value))
 
 
 def problem_details(problem):
-    scales = {**{k: v for k, v in problem.scales.items() if words.known(v)},
-              **{f"probe {k}": v for k, v in problem.probe_scales.items() if words.known(v)}}
-    span = f"{words.general(problem.start)} to {words.general(problem.end)} s" if words.known(problem.end) else ""
-    frequency = f"{words.general(problem.dominant_frequency)} Hz" if words.known(problem.dominant_frequency) else ""
-    scale_text = ", ".join(f"{k} {words.general(v)}" for k, v in scales.items())
+    scales = {**{k: v for k, v in problem.scales.items() if formatting.known(v)},
+              **{f"probe {k}": v for k, v in problem.probe_scales.items() if formatting.known(v)}}
+    span, frequency = "", ""
+    if formatting.known(problem.end):
+        span = f"{formatting.general(problem.start)} to {formatting.general(problem.end)} s"
+    if formatting.known(problem.dominant_frequency):
+        frequency = f"{formatting.general(problem.dominant_frequency)} Hz"
+    scale_text = ", ".join(f"{k} {formatting.general(v)}" for k, v in scales.items())
     scale_text += f" ({problem.scale_words})" if problem.scale_words and scale_text else ""
     return tag("div", tag("h3", problem.label), pairs((
         ("Shows", problem.sentence), ("Scene", tag("code", problem.scene) if problem.scene else ""),
@@ -103,7 +106,7 @@ def methods_table(comparison):
 def _value(key, text):
     """memory_bytes 24e9 -> 24000 MB, other texts as they are."""
     try:
-        return f"{words.megabytes(float(text))} MB" if "bytes" in key else text
+        return f"{formatting.megabytes(float(text))} MB" if "bytes" in key else text
     except ValueError:
         return text
 

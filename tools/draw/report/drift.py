@@ -1,11 +1,11 @@
 """Energy drift over time, one line per method, of runs of about the same error."""
 import numpy as np
 
-from . import words
+from . import formatting
 from .comparable import representatives
+from .layout import WIDE, PixelLayout, legend_columns, legend_height, shortened, side_margin, styled
 from .runs import end_fraction, label_right
 from .scale import error_tick, limits, positive, set_log
-from .sheet import WIDE, Sheet, legend_columns, legend_height, shortened, side_margin, styled
 from .theme import LIGHT, colour, dashes
 
 MOST_SAMPLES = 200
@@ -57,24 +57,24 @@ def draw_energy_drift(comparison, problem, width):
     columns, narrow = legend_columns(entries), width < WIDE
     left, right, height = (50, 20, 230) if narrow else (54, side_margin(entries), 270)
     box = (left, 40, width - left - right, height)
-    sheet = Sheet(width, 40 + height + 62 + (legend_height(entries, columns) if narrow else 0),
+    layout = PixelLayout(width, 40 + height + 62 + (legend_height(entries, columns) if narrow else 0),
                   _description(comparison, problem, found))
-    axes = sheet.axes(*box)
+    axes = layout.axes(*box)
     ends = _draw_histories(axes, indices, [_history(point) for point in found])
     axes.margins(x=0.0)
     if problem.end > problem.start:
         axes.set_xlim(problem.start, problem.end)
     axes.locator_params(axis="x", nbins=4 if narrow else 8)
-    sheet.text(0, 16, "Energy drift, |change| / largest energy", weight="bold")
-    sheet.text(left + box[2] / 2, 40 + height + 40, "Time in the scene [s]", ha="center", color=LIGHT["ink"])
+    layout.text(0, 16, "Energy drift, |change| / largest energy", weight="bold")
+    layout.text(left + box[2] / 2, 40 + height + 40, "Time in the scene [s]", ha="center", color=LIGHT["ink"])
     if narrow:
-        sheet.legend(40 + height + 52, entries, columns)
+        layout.legend(40 + height + 52, entries, columns)
     else:
-        label_right(sheet, box, entries, ends)
-    return sheet
+        label_right(layout, box, entries, ends)
+    return layout
 
 
 def _description(comparison, problem, found):
     rows = [f"{comparison.methods[comparison.method_index(p.method)].label} "
-            f"{words.exponent(p.drift.get('energy', np.nan))} ({words.control(p.control)})" for p in found]
+            f"{formatting.exponent(p.drift.get('energy', np.nan))} ({formatting.control(p.control)})" for p in found]
     return f"Energy drift over time for {problem.label}; largest: {'; '.join(rows)}."

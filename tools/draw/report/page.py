@@ -1,13 +1,13 @@
 """Puts the report together: one HTML file that opens without a network."""
 from pathlib import Path
 
-from . import answer, details, measures, tables, words
+from . import answer, details, measures, tables, formatting
 from .drift import drift_runs
-from .gallery import CLOCKS, Gallery
+from .figures import CLOCKS, Figures
 from .markup import Html, data_script, joined, tag, void
 from .method_name import glyphs
 from .theme import DARK, LIGHT
-from .tips import tip
+from .tooltips import tooltip
 
 HERE = Path(__file__).resolve().parent
 SCRIPT = HERE / "page.js"
@@ -41,8 +41,9 @@ def _style(figures):
 def _counted(comparison):
     finished = sum(p.completed for p in comparison.points)
     failed = len(comparison.points) - finished
-    parts = [words.plural(len(comparison.methods), "method"), words.plural(len(comparison.problems), "problem"),
-             words.plural(len(comparison.points), "run") + (f" ({failed} failed)" if failed else "")]
+    parts = [formatting.plural(len(comparison.methods), "method"),
+             formatting.plural(len(comparison.problems), "problem"),
+             formatting.plural(len(comparison.points), "run") + (f" ({failed} failed)" if failed else "")]
     machine = comparison.machine.get("processor", "")
     cores = comparison.machine.get("cores")
     where = machine + (f", {cores} cores" if machine and cores else "")
@@ -52,7 +53,7 @@ def _counted(comparison):
 def _banner(comparison):
     if comparison.complete:
         return None
-    planned = f" of {words.count(comparison.planned)}" if words.known(comparison.planned) else ""
+    planned = f" of {formatting.count(comparison.planned)}" if formatting.known(comparison.planned) else ""
     return tag("p", tag("strong", "Not finished: "), f"{len(comparison.points)}{planned} points. What follows is "
                "what there is so far.", class_="banner", role="status")
 
@@ -110,22 +111,22 @@ def _each(comparison, content):
     return joined(parts) or tag("p", "The comparison names no problem.", class_="empty")
 
 
-def _cost(comparison, gallery, problem):
-    picture = gallery.cost(problem)
+def _cost(comparison, figures, problem):
+    picture = figures.cost(problem)
     return picture and joined([_figure(comparison, problem, "cost", picture), tables.cost_table(comparison, problem)])
 
 
-def _drift(comparison, gallery, problem):
-    picture, runs = gallery.drift(problem), drift_runs(comparison, problem)
+def _drift(comparison, figures, problem):
+    picture, runs = figures.drift(problem), drift_runs(comparison, problem)
     return picture and joined([_figure(comparison, problem, "drift", picture),
                                tables.drift_table(comparison, problem, runs)])
 
 
-def _after(comparison, gallery, folder):
+def _after(comparison, figures, folder):
     """All sections below the two that have variants."""
     return joined([
-        _section("cost", "Where the time goes", _each(comparison, lambda p: _cost(comparison, gallery, p))),
-        _section("drift", "Energy drift", _each(comparison, lambda p: _drift(comparison, gallery, p))),
+        _section("cost", "Where the time goes", _each(comparison, lambda p: _cost(comparison, figures, p))),
+        _section("drift", "Energy drift", _each(comparison, lambda p: _drift(comparison, figures, p))),
         _section("runs", "All runs", _each(comparison, lambda p: tables.runs_table(comparison, p)),
                  tag("h3", "Failures"), tables.failures_table(comparison)),
         _section("details", "How this was measured", tag("h3", "What an error is"), details.definitions(),
@@ -142,25 +143,25 @@ def head(title, figures):
 
 def page(comparison, folder):
     """The whole page as text; `folder` is named in the command that reproduces it."""
-    gallery = Gallery(comparison)
-    first = gallery.choices()[0]
-    shown = {p.id: (gallery.work_precision(p), gallery.tolerance(p)) for p in comparison.problems}
-    after = _after(comparison, gallery, folder)
+    figures = Figures(comparison)
+    first = figures.choices()[0]
+    shown = {p.id: (figures.work_precision(p), figures.tolerance(p)) for p in comparison.problems}
+    after = _after(comparison, figures, folder)
     runs = data_script("run-data", {
         "measure": first[0], "labels": {m: measures.label(m) for m in measures.present(comparison.points)},
-        "runs": [tip(comparison, p) for p in comparison.points]})
+        "runs": [tooltip(comparison, p) for p in comparison.points]})
     script = tag("script", Html(SCRIPT.read_text(encoding="utf-8")))
     base = len(after) + len(runs) + sum(len(a) + len(b) for a, b in shown.values()) + 100_000
-    variants, offered = gallery.variants(BUDGET - base)
+    variants, offered = figures.variants(BUDGET - base)
 
-    def figures(kind, which):
+    def pictures(kind, which):
         return _each(comparison, lambda p: _figure(comparison, p, kind, shown[p.id][which],
                                                    variants.get((kind, p.id), ()), first))
 
     main = tag("main", _section("answer", "The answer", answer.answer_section(comparison)),
-               _section("precision", "Work and precision", _choosers(offered, "wp"), figures("wp", 0)),
+               _section("precision", "Work and precision", _choosers(offered, "wp"), pictures("wp", 0)),
                _section("tolerance", "Error against tolerance and step", _choosers(offered, "tol", False),
-                        figures("tol", 1)), after)
+                        pictures("tol", 1)), after)
     body = tag("body", glyphs(comparison), _header(comparison), main, runs, script)
-    return "<!DOCTYPE html>\n" + tag("html", head(comparison.title or comparison.name, gallery.styles.css()), body,
+    return "<!DOCTYPE html>\n" + tag("html", head(comparison.title or comparison.name, figures.styles.css()), body,
                                      lang="en") + "\n"

@@ -5,8 +5,8 @@ import math
 import numpy as np
 
 from ..errors import DrawError, unknown
-from . import measures
 from ..series import result_folder
+from . import measures
 from .comparison import (PARTS, Answer, Comparison, Control, Method, Order, Point, Problem, Reference, Spread,
                          Work)
 

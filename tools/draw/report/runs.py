@@ -43,26 +43,26 @@ def draw_lane(lane, failing, place):
                       clip_on=False, gid=f"pt-{point.index}-{index}", **theme.FAILURE)
 
 
-def label_right(sheet, box, entries, ends):
+def label_right(layout, box, entries, ends):
     """Names right of the axes near their lines' ends (0 top to 1 bottom); `box` is left, top, width, height."""
     if not entries:
         return
     left, top, width, height = box
     wanted = np.array([top + height * np.clip(end, 0, 1) for end in ends])
     placed = spread(wanted, 20.0)
-    # Names moved apart as one group may leave the sheet; the group comes back as a whole.
+    # Names moved apart as one group may leave the layout; the group comes back as a whole.
     placed = placed + min(0.0, top + height - placed.max())
     placed = placed + max(0.0, top + 4 - placed.min())
     for (index, words, failed), y in zip(entries, placed):
-        sheet.method_label(left + width + 14, y, index, words, failed)
+        layout.method_label(left + width + 14, y, index, words, failed)
 
 
-def say_nothing_finished(sheet, axes, box):
+def say_nothing_finished(layout, axes, box):
     """Words in the place of lines; the error axis has no meaning then."""
     left, top, width, height = box
     axes.set_yticks([])
     axes.grid(False)
-    sheet.text(left + width / 2, top + height / 2, "no finished run", ha="center", color=LIGHT["muted"])
+    layout.text(left + width / 2, top + height / 2, "no finished run", ha="center", color=LIGHT["muted"])
 
 
 def end_fraction(axes, value):

@@ -2,7 +2,7 @@
 import numpy as np
 from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 
-from . import words
+from . import formatting
 
 SMALLEST = 1e-300
 
@@ -48,7 +48,7 @@ def error_tick(x):
     if 0.99 < x < 10:
         return f"{x:g}"
     mantissa = x / 10.0 ** np.floor(np.log10(x) + 1e-9)
-    return words.power_of_ten(x) if abs(mantissa - 1) < 1e-6 else words.exponent(x)
+    return formatting.power_of_ten(x) if abs(mantissa - 1) < 1e-6 else formatting.exponent(x)
 
 
 def seconds_tick(x):

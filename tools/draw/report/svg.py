@@ -106,16 +106,16 @@ class Styles:
         return "".join(f".{name}{{{style}}}" for style, name in self._names.items())
 
 
-def page_svg(sheet, salt, styles):
-    """The sheet's SVG element for the page; `salt` must be unique in the page and begin with a letter."""
-    text = _raw_svg(sheet.figure, salt)
+def page_svg(layout, salt, styles):
+    """The layout's SVG element for the page; `salt` must be unique in the page and begin with a letter."""
+    text = _raw_svg(layout.figure, salt)
     root = ElementTree.fromstring(text[text.index("<svg"):])
     _cleaned(root, _short_names(root, salt))
     for key in ("width", "height", "version"):
         root.attrib.pop(key, None)
-    root.set("viewBox", f"0 0 {sheet.width:g} {sheet.height:g}")
+    root.set("viewBox", f"0 0 {layout.width:g} {layout.height:g}")
     root.set("role", "img")
-    root.set("aria-label", sheet.description)
+    root.set("aria-label", layout.description)
     root.set("tabindex", "0")
     text = ElementTree.tostring(root, encoding="unicode").replace(' xmlns="http://www.w3.org/2000/svg"', "", 1)
     text = re.sub(r'style="([^"]*)"', lambda m: f'class="{styles.named(m.group(1))}"', text)

@@ -1,7 +1,7 @@
 """Tables of runs: all of them, the failures, the cost per part, the drifts."""
 import math
 
-from . import cost, measures, words
+from . import cost, measures, formatting
 from .comparable import representatives
 from .comparison import PARTS
 from .markup import joined, scrolling, tag
@@ -30,20 +30,20 @@ def status(point):
 
 
 def _count(point, key):
-    return words.count(point.counts.get(key, math.nan))
+    return formatting.count(point.counts.get(key, math.nan))
 
 
 def _run_row(comparison, point, measure):
     near = comparison.is_near_reference(point, measure)
-    cells = [words.plain_seconds(point.seconds()), words.span(point.clocks["wall"]),
-             words.plain_seconds(point.seconds("cpu")),
+    cells = [formatting.plain_seconds(point.seconds()), formatting.span(point.clocks["wall"]),
+             formatting.plain_seconds(point.seconds("cpu")),
              *(_count(point, k) for k in ("steps", "rejected_steps", "newton_iterations")),
-             *(words.count(point.work[part].count) for part in PARTS), words.megabytes(point.peak_memory),
-             *(words.fixed_exponent(point.drift.get(k, math.nan)) for k in
+             *(formatting.count(point.work[part].count) for part in PARTS), formatting.megabytes(point.peak_memory),
+             *(formatting.fixed_exponent(point.drift.get(k, math.nan)) for k in
                ("energy", "linear_momentum", "angular_momentum"))]
     return tag("tr", tag("th", method_name(comparison, point.method), scope="row"),
-               number(words.control(point.control)), tag("td", status(point), class_="word"),
-               number(words.fixed_exponent(point.error(measure)), data_e=point.index, data_near=near or None),
+               number(formatting.control(point.control)), tag("td", status(point), class_="word"),
+               number(formatting.fixed_exponent(point.error(measure)), data_e=point.index, data_near=near or None),
                *map(number, cells), class_=None if point.completed else "failed")
 
 
@@ -67,18 +67,18 @@ def failures_table(comparison):
         return tag("p", "Every run has finished.")
     rows = [tag("tr", tag("th", method_name(comparison, p.method), scope="row"),
                 tag("td", problem.label, class_="word"),
-                number(words.control(p.control)), tag("td", p.reason or p.status, class_="word"),
-                number(_reached(problem, p)), number(words.plain_seconds(p.seconds())),
-                tag("td", p.message or words.UNKNOWN, class_="message")) for problem, p in failed]
+                number(formatting.control(p.control)), tag("td", p.reason or p.status, class_="word"),
+                number(_reached(problem, p)), number(formatting.plain_seconds(p.seconds())),
+                tag("td", p.message or formatting.UNKNOWN, class_="message")) for problem, p in failed]
     head = (("Method", False), ("Problem", False), ("Control", True), ("Reason", False), ("Reached t [s]", True),
             ("Wall [s]", True), ("Message", False))
-    title = f"{words.plural(len(failed), 'run')} of {len(comparison.points)} did not finish"
+    title = f"{formatting.plural(len(failed), 'run')} of {len(comparison.points)} did not finish"
     return table(title, head, rows, "Failures")
 
 
 def _reached(problem, point):
-    reached = words.general(point.time_reached)
-    return f"{reached} of {words.general(problem.end)}" if words.known(problem.end) else reached
+    reached = formatting.general(point.time_reached)
+    return f"{reached} of {formatting.general(problem.end)}" if formatting.known(problem.end) else reached
 
 
 def cost_table(comparison, problem):
@@ -88,9 +88,9 @@ def cost_table(comparison, problem):
         parts, total = cost.parts_of(point), point.seconds()
         cells = [number(_part(seconds, total, point.work.get(part))) for part, seconds in parts.items()]
         rows.append(tag("tr", tag("th", method_name(comparison, point.method), scope="row"),
-                        number(words.control(point.control)),
-                        number(words.fixed_exponent(point.error(measure))),
-                        number(words.plain_seconds(total)), *cells))
+                        number(formatting.control(point.control)),
+                        number(formatting.fixed_exponent(point.error(measure))),
+                        number(formatting.plain_seconds(total)), *cells))
     head = [("Method", False), ("Control", True), ("Error", True), ("Wall [s]", True),
             *((name.capitalize(), True) for name in cost.NAMES.values())]
     title = "Seconds, share of the wall time, and number of calls"
@@ -98,14 +98,14 @@ def cost_table(comparison, problem):
 
 
 def _part(seconds, total, work):
-    share = f"{100 * seconds / total:.0f}{words.THIN}%" if total > 0 else ""
-    calls = f", {words.count(work.count)}×" if work and words.known(work.count) else ""
-    return joined([words.plain_seconds(seconds), tag("small", (share + calls).removeprefix(", "))])
+    share = f"{100 * seconds / total:.0f}{formatting.THIN}%" if total > 0 else ""
+    calls = f", {formatting.count(work.count)}×" if work and formatting.known(work.count) else ""
+    return joined([formatting.plain_seconds(seconds), tag("small", (share + calls).removeprefix(", "))])
 
 
 def drift_table(comparison, problem, runs):
-    rows = [tag("tr", tag("th", method_name(comparison, p.method), scope="row"), number(words.control(p.control)),
-                *(number(words.fixed_exponent(p.drift.get(k, math.nan)))
+    rows = [tag("tr", tag("th", method_name(comparison, p.method), scope="row"), number(formatting.control(p.control)),
+                *(number(formatting.fixed_exponent(p.drift.get(k, math.nan)))
                   for k in ("energy", "linear_momentum", "angular_momentum"))) for p in runs]
     head = (("Method", False), ("Control", True), ("Energy", True), ("Linear momentum", True),
             ("Angular momentum", True))

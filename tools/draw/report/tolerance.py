@@ -1,12 +1,12 @@
 """Error against control: what a tolerance or a step really delivers, with the observed order."""
 import numpy as np
 
-from . import measures, words
+from . import measures, formatting
 from .comparison import NEAR_REFERENCE
 from .runs import (LANE_GAP, draw_lane, draw_runs, draw_unresolved, end_fraction, label_right, lane_height,
                    say_nothing_finished)
+from .layout import WIDE, PixelLayout, legend_columns, legend_height, shortened, side_margin, styled
 from .scale import error_tick, limits, positive, seconds_tick, set_log
-from .sheet import WIDE, Sheet, legend_columns, legend_height, shortened, side_margin, styled
 from .theme import LIGHT
 from .work_precision import error_limits, title_of, unresolved_words
 
@@ -40,7 +40,7 @@ def _entries(comparison, problem, measure, indices):
     for k in indices:
         method = comparison.methods[k]
         slope = comparison.slope(problem, method.id, measure)
-        note = f", slope {slope:.2f}" if words.known(slope) else ""
+        note = f", slope {slope:.2f}" if formatting.known(slope) else ""
         entries.append((k, shortened(method.label, 20 if note else 26) + note, False))
     return entries
 
@@ -50,7 +50,7 @@ def guide_orders(kind, comparison, problem, measure, indices):
     if kind == "rtol":
         return [1]
     slopes = [comparison.slope(problem, comparison.methods[k].id, measure) for k in indices]
-    near = sorted({int(round(s)) for s in slopes if words.known(s) and 0.5 <= s < 6.5})
+    near = sorted({int(round(s)) for s in slopes if formatting.known(s) and 0.5 <= s < 6.5})
     return near[:3] or [2]
 
 
@@ -75,11 +75,11 @@ def _draw_guides(axes, orders, runs, kind):
                       bbox={"fc": LIGHT["paper"], "ec": "none", "pad": 1.5})
 
 
-def _panel(sheet, box, rows, comparison, problem, measure, kind, first):
+def _panel(layout, box, rows, comparison, problem, measure, kind, first):
     """One kind of control: axes, lane, runs, guides; returns the axes and the runs."""
     left, top, width, height = box
     runs, failing = _runs(comparison, problem, kind, measure), _failing(comparison, problem, kind)
-    axes = sheet.axes(*box)
+    axes = layout.axes(*box)
     bound = NEAR_REFERENCE * problem.reference.errors.get(measure, np.nan)
     controls = [p.control.value for p in comparison.points_of(problem) if p.control.kind == kind]
     label, tick = KINDS.get(kind, (kind, error_tick))
@@ -92,11 +92,11 @@ def _panel(sheet, box, rows, comparison, problem, measure, kind, first):
     for k, found in runs.items():
         draw_runs(axes, k, found, {p.index for _, _, p in found if comparison.is_near_reference(p, measure)})
     if failing:
-        lane = sheet.axes(left, top - LANE_GAP - rows, width, rows, sharex=axes)
+        lane = layout.axes(left, top - LANE_GAP - rows, width, rows, sharex=axes)
         draw_lane(lane, failing, lambda p: p.control.value)
         if first:
-            sheet.text(left - 8, top - LANE_GAP - rows / 2, "failed", ha="right", fontsize=11, color=LIGHT["muted"])
-    sheet.text(left + width / 2, top + height + 40, label, ha="center")
+            layout.text(left - 8, top - LANE_GAP - rows / 2, "failed", ha="right", fontsize=11, color=LIGHT["muted"])
+    layout.text(left + width / 2, top + height + 40, label, ha="center")
     if not first:
         axes.tick_params(labelleft=False)
     return axes, runs
@@ -125,20 +125,20 @@ def draw_error_against_control(comparison, problem, measure, width):
     columns = legend_columns(entries)
     boxes = _boxes(width, kinds, lanes, side_margin(entries), not drawn)
     bottom = boxes[-1][1] + boxes[-1][3] + 62
-    sheet = Sheet(width, bottom + (legend_height(entries, columns) if width < WIDE else 0),
+    layout = PixelLayout(width, bottom + (legend_height(entries, columns) if width < WIDE else 0),
                   _description(problem, measure, entries))
-    sheet.text(0, 16, title_of(measure), weight="bold")
-    panels = [_panel(sheet, box, lanes, comparison, problem, measure, kind, k == 0 or sheet.narrow)
+    layout.text(0, 16, title_of(measure), weight="bold")
+    panels = [_panel(layout, box, lanes, comparison, problem, measure, kind, k == 0 or layout.narrow)
               for k, (kind, box) in enumerate(zip(kinds, boxes))]
     if not drawn:
         for (axes, _), box in zip(panels, boxes):
-            say_nothing_finished(sheet, axes, box)
-    if sheet.narrow:
-        sheet.legend(bottom - 10, entries, columns)
+            say_nothing_finished(layout, axes, box)
+    if layout.narrow:
+        layout.legend(bottom - 10, entries, columns)
     else:
         ends = {k: end_fraction(axes, found[k][0][1]) for axes, found in panels for k in found}
-        label_right(sheet, boxes[-1], entries, [ends[k] for k in drawn])
-    return sheet
+        label_right(layout, boxes[-1], entries, [ends[k] for k in drawn])
+    return layout
 
 
 def _description(problem, measure, entries):

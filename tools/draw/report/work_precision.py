@@ -1,12 +1,12 @@
 """The work-precision diagram: error against time, both logarithmic, one line per method."""
 import numpy as np
 
-from . import measures, words
+from . import measures, formatting
 from .comparison import NEAR_REFERENCE
 from .runs import (LANE_GAP, draw_lane, draw_runs, draw_unresolved, end_fraction, label_right, lane_height,
                    say_nothing_finished)
+from .layout import WIDE, PixelLayout, legend_columns, legend_height, shortened, side_margin, styled
 from .scale import error_tick, limits, positive, seconds_tick, set_log
-from .sheet import WIDE, Sheet, legend_columns, legend_height, shortened, side_margin, styled
 from .theme import LIGHT, colour
 
 SHOW_BAND_WITHIN = 30.0  # of the smallest error; a band further below would squeeze the lines
@@ -34,7 +34,7 @@ def error_limits(errors, bound):
 
 
 def unresolved_words(problem, measure, narrow):
-    own = words.exponent(problem.reference.errors.get(measure, np.nan))
+    own = formatting.exponent(problem.reference.errors.get(measure, np.nan))
     return "not resolved: below 10 × " + (own if narrow else f"the reference's own error ({own})")
 
 
@@ -49,8 +49,8 @@ def _entries(comparison, problem, runs):
 
 
 def _description(problem, measure, runs, comparison):
-    best = [f"{comparison.methods[k].label} {words.exponent(min(e for _, e, _ in r))} in at most "
-            f"{words.seconds(max(t for t, _, _ in r))}" for k, r in runs.items() if r]
+    best = [f"{comparison.methods[k].label} {formatting.exponent(min(e for _, e, _ in r))} in at most "
+            f"{formatting.seconds(max(t for t, _, _ in r))}" for k, r in runs.items() if r]
     return (f"Work-precision diagram of {problem.label}, {measures.label(measure)}. Smallest error: "
             f"{'; '.join(best) or 'no finished run'}.")
 
@@ -66,7 +66,7 @@ def _whiskers(axes, index, runs, clock):
 
 
 def _layout(width, entries, failing):
-    """The sheet and the boxes of axes and lane, (left, top, width, height); flat where no run has finished."""
+    """The layout and the boxes of axes and lane, (left, top, width, height); flat where no run has finished."""
     narrow = width < WIDE
     lane = lane_height(failing)
     left, right = (46, 20) if narrow else (54, side_margin(entries))
@@ -74,46 +74,46 @@ def _layout(width, entries, failing):
     top, height = 40 + (lane + LANE_GAP if lane else 0), (290 if narrow else 400)
     height = max(90, 20 * len(entries)) if all(failed for *_, failed in entries) else height
     below = 62 + (legend_height(entries, columns) if narrow else 0)
-    sheet = Sheet(width, top + height + below)
-    return sheet, (left, top, width - left - right, height), (left, 40, width - left - right, lane), columns
+    layout = PixelLayout(width, top + height + below)
+    return layout, (left, top, width - left - right, height), (left, 40, width - left - right, lane), columns
 
 
 @styled
 def draw_work_precision(comparison, problem, measure, clock, width):
     runs = {k: runs_of(comparison, problem, m, measure, clock) for k, m in enumerate(comparison.methods)}
     failing, entries = failing_methods(comparison, problem), _entries(comparison, problem, runs)
-    sheet, box, lane_box, columns = _layout(width, entries, failing)
-    sheet.description = _description(problem, measure, runs, comparison)
+    layout, box, lane_box, columns = _layout(width, entries, failing)
+    layout.description = _description(problem, measure, runs, comparison)
     bound = NEAR_REFERENCE * problem.reference.errors.get(measure, np.nan)
-    axes = sheet.axes(*box)
+    axes = layout.axes(*box)
     times = [t for r in runs.values() for t, _, _ in r] + [p.seconds(clock) for f in failing.values() for p in f]
-    set_log(axes, "x", *limits(times), seconds_tick, 4 if sheet.narrow else 8)
+    set_log(axes, "x", *limits(times), seconds_tick, 4 if layout.narrow else 8)
     set_log(axes, "y", *error_limits([e for r in runs.values() for _, e, _ in r], bound), error_tick)
-    draw_unresolved(axes, bound, unresolved_words(problem, measure, sheet.narrow))
+    draw_unresolved(axes, bound, unresolved_words(problem, measure, layout.narrow))
     for k, found in runs.items():
         if found:
             hollow = {p.index for _, _, p in found if comparison.is_near_reference(p, measure)}
             _whiskers(axes, k, found, clock)
             draw_runs(axes, k, found, hollow)
-    _furnish(sheet, axes, box, measure, clock)
+    _annotate(layout, axes, box, measure, clock)
     if failing:
-        lane = sheet.axes(*lane_box, sharex=axes)
+        lane = layout.axes(*lane_box, sharex=axes)
         draw_lane(lane, failing, lambda p: p.seconds(clock))
-        sheet.text(box[0] - 8, lane_box[1] + lane_box[3] / 2, "failed", ha="right", fontsize=11, color=LIGHT["muted"])
-    if sheet.narrow:
-        sheet.legend(box[1] + box[3] + 52, entries, columns)
+        layout.text(box[0] - 8, lane_box[1] + lane_box[3] / 2, "failed", ha="right", fontsize=11, color=LIGHT["muted"])
+    if layout.narrow:
+        layout.legend(box[1] + box[3] + 52, entries, columns)
     else:
         ends = [end_fraction(axes, runs[k][-1][1]) if runs[k] else 0.0 for k, _, _ in entries]
-        label_right(sheet, box, entries, ends)
-    return sheet
+        label_right(layout, box, entries, ends)
+    return layout
 
 
-def _furnish(sheet, axes, box, measure, clock):
+def _annotate(layout, axes, box, measure, clock):
     """Words at the axes; without any finished run they say so."""
     left, top, width, height = box
-    sheet.text(0, 16, title_of(measure), weight="bold")
+    layout.text(0, 16, title_of(measure), weight="bold")
     name = "Wall time" if clock == "wall" else "CPU time"
-    hint = "" if sheet.narrow else "   (left and down is better)"
-    sheet.text(left + width / 2, top + height + 40, f"{name}, median of repeats{hint}", ha="center")
+    hint = "" if layout.narrow else "   (left and down is better)"
+    layout.text(left + width / 2, top + height + 40, f"{name}, median of repeats{hint}", ha="center")
     if not axes.lines:
-        say_nothing_finished(sheet, axes, box)
+        say_nothing_finished(layout, axes, box)

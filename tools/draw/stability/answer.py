@@ -1,5 +1,5 @@
 """The answer: integrators in order, the cases that hardly any passes, what a variant loses."""
-from ..report import words
+from ..report import formatting
 from ..report.markup import Html, joined, scrolling, tag
 from ..report.tables import caption, number
 from .grades import GRADES, MEANING, named
@@ -22,11 +22,11 @@ def _headline(matrix, variant):
         return "no integrator has passed a case yet."
     best, first = _best(order), order[0][1]
     more = [f"{len(best) - EQUAL} more"] if len(best) > EQUAL else []
-    named_ = words.joined(best[:EQUAL] + more)
+    named_ = formatting.joined(best[:EQUAL] + more)
     verb = "passes" if len(best) == 1 else "pass"
-    rest = f", failing {words.count(first['fail'])}" if first["fail"] else ", failing none"
+    rest = f", failing {formatting.count(first['fail'])}" if first["fail"] else ", failing none"
     each = " each" if len(best) > 1 else ""
-    return joined([tag("strong", named_), f" {verb} most: {first['pass']} of {words.plural(len(matrix.cases), 'case')}"
+    return joined([tag("strong", named_), f" {verb} most: {first['pass']} of {formatting.plural(len(matrix.cases), 'case')}"
                    f"{each}{rest}."])
 
 
@@ -50,7 +50,7 @@ def _ranking(matrix, variant):
              tag("th", "CPU [s]", scope="col", class_="num")]
     rows = [tag("tr", tag("th", name, scope="row"), _share(t),
                 *(number(t[grade]) for grade in ("fail", "degraded", "pass", "refused")),
-                number(words.plain_seconds(t.cpu))) for name, t in ranked(matrix, variant)]
+                number(formatting.plain_seconds(t.cpu))) for name, t in ranked(matrix, variant)]
     title = caption(joined([tag("strong", variant), ": integrators by passes, then by fails"]))
     return scrolling(tag("table", title, tag("thead", tag("tr", *heads)), tag("tbody", *rows), class_="ranking"),
                      label=f"Integrators in order, {variant}")
@@ -89,9 +89,9 @@ def _losses(matrix, variant):
     counts = [f"{n} {word}" for grade, word in (("fail", "fail"), ("degraded", "are degraded"),
                                                 ("refused", "are refused"))
               if (n := sum(t.grade == grade for t in gone))]
-    sentence = (f"Of {words.plural(both, 'trial')} that pass with {first}, {len(gone) or 'none'} "
+    sentence = (f"Of {formatting.plural(both, 'trial')} that pass with {first}, {len(gone) or 'none'} "
                 f"{'does' if len(gone) == 1 else 'do'} not with {variant}")
-    sentence += f": {words.joined(counts)}. " if counts else ". "
+    sentence += f": {formatting.joined(counts)}. " if counts else ". "
     sentence += f"{len(won) or 'None'} of those that do not pass with {first} {'does' if len(won) == 1 else 'do'} so " \
                 f"with {variant}."
     rows = [_lost_row(matrix, case.label, mine) for case in matrix.cases

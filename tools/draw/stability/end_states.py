@@ -4,7 +4,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import DrawError
-from ..scene import Scene, Wish
+from ..scene import Scene, PictureSpec
 from ..series import Series
 from ..vtu import Frame, read_vtu
 from .clusters import (EXPLODED, SAME, about_middle, are_apart, as_they_are, extent, same_states, turned_back,
@@ -130,5 +130,5 @@ class EndStates:
         """One camera, window and range of colours for all clusters of the case that are shown."""
         if self._scene is None:
             self._scene = Scene(Shown(self._folder, self._frames), indices,
-                                Wish(color=COLOUR, limits=RANGE, ghost=True))
+                                PictureSpec(color=COLOUR, limits=RANGE, ghost=True))
         return self._scene

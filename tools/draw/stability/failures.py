@@ -1,10 +1,10 @@
 """The table of all trials that are no pass."""
-from ..report import words
+from ..report import formatting
 from ..report.markup import tag
 from ..report.tables import number, table
+from .formatting import computed, own_reason
 from .grades import named
 from .grid import breakable, row_id
-from .phrases import computed, own_reason
 
 HEADS = (("Case", False), ("Variant", False), ("Integrator", False), ("Grade", False), ("Worst figure", False),
          ("Computed", True), ("Expected", True), ("Limit ±", True), ("Reached t [s]", True), ("Wall [s]", True),
@@ -13,12 +13,12 @@ HEADS = (("Case", False), ("Variant", False), ("Integrator", False), ("Grade", F
 
 def _row(trial):
     figure = trial.worst
-    cells = (figure.title, computed(figure), words.exponent(figure.expected, 4),
-             words.exponent(figure.limit)) if figure else [""] * 4
+    cells = (figure.title, computed(figure), formatting.exponent(figure.expected, 4),
+             formatting.exponent(figure.limit)) if figure else [""] * 4
     return tag("tr", tag("th", breakable(trial.case), scope="row"), tag("td", trial.variant, class_="word"),
                tag("td", trial.integrator, class_="word"), tag("td", named(trial.grade), class_="word"),
                tag("td", cells[0], class_="word", title=figure.source if figure else None), *map(number, cells[1:]),
-               number(words.general(trial.time_reached)), number(words.plain_seconds(trial.wall)),
+               number(formatting.general(trial.time_reached)), number(formatting.plain_seconds(trial.wall)),
                tag("td", own_reason(trial), class_="message"), id=row_id(trial))
 
 
@@ -26,5 +26,5 @@ def failures(matrix):
     found = [t for t in matrix.trials if t.grade != "pass"]
     if not found:
         return tag("p", "Every trial passes." if matrix.trials else "No trial has ended yet.")
-    title = f"{words.plural(len(found), 'trial')} of {words.count(len(matrix.trials))} are no pass; SI units"
+    title = f"{formatting.plural(len(found), 'trial')} of {formatting.count(len(matrix.trials))} are no pass; SI units"
     return table(title, HEADS, [_row(t) for t in found], "Trials that are no pass", "long")

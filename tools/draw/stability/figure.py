@@ -4,8 +4,8 @@ import re
 import matplotlib
 from matplotlib.patches import FancyBboxPatch
 
-from ..report.gallery import PAPER, PAPER_DPI
-from ..report.sheet import LETTER, Sheet, styled
+from ..report.figures import PAPER, PAPER_DPI
+from ..report.layout import LETTER, PixelLayout, styled
 from ..report.theme import LIGHT
 from .grades import GRADES, field_colour, symbol_colour
 from .ranking import ranked, tally
@@ -24,10 +24,10 @@ def _draw_field(axes, x, y, grade):
                   lw=LINE, solid_capstyle="round", solid_joinstyle="round")
 
 
-def _canvas(sheet):
-    """Axes in the sheet's pixels, from its top left corner."""
-    axes = sheet.axes(0, 0, sheet.width, sheet.height)
-    axes.set(xlim=(0, sheet.width), ylim=(sheet.height, 0))
+def _canvas(layout):
+    """Axes in the layout's pixels, from its top left corner."""
+    axes = layout.axes(0, 0, layout.width, layout.height)
+    axes.set(xlim=(0, layout.width), ylim=(layout.height, 0))
     axes.axis("off")
     return axes
 
@@ -66,8 +66,9 @@ def draw_matrix(matrix, variants):
     wide = STEP * len(columns)
     width = names + len(variants) * (wide + BETWEEN) - BETWEEN + 4
     bottom = top + STEP * len(matrix.cases)
-    sheet = Sheet(max(width, 480), bottom + 62, f"Grades of {len(columns)} integrators on {len(matrix.cases)} cases")
-    axes = _canvas(sheet)
+    layout = PixelLayout(max(width, 480), bottom + 62,
+                         f"Grades of {len(columns)} integrators on {len(matrix.cases)} cases")
+    axes = _canvas(layout)
     for row, case in enumerate(matrix.cases):
         axes.text(names - 8, top + STEP * row + FIELD / 2, case.label + (" †" if case.model else ""), ha="right",
                   va="center")
@@ -75,7 +76,7 @@ def draw_matrix(matrix, variants):
     for k, variant in enumerate(variants):
         _variant(matrix, axes, names + k * (wide + BETWEEN), top, variant, columns)
     _legend(axes, names, bottom + 34, any(case.model for case in matrix.cases))
-    return sheet
+    return layout
 
 
 def _pictures(matrix):
@@ -90,10 +91,10 @@ def write_figures(matrix, folder):
     """Writes matrix.svg and .png, and matrix_VARIANT of each; yields their paths."""
     folder.mkdir(parents=True, exist_ok=True)
     for name, variants in _pictures(matrix):
-        sheet = draw_matrix(matrix, variants)
+        layout = draw_matrix(matrix, variants)
         svg, png = (folder / f"{name}.{kind}" for kind in ("svg", "png"))
         with matplotlib.rc_context({"svg.fonttype": "path", "svg.hashsalt": name}):
-            sheet.figure.savefig(svg, metadata={"Date": None}, **PAPER)
-        sheet.figure.savefig(png, dpi=PAPER_DPI, **PAPER)
+            layout.figure.savefig(svg, metadata={"Date": None}, **PAPER)
+        layout.figure.savefig(png, dpi=PAPER_DPI, **PAPER)
         yield svg
         yield png

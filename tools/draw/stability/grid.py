@@ -1,9 +1,9 @@
 """The matrix as a table of fields: cases by integrators, for each variant."""
-from ..report import words
+from ..report import formatting
 from ..report.markup import Html, joined, scrolling, tag
 from ..report.tables import caption
+from .formatting import spoken
 from .grades import GRADES, MEANING, UNTRIED, named, symbol
-from .phrases import spoken
 from .ranking import ranked, tally
 
 DAGGER = "†"
@@ -34,7 +34,7 @@ def _row(matrix, variant, columns, number, case):
     mark = tag("sup", DAGGER, title=case.model) if case.model else None
     return tag("tr", tag("th", name, mark, scope="row"),
                *(_field(matrix, matrix.trial(variant, case.label, name)) for name in columns),
-               tag("td", f"{count['pass']}/{count.tried}" if count.tried else words.UNKNOWN, class_="num"))
+               tag("td", f"{count['pass']}/{count.tried}" if count.tried else formatting.UNKNOWN, class_="num"))
 
 
 def _foot(matrix, variant, columns, grade, title):

@@ -2,25 +2,25 @@
 import shlex
 from pathlib import Path
 
-from ..report import words
+from ..report import formatting
 from ..report.details import facts, pairs
 from ..report.markup import Html, data_script, joined, tag
 from ..report.page import SCRIPT, head
 from . import grades
-from .album import album
 from .answer import answer
 from .failures import failures
+from .formatting import case_tooltip, tooltip
+from .gallery import gallery
 from .grid import grid
-from .phrases import case_tip, tip
 
 STYLE = Path(__file__).resolve().parent / "page.css"
 
 
 def _counted(matrix):
-    parts = [words.plural(len(matrix.cases), "case"), words.plural(len(matrix.integrators), "integrator"),
-             words.plural(len(matrix.variants), "variant"), words.plural(len(matrix.trials), "trial")]
-    if words.known(matrix.limit):
-        parts.append(f"at most {words.seconds(matrix.limit)} each")
+    parts = [formatting.plural(len(matrix.cases), "case"), formatting.plural(len(matrix.integrators), "integrator"),
+             formatting.plural(len(matrix.variants), "variant"), formatting.plural(len(matrix.trials), "trial")]
+    if formatting.known(matrix.limit):
+        parts.append(f"at most {formatting.seconds(matrix.limit)} each")
     machine, cores = matrix.machine.get("processor", ""), matrix.machine.get("cores", "")
     return parts + [p for p in (matrix.at.replace("T", " ").replace("Z", " UTC"),
                                 f"{machine}, {cores} cores" if machine and cores else machine) if p]
@@ -29,8 +29,8 @@ def _counted(matrix):
 def _banner(matrix):
     if matrix.complete:
         return None
-    return tag("p", tag("strong", "Not finished: "), f"{words.count(len(matrix.trials))} of "
-               f"{words.plural(matrix.planned, 'trial')}. What follows is what there is so far.", class_="banner",
+    return tag("p", tag("strong", "Not finished: "), f"{formatting.count(len(matrix.trials))} of "
+               f"{formatting.plural(matrix.planned, 'trial')}. What follows is what there is so far.", class_="banner",
                role="status")
 
 
@@ -56,12 +56,12 @@ def _origin(matrix, folder):
 def page(matrix, folder):
     """The whole page as text; `folder` has the end states and is named in the command that reproduces it."""
     sections = (("answer", "Answer", answer(matrix)), ("matrix", "Matrix", grid(matrix)),
-                ("states", "End states", album(matrix, Path(folder))), ("trials", "No pass", failures(matrix)),
+                ("states", "End states", gallery(matrix, Path(folder))), ("trials", "No pass", failures(matrix)),
                 ("details", "Where from", _origin(matrix, folder)))
     main = tag("main", *(tag("section", tag("h2", name), content, id=identity) for identity, name, content in sections))
-    tips = [tip(t) for t in matrix.trials] + [case_tip(c) for c in matrix.cases]
+    tooltips = [tooltip(t) for t in matrix.trials] + [case_tooltip(c) for c in matrix.cases]
     body = tag("body", grades.symbols(), _header(matrix, sections), main,
-               data_script("run-data", {"measure": "", "labels": {}, "runs": tips}),
+               data_script("run-data", {"measure": "", "labels": {}, "runs": tooltips}),
                tag("script", Html(SCRIPT.read_text(encoding="utf-8"))))
     style = STYLE.read_text(encoding="utf-8") + grades.css()
     return "<!DOCTYPE html>\n" + tag("html", head(matrix.title, style), body, lang="en") + "\n"

@@ -6,16 +6,16 @@ FILE = "sweep.json"
 
 def write_sweep_report(result, out=None):
     """Writes RESULT/report.html (or `out`) and RESULT/pictures; yields the paths."""
-    from .album import draw_album
+    from .gallery import draw_gallery
     from .figures import write_paper_figures
     from .page import page
     from .reading import read_sweep
     sweep, folder = read_sweep(result), Path(result)
-    album = draw_album(sweep, folder, folder / "pictures" / "points.png")
+    gallery = draw_gallery(sweep, folder, folder / "pictures" / "points.png")
     path = out or folder / "report.html"
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(page(sweep, folder, album), encoding="utf-8")
+    path.write_text(page(sweep, folder, gallery), encoding="utf-8")
     yield path
-    if album:
-        yield album
+    if gallery:
+        yield gallery
     yield from write_paper_figures(sweep, folder / "pictures")

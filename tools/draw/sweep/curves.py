@@ -4,10 +4,10 @@ import math
 import numpy as np
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from ..report import theme, words
+from ..report import theme, formatting
 from ..report.runs import label_right
 from ..report.scale import error_tick, limits, positive, set_log
-from ..report.sheet import (WIDE, Sheet, legend_columns, legend_height, shortened, side_margin, styled)
+from ..report.layout import (WIDE, PixelLayout, legend_columns, legend_height, shortened, side_margin, styled)
 from ..report.theme import LIGHT
 
 
@@ -23,8 +23,8 @@ def _layout(width, entries, height):
     right = 16 if narrow or not entries else side_margin(entries)
     columns = legend_columns(entries)
     below = 52 + (legend_height(entries, columns) + 8 if narrow else 0)
-    sheet = Sheet(width, 40 + height + below)
-    return sheet, (left, 40, width - left - right, height), columns
+    layout = PixelLayout(width, 40 + height + below)
+    return layout, (left, 40, width - left - right, height), columns
 
 
 def power_tick(x):
@@ -79,26 +79,26 @@ def _place(plan, sweep, point):
     return value if plan.x.numeric else sweep.levels(plan.x).index(value)
 
 
-def _furnish(sheet, axes, box, plan, sweep, title, entries, columns):
+def _annotate(layout, axes, box, plan, sweep, title, entries, columns):
     left, top, width, height = box
-    sheet.text(0, 16, title, weight="bold")
+    layout.text(0, 16, title, weight="bold")
     levels = sweep.levels(plan.x)
     if plan.x.numeric:
-        scaled(axes, "x", levels, plan.x.log, 4 if sheet.narrow else 8)
+        scaled(axes, "x", levels, plan.x.log, 4 if layout.narrow else 8)
     else:
         axes.set_xlim(-0.5, len(levels) - 0.5)
         axes.set_xticks(range(len(levels)), [shortened(str(v), 10) for v in levels])
-    sheet.text(left + width / 2, top + height + 38, plan.x.heading, ha="center")
-    if sheet.narrow:
-        sheet.legend(top + height + 52, entries, columns)
+    layout.text(left + width / 2, top + height + 38, plan.x.heading, ha="center")
+    if layout.narrow:
+        layout.legend(top + height + 52, entries, columns)
     elif entries:
-        label_right(sheet, box, entries, [0] * len(entries))
+        label_right(layout, box, entries, [0] * len(entries))
 
 
 def _drawn(plan, sweep, width, height, title, value, log, closed=None):
     entries = _entries(plan, sweep)
-    sheet, box, columns = _layout(width, entries, height)
-    axes = sheet.axes(*box)
+    layout, box, columns = _layout(width, entries, height)
+    axes = layout.axes(*box)
     lines = {k: [(_place(plan, sweep, p), value(p), p) for p in plan.of_line(sweep, level)]
              for k, level in enumerate(plan.line_levels(sweep))}
     curves = {k: [(x, closed(p)) for x, _, p in rows] for k, rows in lines.items()} if closed else {}
@@ -109,8 +109,8 @@ def _drawn(plan, sweep, width, height, title, value, log, closed=None):
     scattered = sweep.combine == "latin_hypercube"
     for k, rows in lines.items():
         _marks(axes, k, rows, not closed and not scattered)
-    _furnish(sheet, axes, box, plan, sweep, title, entries, columns)
-    return sheet, axes, lines
+    _annotate(layout, axes, box, plan, sweep, title, entries, columns)
+    return layout, axes, lines
 
 
 @styled
@@ -118,9 +118,9 @@ def draw_curves(plan, sweep, width):
     figure = plan.figure
     title = figure.heading + (f"   ({plan.title})" if plan.title else "")
     closed = figure.closed if figure.closed_form else None
-    sheet, _, lines = _drawn(plan, sweep, width, 240 if width < WIDE else 320, title, figure.value, figure.log, closed)
-    sheet.description = _description(plan, sweep, lines)
-    return sheet
+    layout, _, lines = _drawn(plan, sweep, width, 240 if width < WIDE else 320, title, figure.value, figure.log, closed)
+    layout.description = _description(plan, sweep, lines)
+    return layout
 
 
 @styled
@@ -130,10 +130,10 @@ def draw_differences(plan, sweep, width):
     if not figure.closed_form or not any(math.isfinite(figure.difference(p)) for p in plan.points(sweep)):
         return None
     title = "Difference from the closed form [%]"
-    sheet, axes, _ = _drawn(plan, sweep, width, 150, title, lambda p: 100 * figure.difference(p), False)
+    layout, axes, _ = _drawn(plan, sweep, width, 150, title, lambda p: 100 * figure.difference(p), False)
     axes.axhline(0, color=LIGHT["muted"], lw=0.8, zorder=1)
-    sheet.description = f"{figure.title}: {title}"
-    return sheet
+    layout.description = f"{figure.title}: {title}"
+    return layout
 
 
 def _description(plan, sweep, lines):
@@ -142,5 +142,5 @@ def _description(plan, sweep, lines):
         values = [y for _, y, _ in rows if math.isfinite(y)]
         if values:
             name = f"{plan.line_words(level)}: " if plan.lines else ""
-            parts.append(f"{name}{words.general(min(values))} to {words.general(max(values))}")
+            parts.append(f"{name}{formatting.general(min(values))} to {formatting.general(max(values))}")
     return f"{plan.figure.heading} over {plan.x.heading}. {'; '.join(parts) or 'No point has it'}."

@@ -5,8 +5,8 @@ import matplotlib
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.patches import Rectangle
 
-from ..report import words
-from ..report.sheet import WIDE, Sheet, styled
+from ..report import formatting
+from ..report.layout import WIDE, PixelLayout, styled
 
 MAP = matplotlib.colormaps["viridis"]
 
@@ -26,12 +26,12 @@ def draw_heat_map(plan, sweep, width):
         return None
     narrow = width < WIDE
     left, right, top, height = 72, 16 if narrow else 110, 40, max(120, min(360, 30 * len(ys)))
-    sheet = Sheet(width, top + height + (104 if narrow else 56),
+    layout = PixelLayout(width, top + height + (104 if narrow else 56),
                   f"{figure.heading} as colours over {plan.x.heading} and {plan.lines.heading}")
-    sheet.text(0, 16, f"{figure.heading} over {plan.x.name} and {plan.lines.name}"
+    layout.text(0, 16, f"{figure.heading} over {plan.x.name} and {plan.lines.name}"
                + (f"   ({plan.title})" if plan.title else ""), weight="bold")
     across = width - left - right
-    axes = sheet.axes(left, top, across, height, xlim=(-0.5, len(xs) - 0.5), ylim=(-0.5, len(ys) - 0.5))
+    axes = layout.axes(left, top, across, height, xlim=(-0.5, len(xs) - 0.5), ylim=(-0.5, len(ys) - 0.5))
     axes.grid(False)
     norm = _norm([v for _, v in found], figure.log)
     for point, value in found:
@@ -40,11 +40,11 @@ def draw_heat_map(plan, sweep, width):
                                  gid=f"pt-{point['index']}-0"))
     _ticks(axes, "x", xs, 4 if narrow else 9)
     _ticks(axes, "y", ys, 9)
-    sheet.text(left + across / 2, top + height + 38, plan.x.heading, ha="center")
-    sheet.text(10, top + height / 2, plan.lines.heading, ha="center", rotation=90)
+    layout.text(left + across / 2, top + height + 38, plan.x.heading, ha="center")
+    layout.text(10, top + height / 2, plan.lines.heading, ha="center", rotation=90)
     lying, standing = (left, top + height + 66, across, 12), (left + across + 22, top, 14, height)
-    _bar(sheet, norm, lying if narrow else standing, narrow)
-    return sheet
+    _bar(layout, norm, lying if narrow else standing, narrow)
+    return layout
 
 
 def _ticks(axes, which, values, most):
@@ -53,9 +53,9 @@ def _ticks(axes, which, values, most):
     getattr(axes, f"set_{which}ticks")(chosen, [f"{values[k]:.4g}".replace("-", "−") for k in chosen])
 
 
-def _bar(sheet, norm, box, lying):
+def _bar(layout, norm, box, lying):
     """From the smallest to the largest value."""
-    axes = sheet.axes(*box, xlim=(0, 1), ylim=(0, 1))
+    axes = layout.axes(*box, xlim=(0, 1), ylim=(0, 1))
     axes.grid(False)
     axes.set_xticks([]), axes.set_yticks([])
     count = 48
@@ -63,10 +63,10 @@ def _bar(sheet, norm, box, lying):
         place = ((k / count, 0), 1.02 / count, 1) if lying else ((0, k / count), 1, 1.02 / count)
         axes.add_patch(Rectangle(place[0], place[1], place[2], color=MAP((k + 0.5) / count), lw=0.5))
     left, top, width, height = box
-    low, high = (words.general(float(v)) for v in (norm.vmin, norm.vmax))
+    low, high = (formatting.general(float(v)) for v in (norm.vmin, norm.vmax))
     if lying:
-        sheet.text(left, top + height + 12, low)
-        sheet.text(left + width, top + height + 12, high, ha="right")
+        layout.text(left, top + height + 12, low)
+        layout.text(left + width, top + height + 12, high, ha="right")
     else:
-        sheet.text(left + width + 8, top + height - 6, low)
-        sheet.text(left + width + 8, top + 6, high)
+        layout.text(left + width + 8, top + height - 6, low)
+        layout.text(left + width + 8, top + 6, high)

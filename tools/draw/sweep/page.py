@@ -4,7 +4,7 @@ import math
 import shlex
 from pathlib import Path
 
-from ..report import words
+from ..report import formatting
 from ..report.details import facts, pairs
 from ..report.markup import Html, data_script, joined, scrolling, tag, void
 from ..report.page import SCRIPT, head
@@ -17,8 +17,8 @@ READ = "Marks are points of the sweep. Lines without marks, and strokes, are clo
 
 def _counted(sweep):
     machine = sweep.about["machine"].get("processor", "")
-    parts = [words.plural(len(sweep.points), "point") + (f" ({len(sweep.failed)} failed)" if sweep.failed else "")]
-    parts += [words.plural(len(sweep.levels(v)), "value") + f" of {v.name}" for v in sweep.variables]
+    parts = [formatting.plural(len(sweep.points), "point") + (f" ({len(sweep.failed)} failed)" if sweep.failed else "")]
+    parts += [formatting.plural(len(sweep.levels(v)), "value") + f" of {v.name}" for v in sweep.variables]
     return parts + [sweep.about["written"].replace("T", " ").replace("Z", " UTC"), machine]
 
 
@@ -49,11 +49,13 @@ def _range_row(sweep, figure):
         return tag("tr", tag("th", figure.heading, scope="row"), tag("td", "no point has it", colspan=3, class_="word"))
     cells = []
     for value, point in (min(values, key=lambda v: v[0]), max(values, key=lambda v: v[0])):
-        cells.append(tag("td", words.general(value), void("br"), tag("small", _where(sweep, point)), class_="word"))
+        cells.append(tag("td", formatting.general(value), void("br"), tag("small", _where(sweep, point)),
+                         class_="word"))
     gaps = [(abs(figure.difference(p)), p) for _, p in values if math.isfinite(figure.difference(p))]
     gap, point = max(gaps, key=lambda g: g[0]) if gaps else (math.nan, None)
-    farthest = gaps and (f"{words.general(100 * gap, 3)}{words.THIN}%", void("br"), tag("small", _where(sweep, point)))
-    cells.append(tag("td", *(farthest or [words.UNKNOWN]), class_="word"))
+    farthest = gaps and (f"{formatting.general(100 * gap, 3)}{formatting.THIN}%", void("br"),
+                         tag("small", _where(sweep, point)))
+    cells.append(tag("td", *(farthest or [formatting.UNKNOWN]), class_="word"))
     return tag("tr", tag("th", figure.heading, scope="row"), *cells)
 
 
@@ -75,7 +77,7 @@ def _figures(sweep, figures):
     return joined(parts) or tag("p", "Nothing to show: no point has finished.", class_="empty")
 
 
-def _album(sweep, path):
+def _gallery(sweep, path):
     scale, at = sweep.frames["enlarged"], sweep.frames["at"]
     names = ", ".join(v.heading for v in sweep.variables)
     when = "at the end of their runs" if at is None else f"after {at:g} s"
@@ -93,12 +95,12 @@ def _row(sweep, point):
         cells.append(tag("th", value, scope="row") if k == 0 else number(value) if v.numeric else
                      tag("td", value, class_="word"))
     for figure in sweep.figures:
-        cells.append(number(words.general(figure.value(point), 6)))
+        cells.append(number(formatting.general(figure.value(point), 6)))
         if figure.closed_form:
             gap = figure.difference(point)
-            cells.append(number(f"{100 * gap:+.3f}".replace("-", "−") if math.isfinite(gap) else words.UNKNOWN))
+            cells.append(number(f"{100 * gap:+.3f}".replace("-", "−") if math.isfinite(gap) else formatting.UNKNOWN))
     cost = point["cost"] or {}
-    cells.append(number(words.plain_seconds(cost.get("wall_seconds", math.nan))))
+    cells.append(number(formatting.plain_seconds(cost.get("wall_seconds", math.nan))))
     cells.append(tag("td", "" if point["status"] == "completed" else point["reason"] or point["status"], class_="word"))
     return tag("tr", *cells, class_="failed" if point["status"] != "completed" else None)
 
@@ -135,17 +137,18 @@ def _details(sweep, folder):
 
 def _tip(sweep, point):
     rows = [[v.heading, v.words(point["values"][v.name])] for v in sweep.variables]
-    rows += [[f.heading, words.general(f.value(point), 6)] for f in sweep.figures]
-    rows += [[f"{f.title}, closed form", words.general(f.closed(point), 6)] for f in sweep.figures if f.closed_form]
+    rows += [[f.heading, formatting.general(f.value(point), 6)] for f in sweep.figures]
+    rows += [[f"{f.title}, closed form", formatting.general(f.closed(point), 6)]
+             for f in sweep.figures if f.closed_form]
     return {"title": f"Point {point['index'] + 1}", "rows": rows, "e": {}}
 
 
-def page(sweep, folder, album):
-    """The whole page as text; `album` is a picture's path or None."""
+def page(sweep, folder, gallery):
+    """The whole page as text; `gallery` is a picture's path or None."""
     figures = Figures(sweep)
     parts = [("ranges", "Ranges", _ranges(sweep)), ("figures", "Figures", _figures(sweep, figures))]
-    if album:
-        parts.append(("frames", "Frames", _album(sweep, album)))
+    if gallery:
+        parts.append(("frames", "Frames", _gallery(sweep, gallery)))
     parts += [("points", "Points", joined([_points(sweep), tag("h3", "Failures"), _failures(sweep)])),
               ("details", "Details", _details(sweep, folder))]
     main = tag("main", *(tag("section", tag("h2", name), content, id=identity) for identity, name, content in parts))

@@ -2,8 +2,8 @@
 import math
 
 from ..report import theme
+from ..report.layout import LETTER, WIDE, PixelLayout, legend_columns, legend_height, shortened, styled
 from ..report.scale import limits, positive, set_log
-from ..report.sheet import LETTER, WIDE, Sheet, legend_columns, legend_height, shortened, styled
 from ..report.theme import LIGHT
 from .curves import power_tick, scaled
 
@@ -11,7 +11,7 @@ ROW = 26
 
 
 @styled
-def draw_dots(plan, sweep, width):
+def draw_dot_plot(plan, sweep, width):
     names = sweep.levels(plan.x)
     narrow = width < WIDE
     labels = [shortened(str(n), 14 if narrow else 26) for n in names]
@@ -20,10 +20,10 @@ def draw_dots(plan, sweep, width):
     columns = legend_columns(entries, width)
     left, top = 12 + LETTER * max(map(len, labels)), 36 + (legend_height(entries, columns) if entries else 0)
     height = ROW * len(names)
-    sheet = Sheet(width, top + height + 44, f"{plan.figure.heading} of {', '.join(map(str, names))}")
-    sheet.text(0, 16, plan.figure.heading + (f"   ({plan.title})" if plan.title else ""), weight="bold")
-    sheet.legend(30, entries, columns)
-    axes = sheet.axes(left, top, width - left - 24, height)
+    layout = PixelLayout(width, top + height + 44, f"{plan.figure.heading} of {', '.join(map(str, names))}")
+    layout.text(0, 16, plan.figure.heading + (f"   ({plan.title})" if plan.title else ""), weight="bold")
+    layout.legend(30, entries, columns)
+    axes = layout.axes(left, top, width - left - 24, height)
     rows = [(k, p) for k, level in enumerate(plan.line_levels(sweep)) for p in plan.of_line(sweep, level)]
     values = [v for _, p in rows for v in (plan.figure.value(p), plan.figure.closed(p)) if math.isfinite(v)]
     most = 4 if narrow else 7
@@ -35,7 +35,7 @@ def draw_dots(plan, sweep, width):
     axes.set_yticks(range(len(names)), labels)
     for k, p in rows:
         _row(axes, plan, k, names.index(p["values"][plan.x.name]), p)
-    return sheet
+    return layout
 
 
 def _row(axes, plan, k, y, point):

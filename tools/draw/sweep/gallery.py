@@ -6,7 +6,7 @@ import numpy as np
 from ..camera import Window
 from ..colouring import Colouring
 from ..picture import draw_page, strip_columns
-from ..scene import Scene, Wish
+from ..scene import Scene, PictureSpec
 from ..series import Series
 from .plan import plans
 
@@ -21,12 +21,12 @@ class Files(Series):
         self.folder, self.paths, self.times = paths[0].parent, paths, [0.0] * len(paths)
 
 
-class Album:
+class Gallery:
     """What draw_page() needs of a scene."""
 
-    def __init__(self, paths, labels, wish):
+    def __init__(self, paths, labels, spec):
         series = Files(paths)
-        self.scenes = [Scene(series, [k], wish) for k in range(len(paths))]
+        self.scenes = [Scene(series, [k], spec) for k in range(len(paths))]
         self.camera, self.note = self.scenes[0].camera, ""  # the page says how far deformations are enlarged
         self.labels, self.window = dict(enumerate(labels)), Window()
         self.window.include(np.array([w for s in self.scenes for w in (s.window.low, s.window.high)]))
@@ -64,19 +64,19 @@ def _label(sweep, point):
                      for v in sweep.variables for value in [point["values"][v.name]])
 
 
-def draw_album(sweep, folder, path):
+def draw_gallery(sweep, folder, path):
     """The picture's path, or None where no point has a frame."""
-    wish = sweep.frames
+    frames = sweep.frames
     points = [p for p in sweep.done if p.get("frame") and (Path(folder) / p["folder"] / p["frame"]).is_file()]
-    if not wish or not points:
+    if not frames or not points:
         return None
     points, columns = _ordered(sweep, points)
-    chosen = _chosen(points, wish["most"])
+    chosen = _chosen(points, frames["most"])
     paths = [Path(folder) / p["folder"] / p["frame"] for p in chosen]
-    album = Album(paths, [_label(sweep, p) for p in chosen],
-                  Wish(color=wish["color"], view=tuple(wish["view"]), up=wish["up"], scale=wish["enlarged"],
-                       ghost=wish["ghost"]))
+    gallery = Gallery(paths, [_label(sweep, p) for p in chosen],
+                  PictureSpec(color=frames["color"], view=tuple(frames["view"]), up=frames["up"],
+                                scale=frames["enlarged"], ghost=frames["ghost"]))
     if not columns or len(chosen) < len(points):
-        fitting = int(PAGE / (0.2 + LETTER * max(map(len, album.labels.values()))))
-        columns = max(1, min(strip_columns(len(chosen), album.window.size[0] / album.window.size[1]), fitting))
-    return draw_page(album, columns, range(len(chosen)), path)
+        fitting = int(PAGE / (0.2 + LETTER * max(map(len, gallery.labels.values()))))
+        columns = max(1, min(strip_columns(len(chosen), gallery.window.size[0] / gallery.window.size[1]), fitting))
+    return draw_page(gallery, columns, range(len(chosen)), path)

@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 from . import theme
 from .theme import LIGHT
 
-DOTS = 72  # per inch: one point is one pixel of the page
+PIXELS_PER_INCH = 72  # per inch: one point is one pixel of the page
 WIDE, NARROW = 780, 350
 LETTER = 7.0  # px, a letter of size 12, for margins
 
@@ -31,12 +31,12 @@ def styled(draw):
     return wrapped
 
 
-class Sheet:
+class PixelLayout:
     """`description` says in words what is drawn, for those who cannot see it."""
 
     def __init__(self, width, height, description=""):
         self.width, self.height, self.description = width, height, description
-        self.figure = Figure(figsize=(width / DOTS, height / DOTS), dpi=DOTS)
+        self.figure = Figure(figsize=(width / PIXELS_PER_INCH, height / PIXELS_PER_INCH), dpi=PIXELS_PER_INCH)
 
     @property
     def narrow(self):

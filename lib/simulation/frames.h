@@ -1,4 +1,5 @@
-// Frames for ParaView: one .vtu file per output time (appended raw binary) and a .pvd with the times.
+// Frames for ParaView: one .vtu file per output time (appended raw binary, fields in single precision) and a .pvd with
+// the times.
 #pragma once
 
 #include <filesystem>
@@ -18,14 +19,14 @@ struct VtuField {
   std::vector<double> values;
 };
 
-// Writes one .vtu file of tetrahedra, in double precision. Throws RunError.
-void write_vtu(const std::filesystem::path& path, const Geometry& geometry, const std::vector<VtuField>& fields);
+// Writes one .vtu file, in double precision. Throws RunError.
+void write_vtu(const std::filesystem::path& path, const Geometry& geometry, std::vector<VtuField> fields);
 
-class VtuWriter : public Observer {
+class FrameWriter : public Observer {
  public:
   // Writes <folder>/frames.pvd and <folder>/frames/frame_00000.vtu ... `fields` are node or cell
   // outputs of the model, which must outlive the writer.
-  VtuWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields);
+  FrameWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields);
 
   void on_start(const State& state) override;
   void on_resume(const State& state) override;

@@ -5,7 +5,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.patches import Rectangle
 
 from .colouring import CATEGORIES, NOT_A_NUMBER
-from .look import FAINT, TEXT
+from .style import FAINT, TEXT
 from .units import length_label, round_length
 
 AXIS_COLOURS = ("#c0392b", "#2e8b57", "#2f5fb3")  # x red, y green, z blue

@@ -1,25 +1,27 @@
 """Numbers of a trial in words."""
 import math
 
-from ..report import words
+from ..report import formatting
 
 LONG = 220  # letters of a reason under the pointer
 
 
 def computed(figure):
     """'0.00135', '3.35e3'; a figure that is none is said to be none."""
-    if words.known(figure.computed):
-        return words.exponent(figure.computed, 3)
+    if formatting.known(figure.computed):
+        return formatting.exponent(figure.computed, 3)
     return "never" if figure.title.startswith("onset") else "not finite"
 
 
 def expected(figure):
-    limit = f" ± {words.exponent(figure.limit)}" if words.known(figure.limit) else ""
-    return words.exponent(figure.expected, 4) + limit
+    limit = f" ± {formatting.exponent(figure.limit)}" if formatting.known(figure.limit) else ""
+    return formatting.exponent(figure.expected, 4) + limit
 
 
 def reached(trial):
-    return f"t = {words.general(trial.time_reached)}{words.THIN}s" if words.known(trial.time_reached) else words.UNKNOWN
+    if not formatting.known(trial.time_reached):
+        return formatting.UNKNOWN
+    return f"t = {formatting.general(trial.time_reached)}{formatting.THIN}s"
 
 
 def own_reason(trial):
@@ -29,19 +31,19 @@ def own_reason(trial):
     return trial.reason
 
 
-def tip(trial):
+def tooltip(trial):
     """What is shown under the pointer, as data for the page's script."""
     rows = [["Grade", trial.grade]]
     if trial.worst:
         rows += [[trial.worst.title, computed(trial.worst)], ["Expected", expected(trial.worst)]]
     reason = own_reason(trial)
     rows += [["Reason", reason if len(reason) <= LONG else reason[:LONG - 1] + "…"]] if reason else []
-    rows += [["Reached", reached(trial)]] if words.known(trial.time_reached) else []
-    rows += [["Wall", words.seconds(trial.wall)]] if words.known(trial.wall) else []
+    rows += [["Reached", reached(trial)]] if formatting.known(trial.time_reached) else []
+    rows += [["Wall", formatting.seconds(trial.wall)]] if formatting.known(trial.wall) else []
     return {"title": trial.title, "rows": rows, "e": {}}
 
 
-def case_tip(case):
+def case_tooltip(case):
     rows = [["", case.sentence]] if case.sentence else []
     return {"title": case.label, "rows": rows + ([["Model", case.model]] if case.model else []), "e": {}}
 

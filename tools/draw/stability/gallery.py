@@ -1,5 +1,5 @@
 """The part of the page with the end states of each case."""
-from ..report import words
+from ..report import formatting
 from ..report.markup import joined, tag, void
 from .clusters import about_middle, turned_back
 from .end_states import EndStates
@@ -30,7 +30,7 @@ def _by_grade(trials):
 
 
 def _alt(case, variant, cluster):
-    return f"{case.label}, {variant}: how " + words.joined(t.integrator for t in cluster.trials) + " ended"
+    return f"{case.label}, {variant}: how " + formatting.joined(t.integrator for t in cluster.trials) + " ended"
 
 
 def _damage(states, cluster):
@@ -38,12 +38,12 @@ def _damage(states, cluster):
     if states.is_a_point(cluster):
         return ", shrunk to a point"
     number = cluster.leader.inverted
-    return f", {words.plural(number, 'element')} flat or inverted" if number else ""
+    return f", {formatting.plural(number, 'element')} flat or inverted" if number else ""
 
 
 def _card(states, shown, case, variant, cluster):
     uri, width, height = picture(states.scene(shown), cluster.index)
-    count = words.plural(len(cluster.trials), "integrator")
+    count = formatting.plural(len(cluster.trials), "integrator")
     image = void("img", src=uri, width=width, height=height, loading="lazy", alt=_alt(case, variant, cluster))
     title = tag("p", tag("strong", count), _damage(states, cluster), class_="who")
     return tag("figure", image, tag("figcaption", title, _by_grade(cluster.trials)))
@@ -51,7 +51,9 @@ def _card(states, shown, case, variant, cluster):
 
 def _times(ratios):
     low, high = min(ratios), max(ratios)
-    span = words.exponent(low) if high < 1.05 * low else f"{words.exponent(low)} to {words.exponent(high)}"
+    span = formatting.exponent(low)
+    if high >= 1.05 * low:
+        span += f" to {formatting.exponent(high)}"
     return f"{span} times as large as those that did well"
 
 
@@ -60,7 +62,7 @@ def _in_words(states, variant, more):
     exploded, absent = states.exploded[variant], states.absent[variant]
     if more:
         yield tag("p", tag("strong", f"{len(more)} more end state{'s' if len(more) > 1 else ''}: "),
-                  "; ".join(words.joined(t.integrator for t in c.trials) for c in more) + ".", class_="rest")
+                  "; ".join(formatting.joined(t.integrator for t in c.trials) for c in more) + ".", class_="rest")
     if exploded:
         yield tag("p", tag("strong", "Exploded"), f", {_times([r for _, r in exploded])}: ",
                   ", ".join(f"{t.integrator} ({t.grade})" for t, _ in exploded) + ".", class_="rest")
@@ -89,5 +91,5 @@ def _case(matrix, folder, case):
                class_="case")
 
 
-def album(matrix, folder):
+def gallery(matrix, folder):
     return joined([tag("p", READ, class_="scene"), *(_case(matrix, folder, case) for case in matrix.cases)])

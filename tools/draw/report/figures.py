@@ -6,9 +6,9 @@ import matplotlib
 from . import measures
 from .cost import draw_cost_breakdown
 from .drift import draw_energy_drift
+from .layout import NARROW, WIDE
 from .markup import Html, tag
 from .scale import positive
-from .sheet import NARROW, WIDE
 from .svg import Styles, page_svg
 from .tolerance import draw_error_against_control
 from .work_precision import draw_work_precision
@@ -22,14 +22,14 @@ def both_widths(draw, styles, salt):
     """`draw(width)` as a wide and a narrow SVG, of which the page shows one; None where nothing is drawn."""
     parts = []
     for name, width in (("wide", WIDE), ("narrow", NARROW)):
-        sheet = draw(width)
-        if sheet is None:
+        layout = draw(width)
+        if layout is None:
             return None
-        parts.append(tag("div", Html(page_svg(sheet, salt + name[0], styles)), class_=name))
+        parts.append(tag("div", Html(page_svg(layout, salt + name[0], styles)), class_=name))
     return Html("".join(parts))
 
 
-class Gallery:
+class Figures:
     """Figures of one comparison; every SVG gets ids of its own."""
 
     def __init__(self, comparison):
@@ -90,7 +90,7 @@ class Gallery:
         return group
 
 
-def _paper_sheets(comparison, problem):
+def _paper_figures(comparison, problem):
     """(name, function that draws it)."""
     measure = measures.primary(comparison)
     return (("work_precision", lambda: draw_work_precision(comparison, problem, measure, "wall", WIDE)),
@@ -117,13 +117,13 @@ def write_paper_figures(comparison, folder):
     folder.mkdir(parents=True, exist_ok=True)
     names = _unique_names(comparison.problems)
     for problem in comparison.problems:
-        for figure, draw in _paper_sheets(comparison, problem):
-            sheet = draw()
-            if sheet is None:
+        for figure, draw in _paper_figures(comparison, problem):
+            layout = draw()
+            if layout is None:
                 continue
             svg, png = (folder / f"{figure}_{names[problem.id]}.{kind}" for kind in ("svg", "png"))
             with matplotlib.rc_context({"svg.fonttype": "path", "svg.hashsalt": svg.stem}):
-                sheet.figure.savefig(svg, metadata={"Date": None}, **PAPER)
-            sheet.figure.savefig(png, dpi=PAPER_DPI, **PAPER)
+                layout.figure.savefig(svg, metadata={"Date": None}, **PAPER)
+            layout.figure.savefig(png, dpi=PAPER_DPI, **PAPER)
             yield svg
             yield png

@@ -1,0 +1,104 @@
+// Vega: sets, materials and regions; .bou for the node set "fixed".
+#include <algorithm>
+#include <map>
+#include <span>
+#include <utility>
+
+#include "lib/mesh/io/text_lines.h"
+#include "lib/mesh/io/vega.h"
+
+namespace orthodyn {
+namespace {
+
+// Blanks and commas have another meaning there.
+std::string vega_name(std::string name) {
+  const auto has_meaning = [](char c) { return (c >= '\0' && c <= ' ') || c == ',' || c == '#' || c == '*'; };
+  std::replace_if(name.begin(), name.end(), has_meaning, '_');
+  return name;
+}
+
+std::string material_line(const MeshMaterial& m) {
+  TextLines lines(", ");
+  if (m.kind == MeshMaterial::Kind::isotropic) {
+    lines.line("ENU", m.density, m.young[0], m.nu12);
+    return lines.take();
+  }
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> axes = m.axes;
+  lines.line("ORTHOTROPIC", m.density, m.young, m.nu12, m.nu23, m.nu31, m.g12, m.g23, m.g31,
+             std::span<const double>(axes.data(), 9));
+  return lines.take();
+}
+
+// Numbers from 1, ten on a line, each with a comma behind it.
+std::string number_list(const std::vector<int>& indices) {
+  std::string text;
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    text += std::to_string(indices[k] + 1) + ",";
+    if (k % 10 == 9 || k + 1 == indices.size()) text += "\n";
+  }
+  return text;
+}
+
+void add_nodes_and_tets(TextLines& lines, const TetMesh& mesh) {
+  lines.line("*VERTICES");
+  lines.line(mesh.nodes.size(), 3, 0, 0);
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) lines.line(n + 1, mesh.nodes[n]);
+  lines.text("\n*ELEMENTS\nTET\n");
+  lines.line(mesh.tets.size(), 4, 0);
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e) lines.line(e + 1, FromOne{mesh.tets[e]});
+}
+
+std::vector<int> elements_in(const TetMesh& mesh, int region) {
+  std::vector<int> elements;
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
+    if (mesh.region_of[e] == region) elements.push_back(static_cast<int>(e));
+  }
+  return elements;
+}
+
+// The sets of all regions, then the materials, then which set has which.
+void add_regions(TextLines& lines, const LoadedMesh& loaded, Warnings& losses) {
+  using NameAndLine = std::pair<std::string, std::string>;
+  std::map<NameAndLine, std::string> materials;  // and the name in the file
+  std::map<std::string, std::string> material_of;
+  TakenNames set_names, material_names;
+  for (std::size_t r = 0; r < loaded.mesh.region_names.size(); ++r) {
+    const std::string& region = loaded.mesh.region_names[r];
+    const std::string name = unique_name(set_names, region, vega_name(region), losses);
+    if (name != "allElements") {
+      lines.text("\n*SET " + name + "\n");
+      lines.text(number_list(elements_in(loaded.mesh, static_cast<int>(r))));
+    }
+    const auto m = loaded.materials.find(region);
+    if (m == loaded.materials.end()) continue;
+    const NameAndLine material{m->second.name, material_line(m->second)};
+    if (!materials.contains(material)) {
+      materials[material] = unique_name(material_names, material.first, vega_name(material.first), losses);
+    }
+    material_of[name] = materials[material];
+  }
+  for (const auto& [material, name] : materials) lines.text("\n*MATERIAL " + name + "\n" + material.second);
+  for (const auto& [region, material] : material_of) lines.text("\n*REGION\n" + region + ", " + material + "\n");
+}
+
+}  // namespace
+
+WrittenMesh write_vega(const LoadedMesh& loaded) {
+  WrittenMesh written;
+  TextLines lines;
+  add_nodes_and_tets(lines, loaded.mesh);
+  add_regions(lines, loaded, written.losses);
+  written.files.push_back({".veg", lines.take()});
+  std::vector<std::string> lost;
+  for (const auto& [name, nodes] : loaded.mesh.node_sets) {
+    if (name == "fixed" && !nodes.empty()) {
+      written.files.push_back({".bou", number_list(nodes)});
+    } else {
+      lost.push_back(name);
+    }
+  }
+  note_loss(written.losses, "node sets other than \"fixed\"", lost);
+  return written;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,44 @@
+// An unstructured grid with fields as the text of a VTK XML file (.vtu): converted meshes, frames of a run, axes,
+// mode shapes.
+//
+// Format: Kitware, VTK file formats, "XML file formats".
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lib/core/types.h"
+
+namespace orthodyn {
+
+enum class VtuNumber { uint8, int32, float32, float64 };
+
+// Values of all points or all cells, in the file as numbers of this type: values[components * k + component].
+struct VtuArray {
+  std::string name;
+  int components = 1;
+  VtuNumber type = VtuNumber::float64;
+  std::vector<double> values = {};
+};
+
+// All cells have one shape.
+struct VtuGrid {
+  std::span<const Vec3> points;  // m
+  int cell_type;                 // vtkCellType.h
+  std::size_t points_per_cell;
+  std::vector<int> connectivity;  // indices of points, cell after cell
+  std::vector<VtuArray> point_data = {}, cell_data = {};
+  std::vector<std::string> region_names = {};  // field data "region_names", by number; none if empty
+};
+
+enum class VtuStorage {
+  ascii,  // exact to the last digit and readable by every version
+  raw,    // appended bytes in the order of this machine
+};
+
+// The file as parts that follow each other, for write_file().
+std::vector<std::string> vtu_text(const VtuGrid& grid, VtuStorage storage);
+
+}  // namespace orthodyn

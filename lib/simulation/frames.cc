@@ -1,0 +1,113 @@
+#include "lib/simulation/frames.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <system_error>
+#include <utility>
+
+#include "lib/core/errors.h"
+#include "lib/core/write_file.h"
+#include "lib/mesh/io/vtk_grid.h"
+#include "lib/mesh/io/vtu_text.h"
+
+namespace orthodyn {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+VtuGrid grid_of(const Geometry& geometry, std::vector<VtuField> fields, VtuNumber type) {
+  VtuGrid grid{.points = geometry.points, .cell_type = kVtkTetra, .points_per_cell = 4, .connectivity = {}};
+  grid.connectivity.reserve(4 * geometry.cells.size());
+  for (const auto& cell : geometry.cells) grid.connectivity.insert(grid.connectivity.end(), cell.begin(), cell.end());
+  for (VtuField& field : fields) {
+    auto& data = field.location == Location::node ? grid.point_data : grid.cell_data;
+    data.push_back({std::move(field.name), field.components, type, std::move(field.values)});
+  }
+  return grid;
+}
+
+}  // namespace
+
+void write_vtu(const std::filesystem::path& path, const Geometry& geometry, std::vector<VtuField> fields) {
+  write_file(path, vtu_text(grid_of(geometry, std::move(fields), VtuNumber::float64), VtuStorage::raw));
+}
+
+FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields)
+    : folder_(std::move(folder)), model_(model),
+      collection_(folder_ / "frames.pvd",
+                  "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n",
+                  "</Collection>\n</VTKFile>\n") {
+  for (const auto& info : model.outputs())
+    if (std::find(fields.begin(), fields.end(), info.name) != fields.end()) fields_.push_back(info);
+}
+
+void FrameWriter::write(const State& state) {
+  std::vector<VtuField> fields;
+  for (const auto& info : fields_)
+    fields.push_back({info.name, info.location, info.components, model_.evaluate(info.name, state)});
+  const fs::path path = frame(frames_);
+  const Geometry geometry = model_.geometry();
+  write_file(path, vtu_text(grid_of(geometry, std::move(fields), VtuNumber::float32), VtuStorage::raw));
+  try {
+    collection_.append(fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"frames/{}\"/>\n", state.t,
+                                   path.filename().string()));
+  } catch (const RunError&) {  // no frame without its time
+    std::error_code ignored;
+    fs::remove(path, ignored);
+    throw;
+  }
+  ++frames_;
+}
+
+fs::path FrameWriter::frame(std::size_t k) const { return folder_ / "frames" / fmt::format("frame_{:05}.vtu", k); }
+
+void FrameWriter::on_start(const State& state) {
+  collection_.begin();
+  write(state);
+}
+
+void FrameWriter::save(Archive& archive) {
+  const bool any_new = lasting_ < frames_;
+  for (; lasting_ < frames_; ++lasting_) make_lasting(frame(lasting_));
+  if (any_new) make_lasting(folder_ / "frames");  // their names
+  collection_.make_lasting();
+  archive.put_count("frames", frames_);
+  archive.put_count("bytes", collection_.size());
+}
+
+void FrameWriter::restore(const Archive& archive) {
+  frames_ = lasting_ = archive.count("frames");
+  kept_ = archive.count("bytes");
+  collection_.require(kept_);
+  for (std::size_t k = 0; k < frames_; ++k)
+    if (std::error_code ec; !fs::exists(frame(k), ec))
+      throw ConfigError(fmt::format("{}: is missing, but the checkpoint knows of {} frames; put it back, or start anew "
+                                    "with --force in place of --resume",
+                                    frame(k).string(), frames_));
+}
+
+void FrameWriter::on_resume(const State&) {
+  collection_.go_on(kept_);
+  remove_frames_from(frames_);
+}
+
+// They are computed again. What was being written when the run was killed is removed too.
+void FrameWriter::remove_frames_from(std::size_t count) const {
+  std::error_code ec;
+  std::vector<fs::path> surplus;
+  for (const auto& entry : fs::directory_iterator(folder_ / "frames", ec)) {
+    const std::string name = entry.path().filename().string();
+    unsigned long k = 0;
+    if (std::sscanf(name.c_str(), "frame_%lu.vtu", &k) != 1) continue;
+    const std::string whole = frame(k).filename().string();
+    if ((name == whole && k >= count) || name == whole + ".part") surplus.push_back(entry.path());
+  }
+  for (const auto& path : surplus)
+    if (!fs::remove(path, ec) && ec)
+      throw RunError(fmt::format("cannot remove {}: {}", path.string(), ec.message()));
+}
+
+}  // namespace orthodyn

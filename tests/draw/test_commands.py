@@ -1,0 +1,126 @@
+"""tools/draw: each command writes its pictures; what is at fault is one line.
+
+Run with  /usr/bin/python3 -m unittest tests/draw/test_commands.py  (Debian's numpy, matplotlib, PIL).
+"""
+import subprocess
+import sys
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path[:0] = [str(Path(__file__).resolve().parent)]
+
+import numpy as np  # noqa: E402
+from PIL import Image  # noqa: E402
+
+from folder_test import InAFolder, TOOLS  # noqa: E402
+from tiny_result import POINTS, Vtu, fields_at, write_curves, write_result  # noqa: E402
+
+from draw import animation  # noqa: E402
+from draw.scene import PictureSpec, Scene  # noqa: E402
+from draw.series import Series  # noqa: E402
+
+
+class Commands(InAFolder):
+    def setUp(self):
+        super().setUp()
+        self.result = write_result(self.folder / "r", [0.0, 0.25, 0.5, 0.75, 1.0])
+        write_curves(self.result)
+
+    def picture(self, *arguments):
+        code, out, err = self.run_draw(*arguments)
+        self.assertEqual((code, err), (0, []))
+        with Image.open(out[-1]) as image:
+            pixels = np.asarray(image.convert("RGB"))
+        self.assertGreater(len(np.unique(pixels.reshape(-1, 3), axis=0)), 20)
+        return Path(out[-1]), pixels.shape[1::-1]
+
+    def test_a_frame_has_the_size_asked_for(self):
+        path, size = self.picture("frame", self.result, "--time", 0.6, "--size", "800x600", "--grain", "--ghost")
+        self.assertEqual(size, (800, 600))
+        self.assertEqual(path, self.result / "pictures" / "frame_00002.png")
+
+    def test_every_quantity_can_be_drawn_from_every_side(self):
+        for k, color in enumerate(("displacement.x", "velocity", "region", "det_f", "stress.zz", "material_axis_1")):
+            with self.subTest(color=color):
+                view = f"{60 * k - 180},{30 * k - 90}"
+                out = self.folder / "one.png"
+                self.picture("frame", self.result, "--color", color, "--view", view, "--out", out, "--scale", 2)
+
+    def test_a_strip_is_ten_inches_wide(self):
+        self.assertEqual(self.picture("strip", self.result, "--times", "0,0.5,1")[1][0], 2000)
+
+    def test_an_animation_has_every_kth_frame(self):
+        for every, count in ((1, 5), (2, 3)):
+            path, _ = self.picture("animate", self.result, "--every", every, "--out", self.folder / f"{every}.gif")
+            with Image.open(path) as image:
+                self.assertEqual((image.n_frames, image.format), (count, "GIF"))
+                image.seek(count - 1)
+                self.assertEqual(image.convert("RGB").getpixel((2, 2)), (255, 255, 255))
+
+    def test_an_animation_shrinks_until_it_fits(self):
+        scene = Scene(Series(self.result), range(5), PictureSpec())
+        full = animation.draw_animation(scene, range(5), self.folder / "a.gif")
+        limit = 0.5e-6 * full.stat().st_size
+        small = animation.draw_animation(scene, range(5), self.folder / "b.gif", most_megabytes=limit)
+        self.assertLessEqual(small.stat().st_size, 1e6 * limit)
+        with Image.open(small) as shrunk, Image.open(full) as large:
+            self.assertLess(shrunk.size, large.size)
+            self.assertEqual(shrunk.n_frames, 5)
+
+    def test_curves_are_eight_inches_wide(self):
+        for kind in ("energy", "steps", "probes", "momentum"):
+            with self.subTest(kind=kind):
+                self.assertEqual(self.picture(kind, self.result)[1][0], 1600)
+
+    def test_all_writes_what_the_folder_has_and_names_it(self):
+        (self.result / "momentum.csv").unlink()
+        code, out, err = self.run_draw("all", self.result)
+        self.assertEqual((code, err), (0, []))
+        self.assertEqual([Path(p).name for p in out],
+                         ["strip.png", "animation.gif", "energy.png", "steps.png", "probes.png"])
+        self.assertTrue(all(Path(p).stat().st_size > 1000 for p in out))
+
+
+class Failures(InAFolder):
+    def setUp(self):
+        super().setUp()
+        self.result = write_result(self.folder / "r", [0.0, 1.0])
+
+    def test_a_missing_folder_or_file_is_named(self):
+        self.fails_with("nowhere: no such result folder", "frame", self.folder / "nowhere")
+        self.fails_with("energy.csv: missing", "energy", self.result)
+        self.fails_with("neither frames.pvd nor any of energy.csv", "all", self.folder)
+        self.fails_with("frames.pvd: missing", "strip", self.folder)
+        (self.result / "frames/frame_00001.vtu").unlink()
+        self.fails_with("frame_00001.vtu: No such file", "frame", self.result)
+
+    def test_a_damaged_frame_is_named(self):
+        path = self.result / "frames/frame_00001.vtu"
+        path.write_bytes(path.read_bytes()[:-100])
+        self.fails_with("frame_00001.vtu: .*cut off", "animate", self.result)
+
+    def test_an_unknown_field_or_frame_or_command_says_what_there_is(self):
+        self.fails_with("no field 'displacment'; did you mean 'displacement'",
+                        "frame", self.result, "--color", "displacment")
+        self.fails_with(r"no frame 7; there are 2 frames \(0 to 1\)", "frame", self.result, "--index", 7)
+        self.fails_with("invalid choice: 'fram'", "fram", self.result)
+        self.fails_with("'1;2' should be 2 numbers", "frame", self.result, "--view", "1;2")
+
+    def test_grain_without_material_axes_is_refused(self):
+        (self.result / "frames/frame_00001.vtu").write_bytes(Vtu().content({"displacement": POINTS}, {}))
+        self.fails_with("no field 'material_axis_1'.*present: displacement", "frame", self.result, "--grain")
+
+    def test_a_run_that_diverged_is_no_traceback(self):
+        node, cell = fields_at(0)
+        node["displacement"] = np.full((5, 3), np.nan)
+        (self.result / "frames/frame_00001.vtu").write_bytes(Vtu().content(node, cell))
+        self.fails_with("has diverged", "frame", self.result)
+
+    def test_the_program_itself_exits_with_two_and_helps_with_examples(self):
+        program = str(TOOLS / "draw" / "draw")
+        failed = subprocess.run([program, "frame", "nowhere"], capture_output=True, text=True)
+        self.assertEqual((failed.returncode, failed.stdout), (2, ""))
+        self.assertRegex(failed.stderr, r"\Adraw: nowhere: .*\n\Z")
+        helped = subprocess.run([program, "--help"], capture_output=True, text=True)
+        self.assertEqual(helped.returncode, 0)
+        self.assertIn("draw strip out/beam", helped.stdout)

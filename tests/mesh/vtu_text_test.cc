@@ -1,0 +1,58 @@
+#include "lib/mesh/io/vtu_text.h"
+
+#include <gtest/gtest.h>
+
+#include "lib/mesh/io/vtk_grid.h"
+#include "lib/mesh/io/vtu.h"
+#include "tests/mesh/refusal.h"
+
+namespace orthodyn {
+namespace {
+
+const std::vector<Vec3> kPoints{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1.0 / 3}};
+
+VtuGrid two_tets() {
+  VtuGrid grid{
+      .points = kPoints, .cell_type = kVtkTetra, .points_per_cell = 4, .connectivity = {0, 1, 2, 3, 1, 2, 3, 4}};
+  grid.point_data = {{.name = "nodes:tip", .type = VtuNumber::uint8, .values = {0, 0, 0, 0, 1}}};
+  grid.cell_data = {{.name = "region", .type = VtuNumber::int32, .values = {1, 0}},
+                    {.name = "axis", .components = 3, .values = {0.1, 0, 0, 0, 1.0 / 3, 0}},
+                    {.name = "rounded", .type = VtuNumber::float32, .values = {0.1, 2}}};
+  grid.region_names = {"soft <wood>", "\"hard\""};
+  return grid;
+}
+
+std::string whole(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += part;
+  return text;
+}
+
+class AnyStorage : public testing::TestWithParam<VtuStorage> {};
+
+TEST_P(AnyStorage, KeepsTheGridAndItsFields) {
+  const LoadedMesh read = read_vtu_text("grid.vtu", whole(vtu_text(two_tets(), GetParam())));
+  EXPECT_EQ(read.mesh.nodes, kPoints);
+  EXPECT_EQ(read.mesh.tets, (std::vector<Tet>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
+  EXPECT_EQ(read.mesh.region_names.at(static_cast<std::size_t>(read.mesh.region_of.at(0))), "\"hard\"");
+  EXPECT_EQ(read.mesh.region_names.at(static_cast<std::size_t>(read.mesh.region_of.at(1))), "soft <wood>");
+  EXPECT_EQ(read.mesh.node_sets.at("tip"), std::vector<int>{4});
+  ASSERT_TRUE(find_cell_data(read, "axis") && find_cell_data(read, "rounded"));
+  EXPECT_EQ(find_cell_data(read, "axis")->values, (std::vector<double>{0.1, 0, 0, 0, 1.0 / 3, 0}));
+  EXPECT_EQ(find_cell_data(read, "rounded")->values.at(1), 2);
+  const bool exact = GetParam() == VtuStorage::ascii;  // where no number is rounded to the type of its array
+  EXPECT_EQ(find_cell_data(read, "rounded")->values.at(0), exact ? 0.1 : 0.1f);
+}
+
+// Only the reader of meshes asks for tetrahedra.
+TEST_P(AnyStorage, WritesCellsOfAnyShape) {
+  const VtuGrid grid{.points = kPoints, .cell_type = 14, .points_per_cell = 5, .connectivity = {0, 1, 4, 2, 3}};
+  EXPECT_CONTAINS(refusal_of([&] { read_vtu_text("grid.vtu", whole(vtu_text(grid, GetParam()))); }),
+                  "cell 0: a pyramid (type 14)");
+}
+
+INSTANTIATE_TEST_SUITE_P(Storages, AnyStorage, testing::Values(VtuStorage::ascii, VtuStorage::raw),
+                         [](const auto& test) { return test.param == VtuStorage::ascii ? "ascii" : "raw"; });
+
+}  // namespace
+}  // namespace orthodyn
