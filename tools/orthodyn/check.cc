@@ -8,7 +8,8 @@
 #include "lib/analysis/strain_limits.h"
 #include "lib/scene/equilibrium.h"
 #include "tools/orthodyn/axes.h"
-#include "tools/orthodyn/commands.h"
+#include "tools/orthodyn/command.h"
+#include "tools/orthodyn/scene_options.h"
 #include "tools/orthodyn/setup.h"
 
 namespace orthodyn {
@@ -16,6 +17,11 @@ namespace orthodyn {
 namespace fs = std::filesystem;
 
 namespace {
+
+struct CheckArguments : SceneArguments {
+  bool axes = false;  // write the material axes
+  std::optional<std::string> out;
+};
 
 double mebibytes(std::size_t bytes) { return static_cast<double>(bytes) / (1024 * 1024); }
 
@@ -93,9 +99,7 @@ void print_supports(const FemModel& model) {
   if (moved > 0) fmt::print("motions\n  {} of {} coordinates are moved\n", moved, coordinates);
 }
 
-}  // namespace
-
-int check_command(const RunArguments& arguments) {
+int check(const CheckArguments& arguments) {
   Setup setup = set_up(arguments);
   const FemModel& model = *setup.built.model;
   const auto& parts = model.parts();
@@ -120,5 +124,21 @@ int check_command(const RunArguments& arguments) {
     write_axes(setup, arguments.out ? fs::path(*arguments.out) : fs::path("out") / "axes" / fs::path(arguments.scene).stem());
   return 0;
 }
+
+void declare(CheckArguments& arguments, CommandOptions& options) {
+  declare_scene(arguments, options);
+  options.flag("--axes", arguments.axes, "Also write the material axes: axes.vtu and a picture, axes.png.");
+  options.value("--out", arguments.out, "Folder for the axes; default out/axes/<scene>.").type("DIR").needs("--axes");
+}
+
+const CommandRegistration kRegistration({.order = 20,
+                                         .name = "check",
+                                         .sentence = "Read, validate and build a scene, and say what it consists of.",
+                                         .examples = R"(
+  orthodyn check configs/scenes/laminate.yaml
+  orthodyn check configs/scenes/laminate.yaml --axes)"},
+                                        declare, check);
+
+}  // namespace
 
 }  // namespace orthodyn

@@ -1,16 +1,17 @@
 // `orthodyn modes`: natural frequencies and shapes of a scene's body about rest or equilibrium, without damping.
+#include "lib/analysis/modes.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <optional>
 
-#include "lib/core/errors.h"
-#include "lib/analysis/modes.h"
-#include "lib/simulation/vtu.h"
-#include "lib/scene/equilibrium.h"
 #include "lib/analysis/rigid_freedom.h"
-#include "tools/orthodyn/commands.h"
+#include "lib/core/errors.h"
+#include "lib/scene/equilibrium.h"
+#include "lib/simulation/vtu.h"
+#include "tools/orthodyn/command.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/setup.h"
 
@@ -19,6 +20,14 @@ namespace orthodyn {
 namespace fs = std::filesystem;
 
 namespace {
+
+struct ModesArguments {
+  std::string scene;
+  std::vector<std::string> set;
+  std::optional<std::string> out;
+  int count = 20;
+  bool equilibrium = false, quiet = false, force = false;
+};
 
 // What the modes are those of: the body with its supports standing still.
 struct Resting {
@@ -131,9 +140,7 @@ void print_table(const FemModel& model, const Modes& modes, int rigid, bool equi
     fmt::print("negative frequencies: the state is unstable, motion grows at that rate (rad/s: angular_frequency)\n");
 }
 
-}  // namespace
-
-int modes_command(const ModesArguments& arguments) {
+int compute_modes(const ModesArguments& arguments) {
   const fs::path folder =
       arguments.out ? fs::path(*arguments.out) : fs::path("out") / "modes" / fs::path(arguments.scene).stem();
   check_folder(folder, arguments.force);
@@ -155,5 +162,28 @@ int modes_command(const ModesArguments& arguments) {
                   rigid == modes.zeros ? "are rigid" : "are at 0 Hz");
   return 0;
 }
+
+void declare(ModesArguments& arguments, CommandOptions& options) {
+  options.value("scene", arguments.scene, "A scene in YAML.").required().type("SCENE.yaml");
+  options.value("-n,--count", arguments.count, "How many, the lowest first, rigid ones included.")
+      .range(1, 1000000)
+      .show_default();
+  options.flag("--equilibrium", arguments.equilibrium,
+               "About the static equilibrium under the scene's loads, not about rest.");
+  options.value("--out", arguments.out, "Folder for the results; default out/modes/<scene>.").type("DIR");
+  options.flag("--force", arguments.force, "Replace earlier modes in the folder.");
+  options.flag("--quiet", arguments.quiet, "No table and no picture.");
+  options.repeated("--set", arguments.set, "Change a value by its path.").type("PATH=VALUE");
+}
+
+const CommandRegistration kRegistration(
+    {.order = 30,
+     .name = "modes",
+     .sentence = "Natural frequencies and shapes of a scene's body, without damping.",
+     .examples = R"(
+  orthodyn modes configs/scenes/tuning_fork.yaml -n 8)"},
+    declare, compute_modes);
+
+}  // namespace
 
 }  // namespace orthodyn

@@ -6,6 +6,7 @@
 
 #include "lib/config/values.h"
 #include "lib/core/versions.h"
+#include "tools/orthodyn/command.h"
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/report.h"
 #include "tools/orthodyn/result_folder.h"
@@ -191,8 +192,31 @@ class Run {
   std::optional<ErrorEstimator> estimator_;
 };
 
-}  // namespace
+void declare(RunArguments& arguments, CommandOptions& options) {
+  declare_scene(arguments, options);
+  options.value("--out", arguments.out, "Folder for the results; default out/<scene>.").type("DIR");
+  options.flag("--quiet", arguments.quiet, "No progress and no summary.");
+  options.flag("--force", arguments.force, "Replace an earlier result in the folder.");
+  options
+      .flag("--resume", arguments.resume,
+            "Go on from the checkpoint in the folder, or begin if there is no result yet. SCENE may be the folder.")
+      .excludes("--force");
+  options
+      .flag("--estimate-error", arguments.estimate_error,
+            "Then repeat the run at rtol / 10 (or half the fixed step) and print the difference.")
+      .excludes("--resume");
+}
 
-int run_command(const RunArguments& arguments) { return Run(arguments).execute(); }
+int run_scene(const RunArguments& arguments) { return Run(arguments).execute(); }
+
+const CommandRegistration kRegistration({.order = 10,
+                                         .name = "run",
+                                         .sentence = "Run a scene: frames for ParaView, energies, steps, a summary.",
+                                         .examples = R"(
+  orthodyn run configs/scenes/cantilever.yaml --set integrator.rtol=1e-5 --out out/fine
+  orthodyn run configs/scenes/laminate.yaml --set checkpoint={} --resume)"},
+                                        declare, run_scene);
+
+}  // namespace
 
 }  // namespace orthodyn

@@ -21,7 +21,7 @@ Setup set_up_and_warn(Config config) {
   return setup;
 }
 
-Setup set_up(const RunArguments& arguments) {
+Setup set_up(const SceneArguments& arguments) {
   return set_up_and_warn(read_config(arguments.scene, arguments.integrator, arguments.set));
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lib/scene/setup.h"
-#include "tools/orthodyn/commands.h"
+#include "tools/orthodyn/scene_options.h"
 
 namespace orthodyn {
 
@@ -12,6 +12,6 @@ Config read_config(const std::string& file, const std::optional<std::string>& in
 
 // Validates and builds; prints warnings to stderr. Both throw ConfigError.
 Setup set_up_and_warn(Config config);
-Setup set_up(const RunArguments& arguments);
+Setup set_up(const SceneArguments& arguments);
 
 }  // namespace orthodyn

@@ -1,8 +1,8 @@
 // `orthodyn run` of a static scene.
 #pragma once
 
-#include "tools/orthodyn/commands.h"
 #include "tools/orthodyn/result_folder.h"
+#include "tools/orthodyn/run_arguments.h"
 #include "tools/orthodyn/setup.h"
 
 namespace orthodyn {
