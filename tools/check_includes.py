@@ -40,7 +40,7 @@ LIBRARIES = {
     r"Spectra/": ["lib/linear/eigenmodes.cc"],
     r"boost/": ["lib/simulation/event_finder.cc"],
     r"CLI/": ["tools/"],
-    r"nlohmann/": ["lib/simulation/checkpoint.cc", "lib/study/", "tools/", "tests/"],
+    r"nlohmann/": ["lib/simulation/checkpoint.cc", "lib/simulation/json.h", "lib/study/", "tools/", "tests/"],
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 VERSION_SWITCH = re.compile(r"^\s*#\s*(?:el)?if.*SUNDIALS_VERSION")

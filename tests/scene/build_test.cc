@@ -1,7 +1,7 @@
 #include <filesystem>
 
 #include "lib/scene/scales.h"
-#include "lib/scene/setup.h"
+#include "lib/simulation/setup.h"
 #include "tests/scene/scenes.h"
 
 namespace orthodyn {

@@ -5,7 +5,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/scene/scales.h"
-#include "lib/scene/setup.h"
+#include "lib/simulation/setup.h"
 #include "tests/scene/scenes.h"
 
 namespace orthodyn {

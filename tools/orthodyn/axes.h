@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "lib/scene/setup.h"
+#include "lib/simulation/setup.h"
 
 namespace orthodyn {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "lib/analysis/strain_limits.h"
-#include "lib/scene/equilibrium.h"
+#include "lib/simulation/equilibrium.h"
 #include "tools/orthodyn/axes.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/scene_options.h"

@@ -9,7 +9,7 @@
 #include "lib/core/words.h"
 #include "lib/simulation/files.h"
 #include "tools/orthodyn/command.h"
-#include "tools/orthodyn/places.h"
+#include "tools/orthodyn/installed_paths.h"
 
 namespace orthodyn {
 

@@ -9,7 +9,7 @@
 
 #include "lib/analysis/rigid_freedom.h"
 #include "lib/core/errors.h"
-#include "lib/scene/equilibrium.h"
+#include "lib/simulation/equilibrium.h"
 #include "lib/simulation/vtu.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/draw.h"

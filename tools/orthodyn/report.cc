@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "lib/study/jobs/machine.h"
+#include "lib/simulation/machine.h"
 
 namespace orthodyn {
 

@@ -8,7 +8,7 @@
 #include "lib/simulation/checkpoint.h"
 #include "lib/simulation/curves.h"
 #include "lib/simulation/run.h"
-#include "lib/study/errors/error_estimate.h"
+#include "lib/simulation/errors/error_estimate.h"
 #include "lib/study/compare/point_result.h"
 #include "tools/orthodyn/run_arguments.h"
 #include "tools/orthodyn/setup.h"

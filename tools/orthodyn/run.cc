@@ -9,10 +9,10 @@
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/report.h"
-#include "tools/orthodyn/result_folder.h"
-#include "tools/orthodyn/resume.h"
-#include "tools/orthodyn/run_observers.h"
-#include "tools/orthodyn/scene_changes.h"
+#include "lib/simulation/result_folder.h"
+#include "lib/simulation/resume.h"
+#include "lib/simulation/run_observers.h"
+#include "lib/simulation/scene_changes.h"
 #include "tools/orthodyn/static_run.h"
 
 namespace orthodyn {

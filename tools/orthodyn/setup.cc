@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "lib/study/jobs/input_kind.h"
+#include "lib/simulation/input_kind.h"
 
 namespace orthodyn {
 

@@ -1,7 +1,7 @@
 // From the command line's arguments to a model and its integrator.
 #pragma once
 
-#include "lib/scene/setup.h"
+#include "lib/simulation/setup.h"
 #include "tools/orthodyn/scene_options.h"
 
 namespace orthodyn {

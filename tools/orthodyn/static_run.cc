@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "lib/simulation/statics.h"
+#include "lib/simulation/load_steps.h"
 #include "lib/simulation/vtu.h"
-#include "lib/scene/equilibrium.h"
-#include "lib/study/jobs/machine.h"
+#include "lib/simulation/equilibrium.h"
+#include "lib/simulation/machine.h"
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/report.h"
-#include "tools/orthodyn/run_observers.h"
+#include "lib/simulation/run_observers.h"
 
 namespace orthodyn {
 

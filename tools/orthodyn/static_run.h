@@ -1,7 +1,7 @@
 // `orthodyn run` of a static scene.
 #pragma once
 
-#include "tools/orthodyn/result_folder.h"
+#include "lib/simulation/result_folder.h"
 #include "tools/orthodyn/run_arguments.h"
 #include "tools/orthodyn/setup.h"
 

@@ -1,13 +1,13 @@
-#include "tools/orthodyn/resume.h"
+#include "lib/simulation/resume.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <filesystem>
 
-#include "lib/study/jobs/fingerprint.h"
-#include "lib/study/jobs/machine.h"
-#include "tools/orthodyn/scene_changes.h"
+#include "lib/simulation/fingerprints.h"
+#include "lib/simulation/machine.h"
+#include "lib/simulation/scene_changes.h"
 
 namespace orthodyn {
 

@@ -1,4 +1,4 @@
-#include "lib/study/jobs/fingerprint.h"
+#include "lib/simulation/fingerprints.h"
 
 #include <dlfcn.h>
 
@@ -8,7 +8,7 @@
 
 #include "lib/core/versions.h"
 #include "lib/linear/blas.h"
-#include "lib/study/jobs/machine.h"
+#include "lib/simulation/machine.h"
 
 namespace orthodyn {
 

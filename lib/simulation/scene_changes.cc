@@ -1,4 +1,4 @@
-#include "tools/orthodyn/scene_changes.h"
+#include "lib/simulation/scene_changes.h"
 
 #include <algorithm>
 #include <optional>

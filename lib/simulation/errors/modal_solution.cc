@@ -1,4 +1,4 @@
-#include "lib/study/errors/modal_solution.h"
+#include "lib/simulation/errors/modal_solution.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "lib/study/errors/error_estimate.h"
+#include "lib/simulation/errors/error_estimate.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "lib/config/values.h"
-#include "lib/scene/setup.h"
+#include "lib/simulation/setup.h"
 
 namespace orthodyn {
 

@@ -1,4 +1,4 @@
-#include "lib/study/errors/phase.h"
+#include "lib/simulation/errors/phase.h"
 
 #include <cmath>
 #include <complex>

@@ -1,7 +1,9 @@
 // Where something was measured, and with which versions, as JSON.
 #pragma once
 
-#include "lib/study/compare/point_result.h"
+#include <string>
+
+#include "lib/simulation/json.h"
 
 namespace orthodyn {
 

@@ -1,4 +1,4 @@
-#include "tools/orthodyn/folder_lock.h"
+#include "lib/simulation/folder_lock.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "tools/orthodyn/places.h"
+#include "tools/orthodyn/installed_paths.h"
 
 namespace orthodyn {
 

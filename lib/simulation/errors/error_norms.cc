@@ -1,4 +1,4 @@
-#include "lib/study/errors/error_norms.h"
+#include "lib/simulation/errors/error_norms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "lib/study/errors/phase.h"
+#include "lib/simulation/errors/phase.h"
 
 namespace orthodyn {
 

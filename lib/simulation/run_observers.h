@@ -10,7 +10,7 @@
 #include "lib/simulation/event_writer.h"
 #include "lib/simulation/progress.h"
 #include "lib/simulation/vtu.h"
-#include "lib/scene/setup.h"
+#include "lib/simulation/setup.h"
 
 namespace orthodyn {
 

@@ -1,4 +1,4 @@
-#include "lib/study/jobs/input_kind.h"
+#include "lib/simulation/input_kind.h"
 
 #include <fmt/format.h>
 

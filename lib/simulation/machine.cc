@@ -1,4 +1,4 @@
-#include "lib/study/jobs/machine.h"
+#include "lib/simulation/machine.h"
 
 #include <fmt/chrono.h>
 #include <unistd.h>

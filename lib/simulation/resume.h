@@ -3,8 +3,8 @@
 
 #include "lib/simulation/checkpoint.h"
 #include "lib/simulation/run.h"
-#include "lib/scene/setup.h"
-#include "tools/orthodyn/result_folder.h"
+#include "lib/simulation/setup.h"
+#include "lib/simulation/result_folder.h"
 
 namespace orthodyn {
 

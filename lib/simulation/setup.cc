@@ -1,4 +1,4 @@
-#include "lib/scene/setup.h"
+#include "lib/simulation/setup.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "lib/linear/blas.h"
-#include "lib/scene/equilibrium.h"
+#include "lib/simulation/equilibrium.h"
 #include "lib/scene/events.h"
 #include "lib/scene/initial_state.h"
 #include "lib/scene/quantity.h"

@@ -1,4 +1,4 @@
-#include "tools/orthodyn/run_observers.h"
+#include "lib/simulation/run_observers.h"
 
 #include <fmt/format.h>
 

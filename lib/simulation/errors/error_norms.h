@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lib/ode/model.h"
-#include "lib/study/errors/trajectory.h"
+#include "lib/simulation/errors/trajectory.h"
 
 namespace orthodyn {
 

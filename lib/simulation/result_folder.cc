@@ -1,11 +1,11 @@
-#include "tools/orthodyn/result_folder.h"
+#include "lib/simulation/result_folder.h"
 
 #include <fmt/format.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "lib/core/errors.h"
+#include "lib/simulation/json.h"
 
 namespace orthodyn {
 
@@ -78,7 +78,7 @@ fs::path ResultFolder::checkpoint() const { return path_ / kCheckpoint; }
 
 std::string ResultFolder::earlier_status() const {
   std::ifstream in(path_ / kMark);
-  const auto json = nlohmann::json::parse(in, nullptr, false);
+  const auto json = Json::parse(in, nullptr, false);
   const std::string status = json.is_object() && json.contains("status") && json["status"].is_string()
                                  ? json["status"].get<std::string>() : "running";
   return status == "running" ? "killed" : status;

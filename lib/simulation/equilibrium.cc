@@ -1,4 +1,4 @@
-#include "lib/scene/equilibrium.h"
+#include "lib/simulation/equilibrium.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "lib/study/errors/trajectory.h"
+#include "lib/simulation/errors/trajectory.h"
 
 #include <cstdint>
 #include <cstring>

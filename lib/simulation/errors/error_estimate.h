@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "lib/simulation/run.h"
-#include "lib/scene/setup.h"
-#include "lib/study/errors/error_norms.h"
-#include "lib/study/errors/trajectory.h"
+#include "lib/simulation/setup.h"
+#include "lib/simulation/errors/error_norms.h"
+#include "lib/simulation/errors/trajectory.h"
 
 namespace orthodyn {
 

@@ -1,4 +1,4 @@
-#include "lib/simulation/statics.h"
+#include "lib/simulation/load_steps.h"
 
 #include <algorithm>
 
