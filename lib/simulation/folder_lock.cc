@@ -21,8 +21,8 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& f
     throw RunError(fmt::format("{}: cannot write there: {}", folder.string(), ec ? ec.message() : std::strerror(errno)));
   if (flock(file_, (sharing == Sharing::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0) return;
   if (errno != EWOULDBLOCK) {
-    fmt::print(stderr, "warning: {}: cannot be locked ({}); start nothing else there meanwhile\n", folder.string(),
-               std::strerror(errno));
+    warning_ = fmt::format("{}: cannot be locked ({}); start nothing else there meanwhile", folder.string(),
+                           std::strerror(errno));
     return;
   }
   close(file_);

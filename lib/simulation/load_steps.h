@@ -1,5 +1,5 @@
-// Drives a static analysis: load steps from nothing to all loads, with observers that see each equilibrium as an
-// output at the "time" of its load factor.
+// Drives a static analysis: load steps from nothing to all loads. Observers see each equilibrium as an output, whose
+// "time" is its load factor.
 #pragma once
 
 #include <atomic>

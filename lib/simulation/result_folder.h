@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -16,7 +17,8 @@ class ResultFolder {
  public:
   // Throws ConfigError if the folder holds an earlier result that is to be kept, one that cannot be
   // resumed, or anything else, and if another run is at work there. Touches nothing yet.
-  ResultFolder(std::filesystem::path path, Earlier earlier);
+  // `warn` is told if the folder cannot be locked.
+  ResultFolder(std::filesystem::path path, Earlier earlier, std::function<void(const std::string&)> warn);
 
   // Makes the folder and removes an earlier result from it. Throws RunError, and ConfigError if another
   // run has been there since.
@@ -38,6 +40,7 @@ class ResultFolder {
 
   std::filesystem::path path_;
   Earlier earlier_;
+  std::function<void(const std::string&)> warn_;
   std::optional<FolderLock> lock_;  // none while there is no folder
   bool resumes_ = false, completed_ = false;
 };

@@ -14,7 +14,7 @@ std::vector<ProbeColumn> probe_columns(const Scene& scene, const FemModel& model
   return columns;
 }
 
-RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& folder, bool quiet)
+RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& folder)
     : inversion(*setup.built.model), finder_(setup.events) {
   const auto& model = *setup.built.model;
   const auto& scene = setup.scene;
@@ -25,7 +25,6 @@ RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& fold
   if (const auto columns = probe_columns(scene, model); !columns.empty())
     probes_.emplace(folder / "probes.csv", model, columns);
   if (!finder_.empty()) events_.emplace(folder / "events.csv", finder_);
-  if (!quiet) progress_.emplace(scene.time.start, scene.time.end, stderr);
 }
 
 NamedObservers RunObservers::kept() {
@@ -40,10 +39,10 @@ NamedObservers RunObservers::kept() {
   return out;
 }
 
-std::vector<Observer*> RunObservers::all(Checkpointer& checkpointer) {
+std::vector<Observer*> RunObservers::all(Observer* progress, Checkpointer& checkpointer) {
   std::vector<Observer*> out;
   for (const auto& [name, observer] : kept()) out.push_back(observer);
-  if (progress_) out.push_back(&*progress_);
+  if (progress) out.push_back(progress);
   out.push_back(&checkpointer);
   return out;
 }

@@ -1,16 +1,15 @@
-// Everything that looks on while a scene is run, as the scene asks.
+// The observers of a dynamic run that a scene asks for: frames, probes, energies, steps, events.
 #pragma once
 
 #include <filesystem>
 #include <optional>
 #include <vector>
 
-#include "lib/simulation/checkpointer.h"
+#include "lib/simulation/checkpoint/checkpointer.h"
 #include "lib/simulation/curves.h"
 #include "lib/simulation/event_writer.h"
-#include "lib/simulation/progress.h"
-#include "lib/simulation/vtu.h"
 #include "lib/simulation/setup.h"
+#include "lib/simulation/vtu.h"
 
 namespace orthodyn {
 
@@ -20,15 +19,15 @@ std::vector<ProbeColumn> probe_columns(const Scene& scene, const FemModel& model
 class RunObservers {
  public:
   // Touches no file. `setup` must outlive it.
-  RunObservers(const Setup& setup, const std::filesystem::path& folder, bool quiet);
+  RunObservers(const Setup& setup, const std::filesystem::path& folder);
 
-  // What the run is to look for; null if nothing.
+  // The events that the run is to find; null if there are none.
   EventFinder* events() { return finder_.empty() ? nullptr : &finder_; }
 
   // Those that a checkpoint keeps, by name.
   NamedObservers kept();
-  // In the order in which they look on.
-  std::vector<Observer*> all(Checkpointer& checkpointer);
+  // In the order in which they are called; `progress` may be null.
+  std::vector<Observer*> all(Observer* progress, Checkpointer& checkpointer);
 
   // Throws ConfigError, before anything is changed on the disk.
   void restore(const Checkpoint& checkpoint);
@@ -43,7 +42,6 @@ class RunObservers {
   std::optional<ProbeWriter> probes_;
   EventFinder finder_;
   std::optional<EventWriter> events_;
-  std::optional<Progress> progress_;
 };
 
 }  // namespace orthodyn

@@ -6,11 +6,11 @@
 #include <filesystem>
 
 #include "lib/analysis/strain_limits.h"
+#include "lib/simulation/axes_file.h"
 #include "lib/simulation/equilibrium.h"
-#include "tools/orthodyn/axes.h"
 #include "tools/orthodyn/command.h"
+#include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/scene_options.h"
-#include "tools/orthodyn/setup.h"
 
 namespace orthodyn {
 
@@ -99,8 +99,25 @@ void print_supports(const FemModel& model) {
   if (moved > 0) fmt::print("motions\n  {} of {} coordinates are moved\n", moved, coordinates);
 }
 
+// "cylindrical, per element", for each region of the mesh by its name.
+void print_axes(const Setup& setup) {
+  fmt::print("axes\n");
+  const Config regions = setup.config.at("regions");
+  for (const auto& [name, region] : setup.scene.regions)
+    fmt::print("  region {}: {}, {}\n", name, regions.at(name).at("axes").at("type").text(),
+               region.axes->uniform() ? "one for all elements" : "per element");
+}
+
+// Has a picture drawn from them, too.
+void write_and_draw_axes(const Setup& setup, const fs::path& folder) {
+  const fs::path file = folder / "axes.vtu";
+  write_axes(file, *setup.built.model);
+  fmt::print("axes    {}\n", file.string());
+  draw_axes(file);
+}
+
 int check(const CheckArguments& arguments) {
-  Setup setup = set_up(arguments);
+  Setup setup = set_up_and_warn(arguments.scene, arguments.changes);
   const FemModel& model = *setup.built.model;
   const auto& parts = model.parts();
   fmt::print("{}: valid\n", arguments.scene);
@@ -121,7 +138,7 @@ int check(const CheckArguments& arguments) {
              model.pattern().symmetric ? "symmetric, lower triangle" : "general");
   setup.integrator ? print_dynamics(setup) : print_statics(setup);
   if (arguments.axes)
-    write_axes(setup, arguments.out ? fs::path(*arguments.out) : fs::path("out") / "axes" / fs::path(arguments.scene).stem());
+    write_and_draw_axes(setup, arguments.out ? fs::path(*arguments.out) : fs::path("out") / "axes" / fs::path(arguments.scene).stem());
   return 0;
 }
 

@@ -74,7 +74,7 @@ int compare(const StudyArguments& arguments) {
   Campaign campaign(comparison, std::move(design), {folder, fs::read_symlink("/proc/self/exe").string(), notify,
                      arguments.retry ? OldFailures::retry : OldFailures::keep});
   Json table;
-  heed_interrupts();
+  catch_interrupts();
   const bool complete = campaign.run(interrupted(), [&] {
     table = comparison_json(campaign, arguments.file);
     write_file(folder / kTable, {to_text(table, 1)});

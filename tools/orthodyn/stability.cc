@@ -104,7 +104,7 @@ int try_stability(const StudyArguments& arguments) {
     write_file(out / "stability.csv", {matrix.csv()});
     return table;
   };
-  heed_interrupts();
+  catch_interrupts();
   auto next_table = std::chrono::steady_clock::now() + kBetweenTables;
   const ErrandEvents events{
       [](std::size_t) {},

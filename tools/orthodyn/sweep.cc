@@ -83,7 +83,7 @@ class SweepCommand {
     if (!arguments_.task) results_ = results_of(errands_);
     if (arguments_.collect) return collect();
     use_one_thread_each();
-    heed_interrupts();
+    catch_interrupts();
     const std::size_t kept = arguments_.retry ? 0 : number_at_limits(work_);
     const bool complete = carry_out();
     if (!complete)

@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "lib/simulation/files.h"
+#include "lib/simulation/scene_file.h"
 #include "tools/orthodyn/command.h"
-#include "tools/orthodyn/setup.h"
 
 namespace orthodyn {
 
@@ -19,8 +19,8 @@ namespace {
 
 struct VerifyArguments {
   std::vector<std::string> places;  // files and folders
-  std::vector<std::string> set;
-  std::optional<std::string> integrator, junit;
+  SceneChanges changes;
+  std::optional<std::string> junit;
 };
 
 std::string case_name(const CaseResult& result) { return fs::path(result.file).stem().string(); }
@@ -57,7 +57,7 @@ struct Cases {
 Cases read_cases(const VerifyArguments& arguments) {
   Cases cases;
   for (const auto& file : find_cases(arguments.places)) {
-    Config config = read_config(file, arguments.integrator, arguments.set);
+    Config config = read_scene_file(file, arguments.changes);
     cases.widths.name = std::max(cases.widths.name, fs::path(file).stem().string().size());
     for (const auto& e : set_up(config).scene.expect)
       cases.widths.quantity = std::max(cases.widths.quantity, e.title().size());
@@ -89,8 +89,8 @@ void declare(VerifyArguments& arguments, CommandOptions& options) {
       .required()
       .type("DIR|FILE");
   options.value("--junit", arguments.junit, "Also write the results as JUnit XML.").type("FILE");
-  options.repeated("--set", arguments.set, "Change a value in every case by its path.").type("PATH=VALUE");
-  options.value("--integrator", arguments.integrator, "Short for --set integrator.type=NAME.");
+  options.repeated("--set", arguments.changes.set, "Change a value in every case by its path.").type("PATH=VALUE");
+  options.value("--integrator", arguments.changes.integrator, "Short for --set integrator.type=NAME.");
 }
 
 const CommandRegistration kRegistration(

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/simulation/checkpoint.h"
+#include "lib/simulation/checkpoint/checkpoint.h"
 #include "lib/simulation/observer.h"
 
 namespace orthodyn {

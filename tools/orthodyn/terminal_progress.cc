@@ -1,4 +1,4 @@
-#include "lib/simulation/progress.h"
+#include "tools/orthodyn/terminal_progress.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -22,21 +22,27 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
-Progress::Progress(double start, double end, std::FILE* out)
-    : start_(start), end_(end), from_(start), out_(out), terminal_(isatty(fileno(out)) != 0), begin_(Clock::now()), last_(begin_) {}
+TerminalProgress::TerminalProgress(double start, double end, std::FILE* out)
+    : start_(start),
+      end_(end),
+      from_(start),
+      out_(out),
+      terminal_(isatty(fileno(out)) != 0),
+      begin_(Clock::now()),
+      last_(begin_) {}
 
-void Progress::on_step(const StepInfo& info, const State&, const Integrator&) {
+void TerminalProgress::on_step(const StepInfo& info, const State&, const Integrator&) {
   const auto now = Clock::now();
   if (terminal_ ? now - last_ < kTerminalPeriod : now - last_ < kPlainPeriod) return;
   last_ = now;
   show(info, std::chrono::duration<double>(now - begin_).count());
 }
 
-void Progress::show(const StepInfo& info, double elapsed) {
+void TerminalProgress::show(const StepInfo& info, double elapsed) {
   const double done = std::clamp((info.t - start_) / (end_ - start_), 0.0, 1.0);
   const std::string left = info.t > from_ ? duration_text(elapsed * (end_ - info.t) / (info.t - from_)) : "?";
-  const std::string line = fmt::format("{:3.0f} %  t = {:.4g} of {:.4g} s  h = {:.2e} s  order {}  {} left",
-                                       100 * done, info.t, end_, info.h, info.order, left);
+  const std::string line = fmt::format("{:3.0f} %  t = {:.4g} of {:.4g} s  h = {:.2e} s  order {}  {} left", 100 * done,
+                                       info.t, end_, info.h, info.order, left);
   if (terminal_) {
     constexpr int kWidth = 24;
     const auto filled = static_cast<std::size_t>(kWidth * done);
@@ -48,7 +54,7 @@ void Progress::show(const StepInfo& info, double elapsed) {
   shown_ = true;
 }
 
-void Progress::on_end() noexcept {
+void TerminalProgress::on_end() noexcept {
   if (terminal_ && shown_) std::fputs("\r\x1b[K", out_);
   std::fflush(out_);
 }

@@ -1,4 +1,4 @@
-#include "lib/simulation/effort.h"
+#include "lib/simulation/checkpoint/effort.h"
 
 #include <utility>
 

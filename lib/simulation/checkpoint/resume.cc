@@ -1,4 +1,4 @@
-#include "lib/simulation/resume.h"
+#include "lib/simulation/checkpoint/resume.h"
 
 #include <fmt/format.h>
 
@@ -7,13 +7,13 @@
 
 #include "lib/simulation/fingerprints.h"
 #include "lib/simulation/machine.h"
-#include "lib/simulation/scene_changes.h"
+#include "lib/simulation/checkpoint/scene_changes.h"
 
 namespace orthodyn {
 
 namespace {
 
-OutputRhythm rhythm_of(const Scene& scene) {
+OutputSchedule schedule_of(const Scene& scene) {
   const double span = scene.time.end - scene.time.start;
   const int frames = scene.output.frames.value_or(50);
   return {scene.time.start, scene.time.end,
@@ -78,7 +78,7 @@ Checkpoint first_checkpoint(const Setup& setup, const std::string& resolved, con
   checkpoint.files = file_fingerprints(setup.config, folder);
   checkpoint.state = setup.built.initial;
   checkpoint.last_output = setup.built.initial.t;
-  checkpoint.rhythm = rhythm_of(setup.scene);
+  checkpoint.schedule = schedule_of(setup.scene);
   return checkpoint;
 }
 
@@ -103,12 +103,12 @@ bool is_complete(const Checkpoint& checkpoint, const Scene& scene) {
   return checkpoint.begun && checkpoint.state.t >= scene.time.end;
 }
 
-Plan plan_of(const Scene& scene, const OutputRhythm& rhythm) {
+Plan plan_of(const Scene& scene, const OutputSchedule& schedule) {
   const double start = scene.time.start, end = scene.time.end;
   Plan plan{end, {}, scene.output.times == OutputTimes::exact};
   if (scene.output.interval) plan.output_times = by_interval(start, end, *scene.output.interval);
-  else if (end == rhythm.end) plan.output_times = evenly_spaced(start, end, scene.output.frames.value_or(50));
-  else if (rhythm.interval > 0) plan.output_times = by_interval(start, end, rhythm.interval);
+  else if (end == schedule.end) plan.output_times = evenly_spaced(start, end, scene.output.frames.value_or(50));
+  else if (schedule.interval > 0) plan.output_times = by_interval(start, end, schedule.interval);
   return plan;
 }
 

@@ -1,4 +1,4 @@
-#include "lib/simulation/checkpointer.h"
+#include "lib/simulation/checkpoint/checkpointer.h"
 
 #include <algorithm>
 

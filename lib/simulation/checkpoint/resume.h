@@ -1,10 +1,10 @@
-// Going on from a checkpoint: whether it fits the scene, and what follows from it.
+// Whether a checkpoint fits the scene that is to go on from it, and what the run then begins with.
 #pragma once
 
-#include "lib/simulation/checkpoint.h"
+#include "lib/simulation/checkpoint/checkpoint.h"
+#include "lib/simulation/result_folder.h"
 #include "lib/simulation/run.h"
 #include "lib/simulation/setup.h"
-#include "lib/simulation/result_folder.h"
 
 namespace orthodyn {
 
@@ -22,7 +22,7 @@ Checkpoint continued(Checkpoint checkpoint, const Setup& setup, const std::strin
 // The end was reached before.
 bool is_complete(const Checkpoint& checkpoint, const Scene& scene);
 
-// Output times in the rhythm with which the run began.
-Plan plan_of(const Scene& scene, const OutputRhythm& rhythm);
+// Output times at the interval with which the run began.
+Plan plan_of(const Scene& scene, const OutputSchedule& schedule);
 
 }  // namespace orthodyn

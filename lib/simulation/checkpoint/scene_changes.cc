@@ -1,4 +1,4 @@
-#include "lib/simulation/scene_changes.h"
+#include "lib/simulation/checkpoint/scene_changes.h"
 
 #include <algorithm>
 #include <optional>

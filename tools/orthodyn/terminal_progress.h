@@ -1,4 +1,4 @@
-// Tells how far a run is: one line that renews itself on a terminal, else a line every few seconds.
+// Shows how far a run has come: one line that is renewed on a terminal, else a line every few seconds.
 #pragma once
 
 #include <chrono>
@@ -8,9 +8,9 @@
 
 namespace orthodyn {
 
-class Progress : public Observer {
+class TerminalProgress : public Observer {
  public:
-  Progress(double start, double end, std::FILE* out);
+  TerminalProgress(double start, double end, std::FILE* out);
   void on_resume(const State& state) override { from_ = state.t; }
   void on_step(const StepInfo& info, const State&, const Integrator&) override;
   void on_end() noexcept override;

@@ -12,7 +12,7 @@
 
 #include "lib/ode/output.h"
 #include "lib/simulation/archive.h"
-#include "lib/simulation/effort.h"
+#include "lib/simulation/checkpoint/effort.h"
 
 namespace orthodyn {
 
@@ -24,8 +24,8 @@ struct Restart {
   std::vector<std::string> changed;  // keys of the scene with another value from there on
 };
 
-// The first plan of output times, which goes on in the same rhythm when a run is extended.
-struct OutputRhythm {
+// The output times of the first plan: a run that is extended keeps their interval.
+struct OutputSchedule {
   double start = 0, end = 0;  // s, of the first plan
   double interval = 0;        // s; 0: no outputs
 };
@@ -37,7 +37,7 @@ struct Checkpoint {
   bool begun = false;    // false: nothing has been computed or written yet
   State state;           // at the end of a step
   double last_output = 0;  // s
-  OutputRhythm rhythm;
+  OutputSchedule schedule;
   Effort effort;
   std::vector<Restart> restarts;
   std::map<std::string, Archive> observers;

@@ -1,4 +1,4 @@
-#include "lib/simulation/checkpoint.h"
+#include "lib/simulation/checkpoint/checkpoint.h"
 
 #include <fmt/format.h>
 
@@ -71,7 +71,7 @@ Json to_json(const Checkpoint& c) {
           {"q", numbers(c.state.q)},
           {"v", numbers(c.state.v)},
           {"last_output", c.last_output},
-          {"rhythm", {c.rhythm.start, c.rhythm.end, c.rhythm.interval}},
+          {"rhythm", {c.schedule.start, c.schedule.end, c.schedule.interval}},
           {"effort", c.effort.archive().entries()},
           {"restarts", restarts_json(c.restarts)},
           {"observers", observers}};
@@ -86,7 +86,7 @@ Checkpoint from_json(const Json& json) {
   c.state = {json.at("t"), vector(json.at("q")), vector(json.at("v"))};
   c.last_output = json.at("last_output");
   const auto& rhythm = json.at("rhythm");
-  c.rhythm = {rhythm.at(0), rhythm.at(1), rhythm.at(2)};
+  c.schedule = {rhythm.at(0), rhythm.at(1), rhythm.at(2)};
   c.effort = Effort::from(archive(json.at("effort")));
   c.restarts = restarts_from(json.at("restarts"));
   for (const auto& [name, kept] : json.at("observers").items()) c.observers[name] = archive(kept);
