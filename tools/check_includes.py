@@ -39,8 +39,8 @@ LIBRARIES = {
     r"zlib\.h": ["lib/mesh/io/vtu"],
     r"Spectra/": ["lib/linear/eigenmodes.cc"],
     r"boost/": ["lib/simulation/event_finder.cc"],
-    r"CLI/": ["tools/"],
-    r"nlohmann/": ["lib/simulation/checkpoint.cc", "lib/study/", "tools/", "tests/"],
+    r"CLI/": ["tools/orthodyn/command_line.cc"],
+    r"nlohmann/": ["lib/simulation/checkpoint/checkpoint.cc", "lib/simulation/json.h", "lib/study/", "tools/", "tests/"],
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 VERSION_SWITCH = re.compile(r"^\s*#\s*(?:el)?if.*SUNDIALS_VERSION")

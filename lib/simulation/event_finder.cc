@@ -13,7 +13,7 @@ namespace orthodyn {
 
 namespace {
 
-constexpr int kLooks = 4;  // per step
+constexpr int kSamples = 4;  // per step
 
 int sign(double x) { return (x > 0) - (x < 0); }
 
@@ -46,7 +46,7 @@ void EventFinder::start(const State& state) {
 
 std::vector<Crossing> EventFinder::find(double begin, double end, const Interpolate& interpolate) {
   std::vector<Crossing> found;
-  for (std::size_t k = 0; k < events_.size(); ++k) look_at(k, begin, end, interpolate, found);
+  for (std::size_t k = 0; k < events_.size(); ++k) find_in_step(k, begin, end, interpolate, found);
   std::stable_sort(found.begin(), found.end(),
                    [](const Crossing& a, const Crossing& b) { return a.state.t < b.state.t; });
   const auto stop = std::find_if(found.begin(), found.end(), [](const Crossing& c) { return c.event->stops; });
@@ -54,7 +54,7 @@ std::vector<Crossing> EventFinder::find(double begin, double end, const Interpol
   return found;
 }
 
-void EventFinder::look_at(std::size_t event, double begin, double end, const Interpolate& interpolate,
+void EventFinder::find_in_step(std::size_t event, double begin, double end, const Interpolate& interpolate,
                           std::vector<Crossing>& found) {
   const Event& e = events_[event];
   State state;
@@ -63,8 +63,8 @@ void EventFinder::look_at(std::size_t event, double begin, double end, const Int
     return excess(e, state);
   };
   double last_t = begin, last_x = side_[event] == 0 ? 0 : excess_at(begin);
-  for (int look = 1; look <= kLooks; ++look) {
-    const double t = look == kLooks ? end : begin + (end - begin) * look / kLooks;
+  for (int sample = 1; sample <= kSamples; ++sample) {
+    const double t = sample == kSamples ? end : begin + (end - begin) * sample / kSamples;
     const double x = excess_at(t);
     const bool passed = side_[event] != 0 && sign(x) != side_[event];
     const bool upward = side_[event] < 0;

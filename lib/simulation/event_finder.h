@@ -1,8 +1,8 @@
 // Finds when quantities pass values within the steps of any integrator, on its dense output.
 //
-// Each step is looked at at its end and three times within; where the sign of quantity - value has changed
-// between two of these, the root between them is found to round-off (algorithm 748, Alefeld, Potra & Shi 1995).
-// Passings there and back between two looks are missed. A quantity that has the value at the start has not passed
+// Each step is sampled at its end and three times within; where the sign of quantity - value has changed
+// between two samples, the root between them is found to round-off (algorithm 748, Alefeld, Potra & Shi 1995).
+// Crossings there and back between two samples are missed. A quantity that has the value at the start has not passed
 // it until it was elsewhere; one that reaches the value exactly has.
 #pragma once
 
@@ -32,7 +32,7 @@ class EventFinder {
   void restore(const Archive& archive);
 
  private:
-  void look_at(std::size_t event, double begin, double end, const Interpolate& interpolate, std::vector<Crossing>& found);
+  void find_in_step(std::size_t event, double begin, double end, const Interpolate& interpolate, std::vector<Crossing>& found);
   double excess(const Event& event, const State& state) const;
 
   std::vector<Event> events_;

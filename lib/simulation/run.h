@@ -19,13 +19,13 @@ struct Plan {
   EventFinder* events = nullptr;  // what to look for in each step, if anything
 };
 
-// `frames` + 1 evenly spaced times including both ends, resp. multiples of an interval; the start is
-// left out.
+// `frames` evenly spaced times; the last is the end, the start is left out.
 std::vector<double> evenly_spaced(double start, double end, int frames);
+// Multiples of an interval after the start, and the end.
 std::vector<double> by_interval(double start, double end, double interval);
 
 // Never throws for a computation that could not go on: that is an Outcome. Observers are told of the
-// end in every case. A resumed run calls on_resume in place of on_start. `interrupt` is looked at after each step.
+// end in every case. A resumed run calls on_resume in place of on_start. `interrupt` is read after each step.
 Outcome run(const Model& model, Integrator& integrator, const State& initial, const Plan& plan,
             const std::vector<Observer*>& observers, const std::atomic<bool>& interrupt);
 

@@ -1,5 +1,5 @@
 // Every integrator on a small corotational beam: large rotations, damping, oblique fibres.
-#include "lib/scene/setup.h"
+#include "lib/simulation/setup.h"
 #include "tests/contract/integrators.h"
 #include "tests/fem/built_scene.h"
 

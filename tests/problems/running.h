@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "lib/simulation/run.h"
-#include "lib/scene/setup.h"
+#include "lib/simulation/setup.h"
 #include "tests/fem/built_scene.h"
 
 namespace orthodyn {

@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "lib/analysis/modes.h"
-#include "lib/simulation/statics.h"
-#include "lib/scene/equilibrium.h"
+#include "lib/simulation/load_steps.h"
+#include "lib/simulation/equilibrium.h"
 #include "lib/analysis/rigid_freedom.h"
 #include "tests/problems/running.h"
 

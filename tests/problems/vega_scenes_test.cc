@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "lib/scene/setup.h"
+#include "lib/simulation/setup.h"
 #include "tests/problems/running.h"
 
 namespace orthodyn {

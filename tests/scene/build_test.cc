@@ -1,6 +1,6 @@
 #include <filesystem>
 
-#include "lib/scene/setup.h"
+#include "lib/simulation/setup.h"
 #include "tests/config/messages.h"
 #include "tests/scene/scenes.h"
 

@@ -1,9 +1,9 @@
 // Equilibria of bodies whose supports are on their way: they are those of supports that stand still there.
-#include "lib/scene/equilibrium.h"
+#include "lib/simulation/equilibrium.h"
 
 #include <gtest/gtest.h>
 
-#include "lib/scene/setup.h"
+#include "lib/simulation/setup.h"
 #include "tests/scene/scenes.h"
 
 namespace orthodyn {

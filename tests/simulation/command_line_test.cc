@@ -178,5 +178,34 @@ TEST_F(CommandLine, ListNamesEverythingThatCanBeNamed) {
   EXPECT_EQ(orthodyn("list materials").exit_code, 0);
 }
 
+TEST_F(CommandLine, HelpListsTheCommandsInTheOrderOfTheirUseAndHidesThoseOfProcesses) {
+  const auto help = orthodyn("--help");
+  EXPECT_EQ(help.exit_code, 0);
+  std::size_t last = help.output.find("Subcommands:");
+  for (const std::string name : {"run", "check", "modes", "compare", "sweep", "stability", "verify", "convert", "list",
+                                 "schema", "init"}) {
+    const auto at = help.output.find("\n  " + name + " ", last);
+    EXPECT_NE(at, std::string::npos) << name;
+    last = at;
+    const auto own = orthodyn(name + " --help");
+    EXPECT_EQ(own.exit_code, 0) << name;
+    EXPECT_NE(own.output.find("\nExamples:\n  orthodyn " + name + " "), std::string::npos) << own.output;
+  }
+  for (const std::string name : {"measure", "evaluate", "assess"}) {
+    EXPECT_EQ(help.output.find("\n  " + name + " "), std::string::npos) << name;
+    EXPECT_EQ(orthodyn(name).exit_code, 2) << name;  // the folder is missing
+  }
+}
+
+TEST_F(CommandLine, OptionsThatDoNotGoTogetherAreRefused) {
+  for (const std::string arguments : {"run a.yaml --force --resume", "run a.yaml --resume --estimate-error",
+                                      "check a.yaml --out b", "sweep a.yaml --tasks 3", "sweep a.yaml --jobs 0",
+                                      "sweep a.yaml --slurm=fast", "sweep a.yaml --collect --retry", "modes a.yaml -n 0"}) {
+    const auto result = orthodyn(arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments;
+    EXPECT_NE(result.output.find("Run with --help"), std::string::npos) << arguments << "\n" << result.output;
+  }
+}
+
 }  // namespace
 }  // namespace orthodyn

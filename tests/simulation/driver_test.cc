@@ -5,8 +5,8 @@
 #include <limits>
 #include <thread>
 
-#include "lib/simulation/checkpoint.h"
-#include "lib/simulation/checkpointer.h"
+#include "lib/simulation/checkpoint/checkpoint.h"
+#include "lib/simulation/checkpoint/checkpointer.h"
 #include "lib/simulation/curves.h"
 #include "lib/simulation/run.h"
 #include "lib/simulation/frames.h"
@@ -156,7 +156,7 @@ TEST_F(Files, ACheckpointComesBackBitByBit) {
   written.begun = true;
   written.state = {0.1, Vector::Random(50) * 1e-300, Vector::Random(50)};
   written.state.v[3] = std::numeric_limits<double>::infinity();
-  written.rhythm = {0, 1.0 / 3, 1e-9};
+  written.schedule = {0, 1.0 / 3, 1e-9};
   written.effort.statistics.newton_iterations = 123456789;
   written.effort.statistics.solve = {7, 0.3};
   written.restarts = {{0.05, "2026-01-31T12:00:00Z", "killed", {"time.end"}}};
@@ -167,7 +167,7 @@ TEST_F(Files, ACheckpointComesBackBitByBit) {
   EXPECT_EQ(read.state.t, written.state.t);
   EXPECT_EQ(read.state.q, written.state.q);
   EXPECT_EQ(read.state.v, written.state.v);
-  EXPECT_EQ(read.rhythm.end, written.rhythm.end);
+  EXPECT_EQ(read.schedule.end, written.schedule.end);
   EXPECT_EQ(read.effort.statistics.newton_iterations, 123456789);
   EXPECT_EQ(read.effort.statistics.solve.seconds, 0.3);
   EXPECT_EQ(read.restarts.at(0).changed, written.restarts[0].changed);

@@ -1,12 +1,12 @@
 // Distances between trajectories, where they are known.
-#include "lib/study/errors/error_norms.h"
+#include "lib/simulation/errors/error_norms.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "lib/scene/setup.h"
+#include "lib/simulation/setup.h"
 #include "tests/simulation/command.h"
 
 namespace orthodyn {

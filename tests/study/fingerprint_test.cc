@@ -1,5 +1,5 @@
 // What figures depend on besides their input.
-#include "lib/study/jobs/fingerprint.h"
+#include "lib/simulation/fingerprints.h"
 
 #include <chrono>
 #include <cstdlib>

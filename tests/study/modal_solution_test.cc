@@ -1,11 +1,11 @@
 // The exact solution of linear models: it satisfies the initial values and the equation of motion.
-#include "lib/study/errors/modal_solution.h"
+#include "lib/simulation/errors/modal_solution.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "lib/scene/setup.h"
+#include "lib/simulation/setup.h"
 
 namespace orthodyn {
 namespace {

@@ -7,16 +7,22 @@
 
 #include "lib/analysis/strain_limits.h"
 #include "lib/core/symmetric_eigen.h"
-#include "lib/scene/equilibrium.h"
-#include "tools/orthodyn/axes.h"
-#include "tools/orthodyn/commands.h"
-#include "tools/orthodyn/setup.h"
+#include "lib/simulation/axes_file.h"
+#include "lib/simulation/equilibrium.h"
+#include "tools/orthodyn/command.h"
+#include "tools/orthodyn/draw.h"
+#include "tools/orthodyn/scene_options.h"
 
 namespace orthodyn {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+struct CheckArguments : SceneArguments {
+  bool axes = false;  // write the material axes
+  std::optional<std::string> out;
+};
 
 double mebibytes(std::size_t bytes) { return static_cast<double>(bytes) / (1024 * 1024); }
 
@@ -94,10 +100,25 @@ void print_supports(const FemModel& model) {
   if (moved > 0) fmt::print("motions\n  {} of {} coordinates are moved\n", moved, coordinates);
 }
 
-}  // namespace
+// "cylindrical, per element", for each region of the mesh by its name.
+void print_axes(const Setup& setup) {
+  fmt::print("axes\n");
+  const Config regions = setup.config.at("regions");
+  for (const auto& [name, region] : setup.scene.regions)
+    fmt::print("  region {}: {}, {}\n", name, regions.at(name).at("axes").at("type").text(),
+               region.axes->uniform() ? "one for all elements" : "per element");
+}
 
-int check_command(const RunArguments& arguments) {
-  Setup setup = set_up(arguments);
+// Has a picture drawn from them, too.
+void write_and_draw_axes(const Setup& setup, const fs::path& folder) {
+  const fs::path file = folder / "axes.vtu";
+  write_axes(file, *setup.built.model);
+  fmt::print("axes    {}\n", file.string());
+  draw_axes(file);
+}
+
+int check(const CheckArguments& arguments) {
+  Setup setup = set_up_and_warn(arguments.scene, arguments.changes);
   const FemModel& model = *setup.built.model;
   const auto& parts = model.parts();
   fmt::print("{}: valid\n", arguments.scene);
@@ -118,8 +139,24 @@ int check_command(const RunArguments& arguments) {
              model.pattern().symmetric ? "symmetric, lower triangle" : "general");
   setup.integrator ? print_dynamics(setup) : print_statics(setup);
   if (arguments.axes)
-    write_axes(setup, arguments.out ? fs::path(*arguments.out) : fs::path("out") / "axes" / fs::path(arguments.scene).stem());
+    write_and_draw_axes(setup, arguments.out ? fs::path(*arguments.out) : fs::path("out") / "axes" / fs::path(arguments.scene).stem());
   return 0;
 }
+
+void declare(CheckArguments& arguments, CommandOptions& options) {
+  declare_scene(arguments, options);
+  options.flag("--axes", arguments.axes, "Also write the material axes: axes.vtu and a picture, axes.png.");
+  options.value("--out", arguments.out, "Folder for the axes; default out/axes/<scene>.").type("DIR").needs("--axes");
+}
+
+const CommandRegistration kRegistration({.order = 20,
+                                         .name = "check",
+                                         .sentence = "Read, validate and build a scene, and say what it consists of.",
+                                         .examples = R"(
+  orthodyn check configs/scenes/laminate.yaml
+  orthodyn check configs/scenes/laminate.yaml --axes)"},
+                                        declare, check);
+
+}  // namespace
 
 }  // namespace orthodyn

@@ -5,12 +5,12 @@
 
 #include "lib/simulation/files.h"
 #include "lib/study/compare/comparison_table.h"
-#include "lib/study/compare/measure.h"
-#include "tools/orthodyn/commands.h"
+#include "tools/orthodyn/command.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/failures.h"
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/study_folder.h"
+#include "tools/orthodyn/study_options.h"
 #include "tools/orthodyn/teller.h"
 
 namespace orthodyn {
@@ -56,9 +56,7 @@ void print_answers(const Json& table) {
   }
 }
 
-}  // namespace
-
-int compare_command(const CompareArguments& arguments) {
+int compare(const StudyArguments& arguments) {
   const Config config = Config::from_file(arguments.file);
   const Comparison comparison = read_comparison(config);
   Design design = expand(comparison);
@@ -76,7 +74,7 @@ int compare_command(const CompareArguments& arguments) {
   Campaign campaign(comparison, std::move(design), {folder, fs::read_symlink("/proc/self/exe").string(), notify,
                      arguments.retry ? OldFailures::retry : OldFailures::keep});
   Json table;
-  heed_interrupts();
+  catch_interrupts();
   const bool complete = campaign.run(interrupted(), [&] {
     table = comparison_json(campaign, arguments.file);
     write_file(folder / kTable, {to_text(table, 1)});
@@ -95,9 +93,19 @@ int compare_command(const CompareArguments& arguments) {
   return complete ? failures.exit_code() : 130;
 }
 
-int measure_command(const std::string& folder) {
-  measure(folder);
-  return 0;
+void declare(StudyArguments& arguments, CommandOptions& options) {
+  declare_study(arguments, options, {"comparison", "A comparison in YAML.", "comparisons", "compare", "points"});
 }
+
+const CommandRegistration kRegistration(
+    {.order = 40,
+     .name = "compare",
+     .sentence = "Compare integrators on scenes: error against time, as a report, CSV and JSON. Run again, it goes on.",
+     .examples = R"(
+  orthodyn compare configs/comparisons/damped_beam.yaml
+  orthodyn compare mine.yaml --retry           once more, with what failed)"},
+    declare, compare);
+
+}  // namespace
 
 }  // namespace orthodyn

@@ -6,11 +6,19 @@
 #include "lib/core/errors.h"
 #include "lib/mesh/io/mesh_file.h"
 #include "lib/mesh/io/mesh_format.h"
-#include "tools/orthodyn/commands.h"
+#include "tools/orthodyn/command.h"
 
 namespace orthodyn {
 
-int convert_command(const ConvertArguments& arguments) {
+namespace {
+
+struct ConvertArguments {
+  std::string in, out;
+  double scale = 1;
+  bool force = false;
+};
+
+int convert(const ConvertArguments& arguments) {
   if (!(arguments.scale > 0)) throw ConfigError(fmt::format("--scale {}: must be positive", arguments.scale));
   mesh_format_of(arguments.out);
   LoadedMesh loaded = read_mesh(arguments.in);
@@ -22,5 +30,23 @@ int convert_command(const ConvertArguments& arguments) {
   fmt::print("{}: {} nodes, {} elements\n", arguments.out, loaded.mesh.nodes.size(), loaded.mesh.tets.size());
   return 0;
 }
+
+void declare(ConvertArguments& arguments, CommandOptions& options) {
+  options.value("in", arguments.in, "The mesh to read.").required().type("IN");
+  options.value("out", arguments.out, "The mesh to write; what its format cannot hold is said.").required().type("OUT");
+  options.value("--scale", arguments.scale, "Multiplies coordinates: 0.001 from mm to m.").type("FACTOR");
+  options.flag("--force", arguments.force, "Replace files that are there already.");
+}
+
+const CommandRegistration kRegistration(
+    {.order = 80,
+     .name = "convert",
+     .sentence = "A mesh from one format to another, by the endings: " + known_mesh_endings() + ".",
+     .examples = R"(
+  orthodyn convert part.msh part.vtu
+  orthodyn convert part.inp part.msh --scale 0.001)"},
+    declare, convert);
+
+}  // namespace
 
 }  // namespace orthodyn

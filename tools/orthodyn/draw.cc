@@ -7,7 +7,7 @@
 
 #include "lib/study/jobs/process.h"
 #include "tools/orthodyn/interrupt.h"
-#include "tools/orthodyn/places.h"
+#include "tools/orthodyn/installed_paths.h"
 
 namespace orthodyn {
 

@@ -3,18 +3,24 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "lib/core/errors.h"
 #include "lib/core/words.h"
 #include "lib/simulation/files.h"
-#include "tools/orthodyn/commands.h"
-#include "tools/orthodyn/places.h"
+#include "tools/orthodyn/command.h"
+#include "tools/orthodyn/installed_paths.h"
 
 namespace orthodyn {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+struct InitArguments {
+  std::string kind;
+  std::optional<std::string> file;
+};
 
 constexpr const char* kHead = R"(# What this scene shows, in a sentence.
 # Check it with `orthodyn check {file}`, run it with `orthodyn run {file}`.
@@ -179,20 +185,32 @@ std::string modeline(const std::string& kind) {
   return fs::exists(schema) ? fmt::format("# yaml-language-server: $schema={}\n", schema.string()) : "";
 }
 
-}  // namespace
-
-int init_command(const std::string& kind, const std::optional<std::string>& file) {
+int init(const InitArguments& arguments) {
+  const std::string& kind = arguments.kind;
   const auto start = starts().find(kind);
   if (start == starts().end()) {
     std::vector<std::string> names;
     for (const auto& [name, text] : starts()) names.push_back(name);
     throw ConfigError(fmt::format("nothing to start '{}' from; known: {}", kind, join(names)));
   }
-  const fs::path path = file.value_or(kind + ".yaml");
+  const fs::path path = arguments.file.value_or(kind + ".yaml");
   if (fs::exists(path)) throw ConfigError(path.string() + ": exists already; choose another name");
   write_file(path, {modeline(kind), with_file_name(start->second, path.string())});
   fmt::print("{}\n", path.string());
   return 0;
 }
+
+void declare(InitArguments& arguments, CommandOptions& options) {
+  options.value("kind", arguments.kind, "scene, static, comparison, sweep or stability.").required();
+  options.value("file", arguments.file, "Its name; default KIND.yaml.").type("FILE.yaml");
+}
+
+const CommandRegistration kRegistration(
+    {.order = 110, .name = "init", .sentence = "Write a commented file to start from.", .examples = R"(
+  orthodyn init scene my.yaml
+  orthodyn init sweep)"},
+    declare, init);
+
+}  // namespace
 
 }  // namespace orthodyn

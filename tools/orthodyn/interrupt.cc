@@ -6,20 +6,20 @@ namespace orthodyn {
 
 namespace {
 
-std::atomic<bool> wish{false};
+std::atomic<bool> flag{false};
 
-void note(int signal) {
-  wish = true;
+void set_flag(int signal) {
+  flag = true;
   std::signal(signal, SIG_DFL);
 }
 
 }  // namespace
 
-const std::atomic<bool>& interrupted() { return wish; }
+const std::atomic<bool>& interrupted() { return flag; }
 
-void heed_interrupts() {
-  std::signal(SIGINT, note);
-  std::signal(SIGTERM, note);
+void catch_interrupts() {
+  std::signal(SIGINT, set_flag);
+  std::signal(SIGTERM, set_flag);
 }
 
 }  // namespace orthodyn

@@ -1,12 +1,12 @@
-// Ctrl-C as a wish that is looked at between steps; a second one ends the program.
+// Ctrl-C as a flag that is read between steps; a second one ends the program.
 #pragma once
 
 #include <atomic>
 
 namespace orthodyn {
 
-// True from the first SIGINT or SIGTERM on, once heed_interrupts() was called.
+// True from the first SIGINT or SIGTERM on, once catch_interrupts() was called.
 const std::atomic<bool>& interrupted();
-void heed_interrupts();
+void catch_interrupts();
 
 }  // namespace orthodyn

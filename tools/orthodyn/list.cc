@@ -12,11 +12,17 @@
 #include "lib/scene/scene.h"
 #include "lib/study/stability/stability.h"
 #include "lib/study/sweep/sweep.h"
-#include "tools/orthodyn/commands.h"
+#include "tools/orthodyn/command.h"
+#include "tools/orthodyn/reference_page.h"
 
 namespace orthodyn {
 
 namespace {
+
+struct ListArguments {
+  std::string what;  // a chapter; all, if empty
+  bool markdown = false;
+};
 
 void print_key(const Key& key) {
   std::string facts = type_text(key.shape);
@@ -156,10 +162,9 @@ const std::vector<std::pair<std::string, std::function<void()>>>& chapters() {
   return all;
 }
 
-}  // namespace
-
-int list_command(const std::string& what, bool markdown) {
-  if (markdown) {
+int list(const ListArguments& arguments) {
+  const std::string& what = arguments.what;
+  if (arguments.markdown) {
     if (!what.empty()) throw ConfigError("--markdown prints everything; leave '" + what + "' out");
     print_reference_page();
     return 0;
@@ -178,5 +183,21 @@ int list_command(const std::string& what, bool markdown) {
   throw ConfigError(
       fmt::format("nothing to list under '{}'{}; known: {}", what, did_you_mean(what, names), join(names)));
 }
+
+void declare(ListArguments& arguments, CommandOptions& options) {
+  options.value(
+      "what", arguments.what,
+      "scene, materials, presets, meshes, axes, integrators, solvers, terms, factors, statics, events, expect, "
+      "comparison, sweep, stability, fields; all if left out.");
+  options.flag("--markdown", arguments.markdown, "Every key of the input as one page in Markdown.");
+}
+
+const CommandRegistration kRegistration(
+    {.order = 90, .name = "list", .sentence = "What can be named in a scene, each with its keys.", .examples = R"(
+  orthodyn list materials
+  orthodyn list --markdown > reference.md)"},
+    declare, list);
+
+}  // namespace
 
 }  // namespace orthodyn

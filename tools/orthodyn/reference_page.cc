@@ -1,7 +1,7 @@
-// `orthodyn list --markdown`: every key of the input on one page, docs/reference.md.
+#include "tools/orthodyn/reference_page.h"
+
 #include <fmt/format.h>
 
-#include "tools/orthodyn/commands.h"
 #include "tools/orthodyn/input_tree.h"
 
 namespace orthodyn {

@@ -7,12 +7,16 @@
 
 #include "lib/config/config.h"
 #include "lib/core/words.h"
-#include "tools/orthodyn/commands.h"
+#include "tools/orthodyn/command.h"
 #include "tools/orthodyn/input_tree.h"
 
 namespace orthodyn {
 
 namespace {
+
+struct SchemaArguments {
+  std::string kind;  // of all kinds, if empty
+};
 
 using Schema = nlohmann::ordered_json;
 
@@ -178,11 +182,23 @@ std::vector<InputKind> chosen(const std::string& name) {
   throw ConfigError(fmt::format("there is no schema of '{}'; known: {}", name, join(names)));
 }
 
-}  // namespace
-
-int schema_command(const std::string& kind) {
-  fmt::print("{}\n", document(chosen(kind)).dump(1));
+int print_schema(const SchemaArguments& arguments) {
+  fmt::print("{}\n", document(chosen(arguments.kind)).dump(1));
   return 0;
 }
+
+void declare(SchemaArguments& arguments, CommandOptions& options) {
+  options.value("kind", arguments.kind, "scene, comparison, sweep or stability; all in one schema if left out.");
+}
+
+const CommandRegistration kRegistration(
+    {.order = 100,
+     .name = "schema",
+     .sentence = "The JSON Schema of the input, for editors that complete and check YAML.",
+     .examples = R"(
+  orthodyn schema scene > scene.json)"},
+    declare, print_schema);
+
+}  // namespace
 
 }  // namespace orthodyn

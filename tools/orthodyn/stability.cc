@@ -8,14 +8,14 @@
 #include <map>
 
 #include "lib/simulation/files.h"
-#include "lib/study/stability/assess.h"
 #include "lib/study/stability/stability_matrix.h"
-#include "tools/orthodyn/commands.h"
+#include "tools/orthodyn/command.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/failures.h"
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/jobs.h"
 #include "tools/orthodyn/study_folder.h"
+#include "tools/orthodyn/study_options.h"
 #include "tools/orthodyn/teller.h"
 
 namespace orthodyn {
@@ -89,9 +89,7 @@ class MatrixTable {
   std::size_t width_ = 5;
 };
 
-}  // namespace
-
-int stability_command(const StabilityArguments& arguments) {
+int try_stability(const StudyArguments& arguments) {
   use_one_thread_each();  // before fingerprints are taken, of which the number of threads is a part
   Stability stability = read_stability(Config::from_file(arguments.file));
   const std::string name = stability.name;
@@ -106,7 +104,7 @@ int stability_command(const StabilityArguments& arguments) {
     write_file(out / "stability.csv", {matrix.csv()});
     return table;
   };
-  heed_interrupts();
+  catch_interrupts();
   auto next_table = std::chrono::steady_clock::now() + kBetweenTables;
   const ErrandEvents events{
       [](std::size_t) {},
@@ -129,9 +127,21 @@ int stability_command(const StabilityArguments& arguments) {
   return complete ? 0 : 130;
 }
 
-int assess_command(const std::string& folder) {
-  assess(folder);
-  return 0;
+void declare(StudyArguments& arguments, CommandOptions& options) {
+  declare_study(arguments, options, {"cases", "Hard cases in YAML.", "stability", "stability", "trials"});
+  declare_jobs(arguments, options, "Trials");
 }
+
+const CommandRegistration kRegistration(
+    {.order = 60,
+     .name = "stability",
+     .sentence =
+         "Try integrators on hard cases: a matrix of pass, degraded and fail, with reasons. Run again, it goes on.",
+     .examples = R"(
+  orthodyn stability configs/stability/hard_cases.yaml --jobs 2
+  orthodyn stability mine.yaml --retry         once more, with what failed)"},
+    declare, try_stability);
+
+}  // namespace
 
 }  // namespace orthodyn

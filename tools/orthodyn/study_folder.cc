@@ -42,6 +42,7 @@ StudyFolder::StudyFolder(fs::path path, const std::string& kind, const fs::path&
   refuse_other_folders(path_, kind);
   refuse_other_tables(path_, kind, file);
   lock_.emplace(path_, mark_of(kind), kind, sharing);
+  if (!lock_->warning().empty()) fmt::print(stderr, "warning: {}\n", lock_->warning());
 }
 
 }  // namespace orthodyn

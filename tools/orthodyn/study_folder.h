@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "tools/orthodyn/folder_lock.h"
+#include "lib/simulation/folder_lock.h"
 
 namespace orthodyn {
 

@@ -10,16 +10,16 @@
 
 #include "lib/core/units.h"
 #include "lib/simulation/files.h"
-#include "lib/study/sweep/evaluate.h"
 #include "lib/study/sweep/sweep_errands.h"
 #include "lib/study/sweep/sweep_table.h"
-#include "tools/orthodyn/commands.h"
+#include "tools/orthodyn/command.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/failures.h"
 #include "tools/orthodyn/interrupt.h"
-#include "tools/orthodyn/jobs.h"
 #include "tools/orthodyn/job_array.h"
+#include "tools/orthodyn/jobs.h"
 #include "tools/orthodyn/study_folder.h"
+#include "tools/orthodyn/study_options.h"
 #include "tools/orthodyn/teller.h"
 
 namespace orthodyn {
@@ -27,6 +27,13 @@ namespace orthodyn {
 namespace fs = std::filesystem;
 
 namespace {
+
+struct SweepArguments : StudyArguments {
+  std::optional<std::string> task;   // "3/20": this part of the points only
+  std::optional<std::string> slurm;  // "print" or "submit"
+  std::optional<std::size_t> tasks;  // of the array
+  bool collect = false;
+};
 
 std::string program() { return fs::read_symlink("/proc/self/exe").string(); }
 
@@ -76,7 +83,7 @@ class SweepCommand {
     if (!arguments_.task) results_ = results_of(errands_);
     if (arguments_.collect) return collect();
     use_one_thread_each();
-    heed_interrupts();
+    catch_interrupts();
     const std::size_t kept = arguments_.retry ? 0 : number_at_limits(work_);
     const bool complete = carry_out();
     if (!complete)
@@ -192,13 +199,34 @@ class SweepCommand {
   std::chrono::steady_clock::time_point next_table_;
 };
 
-}  // namespace
-
-int sweep_command(const SweepArguments& arguments) { return SweepCommand(arguments).execute(); }
-
-int evaluate_command(const std::string& folder) {
-  evaluate(folder);
-  return 0;
+void declare(SweepArguments& arguments, CommandOptions& options) {
+  declare_study(arguments, options, {"sweep", "A sweep in YAML.", "sweeps", "sweep", "points"});
+  declare_jobs(arguments, options, "Points");
+  options.value("--task", arguments.task, "Do the I-th of N parts of the points only; for job arrays.").type("I/N");
+  options.value("--slurm", arguments.slurm, "The sweep as a job array of SLURM: print its script, or submit it.")
+      .choice({"print", "submit"})
+      .excludes("--task");
+  options.value("--tasks", arguments.tasks, "Tasks of the array; default one a point, up to 1000.")
+      .range(1, 1000000)
+      .needs("--slurm");
+  options.flag("--collect", arguments.collect, "Join the points that are there, and say which are missing.")
+      .excludes("--task")
+      .excludes("--slurm")
+      .excludes("--retry");
 }
+
+int sweep(const SweepArguments& arguments) { return SweepCommand(arguments).execute(); }
+
+const CommandRegistration kRegistration(
+    {.order = 50,
+     .name = "sweep",
+     .sentence = "Figures of a scene over varied values, as a report, CSV and JSON. Run again, it goes on.",
+     .examples = R"(
+  orthodyn sweep configs/sweeps/grain_angle.yaml
+  orthodyn sweep mine.yaml --slurm --tasks 100 > array.sh; sbatch array.sh
+  orthodyn sweep mine.yaml --collect           join what the tasks have done)"},
+    declare, sweep);
+
+}  // namespace
 
 }  // namespace orthodyn

@@ -1,18 +1,27 @@
 // `orthodyn verify`: scenes with known figures, as a table of targets and what was computed.
+#include "lib/study/quantities/verify.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "lib/simulation/files.h"
-#include "lib/study/quantities/verify.h"
-#include "tools/orthodyn/setup.h"
+#include "lib/simulation/scene_file.h"
+#include "tools/orthodyn/command.h"
 
 namespace orthodyn {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+struct VerifyArguments {
+  std::vector<std::string> places;  // files and folders
+  SceneChanges changes;
+  std::optional<std::string> junit;
+};
 
 std::string case_name(const CaseResult& result) { return fs::path(result.file).stem().string(); }
 
@@ -48,7 +57,7 @@ struct Cases {
 Cases read_cases(const VerifyArguments& arguments) {
   Cases cases;
   for (const auto& file : find_cases(arguments.places)) {
-    Config config = read_config(file, arguments.integrator, arguments.set);
+    Config config = read_scene_file(file, arguments.changes);
     cases.widths.name = std::max(cases.widths.name, fs::path(file).stem().string().size());
     for (const auto& e : set_up(config).scene.expect)
       cases.widths.quantity = std::max(cases.widths.quantity, e.title().size());
@@ -57,9 +66,7 @@ Cases read_cases(const VerifyArguments& arguments) {
   return cases;
 }
 
-}  // namespace
-
-int verify_command(const VerifyArguments& arguments) {
+int verify_cases(const VerifyArguments& arguments) {
   const auto [configs, widths] = read_cases(arguments);
   if (arguments.junit) write_file(*arguments.junit, {junit_xml({})});  // if it cannot be written, say so now
   print_head(widths);
@@ -76,5 +83,25 @@ int verify_command(const VerifyArguments& arguments) {
   fmt::print("{} of {} cases pass ({:.1f} s)\n", results.size() - missed, results.size(), seconds);
   return missed == 0 ? 0 : 1;
 }
+
+void declare(VerifyArguments& arguments, CommandOptions& options) {
+  options.list("places", arguments.places, "Scenes with an 'expect' list, or folders of them.")
+      .required()
+      .type("DIR|FILE");
+  options.value("--junit", arguments.junit, "Also write the results as JUnit XML.").type("FILE");
+  options.repeated("--set", arguments.changes.set, "Change a value in every case by its path.").type("PATH=VALUE");
+  options.value("--integrator", arguments.changes.integrator, "Short for --set integrator.type=NAME.");
+}
+
+const CommandRegistration kRegistration(
+    {.order = 70,
+     .name = "verify",
+     .sentence = "Run scenes that expect known figures, and compare: exit code 1 on a miss.",
+     .examples = R"(
+  orthodyn verify configs/cases
+  orthodyn verify mine.yaml --integrator tr_bdf2)"},
+    declare, verify_cases);
+
+}  // namespace
 
 }  // namespace orthodyn

@@ -10,7 +10,7 @@
 
 #include "lib/study/jobs/errand.h"
 #include "lib/study/compare/expand.h"
-#include "lib/study/jobs/fingerprint.h"
+#include "lib/simulation/fingerprints.h"
 #include "lib/study/compare/point_result.h"
 
 namespace orthodyn {

@@ -6,7 +6,7 @@
 #include "lib/config/registry.h"
 #include "lib/core/words.h"
 #include "lib/ode/integrator.h"
-#include "lib/study/jobs/input_kind.h"
+#include "lib/simulation/input_kind.h"
 
 namespace orthodyn {
 

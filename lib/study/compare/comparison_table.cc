@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "lib/study/compare/answers.h"
-#include "lib/study/jobs/machine.h"
+#include "lib/simulation/machine.h"
 
 namespace orthodyn {
 

@@ -3,8 +3,8 @@
 #include <fstream>
 
 #include "lib/simulation/files.h"
-#include "lib/study/jobs/fingerprint.h"
-#include "lib/study/jobs/machine.h"
+#include "lib/simulation/fingerprints.h"
+#include "lib/simulation/machine.h"
 #include "lib/study/compare/measurement.h"
 
 namespace orthodyn {

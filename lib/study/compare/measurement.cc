@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "lib/study/jobs/deadline.h"
-#include "lib/study/jobs/machine.h"
+#include "lib/simulation/machine.h"
 #include "lib/study/compare/measure.h"
-#include "lib/study/errors/modal_solution.h"
+#include "lib/simulation/errors/modal_solution.h"
 
 namespace orthodyn {
 

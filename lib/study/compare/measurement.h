@@ -8,7 +8,7 @@
 
 #include "lib/simulation/balance.h"
 #include "lib/simulation/run.h"
-#include "lib/scene/setup.h"
+#include "lib/simulation/setup.h"
 #include "lib/study/compare/point_result.h"
 
 namespace orthodyn {

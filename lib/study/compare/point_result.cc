@@ -8,8 +8,6 @@ namespace orthodyn {
 
 namespace {
 
-Json to_json(const Cost& cost) { return {{"count", cost.count}, {"seconds", cost.seconds}}; }
-
 Json to_json(const ErrorNorms& e) { return {{"final", e.final}, {"l2", e.l2}, {"max", e.max}}; }
 
 }  // namespace
@@ -25,19 +23,6 @@ Job Job::from(const Json& json) {
   return {json.at("repeats"),         json.at("samples"),         json.at("seconds"), json.at("reference"),
           json.at("keep_trajectory"), json.at("exact_if_possible"),
           json.at("code")};
-}
-
-Json to_json(const Statistics& s) {
-  return {{"steps", s.steps},
-          {"rejected_steps", s.rejected_steps},
-          {"error_test_failures", s.error_test_failures},
-          {"convergence_failures", s.convergence_failures},
-          {"newton_iterations", s.newton_iterations},
-          {"gauss_newton_fallbacks", s.gauss_newton_fallbacks},
-          {"force", to_json(s.force)},
-          {"tangent", to_json(s.tangent)},
-          {"factorization", to_json(s.factorization)},
-          {"solve", to_json(s.solve)}};
 }
 
 Json to_json(const TrajectoryErrors& errors) {

@@ -3,17 +3,14 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "lib/ode/statistics.h"
-#include "lib/study/errors/error_norms.h"
+#include "lib/simulation/errors/error_norms.h"
+#include "lib/simulation/json.h"
 
 namespace orthodyn {
-
-using Json = nlohmann::ordered_json;
 
 struct Job {
   int repeats = 1, samples = 100;
@@ -27,7 +24,6 @@ struct Job {
   static Job from(const Json& json);
 };
 
-Json to_json(const Statistics& statistics);
 Json to_json(const TrajectoryErrors& errors);
 Json to_json(const TrajectoryScales& scales);
 

@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "lib/simulation/run.h"
-#include "lib/simulation/statics.h"
-#include "lib/scene/equilibrium.h"
-#include "lib/scene/setup.h"
+#include "lib/simulation/load_steps.h"
+#include "lib/simulation/equilibrium.h"
+#include "lib/simulation/setup.h"
 #include "lib/study/quantities/figure.h"
 
 namespace orthodyn {

@@ -6,7 +6,7 @@
 
 #include "lib/config/config.h"
 #include "lib/simulation/outcome.h"
-#include "lib/scene/setup.h"
+#include "lib/simulation/setup.h"
 
 namespace orthodyn {
 

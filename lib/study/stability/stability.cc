@@ -9,7 +9,7 @@
 #include "lib/ode/integrator.h"
 #include "lib/scene/scene.h"
 #include "lib/study/compare/expand.h"
-#include "lib/study/jobs/input_kind.h"
+#include "lib/simulation/input_kind.h"
 
 namespace orthodyn {
 

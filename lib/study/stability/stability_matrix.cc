@@ -9,8 +9,8 @@
 #include "lib/study/jobs/csv_cell.h"
 #include "lib/study/jobs/deadline.h"
 #include "lib/study/compare/expand.h"
-#include "lib/study/jobs/fingerprint.h"
-#include "lib/study/jobs/machine.h"
+#include "lib/simulation/fingerprints.h"
+#include "lib/simulation/machine.h"
 
 namespace orthodyn {
 

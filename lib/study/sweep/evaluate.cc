@@ -6,16 +6,16 @@
 #include <fstream>
 
 #include "lib/simulation/run.h"
-#include "lib/simulation/statics.h"
+#include "lib/simulation/equilibrium.h"
 #include "lib/simulation/frames.h"
-#include "lib/scene/equilibrium.h"
-#include "lib/scene/setup.h"
+#include "lib/simulation/load_steps.h"
+#include "lib/simulation/setup.h"
 #include "lib/study/jobs/deadline.h"
 #include "lib/study/quantities/figure.h"
-#include "lib/study/jobs/fingerprint.h"
-#include "lib/study/jobs/machine.h"
+#include "lib/simulation/fingerprints.h"
+#include "lib/simulation/machine.h"
 #include "lib/study/compare/measure.h"
-#include "lib/study/errors/snapshot.h"
+#include "lib/simulation/errors/snapshot.h"
 #include "lib/study/quantities/wanted_modes.h"
 
 namespace orthodyn {

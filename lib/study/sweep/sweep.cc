@@ -9,7 +9,7 @@
 #include "lib/core/units.h"
 #include "lib/core/words.h"
 #include "lib/fem/fem_model.h"
-#include "lib/study/jobs/input_kind.h"
+#include "lib/simulation/input_kind.h"
 #include "lib/study/sweep/formula_scope.h"
 #include "lib/study/sweep/sweep_names.h"
 

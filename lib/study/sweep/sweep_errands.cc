@@ -7,7 +7,7 @@
 
 #include "lib/scene/mesh_materials.h"
 #include "lib/study/sweep/evaluate.h"
-#include "lib/study/jobs/fingerprint.h"
+#include "lib/simulation/fingerprints.h"
 
 namespace orthodyn {
 

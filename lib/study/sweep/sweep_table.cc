@@ -7,7 +7,7 @@
 #include "lib/core/units.h"
 #include "lib/study/jobs/csv_cell.h"
 #include "lib/study/sweep/key_unit.h"
-#include "lib/study/jobs/machine.h"
+#include "lib/simulation/machine.h"
 #include "lib/study/compare/measure.h"
 
 namespace orthodyn {

@@ -1,0 +1,145 @@
+#include "lib/simulation/checkpoint/checkpoint.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "lib/core/errors.h"
+#include "lib/core/fingerprint.h"
+#include "lib/core/versions.h"
+#include "lib/simulation/files.h"
+
+namespace orthodyn {
+
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr int kVersion = 2;
+constexpr const char* kMark = "orthodyn checkpoint ";
+constexpr std::size_t kHeadSize = 2 + 20 + 3 + 1 + 16;  // CBOR's own, mark, version, space, fingerprint
+
+std::string cbor(const Json& json) {
+  std::string bytes;
+  Json::to_cbor(json, bytes);
+  return bytes;
+}
+
+std::string head(const std::string& content) {
+  return cbor(fmt::format("{}{:03} {}", kMark, kVersion, Fingerprint().add(content).text()));
+}
+
+std::vector<double> numbers(const Vector& x) { return {x.begin(), x.end()}; }
+
+Vector vector(const Json& json) {
+  const auto values = json.get<std::vector<double>>();
+  return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+Archive archive(const Json& json) {
+  Archive out;
+  for (const auto& [name, values] : json.items()) out.put(name, values.get<std::vector<double>>());
+  return out;
+}
+
+Json restarts_json(const std::vector<Restart>& restarts) {
+  Json out = Json::array();
+  for (const auto& r : restarts)
+    out.push_back({{"time", r.time}, {"at", r.at}, {"after", r.after}, {"changed", r.changed}});
+  return out;
+}
+
+std::vector<Restart> restarts_from(const Json& json) {
+  std::vector<Restart> out;
+  for (const auto& r : json) out.push_back({r.at("time"), r.at("at"), r.at("after"), r.at("changed")});
+  return out;
+}
+
+Json to_json(const Checkpoint& c) {
+  Json observers = Json::object();
+  for (const auto& [name, kept] : c.observers) observers[name] = kept.entries();
+  return {{"program", orthodyn_version()},
+          {"scene", c.scene},
+          {"mesh", c.mesh},
+          {"files", c.files},
+          {"begun", c.begun},
+          {"t", c.state.t},
+          {"q", numbers(c.state.q)},
+          {"v", numbers(c.state.v)},
+          {"last_output", c.last_output},
+          {"rhythm", {c.schedule.start, c.schedule.end, c.schedule.interval}},
+          {"effort", c.effort.archive().entries()},
+          {"restarts", restarts_json(c.restarts)},
+          {"observers", observers}};
+}
+
+Checkpoint from_json(const Json& json) {
+  Checkpoint c;
+  c.scene = json.at("scene");
+  c.mesh = json.at("mesh");
+  c.files = json.at("files").get<std::map<std::string, std::string>>();
+  c.begun = json.at("begun");
+  c.state = {json.at("t"), vector(json.at("q")), vector(json.at("v"))};
+  c.last_output = json.at("last_output");
+  const auto& rhythm = json.at("rhythm");
+  c.schedule = {rhythm.at(0), rhythm.at(1), rhythm.at(2)};
+  c.effort = Effort::from(archive(json.at("effort")));
+  c.restarts = restarts_from(json.at("restarts"));
+  for (const auto& [name, kept] : json.at("observers").items()) c.observers[name] = archive(kept);
+  return c;
+}
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& message) {
+  throw ConfigError(fmt::format("{}: {}; the run cannot go on from it: start it anew with --force in place of --resume",
+                                path.string(), message));
+}
+
+std::string content_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) refuse(path, "cannot be read");
+  return text.str();
+}
+
+// Of a head that is whole; -1 if it is none of ours.
+int version_of(const std::string& file) {
+  int version = -1;
+  const std::string expected = head("");
+  const auto digits = 2 + std::string(kMark).size();
+  if (file.compare(0, digits, expected, 0, digits) != 0) return -1;
+  const auto [end, error] = std::from_chars(file.data() + digits, file.data() + digits + 3, version);
+  return error == std::errc{} && end == file.data() + digits + 3 ? version : -1;
+}
+
+}  // namespace
+
+void Checkpoint::save(const fs::path& path) const {
+  const std::string content = cbor(to_json(*this));
+  write_lasting_file(path, {head(content), content});
+}
+
+Checkpoint Checkpoint::load(const fs::path& path) {
+  const std::string file = content_of(path);
+  if (file.size() < kHeadSize) refuse(path, "is cut short");
+  const int version = version_of(file);
+  if (version < 0) refuse(path, "is no checkpoint of orthodyn");
+  if (version != kVersion)
+    refuse(path, fmt::format("has version {} of the format, orthodyn {} reads version {}", version,
+                             orthodyn_version(), kVersion));
+  const std::string content = file.substr(kHeadSize);
+  if (file.compare(0, kHeadSize, head(content)) != 0) refuse(path, "is damaged or cut short");
+  try {
+    return from_json(Json::from_cbor(content));
+  } catch (const Json::exception& e) {
+    refuse(path, std::string("is incomplete: ") + e.what());
+  } catch (const ConfigError& e) {
+    refuse(path, e.what());
+  }
+}
+
+}  // namespace orthodyn

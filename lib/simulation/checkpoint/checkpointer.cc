@@ -1,0 +1,72 @@
+#include "lib/simulation/checkpoint/checkpointer.h"
+
+#include <algorithm>
+
+#include "lib/simulation/run.h"
+
+namespace orthodyn {
+
+namespace {
+
+// By the clock, none is written for so many times as long as the last one took: a slow disk takes a tenth of the run at most.
+constexpr double kRest = 10;
+
+double seconds_between(std::chrono::steady_clock::time_point a, std::chrono::steady_clock::time_point b) {
+  return std::chrono::duration<double>(b - a).count();
+}
+
+}  // namespace
+
+Checkpointer::Checkpointer(std::filesystem::path path, Checkpoint begin, CheckpointTimes times, NamedObservers others,
+                           const Integrator& integrator)
+    : path_(std::move(path)), checkpoint_(std::move(begin)), before_(checkpoint_.effort), times_(times),
+      others_(std::move(others)), integrator_(integrator) {
+  start_clock();
+}
+
+void Checkpointer::start_clock() {
+  begin_ = written_ = Clock::now();
+  begin_cpu_ = cpu_seconds_now();
+}
+
+void Checkpointer::on_start(const State& state) {
+  start_clock();
+  checkpoint_.begun = true;
+  checkpoint_.last_output = state.t;
+  if (!times_.never) write(state);
+}
+
+void Checkpointer::on_resume(const State&) { start_clock(); }
+
+void Checkpointer::on_output(const State& state) {
+  checkpoint_.last_output = state.t;
+  ++outputs_;
+}
+
+void Checkpointer::on_step(const StepInfo&, const State& state, const Integrator&) {
+  if (times_.never) return;
+  const double since = seconds_between(written_, Clock::now());
+  const bool enough_outputs = times_.frames > 0 && outputs_ >= times_.frames;
+  if (enough_outputs || since >= std::max(times_.every, kRest * last_took_)) write(state);
+}
+
+void Checkpointer::write(const State& state) {
+  const auto begin = Clock::now();
+  checkpoint_.state = state;
+  checkpoint_.effort = effort();
+  for (const auto& [name, observer] : others_) {
+    Archive kept;
+    observer->save(kept);
+    checkpoint_.observers[name] = std::move(kept);
+  }
+  checkpoint_.save(path_);
+  outputs_ = 0;
+  written_ = Clock::now();
+  last_took_ = seconds_between(begin, written_);
+}
+
+Effort Checkpointer::effort() const {
+  return before_ + Effort{integrator_.statistics(), seconds_between(begin_, Clock::now()), cpu_seconds_now() - begin_cpu_};
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,115 @@
+#include "lib/simulation/checkpoint/resume.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "lib/simulation/fingerprints.h"
+#include "lib/simulation/machine.h"
+#include "lib/simulation/checkpoint/scene_changes.h"
+
+namespace orthodyn {
+
+namespace {
+
+OutputSchedule schedule_of(const Scene& scene) {
+  const double span = scene.time.end - scene.time.start;
+  const int frames = scene.output.frames.value_or(50);
+  return {scene.time.start, scene.time.end,
+          scene.output.interval ? *scene.output.interval : frames > 0 ? span / frames : 0};
+}
+
+// By paths from the result's folder, as in the scene that is kept there: the same for a run that is named
+// by its scene and by its folder.
+std::map<std::string, std::string> file_fingerprints(const Config& scene, const ResultFolder& folder) {
+  namespace fs = std::filesystem;
+  std::map<std::string, std::string> out;
+  for (const auto& file : scene.file_paths()) {
+    const fs::path whole = fs::absolute(file).lexically_normal();
+    out[whole.lexically_proximate(fs::absolute(folder.path()).lexically_normal()).string()] =
+        Fingerprint().add_file(file).text();
+  }
+  return out;
+}
+
+void require_same_files(const Checkpoint& checkpoint, const Setup& setup, const ResultFolder& folder) {
+  for (const auto& [file, print] : file_fingerprints(setup.config, folder)) {
+    const auto before = checkpoint.files.find(file);
+    if (before != checkpoint.files.end() && before->second == print) continue;
+    throw ConfigError(fmt::format("{}: is not the file that {} was computed with; put it back, or start anew with "
+                                  "--force in place of --resume",
+                                  (folder.path() / file).lexically_normal().string(), folder.checkpoint().string()));
+  }
+}
+
+void require_same_model(const Checkpoint& checkpoint, const Setup& setup, const ResultFolder& folder) {
+  const FemModel& model = *setup.built.model;
+  if (checkpoint.mesh == mesh_fingerprint(model.parts().mesh) && checkpoint.state.q.size() == model.num_dofs() &&
+      checkpoint.state.v.size() == model.num_dofs())
+    return;
+  throw ConfigError(fmt::format("{}: the mesh is not the one that the checkpoint was computed with; put it back, or "
+                                "start anew with --force in place of --resume",
+                                folder.checkpoint().string()));
+}
+
+void require_time_left(const Checkpoint& checkpoint, const Setup& setup) {
+  if (setup.scene.time.end >= checkpoint.state.t) return;
+  setup.config.at("time").at("end").fail(fmt::format("{} s lies before the checkpoint at t = {:.6g} s; give a later end",
+                                                     setup.scene.time.end, checkpoint.state.t));
+}
+
+}  // namespace
+
+void keep_scales(const Checkpoint& checkpoint, Config& scene) {
+  const Config before = Config::from_text(checkpoint.scene, "checkpoint.cbor");
+  if (!before.has("integrator")) return;
+  for (const std::string key : {"position_scale", "velocity_scale"}) {
+    const bool open = !scene.has("integrator") || !scene.at("integrator").has(key);
+    if (open && before.at("integrator").has(key))
+      scene.override_with(fmt::format("integrator.{}={}", key, before.at("integrator").at(key).text()));
+  }
+}
+
+Checkpoint first_checkpoint(const Setup& setup, const std::string& resolved, const ResultFolder& folder) {
+  Checkpoint checkpoint;
+  checkpoint.scene = resolved;
+  checkpoint.mesh = mesh_fingerprint(setup.built.model->parts().mesh);
+  checkpoint.files = file_fingerprints(setup.config, folder);
+  checkpoint.state = setup.built.initial;
+  checkpoint.last_output = setup.built.initial.t;
+  checkpoint.schedule = schedule_of(setup.scene);
+  return checkpoint;
+}
+
+Checkpoint continued(Checkpoint checkpoint, const Setup& setup, const std::string& resolved,
+                     const ResultFolder& folder) {
+  const auto changed =
+      changed_keys(Config::from_text(checkpoint.scene, "checkpoint.cbor"), Config::from_text(resolved));
+  if (const auto refused = refused_changes(changed); !refused.empty())
+    throw ConfigError(fmt::format("{}: is that of another simulation: {} differ{}. A run that goes on may change "
+                                  "time.end, checkpoint, expect and the integrator's limits max_steps, h_min, "
+                                  "max_newton_iterations; for all else choose another folder with --out",
+                                  folder.checkpoint().string(), join(refused), refused.size() == 1 ? "s" : ""));
+  require_same_files(checkpoint, setup, folder);
+  require_same_model(checkpoint, setup, folder);
+  require_time_left(checkpoint, setup);
+  checkpoint.scene = resolved;
+  checkpoint.restarts.push_back({checkpoint.state.t, utc_now(), folder.earlier_status(), changed});
+  return checkpoint;
+}
+
+bool is_complete(const Checkpoint& checkpoint, const Scene& scene) {
+  return checkpoint.begun && checkpoint.state.t >= scene.time.end;
+}
+
+Plan plan_of(const Scene& scene, const OutputSchedule& schedule) {
+  const double start = scene.time.start, end = scene.time.end;
+  Plan plan{end, {}, scene.output.times == OutputTimes::exact};
+  if (scene.output.interval) plan.output_times = by_interval(start, end, *scene.output.interval);
+  else if (end == schedule.end) plan.output_times = evenly_spaced(start, end, scene.output.frames.value_or(50));
+  else if (schedule.interval > 0) plan.output_times = by_interval(start, end, schedule.interval);
+  return plan;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,174 @@
+// A dynamic analysis of a scene: integrated from its start or from a checkpoint to its end, and what it writes.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "lib/config/values.h"
+#include "lib/simulation/model_summary.h"
+#include "lib/simulation/checkpoint/resume.h"
+#include "lib/simulation/run_context.h"
+#include "lib/simulation/run_observers.h"
+#include "lib/simulation/run_record.h"
+#include "lib/simulation/checkpoint/scene_changes.h"
+
+namespace orthodyn {
+
+namespace {
+
+CheckpointTimes checkpoint_times(const Scene& scene) {
+  if (!scene.checkpoint) return {.never = true};
+  return {scene.checkpoint->every, scene.checkpoint->frames.value_or(0), false};
+}
+
+// A run that ended early can be taken up again whether or not the scene asks for checkpoints; one that
+// completed can be extended if it does. A checkpoint that is there is kept up to date.
+bool keeps_last_state(const Scene& scene, const Outcome& outcome, bool resumed) {
+  if (!outcome.between_steps) return false;
+  return scene.checkpoint || resumed || outcome.status != Outcome::Status::completed;
+}
+
+void require_whole_run(const Setup& setup) {
+  for (const auto& event : setup.events)
+    if (event.stops)
+      throw ConfigError(
+          fmt::format("--estimate-error compares two runs over the whole time, and the event '{}' stops "
+                      "them: remove one of the two",
+                      event.name));
+}
+
+FailurePlace failure_place(const FemModel& model, const State& last) {
+  const auto speed = model.evaluate("speed.largest", last);
+  const auto det_f = model.evaluate("det_f.smallest", last);
+  return {det_f[0], speed[0], static_cast<long>(det_f[1]), static_cast<long>(speed[1])};
+}
+
+class DynamicAnalysis {
+ public:
+  explicit DynamicAnalysis(RunContext context)
+      : context_(std::move(context)), setup_(context_.setup), folder_(context_.folder) {}
+
+  RunResult run() {
+    if (folder_.is_completed_without_checkpoint()) return accept_completed();
+    const bool resumes = context_.earlier && context_.earlier->begun;
+    Checkpoint begin = resumes ? continued(std::move(*context_.earlier), setup_, context_.resolved, folder_)
+                               : first_checkpoint(setup_, context_.resolved, folder_);
+    // One that was killed after its last step still lacks its record.
+    if (resumes && is_complete(begin, setup_.scene) && begin.restarts.back().after == "completed")
+      return nothing_to_do(begin.state.t);
+    if (context_.request.estimate_error) {
+      require_whole_run(setup_);
+      estimator_.emplace(setup_, plan_of(setup_.scene, begin.schedule));
+    }
+    RunObservers observers(setup_, folder_.path());
+    resumes ? resume(begin, observers) : prepare_anew();
+    const RunRecord record(folder_.path(), context_.scene, context_.set, begin.restarts);
+    write_file(folder_.path() / "scene.yaml", {begin.scene});
+    // Killed from here on, it can be resumed.
+    if (!resumes && setup_.scene.checkpoint) begin.save(folder_.checkpoint());
+    return compute(begin, observers, record);
+  }
+
+ private:
+  void prepare_anew() {
+    if (context_.request.resume)
+      context_.listener.on_notice(
+          fmt::format("nothing to resume in {}: starts from the beginning", folder_.path().string()));
+    folder_.prepare();
+  }
+
+  void resume(const Checkpoint& begin, RunObservers& observers) {
+    observers.restore(begin);
+    context_.listener.on_notice(fmt::format(
+        "resumes at t = {:.6g} s; the integrator starts anew there: a multistep method at order 1", begin.state.t));
+  }
+
+  RunResult compute(const Checkpoint& begin, RunObservers& observers, const RunRecord& record) {
+    RunResult result{.scene = context_.scene, .folder = folder_.path(), .model = summarize(*setup_.built.model)};
+    result.outcome = integrate(begin, observers, result.resumable);
+    result.motion = motion_result(result.outcome, begin.effort, observers);
+    context_.listener.on_result(result);
+    record.finish(result);
+    if (!estimator_ || result.outcome.status != Outcome::Status::completed) return result;
+    result.motion->error = repeat();
+    record.finish(result);
+    return result;
+  }
+
+  Outcome integrate(const Checkpoint& begin, RunObservers& observers, bool& resumable) {
+    Checkpointer checkpointer(folder_.checkpoint(), begin, checkpoint_times(setup_.scene), observers.kept(),
+                              *setup_.integrator);
+    Plan plan = plan_of(setup_.scene, begin.schedule);
+    plan.events = observers.events();
+    if (begin.begun) plan.delivered = begin.last_output;
+    const auto progress = context_.listener.on_begin(setup_);
+    auto all = observers.all(progress.get(), checkpointer);
+    if (estimator_) all.push_back(&estimator_->recorder());
+    const Outcome outcome =
+        orthodyn::run(*setup_.built.model, *setup_.integrator, begin.state, plan, all, context_.interrupt);
+    const bool kept = keeps_last_state(setup_.scene, outcome, begin.begun) && keep(outcome.last, checkpointer);
+    resumable = kept || setup_.scene.checkpoint;
+    return outcome;
+  }
+
+  // False if it cannot be written: a run that has failed is not to fail in another way.
+  bool keep(const State& last, Checkpointer& checkpointer) {
+    try {
+      checkpointer.write(last);
+      return true;
+    } catch (const RunError& e) {
+      context_.listener.on_warning(fmt::format("no checkpoint of the last state: {}", e.what()));
+      return false;
+    }
+  }
+
+  MotionResult motion_result(const Outcome& outcome, const Effort& before, const RunObservers& observers) const {
+    const Integrator& integrator = *setup_.integrator;
+    const InversionWatch& inversion = observers.inversion;
+    MotionResult out{.integrator = setup_.config.at("integrator").at("type").text(),
+                     .decisions = integrator.decisions(),
+                     .effort = before + Effort{integrator.statistics(), outcome.wall_seconds, outcome.cpu_seconds},
+                     .factor_bytes = integrator.factor_bytes(),
+                     .det_f = {inversion.smallest(), inversion.element(), inversion.time()}};
+    if (const auto& e = observers.energy) out.energy = {e->last(), e->drift(), e->scale(), e->relative_drift()};
+    if (const auto& m = observers.momentum) out.momentum = {m->angular_drift(), m->angular_scale()};
+    if (outcome.status == Outcome::Status::failed) out.failure = failure_place(*setup_.built.model, outcome.last);
+    return out;
+  }
+
+  // The run once more, for the estimate of its error.
+  ErrorEstimate repeat() {
+    context_.listener.on_notice(fmt::format("repeats with {} to estimate the error", join(estimator_->refinement())));
+    const auto progress = context_.listener.on_begin(setup_);
+    return estimator_->estimate(progress ? std::vector{progress.get()} : std::vector<Observer*>{}, context_.interrupt);
+  }
+
+  RunResult nothing_to_do(double end) const {
+    RunResult result{.scene = context_.scene, .folder = folder_.path(), .was_complete = true};
+    result.outcome.last.t = end;
+    return result;
+  }
+
+  // A completed run without a checkpoint: it needs nothing, unless the scene has changed.
+  RunResult accept_completed() const {
+    const auto earlier = Config::from_file((folder_.path() / "scene.yaml").string());
+    const auto changed = changed_keys(earlier, Config::from_text(context_.resolved));
+    const bool longer = std::find(changed.begin(), changed.end(), "time.end") != changed.end();
+    if (!longer && refused_changes(changed).empty())
+      return nothing_to_do(read_number(earlier.at("time").at("end"), {.unit = "s"}));
+    throw ConfigError(
+        fmt::format("{}: holds a completed run without a checkpoint, which cannot be resumed with other "
+                    "values ({}); start anew with --force in place of --resume",
+                    folder_.path().string(), join(changed)));
+  }
+
+  RunContext context_;
+  const Setup& setup_;
+  ResultFolder& folder_;
+  std::optional<ErrorEstimator> estimator_;
+};
+
+}  // namespace
+
+RunResult run_dynamic_analysis(RunContext context) { return DynamicAnalysis(std::move(context)).run(); }
+
+}  // namespace orthodyn

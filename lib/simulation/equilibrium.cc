@@ -1,0 +1,57 @@
+#include "lib/simulation/equilibrium.h"
+
+#include <fmt/format.h>
+
+#include "lib/analysis/rigid_freedom.h"
+
+namespace orthodyn {
+
+namespace {
+
+void require_held(const Scene& scene, const FemModel& model, double t) {
+  const std::string freedom = describe_rigid_freedom(model, t);
+  if (freedom.empty()) return;
+  const std::string message = fmt::format(
+      "{}: it has no definite place at rest. Clamp it so that all six rigid motions are held (a surface, or three points "
+      "that are not in line)",
+      freedom);
+  if (scene.clamps.empty()) throw ConfigError("clamps: " + message);
+  scene.clamps.front().origin.fail(message);
+}
+
+}  // namespace
+
+StaticProblem static_problem(const Scene& scene, const BuiltScene& built) {
+  const FemModel& model = *built.model;
+  const double t = scene.analysis == Analysis::statical ? scene.time.end : scene.time.start;
+  require_held(scene, model, t);
+  StaticProblem problem;
+  problem.path = std::make_unique<LoadPath>(model, t, Vector::Zero(model.num_dofs()));
+  const double force = problem.path->load().lpNorm<Eigen::Infinity>();
+  const double length = 0.1 * bounding_box(model.parts().mesh).size().maxCoeff();
+  problem.solver = scene.statics->solver->make(*problem.path, {force > 0 ? force : 1, length});
+  LoadStepping stepping = *scene.statics;
+  stepping.may_jump = scene.statics->at_limit == AtLimit::jump;
+  problem.stepper = std::make_unique<LoadStepper>(*problem.path, *problem.solver, stepping);
+  return problem;
+}
+
+Scene at_rest(const Scene& scene) {
+  Scene still = scene;
+  still.analysis = Analysis::statical;
+  still.time.end = scene.time.start;
+  if (!still.statics) still.statics = Statics::spec().read(Config::from_text("{}", "statics"));
+  return still;
+}
+
+Vector equilibrium(const Scene& scene, const BuiltScene& built) {
+  if (scene.analysis == Analysis::dynamic && !scene.motions.empty()) {
+    const Scene still = at_rest(scene);
+    return equilibrium(still, build(still));
+  }
+  const StaticProblem problem = static_problem(scene, built);
+  while (!problem.stepper->done()) problem.stepper->step();
+  return problem.stepper->state().q;
+}
+
+}  // namespace orthodyn

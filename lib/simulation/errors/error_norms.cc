@@ -1,0 +1,98 @@
+#include "lib/simulation/errors/error_norms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "lib/simulation/errors/phase.h"
+
+namespace orthodyn {
+
+namespace {
+
+// Final, rms and largest of distances at the samples, relative to a scale.
+ErrorNorms summarise(const std::vector<double>& distances, double scale) {
+  if (scale == 0) scale = std::numeric_limits<double>::quiet_NaN();
+  double squares = 0, largest = 0;
+  for (const double d : distances) {
+    squares += d * d;
+    if (!(d <= largest)) largest = d;  // NaN stays
+  }
+  return {distances.back() / scale, std::sqrt(squares / static_cast<double>(distances.size())) / scale,
+          largest / scale};
+}
+
+double largest(const std::vector<double>& x) { return *std::max_element(x.begin(), x.end()); }
+
+// The length of a probe's displacement in each column.
+std::vector<double> lengths(const ProbePoint& probe, const Eigen::MatrixXd& q) {
+  std::vector<double> out;
+  for (Eigen::Index k = 0; k < q.cols(); ++k) {
+    double squares = 0;
+    for (const int dof : probe.dofs)
+      if (dof >= 0) squares += q(dof, k) * q(dof, k);
+    out.push_back(std::sqrt(squares));
+  }
+  return out;
+}
+
+Eigen::MatrixXd times_mass(const Model& model, const Eigen::MatrixXd& x) {
+  Eigen::MatrixXd out(x.rows(), x.cols());
+  for (Eigen::Index k = 0; k < x.cols(); ++k) model.multiply_mass(x.col(k), out.col(k));
+  return out;
+}
+
+// M times the shape that takes the largest part of the motion about its mean (proper orthogonal
+// decomposition by the method of snapshots; Sirovich 1987).
+Vector leading_mode(const Model& model, const Eigen::MatrixXd& q) {
+  const Eigen::MatrixXd motion = q.colwise() - q.rowwise().mean();
+  const Eigen::MatrixXd weighted = times_mass(model, motion);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(motion.transpose() * weighted);
+  return weighted * eigen.eigenvectors().rightCols<1>();
+}
+
+double interval(const Trajectory& t) {
+  return (t.times.back() - t.times.front()) / static_cast<double>(t.times.size() - 1);
+}
+
+}  // namespace
+
+ReferenceNorms::ReferenceNorms(const Model& model, Trajectory reference, std::vector<ProbePoint> probes)
+    : model_(model), reference_(std::move(reference)), probes_(std::move(probes)) {
+  scales_.displacement = largest(mass_norms(reference_.q));
+  scales_.velocity = largest(mass_norms(reference_.v));
+  for (const auto& probe : probes_) scales_.probes.emplace_back(probe.name, largest(lengths(probe, reference_.q)));
+  scales_.dominant_frequency = std::numeric_limits<double>::quiet_NaN();
+  const Vector mode = leading_mode(model, reference_.q);
+  if (const auto omega = dominant_frequency(reference_.q.transpose() * mode, interval(reference_))) {
+    scales_.dominant_frequency = *omega / (2 * std::numbers::pi);
+    mode_ = mode;
+  }
+}
+
+std::vector<double> ReferenceNorms::mass_norms(const Eigen::MatrixXd& x) const {
+  const Eigen::MatrixXd weighted = times_mass(model_, x);
+  std::vector<double> out;
+  for (Eigen::Index k = 0; k < x.cols(); ++k) out.push_back(std::sqrt(std::max(x.col(k).dot(weighted.col(k)), 0.0)));
+  return out;
+}
+
+TrajectoryErrors ReferenceNorms::errors(const Trajectory& trajectory) const {
+  if (trajectory.q.rows() != reference_.q.rows() || trajectory.times != reference_.times)
+    throw std::logic_error("trajectory and reference do not belong together");
+  const Eigen::MatrixXd dq = trajectory.q - reference_.q;
+  TrajectoryErrors errors;
+  errors.displacement = summarise(mass_norms(dq), scales_.displacement);
+  errors.velocity = summarise(mass_norms(trajectory.v - reference_.v), scales_.velocity);
+  for (std::size_t p = 0; p < probes_.size(); ++p)
+    errors.probes.emplace_back(probes_[p].name, summarise(lengths(probes_[p], dq), scales_.probes[p].second));
+  errors.phase = std::numeric_limits<double>::quiet_NaN();
+  if (mode_.size() > 0)
+    errors.phase = phase_difference(trajectory.q.transpose() * mode_, reference_.q.transpose() * mode_,
+                                    2 * std::numbers::pi * scales_.dominant_frequency, interval(reference_));
+  return errors;
+}
+
+}  // namespace orthodyn

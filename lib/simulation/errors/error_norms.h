@@ -1,0 +1,61 @@
+// The distance of a trajectory from a reference.
+//
+// Displacements u and velocities v are measured in the mass norm |u|_M = sqrt(u' M u), as the model's
+// kinetic energy weighs them, relative to the largest |u_ref|_M, resp. |v_ref|_M, over the samples;
+// probes by the length of their displacement relative to its largest length.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lib/ode/model.h"
+#include "lib/simulation/errors/trajectory.h"
+
+namespace orthodyn {
+
+struct ErrorNorms {
+  double final = 0;  // at the end
+  double l2 = 0;     // root of the mean square over the samples
+  double max = 0;    // the worst sample
+};
+
+// A point whose displacement is followed: its three coordinates in q, -1 where clamped.
+struct ProbePoint {
+  std::string name;
+  std::array<int, 3> dofs;
+};
+
+struct TrajectoryErrors {
+  ErrorNorms displacement, velocity;
+  std::vector<std::pair<std::string, ErrorNorms>> probes;
+  double phase = 0;  // rad, of the dominant frequency; NaN where there is none
+};
+
+struct TrajectoryScales {
+  double displacement = 0, velocity = 0;  // sqrt(kg) m, sqrt(kg) m/s
+  std::vector<std::pair<std::string, double>> probes;  // m
+  double dominant_frequency = 0;  // Hz; NaN where there is none
+};
+
+// A reference, prepared for comparison with trajectories at the same times.
+class ReferenceNorms {
+ public:
+  // `model` must outlive it.
+  ReferenceNorms(const Model& model, Trajectory reference, std::vector<ProbePoint> probes);
+
+  const TrajectoryScales& scales() const { return scales_; }
+  TrajectoryErrors errors(const Trajectory& trajectory) const;
+
+ private:
+  // |x|_M of each column.
+  std::vector<double> mass_norms(const Eigen::MatrixXd& x) const;
+
+  const Model& model_;
+  Trajectory reference_;
+  std::vector<ProbePoint> probes_;
+  TrajectoryScales scales_;
+  Vector mode_;  // M times the leading mode, empty where nothing swings
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,88 @@
+#include "lib/simulation/fingerprints.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+#include "lib/core/versions.h"
+#include "lib/linear/blas.h"
+#include "lib/simulation/machine.h"
+
+namespace orthodyn {
+
+namespace {
+
+// Of plain numbers.
+template <class T>
+std::string bytes(const std::vector<T>& list) {
+  return {reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T)};
+}
+
+}  // namespace
+
+std::string mesh_fingerprint(const TetMesh& mesh) {
+  Fingerprint print;
+  print.add(bytes(mesh.nodes)).add(bytes(mesh.tets)).add(bytes(mesh.region_of));
+  print.add(std::to_string(mesh.region_names.size()));
+  for (const auto& name : mesh.region_names) print.add(name);
+  print.add(std::to_string(mesh.surfaces.size()));
+  for (const auto& [name, triangles] : mesh.surfaces) print.add(name).add(bytes(triangles));
+  for (const auto& [name, nodes] : mesh.node_sets) print.add(name).add(bytes(nodes));
+  return print.text();
+}
+
+std::string mesh_fingerprint(const LoadedMesh& loaded) {
+  Fingerprint print;
+  print.add(mesh_fingerprint(loaded.mesh));
+  for (const auto& [region, m] : loaded.materials) {
+    print.add(region).add(m.name).add(m.kind == MeshMaterial::Kind::isotropic ? "isotropic" : "orthotropic");
+    std::vector<double> constants{m.density, m.nu12, m.nu23, m.nu31, m.g12, m.g23, m.g31};
+    constants.insert(constants.end(), m.young.begin(), m.young.end());
+    constants.insert(constants.end(), m.axes.data(), m.axes.data() + m.axes.size());
+    print.add(bytes(constants));
+  }
+  for (const auto& data : loaded.cell_data)
+    print.add(data.name).add(std::to_string(data.components)).add(bytes(data.values));
+  return print.text();
+}
+
+const std::string& FileFingerprints::of(const std::filesystem::path& file) {
+  std::error_code ignored;  // what cannot be read says so below
+  const auto changed = std::filesystem::last_write_time(file, ignored);
+  const auto size = std::filesystem::file_size(file, ignored);
+  Known& known = known_[file];
+  if (known.print.empty() || known.changed != changed || known.size != size)
+    known = {changed, size, Fingerprint().add_file(file).text()};
+  return known.print;
+}
+
+std::string code_fingerprint() {
+  Fingerprint print;
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&code_fingerprint), &info) != 0 && info.dli_fname)
+    print.add_file(info.dli_fname);
+  const char* plugins = std::getenv("ORTHODYN_PLUGINS");
+  std::istringstream listed(plugins ? plugins : "");
+  for (std::string file; std::getline(listed, file, ':');) {
+    print.add(file);
+    // One that the loader finds by itself is known by its name only.
+    if (std::error_code ec; std::filesystem::is_regular_file(file, ec)) print.add_file(file);
+  }
+  print.add(orthodyn_version()).add(blas_name());
+  for (const auto& [library, version] : library_versions()) print.add(library + " " + version);
+  return print.text();
+}
+
+std::string machine_fingerprint() {
+  Fingerprint print;
+  print.add(machine_json().dump());
+  for (const char* variable : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"}) {
+    const char* value = std::getenv(variable);
+    print.add(value ? value : "");
+  }
+  return print.text();
+}
+
+}  // namespace orthodyn

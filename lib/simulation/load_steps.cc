@@ -1,0 +1,55 @@
+#include "lib/simulation/load_steps.h"
+
+#include <algorithm>
+
+namespace orthodyn {
+
+namespace {
+
+std::vector<std::string> energies_of(const Model& model) {
+  std::vector<std::string> names;
+  for (const auto& info : model.outputs())
+    if (info.name == "energy.elastic" || info.name == "energy.gravitational") names.push_back(info.name);
+  return names;
+}
+
+std::vector<std::string> header(const std::vector<std::string>& energies) {
+  std::vector<std::string> out{"load_factor", "newton_iterations", "residual [N]", "largest_displacement [m]"};
+  for (const auto& name : energies) out.push_back(name + " [J]");
+  return out;
+}
+
+}  // namespace
+
+Outcome run_static(LoadStepper& stepper, const std::vector<Observer*>& observers, const std::atomic<bool>& interrupt) {
+  return supervise(stepper.state(), observers, [&](Outcome& outcome) {
+    for (auto* o : observers) o->on_start(stepper.state());
+    while (!stepper.done()) {
+      if (interrupt) {
+        outcome.status = Outcome::Status::interrupted;
+        return;
+      }
+      stepper.step();
+      outcome.last = stepper.state();
+      for (auto* o : observers) o->on_output(stepper.state());
+    }
+  });
+}
+
+LoadStepWriter::LoadStepWriter(const std::filesystem::path& path, const Model& model, const LoadStepper& stepper)
+    : model_(model), stepper_(stepper), energies_(energies_of(model)), file_(path, header(energies_)) {}
+
+void LoadStepWriter::on_start(const State& state) {
+  file_.begin();
+  write(state);
+}
+
+void LoadStepWriter::write(const State& state) {
+  const auto& attempt = stepper_.attempt();
+  std::vector<double> row{state.t, static_cast<double>(attempt.iterations), attempt.residual,
+                          state.q.lpNorm<Eigen::Infinity>()};
+  for (const auto& name : energies_) row.push_back(model_.evaluate(name, state)[0]);
+  file_.row(row);
+}
+
+}  // namespace orthodyn

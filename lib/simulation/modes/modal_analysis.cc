@@ -1,0 +1,27 @@
+#include "lib/simulation/modes/modal_analysis.h"
+
+#include <algorithm>
+
+#include "lib/analysis/rigid_freedom.h"
+#include "lib/simulation/equilibrium.h"
+
+namespace orthodyn {
+
+ModalAnalysis::ModalAnalysis(const Setup& setup, int count, bool about_equilibrium)
+    : setup_(setup), scene_(setup.scene.analysis == Analysis::statical ? setup.scene : at_rest(setup.scene)) {
+  if (setup.scene.analysis == Analysis::dynamic && !scene_.motions.empty()) rebuilt_ = build(scene_);
+  about_ = state_about(about_equilibrium);
+  modes_ = natural_modes(model(), about_, count);
+  // Only what the geometry leaves free is rigid; round-off makes zeros of the softest modes of slender bodies, too.
+  if (modes_.zeros > 0) rigid_ = std::min(modes_.zeros, count_rigid_freedom(model(), about_.t));
+}
+
+State ModalAnalysis::state_about(bool equilibrium_asked) const {
+  const Vector zero = Vector::Zero(model().num_dofs());
+  const double t = scene_.time.end;
+  if (!equilibrium_asked) return {t, zero, zero};
+  if (scene_.start == Start::equilibrium) return {t, setup_.built.initial.q, zero};
+  return {t, equilibrium(scene_, rebuilt_ ? *rebuilt_ : setup_.built), zero};
+}
+
+}  // namespace orthodyn

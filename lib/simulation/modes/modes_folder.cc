@@ -1,0 +1,86 @@
+#include "lib/simulation/modes/modes_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "lib/core/errors.h"
+#include "lib/simulation/files.h"
+#include "lib/simulation/frames.h"
+
+namespace orthodyn {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void remove_earlier(const fs::path& folder) {
+  std::error_code ec;
+  for (const char* name : {"modes", "modes.pvd", "modes.png", "modes.log", "modes.csv"})
+    if (!ec) fs::remove_all(folder / name, ec);
+  if (ec) throw RunError(fmt::format("cannot prepare the folder {}: {}", folder.string(), ec.message()));
+}
+
+void write_csv(const fs::path& path, const Modes& modes) {
+  CsvFile file(path, {"mode", "frequency [Hz]", "angular_frequency [rad/s]", "participation.x [sqrt(kg)]",
+                      "participation.y [sqrt(kg)]", "participation.z [sqrt(kg)]", "effective_mass.x [kg]",
+                      "effective_mass.y [kg]", "effective_mass.z [kg]", "residual"});
+  file.begin();
+  double number = 0;
+  for (const auto& mode : modes.modes) {
+    const Vec3 &p = mode.participation, m = mode.effective_mass();
+    file.row({++number, mode.frequency(), mode.angular_frequency(), p[0], p[1], p[2], m[0], m[1], m[2], mode.residual});
+  }
+}
+
+// The shape at all nodes, its largest displacement 1.
+std::vector<double> nodal_shape(const Model& model, const State& about, const Vector& shape) {
+  auto moved = model.evaluate("displacement", {about.t, about.q + shape, about.v});
+  const auto before = model.evaluate("displacement", about);
+  double largest = 0;
+  for (std::size_t i = 0; i < moved.size(); ++i) moved[i] -= before[i];
+  for (std::size_t i = 0; i < moved.size(); i += 3)
+    largest = std::max(largest, Eigen::Map<const Vec3>(&moved[i]).norm());
+  for (double& x : moved) x /= largest;
+  return moved;
+}
+
+// modes.pvd, whose times are the modes' numbers, and a file per mode.
+void write_shapes(const fs::path& folder, const Model& model, const State& about, const Modes& modes) {
+  GrowingFile collection(folder / "modes.pvd",
+                         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n",
+                         "</Collection>\n</VTKFile>\n");
+  collection.begin();
+  const Geometry geometry = model.geometry();
+  const auto displacement = model.evaluate("displacement", about);
+  for (std::size_t k = 0; k < modes.modes.size(); ++k) {
+    const auto name = fmt::format("modes/mode_{:03}.vtu", k + 1);
+    write_vtu(folder / name, geometry,
+              {{"shape", Location::node, 3, nodal_shape(model, about, modes.modes[k].shape)},
+               {"displacement", Location::node, 3, displacement}});
+    collection.append(fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", k + 1, name));
+  }
+}
+
+}  // namespace
+
+void check_modes_folder(const fs::path& folder, bool replace) {
+  std::error_code ec;
+  if (!fs::exists(folder, ec)) return;
+  if (!fs::is_directory(folder, ec))
+    throw ConfigError(fmt::format("{}: is a file, expected a folder for the results; use --out", folder.string()));
+  if (fs::is_empty(folder, ec)) return;
+  if (!fs::exists(folder / "modes.csv", ec))
+    throw ConfigError(fmt::format("{}: holds files that are no modes; use --out with another folder", folder.string()));
+  if (!replace)
+    throw ConfigError(fmt::format("{}: holds earlier modes; use --force to replace them, or --out with another folder",
+                                  folder.string()));
+}
+
+void write_modes(const fs::path& folder, const ModalAnalysis& analysis) {
+  remove_earlier(folder);
+  write_csv(folder / "modes.csv", analysis.modes());
+  write_shapes(folder, analysis.model(), analysis.about(), analysis.modes());
+}
+
+}  // namespace orthodyn

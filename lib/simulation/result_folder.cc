@@ -1,0 +1,104 @@
+#include "lib/simulation/result_folder.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "lib/core/errors.h"
+#include "lib/simulation/json.h"
+#include "lib/simulation/run_record.h"
+
+namespace orthodyn {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kResultFiles[] = {"frames",    "frames.pvd",      "probes.csv", "energy.csv", "momentum.csv",
+                                        "steps.csv", "checkpoint.cbor", "scene.yaml", "pictures",   kRunRecordFile};
+
+constexpr const char* kCheckpoint = "checkpoint.cbor";
+constexpr const char* kLock = ".orthodyn-run";  // not run.json, which is renamed over
+
+// A lock is left behind by every run, also by one that was refused.
+bool is_unused(const fs::path& folder) {
+  std::error_code ec;
+  for (const auto& entry : fs::directory_iterator(folder, ec))
+    if (entry.path().filename() != kLock) return false;
+  return true;
+}
+
+// Killed before anything was computed: only what is written first is there.
+bool has_just_begun(const fs::path& folder) {
+  std::error_code ec;
+  for (const auto& entry : fs::directory_iterator(folder, ec)) {
+    const auto name = entry.path().filename();
+    if (name != kRunRecordFile && name != kLock && name != "scene.yaml" && name.extension() != ".part") return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+ResultFolder::ResultFolder(fs::path path, Earlier earlier, std::function<void(const std::string&)> warn)
+    : path_(std::move(path)), earlier_(earlier), warn_(std::move(warn)) {
+  std::error_code ec;
+  if (!fs::exists(path_, ec)) return;
+  if (!fs::is_directory(path_, ec))
+    throw ConfigError(fmt::format("{}: is a file, expected a folder for the results; use --out", path_.string()));
+  if (!is_unused(path_) && !fs::exists(path_ / kRunRecordFile, ec))
+    throw ConfigError(
+        fmt::format("{}: holds files that are no result of a run; use --out with another folder", path_.string()));
+  lock();
+  if (is_unused(path_)) return;
+  if (earlier_ == Earlier::resume) consider_resuming();
+  if (earlier_ == Earlier::keep) refuse_earlier_result();
+}
+
+void ResultFolder::lock() {
+  lock_.emplace(path_, kLock, "run");
+  if (!lock_->warning().empty()) warn_(lock_->warning());
+}
+
+void ResultFolder::refuse_earlier_result() const {
+  throw ConfigError(
+      fmt::format("{}: holds an earlier result; use --force to replace it, --resume to go on "
+                  "from its checkpoint, or --out with another folder",
+                  path_.string()));
+}
+
+void ResultFolder::consider_resuming() {
+  std::error_code ec;
+  resumes_ = fs::exists(checkpoint(), ec);
+  if (resumes_ || has_just_begun(path_)) return;
+  completed_ = earlier_status() == "completed";
+  if (!completed_)
+    throw ConfigError(
+        fmt::format("{}: holds a result without a checkpoint, so that nothing can be resumed; start it anew "
+                    "with --force in place of --resume, and with 'checkpoint: {{every: 60}}' in the scene",
+                    path_.string()));
+}
+
+fs::path ResultFolder::checkpoint() const { return path_ / kCheckpoint; }
+
+std::string ResultFolder::earlier_status() const {
+  std::ifstream in(path_ / kRunRecordFile);
+  const auto json = Json::parse(in, nullptr, false);
+  const std::string status = json.is_object() && json.contains("status") && json["status"].is_string()
+                                 ? json["status"].get<std::string>()
+                                 : "running";
+  return status == "running" ? "killed" : status;
+}
+
+void ResultFolder::prepare() {
+  std::error_code ec;
+  if (!lock_) {
+    lock();
+    if (earlier_ != Earlier::replace && !is_unused(path_)) refuse_earlier_result();  // one that was faster
+  }
+  for (const char* name : kResultFiles)
+    if (!ec) fs::remove_all(path_ / name, ec);
+  if (ec) throw RunError(fmt::format("cannot prepare the folder {}: {}", path_.string(), ec.message()));
+}
+
+}  // namespace orthodyn

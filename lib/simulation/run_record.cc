@@ -1,0 +1,113 @@
+#include "lib/simulation/run_record.h"
+
+#include "lib/simulation/machine.h"
+
+namespace orthodyn {
+
+namespace {
+
+std::string text(const Json& json) { return json.dump(2) + "\n"; }
+
+Json begin_json(const std::string& scene, const std::vector<std::string>& set, const std::vector<Restart>& restarts) {
+  Json out{{"status", "running"},
+           {"scene", scene},
+           {"set", set},
+           {"versions", versions_json()},
+           {"machine", machine_json()}};
+  for (const auto& r : restarts)
+    out["restarts"].push_back({{"time", r.time}, {"at", r.at}, {"after", r.after}, {"changed", r.changed}});
+  return out;
+}
+
+Json model_json(const ModelSummary& model) {
+  Json terms = Json::array();
+  for (const auto& term : model.terms) terms.push_back(term);
+  return {{"nodes", model.nodes}, {"elements", model.elements}, {"unknowns", model.unknowns}, {"terms", terms}};
+}
+
+Json energy_json(const EnergySummary& energy) {
+  const auto& e = energy.last;
+  return {{"kinetic", e.kinetic},       {"elastic", e.elastic}, {"gravitational", e.gravitational},
+          {"dissipated", e.dissipated}, {"loads", e.loads},     {"balance_drift", energy.drift},
+          {"scale", energy.scale}};
+}
+
+Json norms_json(const ErrorNorms& e) { return {{"final", e.final}, {"rms", e.l2}, {"largest", e.max}}; }
+
+Json error_json(const ErrorEstimate& e) {
+  Json out{{"against", e.against}, {"wall_seconds", e.wall_seconds}};
+  if (!e.completed) {
+    out["trouble"] = e.failure_reason;
+    return out;
+  }
+  out["samples"] = e.samples;
+  out["displacement"] = norms_json(e.displacement);
+  out["velocity"] = norms_json(e.velocity);
+  return out;
+}
+
+Json failure_json(const Outcome& outcome) {
+  return {{"reason", reason_name(outcome.reason)}, {"message", outcome.message}};
+}
+
+Json place_json(const FailurePlace& place, double time) {
+  return {{"time", time},
+          {"element_with_smallest_det_f", place.element},
+          {"smallest_det_f", place.smallest_det_f},
+          {"fastest_node", place.node},
+          {"largest_speed", place.largest_speed}};
+}
+
+void add_motion(Json& out, const MotionResult& motion, const Outcome& outcome) {
+  Json decisions;
+  for (const auto& [key, value] : motion.decisions) decisions[key] = value;
+  out["integrator"] = decisions;
+  out["time_reached"] = outcome.last.t;
+  out["wall_seconds"] = motion.effort.wall_seconds;
+  out["cpu_seconds"] = motion.effort.cpu_seconds;
+  out["statistics"] = to_json(motion.effort.statistics);
+  out["factor_bytes"] = motion.factor_bytes;
+  out["smallest_det_f"] = {
+      {"value", motion.det_f.value}, {"element", motion.det_f.element}, {"time", motion.det_f.time}};
+  if (motion.energy) out["energy"] = energy_json(*motion.energy);
+  if (motion.momentum)
+    out["momentum"] = {{"angular_drift", motion.momentum->angular_drift},
+                       {"angular_scale", motion.momentum->angular_scale}};
+  if (motion.error) out["estimated_error"] = error_json(*motion.error);
+  if (!outcome.remark.empty()) out["remark"] = outcome.remark;
+  if (outcome.status != Outcome::Status::failed) return;
+  out["failure"] = failure_json(outcome);
+  if (motion.failure) out["failure"]["where"] = place_json(*motion.failure, outcome.last.t);
+}
+
+void add_equilibrium(Json& out, const EquilibriumResult& equilibrium, const Outcome& outcome) {
+  out["load_factor_reached"] = outcome.last.t;
+  out["loads_at_time"] = equilibrium.loads_at_time;
+  out["load_steps"] = equilibrium.load_steps;
+  out["rejected_load_steps"] = equilibrium.rejected_load_steps;
+  out["largest_displacement"] = equilibrium.largest_displacement;
+  out["residual"] = equilibrium.residual;
+  out["solver"] = equilibrium.solver;
+  out["statistics"] = to_json(equilibrium.statistics);
+  out["wall_seconds"] = outcome.wall_seconds;
+  out["cpu_seconds"] = outcome.cpu_seconds;
+  if (outcome.status == Outcome::Status::failed) out["failure"] = failure_json(outcome);
+}
+
+}  // namespace
+
+RunRecord::RunRecord(const std::filesystem::path& folder, const std::string& scene, const std::vector<std::string>& set,
+                     const std::vector<Restart>& restarts)
+    : begin_(begin_json(scene, set, restarts)), file_(folder / kRunRecordFile, text(begin_)) {}
+
+void RunRecord::finish(const RunResult& result) const {
+  Json out = begin_;
+  out["status"] = status_word(result.outcome.status);
+  if (result.equilibrium) out["analysis"] = "static";
+  out["model"] = model_json(result.model);
+  if (result.motion) add_motion(out, *result.motion, result.outcome);
+  if (result.equilibrium) add_equilibrium(out, *result.equilibrium, result.outcome);
+  file_.rewrite(text(out));
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,82 @@
+// What came out of a run of a scene: the values that run.json and the program's summary are written from.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lib/simulation/balance.h"
+#include "lib/simulation/checkpoint/effort.h"
+#include "lib/simulation/errors/error_estimate.h"
+#include "lib/simulation/outcome.h"
+
+namespace orthodyn {
+
+struct ModelSummary {
+  std::size_t nodes = 0, elements = 0;
+  int unknowns = 0;
+  std::string elasticity;          // the law of the first region
+  std::vector<std::string> terms;  // in words
+};
+
+struct EnergySummary {
+  EnergyBalance last;           // J
+  double drift = 0, scale = 0;  // J: of the balance, and the largest energy
+  double relative_drift = 0;
+};
+
+struct MomentumSummary {
+  double angular_drift = 0, angular_scale = 0;  // kg m^2/s
+};
+
+// The smallest det F: an element with det F <= 0 is inverted.
+struct SmallestDetF {
+  double value = 1;
+  long element = -1;
+  double time = 0;  // s
+};
+
+// Where a run failed: the places that are likely to be at fault.
+struct FailurePlace {
+  double smallest_det_f = 0, largest_speed = 0;  // -, m/s
+  long element = 0, node = 0;
+};
+
+// Of a dynamic analysis.
+struct MotionResult {
+  std::string integrator = {};                                      // its type
+  std::vector<std::pair<std::string, std::string>> decisions = {};  // of the integrator: key and value
+  Effort effort = {};                                               // over all restarts
+  std::size_t factor_bytes = 0;
+  SmallestDetF det_f = {};
+  std::optional<EnergySummary> energy = {};      // where the scene asks for energy.csv
+  std::optional<MomentumSummary> momentum = {};  // likewise momentum.csv
+  std::optional<FailurePlace> failure = {};      // of a run that failed
+  std::optional<ErrorEstimate> error = {};       // if it was asked for
+};
+
+// Of a static analysis: the last equilibrium.
+struct EquilibriumResult {
+  double loads_at_time = 0;  // s
+  long load_steps = 0, rejected_load_steps = 0;
+  double largest_displacement = 0;        // m, of a coordinate
+  double residual = 0, largest_load = 0;  // N, of a coordinate
+  std::string solver = {};                // its linear solver
+  Statistics statistics = {};
+  SmallestDetF det_f = {};
+};
+
+struct RunResult {
+  std::string scene;  // its file
+  std::filesystem::path folder;
+  Outcome outcome = {};
+  ModelSummary model = {};
+  std::optional<MotionResult> motion = {};            // one of the two,
+  std::optional<EquilibriumResult> equilibrium = {};  // or none where nothing was to be done
+  bool was_complete = false;                          // it was to be resumed, and had reached its end before
+  bool resumable = false;                             // the folder holds a checkpoint of a late state
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,135 @@
+#include "lib/simulation/setup.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "lib/analysis/scales.h"
+#include "lib/analysis/strain_check.h"
+#include "lib/core/words.h"
+#include "lib/linear/blas.h"
+#include "lib/simulation/equilibrium.h"
+#include "lib/scene/events.h"
+#include "lib/scene/quantity.h"
+
+namespace orthodyn {
+
+namespace {
+
+// Every name in `fields` must be an output of the model at one of the given places.
+void check_fields(const Model& model, const std::vector<std::string>& fields, std::vector<Location> allowed,
+                  const Origin& origin) {
+  std::vector<std::string> names;
+  for (const auto& info : model.outputs())
+    if (std::find(allowed.begin(), allowed.end(), info.location) != allowed.end()) names.push_back(info.name);
+  for (const auto& field : fields) {
+    if (std::find(names.begin(), names.end(), field) != names.end()) continue;
+    origin.fail(fmt::format("unknown field '{}'{}; known: {}", field, did_you_mean(field, names), join(names)));
+  }
+}
+
+void check_outputs(const Scene& scene, const Model& model) {
+  check_fields(model, scene.output.fields, {Location::node, Location::cell}, scene.output.origin);
+  for (const auto& [name, probe] : scene.output.probes)
+    check_fields(model, probe.fields, {Location::node}, probe.origin);
+}
+
+// A probe far from the body is a slip of units, most often.
+void warn_of_distant_probes(const Scene& scene, BuiltScene& built) {
+  const TetMesh& mesh = built.model->parts().mesh;
+  const Box box = bounding_box(mesh);
+  for (const auto& [name, probe] : scene.output.probes) {
+    const double outside = (probe.at - probe.at.cwiseMax(box.min).cwiseMin(box.max)).norm();
+    if (outside <= 0.01 * box.diagonal()) continue;
+    const Vec3& node = mesh.nodes[static_cast<std::size_t>(nearest_node(mesh, probe.at))];
+    built.warnings.push_back(fmt::format("{}: probe '{}' is {:.3g} m outside of the body; it records the nearest node, at {}",
+                                         probe.origin.where, name, outside, Value<Vec3>::yaml(node)));
+  }
+}
+
+void check_expectations(const Scene& scene, const FemModel& model) {
+  for (const auto& e : scene.expect) {
+    const Quantity quantity = find_quantity(e.quantity, scene, model, e.origin);
+    if (quantity.components == 3 && (e.at || e.take != Take::drift))
+      e.origin.fail(fmt::format("'{}' is a vector: choose .x, .y, .z or .magnitude", e.quantity));
+    if (scene.analysis == Analysis::statical && (e.at || e.take != Take::end || !quantity.values))
+      e.origin.fail("of a static analysis only values in equilibrium are known: remove 'take' and 'at'" +
+                    std::string(quantity.values ? "" : ", choose another quantity than energy.balance"));
+    if (e.at && (*e.at < scene.time.start || *e.at > scene.time.end))
+      e.origin.fail(fmt::format("at: {} s is outside of the time span", *e.at));
+  }
+}
+
+std::unique_ptr<Integrator> make_integrator(Config& config, const Scene& scene, const Task& task, const Model& model) {
+  std::unique_ptr<Integrator> integrator;
+  try {
+    integrator = scene.integrator->make(model, task);
+  } catch (const ConfigError& e) {
+    if (!e.place().empty()) throw;  // such as that of a formula which has no value
+    config.at("integrator").fail(e.message());
+  }
+  const Config section = config.at("integrator");
+  for (const auto& [key, value] : integrator->decisions())
+    if (!section.has(key)) section.fill(key, value);
+  return integrator;
+}
+
+// Of each elastic term of the model, in their order.
+std::vector<Stiffness> elastic_stiffness(const Scene& scene, const FemModel& model) {
+  std::vector<Stiffness> out;
+  for (const auto& term : model.parts().elastic) out.push_back(material_in(scene, term->region()).stiffness());
+  return out;
+}
+
+void start_from_equilibrium(const Scene& scene, BuiltScene& built) {
+  try {
+    built.initial = initial_state_at(equilibrium(scene, built), scene.initial, scene.time.start, *built.model);
+  } catch (const RunError& e) {
+    throw RunError(std::string("start: equilibrium: ") + e.what(), e.reason());
+  }
+}
+
+}  // namespace
+
+Task task_of(const Scene& scene, const BuiltScene& built) {
+  const auto& [start, end] = scene.time;
+  const double frames = scene.output.frames.value_or(50);
+  const double interval = scene.output.interval.value_or((end - start) / std::max(frames, 1.0));
+  const auto scales = [&built, end = end] {
+    return estimate_scales(*built.model, built.initial, end, static_response(*built.model));
+  };
+  return {scales, built.initial, end, interval};
+}
+
+Setup set_up(const Config& input) {
+  Config config = input.resolving();
+  Scene scene = read_scene(config);
+  BuiltScene built = build(scene);
+  check_outputs(scene, *built.model);
+  check_expectations(scene, *built.model);
+  warn_of_distant_probes(scene, built);
+  std::optional<StaticResponse> statics;  // made once, for whoever asks first
+  const auto response = [&]() -> const StaticResponse& {
+    if (!statics) statics = static_response(*built.model);
+    return *statics;
+  };
+  const auto stiffness = elastic_stiffness(scene, *built.model);
+  if (scene.elasticity.kinematics == Kinematics::corotational && needs_strain_check(*built.model, stiffness))
+    for (auto& warning : strain_warnings(*built.model, stiffness, built.initial, response()))
+      built.warnings.push_back(std::move(warning));
+  std::vector<Event> events = make_events(scene, *built.model);
+  std::unique_ptr<Integrator> integrator;
+  if (scene.analysis == Analysis::dynamic) {
+    if (scene.start == Start::equilibrium) start_from_equilibrium(scene, built);
+    Task task = task_of(scene, built);
+    task.scales = [&] { return estimate_scales(*built.model, built.initial, scene.time.end, response()); };
+    integrator = make_integrator(config, scene, task, *built.model);
+  }
+  if (!blas_is_openblas())
+    built.warnings.push_back("the BLAS in use is not OpenBLAS; large factorisations will be several times slower "
+                             "(Debian: libopenblas0-pthread)");
+  return {std::move(config), std::move(scene), std::move(built), std::move(integrator), std::move(events)};
+}
+
+}  // namespace orthodyn

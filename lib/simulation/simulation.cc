@@ -1,0 +1,54 @@
+#include "lib/simulation/simulation.h"
+
+#include <fmt/format.h>
+
+#include "lib/core/versions.h"
+#include "lib/simulation/checkpoint/resume.h"
+
+namespace orthodyn {
+
+namespace {
+
+Earlier earlier_result(const RunRequest& request) {
+  if (request.resume) return Earlier::resume;
+  return request.force ? Earlier::replace : Earlier::keep;
+}
+
+// So placed that it can be run from the result's folder.
+std::string resolved_scene(const Setup& setup, const std::string& file, const std::filesystem::path& folder) {
+  return fmt::format("# {} with every default spelled out, by orthodyn {}.\n{}", file, orthodyn_version(),
+                     setup.config.dump_for(folder.string()));
+}
+
+}  // namespace
+
+Simulation Simulation::from_file(const std::string& file, const SceneChanges& changes) {
+  read_scene_file(file, changes);  // throws now, not when it is run
+  return {file, changes};
+}
+
+RunResult Simulation::run(const RunRequest& request) const {
+  const std::atomic<bool> never{false};
+  return run(request, never);
+}
+
+RunResult Simulation::run(const RunRequest& request, const std::atomic<bool>& interrupt) const {
+  RunListener nobody;
+  return run(request, interrupt, nobody);
+}
+
+RunResult Simulation::run(const RunRequest& request, const std::atomic<bool>& interrupt, RunListener& listener) const {
+  const auto warn = [&](const std::string& text) { listener.on_warning(text); };
+  ResultFolder folder(request.folder, earlier_result(request), warn);
+  std::optional<Checkpoint> earlier;
+  if (folder.resumes()) earlier = Checkpoint::load(folder.checkpoint());
+  Config config = read_scene_file(file_, changes_);
+  if (earlier) keep_scales(*earlier, config);
+  const Setup setup = set_up(std::move(config));
+  for (const auto& warning : setup.built.warnings) listener.on_warning(warning);
+  const std::string resolved = resolved_scene(setup, file_, folder.path());
+  const RunAnalysis analysis = setup.scene.analysis == Analysis::statical ? run_static_analysis : run_dynamic_analysis;
+  return analysis({file_, changes_.set, request, setup, resolved, folder, std::move(earlier), interrupt, listener});
+}
+
+}  // namespace orthodyn

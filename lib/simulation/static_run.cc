@@ -1,0 +1,106 @@
+// A static analysis of a scene: load steps to the equilibrium under all its loads, and what it writes.
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "lib/simulation/equilibrium.h"
+#include "lib/simulation/files.h"
+#include "lib/simulation/load_steps.h"
+#include "lib/simulation/model_summary.h"
+#include "lib/simulation/run_context.h"
+#include "lib/simulation/run_observers.h"
+#include "lib/simulation/run_record.h"
+#include "lib/simulation/frames.h"
+
+namespace orthodyn {
+
+namespace {
+
+// A notice for each load step.
+class LoadProgress : public Observer {
+ public:
+  LoadProgress(const LoadStepper& stepper, RunListener& listener) : stepper_(stepper), listener_(listener) {}
+  void on_output(const State& state) override {
+    listener_.on_notice(
+        fmt::format("load factor {:.6g}: {} Newton iterations", state.t, stepper_.attempt().iterations));
+  }
+
+ private:
+  const LoadStepper& stepper_;
+  RunListener& listener_;
+};
+
+class StaticObservers {
+ public:
+  StaticObservers(const Setup& setup, const StaticProblem& problem, const std::filesystem::path& folder,
+                  RunListener& listener)
+      : progress_(*problem.stepper, listener) {
+    const auto& output = setup.scene.output;
+    if (!output.fields.empty()) frames_.emplace(folder, *problem.path, output.fields);
+    if (output.steps) steps_.emplace(folder / "load_steps.csv", *problem.path, *problem.stepper);
+    if (const auto columns = probe_columns(setup.scene, *setup.built.model); !columns.empty())
+      probes_.emplace(folder / "probes.csv", *problem.path, columns, "load_factor");
+  }
+
+  std::vector<Observer*> all() {
+    std::vector<Observer*> out;
+    const auto add = [&](auto& observer) {
+      if (observer) out.push_back(&*observer);
+    };
+    add(frames_);
+    add(steps_);
+    add(probes_);
+    out.push_back(&progress_);
+    return out;
+  }
+
+ private:
+  std::optional<FrameWriter> frames_;
+  std::optional<LoadStepWriter> steps_;
+  std::optional<ProbeWriter> probes_;
+  LoadProgress progress_;
+};
+
+void refuse_what_is_for_motion(const RunRequest& request) {
+  if (request.resume) throw ConfigError("--resume: a static analysis keeps no checkpoint; start anew with --force");
+  if (request.estimate_error)
+    throw ConfigError("--estimate-error: a static analysis has no error of integration; remove it");
+}
+
+EquilibriumResult equilibrium_result(const StaticProblem& problem, const State& last) {
+  const auto det_f = problem.path->evaluate("det_f.smallest", last);
+  return {.loads_at_time = problem.path->time(),
+          .load_steps = problem.stepper->steps(),
+          .rejected_load_steps = problem.stepper->rejected(),
+          .largest_displacement = last.q.lpNorm<Eigen::Infinity>(),
+          .residual = problem.stepper->attempt().residual,
+          .largest_load = problem.path->load().lpNorm<Eigen::Infinity>(),
+          .solver = problem.solver->description(),
+          .statistics = problem.solver->statistics(),
+          .det_f = {det_f[0], static_cast<long>(det_f[1]), problem.path->time()}};
+}
+
+}  // namespace
+
+RunResult run_static_analysis(RunContext context) {
+  refuse_what_is_for_motion(context.request);
+  const Setup& setup = context.setup;
+  const auto& folder = context.folder.path();
+  const StaticProblem problem = static_problem(setup.scene, setup.built);
+  context.folder.prepare();
+  const RunRecord record(folder, context.scene, context.set, {});
+  write_file(folder / "scene.yaml", {context.resolved});
+  StaticObservers observers(setup, problem, folder, context.listener);
+  auto all = observers.all();
+  const auto own = context.listener.on_begin(setup);
+  if (own) all.push_back(own.get());
+  RunResult result{.scene = context.scene, .folder = folder};
+  result.outcome = run_static(*problem.stepper, all, context.interrupt);
+  result.model = summarize(*setup.built.model);
+  result.equilibrium = equilibrium_result(problem, result.outcome.last);
+  context.listener.on_result(result);
+  record.finish(result);
+  return result;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,137 @@
+// Runs that are killed, interrupted or stopped by a full disk, and go on from their checkpoint.
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <random>
+#include <thread>
+
+#include "tests/simulation/resume_fixture.h"
+
+namespace orthodyn {
+namespace {
+
+using Json = nlohmann::json;
+
+// Kills runs at moments of its choice.
+class Killed : public Resume {
+ protected:
+  // Starts a run, kills it after some milliseconds; true if it completed before.
+  bool run_and_kill(const std::string& arguments, double milliseconds) const {
+    const pid_t pid = fork();
+    if (pid == 0) {
+      if (chdir(folder_.c_str()) != 0) _exit(9);
+      const int log = open("log.txt", O_WRONLY | O_CREAT | O_APPEND, 0666);
+      dup2(log, 1);
+      dup2(log, 2);
+      execl("/bin/sh", "sh", "-c", ("exec " ORTHODYN_EXECUTABLE " " + arguments).c_str(), nullptr);
+      _exit(9);
+    }
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double, std::milli>(milliseconds);
+    int status = 0;
+    while (std::chrono::steady_clock::now() < end) {
+      if (waitpid(pid, &status, WNOHANG) == pid) {
+        EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status << read_text(folder_ / "log.txt");
+        return true;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    kill(pid, SIGKILL);
+    waitpid(pid, &status, 0);
+    return false;
+  }
+
+  // Kills at random moments until the run is through. The number of kills.
+  int run_with_kills(const std::string& scene, const std::string& out, double longest_milliseconds, std::mt19937& random) {
+    std::uniform_real_distribution<double> moment(1, longest_milliseconds);
+    for (int kills = 0; kills < 200; ++kills)
+      if (run_and_kill("run " + scene + " --quiet --resume --out " + out, moment(random) * (1 + kills / 20))) return kills;
+    ADD_FAILURE() << "does not come to an end:\n" << read_text(folder_ / "log.txt");
+    return 0;
+  }
+};
+
+int repetitions() {
+  const char* given = std::getenv("ORTHODYN_KILL_REPETITIONS");
+  return given ? std::atoi(given) : 2;
+}
+
+TEST_F(Killed, KilledAtRandomMomentsItEndsWithTheSameFrames) {
+  struct Method {
+    const char* name;
+    const char* integrator;
+    double tolerance;
+  };
+  // A restart of a multistep method costs some tolerances, as the whole run does. A fixed step repeats the same steps: what
+  // remains is where Newton stops.
+  for (const auto& [name, integrator, tolerance] :
+       {Method{"bdf", kBdf, 10 * kRtol}, {"fixed", kFixedStep, 1e-6}}) {
+    const std::string scene = write(std::string(name) + ".yaml", kBeam + std::string(integrator)).string();
+    const auto begin = std::chrono::steady_clock::now();
+    ASSERT_EQ(orthodyn("run " + scene + " --quiet --out whole_" + name).exit_code, 0);
+    const double milliseconds =
+        1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    std::mt19937 random(7);
+    int all_kills = 0;
+    for (int r = 0; r < repetitions(); ++r) {
+      const std::string out = name + std::to_string(r);
+      const int kills = run_with_kills(scene, out, 0.9 * milliseconds, random);
+      all_kills += kills;
+      const double worst = difference(folder_ / out, folder_ / ("whole_" + std::string(name)));
+      const auto json = record(out);
+      EXPECT_LE(worst, tolerance) << out;
+      expect_same_times(folder_ / out, folder_ / ("whole_" + std::string(name)));
+      EXPECT_EQ(json.at("status"), "completed");
+      for (const auto& entry : fs::recursive_directory_iterator(folder_ / out))
+        EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+      if (std::getenv("ORTHODYN_KILL_REPETITIONS"))
+        std::printf("%s: %d kills, %zu restarts, largest difference %.2e\n", out.c_str(), kills,
+                    json.value("restarts", Json::array()).size(), worst);
+    }
+    EXPECT_GT(all_kills, 0);
+  }
+}
+
+TEST_F(Resume, AnInterruptedRunGoesOnThoughItsSceneAsksForNoCheckpoints) {
+  write("swing.yaml", kSwing);
+  const std::string run = "run swing.yaml --quiet --set integrator.h_max=1e-5 --set time.end=";
+  const auto stopped = shell("cd " + folder_.string() + " && { " ORTHODYN_EXECUTABLE " " + run +
+                             "1e3 & pid=$!; for i in $(seq 200); do [ -s out/swing/steps.csv ] && break; sleep 0.05; "
+                             "done; kill -TERM $pid; wait $pid; }");
+  ASSERT_EQ(stopped.exit_code, 130) << stopped.output;
+  const double reached = record("out/swing").at("time_reached");
+  const auto result = orthodyn(run + std::to_string(reached + 0.001) + " --resume");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_EQ(record("out/swing")["restarts"][0]["after"], "interrupted");
+  EXPECT_EQ(record("out/swing")["restarts"][0]["time"], reached);
+}
+
+TEST_F(Resume, ARunKilledAfterItsLastStepGetsItsRecord) {
+  write("beam.yaml", kBeam + std::string(kFixedStep));
+  ASSERT_EQ(orthodyn("run beam.yaml --quiet --set time.end=0.1").exit_code, 0);
+  const auto frames = read_text(folder_ / "out/beam/frames.pvd");
+  write("out/beam/run.json", R"({"status": "running"})");
+  ASSERT_EQ(orthodyn("run beam.yaml --quiet --resume --set time.end=0.1").exit_code, 0);
+  EXPECT_EQ(record("out/beam").at("status"), "completed");
+  EXPECT_EQ(record("out/beam").at("statistics").at("steps"), 5);
+  EXPECT_EQ(read_text(folder_ / "out/beam/frames.pvd"), frames);
+}
+
+TEST_F(Resume, ARunThatFilledTheDiskGoesOnWhenThereIsRoom) {
+  write("beam.yaml", kBeam + std::string(kFixedStep));
+  // No file may grow past 8 kB: steps.csv does, in the middle of the run.
+  const auto full = shell("cd " + folder_.string() + " && trap '' XFSZ; ulimit -f 16; " ORTHODYN_EXECUTABLE
+                          " run beam.yaml --quiet --set output.fields=[region]");
+  ASSERT_EQ(full.exit_code, 3) << full.output;
+  EXPECT_NE(full.output.find("cannot write"), std::string::npos) << full.output;
+  const auto result = orthodyn("run beam.yaml --quiet --resume --set output.fields=[region]");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_EQ(read_rows(folder_ / "out/beam/steps.csv").size(), 200u);
+  EXPECT_EQ(read_times(folder_ / "out/beam/frames.pvd").size(), 41u);
+}
+
+}  // namespace
+}  // namespace orthodyn

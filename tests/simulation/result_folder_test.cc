@@ -1,0 +1,125 @@
+// What a run may do with the folder that it is to write to.
+#include "lib/simulation/result_folder.h"
+
+#include "lib/core/errors.h"
+#include "tests/simulation/command.h"
+
+namespace orthodyn {
+namespace {
+
+class ResultFolders : public InFolder {
+ protected:
+  ResultFolders() { fs::create_directories(out()); }
+
+  fs::path out() const { return folder_ / "out"; }
+  void put(const std::string& name, const std::string& text = "") const { write("out/" + name, text); }
+  void put_result(const std::string& status) const { put("run.json", "{\"status\": \"" + status + "\"}"); }
+
+  ResultFolder open(Earlier earlier) const {
+    return ResultFolder(out(), earlier, [](const std::string& warning) { ADD_FAILURE() << warning; });
+  }
+
+  // What is said of a folder that is refused.
+  std::string refusal(Earlier earlier) const {
+    try {
+      open(earlier);
+    } catch (const ConfigError& e) {
+      return e.what();
+    }
+    return "";
+  }
+
+  bool has(const std::string& name) const { return fs::exists(out() / name); }
+};
+
+TEST_F(ResultFolders, IsMadeOnlyWhenItIsPrepared) {
+  fs::remove(out());
+  auto folder = open(Earlier::keep);
+  EXPECT_FALSE(fs::exists(out()));
+  folder.prepare();
+  EXPECT_TRUE(fs::is_directory(out()));
+}
+
+TEST_F(ResultFolders, ThatIsAFileIsRefused) {
+  fs::remove(out());
+  write("out", "text");
+  for (const auto earlier : {Earlier::keep, Earlier::replace, Earlier::resume})
+    EXPECT_NE(refusal(earlier).find("is a file"), std::string::npos);
+}
+
+TEST_F(ResultFolders, WithFilesOfOthersIsRefused) {
+  put("thesis.tex");
+  for (const auto earlier : {Earlier::keep, Earlier::replace, Earlier::resume})
+    EXPECT_NE(refusal(earlier).find("no result of a run"), std::string::npos);
+  EXPECT_TRUE(has("thesis.tex"));
+}
+
+TEST_F(ResultFolders, WithAnEarlierResultIsRefusedUnlessItIsToBeReplaced) {
+  put_result("completed");
+  EXPECT_NE(refusal(Earlier::keep).find("holds an earlier result"), std::string::npos);
+  EXPECT_TRUE(has("run.json"));
+  EXPECT_EQ(refusal(Earlier::replace), "");
+}
+
+TEST_F(ResultFolders, LosesTheEarlierResultWhenItIsPreparedAndNothingElse) {
+  put_result("completed");
+  put("energy.csv");
+  put("notes.txt");
+  auto folder = open(Earlier::replace);
+  EXPECT_TRUE(has("energy.csv"));
+  folder.prepare();
+  EXPECT_FALSE(has("run.json"));
+  EXPECT_FALSE(has("energy.csv"));
+  EXPECT_TRUE(has("notes.txt"));
+}
+
+TEST_F(ResultFolders, IsForOneRunAtATime) {
+  const auto first = open(Earlier::keep);
+  EXPECT_NE(refusal(Earlier::keep).find("another run is at work there"), std::string::npos);
+}
+
+TEST_F(ResultFolders, ResumesFromACheckpoint) {
+  put_result("running");
+  put("checkpoint.cbor");
+  const auto folder = open(Earlier::resume);
+  EXPECT_TRUE(folder.resumes());
+  EXPECT_EQ(folder.checkpoint(), out() / "checkpoint.cbor");
+  EXPECT_EQ(folder.earlier_status(), "killed");
+}
+
+TEST_F(ResultFolders, DoesNotResumeWhatIsToBeReplaced) {
+  put_result("interrupted");
+  put("checkpoint.cbor");
+  const auto folder = open(Earlier::replace);
+  EXPECT_FALSE(folder.resumes());
+  EXPECT_EQ(folder.earlier_status(), "interrupted");
+}
+
+TEST_F(ResultFolders, BeginsAnewWhereARunHadJustBegun) {
+  put_result("running");
+  put("scene.yaml");
+  put("run.json.part");
+  const auto folder = open(Earlier::resume);
+  EXPECT_FALSE(folder.resumes());
+  EXPECT_FALSE(folder.is_completed_without_checkpoint());
+}
+
+TEST_F(ResultFolders, WithoutACheckpointIsCompleteOrCannotBeResumed) {
+  put("energy.csv");
+  put_result("completed");
+  EXPECT_TRUE(open(Earlier::resume).is_completed_without_checkpoint());
+  for (const char* status : {"failed", "interrupted", "running"}) {
+    put_result(status);
+    EXPECT_NE(refusal(Earlier::resume).find("nothing can be resumed"), std::string::npos) << status;
+  }
+}
+
+TEST_F(ResultFolders, WithADamagedRecordIsThatOfARunThatWasKilled) {
+  for (const char* text : {"", "{\"status\":", "[]", "{\"status\": 3}"}) {
+    put("run.json", text);
+    EXPECT_EQ(open(Earlier::replace).earlier_status(), "killed") << text;
+  }
+}
+
+}  // namespace
+}  // namespace orthodyn

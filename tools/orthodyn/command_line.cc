@@ -1,0 +1,106 @@
+// Joins commands and their options to CLI11; the only file that includes it, since that takes seconds to compile.
+#include "tools/orthodyn/command_line.h"
+
+#include <CLI/CLI.hpp>
+
+#include "lib/core/versions.h"
+#include "tools/orthodyn/command.h"
+
+namespace orthodyn {
+
+namespace {
+
+constexpr const char* kExamples = R"(
+Examples:
+  orthodyn run configs/scenes/cantilever.yaml
+  orthodyn run configs/scenes/free_flight.yaml --set elasticity.corotation=warped --out out/warped
+  orthodyn run configs/scenes/laminate.yaml --set checkpoint={} --resume
+  orthodyn check configs/scenes/laminate.yaml
+  orthodyn modes configs/scenes/tuning_fork.yaml -n 8
+  orthodyn init scene my.yaml
+  orthodyn list materials
+  orthodyn compare configs/comparisons/damped_beam.yaml
+  orthodyn sweep configs/sweeps/grain_angle.yaml
+  orthodyn stability configs/stability/hard_cases.yaml
+  orthodyn verify configs/cases
+
+Exit codes: 0 done, 1 an expectation was missed, 2 the input is at fault (nothing was written), 3 the run could not go on (what
+was computed is kept), or no point of a comparison or sweep could be computed, 130 interrupted (likewise).)";
+
+std::function<int()> add_command(CLI::App& program, const Command& command) {
+  auto* app = program.add_subcommand(command.text.name, command.text.sentence);
+  if (command.text.hidden) app->group("");
+  if (!command.text.examples.empty()) app->footer("\nExamples:" + command.text.examples);
+  CommandOptions options(*app);
+  return command.declare(options);
+}
+
+}  // namespace
+
+CommandOption& CommandOption::required() { return option_.required(), *this; }
+
+CommandOption& CommandOption::type(const std::string& name) { return option_.type_name(name), *this; }
+
+CommandOption& CommandOption::excludes(const std::string& other) {
+  return option_.excludes(command_.get_option(other)), *this;
+}
+
+CommandOption& CommandOption::needs(const std::string& other) {
+  return option_.needs(command_.get_option(other)), *this;
+}
+
+CommandOption& CommandOption::range(int least, int most) { return option_.check(CLI::Range(least, most)), *this; }
+
+CommandOption& CommandOption::choice(const std::vector<std::string>& words) {
+  option_.check(CLI::IsMember(words))->expected(0, 1)->default_str(words.front());
+  return *this;
+}
+
+CommandOption& CommandOption::show_default() { return option_.capture_default_str(), *this; }
+
+template <class Value>
+CommandOption CommandOptions::value(const std::string& name, Value& value, const std::string& sentence) {
+  return {command_, *command_.add_option(name, value, sentence)};
+}
+
+template CommandOption CommandOptions::value(const std::string&, std::string&, const std::string&);
+template CommandOption CommandOptions::value(const std::string&, int&, const std::string&);
+template CommandOption CommandOptions::value(const std::string&, double&, const std::string&);
+template CommandOption CommandOptions::value(const std::string&, std::optional<std::string>&, const std::string&);
+template CommandOption CommandOptions::value(const std::string&, std::optional<std::size_t>&, const std::string&);
+
+CommandOption CommandOptions::repeated(const std::string& name, std::vector<std::string>& values,
+                                       const std::string& sentence) {
+  return {command_, *command_.add_option(name, values, sentence)->expected(1)->take_all()};
+}
+
+CommandOption CommandOptions::list(const std::string& name, std::vector<std::string>& values,
+                                   const std::string& sentence) {
+  return {command_, *command_.add_option(name, values, sentence)};
+}
+
+CommandOption CommandOptions::flag(const std::string& name, bool& value, const std::string& sentence) {
+  return {command_, *command_.add_flag(name, value, sentence)};
+}
+
+CommandLine parse_command_line(int argc, char** argv) {
+  CommandLine out;
+  CLI::App program("Dynamics of large-deformation orthotropic solids, driven by SUNDIALS.");
+  program.footer(kExamples);
+  program.require_subcommand(1);
+  program.set_version_flag("--version", orthodyn_version());
+  CommandOptions(program)
+      .repeated("--plugin", out.plugins, "A shared library with materials, terms, integrators or meshes of your own.")
+      .type("FILE.so");
+  std::map<std::string, std::function<int()>> runs;
+  for (const Command& command : commands()) runs[command.text.name] = add_command(program, command);
+  try {
+    program.parse(argc, argv);
+    out.run = runs.at(program.get_subcommands().front()->get_name());
+  } catch (const CLI::ParseError& e) {
+    out.exit_code = program.exit(e) == 0 ? 0 : 2;
+  }
+  return out;
+}
+
+}  // namespace orthodyn

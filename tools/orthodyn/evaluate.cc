@@ -1,0 +1,29 @@
+// `orthodyn evaluate`: one point of a sweep, in a process of its own.
+#include "lib/study/sweep/evaluate.h"
+
+#include "tools/orthodyn/command.h"
+
+namespace orthodyn {
+
+namespace {
+
+struct EvaluateArguments {
+  std::string folder;
+};
+
+int evaluate_folder(const EvaluateArguments& arguments) {
+  evaluate(arguments.folder);
+  return 0;
+}
+
+void declare(EvaluateArguments& arguments, CommandOptions& options) {
+  options.value("folder", arguments.folder).required();
+}
+
+const CommandRegistration kRegistration(
+    {.order = 51, .name = "evaluate", .sentence = "One point of a sweep; called by sweep.", .hidden = true}, declare,
+    evaluate_folder);
+
+}  // namespace
+
+}  // namespace orthodyn

@@ -1,0 +1,22 @@
+#include "tools/orthodyn/installed_paths.h"
+
+namespace orthodyn {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path shared(const char* installed, const char* in_source) {
+  const fs::path found = fs::read_symlink("/proc/self/exe").parent_path() / ORTHODYN_SHARE_FROM_BIN / installed;
+  return fs::exists(found) ? found.lexically_normal() : fs::path(ORTHODYN_SOURCE) / in_source;
+}
+
+}  // namespace
+
+fs::path draw_tool() { return shared("draw/draw", "tools/draw/draw"); }
+
+fs::path schema_file(const std::string& kind) {
+  return shared(("schema/" + kind + ".json").c_str(), ("configs/schema/" + kind + ".json").c_str());
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,126 @@
+#include "tools/orthodyn/run_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace orthodyn {
+
+namespace {
+
+// An error of a tenth of the motion: curves no longer lie over each other.
+constexpr double kUnresolved = 0.1;
+
+void print_cost(const char* name, const Cost& c) {
+  fmt::print("  {:<15} {:6} x {:9.3f} ms = {:8.3f} s\n", name, c.count,
+             c.count ? 1e3 * c.seconds / static_cast<double>(c.count) : 0, c.seconds);
+}
+
+void print_costs(const Statistics& s) {
+  fmt::print("  {:<15} {} ({} rejected), {} Newton iterations", "steps", s.steps, s.rejected_steps,
+             s.newton_iterations);
+  if (s.gauss_newton_fallbacks > 0) fmt::print(", {} indefinite tangents replaced", s.gauss_newton_fallbacks);
+  fmt::print("\n");
+  print_cost("force", s.force);
+  print_cost("tangent", s.tangent);
+  print_cost("factorisation", s.factorization);
+  print_cost("solve", s.solve);
+}
+
+void print_energy(const EnergySummary& energy) {
+  const auto& e = energy.last;
+  fmt::print(
+      "  {:<15} kinetic {:.4g} J, elastic {:.4g} J, gravitational {:.4g} J, dissipated {:.4g} J, loads {:.4g} J\n",
+      "energy", e.kinetic, e.elastic, e.gravitational, e.dissipated, e.loads);
+  fmt::print("  {:<15} {:.3g} of the largest energy\n", "balance drift", energy.relative_drift);
+}
+
+void print_motion(const RunResult& result, const MotionResult& motion) {
+  const auto& outcome = result.outcome;
+  fmt::print("{} with {}: {} unknowns, {} at t = {:.6g} s after {:.2f} s ({:.2f} s CPU)\n", result.scene,
+             motion.integrator, result.model.unknowns, status_word(outcome.status), outcome.last.t,
+             motion.effort.wall_seconds, motion.effort.cpu_seconds);
+  if (!outcome.remark.empty()) fmt::print("  {}\n", outcome.remark);
+  fmt::print("  {:<15} {}\n", "elasticity", result.model.elasticity);
+  for (const auto& [key, value] : motion.decisions) fmt::print("  {:<15} {}\n", key, value);
+  print_costs(motion.effort.statistics);
+  if (motion.energy) print_energy(*motion.energy);
+  if (motion.momentum && motion.momentum->angular_scale > 0)
+    fmt::print("  {:<15} {:.3g} of the initial angular momentum\n", "momentum drift",
+               motion.momentum->angular_drift / motion.momentum->angular_scale);
+  fmt::print("  {:<15} {:.4g} in element {} at t = {:.4g} s{}\n", "smallest det F", motion.det_f.value,
+             motion.det_f.element, motion.det_f.time, motion.det_f.value <= 0 ? ": INVERTED" : "");
+  fmt::print("  {:<15} {}\n", "results", result.folder.string());
+}
+
+void print_equilibrium(const RunResult& result, const EquilibriumResult& equilibrium) {
+  const auto& outcome = result.outcome;
+  fmt::print("{}, static: {} unknowns, {} at load factor {:.6g} after {:.2f} s\n", result.scene, result.model.unknowns,
+             status_word(outcome.status), outcome.last.t, outcome.wall_seconds);
+  fmt::print("  {:<20} {} ({} cut back), {} Newton iterations\n", "load steps", equilibrium.load_steps,
+             equilibrium.rejected_load_steps, equilibrium.statistics.newton_iterations);
+  fmt::print("  {:<20} {}\n", "solver", equilibrium.solver);
+  fmt::print("  {:<20} {:.6g} m\n", "largest displacement", equilibrium.largest_displacement);
+  fmt::print("  {:<20} {:.2g} N, {:.2g} of the largest load on a coordinate\n", "residual", equilibrium.residual,
+             equilibrium.residual / std::max(equilibrium.largest_load, 1e-300));
+  fmt::print("  {:<20} {}\n", "results", result.folder.string());
+}
+
+void warn_of_inversion(const EquilibriumResult& equilibrium) {
+  if (equilibrium.det_f.value > 0) return;
+  fmt::print(stderr, "warning: element {} is inverted (det F = {:.3g}): this equilibrium has no meaning\n",
+             equilibrium.det_f.element, equilibrium.det_f.value);
+}
+
+void warn_of_inversion(const MotionResult& motion) {
+  if (motion.det_f.value > 0) return;
+  fmt::print(stderr, "warning: element {} was inverted at t = {:.4g} s (det F = {:.3g})\n", motion.det_f.element,
+             motion.det_f.time, motion.det_f.value);
+}
+
+void print_what_remains(const RunResult& result) {
+  if (result.outcome.status == Outcome::Status::interrupted)
+    fmt::print(stderr, "interrupted at t = {:.6g} s; what was computed is in {}\n", result.outcome.last.t,
+               result.folder.string());
+  if (result.outcome.status != Outcome::Status::completed && result.resumable)
+    fmt::print(stderr, "to go on: orthodyn run {} --resume\n", result.folder.string());
+}
+
+}  // namespace
+
+void print_result(const RunResult& result, bool quiet) {
+  if (result.outcome.status == Outcome::Status::failed) fmt::print(stderr, "error: {}\n", result.outcome.message);
+  if (result.equilibrium) {
+    warn_of_inversion(*result.equilibrium);
+    if (!quiet) print_equilibrium(result, *result.equilibrium);
+  }
+  if (result.motion) {
+    if (!quiet) print_motion(result, *result.motion);
+    warn_of_inversion(*result.motion);
+    print_what_remains(result);
+  }
+}
+
+void print_error(const ErrorEstimate& error) {
+  if (!error.completed) {
+    fmt::print(stderr, "warning: no estimate of the error: the run with {} did not complete: {}\n", error.against,
+               error.failure_reason);
+    return;
+  }
+  fmt::print("  {:<15} against {} ({:.2f} s), mass norm relative to the largest value:\n", "estimated error",
+             error.against, error.wall_seconds);
+  fmt::print("  {:<15} {:>10} {:>10} {:>10}\n", "", "at the end", "rms", "largest");
+  for (const auto& [name, e] : {std::pair{"displacement", error.displacement}, {"velocity", error.velocity}})
+    fmt::print("    {:<13} {:>10.2g} {:>10.2g} {:>10.2g}\n", name, e.final, e.l2, e.max);
+  const auto& u = error.displacement;
+  if (std::isnan(u.max)) fmt::print("  nothing moves: there is nothing to compare with\n");
+  else
+    fmt::print(
+        "  the integration puts displacements off by about {:.2g} % of the largest, {:.2g} % at worst; velocities "
+        "by {:.2g} %, {:.2g} % at worst; the mesh's error comes on top{}\n",
+        100 * u.l2, 100 * u.max, 100 * error.velocity.l2, 100 * error.velocity.max,
+        u.max > kUnresolved ? ". The motion is NOT resolved: lower integrator.rtol or step" : "");
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,14 @@
+// What a run did, for the terminal: a table on stdout, what went wrong and what remains to be done on stderr.
+#pragma once
+
+#include "lib/simulation/run_result.h"
+
+namespace orthodyn {
+
+// `quiet`: only what went wrong and what remains.
+void print_result(const RunResult& result, bool quiet);
+
+// The estimate of the run's error, as a table and in a sentence.
+void print_error(const ErrorEstimate& error);
+
+}  // namespace orthodyn

@@ -1,0 +1,22 @@
+// The options of commands that take one scene, and the scene that they name.
+#pragma once
+
+#include <string>
+
+#include "lib/simulation/scene_file.h"
+#include "lib/simulation/setup.h"
+#include "tools/orthodyn/command_options.h"
+
+namespace orthodyn {
+
+struct SceneArguments {
+  std::string scene;
+  SceneChanges changes = {};
+};
+
+void declare_scene(SceneArguments& arguments, CommandOptions& options);
+
+// Reads, validates and builds; prints warnings to stderr. Throws ConfigError.
+Setup set_up_and_warn(const std::string& scene, const SceneChanges& changes);
+
+}  // namespace orthodyn

@@ -1,0 +1,30 @@
+// The options that all studies have: compare, sweep, stability.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "tools/orthodyn/command_options.h"
+
+namespace orthodyn {
+
+struct StudyArguments {
+  std::string file;
+  std::optional<std::string> out;
+  int jobs = 0;  // 0: as many as there are processors
+  bool retry = false, quiet = false, no_report = false;
+};
+
+// What `--help` says of a study.
+struct StudyWords {
+  const char *name, *sentence;  // of its file
+  const char* folder;           // below out/
+  const char *table, *pieces;
+};
+
+void declare_study(StudyArguments& arguments, CommandOptions& options, const StudyWords& words);
+
+// `pieces`: "Points".
+void declare_jobs(StudyArguments& arguments, CommandOptions& options, const char* pieces);
+
+}  // namespace orthodyn

@@ -1,0 +1,62 @@
+#include "tools/orthodyn/terminal_progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace orthodyn {
+
+namespace {
+
+constexpr auto kTerminalPeriod = std::chrono::milliseconds(100);
+constexpr auto kPlainPeriod = std::chrono::seconds(5);
+
+std::string duration_text(double seconds) {
+  if (seconds < 60) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 3600) return fmt::format("{:.0f} min {:02.0f} s", std::floor(seconds / 60), std::fmod(seconds, 60));
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+}  // namespace
+
+TerminalProgress::TerminalProgress(double start, double end, std::FILE* out)
+    : start_(start),
+      end_(end),
+      from_(start),
+      out_(out),
+      terminal_(isatty(fileno(out)) != 0),
+      begin_(Clock::now()),
+      last_(begin_) {}
+
+void TerminalProgress::on_step(const StepInfo& info, const State&, const Integrator&) {
+  const auto now = Clock::now();
+  if (terminal_ ? now - last_ < kTerminalPeriod : now - last_ < kPlainPeriod) return;
+  last_ = now;
+  show(info, std::chrono::duration<double>(now - begin_).count());
+}
+
+void TerminalProgress::show(const StepInfo& info, double elapsed) {
+  const double done = std::clamp((info.t - start_) / (end_ - start_), 0.0, 1.0);
+  const std::string left = info.t > from_ ? duration_text(elapsed * (end_ - info.t) / (info.t - from_)) : "?";
+  const std::string line = fmt::format("{:3.0f} %  t = {:.4g} of {:.4g} s  h = {:.2e} s  order {}  {} left", 100 * done,
+                                       info.t, end_, info.h, info.order, left);
+  if (terminal_) {
+    constexpr int kWidth = 24;
+    const auto filled = static_cast<std::size_t>(kWidth * done);
+    fmt::print(out_, "\r\x1b[K[{}{}] {}", std::string(filled, '='), std::string(kWidth - filled, ' '), line);
+  } else {
+    fmt::print(out_, "{}\n", line);
+  }
+  std::fflush(out_);
+  shown_ = true;
+}
+
+void TerminalProgress::on_end() noexcept {
+  if (terminal_ && shown_) std::fputs("\r\x1b[K", out_);
+  std::fflush(out_);
+}
+
+}  // namespace orthodyn
