@@ -105,8 +105,7 @@ double FemModel::frequency_bound() const {
   Vector row_sums = Vector::Zero(parts_.mass->nodal().size());
   for (const auto& term : parts_.loads) term->add_stiffness_bound(row_sums);
   largest += row_sums.cwiseQuotient(parts_.mass->nodal()).maxCoeff();
-  // A consistent element mass is at worst five times smaller in a mode than the lumped one.
-  return std::sqrt((parts_.mass->lumped() ? 1 : 5) * largest);
+  return std::sqrt(parts_.mass->frequency_excess() * largest);
 }
 
 std::vector<std::string> FemModel::force_parts() const { return part_names(parts_); }
@@ -128,6 +127,11 @@ std::vector<double> FemModel::breakpoints(double start, double end) const {
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
+}
+
+Geometry FemModel::geometry() const {
+  ElementMesh mesh(parts_.mesh);
+  return {mesh.nodes, std::move(mesh.cells), mesh.type.vtk_cell_type()};
 }
 
 std::vector<std::pair<std::string, std::size_t>> FemModel::memory() const {

@@ -64,7 +64,7 @@ class FemModel : public Model {
 
   std::vector<OutputInfo> outputs() const override;
   std::vector<double> evaluate(const std::string& name, const State& state) const override;
-  Geometry geometry() const override { return {parts_.mesh.nodes, parts_.mesh.tets}; }
+  Geometry geometry() const override;
 
   const Parts& parts() const { return parts_; }
 

@@ -26,7 +26,7 @@ Values flat(const M& m) {
 // One value set per cell of the mesh, from its elastic term.
 Values per_cell(const Parts& parts, std::size_t components,
                 const std::function<void(const ElasticTerm&, int k, double* out)>& f) {
-  Values out(parts.mesh.tets.size() * components);
+  Values out(parts.mesh.region_of.size() * components);
   for (const auto& term : parts.elastic)
     for (int k = 0; k < term->size(); ++k)
       f(*term, k, out.data() + static_cast<std::size_t>(term->cell(k)) * components);

@@ -84,8 +84,7 @@ double PartModel::frequency_bound() const {
   const Mass& mass = *whole_.parts().mass;
   Vector row_sums = Vector::Zero(mass.nodal().size());
   for (const Term* term : terms_) term->add_stiffness_bound(row_sums);
-  // A consistent element mass is at worst five times smaller in a mode than the lumped one.
-  return std::sqrt((mass.lumped() ? 1 : 5) * row_sums.cwiseQuotient(mass.nodal()).maxCoeff());
+  return std::sqrt(mass.frequency_excess() * row_sums.cwiseQuotient(mass.nodal()).maxCoeff());
 }
 
 std::vector<double> PartModel::breakpoints(double start, double end) const { return whole_.breakpoints(start, end); }

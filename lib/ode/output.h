@@ -2,10 +2,10 @@
 // mesh behind them. Nothing is computed that nobody asks for.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
+#include "lib/core/cells.h"
 #include "lib/core/types.h"
 
 namespace orthodyn {
@@ -25,10 +25,11 @@ struct OutputInfo {
   std::string sentence;
 };
 
-// Points and tetrahedra that fields live on.
+// Points and cells that fields live on.
 struct Geometry {
-  std::vector<Vec3> points;
-  std::vector<std::array<int, 4>> cells;
+  std::vector<Vec3> points;  // m
+  Cells cells;
+  int vtk_cell_type = 0;  // their kind, by the numbers of VTK
 };
 
 class OutputSource {

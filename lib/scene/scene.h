@@ -9,7 +9,7 @@
 
 #include "lib/config/formula.h"
 #include "lib/config/registry.h"
-#include "lib/fem/terms/elastic_term.h"
+#include "lib/fem/terms/elasticity_options.h"
 #include "lib/fem/mass.h"
 #include "lib/fem/time_functions/time_function.h"
 #include "lib/material/material.h"

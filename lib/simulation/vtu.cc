@@ -61,20 +61,17 @@ void write_geometry(const Geometry& geometry, VtuFile& file) {
   std::vector<double> points;
   points.reserve(3 * geometry.points.size());
   for (const Vec3& x : geometry.points) points.insert(points.end(), x.begin(), x.end());
-  std::vector<std::int32_t> connectivity, offsets;
-  connectivity.reserve(4 * geometry.cells.size());
-  offsets.reserve(geometry.cells.size());
-  for (const auto& cell : geometry.cells) {
-    connectivity.insert(connectivity.end(), cell.begin(), cell.end());
-    offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
-  }
-  constexpr std::uint8_t kTetra = 10;
+  const std::vector<std::int32_t>& connectivity = geometry.cells.nodes();
+  std::vector<std::int32_t> offsets;
+  for (std::size_t k = 1; k <= geometry.cells.size(); ++k)
+    offsets.push_back(static_cast<std::int32_t>(k) * geometry.cells.nodes_per_cell());
+  const auto type = static_cast<std::uint8_t>(geometry.vtk_cell_type);
   file.text("<Points>\n");
   file.array("points", 3, points);
   file.text("</Points>\n<Cells>\n");
   file.array("connectivity", 1, connectivity);
   file.array("offsets", 1, offsets);
-  file.array("types", 1, std::vector<std::uint8_t>(geometry.cells.size(), kTetra));
+  file.array("types", 1, std::vector<std::uint8_t>(geometry.cells.size(), type));
   file.text("</Cells>\n");
 }
 
