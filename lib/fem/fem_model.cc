@@ -75,10 +75,9 @@ void FemModel::force(double t, const ConstVectorRef& q, const ConstVectorRef& v,
   free_forces(parts_, nodal, v, term_forces(parts_, nodal), f);
 }
 
-void FemModel::linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
+void FemModel::assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                          Linearization& out) const {
   const auto size = parts_.pattern->pattern().row.size();
-  if (parts_.traits.linear && out.stiffness.size() == size) return;  // constant: assembled once
   const NodalExpansion nodal(parts_, t, q, v);
   out.stiffness.assign(size, 0);
   if (parts_.traits.damping_matrix) out.damping.assign(size, 0);

@@ -60,10 +60,9 @@ void PartModel::force(double t, const ConstVectorRef& q, const ConstVectorRef& v
   if (support_pull_) add_support_pull(whole_.parts(), nodal, f);
 }
 
-void PartModel::linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
+void PartModel::assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                           Linearization& out) const {
   const auto size = pattern().row.size();
-  if (traits().linear && out.stiffness.size() == size) return;  // constant: assembled once
   const bool damped = traits().damping_matrix;
   const NodalExpansion nodal(whole_.parts(), t, q, v);
   out.stiffness.assign(size, 0);

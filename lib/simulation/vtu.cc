@@ -108,9 +108,10 @@ VtuWriter::VtuWriter(std::filesystem::path folder, const Model& model, const std
 }
 
 void VtuWriter::write(const State& state) {
+  const auto view = model_.view(state);
   std::vector<VtuField> fields;
   for (const auto& info : fields_)
-    fields.push_back({info.name, info.location, info.components, model_.evaluate(info.name, state)});
+    fields.push_back({info.name, info.location, info.components, view->evaluate(info.name)});
   const fs::path path = frame(frames_);
   write_file(path, whole_file<float>(model_.geometry(), fields));
   try {
