@@ -35,7 +35,7 @@ class Chain : public Model {
       f[i] = k_ * ((i > 0 ? q[i - 1] : 0) - 2 * q[i] + (i + 1 < n ? q[i + 1] : 0));
   }
 
-  void linearize(double, const ConstVectorRef&, const ConstVectorRef&, TangentKind, Linearization& out) const override {
+  void assemble(double, const ConstVectorRef&, const ConstVectorRef&, TangentKind, Linearization& out) const override {
     out.stiffness.clear();
     for (int j = 0; j < pattern_.n; ++j) {
       out.stiffness.push_back(2 * k_);

@@ -2,7 +2,10 @@
 
 #include <cmath>
 
+#include <Eigen/Eigenvalues>
+
 #include "lib/core/errors.h"
+#include "lib/element/polar_steps.h"
 
 namespace orthodyn {
 
@@ -66,6 +69,14 @@ Polar<std::complex<double>> polar(const Mat3T<std::complex<double>>& F, const Ma
   }
   set_stretch<C>(p.R.transpose() * F, p);
   return p;
+}
+
+Batch::Mask polar(const Mat3T<Batch>& F, Polar<Batch>& p) {
+  const Batch norm = sqrt(F.cwiseProduct(F).sum());
+  const Mat3T<Batch> unit = F * (Batch(1) / norm);
+  const Batch::Mask good = decompose_unit<Batch>(unit, p);
+  scale<Batch>(p, norm);
+  return good;
 }
 
 }  // namespace orthodyn

@@ -1,24 +1,36 @@
-// The linear tetrahedron: one strain per element, gradients of the shape functions.
+// The linear tetrahedron: constant gradients, one point.
+// Nodes 0 to 3 with (x1 - x0) . ((x2 - x0) x (x3 - x0)) > 0.
 #pragma once
 
-#include "lib/core/types.h"
+#include "lib/element/element.h"
 
 namespace orthodyn {
 
 struct Tet4 {
-  Mat3 B;         // rows: gradients of the shape functions of nodes 1, 2, 3, in material axes, 1/m
-  double volume;  // m^3
+  static constexpr const char* kName = "linear tetrahedron";
+  static constexpr int kNodes = 4, kPoints = 1;
+  static constexpr int kVtkCellType = 10;  // VTK_TETRA
+  static constexpr std::array<double, kNodes> kLumpedShares{0.25, 0.25, 0.25, 0.25};
+  static constexpr double kLumpedToConsistent = 5;  // m/4 against the smallest eigenvalue of the consistent mass, m/20
 
-  // `edges` has the columns X1-X0, X2-X0, X3-X0; Q the material axes as columns.
-  static Tet4 from_edges(const Mat3& edges, const Mat3& Q) {
+  static ElementPoint<kNodes> point(int, const NodeDifferences<kNodes>& edges, const Mat3& Q) {
     return {edges.inverse() * Q, edges.determinant() / 6};
   }
 
-  // F Q, resp. its rate, from the current edges, resp. their rates.
-  Mat3 gradient(const Mat3& edges) const { return edges * B; }
+  static double mass(const ElementNodes<kNodes>& X, double density) {
+    const Vec3 a = X.col(1) - X.col(0), b = X.col(2) - X.col(0), c = X.col(3) - X.col(0);
+    return density * a.dot(b.cross(c)) / 6;
+  }
 
-  // Columns: the forces -dPsi/dx on nodes 1, 2, 3 (N); node 0 takes the negative sum. P is P Q.
-  Mat3 node_forces(const Mat3& P) const { return -volume * P * B.transpose(); }
+  // m/20 (1 + delta_ab).
+  static Eigen::Matrix4d consistent_mass(const ElementNodes<kNodes>& X, double density) {
+    const double m = mass(X, density);
+    Eigen::Matrix4d M = Eigen::Matrix4d::Constant(m / 20);
+    M.diagonal().setConstant(2 * m / 20);
+    return M;
+  }
 };
+
+static_assert(Element<Tet4>);
 
 }  // namespace orthodyn

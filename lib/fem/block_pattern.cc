@@ -1,6 +1,7 @@
 #include "lib/fem/block_pattern.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "lib/core/errors.h"
 
@@ -12,13 +13,13 @@ namespace {
 // `lower`.
 class Neighbours {
  public:
-  Neighbours(const std::vector<Tet>& tets, const NodePairs& further, int num_nodes, bool lower)
+  Neighbours(const Cells& cells, const NodePairs& further, int num_nodes, bool lower)
       : start_(static_cast<std::size_t>(num_nodes) + 1, 0) {
-    for_each_pair(tets, further, lower, [&](int, int b) { ++start_[static_cast<std::size_t>(b) + 1]; });
+    for_each_pair(cells, further, lower, [&](int, int b) { ++start_[static_cast<std::size_t>(b) + 1]; });
     for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
     list_.resize(start_.back());
     std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
-    for_each_pair(tets, further, lower, [&](int a, int b) { list_[next[static_cast<std::size_t>(b)]++] = a; });
+    for_each_pair(cells, further, lower, [&](int a, int b) { list_[next[static_cast<std::size_t>(b)]++] = a; });
     make_unique();
   }
 
@@ -30,10 +31,10 @@ class Neighbours {
 
  private:
   template <class F>
-  static void for_each_pair(const std::vector<Tet>& tets, const NodePairs& further, bool lower, F&& f) {
-    for (const Tet& tet : tets)
-      for (int a : tet)
-        for (int b : tet)
+  static void for_each_pair(const Cells& cells, const NodePairs& further, bool lower, F&& f) {
+    for (std::size_t cell = 0; cell < cells.size(); ++cell)
+      for (const int a : cells[cell])
+        for (const int b : cells[cell])
           if (!lower || a >= b) f(a, b);
     for (const auto& [a, b] : further) {
       if (!lower || a >= b) f(a, b);
@@ -56,12 +57,12 @@ class Neighbours {
 
 }  // namespace
 
-BlockPattern::BlockPattern(const std::vector<Tet>& tets, const DofMap& dofs, bool symmetric, const NodePairs& further)
+BlockPattern::BlockPattern(const Cells& cells, const DofMap& dofs, bool symmetric, const NodePairs& further)
     : dofs_(dofs) {
   pattern_.n = dofs.num_dofs();
   pattern_.symmetric = symmetric;
   pattern_.column_start.push_back(0);
-  const Neighbours neighbours(tets, further, dofs.num_nodes(), symmetric);
+  const Neighbours neighbours(cells, further, dofs.num_nodes(), symmetric);
   std::size_t entries = 0;
   const auto for_each_entry = [&](auto&& entry, auto&& column_end) {
     for (int b = 0; b < dofs.num_nodes(); ++b)

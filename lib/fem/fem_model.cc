@@ -75,10 +75,9 @@ void FemModel::force(double t, const ConstVectorRef& q, const ConstVectorRef& v,
   free_forces(parts_, nodal, v, term_forces(parts_, nodal), f);
 }
 
-void FemModel::linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
+void FemModel::assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                          Linearization& out) const {
   const auto size = parts_.pattern->pattern().row.size();
-  if (parts_.traits.linear && out.stiffness.size() == size) return;  // constant: assembled once
   const NodalExpansion nodal(parts_, t, q, v);
   out.stiffness.assign(size, 0);
   if (parts_.traits.damping_matrix) out.damping.assign(size, 0);
@@ -105,8 +104,7 @@ double FemModel::frequency_bound() const {
   Vector row_sums = Vector::Zero(parts_.mass->nodal().size());
   for (const auto& term : parts_.loads) term->add_stiffness_bound(row_sums);
   largest += row_sums.cwiseQuotient(parts_.mass->nodal()).maxCoeff();
-  // A consistent element mass is at worst five times smaller in a mode than the lumped one.
-  return std::sqrt((parts_.mass->lumped() ? 1 : 5) * largest);
+  return std::sqrt(parts_.mass->frequency_excess() * largest);
 }
 
 std::vector<std::string> FemModel::force_parts() const { return part_names(parts_); }
@@ -128,6 +126,11 @@ std::vector<double> FemModel::breakpoints(double start, double end) const {
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
+}
+
+Geometry FemModel::geometry() const {
+  ElementMesh mesh(parts_.mesh);
+  return {mesh.nodes, std::move(mesh.cells), mesh.type.vtk_cell_type()};
 }
 
 std::vector<std::pair<std::string, std::size_t>> FemModel::memory() const {

@@ -51,8 +51,6 @@ class FemModel : public Model {
   const Traits& traits() const override { return parts_.traits; }
   void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override;
   const Pattern& pattern() const override { return parts_.pattern->pattern(); }
-  void linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
-                 Linearization& out) const override;
   void combine(const Weights& w, const Linearization& at, double* values) const override;
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { parts_.mass->multiply(x, y); }
   void solve_mass(VectorRef x) const override { parts_.mass->solve(x); }
@@ -63,8 +61,8 @@ class FemModel : public Model {
   std::vector<double> breakpoints(double start, double end) const override;
 
   std::vector<OutputInfo> outputs() const override;
-  std::vector<double> evaluate(const std::string& name, const State& state) const override;
-  Geometry geometry() const override { return {parts_.mesh.nodes, parts_.mesh.tets}; }
+  std::unique_ptr<StateView> view(const State& state) const override;
+  Geometry geometry() const override;
 
   const Parts& parts() const { return parts_; }
 
@@ -72,6 +70,9 @@ class FemModel : public Model {
   std::vector<std::pair<std::string, std::size_t>> memory() const;
 
  private:
+  void assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
+                Linearization& out) const override;
+
   Parts parts_;
   std::unique_ptr<const DiscreteGradient> mean_force_;  // null where a term has no energy
 };

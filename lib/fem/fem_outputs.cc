@@ -1,21 +1,23 @@
 // The named fields and scalars of a FemModel.
+#include <algorithm>
+#include <cmath>
 #include <functional>
-#include <map>
-#include <optional>
+#include <limits>
 #include <stdexcept>
 
 #include "lib/fem/reactions.h"
+#include "lib/fem/fem_state_view.h"
 
 namespace orthodyn {
 
 namespace {
 
-using Parts = FemModel::Parts;
+using View = FemStateView;
 using Values = std::vector<double>;
 
 struct Output {
   OutputInfo info;
-  std::function<Values(const Parts&, const NodalExpansion&)> compute;
+  std::function<Values(const View&)> compute;
 };
 
 template <class M>
@@ -24,10 +26,10 @@ Values flat(const M& m) {
 }
 
 // One value set per cell of the mesh, from its elastic term.
-Values per_cell(const Parts& parts, std::size_t components,
+Values per_cell(const View& view, std::size_t components,
                 const std::function<void(const ElasticTerm&, int k, double* out)>& f) {
-  Values out(parts.mesh.tets.size() * components);
-  for (const auto& term : parts.elastic)
+  Values out(view.parts().mesh.region_of.size() * components);
+  for (const auto& term : view.parts().elastic)
     for (int k = 0; k < term->size(); ++k)
       f(*term, k, out.data() + static_cast<std::size_t>(term->cell(k)) * components);
   return out;
@@ -43,9 +45,9 @@ using Observed = std::function<Mat3(const PointObservation&)>;
 Output symmetric_tensor(const std::string& name, const std::string& unit, const std::string& sentence,
                         const Observed& pick) {
   return {{name, Location::cell, 6, unit, sentence},
-          [pick](const Parts& parts, const NodalExpansion& nodal) {
-            return per_cell(parts, 6, [&](const ElasticTerm& term, int k, double* out) {
-              write_voigt(pick(term.observe(k, nodal.state())), out);
+          [pick](const View& view) {
+            return per_cell(view, 6, [&](const ElasticTerm& term, int k, double* out) {
+              write_voigt(pick(term.observe(k, view.state())), out);
             });
           }};
 }
@@ -53,71 +55,40 @@ Output symmetric_tensor(const std::string& name, const std::string& unit, const 
 Output material_axis(int axis) {
   return {{"material_axis_" + std::to_string(axis + 1), Location::cell, 3, "1",
            "Material axis " + std::to_string(axis + 1) + ", rotated with the element."},
-          [axis](const Parts& parts, const NodalExpansion& nodal) {
-            return per_cell(parts, 3, [&](const ElasticTerm& term, int k, double* out) {
-              const Vec3 direction = term.observe(k, nodal.state()).axes.col(axis);
+          [axis](const View& view) {
+            return per_cell(view, 3, [&](const ElasticTerm& term, int k, double* out) {
+              const Vec3 direction = term.observe(k, view.state()).axes.col(axis);
               std::copy(direction.begin(), direction.end(), out);
             });
           }};
 }
 
-double energy_of(EnergyKind kind, const Parts& parts, const NodalExpansion& nodal) {
-  double sum = 0;
-  for (const auto& term : parts.elastic)
-    if (term->energy_kind() == kind) sum += term->energy(nodal.state());
-  for (const auto& term : parts.loads)
-    if (term->energy_kind() == kind) sum += term->energy(nodal.state());
-  return sum;
-}
-
-Vector momentum_dofs(const Parts& parts, const NodalExpansion& nodal) {
-  Vector v(parts.dofs->num_dofs()), p(parts.dofs->num_dofs());
-  parts.dofs->restrict_to(nodal.u_rate, v);
-  parts.mass->multiply(v, p);
-  return p;
-}
-
-// v_f M_ff v_f/2 + v_f M_fc v_c + v_c M_cc v_c/2 for free coordinates f and moved ones c.
-double kinetic_energy(const Parts& parts, const NodalExpansion& nodal) {
-  Vector v(parts.dofs->num_dofs());
-  parts.dofs->restrict_to(nodal.u_rate, v);
-  const double free = 0.5 * v.dot(momentum_dofs(parts, nodal));
-  if (!parts.moved) return free;
-  const NodalVector moved = held_part(*parts.dofs, nodal.u_rate);
-  return free + (nodal.u_rate - 0.5 * moved).cwiseProduct(parts.support_mass->times(moved)).sum();
-}
-
-// M_ff v_f, and with moved nodes M v.
-NodalVector nodal_momentum(const Parts& parts, const NodalExpansion& nodal) {
-  NodalVector p = NodalVector::Zero(3, nodal.x.cols());
-  parts.dofs->add_to(momentum_dofs(parts, nodal), p);
-  if (!parts.moved) return p;
-  const NodalVector moved = held_part(*parts.dofs, nodal.u_rate), free = nodal.u_rate - moved;
-  return p + parts.support_mass->times(moved) + held_part(*parts.dofs, parts.support_mass->times(free));
-}
-
-Values angular_momentum(const Parts& parts, const NodalExpansion& nodal) {
-  const NodalVector p = nodal_momentum(parts, nodal);
+Values angular_momentum(const View& view) {
+  const NodalVector &p = view.momentum(), &x = view.nodal().x;
   Vec3 sum = Vec3::Zero();
-  for (Eigen::Index i = 0; i < p.cols(); ++i) sum += nodal.x.col(i).cross(p.col(i));
+  for (Eigen::Index i = 0; i < p.cols(); ++i) sum += x.col(i).cross(p.col(i));
   return flat(sum);
 }
 
-double dissipated_power(const Parts& parts, const NodalExpansion& nodal) {
-  double power = parts.mass_damping > 0 ? 2 * parts.mass_damping * kinetic_energy(parts, nodal) : 0;
-  for (const auto& term : parts.elastic) power += term->dissipation(nodal.state());
-  for (const auto& term : parts.loads) power += term->dissipation(nodal.state());
+double dissipated_power(const View& view) {
+  const auto& parts = view.parts();
+  double power = parts.mass_damping > 0 ? 2 * parts.mass_damping * view.kinetic_energy() : 0;
+  for (const auto& term : parts.elastic) power += term->dissipation(view.state());
+  for (const auto& term : parts.loads) power += term->dissipation(view.state());
   return power;
 }
 
-double load_power(const Parts& parts, const NodalExpansion& nodal) {
-  double power = support_power(parts, nodal);
-  for (const auto& term : parts.loads) power += term->load_power(nodal.state());
+double load_power(const View& view) {
+  const auto& parts = view.parts();
+  double power = parts.moved ? view.support_forces().cwiseProduct(view.nodal().u_rate).sum() : 0;
+  for (const auto& term : parts.loads) power += term->load_power(view.state());
   return power;
 }
 
 // The largest force on a node, were the body at rest in this shape.
-double imbalance(const Parts& parts, const NodalExpansion& nodal) {
+double imbalance(const View& view) {
+  const auto& parts = view.parts();
+  const NodalExpansion& nodal = view.nodal();
   const Vector still = Vector::Zero(parts.dofs->num_dofs());
   Vector q(still.size()), free(still.size());
   parts.dofs->restrict_to(nodal.x - *parts.rest, q);
@@ -129,26 +100,39 @@ double imbalance(const Parts& parts, const NodalExpansion& nodal) {
   return std::sqrt(forces.colwise().squaredNorm().maxCoeff());
 }
 
+Values smallest_det_f(const View& view) {
+  Values out{std::numeric_limits<double>::infinity(), -1};
+  for (const auto& term : view.parts().elastic)
+    for (int k = 0; k < term->size(); ++k)
+      if (const double d = term->det_F(k, view.state()); d < out[0]) out = {d, static_cast<double>(term->cell(k))};
+  return out;
+}
+
+Values largest_speed(const View& view) {
+  Eigen::Index node = 0;
+  const double speed = std::sqrt(view.nodal().u_rate.colwise().squaredNorm().maxCoeff(&node));
+  return {speed, static_cast<double>(node)};
+}
+
 Output scalar(const std::string& name, const std::string& unit, const std::string& sentence,
-              const std::function<double(const Parts&, const NodalExpansion&)>& f) {
-  return {{name, Location::global, 1, unit, sentence},
-          [f](const Parts& parts, const NodalExpansion& nodal) { return Values{f(parts, nodal)}; }};
+              const std::function<double(const View&)>& f) {
+  return {{name, Location::global, 1, unit, sentence}, [f](const View& view) { return Values{f(view)}; }};
 }
 
 const std::vector<Output>& all_outputs() {
   static const std::vector<Output> all = {
       {{"displacement", Location::node, 3, "m", "Displacement from the rest shape."},
-       [](const Parts& p, const NodalExpansion& n) { return flat(NodalVector(n.x - *p.rest)); }},
-      {{"velocity", Location::node, 3, "m/s", "Velocity."},
-       [](const Parts&, const NodalExpansion& n) { return flat(n.u_rate); }},
+       [](const View& view) { return flat(NodalVector(view.nodal().x - *view.parts().rest)); }},
+      {{"velocity", Location::node, 3, "m/s", "Velocity."}, [](const View& view) { return flat(view.nodal().u_rate); }},
       {{"region", Location::cell, 1, "1", "Index of the region."},
-       [](const Parts& p, const NodalExpansion&) {
-         return Values(p.mesh.region_of.begin(), p.mesh.region_of.end());
+       [](const View& view) {
+         const auto& regions = view.parts().mesh.region_of;
+         return Values(regions.begin(), regions.end());
        }},
       {{"det_f", Location::cell, 1, "1", "Volume ratio det F; not positive where inverted."},
-       [](const Parts& p, const NodalExpansion& n) {
-         return per_cell(p, 1, [&](const ElasticTerm& term, int k, double* out) {
-           *out = term.det_F(k, n.state());
+       [](const View& view) {
+         return per_cell(view, 1, [&](const ElasticTerm& term, int k, double* out) {
+           *out = term.det_F(k, view.state());
          });
        }},
       material_axis(0),
@@ -162,32 +146,19 @@ const std::vector<Output>& all_outputs() {
       symmetric_tensor("stress_material", "Pa",
                        "Elastic Cauchy stress in the rotated material axes: 11, 22, 33, 12, 23, 31.",
                        [](const PointObservation& o) { return Mat3(o.axes.transpose() * o.cauchy * o.axes); }),
-      scalar("energy.kinetic", "J", "Kinetic energy.", kinetic_energy),
+      scalar("energy.kinetic", "J", "Kinetic energy.", [](const View& view) { return view.kinetic_energy(); }),
       scalar("energy.elastic", "J", "Elastic energy, that of springs and of contact included.",
-             [](const Parts& p, const NodalExpansion& n) { return energy_of(EnergyKind::elastic, p, n); }),
+             [](const View& view) { return view.energy(EnergyKind::elastic); }),
       scalar("energy.gravitational", "J", "Energy in the gravity field, zero at rest.",
-             [](const Parts& p, const NodalExpansion& n) { return energy_of(EnergyKind::gravitational, p, n); }),
+             [](const View& view) { return view.energy(EnergyKind::gravitational); }),
       scalar("power.dissipated", "W", "Power taken by damping.", dissipated_power),
       scalar("power.loads", "W", "Power of loads and of moved supports.", load_power),
       scalar("imbalance", "N", "The largest force on a node, were the body at rest in this shape; 0 in equilibrium.",
              imbalance),
-      {{"det_f.smallest", Location::global, 2, "1", "The smallest det F, and the element that has it."},
-       [](const Parts& p, const NodalExpansion& n) {
-         Values out{std::numeric_limits<double>::infinity(), -1};
-         for (const auto& term : p.elastic)
-           for (int k = 0; k < term->size(); ++k)
-             if (const double d = term->det_F(k, n.state()); d < out[0])
-               out = {d, static_cast<double>(term->cell(k))};
-         return out;
-       }},
-      {{"speed.largest", Location::global, 2, "m/s", "The largest speed, and the node that has it."},
-       [](const Parts&, const NodalExpansion& n) {
-         Eigen::Index node = 0;
-         const double speed = std::sqrt(n.u_rate.colwise().squaredNorm().maxCoeff(&node));
-         return Values{speed, static_cast<double>(node)};
-       }},
+      {{"det_f.smallest", Location::global, 2, "1", "The smallest det F, and the element that has it."}, smallest_det_f},
+      {{"speed.largest", Location::global, 2, "m/s", "The largest speed, and the node that has it."}, largest_speed},
       {{"momentum.linear", Location::global, 3, "kg m/s", "Linear momentum of the free coordinates, and of moved ones."},
-       [](const Parts& p, const NodalExpansion& n) { return flat(Vec3(nodal_momentum(p, n).rowwise().sum())); }},
+       [](const View& view) { return flat(Vec3(view.momentum().rowwise().sum())); }},
       {{"momentum.angular", Location::global, 3, "kg m^2/s", "Angular momentum about the origin."},
        angular_momentum},
   };
@@ -199,12 +170,10 @@ std::vector<Output> reaction_outputs(const std::vector<Support>& supports) {
   std::vector<Output> out;
   for (const Support& support : supports) {
     out.push_back({{"reaction." + support.name, Location::global, 3, "N", "Force of the support on the body."},
-                   [&support](const Parts& p, const NodalExpansion& n) {
-                     return flat(reaction(support, support_forces(p, n)));
-                   }});
+                   [&support](const View& view) { return flat(reaction(support, view.support_forces())); }});
     out.push_back({{"torque." + support.name, Location::global, 3, "N m", "Its torque about the middle of the nodes."},
-                   [&support](const Parts& p, const NodalExpansion& n) {
-                     return flat(reaction_torque(support, support_forces(p, n), n.x));
+                   [&support](const View& view) {
+                     return flat(reaction_torque(support, view.support_forces(), view.nodal().x));
                    }});
   }
   return out;
@@ -219,14 +188,15 @@ std::vector<OutputInfo> FemModel::outputs() const {
   return infos;
 }
 
-std::vector<double> FemModel::evaluate(const std::string& name, const State& state) const {
-  const auto find_in = [&](const std::vector<Output>& outputs) -> std::optional<Values> {
-    for (const auto& output : outputs)
-      if (output.info.name == name) return output.compute(parts_, NodalExpansion(parts_, state.t, state.q, state.v));
-    return {};
-  };
-  if (const auto found = find_in(all_outputs())) return *found;
-  if (const auto found = find_in(reaction_outputs(parts_.supports))) return *found;
+std::unique_ptr<StateView> FemModel::view(const State& state) const {
+  return std::make_unique<FemStateView>(parts_, state);
+}
+
+std::vector<double> FemStateView::evaluate(const std::string& name) const {
+  for (const auto& output : all_outputs())
+    if (output.info.name == name) return output.compute(*this);
+  for (const auto& output : reaction_outputs(parts_.supports))
+    if (output.info.name == name) return output.compute(*this);
   throw std::logic_error("no output named " + name);
 }
 

@@ -1,38 +1,47 @@
 #include "lib/fem/mass.h"
 
-#include <algorithm>
-
 #include "lib/core/errors.h"
 
 namespace orthodyn {
 
-Mass::Mass(MassKind kind, const TetMesh& mesh, const std::vector<double>& density, const DofMap& dofs,
+Mass::Mass(MassKind kind, const ElementMesh& mesh, const std::vector<double>& density, const DofMap& dofs,
            const BlockPattern& pattern)
-    : kind_(kind), pattern_(pattern.pattern()), nodal_(Vector::Zero(dofs.num_nodes())) {
-  if (kind == MassKind::consistent) values_.assign(pattern_.row.size(), 0);
-  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
-    const Tet& tet = mesh.tets[e];
-    const double mass = density[e] * signed_volume6(mesh, tet) / 6;
-    for (const int node : tet) nodal_[node] += mass / 4;
-    if (kind == MassKind::lumped) continue;
-    for (const int a : tet)
-      for (const int b : tet)
-        if (!pattern.symmetric() || a >= b)
-          pattern.add(a, b, pattern.offset(a, b), (a == b ? 2 : 1) * mass / 20 * Mat3::Identity(),
-                      values_.data());
+    : kind_(kind), pattern_(pattern.pattern()), nodal_(Vector::Zero(dofs.num_nodes())),
+      frequency_excess_(kind == MassKind::lumped ? 1 : mesh.type.lumped_to_consistent()) {
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    const Vector masses = mesh.type.lumped_mass(mesh.positions(e), density[e]);
+    Eigen::Index a = 0;
+    for (const int node : mesh.cells[e]) nodal_[node] += masses[a++];
   }
   if (kind == MassKind::lumped) {
     diagonal_.resize(dofs.num_dofs());
     const NodalVector all = Vec3::Ones() * nodal_.transpose();
     dofs.restrict_to(all, diagonal_);
   } else {
+    add_consistent(mesh, density, pattern);
     solver_ = solver_registry().at("cholmod").make();
+  }
+}
+
+void Mass::add_consistent(const ElementMesh& mesh, const std::vector<double>& density, const BlockPattern& pattern) {
+  values_.assign(pattern_.row.size(), 0);
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    const auto nodes = mesh.cells[e];
+    const Eigen::MatrixXd M = mesh.type.consistent_mass(mesh.positions(e), density[e]);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (std::size_t j = 0; j < nodes.size(); ++j) {
+        const int a = nodes[i], b = nodes[j];
+        if (pattern.symmetric() && a < b) continue;
+        const double m = M(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+        pattern.add(a, b, pattern.offset(a, b), m * Mat3::Identity(), values_.data());
+      }
   }
 }
 
 Mass::~Mass() = default;
 
 std::size_t Mass::bytes() const {
+  const std::lock_guard lock(solving_);
   return static_cast<std::size_t>(nodal_.size() + diagonal_.size()) * sizeof(double) +
          values_.capacity() * sizeof(double) + (factored_ ? solver_->factor_bytes() : 0);
 }
@@ -47,6 +56,7 @@ void Mass::solve(VectorRef x) const {
     x.array() /= diagonal_.array();
     return;
   }
+  const std::lock_guard lock(solving_);
   if (!factored_) {
     solver_->analyze(pattern_);
     if (solver_->factor(values_.data()) != FactorStatus::ok)

@@ -60,10 +60,9 @@ void PartModel::force(double t, const ConstVectorRef& q, const ConstVectorRef& v
   if (support_pull_) add_support_pull(whole_.parts(), nodal, f);
 }
 
-void PartModel::linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
+void PartModel::assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                           Linearization& out) const {
   const auto size = pattern().row.size();
-  if (traits().linear && out.stiffness.size() == size) return;  // constant: assembled once
   const bool damped = traits().damping_matrix;
   const NodalExpansion nodal(whole_.parts(), t, q, v);
   out.stiffness.assign(size, 0);
@@ -84,8 +83,7 @@ double PartModel::frequency_bound() const {
   const Mass& mass = *whole_.parts().mass;
   Vector row_sums = Vector::Zero(mass.nodal().size());
   for (const Term* term : terms_) term->add_stiffness_bound(row_sums);
-  // A consistent element mass is at worst five times smaller in a mode than the lumped one.
-  return std::sqrt((mass.lumped() ? 1 : 5) * row_sums.cwiseQuotient(mass.nodal()).maxCoeff());
+  return std::sqrt(mass.frequency_excess() * row_sums.cwiseQuotient(mass.nodal()).maxCoeff());
 }
 
 std::vector<double> PartModel::breakpoints(double start, double end) const { return whole_.breakpoints(start, end); }

@@ -22,8 +22,6 @@ class PartModel : public Model {
   const Traits& traits() const override { return whole_.traits(); }
   void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override;
   const Pattern& pattern() const override { return whole_.pattern(); }
-  void linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
-                 Linearization& out) const override;
   void combine(const Weights& w, const Linearization& at, double* values) const override;
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { whole_.multiply_mass(x, y); }
   void solve_mass(VectorRef x) const override { whole_.solve_mass(x); }
@@ -32,6 +30,9 @@ class PartModel : public Model {
   std::vector<double> breakpoints(double start, double end) const override;
 
  private:
+  void assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
+                Linearization& out) const override;
+
   const FemModel& whole_;
   std::vector<const Term*> terms_;
   bool elastic_ = false;

@@ -46,9 +46,4 @@ Vec3 reaction_torque(const Support& support, const NodalVector& forces, const No
   return sum;
 }
 
-double support_power(const FemModel::Parts& parts, const NodalExpansion& nodal) {
-  if (!parts.moved) return 0;
-  return support_forces(parts, nodal).cwiseProduct(nodal.u_rate).sum();
-}
-
 }  // namespace orthodyn

@@ -18,7 +18,4 @@ NodalVector support_forces(const FemModel::Parts& parts, const NodalExpansion& n
 Vec3 reaction(const Support& support, const NodalVector& forces);
 Vec3 reaction_torque(const Support& support, const NodalVector& forces, const NodalVector& x);
 
-// Power of the forces on moved nodes, W.
-double support_power(const FemModel::Parts& parts, const NodalExpansion& nodal);
-
 }  // namespace orthodyn

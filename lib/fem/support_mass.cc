@@ -1,5 +1,7 @@
 #include "lib/fem/support_mass.h"
 
+#include <span>
+
 namespace orthodyn {
 
 namespace {
@@ -9,21 +11,27 @@ bool is_held(const DofMap& dofs, int node) {
   return unknowns[0] < 0 || unknowns[1] < 0 || unknowns[2] < 0;
 }
 
+using Entries = std::vector<Eigen::Triplet<double>>;
+
+void add_element(std::span<const int> nodes, const Eigen::MatrixXd& M, const DofMap& dofs, Entries& entries) {
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (std::size_t j = 0; j < nodes.size(); ++j)
+      if (is_held(dofs, nodes[i]) || is_held(dofs, nodes[j]))
+        entries.emplace_back(nodes[i], nodes[j], M(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+}
+
 }  // namespace
 
-SupportMass::SupportMass(const Mass& mass, const TetMesh& mesh, const std::vector<double>& density, const DofMap& dofs)
+SupportMass::SupportMass(const Mass& mass, const ElementMesh& mesh, const std::vector<double>& density,
+                         const DofMap& dofs)
     : matrix_(dofs.num_nodes(), dofs.num_nodes()) {
-  std::vector<Eigen::Triplet<double>> entries;
+  Entries entries;
   if (mass.lumped()) {
     for (int i = 0; i < dofs.num_nodes(); ++i)
       if (is_held(dofs, i)) entries.emplace_back(i, i, mass.nodal()[i]);
   } else {
-    for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
-      const double share = density[e] * signed_volume6(mesh, mesh.tets[e]) / 120;
-      for (const int a : mesh.tets[e])
-        for (const int b : mesh.tets[e])
-          if (is_held(dofs, a) || is_held(dofs, b)) entries.emplace_back(a, b, (a == b ? 2 : 1) * share);
-    }
+    for (std::size_t e = 0; e < mesh.cells.size(); ++e)
+      add_element(mesh.cells[e], mesh.type.consistent_mass(mesh.positions(e), density[e]), dofs, entries);
   }
   matrix_.setFromTriplets(entries.begin(), entries.end());
 }

@@ -11,9 +11,9 @@ namespace orthodyn {
 class SupportMass {
  public:
   // density[cell] in kg/m^3; held nodes are those with a coordinate that is no unknown.
-  SupportMass(const Mass& mass, const TetMesh& mesh, const std::vector<double>& density, const DofMap& dofs);
+  SupportMass(const Mass& mass, const ElementMesh& mesh, const std::vector<double>& density, const DofMap& dofs);
 
-  // M x, complete at held nodes, and at all nodes for an x that is zero at free ones.
+  // M x (kg times the unit of x), complete at held nodes, and at all nodes for an x that is zero at free ones.
   NodalVector times(const NodalVector& x) const { return x * matrix_; }
   std::size_t bytes() const;
 

@@ -2,27 +2,34 @@
 
 #include <map>
 
+#include "lib/element/tri3.h"
+
 namespace orthodyn {
 
 namespace {
 
-double area(const TetMesh& mesh, const Triangle& t) {
-  const auto& x = [&](std::size_t k) -> const Vec3& { return mesh.nodes[static_cast<std::size_t>(t[k])]; };
-  return 0.5 * (x(1) - x(0)).cross(x(2) - x(0)).norm();
+Tri3::Nodes nodes_of(const TetMesh& mesh, const Triangle& triangle) {
+  Tri3::Nodes X;
+  for (std::size_t a = 0; a < triangle.size(); ++a)
+    X.col(static_cast<Eigen::Index>(a)) = mesh.nodes[static_cast<std::size_t>(triangle[a])];
+  return X;
 }
 
 }  // namespace
 
 double surface_area(const TetMesh& mesh, const std::vector<Triangle>& triangles) {
   double sum = 0;
-  for (const auto& t : triangles) sum += area(mesh, t);
+  for (const auto& t : triangles) sum += Tri3::area(nodes_of(mesh, t));
   return sum;
 }
 
 NodalForces surface_forces(const TetMesh& mesh, const std::vector<Triangle>& triangles, const Vec3& traction) {
   std::map<int, Vec3> sums;
-  for (const auto& t : triangles)
-    for (const int node : t) sums.try_emplace(node, Vec3::Zero()).first->second += area(mesh, t) / 3 * traction;
+  for (const auto& t : triangles) {
+    const auto areas = Tri3::node_areas(nodes_of(mesh, t));
+    for (std::size_t a = 0; a < t.size(); ++a)
+      sums.try_emplace(t[a], Vec3::Zero()).first->second += areas[a] * traction;
+  }
   return {sums.begin(), sums.end()};
 }
 

@@ -1,4 +1,4 @@
-// A surface of a mesh as its nodes share it: a third of each triangle, at rest.
+// A surface of a mesh at rest, and its share of each node.
 #pragma once
 
 #include <utility>
@@ -13,7 +13,7 @@ using NodalForces = std::vector<std::pair<int, Vec3>>;  // node, N
 
 double surface_area(const TetMesh& mesh, const std::vector<Triangle>& triangles);  // m^2
 
-// A traction (Pa, per undeformed area) on a surface: F_i = integral of N_i t dA.
+// A traction (Pa, per undeformed area) on a surface: F_i = integral of N_i t dA, for nodes in ascending order.
 NodalForces surface_forces(const TetMesh& mesh, const std::vector<Triangle>& triangles, const Vec3& traction);
 
 }  // namespace orthodyn

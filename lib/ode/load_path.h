@@ -7,13 +7,17 @@
 // balance in q0 does. The stiffness is the model's own. Functions of time are taken at t.
 #pragma once
 
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "lib/ode/model.h"
 
 namespace orthodyn {
 
 class LoadPath : public Model {
  public:
-  // `model` must outlive it.
+  // t in s, start: q0, m. `model` must outlive it. Throws RecoverableError where it has no force.
   LoadPath(const Model& model, double t, Vector start);
 
   const Vector& start() const { return start_; }
@@ -24,10 +28,6 @@ class LoadPath : public Model {
   const Traits& traits() const override { return model_.traits(); }
   void force(double lambda, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override;
   const Pattern& pattern() const override { return model_.pattern(); }
-  void linearize(double, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
-                 Linearization& out) const override {
-    model_.linearize(t_, q, v, kind, out);
-  }
   void combine(const Weights& w, const Linearization& at, double* values) const override {
     model_.combine(w, at, values);
   }
@@ -35,12 +35,15 @@ class LoadPath : public Model {
   void solve_mass(VectorRef x) const override { model_.solve_mass(x); }
 
   std::vector<OutputInfo> outputs() const override { return model_.outputs(); }
-  std::vector<double> evaluate(const std::string& name, const State& state) const override {
-    return model_.evaluate(name, {t_, state.q, state.v});
-  }
+  std::unique_ptr<StateView> view(const State& state) const override { return model_.view({t_, state.q, state.v}); }
   Geometry geometry() const override { return model_.geometry(); }
 
  private:
+  void assemble(double, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
+                Linearization& out) const override {
+    model_.linearize(t_, q, v, kind, out);
+  }
+
   const Model& model_;
   double t_;
   Vector start_, load_;

@@ -1,9 +1,16 @@
-// The seam between physics and integrators: M q'' = f(t, q, v), v = q'.
+// The seam between physics and integrators: M q'' = f(t, q, v), v = q', with n generalised positions q.
 //
-// Second-order form is the centre. With K = -df/dq and D = -df/dv on one pattern, every implicit
-// scheme solves A = w_m M + w_d D + w_k K with its own three weights.
+// Second-order form is the centre. With K = -df/dq and D = -df/dv on one pattern, every implicit scheme solves
+// A = w_m M + w_d D + w_k K with its own three weights.
+//
+// Units: q in m, v in m/s, f in N, M in kg, D in N s/m, K in N/m, t in s, for a mechanical model. Vectors have n
+// entries; matrices are values on pattern(), as many as its row indices.
+//
+// Thread safety: const functions may run at the same time, each on its own outputs. A model does not change while it
+// is integrated: the same arguments give the same results.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,62 +21,77 @@
 
 namespace orthodyn {
 
+// What is known of the physics of a model without computing anything.
 struct Traits {
-  bool linear = false;             // K and D do not depend on the state
-  bool damped = false;             // stiffness-proportional in every region: fast vibrations die out soonest
-  bool damping_matrix = false;     // D is more than a multiple of M
-  bool lumped_mass = true;         // M is diagonal
-  bool time_dependent = false;     // f depends on t
-  bool conservative = true;        // total energy is constant when nothing is damped
-  bool dissipative = false;        // power.dissipated can differ from zero
-  bool loaded = false;             // power.loads can differ from zero
+  bool linear = false;          // K and D are constant: they depend neither on t nor on q or v
+  bool damped = false;          // stiffness-proportional damping everywhere: fast vibrations die out soonest
+  bool damping_matrix = false;  // D is more than a multiple of M
+  bool lumped_mass = true;      // M is diagonal
+  bool time_dependent = false;  // f depends on t
+  bool conservative = true;     // total energy is constant when nothing is damped
+  bool dissipative = false;     // power.dissipated can differ from zero
+  bool loaded = false;          // power.loads can differ from zero
 };
 
 struct Weights {
   double mass = 0, damping = 0, stiffness = 0;
 };
 
-// K and D at one state: values on Model::pattern(). `damping` is empty when D is a multiple of M.
+// K and D at one state, from Model::linearize(). `damping` is empty when D is a multiple of M.
+//
+// It may be handed to linearize() again, whatever it holds, of whatever model: it knows what filled it. Precondition:
+// nobody else changes the values in between.
 struct Linearization {
   std::vector<double> stiffness, damping;
+
+ private:
+  friend class Model;
+  std::uint64_t filled_by_ = 0;  // the number of the model whose constant K and D these are, or 0
 };
 
 // The force between two states. Of what has an energy U: f . (q1 - q0) = U(q0) - U(q1) to round-off, where U is
 // invariant under rotation without a torque about (x0 + x1) / 2, and f -> -grad U as q1 -> q0.
+// Source: Gonzalez (1996), Time integration and discrete Hamiltonian systems, J. Nonlinear Sci. 6.
 class DiscreteGradient {
  public:
   virtual ~DiscreteGradient() = default;
-  // Loads are taken at the middle of the times, forces that depend on velocities in the middle state with v. Throws
-  // RecoverableError where it does not exist. N.
+  // f in N. Loads are taken at the middle of the times, forces that depend on velocities in the middle state with v.
+  // Throws RecoverableError where it does not exist.
   virtual void mean_force(double t0, const ConstVectorRef& q0, double t1, const ConstVectorRef& q1,
                           const ConstVectorRef& v, VectorRef f) const = 0;
 };
 
 class Model : public OutputSource {
  public:
+  // n.
   virtual int num_dofs() const = 0;
+
   virtual const Traits& traits() const = 0;
 
-  // f(t, q, v), N. Throws RecoverableError where it cannot be evaluated.
+  // f(t, q, v), N. Throws RecoverableError where it cannot be evaluated: a smaller step may help.
   virtual void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const = 0;
 
-  // The pattern shared by M, D, K and A.
+  // The pattern shared by M, D, K and A. It does not change.
   virtual const Pattern& pattern() const = 0;
 
-  virtual void linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
-                         Linearization& out) const = 0;
+  // K and D at a state, exact or by the Gauss-Newton part that is positive semidefinite. Where traits().linear holds
+  // and `out` has this model's K and D already, nothing is computed. Throws RecoverableError as force() does; `out` may
+  // be handed in again afterwards.
+  void linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind, Linearization& out) const;
 
-  // Values of w_m M + w_d D + w_k K on pattern().
+  // values = w_m M + w_d D + w_k K, D and K from linearize() of this model.
   virtual void combine(const Weights& w, const Linearization& at, double* values) const = 0;
 
+  // y = M x; x and y differ.
   virtual void multiply_mass(const ConstVectorRef& x, VectorRef y) const = 0;
-  // x <- M^-1 x
+
+  // x <- M^-1 x. Throws RunError if M is not positive definite.
   virtual void solve_mass(VectorRef x) const = 0;
 
   // An upper bound of the largest angular frequency about rest, rad/s; 0 if there is none at hand.
   virtual double frequency_bound() const { return 0; }
 
-  // Null if the model has none.
+  // Null if the model has none; else it lives as long as the model.
   virtual const DiscreteGradient* discrete_gradient() const { return nullptr; }
 
   // The parts that the force consists of, by name ("gravity"), and the model that has the same mass and only
@@ -77,8 +99,28 @@ class Model : public OutputSource {
   virtual std::vector<std::string> force_parts() const { return {}; }
   virtual std::unique_ptr<Model> only(const std::vector<std::string>& parts) const;
 
-  // Times in (start, end) where f is not smooth: multistep methods restart there. Ascending.
+  // Times in (start, end), s, where f is not smooth: multistep methods restart there. Ascending.
   virtual std::vector<double> breakpoints(double start, double end) const;
+
+ private:
+  // A number that no other model has or had: a copy has its own.
+  class Number {
+   public:
+    Number();
+    Number(const Number&) : Number() {}
+    Number& operator=(const Number&) { return *this = Number(); }
+    Number& operator=(Number&&) = default;
+    std::uint64_t value() const { return value_; }
+
+   private:
+    std::uint64_t value_;
+  };
+
+  // Sets K, and D if the model has one, whatever K `out` holds: what linearize() does where it has something to do.
+  virtual void assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
+                        Linearization& out) const = 0;
+
+  Number number_;
 };
 
 }  // namespace orthodyn

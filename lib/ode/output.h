@@ -1,11 +1,12 @@
-// What a model can tell about a state, by name: observers ask for fields and scalars and know no
-// mesh behind them. Nothing is computed that nobody asks for.
+// What a model can tell about a state, by name: observers ask for fields and scalars and know no mesh behind them.
+// Nothing is computed that nobody asks for, and nothing twice that outputs of one state share.
 #pragma once
 
-#include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "lib/core/cells.h"
 #include "lib/core/types.h"
 
 namespace orthodyn {
@@ -25,18 +26,37 @@ struct OutputInfo {
   std::string sentence;
 };
 
-// Points and tetrahedra that fields live on.
+// Points and cells that fields live on.
 struct Geometry {
-  std::vector<Vec3> points;
-  std::vector<std::array<int, 4>> cells;
+  std::vector<Vec3> points;  // m
+  Cells cells;
+  int vtk_cell_type = 0;  // their kind, by the numbers of VTK
+};
+
+// One state, evaluated. It computes what an output needs when it is first asked for, and keeps what others need too:
+// positions of all nodes, forces, momenta. For one thread at a time.
+class StateView {
+ public:
+  virtual ~StateView() = default;
+
+  // Values of one output in its unit: components fastest, then nodes or cells in the order of Geometry.
+  // Precondition: `name` is one of the source's outputs(). Throws RecoverableError where it cannot be evaluated.
+  virtual std::vector<double> evaluate(const std::string& name) const = 0;
 };
 
 class OutputSource {
  public:
   virtual ~OutputSource() = default;
+
   virtual std::vector<OutputInfo> outputs() const { return {}; }
-  // Values of one output, components fastest. Precondition: `name` is one of outputs().
-  virtual std::vector<double> evaluate(const std::string& name, const State& state) const;
+
+  // For several outputs of one state, which need not outlive the view; the source must. Views of one source may be
+  // used at the same time.
+  virtual std::unique_ptr<StateView> view(const State& state) const;
+
+  // One output of a state, where it is the only one that is wanted.
+  std::vector<double> evaluate(const std::string& name, const State& state) const { return view(state)->evaluate(name); }
+
   virtual Geometry geometry() const { return {}; }
 };
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "lib/axes/axes_source.h"
+#include "lib/fem/elastic_region.h"
 #include "lib/scene/mesh_materials.h"
 #include "lib/scene/supports.h"
 
@@ -24,8 +25,8 @@ std::vector<double> densities(const Scene& scene, const TetMesh& mesh, const std
   return out;
 }
 
-void add_elasticity(const Scene& scene, const std::vector<const Region*>& regions, FemModel::Parts& parts,
-                    Warnings& notes) {
+void add_elasticity(const Scene& scene, const std::vector<const Region*>& regions, const ElementMesh& elements,
+                    FemModel::Parts& parts, Warnings& notes) {
   const TetMesh& mesh = parts.mesh;
   std::map<const Region*, AxesField> fields;  // one entry of the scene may describe several regions of the mesh
   for (std::size_t r = 0; r < regions.size(); ++r) {
@@ -37,9 +38,9 @@ void add_elasticity(const Scene& scene, const std::vector<const Region*>& region
     AxesField& field = fields[&region];
     if (!field) field = region.axes->field(mesh, notes);
     const ElementAxes axes = element_axes(*region.axes, field, mesh, cells);
-    parts.elastic.push_back(make_elastic_term(
-        mesh.region_names[r], mesh, std::move(cells), material_of(scene, region).stiffness(),
-        axes, stiffness_damping(scene, region), scene.elasticity, *parts.pattern));
+    parts.elastic.push_back(elements.type.elastic_term(
+        elements, {mesh.region_names[r], std::move(cells), material_of(scene, region).stiffness(), axes,
+                   stiffness_damping(scene, region), scene.elasticity}, *parts.pattern));
     parts.densities.push_back(material_of(scene, region).density());
   }
 }
@@ -49,11 +50,12 @@ void add_force_terms(const Scene& scene, FemModel::Parts& parts) {
   for (const TermChoice* term : scene.force_terms()) parts.loads.push_back(term->make(body));
 }
 
-void add_supports(Supports supports, const std::vector<double>& density, FemModel::Parts& parts) {
+void add_supports(Supports supports, const ElementMesh& elements, const std::vector<double>& density,
+                  FemModel::Parts& parts) {
   if (!supports.moved.empty()) parts.moved = std::make_unique<MovedNodes>(std::move(supports.moved), *parts.rest);
   parts.supports = std::move(supports.named);
   if (parts.moved || !parts.supports.empty())
-    parts.support_mass = std::make_unique<SupportMass>(*parts.mass, parts.mesh, density, *parts.dofs);
+    parts.support_mass = std::make_unique<SupportMass>(*parts.mass, elements, density, *parts.dofs);
 }
 
 Traits traits_of(const Scene& scene, const std::vector<const Region*>& regions) {
@@ -97,15 +99,16 @@ BuiltScene build(const Scene& scene) {
     (scene.clamps.empty() ? scene.motions.front().origin : scene.clamps.front().origin)
         .fail("all nodes are clamped or moved: nothing is left to compute");
   const bool symmetric = scene.elasticity.has_symmetric_tangent();
-  parts.pattern = std::make_unique<BlockPattern>(parts.mesh.tets, *parts.dofs, symmetric, couplings(scene, parts.mesh));
+  const ElementMesh elements(parts.mesh);
+  parts.pattern = std::make_unique<BlockPattern>(elements.cells, *parts.dofs, symmetric, couplings(scene, parts.mesh));
   const auto density = densities(scene, parts.mesh, regions);
-  parts.mass = std::make_unique<Mass>(scene.mass, parts.mesh, density, *parts.dofs, *parts.pattern);
+  parts.mass = std::make_unique<Mass>(scene.mass, elements, density, *parts.dofs, *parts.pattern);
   parts.rest = std::make_unique<NodalVector>(3, num_nodes);
   for (int i = 0; i < num_nodes; ++i) parts.rest->col(i) = parts.mesh.nodes[static_cast<std::size_t>(i)];
-  add_supports(std::move(supports), density, parts);
+  add_supports(std::move(supports), elements, density, parts);
   parts.mass_damping = scene.damping ? scene.damping->mass : 0;
   parts.traits = traits_of(scene, regions);
-  add_elasticity(scene, regions, parts, loaded.warnings);
+  add_elasticity(scene, regions, elements, parts, loaded.warnings);
   add_force_terms(scene, parts);
   BuiltScene built{std::make_unique<FemModel>(std::move(parts)), {}, std::move(loaded.warnings)};
   add_notes(scene, built.warnings);

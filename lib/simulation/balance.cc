@@ -24,20 +24,15 @@ Vec3 vector_from(const std::vector<double>& x) { return {x[0], x[1], x[2]}; }
 
 }  // namespace
 
-void PowerIntegral::start(const State& state) {
-  t_ = state.t;
-  last_ = model_.evaluate(power_, state)[0];
+void PowerIntegral::start(double t, double power) {
+  t_ = t;
+  last_ = power;
 }
 
-double PowerIntegral::advance(const State& to, const Integrator& integrator) {
-  if (!(to.t > t_)) return sum_;
-  State middle;
-  integrator.interpolate(0.5 * (t_ + to.t), middle);
-  const double end = model_.evaluate(power_, to)[0];
-  sum_ += (to.t - t_) / 6 * (last_ + 4 * model_.evaluate(power_, middle)[0] + end);
-  t_ = to.t;
+void PowerIntegral::advance(double t, double middle, double end) {
+  sum_ += (t - t_) / 6 * (last_ + 4 * middle + end);
+  t_ = t;
   last_ = end;
-  return sum_;
 }
 
 void PowerIntegral::restore(const std::vector<double>& kept) {
@@ -47,25 +42,37 @@ void PowerIntegral::restore(const std::vector<double>& kept) {
 }
 
 EnergyMeter::EnergyMeter(const Model& model, const Integrator& integrator)
-    : model_(model), integrator_(integrator), dissipation_(model, "power.dissipated"),
-      load_work_(model, "power.loads") {}
+    : model_(model), integrator_(integrator) {}
 
 void EnergyMeter::on_start(const State& state) {
-  if (model_.traits().dissipative) dissipation_.start(state);
-  if (model_.traits().loaded) load_work_.start(state);
-  look(state);
+  const auto view = model_.view(state);
+  if (model_.traits().dissipative) dissipation_.start(state.t, view->evaluate("power.dissipated")[0]);
+  if (model_.traits().loaded) load_work_.start(state.t, view->evaluate("power.loads")[0]);
+  look(state.t, *view);
   first_ = last_;
   drift_ = 0;
 }
 
-void EnergyMeter::look(const State& state) {
-  if (model_.traits().dissipative) dissipation_.advance(state, integrator_);
-  if (model_.traits().loaded) load_work_.advance(state, integrator_);
-  const auto energy = [&](const char* name) { return model_.evaluate(name, state)[0]; };
+void EnergyMeter::look(const State& state) { look(state.t, *model_.view(state)); }
+
+void EnergyMeter::look(double t, const StateView& at) {
+  if ((model_.traits().dissipative || model_.traits().loaded) && t > powers_time()) advance_powers(t, at);
+  const auto energy = [&](const char* name) { return at.evaluate(name)[0]; };
   last_ = {energy("energy.kinetic"), energy("energy.elastic"), energy("energy.gravitational"),
            dissipation_.value(), load_work_.value()};
   raise(drift_, std::abs(change()));
   scale_ = std::max({scale_, last_.kinetic, last_.elastic});
+}
+
+void EnergyMeter::advance_powers(double t, const StateView& at) {
+  State state;
+  integrator_.interpolate(0.5 * (powers_time() + t), state);
+  const auto middle = model_.view(state);
+  const auto advance = [&](PowerIntegral& integral, const char* power) {
+    integral.advance(t, middle->evaluate(power)[0], at.evaluate(power)[0]);
+  };
+  if (model_.traits().dissipative) advance(dissipation_, "power.dissipated");
+  if (model_.traits().loaded) advance(load_work_, "power.loads");
 }
 
 void EnergyMeter::save(Archive& archive) {
@@ -94,8 +101,9 @@ void MomentumMeter::on_start(const State& state) {
 }
 
 void MomentumMeter::look(const State& state) {
+  const auto view = model_.view(state);
   const auto vector = [&](const char* name) {
-    const auto values = model_.evaluate(name, state);
+    const auto values = view->evaluate(name);
     return Vec3(values[0], values[1], values[2]);
   };
   linear_ = vector("momentum.linear");

@@ -2,28 +2,24 @@
 // linear and angular momentum, and positive volumes. They write nothing.
 #pragma once
 
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "lib/simulation/observer.h"
 
 namespace orthodyn {
 
-// Integrates a model's power over the steps of an integrator: Simpson's rule on its dense output.
+// The integral of a power (W) over time, J: Simpson's rule from each time to the next.
 class PowerIntegral {
  public:
-  PowerIntegral(const Model& model, std::string power) : model_(model), power_(std::move(power)) {}
-  void start(const State& state);
-  // To a time within the integrator's last step.
-  double advance(const State& to, const Integrator& integrator);
+  void start(double t, double power);
+  // To a later time; the power in the middle and there.
+  void advance(double t, double middle, double end);
+  double time() const { return t_; }
   double value() const { return sum_; }
   std::vector<double> kept() const { return {t_, last_, sum_}; }
   void restore(const std::vector<double>& kept);
 
  private:
-  const Model& model_;
-  std::string power_;
   double t_ = 0, last_ = 0, sum_ = 0;
 };
 
@@ -36,7 +32,8 @@ struct EnergyBalance {
 
 class EnergyMeter : public Observer {
  public:
-  // `integrator` is the one that is run. Powers are integrated only where they can differ from zero.
+  // `integrator` is the one that is run; both must outlive this. Powers are integrated, on the integrator's dense
+  // output, only where they can differ from zero.
   EnergyMeter(const Model& model, const Integrator& integrator);
   void on_start(const State& state) override;
   void on_output(const State& state) override { look(state); }
@@ -53,9 +50,14 @@ class EnergyMeter : public Observer {
   double relative_drift() const { return scale_ > 0 ? drift_ / scale_ : 0; }
 
  protected:
+  // To a state within the integrator's last step.
   void look(const State& state);
 
  private:
+  double powers_time() const { return model_.traits().dissipative ? dissipation_.time() : load_work_.time(); }
+  void advance_powers(double t, const StateView& at);
+  void look(double t, const StateView& at);
+
   const Model& model_;
   const Integrator& integrator_;
   PowerIntegral dissipation_, load_work_;

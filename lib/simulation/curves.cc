@@ -118,11 +118,12 @@ void ProbeWriter::on_start(const State& state) {
 }
 
 void ProbeWriter::record(const State& state) {
+  const auto view = model_.view(state);
   std::map<std::string, std::vector<double>> fields;
   std::vector<double> row{state.t};
   for (const auto& column : columns_) {
     auto [it, missing] = fields.try_emplace(column.field);
-    if (missing) it->second = model_.evaluate(column.field, state);
+    if (missing) it->second = view->evaluate(column.field);
     const auto first = it->second.begin() + std::ptrdiff_t{column.components} * column.node;
     row.insert(row.end(), first, first + column.components);
   }

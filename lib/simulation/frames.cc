@@ -19,9 +19,11 @@ namespace fs = std::filesystem;
 namespace {
 
 VtuGrid grid_of(const Geometry& geometry, std::vector<VtuField> fields, VtuNumber type) {
-  VtuGrid grid{.points = geometry.points, .cell_type = kVtkTetra, .points_per_cell = 4, .connectivity = {}};
-  grid.connectivity.reserve(4 * geometry.cells.size());
-  for (const auto& cell : geometry.cells) grid.connectivity.insert(grid.connectivity.end(), cell.begin(), cell.end());
+  const Cells& cells = geometry.cells;
+  VtuGrid grid{.points = geometry.points,
+               .cell_type = geometry.vtk_cell_type,
+               .points_per_cell = cells.nodes_per_cell(),
+               .connectivity = cells.nodes()};
   for (VtuField& field : fields) {
     auto& data = field.location == Location::node ? grid.point_data : grid.cell_data;
     data.push_back({std::move(field.name), field.components, type, std::move(field.values)});
@@ -45,9 +47,10 @@ FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model, const
 }
 
 void FrameWriter::write(const State& state) {
+  const auto view = model_.view(state);
   std::vector<VtuField> fields;
   for (const auto& info : fields_)
-    fields.push_back({info.name, info.location, info.components, model_.evaluate(info.name, state)});
+    fields.push_back({info.name, info.location, info.components, view->evaluate(info.name)});
   const fs::path path = frame(frames_);
   const Geometry geometry = model_.geometry();
   write_file(path, vtu_text(grid_of(geometry, std::move(fields), VtuNumber::float32), VtuStorage::raw));

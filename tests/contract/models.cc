@@ -18,7 +18,7 @@ SmallModel::SmallModel(const Matrix& mass, bool symmetric) : mass_(mass) {
   traits_.lumped_mass = mass.isDiagonal();
 }
 
-void SmallModel::linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
+void SmallModel::assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                            Linearization& out) const {
   out.stiffness.resize(pattern_.row.size());
   gather(stiffness(t, q, v, kind), out.stiffness.data());

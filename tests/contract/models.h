@@ -21,8 +21,6 @@ class SmallModel : public Model, public DiscreteGradient {
   const Traits& traits() const override { return traits_; }
   const Pattern& pattern() const override { return pattern_; }
 
-  void linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
-                 Linearization& out) const override;
   void combine(const Weights& w, const Linearization& at, double* values) const override;
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const override;
   void solve_mass(VectorRef x) const override;
@@ -51,6 +49,9 @@ class SmallModel : public Model, public DiscreteGradient {
 
  private:
   friend class Share;
+
+  void assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
+                Linearization& out) const override;
 
   void gather(const Matrix& full, double* values) const;
 

@@ -17,14 +17,14 @@ Mat3 random_edges(Random& random) {
 }
 
 TEST(Tet4, OfTheUnitTetHasAVolumeOfOneSixth) {
-  EXPECT_DOUBLE_EQ(Tet4::from_edges(Mat3::Identity(), Mat3::Identity()).volume, 1.0 / 6);
+  EXPECT_DOUBLE_EQ(Tet4::point(0, Mat3::Identity(), Mat3::Identity()).volume, 1.0 / 6);
 }
 
 TEST(Tet4, TheGradientOfAnAffineMapIsItsMatrixInMaterialAxes) {
   Random random(16);
   for (int sample = 0; sample < 100; ++sample) {
     const Mat3 edges = random_edges(random), Q = random.rotation(), A = random.matrix();
-    const Mat3 error = Tet4::from_edges(edges, Q).gradient(A * edges) - A * Q;
+    const Mat3 error = Tet4::point(0, edges, Q).gradient(A * edges) - A * Q;
     EXPECT_LE(error.norm(), 64 * kEps * edges.norm() * edges.inverse().norm());
   }
 }
@@ -32,13 +32,13 @@ TEST(Tet4, TheGradientOfAnAffineMapIsItsMatrixInMaterialAxes) {
 TEST(Tet4, AtRestHasTheMaterialAxesAsGradient) {
   Random random(17);
   const Mat3 edges = random_edges(random), Q = random.rotation();
-  EXPECT_LE((Tet4::from_edges(edges, Q).gradient(edges) - Q).norm(), 64 * kEps * edges.norm() * edges.inverse().norm());
+  EXPECT_LE((Tet4::point(0, edges, Q).gradient(edges) - Q).norm(), 64 * kEps * edges.norm() * edges.inverse().norm());
 }
 
 TEST(Tet4, NodeForcesDoTheWorkOfTheStress) {
   Random random(18);
   const Mat3 edges = random_edges(random), Q = random.rotation(), P = random.matrix(), rate = random.matrix();
-  const Tet4 tet = Tet4::from_edges(edges, Q);
+  const auto tet = Tet4::point(0, edges, Q);
   const double power = contract<double>(tet.node_forces(P), rate);  // node 0 at rest
   const double expected = -tet.volume * contract<double>(P, tet.gradient(rate));
   EXPECT_NEAR(power, expected, 64 * kEps * tet.volume * P.norm() * tet.B.norm() * rate.norm());
@@ -49,7 +49,7 @@ TEST(Tet4, NodeForcesOfTheCorotationalLawExertNoTorque) {
   const CorotationalLaw law(fibre(100));
   for (int sample = 0; sample < 100; ++sample) {
     const Mat3 edges = random_edges(random), Q = random.rotation();
-    const Tet4 tet = Tet4::from_edges(edges, Q);
+    const auto tet = Tet4::point(0, edges, Q);
     const Mat3 now = random_strain(random, 0.3).F() * edges;
     const Mat3 forces = tet.node_forces(law.stress<double>(tet.gradient(now), Q));
     Vec3 torque = Vec3::Zero();

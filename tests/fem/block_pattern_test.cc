@@ -25,8 +25,8 @@ Matrix12 random_element(Random& random, bool symmetric) {
   return K;
 }
 
-ElementBlocks blocks_of(const Matrix12& K) {
-  ElementBlocks blocks;
+ElementBlocks<4> blocks_of(const Matrix12& K) {
+  ElementBlocks<4> blocks;
   for (int a = 0; a < 4; ++a)
     for (int b = 0; b < 4; ++b)
       blocks[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] = K.block<3, 3>(3 * a, 3 * b);
@@ -72,13 +72,13 @@ TEST_P(Assembly, OfRandomElementsEqualsTheFullMatrixForAnyClamps) {
   const TetMesh mesh = make_box({.cells = {3, 2, 2}});
   for (const double fraction : {0.0, 0.3, 0.9}) {
     const DofMap dofs(static_cast<int>(mesh.nodes.size()), random_clamps(random, mesh.nodes.size(), fraction));
-    const BlockPattern pattern(mesh.tets, dofs, GetParam());
+    const BlockPattern pattern(Cells(mesh.tets), dofs, GetParam());
     std::vector<double> values(pattern.pattern().row.size(), 0);
     Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(dofs.num_dofs(), dofs.num_dofs());
     for (const Tet& tet : mesh.tets) {
       const Matrix12 K = random_element(random, GetParam());
       add_dense(K, tet, dofs, expected);
-      scatter(blocks_of(K), tet, ElementOffsets(tet, pattern), pattern, values.data());
+      scatter<4>(blocks_of(K), tet, ElementOffsets<4>(tet, pattern), pattern, values.data());
     }
     Eigen::MatrixXd assembled = pattern.pattern().matrix(values.data());
     if (GetParam()) assembled = Eigen::MatrixXd(assembled.selfadjointView<Eigen::Lower>());
@@ -90,7 +90,7 @@ TEST_P(Assembly, HasAscendingRowsAndTheWholeDiagonal) {
   Random random(83);
   const TetMesh mesh = make_box({.cells = {2, 2, 2}, .split = BoxMesh::Split::six});
   const DofMap dofs(static_cast<int>(mesh.nodes.size()), random_clamps(random, mesh.nodes.size(), 0.3));
-  const Pattern p = BlockPattern(mesh.tets, dofs, GetParam()).pattern();
+  const Pattern p = BlockPattern(Cells(mesh.tets), dofs, GetParam()).pattern();
   ASSERT_EQ(p.column_start.size(), static_cast<std::size_t>(dofs.num_dofs()) + 1);
   EXPECT_EQ(p.column_start.back(), p.non_zeros());
   for (int j = 0; j < p.n; ++j) {
@@ -108,7 +108,7 @@ TEST_P(Assembly, HasAscendingRowsAndTheWholeDiagonal) {
 TEST(Pattern, OfASymmetricMeshIsTheLowerTriangleOfTheGeneralOne) {
   const TetMesh mesh = make_box({.cells = {2, 1, 1}});
   const DofMap dofs(static_cast<int>(mesh.nodes.size()), std::vector<bool>(3 * mesh.nodes.size(), false));
-  const Pattern lower = BlockPattern(mesh.tets, dofs, true).pattern(), all = BlockPattern(mesh.tets, dofs, false).pattern();
+  const Pattern lower = BlockPattern(Cells(mesh.tets), dofs, true).pattern(), all = BlockPattern(Cells(mesh.tets), dofs, false).pattern();
   EXPECT_EQ(all.non_zeros(), 2 * lower.non_zeros() - lower.n);
 }
 

@@ -8,6 +8,8 @@
 
 #include <numbers>
 
+#include "lib/fem/elastic_region.h"
+#include "lib/fem/element_mesh.h"
 #include "lib/mesh/box.h"
 #include "lib/mesh/selection.h"
 #include "tests/fem/built_scene.h"
@@ -70,8 +72,9 @@ TEST_P(Grain, OfEqualAxesInAllElementsIsThatOfOneRotation) {
   std::vector<int> cells(kBlock.tets.size());
   for (std::size_t k = 0; k < cells.size(); ++k) cells[k] = static_cast<int>(k);
   const auto term = [&](const ElementAxes& axes) {
-    return make_elastic_term("body", kBlock, cells, s.scene.materials[0].second->stiffness(), axes, 0.3, s.scene.elasticity,
-                             *parts.pattern);
+    return linear_tetrahedron().elastic_term(
+        ElementMesh(kBlock), {"body", cells, s.scene.materials[0].second->stiffness(), axes, 0.3, s.scene.elasticity},
+        *parts.pattern);
   };
   const auto one = term(Q), each = term(ElementAxes(std::vector<Mat3>(cells.size(), Q)));
   for (const double amplitude : {0.1, 1.0}) {  // at 1 some elements are inverted and treated one by one

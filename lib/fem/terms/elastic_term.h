@@ -1,14 +1,16 @@
-// Elasticity of the tetrahedra of one region, with optional stiffness-proportional damping.
+// Elasticity of the elements of one region, with optional stiffness-proportional damping:
+//
+//     f_a = - sum over points p of V_p P(F_p, dF_p/dt) grad N_a(p),
+//
+// with the first Piola-Kirchhoff stress P (Pa) of the region's law (lib/element). Made by ElementType::elastic_term.
+// Elements are numbered k in [0, size()). Functions are const, hold no state and may run at the same time on different
+// outputs. All throw RecoverableError where a deformation gradient is not finite.
 #pragma once
 
-#include <memory>
+#include <string>
 
-#include "lib/element/corotational_law.h"
 #include "lib/element/observation.h"
-#include "lib/fem/block_pattern.h"
-#include "lib/fem/element_axes.h"
 #include "lib/fem/term.h"
-#include "lib/fem/terms/elasticity_options.h"
 
 namespace orthodyn {
 
@@ -19,30 +21,28 @@ class ElasticTerm : public Term {
   // The region of the mesh that its elements are.
   virtual const std::string& region() const = 0;
 
-  // The law in words, e.g. "corotational, exact".
+  // The law in words, e.g. "corotational, exact gradient".
   virtual std::string law() const = 0;
 
-  // The element's index in the mesh, for k in [0, size()).
-  virtual int size() const = 0;
-  virtual int cell(int k) const = 0;
-  virtual PointObservation observe(int k, const NodalState& s) const = 0;
-  // sym(grad u) in material axes, of a small displacement u (m).
-  virtual Mat3 small_strain(int k, const NodalVector& u) const = 0;
   // False for the warped force: then there is no discrete gradient.
   virtual bool has_energy() const = 0;
+
+  // The number of elements, and the index of element k in the mesh.
+  virtual int size() const = 0;
+  virtual int cell(int k) const = 0;
+
+  // What can be seen at the mean deformation gradient of an element.
+  virtual PointObservation observe(int k, const NodalState& s) const = 0;
+
+  // The mean of sym(grad u) in material axes, of a small displacement u (m).
+  virtual Mat3 small_strain(int k, const NodalVector& u) const = 0;
+
+  // The smallest of the element's points; not positive where it is inverted.
   virtual double det_F(int k, const NodalState& s) const = 0;
 
-  // Upper bound of the squared angular frequency of any element about rest, for lumped masses
-  // density V / 4 at its nodes, 1/s^2; critical steps of explicit schemes are 2 / omega.
+  // Upper bound of the squared angular frequency of any element about rest with lumped masses, 1/s^2;
+  // density in kg/m^3. Critical steps of explicit schemes are 2 / omega.
   virtual double max_frequency_squared(double density) const = 0;
 };
-
-// `cells` are indices into mesh.tets, `axes` those of these elements; beta in seconds, 0 for none. The
-// pattern must outlive the term.
-std::unique_ptr<ElasticTerm> make_elastic_term(const std::string& region, const TetMesh& mesh,
-                                               std::vector<int> cells, const Stiffness& stiffness,
-                                               const ElementAxes& axes, double beta,
-                                               const ElasticityOptions& options,
-                                               const BlockPattern& pattern);
 
 }  // namespace orthodyn

@@ -1,17 +1,11 @@
-// The branch-free part of the polar decomposition (polar.h), for one element or a batch of them.
+// The branch-free steps of the polar decomposition (polar.h), for one point or a batch of them. Included by polar.cc
+// alone: they are heavy to compile.
 #pragma once
 
 #include "lib/element/axial.h"
-#include "lib/element/batch.h"
+#include "lib/element/polar.h"
 
 namespace orthodyn {
-
-template <class T>
-struct Polar {
-  Mat3T<T> R, S;
-  Mat3T<T> G_inverse;  // meaningful where det_G > 0
-  T det_G;             // (s1+s2)(s2+s3)(s3+s1)
-};
 
 namespace polar_detail {
 
@@ -168,15 +162,5 @@ void scale(Polar<T>& p, const T& factor) {
 }
 
 }  // namespace polar_detail
-
-// Polar decompositions of a batch: lanes outside the returned mask are to be done one by one by
-// polar(), which knows every case.
-inline Batch::Mask polar(const Mat3T<Batch>& F, Polar<Batch>& p) {
-  const Batch norm = sqrt(F.cwiseProduct(F).sum());
-  const Mat3T<Batch> unit = F * (Batch(1) / norm);
-  const Batch::Mask good = polar_detail::decompose_unit<Batch>(unit, p);
-  polar_detail::scale<Batch>(p, norm);
-  return good;
-}
 
 }  // namespace orthodyn

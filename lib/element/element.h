@@ -1,0 +1,61 @@
+// An element: how the nodes of a cell interpolate, and where the law is evaluated.
+//
+// With shape functions N_a that sum to one, F = sum_a x_a grad N_a = sum_{a>0} (x_a - x_0) grad N_a: only the gradients
+// of nodes 1, 2, ... are kept, and node 0 takes minus the sum of the others' forces. Gradients are in material axes,
+// g_a = Q^T grad N_a with the axes as columns of Q, so that all products are F Q and P Q.
+//
+// One element per file. A struct E with static members is an element if it satisfies the concept below; fem is
+// compiled for it by ElementTypeOf<E> (lib/fem/element_type_of.h). All functions are pure.
+#pragma once
+
+#include <array>
+#include <concepts>
+
+#include "lib/core/types.h"
+
+namespace orthodyn {
+
+// Positions of the nodes of an element, a column each, m.
+template <int kNodes>
+using ElementNodes = Eigen::Matrix<double, 3, kNodes>;
+
+// x_a - x_0 for a = 1, 2, ..., m; or of velocities, m/s.
+template <int kNodes>
+using NodeDifferences = Eigen::Matrix<double, 3, kNodes - 1>;
+
+template <int kNodes>
+NodeDifferences<kNodes> differences(const ElementNodes<kNodes>& x) {
+  return x.template rightCols<kNodes - 1>().colwise() - x.col(0);
+}
+
+// One integration point of an element.
+template <int kNodes>
+struct ElementPoint {
+  Eigen::Matrix<double, kNodes - 1, 3> B;  // rows: the gradients g_a of nodes 1, 2, ..., 1/m
+  double volume;                           // its part of the element's, m^3
+
+  // F Q from the current node differences, or its rate from their rates.
+  Mat3 gradient(const NodeDifferences<kNodes>& d) const { return d * B; }
+
+  // Columns: the forces -V dPsi/dx on nodes 1, 2, ... (N) for the stress P Q (Pa).
+  NodeDifferences<kNodes> node_forces(const Mat3& P) const { return -volume * P * B.transpose(); }
+};
+
+template <class E>
+concept Element = requires(int point, NodeDifferences<E::kNodes> d, ElementNodes<E::kNodes> X, Mat3 Q, double density) {
+  { E::kName } -> std::convertible_to<const char*>;
+  { E::kNodes } -> std::convertible_to<int>;
+  { E::kPoints } -> std::convertible_to<int>;
+  { E::kVtkCellType } -> std::convertible_to<int>;  // whose node order is the element's
+  // The share of each node in the lumped mass. All positive, with sum 1.
+  { E::kLumpedShares } -> std::convertible_to<std::array<double, E::kNodes>>;
+  // The largest ratio of lumped to consistent kinetic energy.
+  { E::kLumpedToConsistent } -> std::convertible_to<double>;
+  // Point number `point` of [0, kPoints) of an element with these node differences at rest and these axes.
+  { E::point(point, d, Q) } -> std::same_as<ElementPoint<E::kNodes>>;
+  { E::mass(X, density) } -> std::same_as<double>;  // kg, density in kg/m^3
+  // integral of rho N_a N_b dV, kg.
+  { E::consistent_mass(X, density) } -> std::same_as<Eigen::Matrix<double, E::kNodes, E::kNodes>>;
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,22 @@
+// A region of a mesh with its elasticity, as ElementType::elastic_term takes it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lib/fem/element_axes.h"
+#include "lib/fem/terms/elasticity_options.h"
+#include "lib/material/stiffness.h"
+
+namespace orthodyn {
+
+struct ElasticRegion {
+  std::string name;
+  std::vector<int> cells;  // of the mesh
+  Stiffness stiffness;     // Pa, in material axes
+  ElementAxes axes;        // of these cells
+  double beta = 0;         // s, stiffness-proportional damping; 0 for none
+  ElasticityOptions options;
+};
+
+}  // namespace orthodyn

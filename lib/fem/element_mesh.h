@@ -1,0 +1,34 @@
+// A mesh as elements of one type: what pattern, mass, elasticity and outputs are made from.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "lib/core/cells.h"
+#include "lib/fem/element_type.h"
+#include "lib/mesh/tet_mesh.h"
+
+namespace orthodyn {
+
+struct ElementMesh {
+  const ElementType& type;
+  const std::vector<Vec3>& nodes;  // positions at rest, m
+  Cells cells;                     // in the type's order of nodes
+
+  // `type` and `nodes` must outlive it. Precondition: the cells have as many nodes as the type.
+  ElementMesh(const ElementType& its_type, const std::vector<Vec3>& positions_at_rest, Cells its_cells)
+      : type(its_type), nodes(positions_at_rest), cells(std::move(its_cells)) {}
+
+  // The tetrahedra of a mesh, which must outlive it.
+  explicit ElementMesh(const TetMesh& mesh) : ElementMesh(linear_tetrahedron(), mesh.nodes, Cells(mesh.tets)) {}
+
+  // Of the nodes of one cell, a column each.
+  ElementType::Nodes positions(std::size_t cell) const {
+    ElementType::Nodes X(3, cells.nodes_per_cell());
+    for (Eigen::Index a = 0; a < X.cols(); ++a)
+      X.col(a) = nodes[static_cast<std::size_t>(cells[cell][static_cast<std::size_t>(a)])];
+    return X;
+  }
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,41 @@
+// What the finite element model asks of a kind of element that it does not know when it is compiled. Each kind is
+// ElementTypeOf<E> (element_type_of.h) for an element E of lib/element, in a file of its own.
+#pragma once
+
+#include <memory>
+
+#include "lib/core/types.h"
+
+namespace orthodyn {
+
+class BlockPattern;
+class ElasticTerm;
+struct ElasticRegion;
+struct ElementMesh;
+
+class ElementType {
+ public:
+  using Nodes = Eigen::Matrix<double, 3, Eigen::Dynamic>;  // positions at rest, a column per node, m
+
+  virtual ~ElementType() = default;
+
+  virtual const char* name() const = 0;
+  virtual int num_nodes() const = 0;
+  virtual int vtk_cell_type() const = 0;
+
+  // Of one element, kg; density in kg/m^3. The lumped masses are positive and sum to density times volume.
+  virtual Vector lumped_mass(const Nodes& X, double density) const = 0;
+  virtual Eigen::MatrixXd consistent_mass(const Nodes& X, double density) const = 0;
+
+  // The largest ratio of lumped to consistent kinetic energy of one element.
+  virtual double lumped_to_consistent() const = 0;
+
+  // Elasticity of some cells of a mesh of this type. The pattern must outlive the term, the mesh need not.
+  virtual std::unique_ptr<ElasticTerm> elastic_term(const ElementMesh& mesh, ElasticRegion region,
+                                                    const BlockPattern& pattern) const = 0;
+};
+
+// The types there are.
+const ElementType& linear_tetrahedron();
+
+}  // namespace orthodyn

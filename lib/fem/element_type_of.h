@@ -1,0 +1,47 @@
+// The type of an element E of lib/element: masses, and elasticity compiled for E with every law and stiffness. Heavy
+// to compile: included by the one file that compiles an element.
+#pragma once
+
+#include "lib/element/linear_law.h"
+#include "lib/element/warped_law.h"
+#include "lib/fem/element_type.h"
+#include "lib/fem/terms/elastic_term_of.h"
+
+namespace orthodyn {
+
+template <Element E>
+class ElementTypeOf final : public ElementType {
+ public:
+  const char* name() const override { return E::kName; }
+  int num_nodes() const override { return E::kNodes; }
+  int vtk_cell_type() const override { return E::kVtkCellType; }
+
+  Vector lumped_mass(const Nodes& X, double density) const override {
+    return E::mass(X, density) * Eigen::Map<const Eigen::Matrix<double, E::kNodes, 1>>(E::kLumpedShares.data());
+  }
+  Eigen::MatrixXd consistent_mass(const Nodes& X, double density) const override {
+    return E::consistent_mass(X, density);
+  }
+  double lumped_to_consistent() const override { return E::kLumpedToConsistent; }
+
+  std::unique_ptr<ElasticTerm> elastic_term(const ElementMesh& mesh, ElasticRegion region,
+                                            const BlockPattern& pattern) const override {
+    const Stiffness stiffness = region.stiffness;
+    return std::visit([&](const auto& C) { return term_with_stiffness(C, mesh, std::move(region), pattern); }, stiffness);
+  }
+
+ private:
+  template <class C>
+  static std::unique_ptr<ElasticTerm> term_with_stiffness(const C& stiffness, const ElementMesh& mesh,
+                                                          ElasticRegion region, const BlockPattern& pattern) {
+    const ElasticityOptions options = region.options;
+    const auto with = [&](const auto& law) -> std::unique_ptr<ElasticTerm> {
+      return std::make_unique<ElasticTermOf<E, std::decay_t<decltype(law)>>>(mesh, std::move(region), law, pattern);
+    };
+    if (options.kinematics == Kinematics::linear) return with(LinearLaw<C>(stiffness));
+    if (options.corotation == Corotation::warped) return with(WarpedLaw<C>(stiffness, options.warped_tangent));
+    return with(CorotationalLaw<C>(stiffness));
+  }
+};
+
+}  // namespace orthodyn

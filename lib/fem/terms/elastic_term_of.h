@@ -1,0 +1,219 @@
+// Elasticity compiled for one element E and one law of lib/element: forces in batches, tangents element by element.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <Eigen/Cholesky>
+
+#include "lib/core/symmetric_eigen.h"
+#include "lib/fem/elastic_region.h"
+#include "lib/fem/element_batches.h"
+#include "lib/fem/element_stiffness.h"
+#include "lib/fem/terms/elastic_term.h"
+
+namespace orthodyn {
+
+template <Element E, class Law>
+class ElasticTermOf final : public ElasticTerm {
+ public:
+  // The pattern must outlive the term, the mesh need not.
+  ElasticTermOf(const ElementMesh& mesh, ElasticRegion region, const Law& law, const BlockPattern& pattern)
+      : region_(std::move(region)), law_(law), pattern_(pattern), elements_(mesh, region_.cells, region_.axes) {
+    offsets_.reserve(region_.cells.size());
+    for (int k = 0; k < size(); ++k) offsets_.emplace_back(elements_.nodes(k), pattern);
+  }
+
+  std::string name() const override { return "elasticity of region " + region_.name; }
+
+  std::string description() const override {
+    return fmt::format("{}: {}, {} elements{}", name(), law(), size(),
+                       damped() ? ", stiffness-proportional damping" : "");
+  }
+
+  const std::string& region() const override { return region_.name; }
+  std::string law() const override { return Law::kName; }
+
+  std::size_t bytes() const override {
+    return elements_.bytes() + axes().bytes() + offsets_.capacity() * sizeof(Offsets) +
+           region_.cells.capacity() * sizeof(int);
+  }
+
+  void add_force(const NodalState& s, NodalVector& f) const override {
+    for_each_batch_point([&](int b, int p) {
+      const Mat3T<Batch> F = elements_.gradients(b, p, s.x);
+      Mat3T<Batch> rate;
+      if (damped()) rate = elements_.gradients(b, p, s.v);
+      Batch::Mask good;
+      const Mat3T<Batch> P = law_.batch_stress(F, batch_axes(b), damped() ? &rate : nullptr, region_.beta, good);
+      if (all(good)) elements_.add_forces(b, p, P, f);
+      else add_forces_one_by_one(b, p, s, f);
+    });
+  }
+
+  bool has_energy() const override { return Law::kHasEnergy; }
+
+  void add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const override {
+    if constexpr (Law::kHasEnergy)
+      for (int k = 0; k < size(); ++k)
+        for (int p = 0; p < E::kPoints; ++p)
+          elements_.add_force(
+              k, p, law_.mean_stress(elements_.gradient(k, p, s0.x), elements_.gradient(k, p, s1.x), axes().of(k)), f);
+  }
+
+  void add_tangent(const NodalState& s, TangentKind kind, double* K, double* D) const override {
+    const bool with_damping = D && damped();
+    ElementBlocks<E::kNodes> stiffness, damping;
+    for (int k = 0; k < size(); ++k) {
+      for (int p = 0; p < E::kPoints; ++p) {
+        Form damping_form;
+        const Form form = law_.tangent(elements_.gradient(k, p, s.x), axes().of(k), kind, region_.beta,
+                                       with_damping ? &damping_form : nullptr);
+        gather_point(k, p, form, stiffness);
+        if (with_damping) gather_point(k, p, damping_form, damping);
+      }
+      scatter_element(k, stiffness, K);
+      if (with_damping) scatter_element(k, damping, D);
+    }
+  }
+
+  double energy(const NodalState& s) const override {
+    return integrate(
+        [&](int b, int p, Batch::Mask& good) {
+          return law_.batch_energy(elements_.gradients(b, p, s.x), batch_axes(b), good);
+        },
+        [&](int k, int p) { return law_.template energy<double>(elements_.gradient(k, p, s.x), axes().of(k)); });
+  }
+
+  double dissipation(const NodalState& s) const override {
+    if (!damped()) return 0;
+    return integrate(
+        [&](int b, int p, Batch::Mask& good) {
+          return law_.batch_dissipation(elements_.gradients(b, p, s.x), batch_axes(b), elements_.gradients(b, p, s.v),
+                                        region_.beta, good);
+        },
+        [&](int k, int p) {
+          return law_.dissipation(elements_.gradient(k, p, s.x), axes().of(k), elements_.gradient(k, p, s.v), region_.beta);
+        });
+  }
+
+  int size() const override { return static_cast<int>(region_.cells.size()); }
+  int cell(int k) const override { return region_.cells[static_cast<std::size_t>(k)]; }
+
+  Mat3 small_strain(int k, const NodalVector& u) const override {
+    return symmetric_part<double>(axes().of(k).transpose() * mean_gradient(k, u));
+  }
+
+  double det_F(int k, const NodalState& s) const override {
+    double smallest = elements_.gradient(k, 0, s.x).determinant();
+    for (int p = 1; p < E::kPoints; ++p) smallest = std::min(smallest, elements_.gradient(k, p, s.x).determinant());
+    return smallest;
+  }
+
+  PointObservation observe(int k, const NodalState& s) const override {
+    return law_.observe(mean_gradient(k, s.x), axes().of(k));
+  }
+
+  double max_frequency_squared(double density) const override {
+    // With G = (G_1, G_2, ...) of a point and masses rho V s_a, its share V_p G^T C G of the stiffness has against the
+    // share V_p / V of the mass the largest eigenvalue of C^(1/2) (sum G_a G_a^T / s_a) C^(1/2) / rho. The quotient of
+    // the sums is no larger than the largest of these.
+    const Mat6 root = Mat6(Eigen::LLT<Mat6>(voigt(region_.stiffness)).matrixL());
+    double largest = 0;
+    for (int k = 0; k < size(); ++k)
+      for (int p = 0; p < E::kPoints; ++p) {
+        const Mat6 A = root.transpose() * strain_gram(elements_.point(k, p), E::kLumpedShares) * root;
+        largest = std::max(largest, symmetric_eigenvalues(A)[5]);
+      }
+    return largest / density;
+  }
+
+ private:
+  using Offsets = ElementOffsets<E::kNodes>;
+  using Form = typename Law::Form;
+
+  const ElementAxes& axes() const { return region_.axes; }
+  bool damped() const { return region_.beta > 0; }
+
+  // Laws that turn with the material do not look at it: F Q has it already.
+  decltype(auto) batch_axes(int b) const {
+    if constexpr (Law::kBatchesNeedAxes) return axes().batch(b);
+    else return (kNotLookedAt);
+  }
+
+  template <class Visit>
+  void for_each_batch_point(Visit&& visit) const {
+    for (int b = 0; b < elements_.num_batches(); ++b)
+      for (int p = 0; p < E::kPoints; ++p) visit(b, p);
+  }
+
+  template <class Visit>
+  void for_each_lane(int batch, Visit&& visit) const {
+    for (int l = 0; l < elements_.lanes(batch); ++l) visit(batch * Batch::kLanes + l);
+  }
+
+  // The volume integral of a density given at a point of whole batches and, where those fail, of elements.
+  template <class OfBatch, class OfElement>
+  double integrate(OfBatch&& of_batch, OfElement&& of_element) const {
+    double sum = 0;
+    for_each_batch_point([&](int b, int p) {
+      Batch::Mask good;
+      const Batch product = elements_.volumes(b, p) * of_batch(b, p, good);
+      if (all(good)) for (int l = 0; l < Batch::kLanes; ++l) sum += product[l];
+      else for_each_lane(b, [&](int k) { sum += elements_.volume(k, p) * of_element(k, p); });
+    });
+    return sum;
+  }
+
+  // The volume's mean of F Q.
+  Mat3 mean_gradient(int k, const NodalVector& x) const {
+    if constexpr (E::kPoints == 1) return elements_.gradient(k, 0, x);
+    Mat3 sum = Mat3::Zero();
+    double volume = 0;
+    for (int p = 0; p < E::kPoints; ++p) {
+      sum += elements_.volume(k, p) * elements_.gradient(k, p, x);
+      volume += elements_.volume(k, p);
+    }
+    return sum / volume;
+  }
+
+  // Sets the blocks at the first point and adds to them at the others.
+  void gather_point(int k, int p, const Form& form, ElementBlocks<E::kNodes>& blocks) const {
+    if (p == 0) {
+      point_stiffness<E::kNodes>(form, elements_.point(k, p), pattern_.symmetric(), blocks);
+    } else {
+      ElementBlocks<E::kNodes> more;
+      point_stiffness<E::kNodes>(form, elements_.point(k, p), pattern_.symmetric(), more);
+      add_blocks<E::kNodes>(more, pattern_.symmetric(), blocks);
+    }
+  }
+
+  void scatter_element(int k, const ElementBlocks<E::kNodes>& blocks, double* values) const {
+    scatter<E::kNodes>(blocks, elements_.nodes(k), offsets_[static_cast<std::size_t>(k)], pattern_, values);
+  }
+
+  // For batches with an inverted or degenerate element.
+  void add_forces_one_by_one(int batch, int p, const NodalState& s, NodalVector& f) const {
+    for_each_lane(batch, [&](int k) {
+      Mat3 rate;
+      if (damped()) rate = elements_.gradient(k, p, s.v);
+      elements_.add_force(k, p,
+                          law_.template stress<double>(elements_.gradient(k, p, s.x), axes().of(k),
+                                                       damped() ? &rate : nullptr, region_.beta),
+                          f);
+    });
+  }
+
+  static inline const Mat3 kNotLookedAt = Mat3::Identity();
+
+  ElasticRegion region_;
+  Law law_;
+  const BlockPattern& pattern_;
+  ElementBatches<E> elements_;
+  std::vector<Offsets> offsets_;
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,54 @@
+// A view shares what its outputs have in common and gives what each gives alone.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tests/fem/built_scene.h"
+
+namespace orthodyn {
+namespace {
+
+class Views : public testing::TestWithParam<std::string> {
+ protected:
+  Views()
+      : scene(fmt::format(R"(
+mesh: {{type: box, size: [2, 1, 0.5], cells: [3, 2, 2]}}
+materials: {{m: {}}}
+mass: {}
+clamps: [{{surface: x0, components: [x, y]}}]
+motions: [{{surface: x1, rotation: {{point: [1, 0.5, 0], axis: [1, 2, 2], angle: 0.3}}, factor: {{type: smooth_step, end: 2}}}}]
+damping: {{mass: 0.2, stiffness: 0.05}}
+gravity: [0, 0, -9.81]
+output: {{reactions: true}}
+time: {{end: 1}}
+)", fibre_material(10), GetParam())) {
+    state = {0.3, random_dofs(random, scene.size(), 0.05), random_dofs(random, scene.size(), 1)};
+  }
+
+  Random random{311};
+  BuiltTestScene scene;
+  State state;
+};
+INSTANTIATE_TEST_SUITE_P(Masses, Views, testing::Values("lumped", "consistent"));
+
+TEST_P(Views, GiveEachOutputInAnyOrderAsItIsAlone) {
+  const auto& model = scene.model();
+  auto outputs = model.outputs();
+  for (int pass = 0; pass < 2; ++pass) {
+    const auto view = model.view(state);
+    for (const auto& output : outputs) EXPECT_EQ(view->evaluate(output.name), model.evaluate(output.name, state)) << output.name;
+    std::reverse(outputs.begin(), outputs.end());
+  }
+}
+
+TEST_P(Views, DoNotSeeWhatTheStateBecomesAfterwards) {
+  const auto view = scene.model().view(state);
+  const auto before = scene.model().evaluate("energy.kinetic", state);
+  state.v *= 2;
+  EXPECT_EQ(view->evaluate("energy.kinetic"), before);
+}
+
+}  // namespace
+}  // namespace orthodyn
