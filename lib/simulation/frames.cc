@@ -22,7 +22,7 @@ VtuGrid grid_of(const Geometry& geometry, std::vector<VtuField> fields, VtuNumbe
   const Cells& cells = geometry.cells;
   VtuGrid grid{.points = geometry.points,
                .cell_type = geometry.vtk_cell_type,
-               .points_per_cell = cells.nodes_per_cell(),
+               .points_per_cell = static_cast<std::size_t>(cells.nodes_per_cell()),
                .connectivity = cells.nodes()};
   for (VtuField& field : fields) {
     auto& data = field.location == Location::node ? grid.point_data : grid.cell_data;
