@@ -9,7 +9,7 @@
 #include "lib/simulation/curves.h"
 #include "lib/simulation/run.h"
 #include "lib/simulation/errors/error_estimate.h"
-#include "lib/study/compare/point_result.h"
+#include "lib/simulation/json.h"
 #include "tools/orthodyn/run_arguments.h"
 #include "tools/orthodyn/setup.h"
 

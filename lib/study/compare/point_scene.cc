@@ -1,29 +1,15 @@
 // The scene of a point or of a reference: a problem's, with another integrator.
-#include <algorithm>
 #include <functional>
 #include <set>
 
-#include "lib/config/registry.h"
-#include "lib/ode/integrator.h"
 #include "lib/scene/scene.h"
-#include "lib/study/compare/expand.h"
+#include "lib/study/compare/comparison_design.h"
 
-namespace orthodyn {
+namespace orthodyn::study::compare {
 
 namespace {
 
 using Keys = std::set<std::string>;
-
-// Options of the scene's own integrator that the new one has too, but for the named ones, resp. only those.
-Assignments own_options(const Config& scene, const std::string& integrator,
-                        const std::function<bool(const std::string&)>& wanted) {
-  Assignments kept;
-  if (!scene.has("integrator") || !scene.at("integrator").is_map()) return kept;
-  const Config own = scene.at("integrator");
-  for (const auto& key : own.keys())
-    if (key != "type" && wanted(key) && has_key(integrator, key)) kept.emplace_back(key, YamlText{own.at(key).yaml()});
-  return kept;
-}
 
 bool is_kept_by_methods(const std::string& key, Method::Control control) {
   static const Keys controls{"rtol", "step", "safety"}, limits_of_steps{"h0", "h_min", "h_max"};
@@ -35,41 +21,20 @@ bool is_kept_by_references(const std::string& key) {
   return kept.contains(key);
 }
 
-std::string section(const std::string& type, const Assignments& options) {
-  std::string yaml = "{type: " + type;
-  std::set<std::string> seen;
-  // The last assignment of a key holds.
-  for (auto it = options.rbegin(); it != options.rend(); ++it)
-    if (seen.insert(it->first).second) yaml += ", " + it->first + ": " + it->second.text;
-  return yaml + "}";
-}
-
 Config scene_of(const Problem& problem, const std::string& integrator,
                 const std::function<bool(const std::string&)>& kept, const Assignments& options) {
-  Config config = with_integrator(problem, integrator, options, kept);
-  for (const char* silent : {"output.fields=[]", "output.energy=false", "output.steps=false", "output.momentum=false",
-                             "expect=null"})
-    config.override_with(silent);
+  static const Assignments silent{{"output.fields", {"[]"}},
+                                  {"output.energy", {"false"}},
+                                  {"output.steps", {"false"}},
+                                  {"output.momentum", {"false"}},
+                                  {"expect", {"null"}}};
+  Config config = with_integrator(problem.scene, integrator, options, kept);
+  assign(config, silent);
   read_scene(config);
   return config;
 }
 
 }  // namespace
-
-bool has_key(const std::string& integrator, const std::string& key) {
-  const auto& keys = Registry<IntegratorChoice>::entries().at(integrator).keys;
-  return std::any_of(keys.begin(), keys.end(), [&](const Key& k) { return k.name == key; });
-}
-
-Config with_integrator(const Problem& problem, const std::string& integrator, const Assignments& options,
-                       const std::function<bool(const std::string&)>& kept) {
-  Config config = Config::from_text(problem.text, problem.file);
-  for (const auto& [path, value] : problem.set) config.override_with(path + "=" + value.text);
-  Assignments all = own_options(config, integrator, kept);
-  all.insert(all.end(), options.begin(), options.end());
-  config.override_with("integrator=" + section(integrator, all));
-  return config;
-}
 
 Config reference_scene(const Problem& problem, const Method& method) {
   return scene_of(problem, method.integrator, is_kept_by_references, method.set);
@@ -83,4 +48,4 @@ Config point_scene(const Design& design, const Point& point) {
   return scene_of(design.problems[point.problem], method.integrator, kept, options);
 }
 
-}  // namespace orthodyn
+}  // namespace orthodyn::study::compare
