@@ -25,7 +25,12 @@ ALLOWED = {
     "lib/analysis": BASIC | {"lib/material", "lib/mesh", "lib/element", "lib/ode", "lib/linear", "lib/fem"},
     "lib/scene": PHYSICS,
     "lib/simulation": PHYSICS | {"lib/scene"},
-    "lib/study": STUDY,
+    "lib/study/inputs": STUDY,
+    "lib/study/jobs": STUDY,
+    "lib/study/quantities": STUDY | {"lib/study/inputs"},
+    "lib/study/compare": STUDY | {"lib/study/inputs", "lib/study/jobs"},
+    "lib/study/sweep": STUDY | {"lib/study/inputs", "lib/study/jobs", "lib/study/quantities"},
+    "lib/study/stability": STUDY | {"lib/study/inputs", "lib/study/jobs", "lib/study/quantities"},
     "integrators": BASIC | {"lib/ode", "lib/linear"},
 }
 # Include prefix of a library -> the only places that may name it.

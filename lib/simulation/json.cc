@@ -6,6 +6,8 @@ namespace {
 
 Json to_json(const Cost& cost) { return {{"count", cost.count}, {"seconds", cost.seconds}}; }
 
+Cost cost_from(const Json& json) { return {json.at("count"), json.at("seconds")}; }
+
 }  // namespace
 
 Json to_json(const Statistics& s) {
@@ -19,6 +21,21 @@ Json to_json(const Statistics& s) {
           {"tangent", to_json(s.tangent)},
           {"factorization", to_json(s.factorization)},
           {"solve", to_json(s.solve)}};
+}
+
+Statistics statistics_from(const Json& json) {
+  Statistics s;
+  s.steps = json.at("steps");
+  s.rejected_steps = json.at("rejected_steps");
+  s.error_test_failures = json.at("error_test_failures");
+  s.convergence_failures = json.at("convergence_failures");
+  s.newton_iterations = json.at("newton_iterations");
+  s.gauss_newton_fallbacks = json.at("gauss_newton_fallbacks");
+  s.force = cost_from(json.at("force"));
+  s.tangent = cost_from(json.at("tangent"));
+  s.factorization = cost_from(json.at("factorization"));
+  s.solve = cost_from(json.at("solve"));
+  return s;
 }
 
 }  // namespace orthodyn

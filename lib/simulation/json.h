@@ -10,5 +10,6 @@ namespace orthodyn {
 using Json = nlohmann::ordered_json;
 
 Json to_json(const Statistics& statistics);
+Statistics statistics_from(const Json& json);
 
 }  // namespace orthodyn

@@ -34,9 +34,9 @@ TEST_F(PluginFingerprint, APluginThatTheLoaderFindsByItselfCountsByItsName) {
   EXPECT_NE(code_fingerprint(), without);
 }
 
-class FilePrints : public InFolder {};
+class FilesFingerprint : public InFolder {};
 
-TEST_F(FilePrints, AFileIsReadAgainOnlyWhenItHasChanged) {
+TEST_F(FilesFingerprint, AFileIsReadAgainOnlyWhenItHasChanged) {
   FileFingerprints files;
   const auto file = write("mesh", "one");
   const std::string one = files.of(file);

@@ -2,11 +2,11 @@
 #include <map>
 #include <random>
 
-#include "lib/study/compare/point_result.h"
-#include "lib/study/quantities/verdict.h"
+#include "lib/study/jobs/json_values.h"
+#include "lib/study/stability/case_grade.h"
 #include "tests/simulation/command.h"
 
-namespace orthodyn {
+namespace orthodyn::study::stability {
 namespace {
 
 // Falls by g t^2 / 2 = 4.905 m in a second.
@@ -68,21 +68,24 @@ TEST_F(StabilityCommand, SaysWhatWasExpectedAndLeavesTheLastState) {
 }
 
 TEST_F(StabilityCommand, TakesVariantsAndRefusalsApart) {
-  write("m.yaml", "cases: [fall.yaml]\nintegrators: [energy_momentum, cvode_bdf]\n"
-                  "variants: {exact: {}, warped: {elasticity.corotation: warped}}\n");
+  write("m.yaml",
+        "cases: [fall.yaml]\nintegrators: [energy_momentum, cvode_bdf]\n"
+        "variants: {exact: {}, warped: {elasticity.corotation: warped}}\n");
   const auto done = stability();
   ASSERT_EQ(done.exit_code, 0) << done.output;
   const Json t = table();
   ASSERT_EQ(t.at("trials").size(), 4u);
   EXPECT_EQ(grade(0), "pass");
   EXPECT_EQ(grade(2), "refused");
-  EXPECT_NE(t.at("trials").at(2).at("reason").get<std::string>().find("elasticity.corotation: exact"), std::string::npos);
+  EXPECT_NE(t.at("trials").at(2).at("reason").get<std::string>().find("elasticity.corotation: exact"),
+            std::string::npos);
   EXPECT_EQ(grade(3), "pass");
 }
 
 TEST_F(StabilityCommand, TheSameTrialByTwoNamesIsDoneOnce) {
-  write("m.yaml", "cases: [fall.yaml]\nintegrators: [cvode_bdf, {type: cvode_bdf, label: again}]\n"
-                  "variants: {exact: {}, same: {}}\n");
+  write("m.yaml",
+        "cases: [fall.yaml]\nintegrators: [cvode_bdf, {type: cvode_bdf, label: again}]\n"
+        "variants: {exact: {}, same: {}}\n");
   const auto done = stability(" --jobs 4");
   ASSERT_EQ(done.exit_code, 0) << done.output;
   ASSERT_EQ(table().at("trials").size(), 4u);
@@ -91,8 +94,9 @@ TEST_F(StabilityCommand, TheSameTrialByTwoNamesIsDoneOnce) {
 
 // The load's formula ceases to be a number on the way: no refusal, and not tried again.
 TEST_F(StabilityCommand, WhatTheInputDoesWrongInMidRunIsAFailure) {
-  write("fall.yaml", expecting(4.905) + "loads: [{surface: z1, force: [0, 0, 1], factor: {type: expression, formula: "
-                                        "sqrt(0.5-t)}}]\n");
+  write("fall.yaml", expecting(4.905) +
+                         "loads: [{surface: z1, force: [0, 0, 1], factor: {type: expression, formula: "
+                         "sqrt(0.5-t)}}]\n");
   write("m.yaml", "cases: [fall.yaml]\nintegrators: [cvode_bdf]\n");
   ASSERT_EQ(stability().exit_code, 0);
   EXPECT_EQ(grade(0), "fail");
@@ -100,8 +104,9 @@ TEST_F(StabilityCommand, WhatTheInputDoesWrongInMidRunIsAFailure) {
 }
 
 TEST_F(StabilityCommand, ARunThatDoesNotEndFails) {
-  write("m.yaml", "cases: [fall.yaml]\nintegrators: [{type: cvode_bdf, max_steps: 3}, {type: backward_euler, label: slow, "
-                  "h_max: 1e-8, max_steps: 100000000}]\nlimits: {seconds: 0.3}\n");
+  write("m.yaml",
+        "cases: [fall.yaml]\nintegrators: [{type: cvode_bdf, max_steps: 3}, {type: backward_euler, label: slow, "
+        "h_max: 1e-8, max_steps: 100000000}]\nlimits: {seconds: 0.3}\n");
   ASSERT_EQ(stability().exit_code, 0);
   EXPECT_EQ(grade(0), "fail");
   EXPECT_NE(table().at("trials").at(0).at("reason").get<std::string>().find("max_steps"), std::string::npos);
@@ -120,9 +125,11 @@ TEST_F(StabilityCommand, RefusesWhatIsWrongBeforeAnythingRuns) {
       {"cases: [none.yaml]\n", "m.yaml:1:9: cases.0: none.yaml: no such file"},
       {"cases: [fall.yaml, fall.yaml]\n", "m.yaml:1:20"},
       {"cases: [fall.yaml]\nintegrators: [cvode_bfd]\n", "did you mean 'cvode_bdf'"},
-      {"cases: [fall.yaml]\nintegrators: [{type: cvode_bdf, rtoll: 1}]\n", "m.yaml:2:40: integrators.0.rtoll: unknown key"},
+      {"cases: [fall.yaml]\nintegrators: [{type: cvode_bdf, rtoll: 1}]\n",
+       "m.yaml:2:40: integrators.0.rtoll: unknown key"},
       {"cases: [{file: fall.yaml, set: {gravty: 1}}]\n", "m.yaml:1:41: cases.0.set.gravty: unknown key"},
-      {"cases: [fall.yaml]\nvariants: {a: {elasticity.corotatoin: warped}}\n", "m.yaml:2:39: variants.a.elasticity.corotatoin: unknown key"}};
+      {"cases: [fall.yaml]\nvariants: {a: {elasticity.corotatoin: warped}}\n",
+       "m.yaml:2:39: variants.a.elasticity.corotatoin: unknown key"}};
   for (const auto& [text, message] : wrong) {
     write("m.yaml", text);
     const auto done = stability();
@@ -151,12 +158,14 @@ TEST_F(StabilityCommand, AKillCostsTheTrialsInProgress) {
   std::map<std::string, std::string> before;
   for (std::size_t kill = 1; kill <= 5; ++kill) {
     const std::size_t enough = before.size() + 1 + random() % 3;
-    shell("cd " + folder_.string() + "; " ORTHODYN_EXECUTABLE " stability m.yaml --no-report --jobs 2 > said & pid=$!; "
-          "until [ $(find out -name result.json 2> /dev/null | wc -l) -ge " + std::to_string(enough) +
-          " ]; do sleep 0.005; done; kill -9 $pid; wait $pid");
+    shell("cd " + folder_.string() +
+          "; " ORTHODYN_EXECUTABLE
+          " stability m.yaml --no-report --jobs 2 > said & pid=$!; "
+          "until [ $(find out -name result.json 2> /dev/null | wc -l) -ge " +
+          std::to_string(enough) + " ]; do sleep 0.005; done; kill -9 $pid; wait $pid");
     const auto after = files("result.json");
     EXPECT_GT(after.size(), before.size());
-    EXPECT_LE(files("scene.yaml").size(), after.size() + 2);  // begun, and lost
+    EXPECT_LE(files("scene.yaml").size(), after.size() + 2);                  // begun, and lost
     for (const auto& [file, text] : before) EXPECT_EQ(after.at(file), text);  // not done again
     for (const auto& [file, text] : after) EXPECT_TRUE(Json::accept(text)) << text;
     before = after;
@@ -175,15 +184,15 @@ Check off_by(double tolerances, double degraded = 10) {
   return {e, tolerances};
 }
 
-TEST(Judge, TheWorstFigureDecides) {
-  const auto grade = [](const std::vector<Check>& checks) { return judge({"", {}, checks}).grade; };
-  EXPECT_EQ(grade({off_by(0.5), off_by(1)}), Grade::pass);
-  EXPECT_EQ(grade({off_by(0.5), off_by(-1.5)}), Grade::degraded);
-  EXPECT_EQ(grade({off_by(15), off_by(0.5)}), Grade::fail);
-  EXPECT_EQ(grade({off_by(15, 20), off_by(3, 2)}), Grade::fail);
-  EXPECT_EQ(grade({off_by(0), off_by(std::nan(""))}), Grade::fail);
-  EXPECT_EQ(judge({"", {}, {off_by(15, 20), off_by(3, 2)}}).worst->computed, 3);
+TEST(CaseGrade, TheWorstFigureDecides) {
+  const auto grade_of = [](const std::vector<Check>& checks) { return grade({"", {}, checks}).grade; };
+  EXPECT_EQ(grade_of({off_by(0.5), off_by(1)}), Grade::pass);
+  EXPECT_EQ(grade_of({off_by(0.5), off_by(-1.5)}), Grade::degraded);
+  EXPECT_EQ(grade_of({off_by(15), off_by(0.5)}), Grade::fail);
+  EXPECT_EQ(grade_of({off_by(15, 20), off_by(3, 2)}), Grade::fail);
+  EXPECT_EQ(grade_of({off_by(0), off_by(std::nan(""))}), Grade::fail);
+  EXPECT_EQ(grade({"", {}, {off_by(15, 20), off_by(3, 2)}}).worst->computed, 3);
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::study::stability

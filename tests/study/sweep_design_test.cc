@@ -8,7 +8,7 @@
 
 #include "tests/simulation/command.h"
 
-namespace orthodyn {
+namespace orthodyn::study::sweep {
 namespace {
 
 using testing::HasSubstr;
@@ -17,7 +17,7 @@ class SweepDesign : public InFolder {
  protected:
   SweepDesign() { write("swing.yaml", kSwing); }
 
-  std::vector<SweepPoint> points(const std::string& rest) const {
+  std::vector<Point> points(const std::string& rest) const {
     return expand(read_sweep(Config::from_file(write("s.yaml", "scene: swing.yaml\n" + rest).string())));
   }
   std::string complaint(const std::string& rest) const {
@@ -28,7 +28,7 @@ class SweepDesign : public InFolder {
     }
     return "";
   }
-  static double value(const SweepPoint& point, const std::string& path) {
+  static double value(const Point& point, const std::string& path) {
     Config at = Config::from_text(point.scene);
     std::istringstream steps(path);
     for (std::string step; std::getline(steps, step, '.');)
@@ -219,7 +219,8 @@ TEST_F(SweepDesign, RefusesColoursThatCannotBeDrawn) {
   EXPECT_THAT(complaint(head + "stress.11}"), HasSubstr("'stress' has no component '11'; known: xx"));
   EXPECT_THAT(complaint(head + "det_f.x}"), HasSubstr("it is a number"));
   EXPECT_THAT(complaint(head + "energy.elastic}"), HasSubstr("there is no field 'energy'"));
-  for (const char* color : {"displacement", "velocity.z", "stress.von_mises", "stress_material.12", "det_f", "strain.11"})
+  for (const char* color :
+       {"displacement", "velocity.z", "stress.von_mises", "stress_material.12", "det_f", "strain.11"})
     EXPECT_EQ(complaint(head + color + "}"), "");
 }
 
@@ -338,4 +339,4 @@ TEST(ShippedSweeps, HavePointsThatCanAllBeComputed) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::study::sweep

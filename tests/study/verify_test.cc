@@ -3,7 +3,7 @@
 
 #include "tests/simulation/command.h"
 
-namespace orthodyn {
+namespace orthodyn::study {
 namespace {
 
 // Falls by g t^2 / 2 = 4.905 m in a second.
@@ -104,4 +104,4 @@ TEST_F(Verify, RefusesAFolderWithoutCasesAndASceneWithoutExpectations) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::study

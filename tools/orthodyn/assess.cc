@@ -1,6 +1,5 @@
 // `orthodyn assess`: one trial of a stability matrix, in a process of its own.
-#include "lib/study/stability/assess.h"
-
+#include "lib/study/stability/evaluate_case.h"
 #include "tools/orthodyn/command.h"
 
 namespace orthodyn {
@@ -12,7 +11,7 @@ struct AssessArguments {
 };
 
 int assess_folder(const AssessArguments& arguments) {
-  assess(arguments.folder);
+  study::stability::evaluate_case(arguments.folder);
   return 0;
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "lib/analysis/strain_limits.h"
+#include "lib/axes/axes_source.h"
 #include "lib/core/symmetric_eigen.h"
 #include "lib/simulation/axes_file.h"
 #include "lib/simulation/equilibrium.h"

@@ -1,17 +1,17 @@
-// `orthodyn compare`: carries a comparison out and has its report drawn.
+// `orthodyn compare`: runs a comparison and has its report drawn.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "lib/simulation/files.h"
 #include "lib/study/compare/comparison_table.h"
+#include "lib/study/jobs/json_values.h"
 #include "tools/orthodyn/command.h"
-#include "tools/orthodyn/draw.h"
-#include "tools/orthodyn/failures.h"
-#include "tools/orthodyn/interrupt.h"
+#include "tools/orthodyn/failure_summary.h"
+#include "tools/orthodyn/progress_reporter.h"
+#include "tools/orthodyn/study_command.h"
 #include "tools/orthodyn/study_folder.h"
-#include "tools/orthodyn/study_options.h"
-#include "tools/orthodyn/teller.h"
 
 namespace orthodyn {
 
@@ -19,15 +19,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kTable = "compare.json";
+using namespace study;
+using namespace study::compare;
 
-std::string outcome_of(const Json& result) {
-  if (result.at("status") != "completed") return "failed: " + result.at("reason").get<std::string>();
+std::string outcome_of(const MeasurementResult& result) {
+  if (result.failure) return "failed: " + result.failure->reason;
   std::string text = "done";
-  if (result.contains("wall")) text = fmt::format("{:.3g} s", result.at("wall").at("median").get<double>());
-  if (result.contains("kind") && result.at("kind") == "exact") text = "exact solution";
-  if (result.contains("errors") && result.at("errors").at("displacement").at("l2").is_number())
-    text += fmt::format(", error {:.2g}", result.at("errors").at("displacement").at("l2").get<double>());
+  if (result.timing) text = fmt::format("{:.3g} s", result.timing->wall.median);
+  if (result.kind == MeasurementResult::Kind::exact) text = "exact solution";
+  if (result.errors && std::isfinite(result.errors->displacement.l2))
+    text += fmt::format(", error {:.2g}", result.errors->displacement.l2);
   return text;
 }
 
@@ -45,11 +46,13 @@ void print_answers(const Json& table) {
                  problem.at("label").get<std::string>());
   }
   for (const auto& answer : table.at("answers")) {
-    fmt::print("error {:g} on {}:", answer.at("target").get<double>(), label_of(table.at("problems"), answer.at("problem")));
+    fmt::print("error {:g} on {}:", answer.at("target").get<double>(),
+               label_of(table.at("problems"), answer.at("problem")));
     const char* separator = " ";
     for (const auto& row : answer.at("methods")) {
       if (row.at("seconds").is_null()) continue;
-      fmt::print("{}{} {:.3g} s", separator, label_of(table.at("methods"), row.at("method")), row.at("seconds").get<double>());
+      fmt::print("{}{} {:.3g} s", separator, label_of(table.at("methods"), row.at("method")),
+                 row.at("seconds").get<double>());
       separator = ", ";
     }
     fmt::print("\n");
@@ -57,37 +60,29 @@ void print_answers(const Json& table) {
 }
 
 int compare(const StudyArguments& arguments) {
-  const Config config = Config::from_file(arguments.file);
-  const Comparison comparison = read_comparison(config);
+  const Comparison comparison = read_comparison(Config::from_file(arguments.file));
   Design design = expand(comparison);
-  const StudyFolder place(arguments.out ? fs::path(*arguments.out) : fs::path("out/comparisons") / comparison.name,
-                          "comparison", arguments.file);
+  const StudyFolder place(folder_for(arguments, "out/comparisons", comparison.name), "comparison", arguments.file);
   const fs::path& folder = place.path();
 
-  Teller teller;
+  ProgressReporter reporter(arguments.quiet);
   std::size_t kept = 0;
-  const auto notify = [&](const TaskNotice& notice) {
-    kept += !notice.starts && notice.cached && met_a_limit(*notice.result);
-    if (!arguments.quiet && !notice.starts)
-      teller.tell(notice.count, notice.title, outcome_of(*notice.result), notice.cached);
-  };
-  Campaign campaign(comparison, std::move(design), {folder, fs::read_symlink("/proc/self/exe").string(), notify,
-                     arguments.retry ? OldFailures::retry : OldFailures::keep});
+  ComparisonRun run(comparison, std::move(design), folder, [&](const Progress& progress) {
+    kept += progress.cached && met_a_limit(progress.result.failure);
+    reporter.report(progress.count, progress.title, outcome_of(progress.result), progress.cached);
+  });
   Json table;
-  catch_interrupts();
-  const bool complete = campaign.run(interrupted(), [&] {
-    table = comparison_json(campaign, arguments.file);
-    write_file(folder / kTable, {to_text(table, 1)});
+  const bool complete = run.run(job_queue(arguments, 1), [&] {
+    table = comparison_json(run, arguments.file);
+    write_file(folder / "compare.json", {to_text(table, 1)});
     write_file(folder / "compare.csv", {comparison_csv(table)});
   });
-  if (!complete)
-    fmt::print(stderr, "interrupted; the finished points are in {} and will not be done again\n", folder.string());
+  if (!complete) tell_of_interrupt("points", folder);
   if (!arguments.quiet && !table.is_null()) print_answers(table);
-  if (arguments.no_report) put_report_aside(folder, arguments.quiet);
-  else if (!table.is_null()) draw_report(folder, arguments.quiet);
-  Failures failures;
-  for (const auto& [i, result] : campaign.results())
-    failures.add(title(campaign.design(), campaign.design().points[i]), result);
+  if (arguments.no_report || !table.is_null()) show_report(folder, arguments);
+  FailureSummary failures;
+  for (const auto& [i, result] : run.results())
+    failures.add(title(run.design(), run.design().points[i]), result.failure);
   failures.print();
   tell_of_kept_limits(kept);
   return complete ? failures.exit_code() : 130;

@@ -1,6 +1,5 @@
 // `orthodyn evaluate`: one point of a sweep, in a process of its own.
-#include "lib/study/sweep/evaluate.h"
-
+#include "lib/study/sweep/evaluate_point.h"
 #include "tools/orthodyn/command.h"
 
 namespace orthodyn {
@@ -12,7 +11,7 @@ struct EvaluateArguments {
 };
 
 int evaluate_folder(const EvaluateArguments& arguments) {
-  evaluate(arguments.folder);
+  study::sweep::evaluate_point(arguments.folder);
   return 0;
 }
 

@@ -4,6 +4,7 @@
 
 #include "lib/config/config.h"
 #include "lib/scene/scene.h"
+#include "lib/study/compare/comparison.h"
 #include "lib/study/stability/stability.h"
 #include "lib/study/sweep/sweep.h"
 

@@ -7,7 +7,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/simulation/files.h"
-#include "lib/study/jobs/errand.h"
+#include "lib/study/jobs/job.h"
 
 namespace orthodyn {
 
@@ -46,7 +46,7 @@ std::string command(const ArrayJob& job) {
 long minutes(const ArrayJob& job) {
   constexpr double kOwn = 300;
   const double points = std::ceil(static_cast<double>(job.points) / static_cast<double>(job.tasks));
-  return std::lround(std::ceil((points * (job.limits.seconds + kSetUpTime) + kOwn) / 60));
+  return std::lround(std::ceil((points * (job.limits.seconds + study::kSetUpSeconds) + kOwn) / 60));
 }
 
 // What a command says; nothing if it fails.

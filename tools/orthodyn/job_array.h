@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "lib/study/compare/comparison.h"
+#include "lib/study/inputs/limits.h"
 
 namespace orthodyn {
 

@@ -10,6 +10,7 @@
 #include "lib/mesh/io/mesh_format.h"
 #include "lib/scene/build.h"
 #include "lib/scene/scene.h"
+#include "lib/study/compare/comparison.h"
 #include "lib/study/stability/stability.h"
 #include "lib/study/sweep/sweep.h"
 #include "tools/orthodyn/command.h"
@@ -119,8 +120,8 @@ void print_sweep() {
   print_entry("vary.<name>", "A list with a unit or a name.", ValueList::spec().keys());
   print_entry("quantities.<name>", "What is wanted of every point: one of quantity, mode (or along), cost.",
               WantedFigure::spec().keys());
-  print_entry("plots.<n>", "A figure of the report.", PlotWish::spec().keys());
-  print_entry("frames", "A picture of each point.", FrameWish::spec().keys());
+  print_entry("plots.<n>", "A figure of the report.", PlotSpec::spec().keys());
+  print_entry("frames", "A picture of each point.", FrameSpec::spec().keys());
   print_entry("limits", "Of each point of a sweep.", Limits::spec().keys());
 }
 

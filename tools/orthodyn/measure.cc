@@ -1,6 +1,5 @@
 // `orthodyn measure`: one point of a comparison, in a process of its own.
-#include "lib/study/compare/measure.h"
-
+#include "lib/study/compare/measurement.h"
 #include "tools/orthodyn/command.h"
 
 namespace orthodyn {
@@ -12,7 +11,7 @@ struct MeasureArguments {
 };
 
 int measure_folder(const MeasureArguments& arguments) {
-  measure(arguments.folder);
+  study::compare::measure(arguments.folder);
   return 0;
 }
 

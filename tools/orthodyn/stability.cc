@@ -1,4 +1,4 @@
-// `orthodyn stability`: a matrix of hard cases and integrators, judged by what each case expects.
+// `orthodyn stability`: a matrix of hard cases and integrators, graded by what each case expects.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,15 +8,13 @@
 #include <map>
 
 #include "lib/simulation/files.h"
+#include "lib/study/jobs/json_values.h"
 #include "lib/study/stability/stability_matrix.h"
 #include "tools/orthodyn/command.h"
-#include "tools/orthodyn/draw.h"
-#include "tools/orthodyn/failures.h"
-#include "tools/orthodyn/interrupt.h"
-#include "tools/orthodyn/jobs.h"
+#include "tools/orthodyn/failure_summary.h"
+#include "tools/orthodyn/progress_reporter.h"
+#include "tools/orthodyn/study_command.h"
 #include "tools/orthodyn/study_folder.h"
-#include "tools/orthodyn/study_options.h"
-#include "tools/orthodyn/teller.h"
 
 namespace orthodyn {
 
@@ -24,12 +22,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
+using namespace study;
+using namespace study::stability;
+
 constexpr auto kBetweenTables = std::chrono::seconds(10);
 
-std::string outcome_of(const Json& result) {
-  std::string text = result.at("grade");
-  if (result.contains("wall")) text += fmt::format(" in {:.2g} s", result.at("wall").get<double>());
-  if (const std::string reason = result.at("reason"); !reason.empty()) text += ": " + reason;
+std::string outcome_of(const StabilityResult& result) {
+  std::string text = result.grade();
+  if (result.run) text += fmt::format(" in {:.2g} s", result.run->wall_seconds);
+  if (const std::string reason = result.reason(); !reason.empty()) text += ": " + reason;
   return text;
 }
 
@@ -43,8 +44,8 @@ std::string symbol(const std::string& grade) {
 class MatrixTable {
  public:
   explicit MatrixTable(const Json& matrix) : matrix_(matrix) {
-    for (const auto& trial : matrix.at("trials"))
-      grades_[{trial.at("variant"), trial.at("case"), trial.at("integrator")}] = trial.at("grade");
+    for (const auto& run : matrix.at("trials"))
+      grades_[{run.at("variant"), run.at("case"), run.at("integrator")}] = run.at("grade");
     const auto fit = [&](const std::string& text) { width_ = std::max(width_, text.size()); };
     for (const auto& hard : matrix.at("cases")) fit(hard.at("label"));
     for (const auto& variant : matrix.at("variants")) fit(variant);
@@ -92,37 +93,30 @@ class MatrixTable {
 int try_stability(const StudyArguments& arguments) {
   use_one_thread_each();  // before fingerprints are taken, of which the number of threads is a part
   Stability stability = read_stability(Config::from_file(arguments.file));
-  const std::string name = stability.name;
-  const fs::path out = arguments.out ? fs::path(*arguments.out) : fs::path("out/stability") / name;
-  StabilityMatrix matrix(std::move(stability), out, fs::read_symlink("/proc/self/exe").string());
+  const fs::path out = folder_for(arguments, "out/stability", stability.name);
+  StabilityMatrix matrix(std::move(stability), out);
   const StudyFolder place(out, "stability", arguments.file);
 
-  Teller teller;
   const auto write_table = [&] {
     Json table = matrix.json(arguments.file);
     write_file(out / "stability.json", {to_text(table, 1)});
     write_file(out / "stability.csv", {matrix.csv()});
     return table;
   };
-  catch_interrupts();
+  ProgressReporter reporter(arguments.quiet);
   auto next_table = std::chrono::steady_clock::now() + kBetweenTables;
-  const ErrandEvents events{
-      [](std::size_t) {},
-      [&](std::size_t i, const Json& result, bool cached) {
-        if (!arguments.quiet) teller.tell(matrix.trials().size(), matrix.trials()[i].title, outcome_of(result), cached);
-        if (std::chrono::steady_clock::now() < next_table) return;
-        write_table();
-        next_table = std::chrono::steady_clock::now() + kBetweenTables;
-      }};
-  const std::size_t kept = arguments.retry ? 0 : number_at_limits(matrix.errands());
-  const bool complete = matrix.run(number_of_jobs(arguments.jobs), interrupted(), events,
-                                   arguments.retry ? OldFailures::retry : OldFailures::keep);
+  const auto after_each = [&](std::size_t run, const StabilityResult& result, bool cached) {
+    reporter.report(matrix.runs().size(), matrix.runs()[run].title, outcome_of(result), cached);
+    if (std::chrono::steady_clock::now() < next_table) return;
+    write_table();
+    next_table = std::chrono::steady_clock::now() + kBetweenTables;
+  };
+  const std::size_t kept = arguments.retry ? 0 : number_at_limits(matrix.jobs());
+  const bool complete = matrix.run(job_queue(arguments, worker_count(arguments)), after_each);
   const Json table = write_table();
-  if (!complete)
-    fmt::print(stderr, "interrupted; the finished trials are in {} and will not be done again\n", out.string());
+  if (!complete) tell_of_interrupt("trials", out);
   if (!arguments.quiet) MatrixTable(table).print();
-  if (arguments.no_report) put_report_aside(out, arguments.quiet);
-  else draw_report(out, arguments.quiet);
+  show_report(out, arguments);
   tell_of_kept_limits(kept);
   return complete ? 0 : 130;
 }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "lib/core/errors.h"
-#include "lib/study/compare/point_result.h"
+#include "lib/study/jobs/json_values.h"
 
 namespace orthodyn {
 

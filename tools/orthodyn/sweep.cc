@@ -3,24 +3,21 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 
 #include "lib/core/units.h"
 #include "lib/simulation/files.h"
-#include "lib/study/sweep/sweep_errands.h"
+#include "lib/study/jobs/json_values.h"
 #include "lib/study/sweep/sweep_table.h"
 #include "tools/orthodyn/command.h"
-#include "tools/orthodyn/draw.h"
-#include "tools/orthodyn/failures.h"
-#include "tools/orthodyn/interrupt.h"
+#include "tools/orthodyn/failure_summary.h"
 #include "tools/orthodyn/job_array.h"
-#include "tools/orthodyn/jobs.h"
+#include "tools/orthodyn/progress_reporter.h"
+#include "tools/orthodyn/study_command.h"
 #include "tools/orthodyn/study_folder.h"
-#include "tools/orthodyn/study_options.h"
-#include "tools/orthodyn/teller.h"
 
 namespace orthodyn {
 
@@ -35,7 +32,8 @@ struct SweepArguments : StudyArguments {
   bool collect = false;
 };
 
-std::string program() { return fs::read_symlink("/proc/self/exe").string(); }
+using namespace study;
+using namespace study::sweep;
 
 // "3/20": the third of twenty.
 std::pair<std::size_t, std::size_t> parse_task(const std::string& text) {
@@ -47,19 +45,26 @@ std::pair<std::size_t, std::size_t> parse_task(const std::string& text) {
   return {part, parts};
 }
 
+template <class T>
+const T* value_of(const Named<T>& list, const std::string& name) {
+  const auto found = std::find_if(list.begin(), list.end(), [&](const auto& entry) { return entry.first == name; });
+  return found == list.end() ? nullptr : &found->second;
+}
+
 // In the unit that the sweep asks for, else in SI.
-std::string outcome_of(const Json& result, const Sweep& sweep) {
-  if (result.at("status") != "completed") return "failed: " + result.at("reason").get<std::string>();
-  const Json &figures = result.at("figures"), &units = result.at("units");
+std::string outcome_of(const EvaluationResult& result, const Sweep& sweep) {
+  if (result.failure) return "failed: " + result.failure->reason;
   std::vector<std::string> words;
   for (const auto& [name, figure] : sweep.quantities) {
-    if (!figures.contains(name) || !figures.at(name).is_number()) {
+    const double* value = value_of(result.figures, name);
+    if (!value || !std::isfinite(*value)) {
       words.push_back(name + " none");
       continue;
     }
-    const std::string unit = figure.unit.empty() ? units.value(name, "") : figure.unit;
+    const std::string* si = value_of(result.units, name);
+    const std::string unit = !figure.unit.empty() ? figure.unit : si ? *si : "";
     const double factor = figure.unit.empty() ? 1 : si_factor(figure.unit);
-    words.push_back(fmt::format("{} {:.6g}{}", name, figures.at(name).get<double>() / factor, unit.empty() ? "" : " " + unit));
+    words.push_back(fmt::format("{} {:.6g}{}", name, *value / factor, unit.empty() ? "" : " " + unit));
   }
   return join(words);
 }
@@ -67,9 +72,12 @@ std::string outcome_of(const Json& result, const Sweep& sweep) {
 class SweepCommand {
  public:
   explicit SweepCommand(const SweepArguments& arguments)
-      : arguments_(arguments), sweep_(read_sweep(Config::from_file(arguments.file))), points_(expand(sweep_)),
-        folder_(arguments.out ? fs::path(*arguments.out) : fs::path("out/sweeps") / sweep_.name),
-        errands_(errands_of(sweep_, points_, folder_)), work_(distinct(errands_)) {}
+      : arguments_(arguments),
+        sweep_(read_sweep(Config::from_file(arguments.file))),
+        points_(expand(sweep_)),
+        folder_(folder_for(arguments, "out/sweeps", sweep_.name)),
+        jobs_(jobs_of(sweep_, points_, folder_)),
+        work_(distinct(jobs_)) {}
 
   int execute() {
     if (arguments_.slurm) return write_array();
@@ -80,15 +88,14 @@ class SweepCommand {
     const bool alone = !arguments_.task && !arguments_.collect;
     const StudyFolder place(folder_, "sweep", arguments_.file, alone ? Sharing::alone : Sharing::with_its_like);
     warn_of_impossible_points();
-    if (!arguments_.task) results_ = results_of(errands_);
+    if (!arguments_.task) results_ = results_of(work_);
     if (arguments_.collect) return collect();
     use_one_thread_each();
-    catch_interrupts();
     const std::size_t kept = arguments_.retry ? 0 : number_at_limits(work_);
-    const bool complete = carry_out();
-    if (!complete)
-      fmt::print(stderr, "interrupted; the finished points are in {} and will not be done again\n", folder_.string());
-    const Failures failures = arguments_.task ? failures_of_task() : failures_in(show());
+    const bool complete = run_jobs();
+    if (!complete) tell_of_interrupt("points", folder_);
+    if (!arguments_.task) show();
+    const FailureSummary failures = arguments_.task ? failures_of_task() : failures_of_points();
     failures.print();
     tell_of_kept_limits(kept);
     if (!complete) return 130;
@@ -103,24 +110,30 @@ class SweepCommand {
       tasks = work_.size();
       fmt::print(stderr, "{0} points make {0} tasks, not {1}\n", tasks, *arguments_.tasks);
     }
-    const ArrayJob job{program(), fs::absolute(arguments_.file), fs::absolute(folder_), sweep_.name, work_.size(),
-                       tasks, sweep_.limits, arguments_.retry};
+    const ArrayJob job{this_program().string(),
+                       fs::absolute(arguments_.file),
+                       fs::absolute(folder_),
+                       sweep_.name,
+                       work_.size(),
+                       tasks,
+                       sweep_.limits,
+                       arguments_.retry};
     if (*arguments_.slurm == "submit") return submit(job);
     fmt::print("{}", array_script(job));
     return 0;
   }
 
-  bool carry_out() {
-    Teller teller;
-    const ErrandEvents events{[&](std::size_t i) { results_.erase(work_[i].folder); },
-                              [&](std::size_t i, const Json& result, bool cached) {
-                                results_[work_[i].folder] = result;
-                                if (!arguments_.quiet)
-                                  teller.tell(work_.size(), work_[i].title, outcome_of(result, sweep_), cached);
-                                if (!arguments_.task) write_table_now_and_then();
-                              }};
-    return carry_out_all(program(), work_, number_of_jobs(arguments_.jobs), interrupted(), events,
-                         arguments_.retry ? OldFailures::retry : OldFailures::keep);
+  bool run_jobs() {
+    ProgressReporter reporter(arguments_.quiet);
+    const JobEvents events{.starts = [&](std::size_t i) { results_.erase(work_[i].folder); },
+                           .ends =
+                               [&](std::size_t i, const Json& result, bool cached) {
+                                 const EvaluationResult& evaluated = results_[work_[i].folder] =
+                                     evaluation_from(result);
+                                 reporter.report(work_.size(), work_[i].title, outcome_of(evaluated, sweep_), cached);
+                                 if (!arguments_.task) write_table_now_and_then();
+                               }};
+    return job_queue(arguments_, worker_count(arguments_)).run(work_, events);
   }
 
   // It takes at most a tenth of the time, however many points there are.
@@ -134,49 +147,49 @@ class SweepCommand {
   }
 
   Json write_table() const {
-    Json table = sweep_json(sweep_, points_, errands_, results_, arguments_.file);
+    Json table = sweep_json(sweep_, points_, jobs_, results_, arguments_.file);
     write_file(folder_ / "sweep.json", {to_text(table, 1)});
     write_file(folder_ / "sweep.csv", {sweep_csv(table)});
     return table;
   }
 
-  Json show() const {
-    const Json table = write_table();
+  void show() const {
+    write_table();
     if (!arguments_.quiet) fmt::print("table   {}\n", (folder_ / "sweep.csv").string());
-    if (arguments_.no_report) put_report_aside(folder_, arguments_.quiet);
-    else draw_report(folder_, arguments_.quiet);
-    return table;
+    show_report(folder_, arguments_);
   }
 
   // But for those that cannot be, which were told of before.
-  static Failures failures_in(const Json& table) {
-    Failures failures;
-    for (const auto& point : table.at("points"))
-      if (point.at("status") != "missing" && point.at("reason") != "impossible")
-        failures.add(point.at("title"), point);
+  FailureSummary failures_of_points() const {
+    FailureSummary failures;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (jobs_[i]) add_result(*jobs_[i], failures);
     return failures;
   }
 
-  Failures failures_of_task() const {
-    Failures failures;
-    for (const auto& errand : work_)
-      if (const auto found = results_.find(errand.folder); found != results_.end())
-        failures.add(errand.title, found->second);
+  FailureSummary failures_of_task() const {
+    FailureSummary failures;
+    for (const auto& job : work_) add_result(job, failures);
     return failures;
+  }
+
+  void add_result(const Job& job, FailureSummary& failures) const {
+    if (const auto found = results_.find(job.folder); found != results_.end())
+      failures.add(job.title, found->second.failure);
   }
 
   int collect() const {
-    const Json table = show();
-    const Failures failures = failures_in(table);
+    show();
+    const FailureSummary failures = failures_of_points();
     failures.print();
-    const std::size_t missing = table.at("missing");
-    if (missing == 0) return failures.exit_code();
-    fmt::print(stderr, "{} of {} points are missing:\n", missing, points_.size());
-    std::size_t listed = 0;
-    for (const auto& point : table.at("points"))
-      if (point.at("status") == "missing" && ++listed <= 20)
-        fmt::print(stderr, "  {}\n", point.at("title").get<std::string>());
-    if (listed > 20) fmt::print(stderr, "  ...\n");
+    std::vector<std::string> missing;
+    for (const auto& job : jobs_)
+      if (job && !results_.contains(job->folder)) missing.push_back(job->title);
+    if (missing.empty()) return failures.exit_code();
+    constexpr std::size_t kListed = 20;
+    fmt::print(stderr, "{} of {} points are missing:\n", missing.size(), points_.size());
+    for (std::size_t i = 0; i < std::min(missing.size(), kListed); ++i) fmt::print(stderr, "  {}\n", missing[i]);
+    if (missing.size() > kListed) fmt::print(stderr, "  ...\n");
     fmt::print(stderr, "the same command without --collect, or the same array again, does these only\n");
     return 3;
   }
@@ -191,11 +204,11 @@ class SweepCommand {
 
   const SweepArguments& arguments_;
   Sweep sweep_;
-  std::vector<SweepPoint> points_;
+  std::vector<Point> points_;
   fs::path folder_;
-  std::vector<Errand> errands_;  // by point
-  std::vector<Errand> work_;     // what this command does
-  PointResults results_;         // so far
+  std::vector<std::optional<Job>> jobs_;  // by point
+  std::vector<Job> work_;                 // what this command does
+  Results results_;                       // so far
   std::chrono::steady_clock::time_point next_table_;
 };
 

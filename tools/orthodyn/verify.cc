@@ -23,6 +23,8 @@ struct VerifyArguments {
   std::optional<std::string> junit;
 };
 
+using namespace study;
+
 std::string case_name(const CaseResult& result) { return fs::path(result.file).stem().string(); }
 
 // How wide the columns of names must be.
@@ -74,7 +76,7 @@ int verify_cases(const VerifyArguments& arguments) {
   std::size_t missed = 0;
   double seconds = 0;
   for (const auto& config : configs) {
-    results.push_back(verify(config));
+    results.push_back(study::verify(config));
     print_result(results.back(), widths);
     if (!results.back().passed()) ++missed;
     seconds += results.back().outcome.wall_seconds;

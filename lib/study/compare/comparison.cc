@@ -1,12 +1,12 @@
 #include "lib/study/compare/comparison.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "lib/config/registry.h"
 #include "lib/core/words.h"
 #include "lib/ode/integrator.h"
 #include "lib/simulation/input_kind.h"
+#include "lib/study/inputs/labels.h"
 
 namespace orthodyn {
 
@@ -17,34 +17,6 @@ struct Words<ReferenceKind> {
 };
 
 namespace {
-
-constexpr Range kSeconds{0, 1e7, true, false};
-
-std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
-
-void require_known_integrator(const Config& c, const std::string& type) {
-  const auto names = Registry<IntegratorChoice>::names();
-  if (std::find(names.begin(), names.end(), type) != names.end()) return;
-  c.fail("unknown integrator '" + type + "'" + did_you_mean(type, names) + " Known: all, " + join(names) + ".");
-}
-
-// {type, label, any option of the integrator}
-IntegratorEntry read_section(const Config& c) {
-  if (!c.has("type")) c.fail("key 'type' is missing: the integrator's name");
-  IntegratorEntry entry{c.at("type").text(), "", {}, {c.where()}, false};
-  require_known_integrator(c.at("type"), entry.type);
-  entry.label = c.has("label") ? c.at("label").text() : entry.type;
-  for (const auto& key : c.keys())
-    if (key != "type" && key != "label") entry.options.emplace_back(key, Value<YamlText>::read(c.at(key), {}));
-  return entry;
-}
-
-template <class Entry>
-void refuse_equal_labels(const std::vector<Entry>& entries) {
-  for (auto a = entries.begin(); a != entries.end(); ++a)
-    if (std::any_of(entries.begin(), a, [&](const Entry& b) { return b.label == a->label; }))
-      a->origin.fail("'" + a->label + "' stands here twice; give one of them a different 'label'");
-}
 
 void refuse_repeated(std::vector<double> values, const Config& config, const char* key) {
   std::sort(values.begin(), values.end());
@@ -76,10 +48,8 @@ void check_varied_options(const Comparison& c, const Config& config) {
 
 void refuse_unused(const Config& config, const std::string& name, const std::vector<double>& values,
                    const Comparison& c, const std::string& key) {
-  if (values.empty()) return;
-  for (const auto& entry : c.integrators)
-    for (const auto& k : Registry<IntegratorChoice>::entries().at(entry.type).keys)
-      if (k.name == key) return;
+  const auto takes_them = [&](const IntegratorEntry& entry) { return has_key(entry.type, key); };
+  if (values.empty() || std::any_of(c.integrators.begin(), c.integrators.end(), takes_them)) return;
   config.at(name).fail("none of the integrators takes them (as '" + key + "'); remove them");
 }
 
@@ -94,76 +64,6 @@ void check_comparison(const Comparison& c, const Config& config) {
 
 }  // namespace
 
-std::vector<IntegratorEntry> expand_all(const std::vector<IntegratorEntry>& entries) {
-  std::vector<IntegratorEntry> out;
-  for (const auto& entry : entries) {
-    if (entry.type != "all") out.push_back(entry);
-    else
-      for (const auto& name : Registry<IntegratorChoice>::names()) out.push_back({name, name, {}, entry.origin, true});
-  }
-  return out;
-}
-
-SceneEntry Value<SceneEntry>::read(const Config& c, const Rule&) {
-  SceneEntry entry;
-  if (c.is_map()) entry = SceneEntry::spec().read(c);
-  else entry.file = Value<FilePath>::read(c, {}), entry.origin.where = c.where();
-  if (entry.label.empty()) entry.label = stem(entry.file.path);
-  return entry;
-}
-
-Shape Value<IntegratorEntry>::shape() {
-  std::vector<std::string> names{"all"};
-  for (const auto& name : Registry<IntegratorChoice>::names()) names.push_back(name);
-  const auto alternatives = [] {
-    std::map<std::string, Alternative> out;
-    for (const auto& [name, entry] : Registry<IntegratorChoice>::entries()) {
-      Alternative one = entry;
-      std::erase_if(one.keys, [](const Key& key) { return key.name == "rtol" || key.name == "step"; });
-      one.keys.push_back({"label", Value<std::string>::shape(), "", {}, "", "Its name in the report.", false});
-      out.emplace(name, one);
-    }
-    return out;
-  };
-  return {.kind = Shape::Kind::either,
-          .items = {{.kind = Shape::Kind::word, .words = "name", .names = names},
-                    {.kind = Shape::Kind::choice, .title = "IntegratorEntry", .alternatives = alternatives}}};
-}
-
-Shape Value<ReferenceEntry>::shape() { return Value<std::shared_ptr<const IntegratorChoice>>::shape(); }
-
-IntegratorEntry Value<IntegratorEntry>::read(const Config& c, const Rule&) {
-  if (!c.is_map()) {
-    if (c.text() != "all") require_known_integrator(c, c.text());
-    return {c.text(), c.text(), {}, {c.where()}, false};
-  }
-  for (const char* control : {"rtol", "step", "safety"})
-    if (c.has(control))
-      c.at(control).fail("is what the comparison varies, by its 'tolerances' and 'steps' or by itself; remove it here");
-  return read_section(c);
-}
-
-ReferenceEntry Value<ReferenceEntry>::read(const Config& c, const Rule&) {
-  if (!c.is_map()) c.fail("expected a section with the key 'type', found " + c.shown());
-  return {read_section(c)};
-}
-
-const Spec<SceneEntry>& SceneEntry::spec() {
-  static const auto s = Spec<SceneEntry>()
-                            .key("file", &SceneEntry::file, "A scene.", {.required = true})
-                            .key("label", &SceneEntry::label, "Its name in the report; default the file's.")
-                            .key("set", &SceneEntry::set, "Changes by path: {mesh.cells: [45, 9, 9]}.");
-  return s;
-}
-
-const Spec<Limits>& Limits::spec() {
-  static const auto s =
-      Spec<Limits>()
-          .key("seconds", &Limits::seconds, "Wall time of one integration.", {.unit = "s", .range = kSeconds})
-          .key("memory", &Limits::memory, "Memory in use by one process.", {.unit = "bytes", .range = kPositive});
-  return s;
-}
-
 const Spec<ReferenceOptions>& ReferenceOptions::spec() {
   static const auto s =
       Spec<ReferenceOptions>()
@@ -176,7 +76,7 @@ const Spec<ReferenceOptions>& ReferenceOptions::spec() {
                "A second one, of another family, whose difference bounds the error of the reference; default "
                "cvode_bdf of order 5 at a thousandth of the smallest tolerance.")
           .key("seconds", &ReferenceOptions::seconds, "Limit of the wall time of either.",
-               {.unit = "s", .range = kSeconds});
+               {.unit = "s", .range = kLimitSeconds});
   return s;
 }
 

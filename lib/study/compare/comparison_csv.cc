@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "lib/study/compare/comparison_table.h"
-#include "lib/study/jobs/csv_cell.h"
+#include "lib/study/jobs/json_values.h"
 
-namespace orthodyn {
+namespace orthodyn::study::compare {
 
 namespace {
 
@@ -59,6 +59,11 @@ std::vector<Column> columns_of(const Json& comparison) {
   return all;
 }
 
+bool is_near_reference(const Json& point, const std::string& error) {
+  const Json& names = point.at("near_reference");
+  return std::find(names.begin(), names.end(), error) != names.end();
+}
+
 std::string cell(const Json& point, const Column& column) {
   const Json* at = &point;
   for (const auto& key : column.path) {
@@ -82,4 +87,4 @@ std::string comparison_csv(const Json& comparison) {
   return out;
 }
 
-}  // namespace orthodyn
+}  // namespace orthodyn::study::compare

@@ -1,18 +1,19 @@
 #include "lib/study/compare/comparison_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
-#include "lib/study/compare/answers.h"
 #include "lib/simulation/machine.h"
+#include "lib/study/compare/work_precision.h"
+#include "lib/study/jobs/json_values.h"
 
-namespace orthodyn {
+namespace orthodyn::study::compare {
 
 namespace {
 
 // A point this close to the reference's own error cannot be told from it.
 constexpr double kResolution = 10;
-constexpr const char* kNorms[] = {"final", "l2", "max"};
 
 Json set_json(const Assignments& set, const std::string& prefix = "") {
   Json out = Json::object();
@@ -20,28 +21,40 @@ Json set_json(const Assignments& set, const std::string& prefix = "") {
   return out;
 }
 
-Json field(const Json& object, const std::string& key) {
-  return object.is_object() && object.contains(key) ? object.at(key) : Json();
+template <class T>
+Json json_or_null(const std::optional<T>& x) {
+  return x ? to_json(*x) : Json();
 }
+
+Json message_of(const std::optional<Failure>& failure) { return failure ? Json(failure->message) : Json(); }
 
 Json no_reference(const std::string& method, const Json& message) {
   return {{"kind", "none"}, {"method", method}, {"message", message}, {"checked", false}};
 }
 
+bool is_exact(const Reference& reference) { return reference.result.kind == MeasurementResult::Kind::exact; }
+
+// The errors of the reference itself, as far as they are known.
+std::optional<TrajectoryErrors> errors_of(const Reference* reference) {
+  if (!reference || reference->folder.empty()) return std::nullopt;
+  if (is_exact(*reference)) return reference->result.own_errors;
+  return reference->check ? reference->check->errors : std::nullopt;
+}
+
 // `wanted`: the comparison asks for references.
-Json reference_json(const ReferenceResult* reference, bool wanted) {
+Json reference_json(const Reference* reference, bool wanted) {
   if (!reference) return no_reference("", wanted ? "not computed yet" : "no reference was asked for");
-  const Json& result = reference->result;
-  if (reference->folder.empty()) return no_reference(reference->method, field(result, "message"));
-  const bool exact = result.at("kind") == "exact";
-  const Json errors = exact ? field(result, "own_errors") : field(reference->check, "errors");
+  const MeasurementResult& result = reference->result;
+  if (reference->folder.empty()) return no_reference(reference->method, message_of(result.failure));
+  const bool exact = is_exact(*reference);
+  const auto errors = errors_of(reference);
   return {{"kind", exact ? "exact" : "computed"},
           {"method", exact ? "exact solution by modes" : reference->method},
           {"check", exact ? Json() : Json(reference->check_method)},
-          {"checked", errors.is_object()},
-          {"seconds", field(result, "seconds")},
-          {"message", field(reference->check, "message")},
-          {"errors", errors},
+          {"checked", errors.has_value()},
+          {"seconds", optional_json(result.seconds)},
+          {"message", reference->check ? message_of(reference->check->failure) : Json()},
+          {"errors", json_or_null(errors)},
           {"folder", reference->folder}};
 }
 
@@ -49,24 +62,25 @@ Json scales_json(const Json& scales) {
   if (!scales.is_object()) return nullptr;
   return {{"displacement", scales.at("displacement")},
           {"velocity", scales.at("velocity")},
-          {"words", "largest displacement from the rest shape, resp. velocity, of the reference over time, in the mass "
-                    "norm"}};
+          {"words",
+           "largest displacement from the rest shape, resp. velocity, of the reference over time, in the mass "
+           "norm"}};
 }
 
-Json problem_json(const Problem& problem, const ReferenceResult* reference, bool wanted, const Json& model) {
-  const Json scales = reference ? field(reference->result, "scales") : Json();
+Json problem_json(const Problem& problem, const Reference* reference, bool wanted, const Json& model) {
+  const Json scales = reference ? json_or_null(reference->result.scales) : Json();
   return {{"id", problem.id},
           {"label", problem.label},
-          {"scene", problem.file},
-          {"set", set_json(problem.set)},
-          {"sentence", head_comment(problem.text)},
-          {"unknowns", field(model, "unknowns")},
-          {"elements", field(model, "elements")},
-          {"nodes", field(model, "nodes")},
-          {"time", {{"start", field(model, "start")}, {"end", field(model, "end")}}},
+          {"scene", problem.scene.file},
+          {"set", set_json(problem.scene.set)},
+          {"sentence", head_comment(problem.scene.text)},
+          {"unknowns", member(model, "unknowns")},
+          {"elements", member(model, "elements")},
+          {"nodes", member(model, "nodes")},
+          {"time", {{"start", member(model, "start")}, {"end", member(model, "end")}}},
           {"scales", scales_json(scales)},
-          {"probe_scales", field(scales, "probes")},
-          {"dominant_frequency", field(scales, "dominant_frequency")},
+          {"probe_scales", member(scales, "probes")},
+          {"dominant_frequency", member(scales, "dominant_frequency")},
           {"reference", reference_json(reference, wanted)}};
 }
 
@@ -79,64 +93,82 @@ Json method_json(const Method& method) {
           {"control", control_word(method.control)}};
 }
 
+// Whether an error cannot be told from the reference's own, which may be unknown (NaN).
+bool is_near(double error, double of_reference) {
+  return std::isfinite(error) && !(error >= kResolution * of_reference);
+}
+
 // The names of the errors that are within a factor of ten of the reference's own; all, if that is not known.
-Json near_reference(const Json& errors, const Json& of_reference) {
+Json near_reference(const std::optional<TrajectoryErrors>& errors,
+                    const std::optional<TrajectoryErrors>& of_reference) {
   Json out = Json::array();
-  if (!errors.is_object()) return out;
-  const auto look = [&](const Json& a, const Json& b, const std::string& prefix) {
-    for (const char* norm : kNorms) {
-      const Json own = field(b, norm);
-      if (a.at(norm).is_number() && (!own.is_number() || a.at(norm).get<double>() < kResolution * own.get<double>()))
-        out.push_back(prefix + "." + norm);
-    }
+  if (!errors) return out;
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  const auto look = [&](const ErrorNorms& a, const ErrorNorms* b, const std::string& prefix) {
+    if (is_near(a.final, b ? b->final : kUnknown)) out.push_back(prefix + ".final");
+    if (is_near(a.l2, b ? b->l2 : kUnknown)) out.push_back(prefix + ".l2");
+    if (is_near(a.max, b ? b->max : kUnknown)) out.push_back(prefix + ".max");
   };
-  for (const char* kind : {"displacement", "velocity"}) look(errors.at(kind), field(of_reference, kind), kind);
-  for (const auto& [name, e] : errors.at("probes").items())
-    look(e, field(field(of_reference, "probes"), name), "probes." + name);
-  return out;
-}
-
-Json point_json(const Campaign& campaign, std::size_t index, const Json& result, const Json& reference) {
-  const Point& point = campaign.design().points[index];
-  const Method& method = campaign.design().methods[point.method];
-  Json out{{"problem", campaign.design().problems[point.problem].id},
-           {"method", method.id},
-           {"control", {{"kind", control_word(method.control)}, {"value", point.control}}},
-           {"status", result.at("status")}};
-  for (const char* key : {"reason", "message", "time_reached", "repeats", "wall", "cpu", "statistics",
-                          "peak_memory_bytes", "factor_bytes", "errors", "drift", "drift_over_time",
-                          "smallest_det_f", "decisions"})
-    out[key] = field(result, key);
-  out["near_reference"] = near_reference(out["errors"], field(reference, "errors"));
-  out["scene"] = campaign.point_folder(index) + "/scene.yaml";
-  return out;
-}
-
-// The finished points of a method on a problem, from loose to tight.
-std::vector<WorkPoint> work_points(const Json& points, const Json& problem, const Json& method) {
-  std::vector<WorkPoint> out;
-  for (const auto& point : points) {
-    if (point.at("problem") != problem || point.at("method") != method || point.at("status") != "completed") continue;
-    if (!point.at("errors").is_object() || !point.at("wall").is_object()) continue;
-    const Json error = point.at("errors").at("displacement").at("l2");
-    if (!error.is_number()) continue;
-    out.push_back({point.at("control").at("value"), error, point.at("wall").at("median"),
-                   !is_near_reference(point, kLeadingError)});
+  look(errors->displacement, of_reference ? &of_reference->displacement : nullptr, "displacement");
+  look(errors->velocity, of_reference ? &of_reference->velocity : nullptr, "velocity");
+  for (const auto& [name, e] : errors->probes) {
+    const ErrorNorms* own = nullptr;
+    if (of_reference)
+      for (const auto& [other, norms] : of_reference->probes)
+        if (other == name) own = &norms;
+    look(e, own, "probes." + name);
   }
   return out;
 }
 
-// Infinite if it is not known: then there is nothing to conclude.
-double reference_error(const Json& problem) {
-  const Json error = field(field(field(problem.at("reference"), "errors"), "displacement"), "l2");
-  return error.is_number() ? error.get<double>() : std::numeric_limits<double>::infinity();
+Json point_json(const ComparisonRun& run, std::size_t index, const MeasurementResult& result,
+                const Reference* reference) {
+  const Point& point = run.design().points[index];
+  const Method& method = run.design().methods[point.method];
+  const Json measured = to_json(result);
+  Json out{{"problem", run.design().problems[point.problem].id},
+           {"method", method.id},
+           {"control", {{"kind", control_word(method.control)}, {"value", point.control}}},
+           {"status", measured.at("status")}};
+  for (const char* key :
+       {"reason", "message", "time_reached", "repeats", "wall", "cpu", "statistics", "peak_memory_bytes",
+        "factor_bytes", "errors", "drift", "drift_over_time", "smallest_det_f", "decisions"})
+    out[key] = member(measured, key);
+  out["near_reference"] = near_reference(result.errors, errors_of(reference));
+  out["scene"] = run.point_folder(index) + "/scene.yaml";
+  return out;
 }
 
-Json answer_json(const Json& problem, double target, const Json& methods, const Json& points) {
+const Reference* reference_of(const ComparisonRun& run, std::size_t problem) {
+  const auto found = run.references().find(problem);
+  return found == run.references().end() ? nullptr : &found->second;
+}
+
+// NaN where the reference's own error is not known.
+double reference_error(const ComparisonRun& run, std::size_t problem) {
+  const auto errors = errors_of(reference_of(run, problem));
+  return errors ? errors->displacement.l2 : std::numeric_limits<double>::quiet_NaN();
+}
+
+// The finished points of a method on a problem, from loose to tight.
+std::vector<WorkPoint> work_points(const ComparisonRun& run, std::size_t problem, std::size_t method) {
+  std::vector<WorkPoint> out;
+  for (const auto& [index, result] : run.results()) {
+    const Point& point = run.design().points[index];
+    if (point.problem != problem || point.method != method || result.failure) continue;
+    if (!result.errors || !result.timing || !std::isfinite(result.errors->displacement.l2)) continue;
+    const double error = result.errors->displacement.l2;
+    out.push_back({point.control, error, result.timing->wall.median, !is_near(error, reference_error(run, problem))});
+  }
+  return out;
+}
+
+Json answer_json(const ComparisonRun& run, std::size_t problem, double target) {
+  const Design& design = run.design();
   Json rows = Json::array();
-  for (const auto& method : methods) {
-    const auto work = work_points(points, problem.at("id"), method.at("id"));
-    Json row{{"method", method.at("id")}, {"seconds", nullptr}};
+  for (std::size_t m = 0; m < design.methods.size(); ++m) {
+    const auto work = work_points(run, problem, m);
+    Json row{{"method", design.methods[m].id}, {"seconds", nullptr}};
     if (const auto seconds = seconds_to_reach(target, work)) row["seconds"] = *seconds;
     else if (!work.empty())
       row["best_error"] = std::min_element(work.begin(), work.end(), [](const auto& a, const auto& b) {
@@ -148,62 +180,53 @@ Json answer_json(const Json& problem, double target, const Json& methods, const 
     if (a.at("seconds").is_null() || b.at("seconds").is_null()) return !a.at("seconds").is_null();
     return a.at("seconds").get<double>() < b.at("seconds").get<double>();
   });
-  return {{"problem", problem.at("id")}, {"error", kLeadingError}, {"target", target}, {"methods", rows}};
+  return {{"problem", design.problems[problem].id}, {"error", kLeadingError}, {"target", target}, {"methods", rows}};
 }
 
-void add_conclusions(Json& out) {
+void add_conclusions(const ComparisonRun& run, Json& out) {
+  const Design& design = run.design();
   out["answers"] = Json::array();
   out["orders"] = Json::array();
-  for (const auto& problem : out.at("problems")) {
+  for (std::size_t p = 0; p < design.problems.size(); ++p) {
     std::vector<WorkPoint> all;
-    for (const auto& method : out.at("methods")) {
-      const auto work = work_points(out.at("points"), problem.at("id"), method.at("id"));
+    for (std::size_t m = 0; m < design.methods.size(); ++m) {
+      const auto work = work_points(run, p, m);
       all.insert(all.end(), work.begin(), work.end());
       if (const auto fit = slope(work))
-        out["orders"].push_back({{"problem", problem.at("id")},
-                                 {"method", method.at("id")},
+        out["orders"].push_back({{"problem", design.problems[p].id},
+                                 {"method", design.methods[m].id},
                                  {"error", kLeadingError},
                                  {"slope", fit->value},
                                  {"points", fit->points},
                                  {"from", fit->from},
                                  {"to", fit->to}});
     }
-    for (const double target : targets(all, kResolution * reference_error(problem)))
-      out["answers"].push_back(answer_json(problem, target, out.at("methods"), out.at("points")));
+    const double bound = reference_error(run, p);
+    if (std::isnan(bound)) continue;  // there is nothing to conclude
+    for (const double target : targets(all, kResolution * bound)) out["answers"].push_back(answer_json(run, p, target));
   }
 }
 
-}  // namespace
-
-namespace {
-
 // When the oldest of the points was measured; null without any.
-Json first_measured(const Campaign& campaign) {
+Json first_measured(const ComparisonRun& run) {
   Json first;
-  for (const auto& [index, result] : campaign.results()) {
-    const Json at = field(result, "at");
-    if (at.is_string() && (first.is_null() || at.get<std::string>() < first.get<std::string>())) first = at;
-  }
+  for (const auto& [index, result] : run.results())
+    if (!result.at.empty() && (first.is_null() || result.at < first.get<std::string>())) first = result.at;
   return first;
 }
 
 }  // namespace
 
-bool is_near_reference(const Json& point, const std::string& error) {
-  const Json& names = point.at("near_reference");
-  return std::any_of(names.begin(), names.end(), [&](const Json& n) { return n.get<std::string>() == error; });
-}
-
-Json comparison_json(const Campaign& campaign, const std::string& file) {
-  const auto& comparison = campaign.comparison();
-  const auto& design = campaign.design();
+Json comparison_json(const ComparisonRun& run, const std::string& file) {
+  const auto& comparison = run.comparison();
+  const auto& design = run.design();
   Json out{{"orthodyn_comparison", 1},
            {"name", comparison.name},
            {"title", comparison.title},
            {"description", comparison.description},
            {"file", file},
-           {"started", first_measured(campaign)},
-           {"complete", campaign.results().size() == design.points.size()},
+           {"started", first_measured(run)},
+           {"complete", run.results().size() == design.points.size()},
            {"planned_points", design.points.size()},
            {"machine", machine_json()},
            {"versions", versions_json()},
@@ -218,20 +241,17 @@ Json comparison_json(const Campaign& campaign, const std::string& file) {
   const bool wanted = comparison.reference.kind != ReferenceKind::none;
   for (const auto& method : design.methods) out["methods"].push_back(method_json(method));
   for (std::size_t p = 0; p < design.problems.size(); ++p) {
-    const auto found = campaign.references().find(p);
-    const ReferenceResult* reference = found == campaign.references().end() ? nullptr : &found->second;
-    Json model = reference ? field(reference->result, "model") : Json();
-    Json points = Json::array();
-    for (const auto& [index, result] : campaign.results()) {
+    const Reference* reference = reference_of(run, p);
+    Json model = reference ? member(to_json(reference->result), "model") : Json();
+    for (const auto& [index, result] : run.results()) {
       if (design.points[index].problem != p) continue;
-      if (model.is_null()) model = field(result, "model");
-      points.push_back(point_json(campaign, index, result, reference_json(reference, wanted)));
+      if (model.is_null()) model = member(to_json(result), "model");
+      out["points"].push_back(point_json(run, index, result, reference));
     }
     out["problems"].push_back(problem_json(design.problems[p], reference, wanted, model));
-    out["points"].insert(out["points"].end(), points.begin(), points.end());
   }
-  add_conclusions(out);
+  add_conclusions(run, out);
   return out;
 }
 
-}  // namespace orthodyn
+}  // namespace orthodyn::study::compare

@@ -1,47 +1,22 @@
-// One scene, integrated several times undisturbed for its cost, then once with everything that looks on
-// for its errors and drifts.
+// One scene, integrated several times undisturbed for its cost, then once with all observers for its errors and
+// drifts.
 #pragma once
 
 #include <filesystem>
-#include <memory>
-#include <vector>
 
-#include "lib/simulation/balance.h"
-#include "lib/simulation/run.h"
 #include "lib/simulation/setup.h"
-#include "lib/study/compare/point_result.h"
+#include "lib/study/compare/measurement_result.h"
 
-namespace orthodyn {
+namespace orthodyn::study::compare {
 
-class Measurement {
- public:
-  // Trajectories that are to be kept go to `folder`.
-  Measurement(Setup setup, const Job& job, std::filesystem::path folder);
+// The states of a reference, in its folder.
+inline constexpr const char* kTrajectoryFile = "trajectory.bin";
 
-  // What comparison_json() knows as a point. A run that fails is a result. Throws RunError if a reference
-  // cannot be read or a trajectory not be written.
-  Json result();
+// Trajectories that are to be kept go to `folder`. A run that fails is a result. Throws RunError if a reference cannot
+// be read or a trajectory not be written.
+MeasurementResult measure(Setup setup, const MeasurementInput& input, const std::filesystem::path& folder);
 
- private:
-  void describe_model();
-  bool take_exact_solution();
-  bool time_runs();
-  void watch_run();
-  bool run_once(const std::vector<Observer*>& observers, const Plan& plan, Integrator& integrator, double seconds,
-                Outcome& outcome);
-  void record_timing(const std::vector<double>& wall, const std::vector<double>& cpu,
-                     const std::vector<Statistics>& statistics);
-  void record_drift(const EnergyMeter& energy, const MomentumMeter& momentum);
-  void compare(const Trajectory& trajectory);
-  void fail(const std::string& reason, const std::string& message);
-  std::unique_ptr<Integrator> fresh_integrator() const;
+// Does the job of a folder. Throws as serve_job() does.
+void measure(const std::filesystem::path& folder);
 
-  Setup setup_;
-  std::shared_ptr<const IntegratorChoice> integrator_;  // with what the set-up decided: nothing is estimated again
-  Job job_;
-  std::filesystem::path folder_;
-  std::vector<double> times_;
-  Json result_;
-};
-
-}  // namespace orthodyn
+}  // namespace orthodyn::study::compare

@@ -3,7 +3,7 @@
 
 #include "lib/study/quantities/verify.h"
 
-namespace orthodyn {
+namespace orthodyn::study {
 
 namespace {
 
@@ -54,4 +54,4 @@ std::string junit_xml(const std::vector<CaseResult>& results) {
                      tests, failures, errors, seconds, body);
 }
 
-}  // namespace orthodyn
+}  // namespace orthodyn::study

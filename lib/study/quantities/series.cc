@@ -9,7 +9,7 @@ namespace orthodyn {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr int kLooksPerStep = 4;
+constexpr int kSamplesPerStep = 4;
 
 // The vertex of the parabola through the largest sample and its neighbours.
 struct Vertex {
@@ -19,8 +19,8 @@ struct Vertex {
 Vertex vertex(const Series& s, double sign) {
   if (s.times.empty()) return {};
   const auto better = [&](double a, double b) { return sign * a < sign * b; };
-  const auto k = static_cast<std::size_t>(std::max_element(s.values.begin(), s.values.end(), better) -
-                                          s.values.begin());
+  const auto k =
+      static_cast<std::size_t>(std::max_element(s.values.begin(), s.values.end(), better) - s.values.begin());
   const Vertex sample{s.times[k], s.values[k]};
   if (k == 0 || k + 1 == s.size()) return sample;
   const double h0 = s.times[k - 1] - s.times[k], h1 = s.times[k + 1] - s.times[k];
@@ -138,14 +138,14 @@ void SeriesRecorder::on_start(const State& state) {
   record(state);
 }
 
-// In the order of time with the other looks, as the energy balance needs: see on_step().
+// In the order of time with the other samples, as the energy balance needs: see on_step().
 void SeriesRecorder::on_output(const State& state) { pending_.push_back(state.t); }
 
 void SeriesRecorder::on_step(const StepInfo& info, const State& state, const Integrator& integrator) {
-  std::vector<double> looks = pending_;
-  for (int k = 1; k < kLooksPerStep; ++k) looks.push_back(last_t_ + (info.t - last_t_) * k / kLooksPerStep);
-  std::sort(looks.begin(), looks.end());
-  for (const double t : looks) {
+  std::vector<double> samples = pending_;
+  for (int k = 1; k < kSamplesPerStep; ++k) samples.push_back(last_t_ + (info.t - last_t_) * k / kSamplesPerStep);
+  std::sort(samples.begin(), samples.end());
+  for (const double t : samples) {
     if (t <= last_t_ || t >= info.t) continue;
     State within;
     integrator.interpolate(t, within);
@@ -158,9 +158,9 @@ void SeriesRecorder::on_step(const StepInfo& info, const State& state, const Int
 double SeriesRecorder::at(std::size_t quantity, double t) const {
   const Series& s = series_[quantity];
   const auto after = std::lower_bound(s.times.begin(), s.times.end(), t);
-  const auto nearest = after == s.times.begin()                                      ? after
+  const auto nearest = after == s.times.begin()                                  ? after
                        : after == s.times.end() || t - *(after - 1) < *after - t ? after - 1
-                                                                                     : after;
+                                                                                 : after;
   return s.values[static_cast<std::size_t>(nearest - s.times.begin())];
 }
 

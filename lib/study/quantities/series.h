@@ -1,11 +1,11 @@
-// Quantities over time, looked at closely: at every step and three times within it.
+// Quantities over time, sampled at every step and three times within it.
 #pragma once
 
 #include <memory>
 #include <vector>
 
-#include "lib/simulation/balance.h"
 #include "lib/scene/quantity.h"
+#include "lib/simulation/balance.h"
 
 namespace orthodyn {
 
@@ -18,10 +18,10 @@ struct Series {
 };
 
 // Figures of a scalar series; NaN where it has none.
-double maximum(const Series& series, double sign = 1);          // of sign * value, refined by a parabola
+double maximum(const Series& series, double sign = 1);  // of sign * value, refined by a parabola
 double time_of_maximum(const Series& series, double sign = 1);
-double mean(const Series& series);                              // over time
-double frequency(const Series& series);                         // from upward crossings of the mean, 1/s
+double mean(const Series& series);       // over time
+double frequency(const Series& series);  // from upward crossings of the mean, 1/s
 // The time from the start after which the values stay within `share` of their range about the last one; NaN if
 // that is in the last tenth of the time.
 double settling_time(const Series& series, double share);
@@ -52,7 +52,7 @@ class SeriesRecorder : public Observer {
   std::vector<Quantity> quantities_;
   std::vector<Series> series_;
   std::vector<double> pending_;          // output times within the step
-  std::unique_ptr<EnergyMeter> energy_;               // only if asked for
+  std::unique_ptr<EnergyMeter> energy_;  // only if asked for
   double last_t_ = 0;
 };
 

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <filesystem>
 
-#include "lib/simulation/run.h"
-#include "lib/simulation/load_steps.h"
 #include "lib/simulation/equilibrium.h"
+#include "lib/simulation/load_steps.h"
+#include "lib/simulation/run.h"
 #include "lib/simulation/setup.h"
 #include "lib/study/quantities/figure.h"
 
-namespace orthodyn {
+namespace orthodyn::study {
 
 namespace fs = std::filesystem;
 
@@ -30,8 +30,9 @@ CaseResult verify_equilibrium(const Setup& setup, const std::atomic<bool>& inter
   CaseResult result{setup.config.file(), run_static(*problem.stepper, {}, interrupt), {}};
   const State state{problem.path->time(), result.outcome.last.q, result.outcome.last.v};
   for (std::size_t q = 0; q < quantities.size(); ++q)
-    result.checks.push_back(
-        {setup.scene.expect[q], problem.stepper->done() ? quantities[q].values(state)[0] : std::nan(""), quantities[q].unit});
+    result.checks.push_back({setup.scene.expect[q],
+                             problem.stepper->done() ? quantities[q].values(state)[0] : std::nan(""),
+                             quantities[q].unit});
   return result;
 }
 
@@ -44,10 +45,10 @@ CaseResult verify_motion(const Setup& setup, std::vector<Observer*> observers, c
   EventFinder events(setup.events);
   if (!events.empty()) plan.events = &events;
   CaseResult result{setup.config.file(),
-                    run(*setup.built.model, *setup.integrator, setup.built.initial, plan, observers, interrupt), {}};
+                    run(*setup.built.model, *setup.integrator, setup.built.initial, plan, observers, interrupt),
+                    {}};
   for (std::size_t q = 0; q < expectations.size(); ++q)
-    result.checks.push_back(
-        {expectations[q], result.completed() ? figure(expectations[q], recorder, q) : std::nan(""),
+    result.checks.push_back({expectations[q], result.completed() ? figure(expectations[q], recorder, q) : std::nan(""),
                              figure_unit(expectations[q].take, quantities[q].unit)});
   return result;
 }
@@ -90,4 +91,4 @@ CaseResult verify(const Setup& setup, const std::vector<Observer*>& observers, c
   return verify_motion(setup, observers, interrupt);
 }
 
-}  // namespace orthodyn
+}  // namespace orthodyn::study

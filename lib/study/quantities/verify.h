@@ -8,7 +8,7 @@
 #include "lib/simulation/outcome.h"
 #include "lib/simulation/setup.h"
 
-namespace orthodyn {
+namespace orthodyn::study {
 
 struct Check {
   Expectation expectation;
@@ -40,4 +40,4 @@ CaseResult verify(const Setup& setup, const std::vector<Observer*>& observers, c
 // One suite of JUnit XML: a test per expectation.
 std::string junit_xml(const std::vector<CaseResult>& results);
 
-}  // namespace orthodyn
+}  // namespace orthodyn::study

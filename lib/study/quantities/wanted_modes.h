@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lib/analysis/modes.h"
-#include "lib/study/sweep/sweep.h"
+#include "lib/study/quantities/wanted_figure.h"
 
 namespace orthodyn {
 

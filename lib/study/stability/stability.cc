@@ -2,27 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
-
 #include "lib/config/registry.h"
 #include "lib/ode/integrator.h"
 #include "lib/scene/scene.h"
-#include "lib/study/compare/expand.h"
 #include "lib/simulation/input_kind.h"
+#include "lib/study/inputs/labels.h"
+#include "lib/study/inputs/scene_entry.h"
+#include "lib/study/inputs/scene_variant.h"
 
 namespace orthodyn {
 
 namespace {
-
-std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
-
-template <class Entry>
-void refuse_equal_labels(const std::vector<Entry>& entries) {
-  for (auto a = entries.begin(); a != entries.end(); ++a)
-    if (std::any_of(entries.begin(), a, [&](const Entry& b) { return b.label == a->label; }))
-      a->origin.fail("'" + a->label + "' stands here twice; give one of them a different 'label'");
-}
 
 void check(const Stability& stability, const Config& config) {
   if (stability.cases.empty()) config.at("cases").fail("is empty; name at least one scene with an 'expect' list");
@@ -31,10 +21,10 @@ void check(const Stability& stability, const Config& config) {
 }
 
 // Reads it, too: wrong input shows before anything runs.
-Config scene_of(const Problem& problem, const TrialIntegrator& entry) {
-  Config config = with_integrator(problem, entry.type, entry.options, [](const std::string&) { return true; });
-  config.set("output.fields", std::vector<std::string>());
-  for (const char* key : {"output.energy", "output.steps"}) config.set(key, false);
+Config scene_of(const SceneVariant& variant, const StabilityIntegrator& entry) {
+  static const Assignments silent{{"output.fields", {"[]"}}, {"output.energy", {"false"}}, {"output.steps", {"false"}}};
+  Config config = with_integrator(variant, entry.type, entry.options, [](const std::string&) { return true; });
+  assign(config, silent);
   if (read_scene(config).expect.empty())
     config.fail("expects nothing, so nothing can be judged; add a list 'expect' (see `orthodyn list expect`)");
   return config;
@@ -50,15 +40,16 @@ HardCase Value<HardCase>::read(const Config& c, const Rule&) {
   return entry;
 }
 
-Shape Value<TrialIntegrator>::shape() {
+Shape Value<StabilityIntegrator>::shape() {
   auto names = Registry<IntegratorChoice>::names();
   names.insert(names.begin(), "all");
-  return {.kind = Shape::Kind::either,
-          .items = {{.kind = Shape::Kind::word, .words = "name", .names = names}, Value<ReferenceEntry>::shape()}};
+  return {
+      .kind = Shape::Kind::either,
+      .items = {{.kind = Shape::Kind::word, .words = "name", .names = names}, Value<CompleteIntegratorEntry>::shape()}};
 }
 
-TrialIntegrator Value<TrialIntegrator>::read(const Config& c, const Rule& rule) {
-  if (c.is_map()) return {Value<ReferenceEntry>::read(c, rule)};
+StabilityIntegrator Value<StabilityIntegrator>::read(const Config& c, const Rule& rule) {
+  if (c.is_map()) return {Value<CompleteIntegratorEntry>::read(c, rule)};
   return {Value<IntegratorEntry>::read(c, rule)};
 }
 
@@ -83,7 +74,8 @@ const Spec<Stability>& Stability::spec() {
           .key("integrators", &Stability::integrators,
                "Names, 'all', or sections {type, label, any option of the integrator}.", {.fallback = "[all]"})
           .key("variants", &Stability::variants,
-               "What every case is run with, by name: changes by path, such as {warped: {elasticity.corotation: warped}}.",
+               "What every case is run with, by name: changes by path, such as {warped: {elasticity.corotation: "
+               "warped}}.",
                {.fallback = "{default: {}}"})
           .key("limits", &Stability::limits, "Of each trial.")
           .check(check);
@@ -103,19 +95,20 @@ Stability read_stability(const Config& config) {
   return stability;
 }
 
-std::vector<Trial> trials(const Stability& stability) {
-  std::vector<Trial> all;
+std::vector<StabilityRun> stability_runs(const Stability& stability) {
+  std::vector<StabilityRun> all;
   for (std::size_t c = 0; c < stability.cases.size(); ++c) {
     const HardCase& hard = stability.cases[c];
-    const std::string text = read_yaml(hard.file);
+    const std::string text = read_scene_text(hard.file);
     for (std::size_t v = 0; v < stability.variants.size(); ++v) {
-      const auto& [variant, changes] = stability.variants[v];
-      Problem problem{"", hard.label, hard.file.path, text, hard.set};
-      problem.set.insert(problem.set.end(), changes.begin(), changes.end());
+      const auto& [name, changes] = stability.variants[v];
+      SceneVariant variant{hard.file.path, text, hard.set};
+      variant.set.insert(variant.set.end(), changes.begin(), changes.end());
       for (std::size_t i = 0; i < stability.integrators.size(); ++i) {
-        const std::string title = fmt::format("{}, {}, {}", hard.label, variant, stability.integrators[i].label);
+        const StabilityIntegrator& integrator = stability.integrators[i];
+        const std::string title = fmt::format("{}, {}, {}", hard.label, name, integrator.label);
         try {
-          all.push_back({c, v, i, title, scene_of(problem, stability.integrators[i])});
+          all.push_back({c, v, i, title, scene_of(variant, integrator)});
         } catch (const ConfigError& e) {
           throw ConfigError(e.place(), fmt::format("{} (in {})", e.message(), title));
         }

@@ -4,29 +4,30 @@
 #include <string>
 #include <vector>
 
-#include "lib/study/compare/comparison.h"
+#include "lib/study/inputs/integrator_entry.h"
+#include "lib/study/inputs/limits.h"
 
 namespace orthodyn {
 
 // In the list of cases: a file, or a section.
 struct HardCase {
   FilePath file;
-  std::string label;    // default the file's stem
-  Named<YamlText> set;  // by path
-  std::string model;    // where the model itself is at fault and no integrator can help: why, in words
+  std::string label;  // default the file's stem
+  Assignments set;
+  std::string model;  // where the model itself is at fault and no integrator can help: why, in words
   Origin origin;
   static const Spec<HardCase>& spec();
 };
 
 // In the list of integrators: a name, `all`, or a section {type, label, any option}, rtol among them.
-struct TrialIntegrator : IntegratorEntry {};
+struct StabilityIntegrator : IntegratorEntry {};
 
 struct Stability {
   std::string name;  // the file's stem
   std::string title, description;
   std::vector<HardCase> cases;
-  std::vector<TrialIntegrator> integrators;
-  Named<Named<YamlText>> variants;  // of the scenes, by name: changes by path
+  std::vector<StabilityIntegrator> integrators;
+  Named<Assignments> variants;  // of the scenes, by name
   Limits limits{20, 4e9};
   static const Spec<Stability>& spec();
 };
@@ -34,7 +35,8 @@ struct Stability {
 template <>
 struct Value<HardCase> {
   static Shape shape() {
-    const Shape section{.kind = Shape::Kind::section, .title = "HardCase", .keys = [] { return HardCase::spec().keys(); }};
+    const Shape section{
+        .kind = Shape::Kind::section, .title = "HardCase", .keys = [] { return HardCase::spec().keys(); }};
     return {.kind = Shape::Kind::either, .items = {Value<FilePath>::shape(), section}};
   }
   static HardCase read(const Config& c, const Rule&);
@@ -42,24 +44,24 @@ struct Value<HardCase> {
 };
 
 template <>
-struct Value<TrialIntegrator> {
+struct Value<StabilityIntegrator> {
   static Shape shape();
-  static TrialIntegrator read(const Config& c, const Rule& rule);
-  static std::string yaml(const TrialIntegrator&) { return ""; }
+  static StabilityIntegrator read(const Config& c, const Rule& rule);
+  static std::string yaml(const StabilityIntegrator&) { return ""; }
 };
 
 // Throws ConfigError.
 Stability read_stability(const Config& config);
 
 // One field of the matrix: a case with one force and one integrator, as it will run.
-struct Trial {
+struct StabilityRun {
   std::size_t hard_case = 0, variant = 0, integrator = 0;
   std::string title;  // "mirrored, warped, cvode_bdf"
-  Config scene;
+  Config scene;       // resolved
 };
 
 // All of them, by case, then variant, then integrator. Options of a scene's own integrator, rtol among them, are kept
 // where an integrator has such keys. Throws ConfigError, also for a scene that is at fault or expects nothing.
-std::vector<Trial> trials(const Stability& stability);
+std::vector<StabilityRun> stability_runs(const Stability& stability);
 
 }  // namespace orthodyn

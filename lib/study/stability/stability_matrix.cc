@@ -6,85 +6,86 @@
 
 #include "lib/scene/build.h"
 #include "lib/scene/mesh_materials.h"
-#include "lib/study/jobs/csv_cell.h"
-#include "lib/study/jobs/deadline.h"
-#include "lib/study/compare/expand.h"
 #include "lib/simulation/fingerprints.h"
 #include "lib/simulation/machine.h"
+#include "lib/study/inputs/scene_entry.h"
+#include "lib/study/jobs/json_values.h"
 
-namespace orthodyn {
+namespace orthodyn::study::stability {
 
 namespace fs = std::filesystem;
 
 namespace {
 
 // Builds the scene, too: what is wrong with it shows before anything runs.
-std::string mesh_of(const Trial& trial) {
+std::string mesh_hash(const StabilityRun& run) {
   try {
-    const Scene scene = read_scene(trial.scene.copy());
+    const Scene scene = read_scene(run.scene);
     build(scene);
     return mesh_fingerprint(load_mesh(scene));
   } catch (const ConfigError& e) {
-    throw ConfigError(e.place(), fmt::format("{} (in {})", e.message(), trial.title));
+    throw ConfigError(e.place(), fmt::format("{} (in {})", e.message(), run.title));
   }
 }
 
-// What a process could not grade itself: its integrator refused the scene, it was killed, or it died.
-void grade(Json& result) {
-  if (result.contains("grade")) return;
-  const std::string reason = result.at("reason");
-  result["grade"] = reason == "refused" ? "refused" : "fail";
-  if (reason != kTimeLimit) result["reason"] = result.at("message");
+std::vector<Job> jobs_of(const std::vector<StabilityRun>& runs, const Limits& limits, const fs::path& folder) {
+  const Json input = to_json(CaseInput{limits.seconds, code_fingerprint()});
+  const ProcessLimits process_limits{limits.seconds + kSetUpSeconds, limits.memory};
+  std::map<std::pair<std::size_t, std::size_t>, std::string> meshes;  // of a case with a variant
+  FileFingerprints files;
+  std::vector<Job> jobs;
+  for (const auto& run : runs) {
+    std::string& mesh = meshes[{run.hard_case, run.variant}];
+    if (mesh.empty()) mesh = mesh_hash(run);
+    Fingerprint hash;
+    hash.add(machine_fingerprint()).add(run.scene.dump()).add(input.dump());
+    hash.add(fmt::format("{}", limits.memory)).add(mesh);
+    for (const auto& file : run.scene.file_paths()) hash.add(files.of(file));
+    jobs.push_back(
+        {run.title, "assess", folder / "trials" / hash.text(), run.scene.dump_for(""), input, process_limits});
+  }
+  return jobs;
 }
-
-Json member(const Json& object, const char* key) { return object.contains(key) ? object.at(key) : Json(nullptr); }
 
 }  // namespace
 
-StabilityMatrix::StabilityMatrix(Stability stability, fs::path folder, std::string program)
-    : stability_(std::move(stability)), folder_(std::move(folder)), program_(std::move(program)),
-      trials_(orthodyn::trials(stability_)) {
-  for (const auto& hard : stability_.cases) sentences_.push_back(head_comment(read_yaml(hard.file)));
-  const std::string code = code_fingerprint();
-  std::map<std::pair<std::size_t, std::size_t>, std::string> meshes;  // of a case with a variant
-  FileFingerprints files;
-  const Json job{{"seconds", stability_.limits.seconds}, {"code", code}};
-  const ProcessLimits limits{stability_.limits.seconds + kSetUpTime, stability_.limits.memory};
-  for (const Trial& trial : trials_) {
-    std::string& mesh = meshes[{trial.hard_case, trial.variant}];
-    if (mesh.empty()) mesh = mesh_of(trial);
-    Fingerprint print;
-    print.add(machine_fingerprint()).add(trial.scene.dump()).add(job.dump());
-    print.add(fmt::format("{}", limits.memory)).add(mesh);
-    for (const auto& file : trial.scene.file_paths()) print.add(files.of(file));
-    errands_.push_back({trial.title, "assess", folder_ / "trials" / print.text(), trial.scene.dump_for(""), job, limits});
-  }
+StabilityMatrix::StabilityMatrix(Stability stability, fs::path folder)
+    : stability_(std::move(stability)),
+      folder_(std::move(folder)),
+      runs_(stability_runs(stability_)),
+      jobs_(jobs_of(runs_, stability_.limits, folder_)) {
+  for (const auto& hard : stability_.cases) sentences_.push_back(head_comment(read_scene_text(hard.file)));
 }
 
-bool StabilityMatrix::run(int jobs, const std::atomic<bool>& interrupt, const ErrandEvents& events, OldFailures failures) {
-  return carry_out_all(program_, errands_, jobs, interrupt,
-                       {events.starts, [&](std::size_t i, Json result, bool cached) {
-                          grade(result);
-                          results_[i] = std::move(result);
-                          events.ends(i, results_[i], cached);
-                        }},
-                       failures);
+bool StabilityMatrix::run(const JobQueue& queue,
+                          const std::function<void(std::size_t, const StabilityResult&, bool)>& after_each) {
+  JobEvents events;
+  events.ends = [&](std::size_t i, const Json& result, bool cached) {
+    results_[i] = stability_result_from(result);
+    after_each(i, results_[i], cached);
+  };
+  return queue.run(jobs_, events);
 }
 
-Json StabilityMatrix::trial_json(std::size_t trial) const {
-  const Trial& t = trials_[trial];
-  Json json{{"case", stability_.cases[t.hard_case].label},
-            {"variant", stability_.variants[t.variant].first},
-            {"integrator", stability_.integrators[t.integrator].label},
-            {"folder", fs::relative(errands_[trial].folder, folder_).string()}};
-  json.update(results_.at(trial));
+Json StabilityMatrix::run_json(std::size_t run, const StabilityResult& result) const {
+  const StabilityRun& r = runs_[run];
+  Json json{{"case", stability_.cases[r.hard_case].label},
+            {"variant", stability_.variants[r.variant].first},
+            {"integrator", stability_.integrators[r.integrator].label},
+            {"folder", fs::relative(jobs_[run].folder, folder_).string()}};
+  json.update(to_json(result));
   return json;
 }
 
 Json StabilityMatrix::json(const std::string& file) const {
-  Json json{{"kind", "stability"},       {"title", stability_.title}, {"description", stability_.description},
-            {"file", file},              {"at", utc_now()},           {"machine", machine_json()},
-            {"versions", versions_json()}, {"limit", stability_.limits.seconds}};
+  Json json{{"kind", "stability"},
+            {"title", stability_.title},
+            {"description", stability_.description},
+            {"file", file},
+            {"at", utc_now()},
+            {"machine", machine_json()},
+            {"versions", versions_json()},
+            {"limit", stability_.limits.seconds}};
   for (std::size_t c = 0; c < stability_.cases.size(); ++c) {
     const HardCase& hard = stability_.cases[c];
     json["cases"].push_back(
@@ -92,24 +93,35 @@ Json StabilityMatrix::json(const std::string& file) const {
   }
   for (const auto& [name, changes] : stability_.variants) json["variants"].push_back(name);
   for (const auto& integrator : stability_.integrators) json["integrators"].push_back(integrator.label);
-  json["complete"] = results_.size() == trials_.size();
+  json["complete"] = results_.size() == runs_.size();
   json["trials"] = Json::array();
-  for (const auto& [trial, result] : results_) json["trials"].push_back(trial_json(trial));
+  for (const auto& [run, result] : results_) json["trials"].push_back(run_json(run, result));
   return json;
 }
 
 std::string StabilityMatrix::csv() const {
   std::string csv =
-      "case,variant,integrator,grade,reason,figure,unit,computed,expected,limit,time_reached [s],wall [s],cpu [s],steps\n";
-  for (const auto& [trial, result] : results_) {
-    const Json t = trial_json(trial), worst = member(t, "worst"), statistics = member(t, "statistics");
-    const std::vector<Json> row{t.at("case"), t.at("variant"), t.at("integrator"), t.at("grade"), t.at("reason"),
-                                member(worst, "title"), member(worst, "unit"), member(worst, "computed"), member(worst, "expected"),
-                                member(worst, "limit"), member(t, "time_reached"), member(t, "wall"), member(t, "cpu"),
+      "case,variant,integrator,grade,reason,figure,unit,computed,expected,limit,time_reached [s],wall [s],cpu "
+      "[s],steps\n";
+  for (const auto& [run, result] : results_) {
+    const Json r = run_json(run, result), worst = member(r, "worst"), statistics = member(r, "statistics");
+    const std::vector<Json> row{r.at("case"),
+                                r.at("variant"),
+                                r.at("integrator"),
+                                r.at("grade"),
+                                r.at("reason"),
+                                member(worst, "title"),
+                                member(worst, "unit"),
+                                member(worst, "computed"),
+                                member(worst, "expected"),
+                                member(worst, "limit"),
+                                member(r, "time_reached"),
+                                member(r, "wall"),
+                                member(r, "cpu"),
                                 member(statistics, "steps")};
     for (std::size_t k = 0; k < row.size(); ++k) csv += csv_cell(row[k]) + (k + 1 < row.size() ? "," : "\n");
   }
   return csv;
 }
 
-}  // namespace orthodyn
+}  // namespace orthodyn::study::stability

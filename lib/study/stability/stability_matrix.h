@@ -1,41 +1,44 @@
-// Tries all fields of a matrix of hard cases, each in a process of its own, and tells what came out.
+// A matrix of hard cases: runs each of its fields in a process of its own, and tells what came out.
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <map>
+#include <string>
+#include <vector>
 
-#include "lib/study/jobs/errand.h"
+#include "lib/study/jobs/job_queue.h"
 #include "lib/study/stability/stability.h"
+#include "lib/study/stability/stability_result.h"
 
-namespace orthodyn {
+namespace orthodyn::study::stability {
 
 class StabilityMatrix {
  public:
   // What is finished in the folder is not done again. Throws ConfigError for input that is at fault.
-  StabilityMatrix(Stability stability, std::filesystem::path folder, std::string program);
+  StabilityMatrix(Stability stability, std::filesystem::path folder);
 
-  // `jobs` at a time. False if it was interrupted. Throws as carry_out_all() does.
-  bool run(int jobs, const std::atomic<bool>& interrupt, const ErrandEvents& events,
-           OldFailures failures = OldFailures::keep);
+  // Calls `after_each` for each run that is over, or was done before. False if interrupted. Throws as JobQueue::run().
+  bool run(const JobQueue& queue,
+           const std::function<void(std::size_t run, const StabilityResult&, bool cached)>& after_each);
 
-  const std::vector<Trial>& trials() const { return trials_; }
-  const std::vector<Errand>& errands() const { return errands_; }  // by trial
-  std::size_t done() const { return results_.size(); }
+  const std::vector<StabilityRun>& runs() const { return runs_; }
+  const std::vector<Job>& jobs() const { return jobs_; }  // by run
 
-  // The document of the report, and a row a trial; of what is done.
+  // The document of the report, and a row a run; of what is done. `file`: the study's.
   Json json(const std::string& file) const;
   std::string csv() const;
 
  private:
-  Json trial_json(std::size_t trial) const;
+  Json run_json(std::size_t run, const StabilityResult& result) const;
 
   Stability stability_;
   std::filesystem::path folder_;
-  std::string program_;
   std::vector<std::string> sentences_;  // of the cases
-  std::vector<Trial> trials_;
-  std::vector<Errand> errands_;
-  std::map<std::size_t, Json> results_;
+  std::vector<StabilityRun> runs_;
+  std::vector<Job> jobs_;
+  std::map<std::size_t, StabilityResult> results_;
 };
 
-}  // namespace orthodyn
+}  // namespace orthodyn::study::stability

@@ -10,11 +10,10 @@
 #include "lib/core/units.h"
 #include "lib/scene/build.h"
 #include "lib/scene/quantity.h"
-#include "lib/study/compare/expand.h"
 #include "lib/study/sweep/formula_scope.h"
 #include "lib/study/sweep/latin_hypercube.h"
 
-namespace orthodyn {
+namespace orthodyn::study::sweep {
 
 namespace {
 
@@ -44,7 +43,8 @@ std::vector<Values> side_by_side(const std::vector<Variable>& vary) {
 
 std::vector<Values> sampled(const Sweep& sweep) {
   std::vector<Values> all;
-  for (const auto& shares : latin_hypercube(sweep.samples.value_or(50), static_cast<int>(sweep.vary.size()), sweep.seed.value_or(1))) {
+  for (const auto& shares :
+       latin_hypercube(sweep.samples.value_or(50), static_cast<int>(sweep.vary.size()), sweep.seed.value_or(1))) {
     all.emplace_back();
     for (std::size_t k = 0; k < shares.size(); ++k) {
       const Variable& v = sweep.vary[k];
@@ -57,9 +57,12 @@ std::vector<Values> sampled(const Sweep& sweep) {
 
 std::vector<Values> combined(const Sweep& sweep) {
   switch (sweep.combine) {
-    case Combine::cartesian: return cartesian(sweep.vary);
-    case Combine::zip: return side_by_side(sweep.vary);
-    case Combine::latin_hypercube: break;
+    case Combine::cartesian:
+      return cartesian(sweep.vary);
+    case Combine::zip:
+      return side_by_side(sweep.vary);
+    case Combine::latin_hypercube:
+      break;
   }
   return sampled(sweep);
 }
@@ -75,10 +78,10 @@ std::string title_of(const Sweep& sweep, const Values& values) {
 
 class Expansion {
  public:
-  explicit Expansion(const Sweep& sweep) : sweep_(sweep), scene_(read_yaml(sweep.scene.file)) {}
+  explicit Expansion(const Sweep& sweep) : sweep_(sweep), scene_(read_scene_text(sweep.scene.file)) {}
 
-  SweepPoint point(const Values& values) {
-    SweepPoint point{values, title_of(sweep_, values), "", "", {}, "", {}};
+  Point point(const Values& values) {
+    Point point{values, title_of(sweep_, values), "", "", {}, "", {}};
     const FormulaScope scope = scope_of(values);
     for (const auto& [name, figure] : sweep_.quantities)
       point.closed_forms.push_back(
@@ -99,9 +102,8 @@ class Expansion {
       point.impossible = e.what();
       if (sweep_.impossible == Impossible::stop)
         throw ConfigError(
-            e.place(),
-            fmt::format("{} (in {}{})", e.message(), point.title,
-                        e.fault() == InputFault::form ? "" : "; impossible: keep goes on without such points"));
+            e.place(), fmt::format("{} (in {}{})", e.message(), point.title,
+                                   e.fault() == InputFault::form ? "" : "; impossible: keep goes on without such points"));
     }
     if (scene) check_times(*scene, point.title);
     if (scene && !is_looked_up_) try_to_look_up_quantities(*scene);
@@ -115,15 +117,14 @@ class Expansion {
       if (values[k].number && is_identifier(sweep_.vary[k].name))
         scope.add(sweep_.vary[k].name, sweep_.vary[k].si(*values[k].number));
     for (std::size_t k = 0; k < values.size(); ++k)
-      for (const auto& [name, value] : values[k].let)
-        scope.add(name, number_of(value, scope));
+      for (const auto& [name, value] : values[k].let) scope.add(name, number_of(value, scope));
     for (const auto& [name, value] : sweep_.definitions) scope.add(name, number_of(value, scope));
     return scope;
   }
 
   // In SI units: of "0.84 GPa" or of a formula.
   static double number_of(const YamlText& value, const FormulaScope& scope) {
-    const Config given = Config::from_text("v: " + value.text).at("v");
+    const Config given = parsed(value);
     if (!given.is_scalar()) value.origin.fail("expected a number or a formula, found " + given.shown());
     const auto parts = split_quantity(given.text());
     try {
@@ -134,13 +135,11 @@ class Expansion {
   }
 
   static void set(Config& config, const Assignments& assignments, const FormulaScope& scope) {
-    for (const auto& [path, value] : assignments) {
-      const Config given = Config::from_text("v: " + value.text).at("v");
-      config.set_yaml(path, scope.resolved(given, value.origin.where), value.origin.where);
-    }
+    for (const auto& [path, value] : assignments)
+      assign(config, path, {scope.resolved(parsed(value), value.origin.where), value.origin});
   }
 
-  static void fill(const Config& config, SweepPoint& point) {
+  static void fill(const Config& config, Point& point) {
     point.scene = config.dump_for("");
     point.mesh = config.at("mesh").yaml();
     point.files = config.file_paths();
@@ -158,12 +157,12 @@ class Expansion {
       if (f.quantity.empty()) continue;
       if (!is_static) require(f.at, f.origin.where + ".at");
       else if (f.at || f.take != Take::end || f.settled_within || f.quantity == kEnergyBalance)
-        f.origin.fail("of a static analysis only values in equilibrium are known: remove 'take', 'at' and "
-                      "'settled_within', choose another quantity than energy.balance");
+        f.origin.fail(
+            "of a static analysis only values in equilibrium are known: remove 'take', 'at' and "
+            "'settled_within', choose another quantity than energy.balance");
     }
     if (!sweep_.frames || !sweep_.frames->at) return;
-    if (is_static)
-      sweep_.frames->origin.fail("a static analysis has one picture, of the equilibrium: remove 'at'");
+    if (is_static) sweep_.frames->origin.fail("a static analysis has one picture, of the equilibrium: remove 'at'");
     require(sweep_.frames->at, sweep_.frames->origin.where + ".at");
   }
 
@@ -200,14 +199,14 @@ class Expansion {
 
 }  // namespace
 
-std::vector<SweepPoint> expand(const Sweep& sweep) {
+std::vector<Point> expand(const Sweep& sweep) {
   Expansion expansion(sweep);
-  std::vector<SweepPoint> points;
+  std::vector<Point> points;
   for (const auto& values : combined(sweep)) points.push_back(expansion.point(values));
-  if (std::all_of(points.begin(), points.end(), [](const SweepPoint& p) { return !p.impossible.empty(); }))
+  if (std::all_of(points.begin(), points.end(), [](const Point& p) { return !p.impossible.empty(); }))
     throw ConfigError("none of the points can be computed; the first, " + points.front().title + ": " +
                       points.front().impossible);
   return points;
 }
 
-}  // namespace orthodyn
+}  // namespace orthodyn::study::sweep

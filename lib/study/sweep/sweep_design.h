@@ -6,19 +6,19 @@
 
 #include "lib/study/sweep/sweep.h"
 
-namespace orthodyn {
+namespace orthodyn::study::sweep {
 
-struct SweepPoint {
-  std::vector<VariedValue> values;  // by variable
-  std::string title;                // "angle 30 deg, mesh fine"
-  std::string scene;                // in YAML, for a reader anywhere
-  std::string mesh;                 // its section, with what it names
-  std::vector<std::string> files;   // that it names
-  std::string impossible;           // why the scene cannot be; "" if it can
-  std::vector<double> closed_forms; // by quantity; NaN for none
+struct Point {
+  std::vector<VariedValue> values;   // by variable
+  std::string title;                 // "angle 30 deg, mesh fine"
+  std::string scene;                 // in YAML, for a reader anywhere
+  std::string mesh;                  // its section, with what it names
+  std::vector<std::string> files;    // that it names
+  std::string impossible;            // why the scene cannot be; "" if it can
+  std::vector<double> closed_forms;  // by quantity; NaN for none
 };
 
 // Every scene is read and checked, and the first one's quantities are looked up in its model. Throws ConfigError.
-std::vector<SweepPoint> expand(const Sweep& sweep);
+std::vector<Point> expand(const Sweep& sweep);
 
-}  // namespace orthodyn
+}  // namespace orthodyn::study::sweep

@@ -1,44 +1,43 @@
 #include "lib/study/sweep/sweep_table.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "lib/core/units.h"
-#include "lib/study/jobs/csv_cell.h"
-#include "lib/study/sweep/key_unit.h"
 #include "lib/simulation/machine.h"
-#include "lib/study/compare/measure.h"
+#include "lib/study/jobs/json_values.h"
+#include "lib/study/sweep/key_unit.h"
 
-namespace orthodyn {
+namespace orthodyn::study::sweep {
 
 namespace {
 
-Json field(const Json& object, const std::string& key) {
-  return object.is_object() && object.contains(key) ? object.at(key) : Json();
-}
-
 // Numbers without a unit are in that of their key, as the first scene that can be says.
-Json variables_json(const Sweep& sweep, const std::vector<SweepPoint>& points) {
+Json variables_json(const Sweep& sweep, const std::vector<Point>& points) {
   const auto first = std::find_if(points.begin(), points.end(), [](const auto& p) { return p.impossible.empty(); });
   Json all = Json::array();
   for (const auto& v : sweep.vary) {
     const bool is_plain = v.unit.empty() && v.numeric() && !v.path.empty() && first != points.end();
-    all.push_back({{"name", v.name}, {"path", v.path},
+    all.push_back({{"name", v.name},
+                   {"path", v.path},
                    {"unit", is_plain ? unit_at(v.path, Config::from_text(first->scene)) : v.unit},
-                   {"numeric", v.numeric()}, {"scale", Value<Scale>::yaml(v.scale)}});
+                   {"numeric", v.numeric()},
+                   {"scale", Value<Scale>::yaml(v.scale)}});
   }
   return all;
 }
 
 // The unit that people see, and what one of it is in SI.
-Json figures_json(const Sweep& sweep, const Json& units) {
+Json figures_json(const Sweep& sweep, const std::map<std::string, std::string>& units) {
   Json all = Json::array();
   for (const auto& [name, f] : sweep.quantities) {
-    const Json found = field(units, name);
-    const std::string si = found.is_string() ? found.get<std::string>() : "";
-    all.push_back({{"name", name}, {"title", f.title.empty() ? name : f.title}, {"unit", f.unit.empty() ? si : f.unit},
-                   {"factor", f.unit.empty() ? 1 : si_factor(f.unit)}, {"scale", Value<Scale>::yaml(f.scale)},
+    const auto found = units.find(name);
+    const std::string si = found == units.end() ? "" : found->second;
+    all.push_back({{"name", name},
+                   {"title", f.title.empty() ? name : f.title},
+                   {"unit", f.unit.empty() ? si : f.unit},
+                   {"factor", f.unit.empty() ? 1 : si_factor(f.unit)},
+                   {"scale", Value<Scale>::yaml(f.scale)},
                    {"closed_form", f.closed_form}});
   }
   return all;
@@ -52,21 +51,32 @@ Json plots_json(const Sweep& sweep) {
 
 Json frames_json(const Sweep& sweep) {
   if (!sweep.frames) return nullptr;
-  const FrameWish& f = *sweep.frames;
-  return {{"at", f.at ? Json(*f.at) : Json()}, {"color", f.color},       {"view", f.view}, {"up", f.up},
-          {"enlarged", f.enlarged}, {"most", f.most}, {"ghost", f.ghost}};
+  const FrameSpec& f = *sweep.frames;
+  return {{"at", f.at ? Json(*f.at) : Json()},
+          {"color", f.color},
+          {"view", f.view},
+          {"up", f.up},
+          {"enlarged", f.enlarged},
+          {"most", f.most},
+          {"ghost", f.ghost}};
 }
 
-Json result_of(const SweepPoint& point, const Errand& errand, const PointResults& results) {
-  if (!point.impossible.empty())
-    return {{"status", "failed"}, {"reason", "impossible"}, {"message", point.impossible}};
-  const auto found = results.find(errand.folder);
-  return found == results.end() ? Json{{"status", "missing"}} : found->second;
+// Nothing of a point that is missing.
+std::optional<EvaluationResult> result_of(const Point& point, const std::optional<Job>& job, const Results& results) {
+  if (!job) {
+    EvaluationResult impossible;
+    impossible.failure = Failure{kImpossible, point.impossible};
+    return impossible;
+  }
+  const auto found = results.find(job->folder);
+  return found == results.end() ? std::nullopt : std::optional(found->second);
 }
 
-Json point_json(const Sweep& sweep, const SweepPoint& point, const Errand& errand, const Json& result) {
-  Json out{{"title", point.title}, {"status", result.at("status")}};
-  out["folder"] = errand.folder.empty() ? "" : "points/" + errand.folder.filename().string();
+Json point_json(const Sweep& sweep, const Point& point, const std::optional<Job>& job,
+                const std::optional<EvaluationResult>& result) {
+  const Json computed = result ? to_json(*result) : Json{{"status", kMissing}};
+  Json out{{"title", point.title}, {"status", computed.at("status")}};
+  out["folder"] = job ? "points/" + job->folder.filename().string() : "";
   for (std::size_t k = 0; k < sweep.vary.size(); ++k) {
     const VariedValue& value = point.values[k];
     out["values"][sweep.vary[k].name] = value.number ? Json(*value.number) : Json(value.label);
@@ -75,34 +85,34 @@ Json point_json(const Sweep& sweep, const SweepPoint& point, const Errand& erran
   out["closed_forms"] = Json::object();
   for (std::size_t q = 0; q < sweep.quantities.size(); ++q) {
     const std::string& name = sweep.quantities[q].first;
-    out["figures"][name] = field(field(result, "figures"), name);
+    out["figures"][name] = member(member(computed, "figures"), name);
     out["closed_forms"][name] = finite_or_null(point.closed_forms[q]);
   }
-  for (const char* key : {"reason", "message", "cost", "model", "frame"}) out[key] = field(result, key);
+  for (const char* key : {"reason", "message", "cost", "model", "frame"}) out[key] = member(computed, key);
   return out;
 }
 
 }  // namespace
 
-PointResults results_of(const std::vector<Errand>& errands) {
-  PointResults all;
-  for (const auto& errand : errands) {
-    if (errand.command.empty() || all.contains(errand.folder)) continue;
-    if (Json result = read_json(errand.folder / kResultFile); result.is_object())
-      all.emplace(errand.folder, std::move(result));
-  }
+Results results_of(const std::vector<Job>& jobs) {
+  Results all;
+  for (const auto& job : jobs)
+    if (const Json result = read_json(job.folder / kResultFile); result.is_object())
+      all.emplace(job.folder, evaluation_from(result));
   return all;
 }
 
-Json sweep_json(const Sweep& sweep, const std::vector<SweepPoint>& points, const std::vector<Errand>& errands,
-                const PointResults& results, const std::string& file) {
-  Json rows = Json::array(), units = Json::object();
+Json sweep_json(const Sweep& sweep, const std::vector<Point>& points, const std::vector<std::optional<Job>>& jobs,
+                const Results& results, const std::string& file) {
+  Json rows = Json::array();
+  std::map<std::string, std::string> units;
   std::size_t missing = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Json result = result_of(points[i], errands[i], results);
-    if (result.contains("units")) units.update(result.at("units"));
-    missing += result.at("status") == "missing";
-    rows.push_back(point_json(sweep, points[i], errands[i], result));
+    const auto result = result_of(points[i], jobs[i], results);
+    if (result)
+      for (const auto& [name, unit] : result->units) units[name] = unit;
+    missing += !result;
+    rows.push_back(point_json(sweep, points[i], jobs[i], result));
   }
   Json definitions = Json::object();
   for (const auto& [name, text] : sweep.definitions) definitions[name] = text.text;
@@ -178,8 +188,8 @@ std::string csv_row(const Json& table, const Json& point, std::size_t number) {
   }
   for (const char* key : {"status", "reason", "message"}) add(point.at(key));
   for (const auto& [cost, heading] : kCosts)
-    if (!has_figure(table, cost)) add(field(point.at("cost"), cost));
-  add(field(point.at("model"), "unknowns"));
+    if (!has_figure(table, cost)) add(member(point.at("cost"), cost));
+  add(member(point.at("model"), "unknowns"));
   add(point.at("folder"));
   return out + "\n";
 }
@@ -193,4 +203,4 @@ std::string sweep_csv(const Json& table) {
   return out;
 }
 
-}  // namespace orthodyn
+}  // namespace orthodyn::study::sweep

@@ -1,16 +1,14 @@
-// The section `vary` of a sweep.
-#include <fmt/format.h>
+#include "lib/study/sweep/variable.h"
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <set>
+#include <stdexcept>
 
-#include "lib/core/parse_number.h"
+#include "lib/core/words.h"
 #include "lib/core/units.h"
+#include "lib/scene/scene.h"
 #include "lib/study/sweep/formula_scope.h"
-#include "lib/study/sweep/sweep.h"
-#include "lib/study/sweep/sweep_names.h"
 
 namespace orthodyn {
 
@@ -51,53 +49,14 @@ bool is_unit(const std::string& unit) {
   }
 }
 
-void check_unit(const std::string& unit, const Config& at) {
-  if (unit.empty()) return;
-  try {
-    si_factor(unit);
-  } catch (const std::invalid_argument& e) {
-    at.fail(e.what());
-  }
-}
-
 void take_name(const std::string& name, const Config& c, Variable& v) {
   if (name.empty()) return;
   check_formula_name(name, c.at("name"));
   v.name = name;
 }
 
-// "10 MPa" as a number of the unit; nothing for a text that is no such quantity.
-std::optional<double> converted(const std::string& text, const std::string& unit) {
-  const auto parts = split_quantity(text);
-  if (!parts) return {};
-  if (parts->unit == unit) return parts->number;
-  try {
-    return quantity_in(text, unit);
-  } catch (const std::invalid_argument&) {
-    return {};
-  }
-}
-
-// In one unit: that of the section, or else of `from`.
-void settle_units(NumberRange& r, const Config& c) {
-  check_unit(r.unit, c);
-  if (r.unit.empty() && r.from.unit.empty() != r.to.unit.empty())
-    c.fail("one of 'from' and 'to' has a unit; give it to both, or as 'unit'");
-  if (r.unit.empty()) r.unit = r.from.unit;
-  const auto settle = [&](Amount& a, const char* key) {
-    if (a.unit.empty()) return;
-    const auto number = converted(c.at(key).text(), r.unit);
-    if (!number) c.at(key).fail("expected a quantity that has the unit " + r.unit + ", found " + c.at(key).shown());
-    a = {*number, r.unit};
-  };
-  settle(r.from, "from");
-  settle(r.to, "to");
-  if (r.from.number == r.to.number) c.at("to").fail("is equal to 'from'");
-}
-
 void read_range(const Config& c, Variable& v) {
-  NumberRange r = NumberRange::spec().read(c);
-  settle_units(r, c);
+  const NumberRange r = read_number_range(c);
   v.unit = r.unit;
   v.scale = r.scale;
   take_name(r.name, c, v);
@@ -108,11 +67,13 @@ void read_range(const Config& c, Variable& v) {
 // A scalar of a list: a number, or anything that a key of the scene can be.
 VariedValue listed_value(const Variable& v, const Config& c) {
   if (c.is_scalar() && c.reads_as_number()) return v.at(c.number());
-  const auto number = c.is_scalar() && !v.unit.empty() ? converted(c.text(), v.unit) : std::nullopt;
+  const auto number = c.is_scalar() && !v.unit.empty() ? number_in(c.text(), v.unit) : std::nullopt;
   if (v.path.empty() && number) return v.at(*number);
   if (v.path.empty())
-    c.fail("'" + v.name + "' is no key of a scene" + scene_key_near(v.name) + ", so its values must be numbers for "
-           "formulas; found " + c.shown());
+    c.fail("'" + v.name + "' is no key of a scene" + scene_key_near(v.name) +
+           ", so its values must be numbers for "
+           "formulas; found " +
+           c.shown());
   VariedValue value{number ? number_text(*number) : c.is_scalar() ? c.text() : c.yaml(), number, {}, {}};
   value.set.emplace_back(v.path, Value<YamlText>::read(c, {}));
   return value;
@@ -133,8 +94,8 @@ void read_list(const Config& list, Variable& v) {
     v.unit = unit_in(list);
     for (std::size_t i = 0; i < list.size() && !v.unit.empty(); ++i)
       if (list.at(i).reads_as_number())
-        list.at(i).fail("has no unit, but another value has; give one to all of them, or as {values: [...], unit: " +
-                        v.unit + "}");
+        list.at(i).fail(
+            "has no unit, but another value has; give one to all of them, or as {values: [...], unit: " + v.unit + "}");
   }
   for (std::size_t i = 0; i < list.size(); ++i) v.values.push_back(listed_value(v, list.at(i)));
 }
@@ -195,6 +156,14 @@ Variable read_variable(const std::string& key, const Config& c) {
 
 }  // namespace
 
+std::vector<std::string> scene_keys() {
+  std::vector<std::string> names;
+  for (const auto& key : Scene::spec().keys()) names.push_back(key.name);
+  return names;
+}
+
+std::string scene_key_near(const std::string& name) { return did_you_mean(name, scene_keys()); }
+
 bool Variable::numeric() const {
   return range || std::all_of(values.begin(), values.end(), [](const VariedValue& v) { return v.number.has_value(); });
 }
@@ -205,26 +174,6 @@ VariedValue Variable::at(double x) const {
   VariedValue value{number_text(x), x, {}, {}};
   if (!path.empty()) value.set.emplace_back(path, YamlText{with_unit(x, unit), origin});
   return value;
-}
-
-double range_at(const NumberRange& r, double share) {
-  if (share == 0) return r.from.number;
-  if (share == 1) return r.to.number;
-  const double from = r.from.number, to = r.to.number;
-  const double x = r.scale == Scale::log ? from * std::pow(to / from, share) : from + (to - from) * share;
-  if (std::abs(x) < 1e-12 * std::max(std::abs(from), std::abs(to))) return 0;
-  // Ends and their simple fractions stay what they look like: 0.3, not 0.30000000000000004.
-  double simple = x;
-  parse_number(fmt::format("{:.12g}", x), simple);
-  return simple;
-}
-
-Amount Value<Amount>::read(const Config& c, const Rule&) {
-  if (!c.is_scalar() || c.reads_as_number()) return {c.number(), ""};
-  const auto parts = split_quantity(c.text());
-  if (!parts) return {c.number(), ""};  // says what is expected
-  check_unit(parts->unit, c);
-  return {parts->number, parts->unit};
 }
 
 std::vector<Variable> Value<std::vector<Variable>>::read(const Config& c, const Rule&) {

@@ -1,0 +1,219 @@
+#include "lib/study/compare/comparison_design.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <set>
+
+#include "lib/config/registry.h"
+#include "lib/ode/integrator.h"
+
+namespace orthodyn::study::compare {
+
+namespace {
+
+constexpr const char* kIntegratorPrefix = "integrator.";
+
+// "mesh.cells" -> "cells": enough to tell labels apart.
+std::string last_step(const std::string& path) {
+  const auto dot = path.rfind('.');
+  return dot == std::string::npos ? path : path.substr(dot + 1);
+}
+
+struct Variant {
+  Assignments set;
+  std::string words;  // ", cells [45, 9, 9]"
+};
+
+// All combinations of the values of `vary` whose paths `concerns` accepts.
+std::vector<Variant> combinations(const Comparison& comparison,
+                                  const std::function<bool(const std::string&)>& concerns) {
+  std::vector<Variant> all{{}};
+  for (const auto& [path, values] : comparison.vary) {
+    if (!concerns(path)) continue;
+    std::vector<Variant> longer;
+    for (const auto& variant : all) {
+      for (const auto& value : values) {
+        longer.push_back(variant);
+        longer.back().set.emplace_back(path, value);
+        longer.back().words += ", " + last_step(path) + " " + value.text;
+      }
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+bool is_of_integrator(const std::string& path) { return path.starts_with(kIntegratorPrefix); }
+
+// Letters, digits, '_', '.' and '-' of a label.
+std::string identifier(const std::string& label) {
+  std::string id;
+  for (const char c : label) {
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.') id += c;
+    else if (!id.empty() && id.back() != '-') id += '-';
+  }
+  while (id.ends_with('-')) id.pop_back();
+  return id.empty() ? "unnamed" : id;
+}
+
+// Sets the ids of problems or methods, counting those that would be equal.
+template <class Item>
+void identify(std::vector<Item>& items) {
+  std::set<std::string> taken;
+  for (auto& item : items) {
+    const std::string id = identifier(item.label);
+    item.id = id;
+    for (int n = 2; !taken.insert(item.id).second; ++n) item.id = id + "-" + std::to_string(n);
+  }
+}
+
+std::vector<Problem> problems_of(const Comparison& comparison) {
+  const auto variants = combinations(comparison, [](const std::string& path) { return !is_of_integrator(path); });
+  std::vector<Problem> problems;
+  for (const auto& scene : comparison.scenes) {
+    const std::string text = read_scene_text(scene.file);
+    for (const auto& variant : variants) {
+      SceneVariant changed{scene.file.path, text, scene.set};
+      changed.set.insert(changed.set.end(), variant.set.begin(), variant.set.end());
+      problems.push_back({"", scene.label + variant.words, std::move(changed)});
+    }
+  }
+  identify(problems);
+  return problems;
+}
+
+// With a fixed step rtol is of Newton's method alone, which must not limit what the step can reach.
+std::string newton_tolerance(const std::vector<double>& tolerances) {
+  const double usual = 1e-6;
+  if (tolerances.empty()) return number_text(usual);
+  return number_text(std::min(usual, *std::min_element(tolerances.begin(), tolerances.end())));
+}
+
+// One method for each kind of control that the integrator has.
+void add_methods(const Comparison& comparison, const IntegratorEntry& entry, const Variant& variant,
+                 std::vector<Method>& methods) {
+  Method method{"",
+                entry.label + variant.words,
+                entry.type,
+                Registry<IntegratorChoice>::entries().at(entry.type).sentence,
+                entry.options,
+                Method::Control::rtol};
+  for (const auto& [path, value] : variant.set) method.set.emplace_back(last_step(path), value);
+  const auto& tolerances = comparison.tolerances;
+  const bool adaptive = has_key(entry.type, "rtol") && !tolerances.empty();
+  // One that knows no tolerance and finds its critical step itself.
+  const bool by_limit = has_key(entry.type, "safety") && !has_key(entry.type, "rtol");
+  const bool fixed = has_key(entry.type, "step") && !comparison.steps.empty() && !(by_limit && entry.by_all);
+  const std::string label = method.label;
+  if (adaptive) methods.push_back(method);
+  if (fixed) {
+    method.control = Method::Control::step;
+    if (adaptive) method.label = label + ", fixed step";
+    if (has_key(entry.type, "rtol")) method.set.emplace_back("rtol", YamlText{newton_tolerance(tolerances)});
+    methods.push_back(method);
+  }
+  if (by_limit) {
+    method.control = Method::Control::safety;
+    method.label = label + (fixed ? ", share of the critical step" : "");
+    methods.push_back(method);
+  }
+  if (!adaptive && !fixed && !by_limit && !entry.by_all)
+    entry.origin.fail("'" + entry.type + "' takes none of what the comparison gives: " +
+                      (has_key(entry.type, "step") ? "add 'steps'" : "add 'tolerances'"));
+}
+
+std::vector<Method> methods_of(const Comparison& comparison) {
+  std::vector<Method> methods;
+  for (const auto& entry : comparison.integrators) {
+    // A key that this integrator does not have is not varied for it.
+    const auto concerns = [&](const std::string& path) {
+      return is_of_integrator(path) && has_key(entry.type, last_step(path));
+    };
+    for (const auto& variant : combinations(comparison, concerns)) add_methods(comparison, entry, variant, methods);
+  }
+  identify(methods);
+  return methods;
+}
+
+// What is given for the reference or its check, or else the default.
+Method reference_method(const std::optional<CompleteIntegratorEntry>& entry, const Method& otherwise) {
+  if (!entry) return otherwise;
+  Method method{"", entry->type, entry->type, "", entry->options, Method::Control::rtol};
+  for (const auto& [key, value] : entry->options) method.label += ", " + key + " " + value.text;
+  return method;
+}
+
+Method usual_reference(const std::string& type, double rtol, Assignments more) {
+  more.emplace_back("rtol", YamlText{number_text(rtol)});
+  Method method{"", type, type, "", more, Method::Control::rtol};
+  for (const auto& [key, value] : more) method.label += ", " + key + " " + value.text;
+  return method;
+}
+
+// Wrong input shows before anything runs.
+void check_point(const Design& design, const Point& point) {
+  try {
+    point_scene(design, point);
+  } catch (const ConfigError& e) {
+    throw ConfigError(e.place(), fmt::format("{} (in {})", e.message(), title(design, point)));
+  }
+}
+
+void check_reference(const Problem& problem, const Method& method) {
+  try {
+    reference_scene(problem, method);
+  } catch (const ConfigError& e) {
+    throw ConfigError(e.place(), fmt::format("{} (in the reference of {})", e.message(), problem.label));
+  }
+}
+
+void choose_references(const Comparison& comparison, Design& design) {
+  const auto& tolerances = comparison.tolerances;
+  const double tightest = tolerances.empty() ? 1e-6 : *std::min_element(tolerances.begin(), tolerances.end());
+  design.reference = reference_method(comparison.reference.integrator,
+                                      usual_reference("arkode_dirk", std::max(1e-3 * tightest, 1e-11), {}));
+  design.check =
+      reference_method(comparison.reference.check,
+                       usual_reference("cvode_bdf", std::max(1e-3 * tightest, 1e-10), {{"max_order", YamlText{"5"}}}));
+  if (comparison.reference.kind == ReferenceKind::none) return;
+  for (const auto& problem : design.problems) {
+    check_reference(problem, design.reference);
+    check_reference(problem, design.check);
+  }
+}
+
+}  // namespace
+
+std::string control_word(Method::Control control) {
+  switch (control) {
+    case Method::Control::rtol: return "rtol";
+    case Method::Control::step: return "step";
+    case Method::Control::safety: break;
+  }
+  return "safety";
+}
+
+std::string title(const Design& design, const Point& point) {
+  const Method& method = design.methods[point.method];
+  return fmt::format("{}, {}, {} {:g}", design.problems[point.problem].label, method.label,
+                     control_word(method.control), point.control);
+}
+
+Design expand(const Comparison& comparison) {
+  Design design{problems_of(comparison), methods_of(comparison), {}, {}, {}};
+  std::map<Method::Control, std::vector<double>> controls{{Method::Control::rtol, comparison.tolerances},
+                                                          {Method::Control::step, comparison.steps},
+                                                          {Method::Control::safety, {0.9, 0.45, 0.225}}};
+  for (auto& [kind, values] : controls) std::sort(values.rbegin(), values.rend());
+  for (std::size_t p = 0; p < design.problems.size(); ++p)
+    for (std::size_t m = 0; m < design.methods.size(); ++m)
+      for (const double control : controls.at(design.methods[m].control)) design.points.push_back({p, m, control});
+  for (const auto& point : design.points) check_point(design, point);
+  choose_references(comparison, design);
+  return design;
+}
+
+}  // namespace orthodyn::study::compare

@@ -1,0 +1,55 @@
+// From a comparison to its points: every scene as it will run, with every method and control.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lib/study/compare/comparison.h"
+#include "lib/study/inputs/scene_variant.h"
+
+namespace orthodyn::study::compare {
+
+// What errors are measured on.
+struct Problem {
+  std::string id, label;  // ids are unique
+  SceneVariant scene;
+};
+
+// An integrator with its options fixed, but for what controls its error.
+struct Method {
+  enum class Control { rtol, step, safety };  // safety: the share of the critical step that an explicit method takes
+  std::string id, label;
+  std::string integrator;
+  std::string sentence;
+  Assignments set;  // keys of the integrator
+  Control control = Control::rtol;
+};
+
+std::string control_word(Method::Control control);
+
+struct Point {
+  std::size_t problem = 0, method = 0;
+  double control = 0;
+};
+
+struct Design {
+  std::vector<Problem> problems;
+  std::vector<Method> methods;
+  std::vector<Point> points;  // by problem, then method, from loose to tight
+  Method reference, check;    // with all that controls their errors among `set`
+};
+
+// Throws ConfigError, also for a scene that cannot be read.
+Design expand(const Comparison& comparison);
+
+// "damped_beam, cvode_bdf, rtol 0.001"
+std::string title(const Design& design, const Point& point);
+
+// The scene that a point runs: defaults are filled in, nothing is written but what probes need. Options
+// of the scene's own integrator are kept where the method has such keys and says nothing else.
+Config point_scene(const Design& design, const Point& point);
+
+// The same for the reference or its check: of the scene's own options, scales and linear solver are kept.
+Config reference_scene(const Problem& problem, const Method& method);
+
+}  // namespace orthodyn::study::compare

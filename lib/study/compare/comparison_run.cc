@@ -1,0 +1,145 @@
+#include "lib/study/compare/comparison_run.h"
+
+#include <fmt/format.h>
+
+#include "lib/scene/mesh_materials.h"
+#include "lib/scene/scene.h"
+#include "lib/study/compare/measurement.h"
+
+namespace orthodyn::study::compare {
+
+namespace fs = std::filesystem;
+
+ComparisonRun::ComparisonRun(const Comparison& comparison, Design design, fs::path folder,
+                             std::function<void(const Progress&)> tell)
+    : comparison_(comparison),
+      design_(std::move(design)),
+      folder_(std::move(folder)),
+      tell_(std::move(tell)),
+      code_(code_fingerprint()),
+      count_(design_.points.size()) {
+  if (comparison_.reference.kind != ReferenceKind::none) count_ += 2 * design_.problems.size();
+}
+
+bool ComparisonRun::run(const JobQueue& queue, const std::function<void()>& after_each) {
+  for (std::size_t p = 0; p < design_.problems.size(); ++p) {
+    if (comparison_.reference.kind != ReferenceKind::none && !find_reference(queue, p)) return false;
+    after_each();
+    if (!measure_points(queue, p, after_each)) return false;
+  }
+  return true;
+}
+
+bool ComparisonRun::find_reference(const JobQueue& queue, std::size_t problem) {
+  const Problem& p = design_.problems[problem];
+  MeasurementInput input = reference_input();
+  const Job job = job_for(p.label + ", reference", "references", reference_scene(p, design_.reference), problem, input);
+  const auto result = measure_one(queue, job);
+  if (!result) return false;
+  Reference reference{"", design_.reference.label, design_.check.label, *result, std::nullopt};
+  if (!result->failure) reference.folder = relative_folder(job);
+  if (!result->failure && result->kind == MeasurementResult::Kind::computed) {
+    input.keep_trajectory = input.exact_if_possible = false;
+    input.reference = fs::absolute(job.folder).string();
+    reference.check = measure_one(queue, job_for(p.label + ", check of the reference", "references",
+                                                 reference_scene(p, design_.check), problem, input));
+    if (!reference.check) return false;
+  } else {
+    --count_;  // nothing to check
+  }
+  references_[problem] = std::move(reference);
+  return true;
+}
+
+bool ComparisonRun::measure_points(const JobQueue& queue, std::size_t problem,
+                                   const std::function<void()>& after_each) {
+  const MeasurementInput input = point_input(problem);
+  std::vector<std::size_t> points;
+  std::vector<Job> jobs;
+  for (std::size_t i = 0; i < design_.points.size(); ++i) {
+    const Point& point = design_.points[i];
+    if (point.problem != problem) continue;
+    points.push_back(i);
+    jobs.push_back(job_for(title(design_, point), "points", point_scene(design_, point), problem, input));
+    point_folders_[i] = relative_folder(jobs.back());
+  }
+  JobEvents events;
+  events.ends = [&](std::size_t k, const Json& result, bool cached) {
+    results_[points[k]] = finish(jobs[k], result, cached);
+    after_each();
+  };
+  return queue.run(jobs, events);
+}
+
+std::optional<MeasurementResult> ComparisonRun::measure_one(const JobQueue& queue, const Job& job) {
+  std::optional<MeasurementResult> measured;
+  JobEvents events;
+  events.ends = [&](std::size_t, const Json& result, bool cached) { measured = finish(job, result, cached); };
+  queue.run({job}, events);
+  return measured;
+}
+
+MeasurementResult ComparisonRun::finish(const Job& job, const Json& result, bool cached) {
+  MeasurementResult measured = measurement_from(result);
+  tell_({count_, job.title, cached, measured});
+  return measured;
+}
+
+Job ComparisonRun::job_for(const std::string& title, const std::string& kind, const Config& scene, std::size_t problem,
+                           const MeasurementInput& input) {
+  const fs::path folder = folder_ / kind / fingerprint(scene, problem, input);
+  const ProcessLimits limits{input.seconds * (input.repeats + 3) + kSetUpSeconds, comparison_.limits.memory};
+  Job job{title, "measure", folder, scene.dump_for(""), to_json(input), limits};
+  if (input.keep_trajectory)
+    job.is_whole = [folder](const Json& result) {
+      return failure_from(result).has_value() || Trajectory::is_whole(folder / kTrajectoryFile);
+    };
+  return job;
+}
+
+// Of what a measurement depends on.
+std::string ComparisonRun::fingerprint(const Config& scene, std::size_t problem, const MeasurementInput& input) {
+  Json job = to_json(input);
+  job["reference"] = fs::path(input.reference).filename().string();  // a fingerprint itself
+  Fingerprint hash;
+  hash.add(machine_fingerprint()).add(scene.dump()).add(job.dump());
+  hash.add(fmt::format("{}", comparison_.limits.memory));
+  for (const auto& file : scene.file_paths()) hash.add(files_.of(file));
+  return hash.add(mesh_of(scene, problem)).text();
+}
+
+// With what the named files bring along: elements beside .node, files that a .veg includes. Not loaded twice for a
+// problem, whose points differ in their integrators only.
+const std::string& ComparisonRun::mesh_of(const Config& scene, std::size_t problem) {
+  std::string& hash = meshes_[problem];
+  if (!hash.empty()) return hash;
+  try {
+    hash = mesh_fingerprint(load_mesh(read_scene(scene)));
+  } catch (const ConfigError& e) {
+    hash = e.what();  // every run of this problem will say so itself
+  }
+  return hash;
+}
+
+MeasurementInput ComparisonRun::point_input(std::size_t problem) const {
+  const auto found = references_.find(problem);
+  const bool is_usable = found != references_.end() && !found->second.folder.empty();
+  return {comparison_.repeats,
+          comparison_.samples,
+          comparison_.limits.seconds,
+          is_usable ? fs::absolute(folder_ / found->second.folder).string() : "",
+          false,
+          false,
+          code_};
+}
+
+MeasurementInput ComparisonRun::reference_input() const {
+  const bool exact = comparison_.reference.kind == ReferenceKind::automatic;
+  return {0, comparison_.samples, comparison_.reference.seconds, "", true, exact, code_};
+}
+
+std::string ComparisonRun::relative_folder(const Job& job) const {
+  return (job.folder.parent_path().filename() / job.folder.filename()).string();
+}
+
+}  // namespace orthodyn::study::compare

@@ -1,0 +1,57 @@
+#include "lib/study/jobs/job_result.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "lib/core/errors.h"
+#include "lib/study/jobs/json_values.h"
+
+namespace orthodyn::study {
+
+namespace {
+
+bool is(const std::optional<Failure>& failure, const char* reason) { return failure && failure->reason == reason; }
+
+}  // namespace
+
+Json to_json(const Failure& failure) {
+  return {{"status", "failed"}, {"reason", failure.reason}, {"message", failure.message}};
+}
+
+std::optional<Failure> failure_from(const Json& result) {
+  if (member(result, "status") != "failed") return std::nullopt;
+  return Failure{result.value("reason", ""), result.value("message", "")};
+}
+
+Failure failure_of(const Outcome& outcome, double seconds) {
+  if (outcome.status != Outcome::Status::interrupted) return {reason_name(outcome.reason), outcome.message};
+  return {kTimeLimit,
+          fmt::format("reached t = {:.4g} in the {:g} s of wall time that it may take; raise limits.seconds, "
+                      "or ask for less",
+                      outcome.last.t, seconds)};
+}
+
+Json finished_result(const Job& job, OldFailures failures) {
+  Json result = read_json(job.folder / kResultFile);
+  if (!result.is_object()) return nullptr;
+  const auto failure = failure_from(result);
+  if (is(failure, kCrashed) || (failure && failures == OldFailures::retry)) return nullptr;
+  if (job.is_whole && !job.is_whole(result)) return nullptr;
+  return result;
+}
+
+bool met_a_limit(const std::optional<Failure>& failure) {
+  return is(failure, kTimeLimit) || is(failure, reason_name(Reason::out_of_memory));
+}
+
+std::size_t number_at_limits(const std::vector<Job>& jobs) {
+  std::set<std::filesystem::path> folders;
+  for (const auto& job : jobs) folders.insert(job.folder);
+  return static_cast<std::size_t>(std::count_if(folders.begin(), folders.end(), [](const auto& folder) {
+    return met_a_limit(failure_from(read_json(folder / kResultFile)));
+  }));
+}
+
+}  // namespace orthodyn::study

@@ -1,0 +1,184 @@
+#include "lib/study/sweep/evaluate_point.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "lib/scene/quantity.h"
+#include "lib/simulation/equilibrium.h"
+#include "lib/simulation/errors/snapshot.h"
+#include "lib/simulation/load_steps.h"
+#include "lib/simulation/machine.h"
+#include "lib/simulation/run.h"
+#include "lib/simulation/setup.h"
+#include "lib/simulation/vtu.h"
+#include "lib/study/jobs/deadline.h"
+#include "lib/study/quantities/figure.h"
+#include "lib/study/quantities/wanted_modes.h"
+
+namespace orthodyn::study::sweep {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The figures of a quantity's course, side by side.
+struct WantedQuantities {
+  std::vector<const std::pair<std::string, WantedFigure>*> figures;
+  std::vector<Expectation> expectations;
+  std::vector<Quantity> quantities;
+};
+
+WantedQuantities wanted_quantities(const EvaluationInput& input, const Setup& setup) {
+  WantedQuantities wanted;
+  for (const auto& figure : input.figures) {
+    const WantedFigure& f = figure.second;
+    if (f.quantity.empty()) continue;
+    wanted.figures.push_back(&figure);
+    Expectation& e = wanted.expectations.emplace_back();
+    e.quantity = f.quantity, e.take = f.take, e.at = f.at, e.of = f.of;
+    wanted.quantities.push_back(find_quantity(f.quantity, setup.scene, *setup.built.model, f.origin));
+  }
+  return wanted;
+}
+
+class Evaluation {
+ public:
+  Evaluation(const Config& scene, const EvaluationInput& input, const fs::path& folder)
+      : config_(scene), input_(input), folder_(folder) {}
+
+  EvaluationResult result() {
+    if (wants([](const WantedFigure& f) { return !f.is_of_motion(); })) find_modes();
+    if (input_.frame || wants([](const WantedFigure& f) { return f.is_of_motion(); })) follow_motion();
+    return std::move(result_);
+  }
+
+ private:
+  template <class Condition>
+  bool wants(const Condition& condition) const {
+    return std::any_of(input_.figures.begin(), input_.figures.end(),
+                       [&](const auto& f) { return condition(f.second); });
+  }
+
+  void keep(const std::string& name, double value, const std::string& unit) {
+    result_.figures.emplace_back(name, value);
+    result_.units.emplace_back(name, unit);
+  }
+
+  void describe(const FemModel& model) {
+    result_.unknowns = static_cast<std::size_t>(model.num_dofs());
+    result_.elements = model.parts().mesh.tets.size();
+  }
+
+  // Modes: nothing of the scene's integrator is set up.
+  void find_modes() {
+    const auto started = std::chrono::steady_clock::now();
+    const double cpu = cpu_seconds_now();
+    const Scene scene = read_scene(config_);
+    const Scene still = scene.analysis == Analysis::dynamic ? at_rest(scene) : scene;
+    const BuiltScene built = build(still);
+    describe(*built.model);
+    for (const bool about_equilibrium : {false, true}) find_modes(still, built, about_equilibrium);
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
+    result_.cost = EvaluationCost{cpu_seconds_now() - cpu, wall.count(), {}, peak_memory()};
+  }
+
+  void find_modes(const Scene& scene, const BuiltScene& built, bool about_equilibrium) {
+    std::vector<std::string> names;
+    std::vector<WantedFigure> wanted;
+    for (const auto& [name, f] : input_.figures)
+      if (!f.is_of_motion() && f.about_equilibrium == about_equilibrium) names.push_back(name), wanted.push_back(f);
+    if (wanted.empty()) return;
+    const Vector zero = Vector::Zero(built.model->num_dofs());
+    const State about{scene.time.end, about_equilibrium ? equilibrium(scene, built) : zero, zero};
+    const auto frequencies = wanted_frequencies(wanted, *built.model, about);
+    for (std::size_t k = 0; k < names.size(); ++k) keep(names[k], frequencies[k], wanted[k].unit_of(""));
+  }
+
+  void follow_motion() {
+    const Setup setup = set_up(config_);
+    describe(*setup.built.model);
+    const WantedQuantities wanted = wanted_quantities(input_, setup);
+    if (setup.scene.analysis == Analysis::statical) find_equilibrium(setup, wanted);
+    else integrate(setup, wanted);
+    if (result_.failure) return;
+    const Json costs = to_json(*result_.cost);
+    for (const auto& [name, f] : input_.figures)
+      if (!f.cost.empty()) keep(name, costs.at(f.cost).get<double>(), f.unit_of(""));
+  }
+
+  void find_equilibrium(const Setup& setup, const WantedQuantities& wanted) {
+    const StaticProblem problem = static_problem(setup.scene, setup.built);
+    Deadline deadline(input_.seconds);
+    const Outcome outcome = run_static(*problem.stepper, {&deadline}, deadline.over);
+    Statistics statistics = problem.solver->statistics();
+    statistics.steps = problem.stepper->steps();
+    statistics.rejected_steps = problem.stepper->rejected();
+    if (!conclude(outcome, statistics)) return;
+    const State state{problem.path->time(), outcome.last.q, outcome.last.v};
+    for (std::size_t q = 0; q < wanted.figures.size(); ++q)
+      keep(wanted.figures[q]->first, wanted.quantities[q].values(state)[0], wanted.quantities[q].unit);
+    draw(*setup.built.model, state);
+  }
+
+  void integrate(const Setup& setup, const WantedQuantities& wanted) {
+    SeriesRecorder recorder(*setup.built.model, *setup.integrator, wanted.quantities);
+    Deadline deadline(input_.seconds);
+    Snapshot frame(input_.frame_at);
+    Plan plan{setup.scene.time.end, output_times(wanted.expectations, setup.scene.time), false};
+    EventFinder events(setup.events);
+    if (!events.empty()) plan.events = &events;
+    const Outcome outcome = run(*setup.built.model, *setup.integrator, setup.built.initial, plan,
+                                {&recorder, &deadline, &frame}, deadline.over);
+    if (!conclude(outcome, setup.integrator->statistics())) return;
+    for (std::size_t q = 0; q < wanted.figures.size(); ++q) {
+      const auto& [name, f] = *wanted.figures[q];
+      keep(name,
+           f.settled_within ? settling_time(recorder.series(q), *f.settled_within)
+                            : figure(wanted.expectations[q], recorder, q),
+           f.unit_of(wanted.quantities[q].unit));
+    }
+    draw(*setup.built.model, frame.state());
+  }
+
+  std::vector<double> output_times(std::vector<Expectation> wanted, const TimeSpan& time) const {
+    if (input_.frame && input_.frame_at && *input_.frame_at < time.end) wanted.emplace_back().at = input_.frame_at;
+    return times_asked_for(wanted, time.start);
+  }
+
+  // False if it did not get to its end, which is then the result.
+  bool conclude(const Outcome& outcome, const Statistics& statistics) {
+    result_.cost = EvaluationCost{outcome.cpu_seconds, outcome.wall_seconds, statistics, peak_memory()};
+    if (outcome.status != Outcome::Status::completed) result_.failure = failure_of(outcome, input_.seconds);
+    return !result_.failure;
+  }
+
+  void draw(const FemModel& model, const State& state) {
+    if (!input_.frame) return;
+    std::vector<VtuField> fields;
+    for (const auto& info : model.outputs())
+      if (info.location != Location::global && (info.name == "displacement" || info.name == *input_.frame))
+        fields.push_back({info.name, info.location, info.components, model.evaluate(info.name, state)});
+    write_vtu(folder_ / kFrameFile, model.geometry(), fields);
+    result_.frame = kFrameFile;
+  }
+
+  const Config& config_;
+  const EvaluationInput& input_;
+  const fs::path& folder_;
+  EvaluationResult result_;
+};
+
+}  // namespace
+
+EvaluationResult evaluate_point(const Config& scene, const EvaluationInput& input, const fs::path& folder) {
+  return Evaluation(scene, input, folder).result();
+}
+
+void evaluate_point(const fs::path& folder) {
+  serve_job(folder, [&](const Json& input) {
+    return to_json(
+        evaluate_point(Config::from_file((folder / kSceneFile).string()), evaluation_input_from(input), folder));
+  });
+}
+
+}  // namespace orthodyn::study::sweep

@@ -1,0 +1,21 @@
+// Computes the figures of one point of a sweep. What none of them needs is not computed.
+#pragma once
+
+#include <filesystem>
+
+#include "lib/config/config.h"
+#include "lib/study/sweep/evaluation.h"
+
+namespace orthodyn::study::sweep {
+
+// The state that the picture shows, in the point's folder.
+inline constexpr const char* kFrameFile = "frame.vtu";
+
+// A run that fails is a result. The state for the picture goes to `folder`, if it is wanted. Throws ConfigError,
+// RunError.
+EvaluationResult evaluate_point(const Config& scene, const EvaluationInput& input, const std::filesystem::path& folder);
+
+// Does the job of a folder. Throws as serve_job() does.
+void evaluate_point(const std::filesystem::path& folder);
+
+}  // namespace orthodyn::study::sweep

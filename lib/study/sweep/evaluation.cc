@@ -1,0 +1,113 @@
+#include "lib/study/sweep/evaluation.h"
+
+#include "lib/study/jobs/json_values.h"
+
+namespace orthodyn::study::sweep {
+
+namespace {
+
+Json figure_json(const WantedFigure& f) {
+  return {{"quantity", f.quantity},
+          {"take", Value<Take>::yaml(f.take)},
+          {"at", optional_json(f.at)},
+          {"of", optional_json(f.of)},
+          {"settled_within", optional_json(f.settled_within)},
+          {"mode", optional_json(f.mode)},
+          {"along", f.along ? Json(Value<Component>::yaml(*f.along)) : Json()},
+          {"about_equilibrium", f.about_equilibrium},
+          {"cost", f.cost}};
+}
+
+WantedFigure figure_from(const Json& json) {
+  WantedFigure f;
+  f.quantity = json.at("quantity");
+  f.take = from_word<Take>(json.at("take"));
+  f.at = optional_from<double>(json.at("at"));
+  f.of = optional_from<double>(json.at("of"));
+  f.settled_within = optional_from<double>(json.at("settled_within"));
+  f.mode = optional_from<int>(json.at("mode"));
+  if (!json.at("along").is_null()) f.along = from_word<Component>(json.at("along"));
+  f.about_equilibrium = json.at("about_equilibrium");
+  f.cost = json.at("cost");
+  f.origin.where = "quantities";
+  return f;
+}
+
+EvaluationCost cost_from(const Json& json) {
+  EvaluationCost cost{json.at("cpu_seconds"), json.at("wall_seconds"), {}, number_or_nan(json.at("peak_memory"))};
+  if (!json.contains("steps")) return cost;
+  Statistics& s = cost.statistics.emplace();
+  s.steps = json.at("steps");
+  s.rejected_steps = json.at("rejected_steps");
+  s.newton_iterations = json.at("newton_iterations");
+  s.force.count = json.at("forces");
+  s.tangent.count = json.at("tangents");
+  s.factorization.count = json.at("factorizations");
+  s.solve.count = json.at("solves");
+  return cost;
+}
+
+}  // namespace
+
+Json to_json(const EvaluationInput& input) {
+  Json figures = Json::object();
+  for (const auto& [name, f] : input.figures) figures[name] = figure_json(f);
+  return {{"figures", figures},
+          {"frame", optional_json(input.frame)},
+          {"frame_at", optional_json(input.frame_at)},
+          {"seconds", input.seconds},
+          {"code", input.code}};
+}
+
+EvaluationInput evaluation_input_from(const Json& json) {
+  EvaluationInput input;
+  for (const auto& [name, f] : json.at("figures").items()) input.figures.emplace_back(name, figure_from(f));
+  input.frame = optional_from<std::string>(json.at("frame"));
+  input.frame_at = optional_from<double>(json.at("frame_at"));
+  input.seconds = json.at("seconds");
+  input.code = json.at("code");
+  return input;
+}
+
+// The keys are those of cost_names().
+Json to_json(const EvaluationCost& cost) {
+  Json json{{"cpu_seconds", cost.cpu_seconds}, {"wall_seconds", cost.wall_seconds}};
+  if (cost.statistics) {
+    const Statistics& s = *cost.statistics;
+    json["steps"] = s.steps;
+    json["rejected_steps"] = s.rejected_steps;
+    json["newton_iterations"] = s.newton_iterations;
+    json["forces"] = s.force.count;
+    json["tangents"] = s.tangent.count;
+    json["factorizations"] = s.factorization.count;
+    json["solves"] = s.solve.count;
+  }
+  json["peak_memory"] = cost.peak_memory;
+  return json;
+}
+
+Json to_json(const EvaluationResult& r) {
+  Json json{{"status", r.failure ? "failed" : "completed"}, {"figures", Json::object()}, {"units", Json::object()}};
+  for (const auto& [name, value] : r.figures) json["figures"][name] = finite_or_null(value);
+  for (const auto& [name, unit] : r.units) json["units"][name] = unit;
+  json["cost"] = r.cost ? to_json(*r.cost) : Json();
+  if (r.unknowns) json["model"] = {{"unknowns", *r.unknowns}, {"elements", r.elements.value_or(0)}};
+  if (r.failure) json["reason"] = r.failure->reason, json["message"] = r.failure->message;
+  if (!r.frame.empty()) json["frame"] = r.frame;
+  return json;
+}
+
+EvaluationResult evaluation_from(const Json& json) {
+  EvaluationResult r;
+  r.failure = failure_from(json);
+  const Json figures = member(json, "figures"), units = member(json, "units"), cost = member(json, "cost"),
+             model = member(json, "model");
+  for (const auto& [name, value] : figures.items()) r.figures.emplace_back(name, number_or_nan(value));
+  for (const auto& [name, unit] : units.items()) r.units.emplace_back(name, unit);
+  if (cost.is_object()) r.cost = cost_from(cost);
+  if (model.is_object()) r.unknowns = model.at("unknowns"), r.elements = model.at("elements");
+  r.frame = json.value("frame", "");
+  return r;
+}
+
+}  // namespace orthodyn::study::sweep

@@ -1,0 +1,49 @@
+// What is computed of one point of a sweep: the border, as JSON, between the process that sweeps and the one that
+// evaluates.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "lib/ode/statistics.h"
+#include "lib/study/jobs/job_result.h"
+#include "lib/study/quantities/wanted_figure.h"
+
+namespace orthodyn::study::sweep {
+
+// What is to be done.
+struct EvaluationInput {
+  Named<WantedFigure> figures;
+  std::optional<std::string> frame;  // the field that its picture shows
+  std::optional<double> frame_at;    // s; default the end
+  double seconds = 60;               // limit of the integration
+  std::string code;                  // fingerprint of the program that is to do it
+};
+
+// What people read (title, unit, closed form) does not change what is computed, and is left out.
+Json to_json(const EvaluationInput& input);
+EvaluationInput evaluation_input_from(const Json& json);
+
+struct EvaluationCost {
+  double cpu_seconds = 0, wall_seconds = 0;
+  std::optional<Statistics> statistics;  // of a motion or an equilibrium; none of modes alone
+  double peak_memory = 0;                // bytes
+};
+
+Json to_json(const EvaluationCost& cost);
+
+// What came out: of a failure all that was known by then.
+struct EvaluationResult {
+  std::optional<Failure> failure;  // else it was completed
+  Named<double> figures;           // SI; NaN for one that the point does not have
+  Named<std::string> units;        // of the figures
+  std::optional<EvaluationCost> cost;
+  std::optional<std::size_t> unknowns, elements;  // of the model
+  std::string frame;                              // the file of the picture's state; "" for none
+};
+
+Json to_json(const EvaluationResult& result);
+EvaluationResult evaluation_from(const Json& json);
+
+}  // namespace orthodyn::study::sweep

@@ -1,0 +1,71 @@
+// What the report of a sweep shows: the keys `frames` and `plots`.
+#include <algorithm>
+
+#include "lib/core/words.h"
+#include "lib/fem/fem_model.h"
+#include "lib/study/sweep/sweep.h"
+
+namespace orthodyn {
+
+namespace {
+
+std::vector<std::string> components_of(const OutputInfo& info) {
+  static const std::vector<std::string> space{"xx", "yy", "zz", "xy", "yz", "zx"},
+      material{"11", "22", "33", "12", "23", "31"};
+  if (info.components == 3) return {"x", "y", "z", "magnitude"};
+  if (info.components != 6) return {};
+  std::vector<std::string> all = info.name == "stress" ? space : material;
+  all.push_back("magnitude");
+  if (info.name != "strain") all.push_back("von_mises");
+  return all;
+}
+
+// As the drawing tool understands it: FIELD or FIELD.COMPONENT.
+void check_color(const std::string& color, const Config& at) {
+  const std::string field = color.substr(0, color.find('.'));
+  std::vector<std::string> fields;
+  for (const auto& info : FemModel{FemModel::Parts{}}.outputs()) {
+    if (info.location == Location::global) continue;
+    fields.push_back(info.name);
+    if (info.name != field) continue;
+    const auto known = components_of(info);
+    if (color == field || std::find(known.begin(), known.end(), color.substr(field.size() + 1)) != known.end()) return;
+    at.fail("'" + field + "' has no component '" + color.substr(field.size() + 1) + "'" +
+            (known.empty() ? "; it is a number" : "; known: " + join(known)));
+  }
+  at.fail("there is no field '" + field + "'" + did_you_mean(field, fields) + " Known: " + join(fields));
+}
+
+void check_frame(const FrameSpec& f, const Config& config) {
+  check_color(f.color, config.at("color"));
+  if (f.view.size() != 2) config.at("view").fail("expected two angles [azimuth, elevation] in degrees", InputFault::form);
+  if (f.up != "x" && f.up != "y" && f.up != "z") config.at("up").fail("expected x, y or z, found '" + f.up + "'");
+}
+
+}  // namespace
+
+const Spec<FrameSpec>& FrameSpec::spec() {
+  static const auto s =
+      Spec<FrameSpec>()
+          .key("at", &FrameSpec::at, "The time of the pictures; default the end.", {.unit = "s"})
+          .key("color", &FrameSpec::color, "What colours the body: displacement, stress, strain, velocity, det_f.")
+          .key("view", &FrameSpec::view, "Azimuth and elevation of the eye, degrees.")
+          .key("up", &FrameSpec::up, "The axis that is up.")
+          .key("enlarged", &FrameSpec::enlarged, "Enlarges the deformation.", {.range = kPositive})
+          .key("most", &FrameSpec::most, "The most pictures; of more points some are chosen evenly.",
+               {.range = {1, 100}})
+          .key("ghost", &FrameSpec::ghost, "Draw the outline of the rest shape as well.")
+          .check(check_frame);
+  return s;
+}
+
+const Spec<PlotSpec>& PlotSpec::spec() {
+  static const auto s =
+      Spec<PlotSpec>()
+          .key("figure", &PlotSpec::figure, "One of `quantities`.", {.required = true})
+          .key("x", &PlotSpec::x, "The variable along the axis; default the one with most numbers.")
+          .key("lines", &PlotSpec::lines, "The variable with a line for each value; default the next.");
+  return s;
+}
+
+}  // namespace orthodyn

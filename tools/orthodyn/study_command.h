@@ -1,0 +1,33 @@
+// What the commands of studies share: compare, sweep and stability.
+#pragma once
+
+#include <filesystem>
+
+#include "lib/study/jobs/job_queue.h"
+#include "tools/orthodyn/study_options.h"
+
+namespace orthodyn {
+
+// This executable, which does the jobs, too.
+std::filesystem::path this_program();
+
+// --out, or else `usual` / `name`.
+std::filesystem::path folder_for(const StudyArguments& arguments, const std::filesystem::path& usual,
+                                 const std::string& name);
+
+// A queue that an interrupt ends, with `workers` processes at a time.
+study::JobQueue job_queue(const StudyArguments& arguments, int workers);
+
+// As many workers as were asked for, or one a processor.
+int worker_count(const StudyArguments& arguments);
+
+// Processes that share the processors must not each start a thread of BLAS for every one of them.
+void use_one_thread_each();
+
+// `pieces`: "points".
+void tell_of_interrupt(const char* pieces, const std::filesystem::path& folder);
+
+// Draws the report of a folder, or puts an earlier one aside if none is wanted.
+void show_report(const std::filesystem::path& folder, const StudyArguments& arguments);
+
+}  // namespace orthodyn
