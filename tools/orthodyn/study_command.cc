@@ -20,7 +20,7 @@ fs::path folder_for(const StudyArguments& arguments, const fs::path& usual, cons
 }
 
 study::JobQueue job_queue(const StudyArguments& arguments, int workers) {
-  heed_interrupts();
+  catch_interrupts();
   const auto failures = arguments.retry ? study::OldFailures::retry : study::OldFailures::keep;
   return {{this_program().string(), workers, failures}, interrupted()};
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lib/scene/expectation.h"
-#include "lib/scene/support_motion.h"
+#include "lib/fem/motion/component.h"
 
 namespace orthodyn {
 
