@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
         Declared{"dashpots_in_place", "terms: [{type: dashpot, surface: x1, coefficient: 1}]",
                  "damping_matrix not_conservative dissipative"},
         Declared{"ground", "terms: [{type: ground, stiffness: 1}]", "nonlinear"},
-        Declared{"motion", "motions: [{surface: x1, translation: [1, 0, 0], factor: {type: ramp, end: 1}}]",
+        Declared{"motion", "motions: [{nearest: [1, 1, 1], translation: [1, 0, 0], factor: {type: ramp, end: 1}}]",
                  "time_dependent not_conservative loaded"},
         Declared{"mass_damping", "damping: {mass: 1}", "not_conservative dissipative"},
         Declared{"stiffness_damping", "damping: {stiffness: 1}", "damping_matrix not_conservative dissipative"}),
