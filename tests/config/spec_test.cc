@@ -173,7 +173,7 @@ struct Journey {
 };
 
 TEST(Spec, AKeyThatMeansSomethingWithAnotherAloneIsNeitherTakenNorFilledInElsewhere) {
-  const Config car = Config::from_text("by: car"), train = Config::from_text("by: train");
+  const Config car = Config::from_text("by: car").resolving(), train = Config::from_text("by: train").resolving();
   Journey::spec().read(car);
   Journey::spec().read(train);
   EXPECT_TRUE(car.has("fuel"));

@@ -54,7 +54,9 @@ TEST(Automatic, TakesTheStepsThatTheMethodTakesWithItsOptions) {
       const State a = integrate(model, *automatic), b = integrate(model, *named);
       EXPECT_EQ(a.q, b.q) << method << ", " << options;
       EXPECT_EQ(automatic->statistics().steps, named->statistics().steps) << method << ", " << options;
-      if (key == "linear_solver") EXPECT_TRUE(decisions(*automatic).at(key).starts_with("klu"));
+      if (key == "linear_solver") {
+        EXPECT_TRUE(decisions(*automatic).at(key).starts_with("klu"));
+      }
     }
 }
 

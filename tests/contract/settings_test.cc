@@ -56,7 +56,9 @@ TEST_P(EveryChoice, RefusesWhatItsKeyWouldRefuse) {
   } catch (const ConfigError& e) {
     EXPECT_EQ(e.message(), "max_steps: must be >= 1, found 0");
   }
-  if (has("rtol")) EXPECT_THROW(entry_.make()->with({.rtol = 0}), ConfigError);
+  if (has("rtol")) {
+    EXPECT_THROW(entry_.make()->with({.rtol = 0}), ConfigError);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Settings, EveryChoice, testing::ValuesIn(all_integrators()),
