@@ -13,6 +13,7 @@ namespace orthodyn {
 class ElementAxes {
  public:
   ElementAxes(const Mat3& all) : all_(all) {}  // NOLINT: a rotation is the axes of all elements
+  // Precondition: at least one; rotations.
   explicit ElementAxes(const std::vector<Mat3>& each);
 
   bool uniform() const { return packs_.empty(); }

@@ -1,6 +1,10 @@
 // A finite element model: mass, terms, clamps and moved supports of one body, as the Model that integrators see.
 // q are the displacements of the free coordinates from the rest shape, m. With a consistent mass the moved
 // coordinates c pull at the free ones f: M_ff a_f = f_f - M_fc a_c.
+//
+// Thread safety: as any Model; it holds nothing that changes but the factorised mass, which is locked. Forces and
+// tangents throw RecoverableError where a term cannot be evaluated (a deformation gradient that is not finite, a link
+// of length zero).
 #pragma once
 
 #include <array>
@@ -66,7 +70,7 @@ class FemModel : public Model {
 
   const Parts& parts() const { return parts_; }
 
-  // What it takes, by part: name and bytes.
+  // What it takes, by part: name and bytes. Of the mass what it takes now: more once it is factored.
   std::vector<std::pair<std::string, std::size_t>> memory() const;
 
  private:
@@ -77,7 +81,7 @@ class FemModel : public Model {
   std::unique_ptr<const DiscreteGradient> mean_force_;  // null where a term has no energy
 };
 
-// All nodes' positions and velocities at a state of the free coordinates.
+// All nodes' positions (m) and velocities (m/s) at a state of the free coordinates.
 struct NodalExpansion {
   NodalExpansion(const FemModel::Parts& parts, double time, const ConstVectorRef& q, const ConstVectorRef& v);
   NodalState state() const { return {t, x, u_rate}; }
@@ -88,8 +92,8 @@ struct NodalExpansion {
 // The forces of all terms on all nodes, N.
 NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& nodal);
 
-// The two that no term stands for. Mass-proportional damping; and the pull of moved nodes on free ones by a
-// consistent mass, - M_fc a_c. v: free velocities.
+// The two that no term stands for, added to the free forces f, N. Mass-proportional damping; and the pull of moved
+// nodes on free ones by a consistent mass, - M_fc a_c. v: free velocities, m/s.
 void add_mass_damping(const FemModel::Parts& parts, const NodalExpansion& nodal, const ConstVectorRef& v, VectorRef f);
 bool supports_pull(const FemModel::Parts& parts);
 void add_support_pull(const FemModel::Parts& parts, const NodalExpansion& nodal, VectorRef f);

@@ -1,4 +1,5 @@
-// The discrete gradient of a finite element model: the sum of its terms' forces between two states.
+// The discrete gradient of a finite element model: the sum of its terms' forces between two states, N. Throws
+// RecoverableError where an element is inverted or flattened at one of them. Safe in any thread.
 #pragma once
 
 #include "lib/fem/fem_model.h"
