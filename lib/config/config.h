@@ -23,8 +23,8 @@ using ConfigValue = std::variant<std::nullptr_t, bool, long, double, std::string
 
 class Config {
  public:
-  // Reads a file or a text; `name` stands for the file in messages. In any section the key `include` names a file, or a list of files,
-  // whose keys stand there too: what the section says itself wins, later files win over earlier ones,
+  // Reads a file or a text; `name` stands for the file in messages. In any section the key `include` names a file, or a
+  // list of files, whose keys stand there too: what the section says itself wins, later files win over earlier ones,
   // and sections within are joined in the same way. Throws ConfigError for a missing or unreadable
   // file, a syntax error, more than one document, duplicate keys, merge keys (<<), tags, and files that
   // include themselves.
@@ -37,10 +37,10 @@ class Config {
   // A copy that records the defaults taken from it and the files that it names; this itself if it is one.
   Config resolving() const;
 
-  // Writes a value at a path below this, such as "mesh.cells.0". Sections that are missing are made. `place` is where the value
-  // comes from, for messages about it and what is below; default "--set path". A section or list is written on one
-  // line. Throws ConfigError where the path leads through a value, or where an alias would carry the change to other
-  // places.
+  // Writes a value at a path below this, such as "mesh.cells.0". Sections that are missing are made. `place` is where
+  // the value comes from, for messages about it and what is below; default "--set path". A section or list is written
+  // on one line. Throws ConfigError where the path leads through a value, or where an alias would carry the change to
+  // other places.
   void set(const std::string& path, const ConfigValue& value, const std::string& place = "");
   void set(const std::string& path, const Config& value, const std::string& place = "");
 

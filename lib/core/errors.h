@@ -10,14 +10,16 @@ namespace orthodyn {
 // varied key mends, or a value.
 enum class InputFault { value, form };
 
-// The user's input is at fault. what() is "place: message", or the message alone where there is no place, as for options
-// of the command line. The command line exits with 2 and has written nothing.
+// The user's input is at fault. what() is "place: message", or the message alone where there is no place, as for
+// options of the command line. The command line exits with 2 and has written nothing.
 class ConfigError : public std::runtime_error {
  public:
   explicit ConfigError(const std::string& message) : ConfigError("", message) {}
   ConfigError(const std::string& place, const std::string& message, InputFault fault = InputFault::value)
       : std::runtime_error(place.empty() ? message : place + ": " + message),
-        place_(place), message_(message), fault_(fault) {}
+        place_(place),
+        message_(message),
+        fault_(fault) {}
 
   const std::string& place() const { return place_; }      // "file:line:column: path of the key", or ""
   const std::string& message() const { return message_; }  // what was found, what is allowed, what to do

@@ -1,5 +1,5 @@
-// Direct solvers for sparse linear systems A x = b, factored many times on one pattern. One kind per file, chosen in the
-// input by name through solver_registry().
+// Direct solvers for sparse linear systems A x = b, factored many times on one pattern. One kind per file, chosen in
+// the input by name through solver_registry().
 //
 // A is n x n; of a symmetric pattern only the lower triangle is stored. Calls come in the order analyze(), factor(),
 // solve(). A solver is used by one thread at a time; different solvers by different threads.

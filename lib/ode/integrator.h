@@ -75,8 +75,8 @@ class IntegratorChoice {
   // The options that other methods may have too.
   virtual IntegratorSettings settings() const = 0;
 
-  // The same options with those of the settings that have a value and that the method has. Throws ConfigError, without a
-  // place, for a number outside of the range of its key.
+  // The same options with those of the settings that have a value and that the method has. Throws ConfigError, without
+  // a place, for a number outside of the range of its key.
   virtual std::unique_ptr<IntegratorChoice> with(const IntegratorSettings& settings) const = 0;
 
   // Throws ConfigError if the integrator cannot serve the model, which must outlive it.

@@ -101,7 +101,7 @@ TEST(PresetMaterial, WithoutAMeasuredDensityAsksForOne) {
 }
 
 TEST(PresetMaterial, SpellsOutItsDensityInTheResolvedInput) {
-  const Config config = Config::from_text("{type: preset, name: douglas_fir}");
+  const Config config = Config::from_text("{type: preset, name: douglas_fir}").resolving();
   Registry<Material>::read(config);
   EXPECT_EQ(config.at("density").number(), 537.6);
 }
