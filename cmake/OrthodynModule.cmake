@@ -6,7 +6,7 @@ target_compile_options(orthodyn_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion
   -fno-math-errno  # so that sqrt is an instruction
   # False alarms of g++ 12 in its own headers (AVX-512, std::string).
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-uninitialized -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds>
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-uninitialized -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds>
   # Batches are passed within one library only.
   -Wno-psabi)
 if(ORTHODYN_NATIVE)
