@@ -4,7 +4,6 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

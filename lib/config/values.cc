@@ -1,5 +1,7 @@
 #include "lib/config/values.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -44,6 +46,55 @@ std::vector<double> read_numbers(const Config& config, const Rule& rule, std::si
   std::vector<double> out;
   for (std::size_t i = 0; i < count; ++i) out.push_back(read_number(config.at(i), rule));
   return out;
+}
+
+Shape list_shape(Shape item, std::size_t count, std::string words) {
+  return {.kind = Shape::Kind::list, .words = std::move(words), .items = {std::move(item)}, .count = count};
+}
+
+long read_integer(const Config& config, const Rule& rule, long low, long high) {
+  const long i = config.integer();
+  const double x = read_number(config, rule);
+  if (x > static_cast<double>(high) || x < static_cast<double>(low))
+    config.fail(fmt::format("must be in [{}, {}], found {}", low, high, config.shown()));
+  return i;
+}
+
+Shape Value<double>::shape() { return {.kind = Shape::Kind::number}; }
+double Value<double>::read(const Config& c, const Rule& r) { return read_number(c, r); }
+std::string Value<double>::yaml(double x) { return number_text(x); }
+
+Shape Value<bool>::shape() { return {.kind = Shape::Kind::boolean}; }
+bool Value<bool>::read(const Config& c, const Rule&) { return c.boolean(); }
+std::string Value<bool>::yaml(bool x) { return x ? "true" : "false"; }
+
+Shape Value<std::string>::shape() { return {.kind = Shape::Kind::text}; }
+std::string Value<std::string>::read(const Config& c, const Rule&) { return c.text(); }
+std::string Value<std::string>::yaml(const std::string& x) { return x; }
+
+Shape Value<FilePath>::shape() { return {.kind = Shape::Kind::file}; }
+FilePath Value<FilePath>::read(const Config& c, const Rule&) { return {c.file_path(), c.where()}; }
+std::string Value<FilePath>::yaml(const FilePath& x) { return x.path; }
+
+Shape Value<Vec3>::shape() { return list_shape(Value<double>::shape(), 3, "[x, y, z]"); }
+Vec3 Value<Vec3>::read(const Config& c, const Rule& r) {
+  return Eigen::Map<const Vec3>(read_numbers(c, r, 3).data());
+}
+std::string Value<Vec3>::yaml(const Vec3& x) {
+  return fmt::format("[{}, {}, {}]", number_text(x[0]), number_text(x[1]), number_text(x[2]));
+}
+
+Shape Value<Mat3>::shape() { return list_shape(Value<Vec3>::shape(), 3, "[[row], [row], [row]]"); }
+Mat3 Value<Mat3>::read(const Config& c, const Rule& r) {
+  if (!c.is_sequence() || c.size() != 3)
+    c.fail("expected three rows of three numbers, found " + c.shown(), InputFault::form);
+  Mat3 m;
+  for (int i = 0; i < 3; ++i) m.row(i) = Value<Vec3>::read(c.at(static_cast<std::size_t>(i)), r);
+  return m;
+}
+std::string Value<Mat3>::yaml(const Mat3& m) {
+  return "[" + Value<Vec3>::yaml(m.row(0)) + ", " + Value<Vec3>::yaml(m.row(1)) + ", " + Value<Vec3>::yaml(m.row(2)) +
+         "]";
 }
 
 }  // namespace orthodyn

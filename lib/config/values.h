@@ -2,10 +2,10 @@
 // yaml() of a default that means "absent" is empty.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
+#include <concepts>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -54,43 +54,40 @@ double read_number(const Config& config, const Rule& rule);
 std::string number_text(double x);
 std::vector<double> read_numbers(const Config& config, const Rule& rule, std::size_t count);
 
-inline Shape list_shape(Shape item, std::size_t count = 0, std::string words = "") {
-  return {.kind = Shape::Kind::list, .words = std::move(words), .items = {std::move(item)}, .count = count};
-}
+Shape list_shape(Shape item, std::size_t count = 0, std::string words = "");
+
+// An integral number within both bounds and the rule's range. Throws ConfigError.
+long read_integer(const Config& config, const Rule& rule, long low, long high);
 
 template <>
 struct Value<double> {
-  static Shape shape() { return {.kind = Shape::Kind::number}; }
-  static double read(const Config& c, const Rule& r) { return read_number(c, r); }
-  static std::string yaml(double x) { return number_text(x); }
+  static Shape shape();
+  static double read(const Config& c, const Rule& r);
+  static std::string yaml(double x);
 };
 
 template <std::integral V>
 struct Value<V> {
   static Shape shape() { return {.kind = Shape::Kind::integer}; }
   static V read(const Config& c, const Rule& r) {
-    using Limits = std::numeric_limits<V>;
-    const long i = c.integer();
-    const double x = read_number(c, r);
-    if (x > static_cast<double>(Limits::max()) || x < static_cast<double>(Limits::min()))
-      c.fail(fmt::format("must be in [{}, {}], found {}", Limits::min(), Limits::max(), c.shown()));
-    return static_cast<V>(i);
+    constexpr auto kLargest = std::min<std::uintmax_t>(std::numeric_limits<V>::max(), std::numeric_limits<long>::max());
+    return static_cast<V>(read_integer(c, r, std::numeric_limits<V>::min(), static_cast<long>(kLargest)));
   }
   static std::string yaml(V x) { return std::to_string(x); }
 };
 
 template <>
 struct Value<bool> {
-  static Shape shape() { return {.kind = Shape::Kind::boolean}; }
-  static bool read(const Config& c, const Rule&) { return c.boolean(); }
-  static std::string yaml(bool x) { return x ? "true" : "false"; }
+  static Shape shape();
+  static bool read(const Config& c, const Rule&);
+  static std::string yaml(bool x);
 };
 
 template <>
 struct Value<std::string> {
-  static Shape shape() { return {.kind = Shape::Kind::text}; }
-  static std::string read(const Config& c, const Rule&) { return c.text(); }
-  static std::string yaml(const std::string& x) { return x; }
+  static Shape shape();
+  static std::string read(const Config& c, const Rule&);
+  static std::string yaml(const std::string& x);
 };
 
 // A path in the input, made relative to the file that names it.
@@ -101,36 +98,23 @@ struct FilePath {
 
 template <>
 struct Value<FilePath> {
-  static Shape shape() { return {.kind = Shape::Kind::file}; }
-  static FilePath read(const Config& c, const Rule&) { return {c.file_path(), c.where()}; }
-  static std::string yaml(const FilePath& x) { return x.path; }
+  static Shape shape();
+  static FilePath read(const Config& c, const Rule&);
+  static std::string yaml(const FilePath& x);
 };
 
 template <>
 struct Value<Vec3> {
-  static Shape shape() { return list_shape(Value<double>::shape(), 3, "[x, y, z]"); }
-  static Vec3 read(const Config& c, const Rule& r) {
-    return Eigen::Map<const Vec3>(read_numbers(c, r, 3).data());
-  }
-  static std::string yaml(const Vec3& x) {
-    return fmt::format("[{}, {}, {}]", number_text(x[0]), number_text(x[1]), number_text(x[2]));
-  }
+  static Shape shape();
+  static Vec3 read(const Config& c, const Rule& r);
+  static std::string yaml(const Vec3& x);
 };
 
 template <>
 struct Value<Mat3> {
-  static Shape shape() { return list_shape(Value<Vec3>::shape(), 3, "[[row], [row], [row]]"); }
-  static Mat3 read(const Config& c, const Rule& r) {
-    if (!c.is_sequence() || c.size() != 3)
-      c.fail("expected three rows of three numbers, found " + c.shown(), InputFault::form);
-    Mat3 m;
-    for (int i = 0; i < 3; ++i) m.row(i) = Value<Vec3>::read(c.at(static_cast<std::size_t>(i)), r);
-    return m;
-  }
-  static std::string yaml(const Mat3& m) {
-    return "[" + Value<Vec3>::yaml(m.row(0)) + ", " + Value<Vec3>::yaml(m.row(1)) + ", " +
-           Value<Vec3>::yaml(m.row(2)) + "]";
-  }
+  static Shape shape();
+  static Mat3 read(const Config& c, const Rule& r);
+  static std::string yaml(const Mat3& m);
 };
 
 // Which of the words stands there. Throws ConfigError for another one.
@@ -165,7 +149,7 @@ struct Value<std::array<V, N>> {
   static Shape shape() { return list_shape(Value<V>::shape(), N); }
   static std::array<V, N> read(const Config& c, const Rule& r) {
     if (!c.is_sequence() || c.size() != N)
-      c.fail(fmt::format("expected a list of {}, found {}", N, c.shown()), InputFault::form);
+      c.fail("expected a list of " + std::to_string(N) + ", found " + c.shown(), InputFault::form);
     std::array<V, N> out;
     for (std::size_t i = 0; i < N; ++i) out[i] = Value<V>::read(c.at(i), r);
     return out;
