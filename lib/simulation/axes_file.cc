@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "lib/simulation/frames.h"
+#include "lib/simulation/observers/frames.h"
 
 namespace orthodyn {
 

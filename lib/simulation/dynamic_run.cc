@@ -7,7 +7,7 @@
 #include "lib/simulation/model_summary.h"
 #include "lib/simulation/checkpoint/resume.h"
 #include "lib/simulation/run_context.h"
-#include "lib/simulation/run_observers.h"
+#include "lib/simulation/observers/run_observers.h"
 #include "lib/simulation/run_record.h"
 #include "lib/simulation/checkpoint/scene_changes.h"
 

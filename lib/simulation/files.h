@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lib/core/write_file.h"
-#include "lib/simulation/archive.h"
+#include "lib/simulation/observers/archive.h"
 
 namespace orthodyn {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lib/core/errors.h"
-#include "lib/simulation/observer.h"
+#include "lib/simulation/observers/observer.h"
 
 namespace orthodyn {
 

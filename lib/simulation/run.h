@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "lib/simulation/event_finder.h"
+#include "lib/simulation/observers/event_finder.h"
 #include "lib/simulation/outcome.h"
 
 namespace orthodyn {

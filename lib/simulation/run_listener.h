@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "lib/simulation/observer.h"
+#include "lib/simulation/observers/observer.h"
 #include "lib/simulation/run_result.h"
 #include "lib/simulation/setup.h"
 

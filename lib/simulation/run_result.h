@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/simulation/balance.h"
+#include "lib/simulation/observers/balance.h"
 #include "lib/simulation/checkpoint/effort.h"
 #include "lib/simulation/errors/error_estimate.h"
 #include "lib/simulation/outcome.h"

@@ -23,8 +23,7 @@ std::string resolved_scene(const Setup& setup, const std::string& file, const st
 }  // namespace
 
 Simulation Simulation::from_file(const std::string& file, const SceneChanges& changes) {
-  read_scene_file(file, changes);  // throws now, not when it is run
-  return {file, changes};
+  return {file, changes, read_scene_file(file, changes)};
 }
 
 RunResult Simulation::run(const RunRequest& request) const {
@@ -42,7 +41,7 @@ RunResult Simulation::run(const RunRequest& request, const std::atomic<bool>& in
   ResultFolder folder(request.folder, earlier_result(request), warn);
   std::optional<Checkpoint> earlier;
   if (folder.resumes()) earlier = Checkpoint::load(folder.checkpoint());
-  Config config = read_scene_file(file_, changes_);
+  Config config = scene_.copy();
   if (earlier) keep_scales(*earlier, config);
   const Setup setup = set_up(std::move(config));
   for (const auto& warning : setup.built.warnings) listener.on_warning(warning);

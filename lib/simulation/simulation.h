@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <string>
+#include <utility>
 
 #include "lib/simulation/run_context.h"
 #include "lib/simulation/run_listener.h"
@@ -32,10 +33,12 @@ class Simulation {
   RunResult run(const RunRequest& request, const std::atomic<bool>& interrupt, RunListener& listener) const;
 
  private:
-  Simulation(std::string file, SceneChanges changes) : file_(std::move(file)), changes_(std::move(changes)) {}
+  Simulation(std::string file, SceneChanges changes, Config scene)
+      : file_(std::move(file)), changes_(std::move(changes)), scene_(std::move(scene)) {}
 
   std::string file_;
   SceneChanges changes_;
+  Config scene_;  // with the changes
 };
 
 }  // namespace orthodyn

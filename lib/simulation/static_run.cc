@@ -8,9 +8,9 @@
 #include "lib/simulation/load_steps.h"
 #include "lib/simulation/model_summary.h"
 #include "lib/simulation/run_context.h"
-#include "lib/simulation/run_observers.h"
+#include "lib/simulation/observers/run_observers.h"
 #include "lib/simulation/run_record.h"
-#include "lib/simulation/frames.h"
+#include "lib/simulation/observers/frames.h"
 
 namespace orthodyn {
 

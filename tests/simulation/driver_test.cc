@@ -7,9 +7,9 @@
 
 #include "lib/simulation/checkpoint/checkpoint.h"
 #include "lib/simulation/checkpoint/checkpointer.h"
-#include "lib/simulation/curves.h"
+#include "lib/simulation/observers/curves.h"
 #include "lib/simulation/run.h"
-#include "lib/simulation/frames.h"
+#include "lib/simulation/observers/frames.h"
 #include "lib/scene/build.h"
 #include "tests/simulation/command.h"
 

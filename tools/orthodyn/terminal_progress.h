@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "lib/simulation/observer.h"
+#include "lib/simulation/observers/observer.h"
 
 namespace orthodyn {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lib/simulation/checkpoint/checkpoint.h"
-#include "lib/simulation/observer.h"
+#include "lib/simulation/observers/observer.h"
 
 namespace orthodyn {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "lib/simulation/observer.h"
+#include "lib/simulation/observers/observer.h"
 
 namespace orthodyn {
 

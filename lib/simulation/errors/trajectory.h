@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "lib/simulation/observer.h"
+#include "lib/simulation/observers/observer.h"
 
 namespace orthodyn {
 

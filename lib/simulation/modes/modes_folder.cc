@@ -6,7 +6,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/simulation/files.h"
-#include "lib/simulation/frames.h"
+#include "lib/simulation/observers/frames.h"
 
 namespace orthodyn {
 

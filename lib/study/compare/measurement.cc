@@ -6,7 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "lib/simulation/balance.h"
+#include "lib/simulation/observers/balance.h"
 #include "lib/simulation/errors/modal_solution.h"
 #include "lib/simulation/machine.h"
 #include "lib/simulation/run.h"

@@ -10,7 +10,7 @@
 #include "lib/simulation/machine.h"
 #include "lib/simulation/run.h"
 #include "lib/simulation/setup.h"
-#include "lib/simulation/frames.h"
+#include "lib/simulation/observers/frames.h"
 #include "lib/study/jobs/deadline.h"
 #include "lib/study/quantities/figure.h"
 #include "lib/study/quantities/wanted_modes.h"

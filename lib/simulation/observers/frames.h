@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lib/simulation/files.h"
-#include "lib/simulation/observer.h"
+#include "lib/simulation/observers/observer.h"
 
 namespace orthodyn {
 

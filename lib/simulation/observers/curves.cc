@@ -1,4 +1,4 @@
-#include "lib/simulation/curves.h"
+#include "lib/simulation/observers/curves.h"
 
 #include <fmt/format.h>
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "lib/simulation/checkpoint/checkpointer.h"
-#include "lib/simulation/curves.h"
-#include "lib/simulation/event_writer.h"
-#include "lib/simulation/frames.h"
+#include "lib/simulation/observers/curves.h"
+#include "lib/simulation/observers/event_writer.h"
+#include "lib/simulation/observers/frames.h"
 #include "lib/simulation/setup.h"
 
 namespace orthodyn {

@@ -1,4 +1,4 @@
-#include "lib/simulation/balance.h"
+#include "lib/simulation/observers/balance.h"
 
 #include <algorithm>
 #include <cmath>

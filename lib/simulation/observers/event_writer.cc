@@ -1,4 +1,4 @@
-#include "lib/simulation/event_writer.h"
+#include "lib/simulation/observers/event_writer.h"
 
 #include <fmt/format.h>
 

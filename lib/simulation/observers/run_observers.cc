@@ -1,4 +1,4 @@
-#include "lib/simulation/run_observers.h"
+#include "lib/simulation/observers/run_observers.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "lib/simulation/archive.h"
+#include "lib/simulation/observers/archive.h"
 
 #include <fmt/format.h>
 

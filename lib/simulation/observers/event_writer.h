@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "lib/simulation/event_finder.h"
+#include "lib/simulation/observers/event_finder.h"
 #include "lib/simulation/files.h"
-#include "lib/simulation/observer.h"
+#include "lib/simulation/observers/observer.h"
 
 namespace orthodyn {
 

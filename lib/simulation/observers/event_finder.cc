@@ -1,4 +1,4 @@
-#include "lib/simulation/event_finder.h"
+#include "lib/simulation/observers/event_finder.h"
 
 #include <fmt/format.h>
 

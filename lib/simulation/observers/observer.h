@@ -3,7 +3,7 @@
 
 #include "lib/ode/event.h"
 #include "lib/ode/integrator.h"
-#include "lib/simulation/archive.h"
+#include "lib/simulation/observers/archive.h"
 
 namespace orthodyn {
 

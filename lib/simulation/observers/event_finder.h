@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lib/ode/event.h"
-#include "lib/simulation/archive.h"
+#include "lib/simulation/observers/archive.h"
 
 namespace orthodyn {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/simulation/balance.h"
+#include "lib/simulation/observers/balance.h"
 #include "lib/simulation/files.h"
 
 namespace orthodyn {

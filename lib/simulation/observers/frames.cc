@@ -1,4 +1,4 @@
-#include "lib/simulation/frames.h"
+#include "lib/simulation/observers/frames.h"
 
 #include <fmt/format.h>
 
