@@ -197,7 +197,8 @@ class Kinsol : public EquilibriumSolver {
       case KIN_REPTD_SYSFUNC_ERR: return "the forces could not be evaluated" + cause;
       case KIN_LINESEARCH_NONCONV:
       case KIN_LINESEARCH_BCFAIL: return "the residual does not fall along Newton's direction" + cause;
-      case KIN_STEP_LT_STPTOL: return "Newton's corrections have become too small for the residual that is left" + cause;
+      case KIN_STEP_LT_STPTOL:
+        return "Newton's corrections have become too small for the residual that is left" + cause;
       default:
         return "KINSOL says: " + callback_context_.message;
     }

@@ -1,13 +1,14 @@
-// The generalised-alpha family (Chung & Hulbert 1993), in the form of Arnold & Bruels (2007): Newmark's formulas with an
-// acceleration w of the scheme's own, which follows that of the solution, x.
+// The generalised-alpha family (Chung & Hulbert 1993), in the form of Arnold & Bruels (2007): Newmark's formulas with
+// an acceleration w of the scheme's own, which follows that of the solution, x.
 //
 //   q1 = q0 + h v0 + h^2 ((1/2 - beta) w0 + beta w1),    v1 = v0 + h ((1 - gamma) w0 + gamma w1)
 //   [w1, w0]_m = [x1, x0]_f,    M x = f(t, q, v),        [y1, y0]_k = (1 - alpha_k) y1 + alpha_k y0
 //
-// The blend of forces, not the force of a blended state (Erlicher, Bonaventura & Bursi 2002): a stiff body that turns is
-// in between smaller than it is, and its false stresses add energy. With theta = alpha_m - alpha_f, w is the solution's
-// acceleration at t + theta h (Jansen, Whiting & Hulbert 2000), but for a share of (-alpha_m / (1 - alpha_m))^n n steps
-// after a start; when h changes, it is moved there (Bruels & Arnold 2008). Second order for gamma = 1/2 - theta.
+// The blend of forces, not the force of a blended state (Erlicher, Bonaventura & Bursi 2002): a stiff body that turns
+// is in between smaller than it is, and its false stresses add energy. With theta = alpha_m - alpha_f, w is the
+// solution's acceleration at t + theta h (Jansen, Whiting & Hulbert 2000), but for a share of (-alpha_m / (1 -
+// alpha_m))^n n steps after a start; when h changes, it is moved there (Bruels & Arnold 2008). Second order for gamma =
+// 1/2 - theta.
 #pragma once
 
 #include "integrators/native/accelerations.h"

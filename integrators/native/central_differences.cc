@@ -126,7 +126,8 @@ class CentralDifferences : public ExplicitStep {
 
   [[noreturn]] void fail_by_growth() const {
     fail(std::string("the motion has grown without bound; ") +
-             (options_.step.value ? "set integrator.step: auto" : "lower integrator.safety, or take an implicit integrator"),
+             (options_.step.value ? "set integrator.step: auto"
+                                  : "lower integrator.safety, or take an implicit integrator"),
          Reason::diverged);
   }
 

@@ -134,8 +134,8 @@ double OneStep::length(double t_stop) const {
   return length_of_step(h, t_stop - now_.t);
 }
 
-// Hairer, Norsett & Wanner (1993), II.4: from the size of the first and of a second derivative. The latter is looked for
-// at no round part of the span, where a periodic load might be what it is now.
+// Hairer, Norsett & Wanner (1993), II.4: from the size of the first and of a second derivative. The latter is looked
+// for at no round part of the span, where a periodic load might be what it is now.
 double OneStep::first_step(double t_stop) {
   constexpr double kLook = 0.00618034;
   const double rest = t_stop - now_.t;

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "integrators/native/deadband_step_control.h"
-#include "integrators/native/options.h"
+#include "integrators/native/native_options.h"
 #include "integrators/native/scaled_norm.h"
 #include "lib/core/errors.h"
 #include "lib/ode/hermite.h"

@@ -17,10 +17,18 @@ constexpr double kLeastContractionFactor = 1e-3;  // of a nonlinear model: what 
 
 StageSolver::StageSolver(const Model& model, const NewtonOptions& options, const ScaledNorm& norm,
                          Statistics& statistics)
-    : model_(model), kind_(options.newton), insists_(options.step.has_value()), tolerance_(options.nonlinear_coefficient),
-      max_iterations_(options.max_newton_iterations), norm_(norm), statistics_(statistics),
-      matrix_(model, options.linear_solver, options.tangent(), statistics), r_(model.num_dofs()),
-      dx_(model.num_dofs()), guess_(model.num_dofs()), work_(model.num_dofs()) {}
+    : model_(model),
+      kind_(options.newton),
+      insists_(options.step.has_value()),
+      tolerance_(options.nonlinear_coefficient),
+      max_iterations_(options.max_newton_iterations),
+      norm_(norm),
+      statistics_(statistics),
+      matrix_(model, options.linear_solver, options.tangent(), statistics),
+      r_(model.num_dofs()),
+      dx_(model.num_dofs()),
+      guess_(model.num_dofs()),
+      work_(model.num_dofs()) {}
 
 void StageSolver::begin_step() {
   if (kind_ != NewtonKind::lazy) stale_ = true;

@@ -8,7 +8,7 @@
 // iteration and what it remembers of its rate follow Hairer & Wanner (1996), IV.8.
 #pragma once
 
-#include "integrators/native/options.h"
+#include "integrators/native/native_options.h"
 #include "integrators/native/scaled_norm.h"
 #include "integrators/newton_matrix.h"
 

@@ -1,7 +1,7 @@
 // What the multistep methods have beside the keys of all: their highest order.
 #pragma once
 
-#include "integrators/sundials/options.h"
+#include "integrators/sundials/sundials_options.h"
 
 namespace orthodyn::sundials {
 

@@ -9,7 +9,7 @@
 #include "integrators/reduced_solve.h"
 #include "integrators/sundials/callbacks.h"
 #include "integrators/sundials/full_jacobian.h"
-#include "integrators/sundials/options.h"
+#include "integrators/sundials/sundials_options.h"
 #include "integrators/sundials/solver_adapter.h"
 
 namespace orthodyn::sundials {

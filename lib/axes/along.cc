@@ -26,12 +26,15 @@ class Along : public AxesSource {
                  "Points of the curve that L follows: a centripetal Catmull-Rom spline. Each element has the tangent "
                  "at the curve's nearest point.",
                  {.unit = "m"})
-            .key("file", &Along::file_, "Or a CSV file of the points with the columns x,y,z (m); relative to the scene.")
+            .key("file", &Along::file_,
+                 "Or a CSV file of the points with the columns x,y,z (m); relative to the scene.")
             .key("across", &Along::across_,
                  "Where R points. radial: away from the curve; carried: `start_normal`, carried along the curve "
-                 "without turning about it, the same in a whole cross-section. Elements on the curve always have the latter.")
+                 "without turning about it, the same in a whole cross-section. Elements on the curve always have the "
+                 "latter.")
             .key("start_normal", &Along::start_normal_,
-                 "The carried direction where the curve starts; default the coordinate axis least along it, made normal to it.")
+                 "The carried direction where the curve starts; default the coordinate axis least along it, made "
+                 "normal to it.")
             .key("order", &Along::order_, kLrtSentence)
             .key("spiral", &Along::spiral_, kSpiralSentence, {.unit = "rad", .range = kSpiralRange})
             .check([](const Along& a, const Config& config) {
@@ -72,7 +75,8 @@ class Along : public AxesSource {
     const CsvTable table = read_csv(*file_, {"x", "y", "z"});
     std::vector<Vec3> points;
     for (std::size_t row = 0; row < table.rows(); ++row)
-      points.emplace_back(table.at(row, table.column("x")), table.at(row, table.column("y")), table.at(row, table.column("z")));
+      points.emplace_back(table.at(row, table.column("x")), table.at(row, table.column("y")),
+                          table.at(row, table.column("z")));
     check_points(points, [&](const std::string& sentence) { throw ConfigError(file_->path + ": " + sentence); });
     return points;
   }

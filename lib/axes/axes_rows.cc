@@ -17,7 +17,8 @@ const std::vector<std::string> kThird{"a3x", "a3y", "a3z"};
 int element_index(const CsvTable& table, std::size_t row, std::size_t column) {
   const double given = table.at(row, column);
   if (given != std::floor(given) || given < 0 || given > 2e9)
-    throw ConfigError(fmt::format("{}: column element: expected a whole number from 0, found {}", table.where(row), given));
+    throw ConfigError(
+        fmt::format("{}: column element: expected a whole number from 0, found {}", table.where(row), given));
   return static_cast<int>(given);
 }
 
@@ -90,7 +91,8 @@ AxesRows read_axes_rows(const FilePath& file) {
   if (!std::filesystem::is_regular_file(file.path)) throw ConfigError(file.where + ": no such file: " + file.path);
   if (extension == ".csv") return read_axes_csv(file);
   if (extension == ".vtu") return read_axes_vtu(file);
-  throw ConfigError(fmt::format("{}: '{}' is not a kind of file that axes are read from; known: .csv, .vtu", file.where, extension));
+  throw ConfigError(
+      fmt::format("{}: '{}' is not a kind of file that axes are read from; known: .csv, .vtu", file.where, extension));
 }
 
 }  // namespace orthodyn

@@ -9,7 +9,8 @@ class AxisAngle : public AxesSource {
   static const Spec<AxisAngle>& spec() {
     static const auto s =
         Spec<AxisAngle>()
-            .key("axis", &AxisAngle::axis_, "Direction that x, y, z are turned about, of any length.", {.required = true})
+            .key("axis", &AxisAngle::axis_, "Direction that x, y, z are turned about, of any length.",
+                 {.required = true})
             .key("angle", &AxisAngle::angle_, "By how much, right-handed.", {.required = true, .unit = "rad"})
             .check([](const AxisAngle& a, const Config& config) {
               if (a.axis_.isZero(0)) config.at("axis").fail("is zero; give a direction");

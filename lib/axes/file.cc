@@ -14,8 +14,10 @@ class AxesFile : public AxesSource {
         Spec<AxesFile>()
             .key("file", &AxesFile::file_,
                  "CSV with the columns a1x,a1y,a1z,a2x,a2y,a2z and, if wanted, a3x,a3y,a3z and element (index from 0). "
-                 "Without element there is one row for each element of the mesh, in its order. Or VTU of the same mesh with the "
-                 "cell data axis_1, axis_2 and, if wanted, axis_3, or axes (9 components: axis 1, axis 2, axis 3); relative to the scene.",
+                 "Without element there is one row for each element of the mesh, in its order. Or VTU of the same mesh "
+                 "with the "
+                 "cell data axis_1, axis_2 and, if wanted, axis_3, or axes (9 components: axis 1, axis 2, axis 3); "
+                 "relative to the scene.",
                  {.required = true})
             .key("repair", &AxesFile::repair_, kRepairSentence);
     return s;
@@ -31,16 +33,18 @@ class AxesFile : public AxesSource {
     auto axes = std::make_shared<std::vector<Mat3>>(num_elements, Mat3::Zero());
     for (const auto& row : given.rows) {
       if (static_cast<std::size_t>(row.element) >= num_elements)
-        throw ConfigError(fmt::format("{}: element {} does not exist; the mesh has 0 to {}", given.where(row), row.element,
-                                      num_elements - 1));
+        throw ConfigError(fmt::format("{}: element {} does not exist; the mesh has 0 to {}", given.where(row),
+                                      row.element, num_elements - 1));
       Mat3& Q = (*axes)[static_cast<std::size_t>(row.element)];
-      if (!Q.isZero(0)) throw ConfigError(fmt::format("{}: element {} has a row already", given.where(row), row.element));
+      if (!Q.isZero(0))
+        throw ConfigError(fmt::format("{}: element {} has a row already", given.where(row), row.element));
       Q = rotation(given, row);
     }
     note_repairs(given, notes);
     return [this, axes](const Vec3&, int element) {
       const Mat3& Q = (*axes)[static_cast<std::size_t>(element)];
-      if (Q.isZero(0)) throw ConfigError(fmt::format("{}: {} has no row for element {}", file_.where, file_.path, element));
+      if (Q.isZero(0))
+        throw ConfigError(fmt::format("{}: {} has no row for element {}", file_.where, file_.path, element));
       return Q;
     };
   }
@@ -60,11 +64,13 @@ class AxesFile : public AxesSource {
     const Box there = extent(*given.mesh), here = extent(mesh);
     if (count < 2) return;
     for (int e = 0; e < count; ++e) {
-      const Vec3 a = (centroid(*given.mesh, e) - there.min) / there.diagonal(), b = (centroid(mesh, e) - here.min) / here.diagonal();
+      const Vec3 a = (centroid(*given.mesh, e) - there.min) / there.diagonal(),
+                 b = (centroid(mesh, e) - here.min) / here.diagonal();
       if (!((a - b).norm() < 1e-4))
-        throw ConfigError(fmt::format("{}: cell {} is not where element {} of the scene's mesh is; the axes are of another "
-                                      "mesh, or its elements have another order",
-                                      given.path, e, e));
+        throw ConfigError(
+            fmt::format("{}: cell {} is not where element {} of the scene's mesh is; the axes are of another "
+                        "mesh, or its elements have another order",
+                        given.path, e, e));
     }
   }
 
@@ -91,7 +97,8 @@ class AxesFile : public AxesSource {
       if (note.empty()) continue;
       if (count++ == 0) first = fmt::format("{}: {}", given.where(row), note);
     }
-    if (count > 0) notes.push_back(fmt::format("{} of {} axes were repaired, the first at {}", count, given.rows.size(), first));
+    if (count > 0)
+      notes.push_back(fmt::format("{} of {} axes were repaired, the first at {}", count, given.rows.size(), first));
   }
 
   FilePath file_;

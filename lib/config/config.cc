@@ -239,7 +239,8 @@ std::string Config::dump_for(const std::string& folder) const {
     before.emplace_back(file.first, file.first.Scalar());
     YAML::Node node = file.first;
     const fs::path whole = fs::absolute(file.second).lexically_normal();  // the folder need not exist yet
-    node = folder.empty() ? whole.string() : whole.lexically_proximate(fs::absolute(folder).lexically_normal()).string();
+    node =
+        folder.empty() ? whole.string() : whole.lexically_proximate(fs::absolute(folder).lexically_normal()).string();
   }
   const std::string text = dump();
   for (auto& [node, value] : before) node = value;

@@ -69,8 +69,8 @@ double Formula::evaluate(const double* values) const {
 }
 
 void fail_formula(const Config& c, const std::string& known, const std::string& complaint) {
-  c.fail(fmt::format("cannot read the formula {}: {} Known: {}, pi, e, and functions such as sin, exp, sqrt.", c.shown(),
-                     complaint, known));
+  c.fail(fmt::format("cannot read the formula {}: {} Known: {}, pi, e, and functions such as sin, exp, sqrt.",
+                     c.shown(), complaint, known));
 }
 
 }  // namespace orthodyn

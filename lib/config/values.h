@@ -195,7 +195,8 @@ template <class V>
   requires requires { V::spec(); }
 struct Value<V> {
   static Shape shape() {
-    return {.kind = Shape::Kind::section, .title = type_title(typeid(V).name()), .keys = [] { return V::spec().keys(); }};
+    return {
+        .kind = Shape::Kind::section, .title = type_title(typeid(V).name()), .keys = [] { return V::spec().keys(); }};
   }
   static V read(const Config& c, const Rule&) { return V::spec().read(c); }
   static std::string yaml(const V&) { return ""; }

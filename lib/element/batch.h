@@ -78,7 +78,15 @@ struct NumTraits<orthodyn::Batch> : NumTraits<double> {
   using NonInteger = orthodyn::Batch;
   using Nested = orthodyn::Batch;
   using Literal = orthodyn::Batch;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 0, ReadCost = 1, AddCost = 1, MulCost = 1 };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 0,
+    ReadCost = 1,
+    AddCost = 1,
+    MulCost = 1
+  };
 };
 
 template <class Op>

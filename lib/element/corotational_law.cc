@@ -90,7 +90,8 @@ TangentFormOf<C> exact_form(const Polar<double>& p, const C& stiffness, const Ma
 
 template TangentForm gauss_newton_form(const Polar<double>&, const OrthotropicStiffness&, double);
 template TangentForm exact_form(const Polar<double>&, const OrthotropicStiffness&, const Mat3&);
-template TangentFormOf<AnisotropicStiffness> gauss_newton_form(const Polar<double>&, const AnisotropicStiffness&, double);
+template TangentFormOf<AnisotropicStiffness> gauss_newton_form(const Polar<double>&, const AnisotropicStiffness&,
+                                                               double);
 template TangentFormOf<AnisotropicStiffness> exact_form(const Polar<double>&, const AnisotropicStiffness&, const Mat3&);
 
 }  // namespace orthodyn

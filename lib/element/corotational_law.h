@@ -40,7 +40,8 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
   static constexpr bool kHasEnergy = true;
   using Form = TangentFormOf<TangentStiffness<C>>;
 
-  explicit CorotationalLaw(const C& stiffness) : RotatingLaw<CorotationalLaw, C>(stiffness), sparse_(as_tangent(stiffness)) {
+  explicit CorotationalLaw(const C& stiffness)
+      : RotatingLaw<CorotationalLaw, C>(stiffness), sparse_(as_tangent(stiffness)) {
     if constexpr (!C::kIsotropic) isotropic_ = nearest_isotropic(stiffness);
   }
 

@@ -117,7 +117,8 @@ template <int kNodes>
 // sum_a G_a G_a^T / s_a (6x6, 1/m^2), where G_a maps the displacement of node a to the Voigt strain in material axes
 // and s_a are the nodes' shares of the mass.
 template <int kNodes>
-Mat6 strain_gram(const ElementPoint<kNodes>& point, const std::array<double, static_cast<std::size_t>(kNodes)>& shares) {
+Mat6 strain_gram(const ElementPoint<kNodes>& point,
+                 const std::array<double, static_cast<std::size_t>(kNodes)>& shares) {
   Eigen::Matrix<double, 6, 3 * kNodes> G;
   for (int a = 0; a < kNodes; ++a) {
     const Vec3 g = a == 0 ? Vec3(-point.B.colwise().sum()) : Vec3(point.B.row(a - 1));

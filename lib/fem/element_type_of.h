@@ -27,7 +27,8 @@ class ElementTypeOf final : public ElementType {
   std::unique_ptr<ElasticTerm> elastic_term(const ElementMesh& mesh, ElasticRegion region,
                                             const BlockPattern& pattern) const override {
     const Stiffness stiffness = region.stiffness;
-    return std::visit([&](const auto& C) { return term_with_stiffness(C, mesh, std::move(region), pattern); }, stiffness);
+    return std::visit([&](const auto& C) { return term_with_stiffness(C, mesh, std::move(region), pattern); },
+                      stiffness);
   }
 
  private:

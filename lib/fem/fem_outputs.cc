@@ -140,8 +140,7 @@ const std::vector<Output>& all_outputs() {
       material_axis(2),
       symmetric_tensor("strain", "1", "Strain S - I in material axes: 11, 22, 33, 12, 23, 31 (tensor shear).",
                        [](const PointObservation& o) { return o.strain; }),
-      symmetric_tensor("stress", "Pa",
-                       "Elastic Cauchy stress in space: xx, yy, zz, xy, yz, zx; NaN where inverted.",
+      symmetric_tensor("stress", "Pa", "Elastic Cauchy stress in space: xx, yy, zz, xy, yz, zx; NaN where inverted.",
                        [](const PointObservation& o) { return o.cauchy; }),
       symmetric_tensor("stress_material", "Pa",
                        "Elastic Cauchy stress in the rotated material axes: 11, 22, 33, 12, 23, 31.",
@@ -155,12 +154,13 @@ const std::vector<Output>& all_outputs() {
       scalar("power.loads", "W", "Power of loads and of moved supports.", load_power),
       scalar("imbalance", "N", "The largest force on a node, were the body at rest in this shape; 0 in equilibrium.",
              imbalance),
-      {{"det_f.smallest", Location::global, 2, "1", "The smallest det F, and the element that has it."}, smallest_det_f},
+      {{"det_f.smallest", Location::global, 2, "1", "The smallest det F, and the element that has it."},
+       smallest_det_f},
       {{"speed.largest", Location::global, 2, "m/s", "The largest speed, and the node that has it."}, largest_speed},
-      {{"momentum.linear", Location::global, 3, "kg m/s", "Linear momentum of the free coordinates, and of moved ones."},
+      {{"momentum.linear", Location::global, 3, "kg m/s",
+        "Linear momentum of the free coordinates, and of moved ones."},
        [](const View& view) { return flat(Vec3(view.momentum().rowwise().sum())); }},
-      {{"momentum.angular", Location::global, 3, "kg m^2/s", "Angular momentum about the origin."},
-       angular_momentum},
+      {{"momentum.angular", Location::global, 3, "kg m^2/s", "Angular momentum about the origin."}, angular_momentum},
   };
   return all;
 }

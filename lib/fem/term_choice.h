@@ -1,5 +1,5 @@
-// A term as the input asks for it: its keys, checked, and how it is made for a body. Those of a scene's list `terms` are
-// chosen by `type`, one kind per entry of Registry<TermChoice>; gravity and loads on surfaces have their own keys.
+// A term as the input asks for it: its keys, checked, and how it is made for a body. Those of a scene's list `terms`
+// are chosen by `type`, one kind per entry of Registry<TermChoice>; gravity and loads on surfaces have their own keys.
 #pragma once
 
 #include <memory>

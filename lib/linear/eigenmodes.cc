@@ -86,8 +86,8 @@ EigenPairs lanczos(Problem& problem, double shift, int count) {
   Inverse inverse{problem};
   MassProduct mass{problem};
   const int basis = std::min(problem.size(), std::max(2 * count + 10, 30));
-  Spectra::SymGEigsShiftSolver<Inverse, MassProduct, Spectra::GEigsMode::ShiftInvert> solver(inverse, mass, count, basis,
-                                                                                            -shift);
+  Spectra::SymGEigsShiftSolver<Inverse, MassProduct, Spectra::GEigsMode::ShiftInvert> solver(inverse, mass, count,
+                                                                                             basis, -shift);
   solver.init();
   constexpr int kRestarts = 1000;
   const auto found = solver.compute(Spectra::SortRule::LargestMagn, kRestarts, 1e-12, Spectra::SortRule::SmallestAlge);
@@ -129,7 +129,8 @@ EigenPairs lowest_eigenpairs(const Pattern& pattern, const std::vector<double>& 
                              int count) {
   if (!pattern.symmetric) throw ConfigError("modes need a symmetric stiffness");
   if (count > pattern.n)
-    throw ConfigError(fmt::format("{} modes were asked for, but there are {} unknowns and as many modes", count, pattern.n));
+    throw ConfigError(
+        fmt::format("{} modes were asked for, but there are {} unknowns and as many modes", count, pattern.n));
   Problem problem(pattern, K, M);
   const double largest = problem.largest();
   const bool small = pattern.n <= kDense || count + kRigid + 1 >= pattern.n / 2;

@@ -23,6 +23,7 @@ struct EigenPairs {
 
 // K and M by their values on `pattern`. Throws ConfigError if the pattern is not symmetric or there are fewer
 // unknowns than modes, RunError if the iteration fails or K is so indefinite that no shift of a moderate size helps.
-EigenPairs lowest_eigenpairs(const Pattern& pattern, const std::vector<double>& K, const std::vector<double>& M, int count);
+EigenPairs lowest_eigenpairs(const Pattern& pattern, const std::vector<double>& K, const std::vector<double>& M,
+                             int count);
 
 }  // namespace orthodyn

@@ -39,8 +39,9 @@ void check_cells(const RoundCells& cells, bool full) {
           fmt::format("grading {}; it must lie in [0.01, 100]", cells.grading));
   const double core = full ? cells.around / 4.0 : 0;
   const double plane = double(cells.around) * cells.through + core * core;
-  require(6 * plane * cells.along < std::numeric_limits<int>::max(),
-          fmt::format("{:.3g} tets; at most {} can be numbered", 6 * plane * cells.along, std::numeric_limits<int>::max()));
+  require(
+      6 * plane * cells.along < std::numeric_limits<int>::max(),
+      fmt::format("{:.3g} tets; at most {} can be numbered", 6 * plane * cells.along, std::numeric_limits<int>::max()));
 }
 
 // Where the rings end, as fractions of the way: 0 first, 1 last. Thicknesses in geometric progression.
@@ -194,8 +195,9 @@ TetMesh make_tube(const TubeMesh& tube) {
   check_size(tube.inner_radius, "inner radius");
   check_size(tube.radius, "radius");
   check_size(tube.length, "length");
-  require(tube.inner_radius < tube.radius, fmt::format("inner radius {} m, radius {} m; the inner one must be the smaller",
-                                                       tube.inner_radius, tube.radius));
+  require(
+      tube.inner_radius < tube.radius,
+      fmt::format("inner radius {} m, radius {} m; the inner one must be the smaller", tube.inner_radius, tube.radius));
   check_cells(tube.cells, false);
   PlaneMesh plane;
   std::vector<int> inner;

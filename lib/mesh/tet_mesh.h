@@ -56,8 +56,8 @@ using Warnings = std::vector<std::string>;
 // longest edge cubed), no two elements that overlap at a common face, no two nodes of elements at
 // exactly the same place (a crack by mistake), no surface triangle that is not a face of an
 // element. Nodes that no element uses (also from the node sets) and triangles that a surface lists
-// twice are removed, with a warning; node sets are sorted. Surface triangles on the outer boundary are turned outward; those between two elements
-// keep their side. Throws ConfigError naming the element and its origin.
+// twice are removed, with a warning; node sets are sorted. Surface triangles on the outer boundary are turned outward;
+// those between two elements keep their side. Throws ConfigError naming the element and its origin.
 Warnings validate(TetMesh& mesh, const MeshOrigin& origin);
 
 }  // namespace orthodyn

@@ -4,9 +4,9 @@ namespace orthodyn {
 
 void interpolate(const StepEnd& begin, const StepEnd& end, double t, VectorRef q, VectorRef v) {
   if (t == begin.t || t == end.t) {
-    const StepEnd& knot = t == end.t ? end : begin;
-    q = knot.q;
-    v = knot.v;
+    const StepEnd& at = t == end.t ? end : begin;
+    q = at.q;
+    v = at.v;
     return;
   }
   const double h = end.t - begin.t, s = (t - begin.t) / h, s2 = s * s, s3 = s2 * s, s4 = s3 * s, s5 = s4 * s;

@@ -73,18 +73,20 @@ bool LoadStepper::jump() {
 void LoadStepper::give_up() const {
   if (attempt_.indefinite)
     throw RunError(
-        fmt::format("the branch of stable equilibria ends at load factor {:.6g}, the last one found on it, to within {:.2g} "
-                    "(statics.min_step): beyond it {}, as where a body snaps through or buckles. What follows "
-                    "is a motion (analysis: dynamic); {}",
-                    state_.t, stepping_.min_step, attempt_.failure_reason,
-                    stepping_.may_jump ? "no equilibrium was found elsewhere either (statics.at_limit: jump)"
-                                       : "statics.at_limit: jump looks for an equilibrium elsewhere"),
+        fmt::format(
+            "the branch of stable equilibria ends at load factor {:.6g}, the last one found on it, to within {:.2g} "
+            "(statics.min_step): beyond it {}, as where a body snaps through or buckles. What follows "
+            "is a motion (analysis: dynamic); {}",
+            state_.t, stepping_.min_step, attempt_.failure_reason,
+            stepping_.may_jump ? "no equilibrium was found elsewhere either (statics.at_limit: jump)"
+                               : "statics.at_limit: jump looks for an equilibrium elsewhere"),
         Reason::newton);
-  throw RunError(fmt::format("no equilibrium was found beyond load factor {:.6g}, with steps down to {:.2g} "
-                             "(statics.min_step): {}. Lower statics.min_step or the loads, or let the body come to rest in "
-                             "time with damping (analysis: dynamic)",
-                             state_.t, stepping_.min_step, attempt_.failure_reason),
-                 Reason::newton);
+  throw RunError(
+      fmt::format("no equilibrium was found beyond load factor {:.6g}, with steps down to {:.2g} "
+                  "(statics.min_step): {}. Lower statics.min_step or the loads, or let the body come to rest in "
+                  "time with damping (analysis: dynamic)",
+                  state_.t, stepping_.min_step, attempt_.failure_reason),
+      Reason::newton);
 }
 
 }  // namespace orthodyn

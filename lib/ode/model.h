@@ -77,7 +77,8 @@ class Model : public OutputSource {
   // K and D at a state, exact or by the Gauss-Newton part that is positive semidefinite. Where traits().linear holds
   // and `out` has this model's K and D already, nothing is computed. Throws RecoverableError as force() does; `out` may
   // be handed in again afterwards.
-  void linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind, Linearization& out) const;
+  void linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
+                 Linearization& out) const;
 
   // values = w_m M + w_d D + w_k K, D and K from linearize() of this model.
   virtual void combine(const Weights& w, const Linearization& at, double* values) const = 0;

@@ -55,7 +55,9 @@ class OutputSource {
   virtual std::unique_ptr<StateView> view(const State& state) const;
 
   // One output of a state, where it is the only one that is wanted.
-  std::vector<double> evaluate(const std::string& name, const State& state) const { return view(state)->evaluate(name); }
+  std::vector<double> evaluate(const std::string& name, const State& state) const {
+    return view(state)->evaluate(name);
+  }
 
   virtual Geometry geometry() const { return {}; }
 };

@@ -18,7 +18,8 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& f
   std::filesystem::create_directories(folder, ec);
   if (!ec) file_ = open((folder / file).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (file_ < 0)
-    throw RunError(fmt::format("{}: cannot write there: {}", folder.string(), ec ? ec.message() : std::strerror(errno)));
+    throw RunError(
+        fmt::format("{}: cannot write there: {}", folder.string(), ec ? ec.message() : std::strerror(errno)));
   if (flock(file_, (sharing == Sharing::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0) return;
   if (errno != EWOULDBLOCK) {
     warning_ = fmt::format("{}: cannot be locked ({}); start nothing else there meanwhile", folder.string(),

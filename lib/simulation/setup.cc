@@ -9,7 +9,7 @@
 #include "lib/analysis/strain_check.h"
 #include "lib/core/words.h"
 #include "lib/linear/blas.h"
-#include "lib/simulation/equilibrium.h"
+#include "lib/simulation/static_problem.h"
 #include "lib/scene/events.h"
 #include "lib/scene/quantity.h"
 
@@ -43,8 +43,9 @@ void warn_of_distant_probes(const Scene& scene, BuiltScene& built) {
     const double outside = (probe.at - probe.at.cwiseMax(box.min).cwiseMin(box.max)).norm();
     if (outside <= 0.01 * box.diagonal()) continue;
     const Vec3& node = mesh.nodes[static_cast<std::size_t>(nearest_node(mesh, probe.at))];
-    built.warnings.push_back(fmt::format("{}: probe '{}' is {:.3g} m outside of the body; it records the nearest node, at {}",
-                                         probe.origin.where, name, outside, Value<Vec3>::yaml(node)));
+    built.warnings.push_back(
+        fmt::format("{}: probe '{}' is {:.3g} m outside of the body; it records the nearest node, at {}",
+                    probe.origin.where, name, outside, Value<Vec3>::yaml(node)));
   }
 }
 

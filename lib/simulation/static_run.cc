@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "lib/simulation/equilibrium.h"
+#include "lib/simulation/static_problem.h"
 #include "lib/simulation/files.h"
 #include "lib/simulation/load_steps.h"
 #include "lib/simulation/model_summary.h"

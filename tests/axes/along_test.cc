@@ -101,7 +101,8 @@ TEST(Curve, CarriesItsNormalWithoutATwist) {
 TEST(AxesAlong, AStraightLineAreThoseOfACylinder) {
   Random random(44);
   const Vec3 a(0.1, -0.2, 0), b(0.4, 0.1, 2);
-  const auto cylinder = fmt::format("{{type: cylindrical, point: {}, axis: {}, order: TRL, spiral: 0.2}}", yaml_of(a), yaml_of(Vec3(b - a)));
+  const auto cylinder = fmt::format("{{type: cylindrical, point: {}, axis: {}, order: TRL, spiral: 0.2}}", yaml_of(a),
+                                    yaml_of(Vec3(b - a)));
   const auto line = along({a, 0.3 * b + 0.7 * a, b}, ", order: TRL, spiral: 0.2");
   for (int sample = 0; sample < 50; ++sample) {
     const Vec3 x = a + random.between(0.1, 0.9) * (b - a) + 0.2 * random.vector();
@@ -150,7 +151,8 @@ class AxesFromFiles : public testing::Test {
     std::ofstream(path) << content;
     return path.string();
   }
-  static Mat3 at(const std::string& path, int element, std::size_t mesh_size, const std::string& more = "", Warnings* notes = nullptr) {
+  static Mat3 at(const std::string& path, int element, std::size_t mesh_size, const std::string& more = "",
+                 Warnings* notes = nullptr) {
     TetMesh mesh;
     mesh.tets.resize(mesh_size);
     const auto source = axes_source("{type: file, file: " + path + more + "}");
@@ -187,7 +189,8 @@ TEST_F(AxesFromFiles, RowsMayNameTheirElement) {
 }
 
 TEST_F(AxesFromFiles, RowsTwiceForAnElementAreRefused) {
-  EXPECT_TRUE(holds(refused(write("element,a1x,a1y,a1z,a2x,a2y,a2z\n0,1,0,0,0,1,0\n0,1,0,0,0,1,0\n")), ".csv:3: element 0 has a row already"));
+  EXPECT_TRUE(holds(refused(write("element,a1x,a1y,a1z,a2x,a2y,a2z\n0,1,0,0,0,1,0\n0,1,0,0,0,1,0\n")),
+                    ".csv:3: element 0 has a row already"));
 }
 
 TEST_F(AxesFromFiles, RowsMoreOrFewerThanElementsAreRefused) {
@@ -223,7 +226,8 @@ TEST_F(AxesFromFiles, BadTextIsRefusedWithItsLine) {
   EXPECT_TRUE(holds(refused(write("a1x,b\n")), "unknown column 'b'"));
   EXPECT_TRUE(holds(refused(write("a1x,a1y,a1z,a2x,a2y\n")), "column 'a2z' is missing"));
   EXPECT_TRUE(holds(refused(write("a1x,a1y,a1z,a2x,a2y,a2z,a3x\n1,0,0,0,1,0,0\n")), "axis 3 needs all of"));
-  EXPECT_TRUE(holds(refused(write("element,a1x,a1y,a1z,a2x,a2y,a2z\n0.5,1,0,0,0,1,0\n")), "expected a whole number from 0, found 0.5"));
+  EXPECT_TRUE(holds(refused(write("element,a1x,a1y,a1z,a2x,a2y,a2z\n0.5,1,0,0,0,1,0\n")),
+                    "expected a whole number from 0, found 0.5"));
   EXPECT_TRUE(holds(refused("/nowhere.csv"), "no such file: /nowhere.csv"));
   const auto unknown = std::filesystem::path(testing::TempDir()) / "axes.txt";
   std::ofstream(unknown) << header;

@@ -39,7 +39,8 @@ TEST(CylindricalAxes, AreAlongAwayFromAndAroundTheAxis) {
 }
 
 TEST(CylindricalAxes, ByDefaultAreAboutZ) {
-  EXPECT_LE((axes_at("{type: cylindrical}", {0, 2, 5}) - (Mat3() << 0, 0, -1, 0, 1, 0, 1, 0, 0).finished()).norm(), 1e-15);
+  EXPECT_LE((axes_at("{type: cylindrical}", {0, 2, 5}) - (Mat3() << 0, 0, -1, 0, 1, 0, 1, 0, 0).finished()).norm(),
+            1e-15);
 }
 
 // At (2, 0, 0) about z: L = z, R = x, T = y. Axis 3 is 1 x 2 and so may point the other way.

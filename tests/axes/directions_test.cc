@@ -14,7 +14,8 @@ constexpr double kPi = std::numbers::pi;
 
 TEST(Frame, IsARightHandedRotation) {
   Random random(17);
-  for (int sample = 0; sample < 100; ++sample) EXPECT_LE(improper(frame(random.vector(), 5 * random.vector())), 16 * kEps);
+  for (int sample = 0; sample < 100; ++sample)
+    EXPECT_LE(improper(frame(random.vector(), 5 * random.vector())), 16 * kEps);
 }
 
 TEST(Frame, PointsAlongItsFirstDirection) {
@@ -86,8 +87,9 @@ TEST(Directions, RefuseARepairOfNothing) {
 TEST(Repair, TurnsTwoDirectionsByTheSameAngle) {
   const double a = 0.1;
   const Vec3 first(std::cos(a), std::sin(a), 0), second(std::sin(a), std::cos(a), 0);
-  const std::string yaml = fmt::format("{{type: directions, first: {}, second: {}, third: [0, 0, 1], repair: orthonormalise}}",
-                                       yaml_of(first), yaml_of(second));
+  const std::string yaml =
+      fmt::format("{{type: directions, first: {}, second: {}, third: [0, 0, 1], repair: orthonormalise}}",
+                  yaml_of(first), yaml_of(second));
   EXPECT_LE((axes_at(yaml) - Mat3::Identity()).cwiseAbs().maxCoeff(), 8 * kEps);
   ASSERT_EQ(notes_of(yaml).size(), 1u);
   EXPECT_TRUE(starts(notes_of(yaml)[0], "a.yaml:1:7: axes: "));
@@ -119,11 +121,13 @@ TEST(Repair, GivesTheNearestOfAllRotations) {
 }
 
 TEST(MatrixAxes, AreItsColumns) {
-  EXPECT_LE((axes_at("{type: matrix, matrix: [[0, 0, 1], [1, 0, 0], [0, 1, 0]]}").col(0) - Vec3(0, 1, 0)).norm(), 4 * kEps);
+  EXPECT_LE((axes_at("{type: matrix, matrix: [[0, 0, 1], [1, 0, 0], [0, 1, 0]]}").col(0) - Vec3(0, 1, 0)).norm(),
+            4 * kEps);
 }
 
 TEST(MatrixAxes, OfAnotherLengthAreRefusedWithIt) {
-  EXPECT_TRUE(holds(axes_refusal("{type: matrix, matrix: [[1, 0, 0], [0, 2.5, 0], [0, 0, 1]]}"), "axis 2 has length 2.5"));
+  EXPECT_TRUE(
+      holds(axes_refusal("{type: matrix, matrix: [[1, 0, 0], [0, 2.5, 0], [0, 0, 1]]}"), "axis 2 has length 2.5"));
 }
 
 TEST(MatrixAxes, TypedWithThreeDigitsBecomeARotation) {

@@ -22,8 +22,9 @@ class AxesFromVtu : public testing::Test {
     };
     std::string arrays, offsets, types;
     for (const auto& [name, values] : data)
-      arrays += fmt::format("<DataArray type=\"Float64\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">{}</DataArray>\n",
-                            name, components, numbers(values));
+      arrays += fmt::format(
+          "<DataArray type=\"Float64\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">{}</DataArray>\n", name,
+          components, numbers(values));
     for (std::size_t e = 0; e < mesh.tets.size(); ++e) offsets += fmt::format("{} ", 4 * (e + 1)), types += "10 ";
     const auto path = std::filesystem::path(testing::TempDir()) /
                       fmt::format("{}.vtu", testing::UnitTest::GetInstance()->current_test_info()->name());
@@ -33,7 +34,9 @@ class AxesFromVtu : public testing::Test {
 <Cells><DataArray type="Int32" Name="connectivity" format="ascii">{}</DataArray>
 <DataArray type="Int32" Name="offsets" format="ascii">{}</DataArray>
 <DataArray type="UInt8" Name="types" format="ascii">{}</DataArray></Cells>
-</Piece></UnstructuredGrid></VTKFile>)", mesh.nodes.size(), mesh.tets.size(), arrays, numbers(mesh.nodes), numbers(mesh.tets), offsets, types);
+</Piece></UnstructuredGrid></VTKFile>)",
+                                       mesh.nodes.size(), mesh.tets.size(), arrays, numbers(mesh.nodes),
+                                       numbers(mesh.tets), offsets, types);
     return path.string();
   }
 
@@ -79,19 +82,23 @@ TEST_F(AxesFromVtu, MayBeOfTheMeshInAnotherUnit) {
 TEST_F(AxesFromVtu, OfAnotherMeshOrOrderAreRefused) {
   TetMesh other = mesh_;
   std::swap(other.tets[1], other.tets[2]);
-  EXPECT_TRUE(holds(refused(write(other, {{"axis_1", axes_[0]}, {"axis_2", axes_[1]}})), "cell 1 is not where element 1"));
+  EXPECT_TRUE(
+      holds(refused(write(other, {{"axis_1", axes_[0]}, {"axis_2", axes_[1]}})), "cell 1 is not where element 1"));
   EXPECT_TRUE(holds(refused(write(mesh_, {{"axis_1", axes_[0]}})), "found axis_1 (3)"));
 }
 
 TEST_F(AxesFromVtu, ThatAreNoRotationAreRefusedWithTheCell) {
   axes_[1][4] = axes_[0][4];
-  EXPECT_TRUE(holds(refused(write(mesh_, {{"axis_1", axes_[0]}, {"axis_2", axes_[1]}})), ".vtu: cell 4: the three directions"));
+  EXPECT_TRUE(
+      holds(refused(write(mesh_, {{"axis_1", axes_[0]}, {"axis_2", axes_[1]}})), ".vtu: cell 4: the three directions"));
   axes_[2][0] *= -1;
-  EXPECT_TRUE(holds(refused(write(mesh_, {{"axis_1", axes_[0]}, {"axis_2", axes_[1]}, {"axis_3", axes_[2]}})), "cell 0: axis 3 points against"));
+  EXPECT_TRUE(holds(refused(write(mesh_, {{"axis_1", axes_[0]}, {"axis_2", axes_[1]}, {"axis_3", axes_[2]}})),
+                    "cell 0: axis 3 points against"));
 }
 
 TEST_F(AxesFromVtu, WithoutAxesAreRefusedWithWhatThereIs) {
-  EXPECT_TRUE(holds(refused(write(mesh_, {})), "expected cell data axis_1, axis_2 (3 components each) or axes (9), found none"));
+  EXPECT_TRUE(holds(refused(write(mesh_, {})),
+                    "expected cell data axis_1, axis_2 (3 components each) or axes (9), found none"));
 }
 
 }  // namespace

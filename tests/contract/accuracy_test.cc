@@ -14,7 +14,9 @@ void expect_orders(const SomeModel& model, const Pair& pair, double fraction = 1
     return;
   }
   for (const auto& variant : tested(pair.integrator).variants)
-    expect_order(variant.order, [&](double rtol) { return largest_error(model, pair, {rtol, variant.order}, fraction); });
+    expect_order(variant.order, [&](double rtol) {
+      return largest_error(model, pair, {rtol, variant.order}, fraction);
+    });
 }
 
 TEST_P(Accuracy, OfAHarmonicOscillatorFallsWithTheTolerance) { expect_orders(harmonic_oscillator(), GetParam()); }
@@ -40,11 +42,12 @@ TEST_P(Accuracy, OfThePendulumsEnergyFallsWithTheTolerance) {
   const int order = tested(GetParam().integrator).variants.front().order;
   expect_order(order, [&](double rtol) {
     double largest = 0;
-    integrate(model, *make_integrator(GetParam(), model, {rtol, order}), [&](const StepInfo& info, const Integrator& i) {
-      State state;
-      i.interpolate(info.t, state);
-      largest = std::max(largest, std::abs(model.energy(state) - energy));
-    });
+    integrate(model, *make_integrator(GetParam(), model, {rtol, order}),
+              [&](const StepInfo& info, const Integrator& i) {
+                State state;
+                i.interpolate(info.t, state);
+                largest = std::max(largest, std::abs(model.energy(state) - energy));
+              });
     return largest;
   });
 }
@@ -79,7 +82,8 @@ TEST_P(Accuracy, CostsStepsAsTheOrderSays) {
   const auto& method = tested(GetParam().integrator);
   if (!method.has_one_estimator) GTEST_SKIP() << "varies its order, or estimates the error of another one";
   const int order = method.variants.front().order;
-  for (const std::string decides : {", position_scale: 1e-3, velocity_scale: 3", ", position_scale: 1, velocity_scale: 3e-3"}) {
+  for (const std::string decides :
+       {", position_scale: 1e-3, velocity_scale: 3", ", position_scale: 1, velocity_scale: 3e-3"}) {
     const auto statistics = [&](double rtol) {
       const auto model = harmonic_oscillator();
       const auto integrator = make_integrator(GetParam(), model, {rtol, order, decides});

@@ -70,7 +70,8 @@ TEST(Automatic, GivesUpAfterItsOwnMaximumOfSteps) {
 TEST(Automatic, SaysWhatItWouldReadAgain) {
   const auto model = pendulum();
   const auto said = decisions(*make(model, "type: auto, rtol: 1e-5"));
-  const auto again = decisions(*make(model, "type: auto, rtol: 1e-5, method: " + said.at("method") + ", because: '" + said.at("because") + "'"));
+  const auto again = decisions(
+      *make(model, "type: auto, rtol: 1e-5, method: " + said.at("method") + ", because: '" + said.at("because") + "'"));
   EXPECT_EQ(again.at("method"), said.at("method"));
   EXPECT_EQ(again.at("because"), said.at("because"));
 }

@@ -56,7 +56,8 @@ TEST_P(SmallBeam, EndsWhereTheReferenceDoes) {
     EXPECT_LE(error_of(type + ", rtol: 1e-5"), allowed);
   }
   if (has_key(GetParam(), "step")) {
-    EXPECT_LE(error_of(type + (usual.order == 1 || !tested(GetParam()).stiff ? ", step: 1e-4" : ", step: 5e-4")), allowed);
+    EXPECT_LE(error_of(type + (usual.order == 1 || !tested(GetParam()).stiff ? ", step: 1e-4" : ", step: 5e-4")),
+              allowed);
   }
 }
 

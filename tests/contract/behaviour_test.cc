@@ -89,8 +89,8 @@ TEST_P(Contract, ALoadAfterALongRestIsNotMissed) {
   EXPECT_LE(distance(last, model.exact(1002), model.scales()), 1e-2);
 }
 
-// At rest under 200 sin(W t), W = 20 pi/s: the load is the same at the start, at the end, and at any part of the span that
-// is made of whole periods. x = 200/(9 - W^2) (sin W t - W/3 sin 3 t).
+// At rest under 200 sin(W t), W = 20 pi/s: the load is the same at the start, at the end, and at any part of the span
+// that is made of whole periods. x = 200/(9 - W^2) (sin W t - W/3 sin 3 t).
 TEST_P(Contract, APeriodicLoadIsNotTakenForNone) {
   const LinearModel still({.mass = scalar(1), .stiffness = scalar(9), .load = Vector::Zero(1), .end = 0.5});
   constexpr double W = 20 * std::numbers::pi;
@@ -222,20 +222,23 @@ TEST_P(Contract, StepsStayWithinTheirLimits) {
 
 TEST_P(Contract, AFailureHasAReason) {
   EXPECT_EQ(error(harmonic_oscillator(), {1e-6, 2, ", max_steps: 20"}).reason(), Reason::too_many_steps);
-  const Disturbed<LinearModel> nowhere(damped_oscillator(), [](long, double, VectorRef) { throw RecoverableError("no"); });
+  const Disturbed<LinearModel> nowhere(damped_oscillator(),
+                                       [](long, double, VectorRef) { throw RecoverableError("no"); });
   EXPECT_EQ(error(nowhere).reason(), Reason::force);
 }
 
 // Damped, released from `amplitude`.
 LinearModel released_from(double amplitude) {
-  return LinearModel({.mass = scalar(2), .stiffness = scalar(18), .beta = 0.4 / 3, .start = Vector::Constant(1, amplitude), .end = 4});
+  return LinearModel(
+      {.mass = scalar(2), .stiffness = scalar(18), .beta = 0.4 / 3, .start = Vector::Constant(1, amplitude), .end = 4});
 }
 
 TEST_P(Contract, AMotionAMillionTimesLargerWithItsScalesTakesTheSameSteps) {
   if (!has_key(GetParam().integrator, "position_scale")) GTEST_SKIP() << "has no scales";
   const auto steps = [&](double amplitude) {
     const auto model = released_from(amplitude);
-    const auto integrator = make(model, {1e-5, 2, fmt::format(", position_scale: {}, velocity_scale: {}", amplitude, 3 * amplitude)});
+    const auto integrator =
+        make(model, {1e-5, 2, fmt::format(", position_scale: {}, velocity_scale: {}", amplitude, 3 * amplitude)});
     integrate(model, *integrator);
     return integrator->statistics().steps;
   };
@@ -249,7 +252,8 @@ TEST_P(Contract, ASmallerScaleOfEitherKindCostsSteps) {
   if (tested(GetParam().integrator).exact_if_linear) GTEST_SKIP() << "has no error here";
   const auto steps = [&](double position, double velocity) {
     const auto model = released_from(1);
-    const auto integrator = make(model, {1e-4, 2, fmt::format(", position_scale: {}, velocity_scale: {}", position, velocity)});
+    const auto integrator =
+        make(model, {1e-4, 2, fmt::format(", position_scale: {}, velocity_scale: {}", position, velocity)});
     integrate(model, *integrator);
     return integrator->statistics().steps;
   };

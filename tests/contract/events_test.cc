@@ -79,9 +79,9 @@ TEST_P(Events, ComeWhereTheDenseOutputHasThem) {
 TEST_P(Events, ThatStopEndTheRunWhereTheyHappen) {
   const auto model = harmonic_oscillator();
   Watch watch;
-  const Outcome outcome = run_with(
-      GetParam(), model, {{"leaves", position, 0.9, Direction::down}, {"arrives", position, -0.5, Direction::down, true}},
-      watch);
+  const Outcome outcome =
+      run_with(GetParam(), model,
+               {{"leaves", position, 0.9, Direction::down}, {"arrives", position, -0.5, Direction::down, true}}, watch);
   EXPECT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
   EXPECT_NE(outcome.remark.find("stopped by the event 'arrives' at t = "), std::string::npos) << outcome.remark;
   EXPECT_NEAR(outcome.last.t, 2 * std::numbers::pi / 9, 0.03);  // low orders are off by as much

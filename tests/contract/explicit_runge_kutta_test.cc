@@ -19,7 +19,7 @@ double amplitude(const std::string& table, double h_omega) {
   return std::hypot(last.q[0], last.v[0] / omega);
 }
 
-// R(z) is the Taylor polynomial of degree 4, resp. 3: stable on the imaginary axis up to 2 sqrt 2, sqrt 3; that of
+// R(z) is the Taylor polynomial of degree 4 and 3: stable on the imaginary axis up to 2 sqrt 2, sqrt 3; that of
 // degree 2 is stable nowhere on it (Hairer & Wanner 1996, IV.2).
 TEST(ArkodeErk, IsStableOnTheImaginaryAxisUpToItsPolynomialsLimit) {
   EXPECT_LT(amplitude("ZONNEVELD_5_3_4", 0.99 * 2 * std::sqrt(2)), 1);
@@ -61,7 +61,8 @@ TEST(ArkodeErk, RefusesToControlTheErrorByATableWithoutAnEstimate) {
 TEST(ExplicitMethods, RefuseARunOfMoreStepsThanAllowedAndNameTheirNumber) {
   const LinearModel model({.mass = scalar(1), .stiffness = scalar(1e12), .start = Vector::Ones(1), .end = 10});
   for (const auto& [keys, steps] : std::vector<std::pair<std::string, std::string>>{
-           {"type: arkode_erk", "1.2e+06 steps"}, {"type: exponential_rosenbrock, max_steps: 10000", "2.5e+05 steps"}}) {
+           {"type: arkode_erk", "1.2e+06 steps"},
+           {"type: exponential_rosenbrock, max_steps: 10000", "2.5e+05 steps"}}) {
     try {
       make(model, "{" + keys + "}");
       FAIL() << keys;

@@ -105,7 +105,8 @@ TEST_P(FixedStep, ErrorBetweenStepsFallsWithItsOrder) {
   if (tested(GetParam().integrator).exact_if_linear) GTEST_SKIP() << "that of the interpolant alone";
   for (const double fraction : {0.3, 0.7})
     for (const auto& [order, options] : tested(GetParam().integrator).variants)
-      EXPECT_NEAR(order_of(harmonic_oscillator(), GetParam(), steps_for(order), order, "", fraction), std::min(order, 5), 0.35)
+      EXPECT_NEAR(order_of(harmonic_oscillator(), GetParam(), steps_for(order), order, "", fraction),
+                  std::min(order, 5), 0.35)
           << fraction;
 }
 

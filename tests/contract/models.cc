@@ -141,12 +141,17 @@ void LinearModel::advance_mode(int k, double from, double to, double& z, double&
 }
 
 LinearModel harmonic_oscillator() {
-  return LinearModel({.mass = scalar(2), .stiffness = scalar(18), .start = Vector::Ones(1), .end = 6, .velocity_scale = 3});
+  return LinearModel(
+      {.mass = scalar(2), .stiffness = scalar(18), .start = Vector::Ones(1), .end = 6, .velocity_scale = 3});
 }
 
 LinearModel damped_oscillator() {
-  return LinearModel(
-      {.mass = scalar(2), .stiffness = scalar(18), .beta = 0.4 / 3, .start = Vector::Ones(1), .end = 4, .velocity_scale = 3});
+  return LinearModel({.mass = scalar(2),
+                      .stiffness = scalar(18),
+                      .beta = 0.4 / 3,
+                      .start = Vector::Ones(1),
+                      .end = 4,
+                      .velocity_scale = 3});
 }
 
 LinearModel stiff_pair() {

@@ -49,8 +49,9 @@ TEST(AlphaMethods, LeaveOfFastOscillationsWhatTheirParameterSays) {
 // A stop every 10.01 steps: one and a hundredth of a step would excite what is fast 47 times a stop.
 TEST(AlphaMethods, AreNotExcitedByStopsBetweenTheirSteps) {
   constexpr double h = 0.1;
-  for (const std::string method : {"generalized_alpha, rho_inf: 0", "generalized_alpha, rho_inf: 0.5",
-                                   "generalized_alpha, rho_inf: 0.8", "hht_alpha, alpha: -0.05", "hht_alpha, alpha: -0.3"})
+  for (const std::string method :
+       {"generalized_alpha, rho_inf: 0", "generalized_alpha, rho_inf: 0.5", "generalized_alpha, rho_inf: 0.8",
+        "hht_alpha, alpha: -0.05", "hht_alpha, alpha: -0.3"})
     for (const double omega : {1.0, 10.0, 1e2, 1e4}) {
       const auto model = undamped(omega);
       const auto integrator = integrator_of(model, method, h);
@@ -73,7 +74,8 @@ TEST(AlphaMethods, GainNoEnergyWhereAStiffRodTurns) {
                                    "generalized_alpha, rho_inf: 1", "hht_alpha, alpha: -0.3"})
     for (const double h : {0.1, 0.3}) {
       double most = at_start;
-      for (int steps = 1; steps <= 60; ++steps) most = std::max(most, model.energy(after_steps(model, method, steps, h)));
+      for (int steps = 1; steps <= 60; ++steps)
+        most = std::max(most, model.energy(after_steps(model, method, steps, h)));
       EXPECT_LE(most - at_start, 0.05) << method << ", step " << h;
     }
 }

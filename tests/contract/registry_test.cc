@@ -28,8 +28,8 @@ State moved(const std::string& integrator) {
   const Pair pair{integrator, tried_solvers(integrator).front()};
   if (!has_key(integrator, "step")) return integrate(model, *make_integrator(pair, model, {1e-4, 2}));
   const std::string rtol = controls_its_error(integrator) ? ", rtol: 1e-10" : "";
-  const auto choice =
-      Registry<IntegratorChoice>::read(Config::from_text("{type: " + integrator + tested(integrator).needs + rtol + ", step: 0.05}"));
+  const auto choice = Registry<IntegratorChoice>::read(
+      Config::from_text("{type: " + integrator + tested(integrator).needs + rtol + ", step: 0.05}"));
   const auto made = choice->make(model, {[&] { return model.scales(); }, model.initial(), 1, 1});
   State state = model.initial();
   made->start(state);

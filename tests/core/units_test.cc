@@ -48,7 +48,8 @@ TEST(Units, AFrequencyIsNoAngularVelocity) {
 TEST(Units, TheWrongDimensionIsRefusedWithBothNames) {
   EXPECT_EQ(refusal_of("25 mm", {.unit = "Pa"}),
             "a.yaml:1:1: expected a stress or stiffness (Pa), found '25 mm', a length (m)");
-  EXPECT_EQ(refusal_of("3 kg", {.unit = "kg/m^3"}), "a.yaml:1:1: expected a density (kg/m^3), found '3 kg', a mass (kg)");
+  EXPECT_EQ(refusal_of("3 kg", {.unit = "kg/m^3"}),
+            "a.yaml:1:1: expected a density (kg/m^3), found '3 kg', a mass (kg)");
 }
 
 TEST(Units, AnUnknownUnitIsNamed) {
@@ -62,7 +63,8 @@ TEST(Units, AKeyWithoutDimensionTakesPlainNumbersOnly) {
 
 TEST(Units, WordsAreNoQuantities) {
   EXPECT_EQ(refusal_of("soft", {.unit = "Pa"}), "a.yaml:1:1: expected a number, found 'soft'");
-  EXPECT_TRUE(holds(refusal_of("steel 2 GPa", {.unit = "Pa"}), "expected a stress or stiffness (Pa), found 'steel 2 GPa'"));
+  EXPECT_TRUE(
+      holds(refusal_of("steel 2 GPa", {.unit = "Pa"}), "expected a stress or stiffness (Pa), found 'steel 2 GPa'"));
   EXPECT_TRUE(holds(refusal_of("2 GPa 3", {.unit = "Pa"}), "found '2 GPa 3'"));
 }
 

@@ -66,7 +66,7 @@ def _problem(name, k):
             "sentence": "A clamped beam of spruce is released from a bent shape and swings, damped.",
             "unknowns": 2700 * (k + 1), "elements": 3125, "nodes": 936, "time": {"start": 0, "end": 1},
             "scales": {"displacement": 0.42, "velocity": 2.1,
-                       "words": "largest displacement resp. velocity of the reference over time, in the mass norm"},
+                       "words": "largest displacement, and largest velocity, of the reference over time, in the mass norm"},
             "probe_scales": {"tip": 0.9}, "dominant_frequency": 1.23,
             "reference": {"kind": "computed", "method": "arkode_dirk, rtol 1e-9", "check": "ida_bdf, rtol 1e-8",
                           "seconds": 12.3, "message": None,

@@ -9,7 +9,7 @@
 namespace orthodyn {
 namespace {
 
-// Mirror images of the unit element in one, resp. all directions; line and point.
+// Mirror images of the unit element in one direction and in all; line and point.
 const std::vector<Mat3> kTied{Mat3(Vec3(-1, 1, 1).asDiagonal()),
                               Mat3(Vec3(1, -1, 1).asDiagonal()),
                               Mat3(-Mat3::Identity()),

@@ -108,7 +108,8 @@ TEST_P(Assembly, HasAscendingRowsAndTheWholeDiagonal) {
 TEST(Pattern, OfASymmetricMeshIsTheLowerTriangleOfTheGeneralOne) {
   const TetMesh mesh = make_box({.cells = {2, 1, 1}});
   const DofMap dofs(static_cast<int>(mesh.nodes.size()), std::vector<bool>(3 * mesh.nodes.size(), false));
-  const Pattern lower = BlockPattern(Cells(mesh.tets), dofs, true).pattern(), all = BlockPattern(Cells(mesh.tets), dofs, false).pattern();
+  const Pattern lower = BlockPattern(Cells(mesh.tets), dofs, true).pattern(),
+                all = BlockPattern(Cells(mesh.tets), dofs, false).pattern();
   EXPECT_EQ(all.non_zeros(), 2 * lower.non_zeros() - lower.n);
 }
 

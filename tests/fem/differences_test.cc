@@ -23,7 +23,8 @@ TEST(Differences, AreExactForPolynomialsOfDegreeEightWhereverTheyAreTaken) {
       }
       const double s = (x - 4) / 4;
       EXPECT_NEAR(first, degree == 0 ? 0 : degree * std::pow(s, degree - 1) / 4, 1e-14 * scale) << x << " " << degree;
-      EXPECT_NEAR(second, degree < 2 ? 0 : degree * (degree - 1) * std::pow(s, degree - 2) / 16, 1e-14 * scale) << x << " " << degree;
+      EXPECT_NEAR(second, degree < 2 ? 0 : degree * (degree - 1) * std::pow(s, degree - 2) / 16, 1e-14 * scale)
+          << x << " " << degree;
     }
   }
 }

@@ -53,8 +53,9 @@ Matrix12 assembled(const ElementBlocks<4>& blocks, bool symmetric) {
   Matrix12 K;
   for (int a = 0; a < 4; ++a)
     for (int b = 0; b < 4; ++b)
-      K.block<3, 3>(3 * a, 3 * b) = symmetric && b > a ? Mat3(blocks[static_cast<std::size_t>(b)][static_cast<std::size_t>(a)].transpose())
-                                                       : blocks[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)];
+      K.block<3, 3>(3 * a, 3 * b) =
+          symmetric && b > a ? Mat3(blocks[static_cast<std::size_t>(b)][static_cast<std::size_t>(a)].transpose())
+                             : blocks[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)];
   return K;
 }
 

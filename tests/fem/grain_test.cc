@@ -123,7 +123,8 @@ TEST_P(TurningGrain, TurnsAndMovesWithTheWholeProblem) {
   TetMesh turned = kBlock;
   for (Vec3& X : turned.nodes) X = R * X + shift;
   const auto text = [](const Vec3& p, const Vec3& a) {
-    return fmt::format("{{type: cylindrical, point: {}, axis: {}, spiral: 0.3}}", Value<Vec3>::yaml(p), Value<Vec3>::yaml(a));
+    return fmt::format("{{type: cylindrical, point: {}, axis: {}, spiral: 0.3}}", Value<Vec3>::yaml(p),
+                       Value<Vec3>::yaml(a));
   };
   const auto here = body(kBlock, text(point, axis), GetParam());
   const auto there = body(turned, text(R * point + shift, R * axis), GetParam());
@@ -190,7 +191,8 @@ class Tube {
     const auto C = stiffness(constants());
     const double k = exponent();
     const auto stress = [&](double m, double at) { return (C.c11 * m + C.c12) * std::pow(at, m - 1); };
-    const Eigen::Matrix2d system = (Eigen::Matrix2d() << stress(k, 1), stress(-k, 1), stress(k, 2), stress(-k, 2)).finished();
+    const Eigen::Matrix2d system =
+        (Eigen::Matrix2d() << stress(k, 1), stress(-k, 1), stress(k, 2), stress(-k, 2)).finished();
     const Eigen::Vector2d ab = system.inverse() * Eigen::Vector2d(-1, 0);
     return ab[0] * std::pow(r, k) + ab[1] * std::pow(r, -k);
   }

@@ -31,7 +31,8 @@ const TetMesh kBlock = make_box({.size = {2, 1, 1}, .cells = {2, 2, 1}});
 Mat3 edges_of(const TetMesh& mesh, const Tet& tet) {
   Mat3 e;
   for (int k = 0; k < 3; ++k)
-    e.col(k) = mesh.nodes[static_cast<std::size_t>(tet[static_cast<std::size_t>(k) + 1])] - mesh.nodes[static_cast<std::size_t>(tet[0])];
+    e.col(k) = mesh.nodes[static_cast<std::size_t>(tet[static_cast<std::size_t>(k) + 1])] -
+               mesh.nodes[static_cast<std::size_t>(tet[0])];
   return e;
 }
 
@@ -45,7 +46,8 @@ Eigen::Matrix<double, 3, 4> gradients(const Mat3& edges) {
 
 double smallest_height(const TetMesh& mesh) {
   double largest = 0;
-  for (const Tet& tet : mesh.tets) largest = std::max(largest, gradients(edges_of(mesh, tet)).colwise().norm().maxCoeff());
+  for (const Tet& tet : mesh.tets)
+    largest = std::max(largest, gradients(edges_of(mesh, tet)).colwise().norm().maxCoeff());
   return 1 / largest;
 }
 
@@ -55,7 +57,8 @@ double null_force(const BuiltTestScene& s, const Vector& q, double c_max) {
   for (const Tet& tet : s.mesh().tets) {
     const Mat3 e = edges_of(s.mesh(), tet);
     const auto g = gradients(e);
-    for (int a = 0; a < 4; ++a) reference[tet[static_cast<std::size_t>(a)]] += c_max * e.determinant() / 6 * g.col(a).norm();
+    for (int a = 0; a < 4; ++a)
+      reference[tet[static_cast<std::size_t>(a)]] += c_max * e.determinant() / 6 * g.col(a).norm();
   }
   const NodalVector f = s.nodal(s.force(q));
   const double far = s.positions(q).colwise().norm().maxCoeff();
@@ -63,7 +66,9 @@ double null_force(const BuiltTestScene& s, const Vector& q, double c_max) {
          (kEps * std::max(1.0, far / smallest_height(s.mesh())));
 }
 
-double largest_modulus(double ratio) { return voigt(stiffness(stable_family({ratio, 1, 1}, 0.3))).cwiseAbs().maxCoeff(); }
+double largest_modulus(double ratio) {
+  return voigt(stiffness(stable_family({ratio, 1, 1}, 0.3))).cwiseAbs().maxCoeff();
+}
 
 // Row 1.
 TEST(InternalForce, VanishesAtRestAndAfterRigidMotionToRoundOff) {
@@ -142,7 +147,7 @@ TEST(PatchTest, AnAffineMotionLeavesNoForceOnInnerNodes) {
 }
 
 struct Balance {
-  double force, torque;  // relative to max |f|, resp. sum |f| |x|
+  double force, torque;  // relative to max |f| and to sum |f| |x|
 };
 
 Balance balance(const BuiltTestScene& s, const Vector& q) {
@@ -225,7 +230,8 @@ TEST(InternalForce, KnowsNoUnitOfStress) {
   const auto unit = body(kBlock, "{type: orthotropic_stable, density: 1, young: [10, 2, 1], nu: 0.3}");
   const Vector q = random_dofs(random, unit.size(), 0.3), f = unit.force(q);
   for (const char* power : {"e12", "e-12"}) {
-    const auto s = body(kBlock, fmt::format("{{type: orthotropic_stable, density: 1, young: [10{0}, 2{0}, 1{0}], nu: 0.3}}", power));
+    const auto s = body(
+        kBlock, fmt::format("{{type: orthotropic_stable, density: 1, young: [10{0}, 2{0}, 1{0}], nu: 0.3}}", power));
     EXPECT_LE((s.force(q) / std::stod("1" + std::string(power)) - f).norm(), 1e-12 * f.norm());
   }
 }

@@ -52,7 +52,14 @@ TEST_P(AnyMass, SolvingInvertsMultiplying) {
     s.model().multiply_mass(x, y);
     s.model().solve_mass(y);
     EXPECT_LE((y - x).norm(), 1e-13 * x.norm());
-    EXPECT_LE((s.mass() * x - [&] { Vector z(s.size()); s.model().multiply_mass(x, z); return z; }()).norm(), 1e-14 * x.norm());
+    EXPECT_LE((s.mass() * x -
+               [&] {
+                 Vector z(s.size());
+                 s.model().multiply_mass(x, z);
+                 return z;
+               }())
+                  .norm(),
+              1e-14 * x.norm());
   }
 }
 

@@ -45,7 +45,8 @@ TEST(MeanForce, DoesTheWorkThatTheEnergyLoses) {
       const BuiltTestScene s(block(material, gravity));
       const auto [q0, q1] = two_states(s);
       const Vector f = mean_force(s, q0, q1);
-      const double scale = std::abs(s.potential(q0)) + std::abs(s.potential(q1)) + (f.array() * (q1 - q0).array()).abs().sum();
+      const double scale =
+          std::abs(s.potential(q0)) + std::abs(s.potential(q1)) + (f.array() * (q1 - q0).array()).abs().sum();
       EXPECT_NEAR(f.dot(q1 - q0), s.potential(q0) - s.potential(q1), 1e-13 * scale) << material;
     }
 }

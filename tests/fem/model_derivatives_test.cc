@@ -19,14 +19,16 @@ void PrintTo(const Case& c, std::ostream* os) { *os << c.name; }
 
 const Case kExact{"exact", fibre_material(10), ""};
 const Case kIsotropicCase{"isotropic", "{type: isotropic, density: 1, young: 2, nu: 0.3}", ""};
-const Case kWarped{"warped_unsymmetric", fibre_material(10), "elasticity: {corotation: warped, warped_tangent: unsymmetric}"};
+const Case kWarped{"warped_unsymmetric", fibre_material(10),
+                   "elasticity: {corotation: warped, warped_tangent: unsymmetric}"};
 const Case kLinear{"linear", fibre_material(10), "elasticity: {kinematics: linear}"};
 const Case kAnisotropic{"anisotropic", turned_fibre_material(10, Random(109).rotation()), ""};
 const Case kTwoRegions{"two_regions", fibre_material(10), ""};
 const std::string kCylinder = "{type: cylindrical, point: [0.3, 0.4, 0], axis: [0.2, 0.1, 1], spiral: 0.2}";
 const Case kGrain{"grain", fibre_material(10), "", kCylinder};
 const Case kLinearGrain{"linear_grain", fibre_material(10), "elasticity: {kinematics: linear}", kCylinder};
-const Case kWarpedGrain{"warped_grain", fibre_material(10), "elasticity: {corotation: warped, warped_tangent: unsymmetric}", kCylinder};
+const Case kWarpedGrain{"warped_grain", fibre_material(10),
+                        "elasticity: {corotation: warped, warped_tangent: unsymmetric}", kCylinder};
 
 // A clamped block of two by two by one cells, one corner of it free in x only. With `two_regions` the
 // half x > 0.5 is a softer material with more damping.
@@ -42,7 +44,8 @@ BuiltTestScene block(const Case& c, const std::string& more = "") {
     }
   }
   given_mesh() = mesh;
-  const std::string soft = two ? "soft: {material: soft, axes: {first: [0, 1, 0], second: [0, 0, 1]}, stiffness_damping: 0.3}" : "";
+  const std::string soft =
+      two ? "soft: {material: soft, axes: {first: [0, 1, 0], second: [0, 0, 1]}, stiffness_damping: 0.3}" : "";
   return BuiltTestScene(fmt::format(R"(
 mesh: {{type: given}}
 materials: {{stiff: {}, soft: {{type: isotropic, density: 2, young: 0.5, nu: 0.2}}}}
@@ -62,7 +65,8 @@ INSTANTIATE_TEST_SUITE_P(Models, Derivatives,
                                          kLinearGrain, kWarpedGrain),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Models, ConservativeDerivatives,
-                         testing::Values(kExact, kIsotropicCase, kAnisotropic, kLinear, kTwoRegions, kGrain, kLinearGrain),
+                         testing::Values(kExact, kIsotropicCase, kAnisotropic, kLinear, kTwoRegions, kGrain,
+                                         kLinearGrain),
                          name_of);
 
 TEST_P(ConservativeDerivatives, ForceIsMinusTheGradientOfElasticAndGravitationalEnergy) {
@@ -139,7 +143,8 @@ TEST_P(Derivatives, CombineIsTheWeightedSum) {
   Random random(107);
   const auto scene = block(GetParam(), "damping: {stiffness: 0.1, mass: 0.5}");
   const Vector q = random_dofs(random, scene.size(), 0.05), v = scene.zero();
-  const Eigen::MatrixXd sum = 2 * scene.matrix({1, 0, 0}, q, v) + 3 * scene.matrix({0, 1, 0}, q, v) + 5 * scene.matrix({0, 0, 1}, q, v);
+  const Eigen::MatrixXd sum =
+      2 * scene.matrix({1, 0, 0}, q, v) + 3 * scene.matrix({0, 1, 0}, q, v) + 5 * scene.matrix({0, 0, 1}, q, v);
   EXPECT_LE((scene.matrix({2, 3, 5}, q, v) - sum).norm(), 16 * kEps * sum.norm());
 }
 

@@ -23,7 +23,8 @@ damping: {{mass: 0.2, stiffness: 0.05}}
 gravity: [0, 0, -9.81]
 output: {{reactions: true}}
 time: {{end: 1}}
-)", fibre_material(10), GetParam())) {
+)",
+                          fibre_material(10), GetParam())) {
     state = {0.3, random_dofs(random, scene.size(), 0.05), random_dofs(random, scene.size(), 1)};
   }
 
@@ -38,7 +39,8 @@ TEST_P(Views, GiveEachOutputInAnyOrderAsItIsAlone) {
   auto outputs = model.outputs();
   for (int pass = 0; pass < 2; ++pass) {
     const auto view = model.view(state);
-    for (const auto& output : outputs) EXPECT_EQ(view->evaluate(output.name), model.evaluate(output.name, state)) << output.name;
+    for (const auto& output : outputs)
+      EXPECT_EQ(view->evaluate(output.name), model.evaluate(output.name, state)) << output.name;
     std::reverse(outputs.begin(), outputs.end());
   }
 }

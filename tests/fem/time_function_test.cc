@@ -42,7 +42,8 @@ TEST(TimeFunction, SineHasFrequencyAmplitudeAndPhase) {
 
 TEST(TimeFunction, TableIsLinearBetweenItsPointsAndConstantBeyond) {
   const auto f = factor("{type: table, points: [[1, 2], [2, -6], [4, 0]]}");
-  for (const auto& [t, expected] : {std::pair{0.0, 2.0}, {1.0, 2.0}, {1.25, 0.0}, {2.0, -6.0}, {3.0, -3.0}, {4.0, 0.0}, {7.0, 0.0}})
+  for (const auto& [t, expected] :
+       {std::pair{0.0, 2.0}, {1.0, 2.0}, {1.25, 0.0}, {2.0, -6.0}, {3.0, -3.0}, {4.0, 0.0}, {7.0, 0.0}})
     EXPECT_EQ(f->value(t), expected) << t;
   EXPECT_EQ(f->kinks(), (std::vector<double>{1, 2, 4}));
   EXPECT_EQ(f->peak(), 6);
@@ -84,7 +85,8 @@ TEST(TimeFunction, ExpressionThatHasNoValueSaysWhereAndWhen) {
     FAIL();
   } catch (const ConfigError& e) {
     const std::string message = e.what();
-    for (const char* part : {"formula", "sqrt(1 - t)", "t = 2"}) EXPECT_NE(message.find(part), std::string::npos) << message;
+    for (const char* part : {"formula", "sqrt(1 - t)", "t = 2"})
+      EXPECT_NE(message.find(part), std::string::npos) << message;
   }
   EXPECT_THROW(factor("{type: expression, formula: x + t}"), ConfigError);
 }

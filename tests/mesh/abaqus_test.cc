@@ -88,7 +88,9 @@ TEST(Abaqus, WarnsOfWhatItSkips) {
 
 TEST(Abaqus, TakesASinglePartAsFlat) {
   std::string deck = replaced(kDeck, "*Node", "*Part, name=p\n*Node");
-  deck += "*End Part\n*Assembly, name=a\n*Instance, name=p-1, part=p\n*End Instance\n*Nset, nset=tip, instance=p-1\n50\n*End Assembly\n";
+  deck +=
+      "*End Part\n*Assembly, name=a\n*Instance, name=p-1, part=p\n*End Instance\n*Nset, nset=tip, "
+      "instance=p-1\n50\n*End Assembly\n";
   EXPECT_EQ(load(deck).mesh.node_sets.at("tip"), std::vector<int>{4});
   EXPECT_CONTAINS(refusal(replaced(deck, "part=p\n", "part=p\n1, 0, 0\n")), "an instance that is moved");
   EXPECT_CONTAINS(refusal(deck + "*Part, name=q\n"), "a second *PART; only one is read");
@@ -106,23 +108,25 @@ TEST_P(RefusedAbaqus, NamesTheLineAndTheRemedy) {
 
 INSTANTIATE_TEST_SUITE_P(
     Abaqus, RefusedAbaqus,
-    testing::Values(BadDeck{"hexahedra", "C3D4", "C3D8R", "body.inp:10: elements of type C3D8R; only linear tetrahedra (C3D4)"},
-                    BadDeck{"second_order", "C3D4", "C3D10", "elements of type C3D10"},
-                    BadDeck{"two_dimensions", "40, 0., 0., 1.", "40, 0., 0.", "body.inp:8: expected a coordinate, found the end"},
-                    BadDeck{"unknown_node", "40, 50\n", "40, 60\n", "body.inp:12: element 2: node 60 is not defined in *NODE"},
-                    BadDeck{"node_of_set", "10, 50\n*", "10, 51\n*", "body.inp:15: *NSET: node 51 is not defined"},
-                    BadDeck{"twice", "\n2, 20", "\n1, 20", "body.inp:12: element 1 is defined twice (first in line 11)"},
-                    BadDeck{"node_twice", "20, 1", "10, 1", "body.inp:6: node tag 10 is defined twice"},
-                    BadDeck{"face", "S1", "S5", "body.inp:21: face \"S5\"; a tetrahedron has S1, S2, S3, S4"},
-                    BadDeck{"no_face", "Body, S1", "Body", "body.inp:21: a surface of elements without a face"},
-                    BadDeck{"set", "Body, S1", "Crust, S1", "body.inp:21: no *ELSET \"CRUST\""},
-                    BadDeck{"range", "10, 50, 20", "50, 10, 20", "the numbers must ascend"},
-                    BadDeck{"include", "*Elastic", "*Include, input=x", "body.inp:23: *INCLUDE is not read"},
-                    BadDeck{"generated", "*Elastic", "*Ngen", "body.inp:23: *NGEN is not read"}),
+    testing::Values(
+        BadDeck{"hexahedra", "C3D4", "C3D8R", "body.inp:10: elements of type C3D8R; only linear tetrahedra (C3D4)"},
+        BadDeck{"second_order", "C3D4", "C3D10", "elements of type C3D10"},
+        BadDeck{"two_dimensions", "40, 0., 0., 1.", "40, 0., 0.", "body.inp:8: expected a coordinate, found the end"},
+        BadDeck{"unknown_node", "40, 50\n", "40, 60\n", "body.inp:12: element 2: node 60 is not defined in *NODE"},
+        BadDeck{"node_of_set", "10, 50\n*", "10, 51\n*", "body.inp:15: *NSET: node 51 is not defined"},
+        BadDeck{"twice", "\n2, 20", "\n1, 20", "body.inp:12: element 1 is defined twice (first in line 11)"},
+        BadDeck{"node_twice", "20, 1", "10, 1", "body.inp:6: node tag 10 is defined twice"},
+        BadDeck{"face", "S1", "S5", "body.inp:21: face \"S5\"; a tetrahedron has S1, S2, S3, S4"},
+        BadDeck{"no_face", "Body, S1", "Body", "body.inp:21: a surface of elements without a face"},
+        BadDeck{"set", "Body, S1", "Crust, S1", "body.inp:21: no *ELSET \"CRUST\""},
+        BadDeck{"range", "10, 50, 20", "50, 10, 20", "the numbers must ascend"},
+        BadDeck{"include", "*Elastic", "*Include, input=x", "body.inp:23: *INCLUDE is not read"},
+        BadDeck{"generated", "*Elastic", "*Ngen", "body.inp:23: *NGEN is not read"}),
     [](const auto& test) { return test.param.name; });
 
 TEST(Abaqus, AHugeRangeCostsNoMoreThanItsNodes) {
-  EXPECT_EQ(load(replaced(kDeck, "10, 50, 20", "10, 9000000000000000000, 20")).mesh.node_sets.at("every second").size(), 3u);
+  EXPECT_EQ(load(replaced(kDeck, "10, 50, 20", "10, 9000000000000000000, 20")).mesh.node_sets.at("every second").size(),
+            3u);
 }
 
 // Otherwise a short line costs a walk through all nodes and is free.

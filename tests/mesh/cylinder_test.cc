@@ -17,7 +17,10 @@ CylinderMesh cylinder_of(int around, double grading = 1) {
   return {.radius = 2, .length = 3, .cells = {.around = around, .through = 3, .along = 5, .grading = grading}};
 }
 TubeMesh tube_of(int around, double grading = 1) {
-  return {.inner_radius = 1, .radius = 2, .length = 3, .cells = {.around = around, .through = 3, .along = 5, .grading = grading}};
+  return {.inner_radius = 1,
+          .radius = 2,
+          .length = 3,
+          .cells = {.around = around, .through = 3, .along = 5, .grading = grading}};
 }
 
 double volume(const TetMesh& mesh) {
@@ -111,13 +114,15 @@ TEST_P(RoundMeshes, AreWatertight) {
 
 TEST_P(RoundMeshes, HaveNoSlivers) { EXPECT_GT(worst_quality(GetParam().second), 0.2); }
 
-INSTANTIATE_TEST_SUITE_P(
-    Generators, RoundMeshes,
-    testing::Values(std::pair{"cylinder8", make_cylinder(cylinder_of(8))},
-                    std::pair{"cylinder16", make_cylinder(cylinder_of(16))}, std::pair{"cylinder24", make_cylinder(cylinder_of(24))},
-                    std::pair{"graded", make_cylinder(cylinder_of(16, 0.5))}, std::pair{"tube12", make_tube(tube_of(12))},
-                    std::pair{"tube31", make_tube(tube_of(31))}, std::pair{"graded_tube", make_tube(tube_of(16, 2))}),
-    [](const auto& test) { return test.param.first; });
+INSTANTIATE_TEST_SUITE_P(Generators, RoundMeshes,
+                         testing::Values(std::pair{"cylinder8", make_cylinder(cylinder_of(8))},
+                                         std::pair{"cylinder16", make_cylinder(cylinder_of(16))},
+                                         std::pair{"cylinder24", make_cylinder(cylinder_of(24))},
+                                         std::pair{"graded", make_cylinder(cylinder_of(16, 0.5))},
+                                         std::pair{"tube12", make_tube(tube_of(12))},
+                                         std::pair{"tube31", make_tube(tube_of(31))},
+                                         std::pair{"graded_tube", make_tube(tube_of(16, 2))}),
+                         [](const auto& test) { return test.param.first; });
 
 TEST(Tube, GradingIsTheRatioOfOutermostToInnermostRing) {
   const TetMesh mesh = make_tube(tube_of(8, 4));
@@ -134,7 +139,9 @@ TEST(Cylinder, LiesAlongItsAxisFromItsOrigin) {
   const Box box = bounding_box(make_cylinder(cylinder));
   EXPECT_NEAR(box.min[1], -1, 1e-12);
   EXPECT_NEAR(box.max[1], 2, 1e-12);
-  EXPECT_NEAR(make_cylinder(cylinder).nodes[static_cast<std::size_t>(make_cylinder(cylinder).surfaces.at("end0")[0][0])][1], 2, 1e-12);
+  EXPECT_NEAR(
+      make_cylinder(cylinder).nodes[static_cast<std::size_t>(make_cylinder(cylinder).surfaces.at("end0")[0][0])][1], 2,
+      1e-12);
 }
 
 // Also where the axis is opposite to z, or nearly so.

@@ -94,9 +94,11 @@ INSTANTIATE_TEST_SUITE_P(
     Formats, AnyMutation,
     testing::Values(Format{"two_boxes_22.msh", read_gmsh_text}, Format{"two_boxes_41.msh", read_gmsh_text},
                     Format{"two_tets.veg", read_vega_text}, Format{"two_boxes_gmsh.inp", read_abaqus_text},
-                    Format{"two_boxes_meshio_ascii.vtu", read_vtu_text}, Format{"two_boxes_meshio_zlib.vtu", read_vtu_text},
-                    Format{"two_boxes_meshio_ascii.vtk", read_vtk_text}, Format{"two_boxes_meshio_binary.vtk", read_vtk_text},
-                    Format{"cube.node", read_damaged_nodes}, Format{"cube.ele", read_damaged_elements}),
+                    Format{"two_boxes_meshio_ascii.vtu", read_vtu_text},
+                    Format{"two_boxes_meshio_zlib.vtu", read_vtu_text},
+                    Format{"two_boxes_meshio_ascii.vtk", read_vtk_text},
+                    Format{"two_boxes_meshio_binary.vtk", read_vtk_text}, Format{"cube.node", read_damaged_nodes},
+                    Format{"cube.ele", read_damaged_elements}),
     [](const auto& test) {
       std::string name = test.param.seed;
       for (char& c : name) c = c == '.' ? '_' : c;

@@ -10,7 +10,9 @@
 namespace orthodyn {
 namespace {
 
-LoadedMesh load(const std::string& name) { return read_mesh(std::string(ORTHODYN_SOURCE_DIR) + "/tests/mesh/data/" + name); }
+LoadedMesh load(const std::string& name) {
+  return read_mesh(std::string(ORTHODYN_SOURCE_DIR) + "/tests/mesh/data/" + name);
+}
 
 double volume(const TetMesh& mesh) {
   double sum = 0;
@@ -43,9 +45,10 @@ TEST_P(TwoBoxes, AreTwoCubesWideAndSplitInHalf) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Written, TwoBoxes,
-                         testing::Values("two_boxes_22.msh", "two_boxes_41.msh", "two_boxes_gmsh.inp", "two_boxes_gmsh.vtk",
-                                         "two_boxes_meshio_ascii.vtu", "two_boxes_meshio_zlib.vtu",
-                                         "two_boxes_meshio_ascii.vtk", "two_boxes_meshio_binary.vtk"));
+                         testing::Values("two_boxes_22.msh", "two_boxes_41.msh", "two_boxes_gmsh.inp",
+                                         "two_boxes_gmsh.vtk", "two_boxes_meshio_ascii.vtu",
+                                         "two_boxes_meshio_zlib.vtu", "two_boxes_meshio_ascii.vtk",
+                                         "two_boxes_meshio_binary.vtk"));
 
 TEST(OwnerFiles, EveryKindOfVtkFileGivesTheSameMeshAndCellData) {
   const LoadedMesh first = load("two_boxes_meshio_ascii.vtu");

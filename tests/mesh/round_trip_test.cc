@@ -62,7 +62,8 @@ TEST_P(RoundTrip, KeepsOrNamesSurfacesAndNodeSets) {
     ASSERT_EQ(mesh.surfaces.at(name).size(), triangles.size()) << name;
     for (std::size_t t = 0; t < triangles.size(); ++t) {  // the same nodes, the same way round
       Triangle read = mesh.surfaces.at(name)[t];
-      for (int turn = 0; turn < 3 && read != triangles[t]; ++turn) std::rotate(read.begin(), read.begin() + 1, read.end());
+      for (int turn = 0; turn < 3 && read != triangles[t]; ++turn)
+        std::rotate(read.begin(), read.begin() + 1, read.end());
       EXPECT_EQ(read, triangles[t]) << name;
     }
   }
@@ -94,10 +95,19 @@ TEST(MeshFormats, NoTwoHaveTheSameEnding) {
 
 TEST(WrittenVega, KeepsMaterialsAxesAndTheFixedNodes) {
   LoadedMesh loaded = sample();
-  MeshMaterial wood{.name = "wood", .kind = MeshMaterial::Kind::orthotropic, .density = 400, .young = {3, 2, 1}, .nu12 = .1,
-                    .nu23 = .2, .nu31 = .3, .g12 = 12, .g23 = 23, .g31 = 31};
+  MeshMaterial wood{.name = "wood",
+                    .kind = MeshMaterial::Kind::orthotropic,
+                    .density = 400,
+                    .young = {3, 2, 1},
+                    .nu12 = .1,
+                    .nu23 = .2,
+                    .nu31 = .3,
+                    .g12 = 12,
+                    .g23 = 23,
+                    .g31 = 31};
   wood.axes << 0, -1, 0, 1, 0, 0, 0, 0, 1;
-  MeshMaterial steel{.name = "steel", .density = 7800, .young = Vec3::Constant(2e11), .nu12 = .3, .nu23 = .3, .nu31 = .3};
+  MeshMaterial steel{
+      .name = "steel", .density = 7800, .young = Vec3::Constant(2e11), .nu12 = .3, .nu23 = .3, .nu31 = .3};
   loaded.materials = {{"region1", wood}, {"region2", steel}};
   const LoadedMesh read = through(".veg", loaded);
   EXPECT_EQ(read.materials.at("region1").axes, wood.axes);
@@ -177,7 +187,8 @@ TEST(WrittenVega, MaterialsWhoseNamesAreAlikeStayTwo) {
 TEST(WriteMesh, ReplacesNothingUnasked) {
   const TemporaryFolder folder;
   folder.write("mesh.ele", "mine");
-  EXPECT_CONTAINS(refusal_of([&] { write_mesh(sample(), folder.path("mesh.node"), false); }), "mesh.ele: is there already; --force");
+  EXPECT_CONTAINS(refusal_of([&] { write_mesh(sample(), folder.path("mesh.node"), false); }),
+                  "mesh.ele: is there already; --force");
   EXPECT_FALSE(std::filesystem::exists(folder.path("mesh.node")));
   write_mesh(sample(), folder.path("mesh.node"), true);
   EXPECT_EQ(read_mesh(folder.path("mesh.ele")).mesh.tets, sample().mesh.tets);

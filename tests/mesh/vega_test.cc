@@ -159,7 +159,8 @@ TEST(Vega, IncludesFilesRelativeToTheirOwnPlace) {
   const TemporaryFolder folder;
   folder.write("body.veg", kTwoTets + "*SET part\n*INCLUDE list.txt\n");
   folder.write("list.txt", "1,\n7\n");
-  EXPECT_CONTAINS(refusal_of([&] { read_vega(folder.path("body.veg")); }), "list.txt:2: set \"part\": element 7; there are 1 to 2");
+  EXPECT_CONTAINS(refusal_of([&] { read_vega(folder.path("body.veg")); }),
+                  "list.txt:2: set \"part\": element 7; there are 1 to 2");
   folder.write("list.txt", "1, 2\n");
   EXPECT_EQ(read_vega(folder.path("body.veg")).mesh.region_names, std::vector<std::string>{"part"});
   folder.write("list.txt", "*INCLUDE list.txt\n");
@@ -202,23 +203,24 @@ TEST_P(RefusedVega, NamesTheLineAndTheRemedy) {
 
 INSTANTIATE_TEST_SUITE_P(
     Vega, RefusedVega,
-    testing::Values(BadVega{"cubes", "TET", "CUBIC", "body.veg:11: CUBIC: a mesh of cubes"},
-                    BadVega{"few_vertices", "5 3 0 0", "6 3 0 0", "body.veg:10: 5 of the 6 vertices announced after line 2"},
-                    BadVega{"many_vertices", "5 3 0 0", "4 3 0 0", "body.veg:8: more than the 4 vertices announced after line 2"},
-                    BadVega{"few_elements", "2 4 0", "3 4 0", "body.veg:16: 2 of the 3 elements"},
-                    BadVega{"gap", "3 0 1 0", "7 0 1 0", "body.veg:6: vertex 7 where 3 is expected"},
-                    BadVega{"unknown_vertex", "3, 4, 5", "3, 4, 6", "body.veg:14: element 2: node 6 is not defined in *VERTICES"},
-                    BadVega{"word", "0 0 1", "0 0 up", "body.veg:7: expected a coordinate (a finite number), found \"up\""},
-                    BadVega{"no_material", "core, softwood", "core, hardwood", "body.veg:25: no *MATERIAL \"hardwood\""},
-                    BadVega{"no_set", "core, soft", "crust, soft", "body.veg:25: no *SET \"crust\""},
-                    BadVega{"element_of_set", "core\n2", "core\n3", "body.veg:17: set \"core\": element 3; there are 1 to 2"},
-                    BadVega{"mooney", "ENU,", "MOONEYRIVLIN,", "only ENU and ORTHOTROPIC are read"},
-                    BadVega{"form", "_N1,", "_N2,", "the forms of ORTHOTROPIC are"},
-                    BadVega{"too_few_constants", "1e8, 0.3", "1e8", "body.veg:21: expected nu, found the end of the line"},
-                    BadVega{"negative", "2e6", "-2e6", "body.veg:19: E is -2000000; it must be positive"},
-                    BadVega{"keyword", "*SET", "*SETS", "body.veg:16: unknown keyword \"*SETS\""},
-                    BadVega{"include", "core\n2", "core\n*INCLUDE x.txt", "*INCLUDE \"x.txt\": no such file: x.txt"},
-                    BadVega{"second", "*SET core\n2", "*VERTICES", "body.veg:16: a second *VERTICES"}),
+    testing::Values(
+        BadVega{"cubes", "TET", "CUBIC", "body.veg:11: CUBIC: a mesh of cubes"},
+        BadVega{"few_vertices", "5 3 0 0", "6 3 0 0", "body.veg:10: 5 of the 6 vertices announced after line 2"},
+        BadVega{"many_vertices", "5 3 0 0", "4 3 0 0", "body.veg:8: more than the 4 vertices announced after line 2"},
+        BadVega{"few_elements", "2 4 0", "3 4 0", "body.veg:16: 2 of the 3 elements"},
+        BadVega{"gap", "3 0 1 0", "7 0 1 0", "body.veg:6: vertex 7 where 3 is expected"},
+        BadVega{"unknown_vertex", "3, 4, 5", "3, 4, 6", "body.veg:14: element 2: node 6 is not defined in *VERTICES"},
+        BadVega{"word", "0 0 1", "0 0 up", "body.veg:7: expected a coordinate (a finite number), found \"up\""},
+        BadVega{"no_material", "core, softwood", "core, hardwood", "body.veg:25: no *MATERIAL \"hardwood\""},
+        BadVega{"no_set", "core, soft", "crust, soft", "body.veg:25: no *SET \"crust\""},
+        BadVega{"element_of_set", "core\n2", "core\n3", "body.veg:17: set \"core\": element 3; there are 1 to 2"},
+        BadVega{"mooney", "ENU,", "MOONEYRIVLIN,", "only ENU and ORTHOTROPIC are read"},
+        BadVega{"form", "_N1,", "_N2,", "the forms of ORTHOTROPIC are"},
+        BadVega{"too_few_constants", "1e8, 0.3", "1e8", "body.veg:21: expected nu, found the end of the line"},
+        BadVega{"negative", "2e6", "-2e6", "body.veg:19: E is -2000000; it must be positive"},
+        BadVega{"keyword", "*SET", "*SETS", "body.veg:16: unknown keyword \"*SETS\""},
+        BadVega{"include", "core\n2", "core\n*INCLUDE x.txt", "*INCLUDE \"x.txt\": no such file: x.txt"},
+        BadVega{"second", "*SET core\n2", "*VERTICES", "body.veg:16: a second *VERTICES"}),
     [](const auto& test) { return test.param.name; });
 
 TEST(Vega, RefusesTruncatedFiles) {
@@ -239,7 +241,8 @@ TEST(Vega, ReadsTheModelsThatComeWithVega) {
   EXPECT_EQ(turtle.materials.at("theRest").young, Vec3(25e9, 25e5, 25e3));
   EXPECT_TRUE(turtle.mesh.node_sets.contains("fixed"));
   EXPECT_EQ(read_vega(veg + "simple_bridge/simpleBridge-ic_128_0.15_.1.veg").mesh.tets.size(), 12827u);
-  EXPECT_CONTAINS(refusal_of([&] { read_vega(veg + "simple_bridge/simpleBridge_resol92-b1.155_enlarged.veg"); }), "CUBIC");
+  EXPECT_CONTAINS(refusal_of([&] { read_vega(veg + "simple_bridge/simpleBridge_resol92-b1.155_enlarged.veg"); }),
+                  "CUBIC");
 }
 
 }  // namespace

@@ -42,16 +42,17 @@ std::string refusal(const std::string& text) {
 // The same with appended data, raw or in base64, of either byte order and width of lengths.
 class Appended {
  public:
-  Appended(bool big, bool wide, bool base64) : swap_(big != (std::endian::native == std::endian::big)), wide_(wide), base64_(base64) {
-    text_ = std::string("<VTKFile type=\"UnstructuredGrid\" byte_order=\"") + (big ? "Big" : "Little") + "Endian\" header_type=\"" +
-            (wide ? "UInt64" : "UInt32") + "\"><UnstructuredGrid><Piece><Points>";
+  Appended(bool big, bool wide, bool base64)
+      : swap_(big != (std::endian::native == std::endian::big)), wide_(wide), base64_(base64) {
+    text_ = std::string("<VTKFile type=\"UnstructuredGrid\" byte_order=\"") + (big ? "Big" : "Little") +
+            "Endian\" header_type=\"" + (wide ? "UInt64" : "UInt32") + "\"><UnstructuredGrid><Piece><Points>";
     add<double>("Float64", "points", {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1});
     text_ += "</Points><Cells>";
     add<std::int32_t>("Int32", "connectivity", {0, 1, 2, 3, 1, 2, 3, 4});
     add<std::int32_t>("Int32", "offsets", {4, 8});
     add<std::uint8_t>("UInt8", "types", {10, 10});
-    text_ += std::string("</Cells></Piece></UnstructuredGrid><AppendedData encoding=\"") + (base64 ? "base64" : "raw") + "\">\n_" +
-             data_ + "\n</AppendedData></VTKFile>";
+    text_ += std::string("</Cells></Piece></UnstructuredGrid><AppendedData encoding=\"") + (base64 ? "base64" : "raw") +
+             "\">\n_" + data_ + "\n</AppendedData></VTKFile>";
   }
   const std::string& text() const { return text_; }
 
@@ -79,7 +80,8 @@ class Appended {
     std::string out;
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
       unsigned bits = 0;
-      for (std::size_t k = 0; k < 3; ++k) bits = (bits << 8) | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+      for (std::size_t k = 0; k < 3; ++k)
+        bits = (bits << 8) | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
       for (std::size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? digits[(bits >> (18 - 6 * k)) & 63] : '=';
     }
     return out;
@@ -147,11 +149,12 @@ std::string zeros(int arrays, int components, std::string (*change)(std::string)
   if (change) block = change(block);
   const std::uint32_t header[] = {1, size, size, static_cast<std::uint32_t>(block.size())};
   const std::string order = std::endian::native == std::endian::big ? "Big" : "Little";
-  std::string text = replaced(kAscii, "version=\"0.1\"", "compressor=\"vtkZLibDataCompressor\" byte_order=\"" + order + "Endian\"");
+  std::string text =
+      replaced(kAscii, "version=\"0.1\"", "compressor=\"vtkZLibDataCompressor\" byte_order=\"" + order + "Endian\"");
   std::string cells = "<CellData>\n";
   for (int a = 0; a < arrays; ++a) {
-    cells += "<DataArray type=\"Float64\" Name=\"z" + std::to_string(a) + "\" NumberOfComponents=\"" + std::to_string(components) +
-             "\" format=\"appended\" offset=\"0\"/>\n";
+    cells += "<DataArray type=\"Float64\" Name=\"z" + std::to_string(a) + "\" NumberOfComponents=\"" +
+             std::to_string(components) + "\" format=\"appended\" offset=\"0\"/>\n";
   }
   return replaced(replaced(text, "<CellData>\n", cells), "</VTKFile>\n", "<AppendedData encoding=\"raw\">_") +
          std::string(reinterpret_cast<const char*>(header), sizeof header) + block + "\n</AppendedData></VTKFile>";
@@ -210,39 +213,47 @@ TEST_P(RefusedVtu, SaysWhatIsWrongAndWhere) {
 
 INSTANTIATE_TEST_SUITE_P(
     Vtu, RefusedVtu,
-    testing::Values(BadVtu{"hexahedron", "10 10", "10 12", "body.vtu: cell 1: a hexahedron (type 12); only linear tetrahedra"},
-                    BadVtu{"second_order", "10 10", "10 24", "a quadratic tet (type 24)"},
-                    BadVtu{"point", "2 3 4<", "2 3 5<", "body.vtu: element 1: a point is 5; expected an integer from 0 to 4"},
-                    BadVtu{"offset", "4 8", "4 9", "the offset of cell 1 is 9"},
-                    BadVtu{"count", "NumberOfCells=\"2\"", "NumberOfCells=\"3\"", "body.vtu:4: NumberOfCells=\"3\", but the arrays hold 2"},
-                    BadVtu{"short_data", "7 -3", "7", "array \"region\" has 1 values; expected 2 cells with 1 components"},
-                    BadVtu{"fraction", "7 -3", "7.5 -3", "cell data \"region\" of cell 0 is 7.5"},
-                    BadVtu{"word", "0 0 1 1 1 1<", "0 0 1 1 1 up<", "body.vtu:10: array \"\": expected a number, found \"up\""},
-                    BadVtu{"type", "Int32", "Int31", "body.vtu:6: array \"region\": unknown type \"Int31\""},
-                    BadVtu{"no_array", "Name=\"offsets\"", "Name=\"ends\"", "body.vtu:12: <Cells> has no array \"offsets\""},
-                    BadVtu{"polydata", "UnstructuredGrid", "PolyData", "a VTK file of type \"PolyData\"; expected UnstructuredGrid"},
-                    BadVtu{"compressor", "version=\"0.1\"", "compressor=\"vtkLZ4DataCompressor\"", "only vtkZLibDataCompressor is read"},
-                    BadVtu{"xml", "</Points>", "", "body.vtu:17: not well-formed XML"}),
+    testing::Values(
+        BadVtu{"hexahedron", "10 10", "10 12", "body.vtu: cell 1: a hexahedron (type 12); only linear tetrahedra"},
+        BadVtu{"second_order", "10 10", "10 24", "a quadratic tet (type 24)"},
+        BadVtu{"point", "2 3 4<", "2 3 5<", "body.vtu: element 1: a point is 5; expected an integer from 0 to 4"},
+        BadVtu{"offset", "4 8", "4 9", "the offset of cell 1 is 9"},
+        BadVtu{"count", "NumberOfCells=\"2\"", "NumberOfCells=\"3\"",
+               "body.vtu:4: NumberOfCells=\"3\", but the arrays hold 2"},
+        BadVtu{"short_data", "7 -3", "7", "array \"region\" has 1 values; expected 2 cells with 1 components"},
+        BadVtu{"fraction", "7 -3", "7.5 -3", "cell data \"region\" of cell 0 is 7.5"},
+        BadVtu{"word", "0 0 1 1 1 1<", "0 0 1 1 1 up<", "body.vtu:10: array \"\": expected a number, found \"up\""},
+        BadVtu{"type", "Int32", "Int31", "body.vtu:6: array \"region\": unknown type \"Int31\""},
+        BadVtu{"no_array", "Name=\"offsets\"", "Name=\"ends\"", "body.vtu:12: <Cells> has no array \"offsets\""},
+        BadVtu{"polydata", "UnstructuredGrid", "PolyData",
+               "a VTK file of type \"PolyData\"; expected UnstructuredGrid"},
+        BadVtu{"compressor", "version=\"0.1\"", "compressor=\"vtkLZ4DataCompressor\"",
+               "only vtkZLibDataCompressor is read"},
+        BadVtu{"xml", "</Points>", "", "body.vtu:17: not well-formed XML"}),
     [](const auto& test) { return test.param.name; });
 
 TEST(Vtk, RefusesWhatIsNoLegacyFileOfTets) {
   const auto refused = [](const std::string& text) { return refusal_of([&] { read_vtk_text("body.vtk", text); }); };
-  const std::string good = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n"
-                           "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
+  const std::string good =
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n"
+      "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
   EXPECT_EQ(refused(good), "accepted");
   EXPECT_CONTAINS(refused("hello"), "body.vtk:1: no \"# vtk DataFile\"");
   EXPECT_CONTAINS(refused(replaced(good, "UNSTRUCTURED_GRID", "POLYDATA")), "body.vtk:4: DATASET \"POLYDATA\"");
   EXPECT_CONTAINS(refused(replaced(good, "CELLS 1 5", "CELLS 2 5")), "5 entries are too few for 2 cells");
-  EXPECT_CONTAINS(refused(replaced(good, "POINTS 4", "POINTS 5")), "body.vtk:7: expected a number (a finite number), found \"CELLS\"");
+  EXPECT_CONTAINS(refused(replaced(good, "POINTS 4", "POINTS 5")),
+                  "body.vtk:7: expected a number (a finite number), found \"CELLS\"");
   EXPECT_CONTAINS(refused(good.substr(0, good.find("CELL_TYPES"))), "0 types and 1 offsets");
   EXPECT_CONTAINS(refused(replaced(good, "\n10\n", "\n12\n")), "hexahedron");
 }
 
 // The table of colours may be left out; then numbers begin in the next line.
 TEST(Vtk, ScalarsMayHaveNoLookupTable) {
-  const std::string mesh = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n"
-                           "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
-  const std::string data = "CELL_DATA 1\nSCALARS a float 1\n7\nSCALARS b float\nLOOKUP_TABLE default\n8\nSCALARS c int 2\n3 4\n";
+  const std::string mesh =
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n"
+      "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
+  const std::string data =
+      "CELL_DATA 1\nSCALARS a float 1\n7\nSCALARS b float\nLOOKUP_TABLE default\n8\nSCALARS c int 2\n3 4\n";
   const LoadedMesh loaded = read_vtk_text("body.vtk", mesh + data);
   ASSERT_EQ(loaded.cell_data.size(), 3u);
   EXPECT_EQ(loaded.cell_data[0].values, std::vector<double>{7});

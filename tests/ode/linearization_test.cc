@@ -20,7 +20,9 @@ class Oscillator : public Model {
   int num_dofs() const override { return 1; }
   const Traits& traits() const override { return traits_; }
   const Pattern& pattern() const override { return pattern_; }
-  void force(double, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override { f = -k_ * q - d_ * v; }
+  void force(double, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override {
+    f = -k_ * q - d_ * v;
+  }
   void combine(const Weights&, const Linearization&, double*) const override {}
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { y = x; }
   void solve_mass(VectorRef) const override {}

@@ -66,7 +66,8 @@ struct Analysis {
 LinearModel pushed_chain() {
   Matrix K(3, 3);
   K << 2, -1, 0, -1, 2, -1, 0, -1, 1;
-  return LinearModel({.mass = Matrix::Identity(3, 3), .stiffness = K, .load = Vector::Unit(3, 2), .factor = {{0, 0}, {2, 6}}});
+  return LinearModel(
+      {.mass = Matrix::Identity(3, 3), .stiffness = K, .load = Vector::Unit(3, 2), .factor = {{0, 0}, {2, 6}}});
 }
 
 TEST(LoadStepper, OfALinearModelIsExactAtEveryLoadFactor) {

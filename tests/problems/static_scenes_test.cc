@@ -7,7 +7,7 @@
 
 #include "lib/analysis/modes.h"
 #include "lib/simulation/load_steps.h"
-#include "lib/simulation/equilibrium.h"
+#include "lib/simulation/static_problem.h"
 #include "lib/analysis/rigid_freedom.h"
 #include "tests/problems/running.h"
 
@@ -73,7 +73,8 @@ TEST(StaticScene, RefusesABodyThatCanMoveFreelyAndSaysHow) {
       const std::string message = error_of(kBlock + clamps + "\n");
       EXPECT_NE(message.find(part), std::string::npos) << part << "\nin: " << message;
     }
-  EXPECT_EQ(error_of(kBlock + "clamps: [{nearest: [0, 0, 0]}, {nearest: [2, 0, 0]}, {nearest: [0, 1, 0]}]\n"), "accepted");
+  EXPECT_EQ(error_of(kBlock + "clamps: [{nearest: [0, 0, 0]}, {nearest: [2, 0, 0]}, {nearest: [0, 1, 0]}]\n"),
+            "accepted");
 }
 
 TEST(StaticScene, RefusesWhatBelongsToMotion) {

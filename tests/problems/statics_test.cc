@@ -68,7 +68,8 @@ TEST(OffAxisTension, HasTheClosedFormModulusAndShearCoupling) {
 
 TEST(OffAxisTension, OfSpruceMatchesTheTable) {
   struct Row { double degrees, modulus, coupling; };
-  for (const auto& row : {Row{15, 5.833211e9, 1.708048}, Row{30, 2.611311e9, 1.289311}, Row{45, 1.508943e9, 0.828322}}) {
+  for (const auto& row :
+       {Row{15, 5.833211e9, 1.708048}, Row{30, 2.611311e9, 1.289311}, Row{45, 1.508943e9, 0.828322}}) {
     const auto found = measured(row.degrees);
     EXPECT_NEAR(found.modulus, row.modulus, 1e3);
     EXPECT_NEAR(found.coupling, row.coupling, 1e-6);

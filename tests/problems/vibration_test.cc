@@ -95,8 +95,8 @@ TEST(Bar, AReleasedFirstModeSwingsAtItsFrequency) {
 TEST(Cantilever, FirstBendingFrequencyExtrapolatesToTimoshenkosBeam) {
   const double timoshenko = 41.5729;
   const auto frequency = [](int along, int across) {
-    const BuiltTestScene scene(spruce_box("[1, 0.05, 0.05]", fmt::format("[{}, {}, {}]", along, across, across), "five", 0.44,
-                                          "mass: consistent\nclamps: [{surface: x0}]\ntime: {end: 1}"));
+    const BuiltTestScene scene(spruce_box("[1, 0.05, 0.05]", fmt::format("[{}, {}, {}]", along, across, across), "five",
+                                          0.44, "mass: consistent\nclamps: [{surface: x0}]\ntime: {end: 1}"));
     return inverse_iteration(scene, scene.dofs([](const Vec3& X) { return Vec3(0, X[0] * X[0], 0); })).frequency;
   };
   const double coarse = frequency(40, 2), fine = frequency(80, 4);

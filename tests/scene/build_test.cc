@@ -76,7 +76,8 @@ TEST(Clamps, RemoveTheirCoordinatesFromTheSystem) {
 }
 
 TEST(DampedTrait, NeedsStiffnessDampingInEveryRegion) {
-  const auto none_here = kValidScene + "damping: {stiffness: 0.01}\nregions: {body: {material: soft, stiffness_damping: 0}}\n";
+  const auto none_here =
+      kValidScene + "damping: {stiffness: 0.01}\nregions: {body: {material: soft, stiffness_damping: 0}}\n";
   EXPECT_FALSE(build_text(none_here).model->traits().damped);
   EXPECT_FALSE(build_text(kValidScene + "damping: {mass: 1}\n").model->traits().damped);
 }
@@ -98,7 +99,8 @@ TEST(InitialState, IsAnAffineMapWithRigidMotionOnTop) {
 
 TEST(Noise, IsTheSameForTheSameSeedAndBounded) {
   const auto with_seed = [](int seed) {
-    return build_text(kValidScene + "initial: {noise: {amplitude: 0.01, seed: " + std::to_string(seed) + "}}\n").initial.q;
+    return build_text(kValidScene + "initial: {noise: {amplitude: 0.01, seed: " + std::to_string(seed) + "}}\n")
+        .initial.q;
   };
   EXPECT_EQ(with_seed(3), with_seed(3));
   EXPECT_GT((with_seed(3) - with_seed(4)).norm(), 0.001);

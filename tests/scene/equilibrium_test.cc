@@ -1,5 +1,5 @@
 // Equilibria of bodies whose supports are on their way: they are those of supports that stand still there.
-#include "lib/simulation/equilibrium.h"
+#include "lib/simulation/static_problem.h"
 
 #include <gtest/gtest.h>
 

@@ -46,16 +46,19 @@ class VegaScene : public testing::Test {
   std::filesystem::path folder_;
 };
 
-const std::string kWood = "*MATERIAL wood\nORTHOTROPIC, 400, 3e9, 2e9, 1e9, .1, .2, .06, 1e8, 2e8, 3e8, 0,-1,0, 1,0,0, 0,0,1\n"
-                          "*REGION\nallElements, wood\n";
+const std::string kWood =
+    "*MATERIAL wood\nORTHOTROPIC, 400, 3e9, 2e9, 1e9, .1, .2, .06, 1e8, 2e8, 3e8, 0,-1,0, 1,0,0, 0,0,1\n"
+    "*REGION\nallElements, wood\n";
 
 // The same numbers typed: nu31 of the file is nu31, R has the axes as columns.
 TEST_F(VegaScene, MaterialsOfTheFileAreThoseTypedInAScene) {
   const Scene from_file = read_scene(Config::from_text(scene(kWood, ""), "scene.yaml"));
   const Scene typed = read_scene(Config::from_text(
-      scene(kWood, "materials: {wood: {type: orthotropic, density: 400, young: [3e9, 2e9, 1e9], nu12: 0.1, nu23: 0.2, nu31: "
-                   "0.06, g12: 1e8, g23: 2e8, g13: 3e8}}\nregions: {all: {material: wood, axes: {first: [0, 1, 0], second: "
-                   "[-1, 0, 0]}}}\n"), "scene.yaml"));
+      scene(kWood,
+            "materials: {wood: {type: orthotropic, density: 400, young: [3e9, 2e9, 1e9], nu12: 0.1, nu23: 0.2, nu31: "
+            "0.06, g12: 1e8, g23: 2e8, g13: 3e8}}\nregions: {all: {material: wood, axes: {first: [0, 1, 0], second: "
+            "[-1, 0, 0]}}}\n"),
+      "scene.yaml"));
   const auto C = [](const Scene& s) {
     return voigt(s.materials.at(0).second->stiffness());
   };
@@ -86,28 +89,36 @@ TEST_F(VegaScene, UnstableMaterialsOfTheFileAreRefusedLikeTypedOnes) {
 }
 
 TEST_F(VegaScene, MissingMaterialsAreAskedForIfTheFileHasNone) {
-  EXPECT_NE(refusal(scene("", "")).find("'materials' is missing, and the mesh file brings none; give materials and regions (body)"),
+  EXPECT_NE(refusal(scene("", ""))
+                .find("'materials' is missing, and the mesh file brings none; give materials and regions (body)"),
             std::string::npos);
-  EXPECT_NE(refusal(replaced(kValidScene, "materials:\n  soft: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}\n", ""))
-                .find("key 'materials' is missing"), std::string::npos);
+  EXPECT_NE(
+      refusal(replaced(kValidScene, "materials:\n  soft: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}\n", ""))
+          .find("key 'materials' is missing"),
+      std::string::npos);
 }
 
 TEST_F(VegaScene, FixedVerticesCanBeClampedByName) {
   const std::string fixed = ", fixed: " + file("body.bou", "1,3\n");
   EXPECT_EQ(build_text(scene(kWood, "clamps: [{nodes: fixed}]\n", fixed)).model->num_dofs(), 6);
   const std::string message = refusal(scene(kWood, "clamps: [{nodes: fixe}]\n", fixed));
-  EXPECT_NE(message.find("scene.yaml:3:10: clamps.0: the mesh has no node set 'fixe'; did you mean 'fixed'? It has fixed"),
-            std::string::npos) << message;
+  EXPECT_NE(
+      message.find("scene.yaml:3:10: clamps.0: the mesh has no node set 'fixe'; did you mean 'fixed'? It has fixed"),
+      std::string::npos)
+      << message;
 }
 
 TEST_F(VegaScene, FileChoosesTheFormatByTheEndingAndScales) {
-  const std::string yaml = "mesh: {type: file, file: " + file("body.veg", kTet + kWood) + ", scale: 0.001}\ntime: {end: 1}\n";
+  const std::string yaml =
+      "mesh: {type: file, file: " + file("body.veg", kTet + kWood) + ", scale: 0.001}\ntime: {end: 1}\n";
   EXPECT_EQ(bounding_box(build_text(yaml).model->parts().mesh).max, Vec3::Constant(0.001));
-  const std::string message = refusal(replaced(replaced(yaml, "body.veg", file("body.stl", "").substr(folder_.string().size() + 1)), ", scale: 0.001", ""));
+  const std::string message = refusal(replaced(
+      replaced(yaml, "body.veg", file("body.stl", "").substr(folder_.string().size() + 1)), ", scale: 0.001", ""));
   EXPECT_NE(message.find("no mesh format has the ending \".stl\""), std::string::npos) << message;
 }
 
-const std::string kRound = R"(mesh: {type: tube, inner_radius: 0.5, radius: 1, length: 4, cells: [12, 2, 6], axis: [1, 0, 0]}
+const std::string kRound =
+    R"(mesh: {type: tube, inner_radius: 0.5, radius: 1, length: 4, cells: [12, 2, 6], axis: [1, 0, 0]}
 materials:
   soft: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}
 clamps:
@@ -118,15 +129,19 @@ time: {end: 0.1}
 TEST(RoundScene, ATubeHasItsSurfacesAndItsMass) {
   const BuiltScene built = build_text(kRound);
   const auto& parts = built.model->parts();
-  for (const char* surface : {"end0", "end1", "inner", "outer"}) EXPECT_TRUE(parts.mesh.surfaces.contains(surface)) << surface;
+  for (const char* surface : {"end0", "end1", "inner", "outer"})
+    EXPECT_TRUE(parts.mesh.surfaces.contains(surface)) << surface;
   const double polygons = 12 * std::sin(M_PI / 6) / 2 * (1 - 0.25);
   EXPECT_NEAR(parts.mass->total(), 1000 * 4 * polygons, 1e-9 * parts.mass->total());
 }
 
 TEST(RoundScene, WhatMakesNoMeshIsRefusedWithItsKey) {
-  EXPECT_NE(refusal(replaced(kRound, "inner_radius: 0.5", "inner_radius: 2")).find("mesh.inner_radius: must be smaller"), std::string::npos);
+  EXPECT_NE(
+      refusal(replaced(kRound, "inner_radius: 0.5", "inner_radius: 2")).find("mesh.inner_radius: must be smaller"),
+      std::string::npos);
   const std::string cylinder = replaced(replaced(kRound, "type: tube", "type: cylinder"), "inner_radius: 0.5, ", "");
-  EXPECT_NE(refusal(replaced(cylinder, "[12, 2", "[10, 2")).find("mesh.cells.0: must be a multiple of 4"), std::string::npos);
+  EXPECT_NE(refusal(replaced(cylinder, "[12, 2", "[10, 2")).find("mesh.cells.0: must be a multiple of 4"),
+            std::string::npos);
   EXPECT_NE(refusal(replaced(cylinder, "[1, 0, 0]", "[0, 0, 0]")).find("mesh.axis: is zero"), std::string::npos);
   EXPECT_GT(build_text(cylinder).model->num_dofs(), 0);
 }

@@ -91,7 +91,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_P(RefusedInput, IsRefusedWithTheReason) {
   const std::string message = refusal(kValidScene + GetParam().added + "\n");
-  for (const auto& part : GetParam().said) EXPECT_NE(message.find(part), std::string::npos) << part << "\nin: " << message;
+  for (const auto& part : GetParam().said)
+    EXPECT_NE(message.find(part), std::string::npos) << part << "\nin: " << message;
 }
 
 TEST(FormulaMotion, ThatHasNoValueSaysWhereAndWhen) {

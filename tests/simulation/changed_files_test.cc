@@ -10,8 +10,9 @@ TEST_F(Resume, AMeshFileThatHasChangedIsRefused) {
                          height + "\n$EndNodes\n$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n");
   };
   mesh("1");
-  write("tet.yaml", "mesh: {type: gmsh, file: tet.msh}\nmaterials: {m: {type: isotropic, density: 1, young: 1e3, nu: 0.3}}\n"
-                    "initial: {spin: [1, 0, 0]}\ntime: {end: 0.1}\ncheckpoint: {every: 1}\n");
+  write("tet.yaml",
+        "mesh: {type: gmsh, file: tet.msh}\nmaterials: {m: {type: isotropic, density: 1, young: 1e3, nu: 0.3}}\n"
+        "initial: {spin: [1, 0, 0]}\ntime: {end: 0.1}\ncheckpoint: {every: 1}\n");
   const auto first = orthodyn("run tet.yaml --quiet");
   ASSERT_EQ(first.exit_code, 0) << first.output;
   mesh("1.1");

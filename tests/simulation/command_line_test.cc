@@ -1,6 +1,6 @@
 #include "lib/mesh/box.h"
 #include "lib/mesh/io/mesh_file.h"
-#include "tests/simulation/command.h"
+#include "tests/simulation/run_program.h"
 
 namespace orthodyn {
 namespace {
@@ -15,7 +15,8 @@ TEST_F(CommandLine, RunWritesEverythingThatItPromises) {
                            "frames/frame_00000.vtu", "frames/frame_00005.vtu"})
     EXPECT_TRUE(fs::exists(folder_ / "out/swing" / name)) << name;
   EXPECT_FALSE(fs::exists(folder_ / "out/swing/frames/frame_00006.vtu"));
-  for (const char* word : {"steps", "force", "tangent", "factorisation", "solve", "balance drift", "det F", "max_order"})
+  for (const char* word :
+       {"steps", "force", "tangent", "factorisation", "solve", "balance drift", "det F", "max_order"})
     EXPECT_NE(result.output.find(word), std::string::npos) << word;
   EXPECT_NE(read_text(folder_ / "out/swing/run.json").find("\"completed\""), std::string::npos);
 }
@@ -32,8 +33,9 @@ TEST_F(CommandLine, ReactionsAreRecordedWhereTheSceneAsksForThem) {
   write("swing.yaml", kSwing);
   ASSERT_EQ(orthodyn("run swing.yaml --quiet --set output.reactions=true --set clamps.0.name=wall").exit_code, 0);
   const std::string probes = read_text(folder_ / "out/swing/probes.csv"), header = probes.substr(0, probes.find('\n'));
-  EXPECT_EQ(header, "t [s],tip.displacement.x [m],tip.displacement.y [m],tip.displacement.z [m],reaction.wall.x [N],"
-                    "reaction.wall.y [N],reaction.wall.z [N],torque.wall.x [N m],torque.wall.y [N m],torque.wall.z [N m]");
+  EXPECT_EQ(header,
+            "t [s],tip.displacement.x [m],tip.displacement.y [m],tip.displacement.z [m],reaction.wall.x [N],"
+            "reaction.wall.y [N],reaction.wall.z [N],torque.wall.x [N m],torque.wall.y [N m],torque.wall.z [N m]");
   ASSERT_EQ(orthodyn("run swing.yaml --quiet --force").exit_code, 0);
   EXPECT_EQ(read_text(folder_ / "out/swing/probes.csv").find("reaction"), std::string::npos);
 }
@@ -87,8 +89,9 @@ TEST_F(CommandLine, BadInputExitsWith2AndWritesNothing) {
         "run swing.yaml --set output.fields=[displacment]",
         "run swing.yaml --set elasticity.kinematics=linear --set elasticity.corotation=warped",
         "run swing.yaml --set elasticity.warped_tangent=unsymmetric",
-        "run swing.yaml --set integrator.h_min=1 --set integrator.h_max=0.1", "run swing.yaml --set materials.soft.young=.inf",
-        "check swing.yaml --set clamps.0.surface=x7", "run", "fly swing.yaml", "list gravity"}) {
+        "run swing.yaml --set integrator.h_min=1 --set integrator.h_max=0.1",
+        "run swing.yaml --set materials.soft.young=.inf", "check swing.yaml --set clamps.0.surface=x7", "run",
+        "fly swing.yaml", "list gravity"}) {
     const auto result = orthodyn(arguments);
     EXPECT_EQ(result.exit_code, 2) << arguments << "\n" << result.output;
     EXPECT_FALSE(result.output.empty()) << arguments;
@@ -99,7 +102,8 @@ TEST_F(CommandLine, BadInputExitsWith2AndWritesNothing) {
 TEST_F(CommandLine, ASetValueIsNamedWhenItIsAtFault) {
   write("swing.yaml", kSwing);
   const auto result = orthodyn("run swing.yaml --set materials.soft.nu=0.7");
-  EXPECT_NE(result.output.find("swing.yaml: --set materials.soft.nu: must be in (-1, 0.5), found 0.7"), std::string::npos)
+  EXPECT_NE(result.output.find("swing.yaml: --set materials.soft.nu: must be in (-1, 0.5), found 0.7"),
+            std::string::npos)
       << result.output;
 }
 
@@ -110,7 +114,8 @@ TEST_F(CommandLine, ARunThatCannotGoOnExitsWith3AndKeepsItsFrames) {
   EXPECT_NE(result.output.find("max_steps"), std::string::npos) << result.output;
   EXPECT_TRUE(fs::exists(folder_ / "out/swing/frames/frame_00000.vtu"));
   const auto json = read_text(folder_ / "out/swing/run.json");
-  for (const char* word : {"\"failed\"", "\"failure\"", "\"time\"", "element_with_smallest_det_f", "fastest_node", "raise"})
+  for (const char* word :
+       {"\"failed\"", "\"failure\"", "\"time\"", "element_with_smallest_det_f", "fastest_node", "raise"})
     EXPECT_NE(json.find(word), std::string::npos) << word;
 }
 
@@ -172,8 +177,8 @@ TEST_F(CommandLine, CheckPredictsAndWritesNothing) {
 TEST_F(CommandLine, ListNamesEverythingThatCanBeNamed) {
   const auto result = orthodyn("list");
   EXPECT_EQ(result.exit_code, 0);
-  for (const char* name : {"orthotropic_stable", "cvode_bdf", "ida_bdf", "klu_full", "eigen_ldlt", "gmsh", "gravity", "table",
-                           "stress_material", "nonlinear_coefficient"})
+  for (const char* name : {"orthotropic_stable", "cvode_bdf", "ida_bdf", "klu_full", "eigen_ldlt", "gmsh", "gravity",
+                           "table", "stress_material", "nonlinear_coefficient"})
     EXPECT_NE(result.output.find(name), std::string::npos) << name;
   EXPECT_EQ(orthodyn("list materials").exit_code, 0);
 }
@@ -198,9 +203,10 @@ TEST_F(CommandLine, HelpListsTheCommandsInTheOrderOfTheirUseAndHidesThoseOfProce
 }
 
 TEST_F(CommandLine, OptionsThatDoNotGoTogetherAreRefused) {
-  for (const std::string arguments : {"run a.yaml --force --resume", "run a.yaml --resume --estimate-error",
-                                      "check a.yaml --out b", "sweep a.yaml --tasks 3", "sweep a.yaml --jobs 0",
-                                      "sweep a.yaml --slurm=fast", "sweep a.yaml --collect --retry", "modes a.yaml -n 0"}) {
+  for (const std::string arguments :
+       {"run a.yaml --force --resume", "run a.yaml --resume --estimate-error", "check a.yaml --out b",
+        "sweep a.yaml --tasks 3", "sweep a.yaml --jobs 0", "sweep a.yaml --slurm=fast",
+        "sweep a.yaml --collect --retry", "modes a.yaml -n 0"}) {
     const auto result = orthodyn(arguments);
     EXPECT_EQ(result.exit_code, 2) << arguments;
     EXPECT_NE(result.output.find("Run with --help"), std::string::npos) << arguments << "\n" << result.output;

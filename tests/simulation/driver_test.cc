@@ -11,7 +11,7 @@
 #include "lib/simulation/run.h"
 #include "lib/simulation/observers/frames.h"
 #include "lib/scene/build.h"
-#include "tests/simulation/command.h"
+#include "tests/simulation/run_program.h"
 
 namespace orthodyn {
 namespace {
@@ -27,8 +27,12 @@ struct Recorder : Observer {
 
 struct Case {
   explicit Case(const std::string& yaml)
-      : scene(read_scene(Config::from_text(yaml))), built(build(scene)),
-        integrator(scene.integrator->make(*built.model, {[] { return Scales{0.1, 1}; }, built.initial, scene.time.end, 0})) {}
+      : scene(read_scene(Config::from_text(yaml))),
+        built(build(scene)),
+        integrator(scene.integrator->make(*built.model, {[] {
+                                                           return Scales{0.1, 1};
+                                                         },
+                                                         built.initial, scene.time.end, 0})) {}
   Outcome run_with(Plan plan, std::vector<Observer*> observers) {
     plan.end = scene.time.end;
     return run(*built.model, *integrator, built.initial, plan, observers, never);
@@ -61,7 +65,8 @@ TEST(Driver, DeliversEveryOutputOnceAndInOrder) {
 }
 
 TEST(Driver, NeverStepsAcrossAKinkOfTheLoads) {
-  Case swing(std::string(kSwing) + "loads: [{surface: x1, force: [0, 1, 0], factor: {type: ramp, start: 0.1, end: 0.2}}]\n");
+  Case swing(std::string(kSwing) +
+             "loads: [{surface: x1, force: [0, 1, 0], factor: {type: ramp, start: 0.1, end: 0.2}}]\n");
   Recorder seen;
   EXPECT_EQ(swing.run_with({}, {&seen}).status, Outcome::Status::completed);
   for (const double kink : {0.1, 0.2})
@@ -113,7 +118,8 @@ TEST_F(Files, FrameZeroIsTheInitialStateAndTimesAreReal) {
   FrameWriter frames(folder_, *swing.built.model, {"displacement", "stress"});
   ASSERT_EQ(swing.run_with({0, {0.125, 0.5}, false}, {&frames}).status, Outcome::Status::completed);
   const auto pvd = read_text(folder_ / "frames.pvd");
-  for (const char* entry : {"timestep=\"0\" part=\"0\" file=\"frames/frame_00000.vtu\"", "timestep=\"0.125\"", "timestep=\"0.5\""})
+  for (const char* entry :
+       {"timestep=\"0\" part=\"0\" file=\"frames/frame_00000.vtu\"", "timestep=\"0.125\"", "timestep=\"0.5\""})
     EXPECT_NE(pvd.find(entry), std::string::npos) << entry;
 }
 
@@ -125,7 +131,8 @@ TEST_F(Files, AVtuHoldsAsManyBytesAsItsOffsetsSay) {
   const auto base = text.find("<AppendedData encoding=\"raw\">\n_") + 31;
   ASSERT_NE(base, std::string::npos + 31);
   std::size_t expected = 0;
-  for (std::size_t at = text.find("offset=\""); at < base && at != std::string::npos; at = text.find("offset=\"", at + 1)) {
+  for (std::size_t at = text.find("offset=\""); at < base && at != std::string::npos;
+       at = text.find("offset=\"", at + 1)) {
     EXPECT_EQ(std::stoul(text.substr(at + 8)), expected);
     std::uint64_t bytes = 0;
     std::memcpy(&bytes, text.data() + base + expected, sizeof bytes);

@@ -45,10 +45,12 @@ class Killed : public Resume {
   }
 
   // Kills at random moments until the run is through. The number of kills.
-  int run_with_kills(const std::string& scene, const std::string& out, double longest_milliseconds, std::mt19937& random) {
+  int run_with_kills(const std::string& scene, const std::string& out, double longest_milliseconds,
+                     std::mt19937& random) {
     std::uniform_real_distribution<double> moment(1, longest_milliseconds);
     for (int kills = 0; kills < 200; ++kills)
-      if (run_and_kill("run " + scene + " --quiet --resume --out " + out, moment(random) * (1 + kills / 20))) return kills;
+      if (run_and_kill("run " + scene + " --quiet --resume --out " + out, moment(random) * (1 + kills / 20)))
+        return kills;
     ADD_FAILURE() << "does not come to an end:\n" << read_text(folder_ / "log.txt");
     return 0;
   }
@@ -65,8 +67,8 @@ TEST_F(Killed, KilledAtRandomMomentsItEndsWithTheSameFrames) {
     const char* integrator;
     double tolerance;
   };
-  // A restart of a multistep method costs some tolerances, as the whole run does. A fixed step repeats the same steps: what
-  // remains is where Newton stops.
+  // A restart of a multistep method costs some tolerances, as the whole run does. A fixed step repeats the same steps:
+  // what remains is where Newton stops.
   for (const auto& [name, integrator, tolerance] :
        {Method{"bdf", kBdf, 10 * kRtol}, {"fixed", kFixedStep, 1e-6}}) {
     const std::string scene = write(std::string(name) + ".yaml", kBeam + std::string(integrator)).string();

@@ -8,7 +8,7 @@
 #include "lib/core/errors.h"
 #include "lib/core/symmetric_eigen.h"
 #include "tests/fem/built_scene.h"
-#include "tests/simulation/command.h"
+#include "tests/simulation/run_program.h"
 
 namespace orthodyn {
 namespace {
@@ -112,7 +112,8 @@ TEST_F(ModesCommand, WritesATableShapesAndTellsOfRigidModes) {
   const auto result = orthodyn("modes scene.yaml -n 8 --out out");
   EXPECT_EQ(result.exit_code, 0) << result.output;
   EXPECT_NE(result.output.find("the first 6 are rigid: 0 Hz"), std::string::npos) << result.output;
-  EXPECT_NE(read_text(folder_ / "out/modes.csv").find("mode,frequency [Hz],angular_frequency [rad/s]"), std::string::npos);
+  EXPECT_NE(read_text(folder_ / "out/modes.csv").find("mode,frequency [Hz],angular_frequency [rad/s]"),
+            std::string::npos);
   EXPECT_NE(read_text(folder_ / "out/modes.pvd").find("timestep=\"8\" part=\"0\" file=\"modes/mode_008.vtu\""),
             std::string::npos);
   EXPECT_TRUE(fs::exists(folder_ / "out/modes/mode_008.vtu"));
@@ -122,7 +123,8 @@ TEST_F(ModesCommand, RefusesMoreModesThanUnknownsAndAFreeBodyAboutEquilibrium) {
   write("scene.yaml", kFreeBlock);
   auto result = orthodyn("modes scene.yaml -n 1000 --out out");
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.output.find("1000 modes were asked for, but there are 360 unknowns"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("1000 modes were asked for, but there are 360 unknowns"), std::string::npos)
+      << result.output;
   result = orthodyn("modes scene.yaml --equilibrium --out out");
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.output.find("no definite place at rest"), std::string::npos) << result.output;

@@ -2,7 +2,7 @@
 #include "lib/simulation/result_folder.h"
 
 #include "lib/core/errors.h"
-#include "tests/simulation/command.h"
+#include "tests/simulation/run_program.h"
 
 namespace orthodyn {
 namespace {

@@ -33,7 +33,8 @@ TEST_F(Resume, OneRunAtATimeWorksInAFolder) {
                            "$how; echo \"code $?\"; done; kill -TERM $pid; wait $pid; }");
   EXPECT_EQ(tried.exit_code, 130);
   std::size_t refused = 0;
-  for (std::size_t at = 0; (at = tried.output.find("another run is at work there", at)) != std::string::npos; ++at) ++refused;
+  for (std::size_t at = 0; (at = tried.output.find("another run is at work there", at)) != std::string::npos; ++at)
+    ++refused;
   EXPECT_EQ(refused, 3u) << tried.output;
   EXPECT_EQ(tried.output.find("code 0"), std::string::npos) << tried.output;
 }
@@ -59,7 +60,8 @@ TEST_F(Resume, TheSameValueInAnotherUnitIsNoChange) {
   ASSERT_EQ(orthodyn("run swing.yaml --quiet --set 'materials.soft.young=0.1 MPa'").exit_code, 0);
   const auto result = orthodyn("run swing.yaml --quiet --resume --set time.end=0.6");
   EXPECT_EQ(result.exit_code, 0) << result.output;
-  const auto other = orthodyn("run swing.yaml --quiet --resume --set time.end=0.7 --set 'materials.soft.young=0.2 MPa'");
+  const auto other =
+      orthodyn("run swing.yaml --quiet --resume --set time.end=0.7 --set 'materials.soft.young=0.2 MPa'");
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_NE(other.output.find("materials.soft.young differs"), std::string::npos) << other.output;
 }

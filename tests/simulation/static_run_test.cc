@@ -1,5 +1,5 @@
 // `orthodyn run` of static scenes, and events of dynamic ones, as a user sees them.
-#include "tests/simulation/command.h"
+#include "tests/simulation/run_program.h"
 #include "tests/simulation/result_reader.h"
 
 namespace orthodyn {
@@ -84,7 +84,8 @@ TEST_F(EventRun, LogsEachCrossingAndStopsWhereItIsTold) {
                                  "- {quantity: tip.displacement.z, crosses: -0.05, direction: down, action: stop}\n"));
   const auto result = orthodyn("run swing.yaml --out out");
   ASSERT_EQ(result.exit_code, 0) << result.output;
-  EXPECT_NE(result.output.find("stopped by the event 'tip.displacement.z' at t = "), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("stopped by the event 'tip.displacement.z' at t = "), std::string::npos)
+      << result.output;
   std::istringstream table(read_text(folder_ / "out/events.csv"));
   std::string header, low, stop, none;
   std::getline(table, header);

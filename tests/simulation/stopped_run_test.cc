@@ -62,11 +62,13 @@ TEST_F(Stopped, TheBalanceOfEnergyGoesOnWhereItWas) {
   const auto dissipated = [&](const char* name) { return record(name).at("energy").at("dissipated").get<double>(); };
   EXPECT_GT(dissipated("whole"), 0);
   EXPECT_NEAR(dissipated("out/beam"), dissipated("whole"), 1e-2 * dissipated("whole"));
-  EXPECT_LT(record("out/beam").at("energy").at("balance_drift"), 10 * record("whole").at("energy").at("balance_drift").get<double>());
+  EXPECT_LT(record("out/beam").at("energy").at("balance_drift"),
+            10 * record("whole").at("energy").at("balance_drift").get<double>());
 }
 
 TEST_F(Stopped, AnotherSceneIsRefusedByTheKeysThatDiffer) {
-  expect_refused("beam.yaml --set loads.0.force.2=7 --set integrator.rtol=1e-5", "loads.0.force.2, integrator.rtol differ");
+  expect_refused("beam.yaml --set loads.0.force.2=7 --set integrator.rtol=1e-5",
+                 "loads.0.force.2, integrator.rtol differ");
   expect_refused("beam.yaml --set output.frames=10", "output.frames");
   expect_refused("beam.yaml --set damping=null", "damping");
   expect_refused("beam.yaml --integrator ida_bdf", "integrator.type");
@@ -77,7 +79,8 @@ TEST_F(Stopped, ADamagedCheckpointIsRefusedAndNothingDestroyed) {
   const std::string whole = read_text(checkpoint_);
   std::mt19937 random(5);
   const auto put = [&](const std::string& text) { std::ofstream(checkpoint_, std::ios::binary) << text; };
-  for (const std::size_t length : {std::size_t{0}, std::size_t{10}, std::size_t{41}, std::size_t{60}, whole.size() / 2, whole.size() - 1}) {
+  for (const std::size_t length :
+       {std::size_t{0}, std::size_t{10}, std::size_t{41}, std::size_t{60}, whole.size() / 2, whole.size() - 1}) {
     put(whole.substr(0, length));
     expect_refused("beam.yaml", "checkpoint.cbor: ");
   }
@@ -112,7 +115,8 @@ TEST_F(Stopped, WithoutItsCheckpointItIsRefused) {
 
 TEST_F(Stopped, OnlyFramesOfTheRunAreRemovedWhenItGoesOn) {
   const auto frames = folder_ / "out/beam/frames";
-  const std::vector<std::string> others{"frame_99999.png", "frame_99999.vtu.bak", "frame_99999.vtu.part.txt", "frame_7.vtu"};
+  const std::vector<std::string> others{"frame_99999.png", "frame_99999.vtu.bak", "frame_99999.vtu.part.txt",
+                                        "frame_7.vtu"};
   const std::vector<std::string> ours{"frame_99999.vtu", "frame_99998.vtu.part", "frame_00000.vtu.part"};
   for (const auto& name : others) std::ofstream(frames / name) << "x";
   for (const auto& name : ours) std::ofstream(frames / name) << "x";

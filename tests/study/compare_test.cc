@@ -5,7 +5,7 @@
 #include <set>
 #include <thread>
 
-#include "tests/simulation/command.h"
+#include "tests/simulation/run_program.h"
 
 namespace orthodyn {
 namespace {
@@ -198,7 +198,8 @@ TEST_F(Compare, ARunThatFailsAndAModelThatIsRefusedStayInTheTableWithTheirReason
 TEST_F(Compare, AProcessThatDiesIsNoResultThatLasts) {
   ASSERT_EQ(compare().exit_code, 0);
   const Json before = table();
-  const fs::path point = folder_ / "out/comparisons/c" / fs::path(before.at("points")[0].at("scene").get<std::string>());
+  const fs::path point =
+      folder_ / "out/comparisons/c" / fs::path(before.at("points")[0].at("scene").get<std::string>());
   std::ofstream(point.parent_path() / "result.json") << R"({"status": "failed", "reason": "crashed", "message": "x"})";
   const auto again = compare();
   EXPECT_EQ(again.exit_code, 0) << again.output;
@@ -236,7 +237,8 @@ TEST_F(Compare, NothingIsConcludedFromAReferenceThatCouldNotBeChecked) {
 }
 
 TEST_F(Compare, AReferenceThatFailsLeavesTheTimes) {
-  write("c.yaml", std::string(kSmall).replace(std::string(kSmall).find("integrator: {"), 13, "integrator: {max_steps: 3, "));
+  write("c.yaml",
+        std::string(kSmall).replace(std::string(kSmall).find("integrator: {"), 13, "integrator: {max_steps: 3, "));
   ASSERT_EQ(compare().exit_code, 0);
   const Json t = table();
   EXPECT_EQ(t.at("problems")[0].at("reference").at("kind"), "none");
@@ -282,7 +284,8 @@ TEST_F(Compare, PointsAreMeasuredAgainWhenAFileBesideTheMeshHasChanged) {
   elements("1 1 2 3 4 1");
   write("two.yaml", "mesh: {type: file, file: two.node}\nmaterials: {m: {type: isotropic, density: 1, young: 1e3, nu: "
                     "0.3}}\ninitial: {spin: [1, 0, 0]}\ntime: {end: 0.1}\n");
-  write("c.yaml", "scenes: [two.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-3]\nrepeats: 1\nreference: {kind: none}\n");
+  write("c.yaml",
+        "scenes: [two.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-3]\nrepeats: 1\nreference: {kind: none}\n");
   ASSERT_EQ(compare().exit_code, 0);
   EXPECT_NE(compare().output.find("done before"), std::string::npos);
   elements("1 1 2 3 4 2");
@@ -293,7 +296,8 @@ TEST_F(Compare, PointsAreMeasuredAgainWhenAFileBesideTheMeshHasChanged) {
 
 TEST_F(Compare, AMeshThatCannotBeReadFailsThePointsOfItsSceneOnly) {
   write("bad.msh", "no mesh");
-  write("bad.yaml", std::string(kSwing).replace(std::string(kSwing).find("{type: box"), 50, "{type: gmsh, file: bad.msh}"));
+  write("bad.yaml",
+        std::string(kSwing).replace(std::string(kSwing).find("{type: box"), 50, "{type: gmsh, file: bad.msh}"));
   write("c.yaml", "scenes: [bad.yaml, swing.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-3]\nrepeats: 1\n"
                   "reference: {kind: none}\n");
   const auto done = compare();

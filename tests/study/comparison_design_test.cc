@@ -6,7 +6,7 @@
 
 #include "lib/config/registry.h"
 #include "lib/ode/integrator.h"
-#include "tests/simulation/command.h"
+#include "tests/simulation/run_program.h"
 
 namespace orthodyn::study::compare {
 namespace {

@@ -78,12 +78,14 @@ TEST(ErrorEstimate, RichardsonIsExactToLeadingOrderForAFixedStep) {
 TEST(ErrorEstimate, ThousandsOfOutputsAreSampledUpToTheLast) {
   const Estimated run("{type: cvode_bdf, rtol: 1e-4}", 1001);
   EXPECT_EQ(run.estimate.samples, 1 + 167);  // every sixth of 1001, and the last
-  EXPECT_NEAR(run.estimate.displacement.final / Estimated("{type: cvode_bdf, rtol: 1e-4}", 10).estimate.displacement.final,
-              1, 0.05);
+  EXPECT_NEAR(
+      run.estimate.displacement.final / Estimated("{type: cvode_bdf, rtol: 1e-4}", 10).estimate.displacement.final, 1,
+      0.05);
 }
 
 TEST(ErrorEstimate, StepsMayHaveAUnit) {
-  const Estimated plain("{type: arkode_dirk, step: 0.01, rtol: 1e-8}"), with_unit("{type: arkode_dirk, step: 10 ms, rtol: 1e-8}");
+  const Estimated plain("{type: arkode_dirk, step: 0.01, rtol: 1e-8}"),
+      with_unit("{type: arkode_dirk, step: 10 ms, rtol: 1e-8}");
   EXPECT_EQ(with_unit.estimate.against, "integrator.step=0.005");
   EXPECT_EQ(with_unit.estimate.displacement.l2, plain.estimate.displacement.l2);
 }

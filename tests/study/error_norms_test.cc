@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "lib/simulation/setup.h"
-#include "tests/simulation/command.h"
+#include "tests/simulation/run_program.h"
 
 namespace orthodyn {
 namespace {

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "lib/core/errors.h"
-#include "tests/simulation/command.h"
+#include "tests/simulation/run_program.h"
 
 namespace orthodyn {
 namespace {

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "lib/simulation/files.h"
-#include "tests/simulation/command.h"
+#include "tests/simulation/run_program.h"
 
 namespace orthodyn::study {
 namespace {

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "lib/simulation/files.h"
-#include "tests/simulation/command.h"
+#include "tests/simulation/run_program.h"
 
 namespace orthodyn {
 namespace {

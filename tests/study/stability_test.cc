@@ -4,7 +4,7 @@
 
 #include "lib/study/jobs/json_values.h"
 #include "lib/study/stability/case_grade.h"
-#include "tests/simulation/command.h"
+#include "tests/simulation/run_program.h"
 
 namespace orthodyn::study::stability {
 namespace {

@@ -4,7 +4,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "tests/simulation/command.h"
+#include "tests/simulation/run_program.h"
 
 namespace orthodyn {
 

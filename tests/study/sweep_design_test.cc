@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "tests/simulation/command.h"
+#include "tests/simulation/run_program.h"
 
 namespace orthodyn::study::sweep {
 namespace {

@@ -1,7 +1,7 @@
 // Verification: what passes, what misses, what is refused.
 #include "lib/study/quantities/verify.h"
 
-#include "tests/simulation/command.h"
+#include "tests/simulation/run_program.h"
 
 namespace orthodyn::study {
 namespace {
@@ -54,8 +54,10 @@ TEST_F(Verify, TakesFiguresAtATimeAndOverTime) {
 }
 
 TEST_F(Verify, JUnitTellsWhatWasMissedAndEscapesIt) {
-  write("fall.yaml", kFall + "expect: [{quantity: corner.displacement.z, value: 1, relative: 1e-4, source: 'a < b & \"c\"', "
-                             "reason: r}]\n");
+  write("fall.yaml",
+        kFall +
+            "expect: [{quantity: corner.displacement.z, value: 1, relative: 1e-4, source: 'a < b & \"c\"', "
+            "reason: r}]\n");
   EXPECT_EQ(orthodyn("verify fall.yaml --junit out.xml").exit_code, 1);
   const std::string xml = read_text(folder_ / "out.xml");
   EXPECT_NE(xml.find("<failure message=\"computed -4.905"), std::string::npos) << xml;

@@ -9,7 +9,7 @@
 #include "lib/axes/axes_source.h"
 #include "lib/core/symmetric_eigen.h"
 #include "lib/simulation/axes_file.h"
-#include "lib/simulation/equilibrium.h"
+#include "lib/simulation/static_problem.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/scene_options.h"
@@ -53,7 +53,8 @@ void print_materials(const Scene& scene) {
 }
 
 // `solver_bytes` without its factorisation.
-void print_memory(const FemModel& model, const std::string& solver, std::size_t solver_bytes, std::size_t factor_bytes) {
+void print_memory(const FemModel& model, const std::string& solver, std::size_t solver_bytes,
+                  std::size_t factor_bytes) {
   std::size_t sum = 0;
   fmt::print("memory\n");
   const auto line = [&](const std::string& name, std::size_t bytes) {
@@ -73,7 +74,8 @@ void print_dynamics(Setup& setup) {
   setup.integrator->start(setup.built.initial);
   fmt::print("  critical step of an explicit scheme at least {:.4g} s\n", 2 / model.frequency_bound());
   const auto breakpoints = model.breakpoints(setup.scene.time.start, setup.scene.time.end);
-  if (!breakpoints.empty()) fmt::print("  restarts at kinks of loads and motions: {} s\n", fmt::join(breakpoints, ", "));
+  if (!breakpoints.empty())
+    fmt::print("  restarts at kinks of loads and motions: {} s\n", fmt::join(breakpoints, ", "));
   if (setup.scene.start == Start::equilibrium)
     fmt::print("start\n  from the static equilibrium, displaced by at most {:.4g} m\n",
                setup.built.initial.q.lpNorm<Eigen::Infinity>());
@@ -140,7 +142,8 @@ int check(const CheckArguments& arguments) {
              model.pattern().symmetric ? "symmetric, lower triangle" : "general");
   setup.integrator ? print_dynamics(setup) : print_statics(setup);
   if (arguments.axes)
-    write_and_draw_axes(setup, arguments.out ? fs::path(*arguments.out) : fs::path("out") / "axes" / fs::path(arguments.scene).stem());
+    write_and_draw_axes(
+        setup, arguments.out ? fs::path(*arguments.out) : fs::path("out") / "axes" / fs::path(arguments.scene).stem());
   return 0;
 }
 

@@ -84,7 +84,8 @@ expect:                    # for `orthodyn verify` and `orthodyn stability`; see
     reason: 100 rtol
 )";
 
-constexpr const char* kAnalysis = R"(analysis: static           # the equilibrium under all loads, which grow step by step
+constexpr const char* kAnalysis =
+    R"(analysis: static           # the equilibrium under all loads, which grow step by step
 )";
 
 constexpr const char* kRest = R"(

@@ -98,7 +98,8 @@ void print_expectations() {
 }
 
 void print_statics() {
-  print_entry("statics", "How equilibrium is found, by analysis: static and start: equilibrium.", Statics::spec().keys());
+  print_entry("statics", "How equilibrium is found, by analysis: static and start: equilibrium.",
+              Statics::spec().keys());
   print_registry<EquilibriumChoice>();
 }
 

@@ -45,8 +45,8 @@ void print_table(const FemModel& model, const Modes& modes, int rigid, bool equi
   for (std::size_t k = 0; k < modes.modes.size(); ++k) {
     const Vec3 share = 100 * modes.modes[k].effective_mass() / mass;
     sum += share;
-    fmt::print("  {:4}  {:14.7g}   {:12.3f} {:12.3f} {:12.3f}   {:18.1e}\n", k + 1, modes.modes[k].frequency(), share[0],
-               share[1], share[2], modes.modes[k].residual);
+    fmt::print("  {:4}  {:14.7g}   {:12.3f} {:12.3f} {:12.3f}   {:18.1e}\n", k + 1, modes.modes[k].frequency(),
+               share[0], share[1], share[2], modes.modes[k].residual);
   }
   fmt::print("  {:4}  {:>14}   {:12.3f} {:12.3f} {:12.3f}\n", "", "sum", sum[0], sum[1], sum[2]);
   if (modes.modes.front().lambda < 0)

@@ -40,7 +40,8 @@ void load_plugins(const std::vector<std::string>& files) {
   for (const auto& file : all) {
     load(file);
     if (!registry_conflicts().empty())
-      throw ConfigError("plugin " + file + ": the name '" + registry_conflicts().front() + "' is taken; choose another");
+      throw ConfigError("plugin " + file + ": the name '" + registry_conflicts().front() +
+                        "' is taken; choose another");
   }
   if (!all.empty()) setenv(kVariable, join(all, ":").c_str(), 1);
 }

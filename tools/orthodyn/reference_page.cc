@@ -35,7 +35,8 @@ void print_section(const InputSection& section) {
   if (!section.path.empty())
     fmt::print("\n### `{}{}`\n", section.path, section.type.empty() ? "" : ": {type: " + section.type + "}");
   fmt::print("\n{}\n", section.sentence);
-  for (const auto& [fact, text] : section.facts) fmt::print("{}- {}: {}\n", fact == section.facts.front().first ? "\n" : "", fact, text);
+  for (const auto& [fact, text] : section.facts)
+    fmt::print("{}- {}: {}\n", fact == section.facts.front().first ? "\n" : "", fact, text);
   if (section.keys.empty()) return;
   fmt::print("\n| key | value | default | |\n|---|---|---|---|\n");
   for (const Key& key : section.keys) {

@@ -128,8 +128,10 @@ class SchemaWriter {
       Schema names = Schema::array(), cases = Schema::array();
       for (const auto& [type, alternative] : shape.alternatives()) {
         names.push_back(type);
-        const Schema one = define(shape.title + "." + type, [&, &t = type, &a = alternative] { return section(a.keys, t); });
-        cases.push_back({{"if", {{"properties", {{"type", {{"const", type}}}}}, {"required", {"type"}}}}, {"then", one}});
+        const Schema one =
+            define(shape.title + "." + type, [&, &t = type, &a = alternative] { return section(a.keys, t); });
+        cases.push_back(
+            {{"if", {{"properties", {{"type", {{"const", type}}}}}, {"required", {"type"}}}}, {"then", one}});
         if (type == usual) cases.push_back({{"if", {{"not", {{"required", {"type"}}}}}}, {"then", one}});
       }
       Schema out = {{"type", "object"}};

@@ -1,5 +1,5 @@
-// The folder of a study, such as a comparison: marked as such, and used by one process at a time, or by several that only
-// add points.
+// The folder of a study, such as a comparison: marked as such, and used by one process at a time, or by several that
+// only add points.
 #pragma once
 
 #include <filesystem>

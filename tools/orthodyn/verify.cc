@@ -33,8 +33,8 @@ struct Widths {
 };
 
 void print_head(const Widths& widths) {
-  fmt::print("{:<{}}  {:<{}}  {:>12}  {:>12}  {:>10}  {:>8}\n", "case", widths.name, "quantity", widths.quantity, "target",
-             "computed", "difference", "limit");
+  fmt::print("{:<{}}  {:<{}}  {:>12}  {:>12}  {:>10}  {:>8}\n", "case", widths.name, "quantity", widths.quantity,
+             "target", "computed", "difference", "limit");
 }
 
 void print_result(const CaseResult& result, const Widths& widths) {

@@ -58,10 +58,11 @@ const Spec<SupportMotion>& SupportMotion::spec() {
                "From the place at rest, in m: three formulas of the time t and the rest position x, y, z.")
           .key("kinks", &SupportMotion::kinks, "Times where the formulas are not smooth; integrators restart there.",
                {.unit = "s"})
-          .key("resolution", &SupportMotion::resolution,
-               "Step of the differences that give the formulas' velocity and acceleration: a sixtieth of their shortest "
-               "period, or less; default 1e-3 s.",
-               {.unit = "s", .range = kPositive})
+          .key(
+              "resolution", &SupportMotion::resolution,
+              "Step of the differences that give the formulas' velocity and acceleration: a sixtieth of their shortest "
+              "period, or less; default 1e-3 s.",
+              {.unit = "s", .range = kPositive})
           .check(check_motion);
   return s;
 }

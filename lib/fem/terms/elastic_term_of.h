@@ -96,7 +96,8 @@ class ElasticTermOf final : public ElasticTerm {
                                         region_.beta, good);
         },
         [&](int k, int p) {
-          return law_.dissipation(elements_.gradient(k, p, s.x), axes().of(k), elements_.gradient(k, p, s.v), region_.beta);
+          return law_.dissipation(elements_.gradient(k, p, s.x), axes().of(k), elements_.gradient(k, p, s.v),
+                                  region_.beta);
         });
   }
 

@@ -44,10 +44,11 @@ class AbaqusMesh {
 
  private:
   void check_elements_differ() const {
-    const auto same = std::adjacent_find(tets_.begin(), tets_.end(), [](const auto& a, const auto& b) { return a.first == b.first; });
+    const auto same =
+        std::adjacent_find(tets_.begin(), tets_.end(), [](const auto& a, const auto& b) { return a.first == b.first; });
     if (same == tets_.end()) return;
-    draft_.fail(draft_.tets[(same + 1)->second].place, fmt::format("element {} is defined twice (first in line {})", same->first,
-                                                                   draft_.tets[same->second].place.line));
+    draft_.fail(draft_.tets[(same + 1)->second].place, fmt::format("element {} is defined twice (first in line {})",
+                                                                   same->first, draft_.tets[same->second].place.line));
   }
 
   // A range of many numbers costs no more than what exists of it.
@@ -74,7 +75,8 @@ class AbaqusMesh {
   }
 
   void spend(FilePlace place) {
-    if (budget_-- == 0) draft_.fail(place, "the sets list every node and element more than 100 times; remove sets that are not needed");
+    if (budget_-- == 0)
+      draft_.fail(place, "the sets list every node and element more than 100 times; remove sets that are not needed");
   }
 
   const AbaqusSet& find(const AbaqusSets& sets, const AbaqusMembers& m, const char* keyword) const {
@@ -155,7 +157,9 @@ class AbaqusMesh {
           const auto& [a, b, c] = kAbaqusFaces[face.side];
           triangles.push_back({tet.tag, {tet.nodes[a], tet.nodes[b], tet.nodes[c]}, face.elements.place});
         });
-        if (found == 0) draft_.fail(face.elements.place, fmt::format("surface {}: no such element of type C3D4", TextTokens::quoted(surface.name)));
+        if (found == 0)
+          draft_.fail(face.elements.place,
+                      fmt::format("surface {}: no such element of type C3D4", TextTokens::quoted(surface.name)));
       }
     }
     if (file_.triangles.empty()) return;

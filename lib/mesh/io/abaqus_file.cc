@@ -56,14 +56,16 @@ struct Keyword {
 // Three-node elements of planes, shells, membranes and rigid bodies.
 bool is_triangle(const std::string& type) {
   for (const char* start : {"CPS3", "CPE3", "CPEG3", "CAX3", "S3", "STRI3", "M3D3", "R3D3", "DS3", "SFM3D3", "DC2D3"}) {
-    if (type.starts_with(start) && type.find_first_of("0123456789", std::string(start).size()) == std::string::npos) return true;
+    if (type.starts_with(start) && type.find_first_of("0123456789", std::string(start).size()) == std::string::npos)
+      return true;
   }
   return false;
 }
 
 class AbaqusReader {
  public:
-  AbaqusReader(const std::string& path, std::string_view text) : tokens_(path, text, {.commas = true, .comment = "**"}) {
+  AbaqusReader(const std::string& path, std::string_view text)
+      : tokens_(path, text, {.commas = true, .comment = "**"}) {
     file_.draft.files = {path};
     file_.draft.nodes_section = "*NODE";
   }
@@ -92,7 +94,8 @@ class AbaqusReader {
     keyword.name = in_capitals(stripped(std::string_view(fields[0]).substr(1)));
     for (std::size_t k = 1; k < fields.size(); ++k) {
       const std::size_t equals = std::min(fields[k].find('='), fields[k].size());
-      const std::string value = equals < fields[k].size() ? stripped(std::string_view(fields[k]).substr(equals + 1)) : "";
+      const std::string value =
+          equals < fields[k].size() ? stripped(std::string_view(fields[k]).substr(equals + 1)) : "";
       keyword.parameters[in_capitals(stripped(std::string_view(fields[k]).substr(0, equals)))] = value;
     }
     return keyword;
@@ -127,16 +130,19 @@ class AbaqusReader {
     }
     for (const char* name : {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "SUBMODEL"}) {
       if (keyword.name == name) {
-        file_.draft.fail(keyword.place, fmt::format("*{} is not read; write the nodes and elements themselves, in global coordinates", name));
+        file_.draft.fail(
+            keyword.place,
+            fmt::format("*{} is not read; write the nodes and elements themselves, in global coordinates", name));
       }
     }
   }
 
   void read_part(const Keyword& keyword) {
     if (++parts_[keyword.name] > 1) {
-      file_.draft.fail(keyword.place, fmt::format("a second *{}; only one is read: write the model without parts and assemblies "
-                                                  "(Abaqus/CAE: Model attributes, \"Do not use parts and assemblies in input files\")",
-                                                  keyword.name));
+      file_.draft.fail(keyword.place,
+                       fmt::format("a second *{}; only one is read: write the model without parts and assemblies "
+                                   "(Abaqus/CAE: Model attributes, \"Do not use parts and assemblies in input files\")",
+                                   keyword.name));
     }
     if (keyword.name == "INSTANCE" && !at_keyword()) {
       tokens_.fail("an instance that is moved; write the nodes in global coordinates, without parts and assemblies");
@@ -171,8 +177,9 @@ class AbaqusReader {
     } else if (type.empty() || type.find("3D") != std::string::npos) {
       // Trusses and beams in space have 3D in their names, too.
       if (type.starts_with("T3D") || type.starts_with("R3D") || type.starts_with("M3D")) return ignore(type);
-      file_.draft.fail(keyword.place, fmt::format("elements of type {}; only linear tetrahedra (C3D4) are read: mesh again with these",
-                                                  type.empty() ? "(none given)" : type));
+      file_.draft.fail(keyword.place,
+                       fmt::format("elements of type {}; only linear tetrahedra (C3D4) are read: mesh again with these",
+                                   type.empty() ? "(none given)" : type));
     } else {
       ignore(type);
     }
@@ -297,6 +304,8 @@ class AbaqusReader {
 
 }  // namespace
 
-AbaqusFile read_abaqus_keywords(const std::string& path, std::string_view text) { return AbaqusReader(path, text).read(); }
+AbaqusFile read_abaqus_keywords(const std::string& path, std::string_view text) {
+  return AbaqusReader(path, text).read();
+}
 
 }  // namespace orthodyn

@@ -84,7 +84,8 @@ class TetgenReader {
       tet.tag = tokens.integer("the number of a tetrahedron");
       for (std::int64_t& node : tet.nodes) node = tokens.integer("a node");
       const bool named = attributes > 0;
-      tet.region = draft_.region_index(named ? fmt::format("region{}", tokens.real("the attribute of a region")) : "body");
+      tet.region =
+          draft_.region_index(named ? fmt::format("region{}", tokens.real("the attribute of a region")) : "body");
       for (std::int64_t k = 1; k < attributes; ++k) tokens.real("an attribute");
       draft_.tets.push_back(tet);
     });

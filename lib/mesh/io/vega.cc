@@ -38,8 +38,8 @@ std::vector<std::size_t> elements_of(const VegaFile& file, const VegaRegion& reg
   for (const FileNodeUse& use : set->elements) {
     const std::int64_t index = use.tag < 0 ? -1 : use.tag - file.first_element;
     if (index < 0 || index >= count) {
-      file.draft.fail(use.place, fmt::format("set {}: element {}; there are {} to {}", TextTokens::quoted(set->name), use.tag,
-                                             file.first_element, file.first_element + count - 1));
+      file.draft.fail(use.place, fmt::format("set {}: element {}; there are {} to {}", TextTokens::quoted(set->name),
+                                             use.tag, file.first_element, file.first_element + count - 1));
     }
     elements.push_back(static_cast<std::size_t>(index));
   }

@@ -159,11 +159,13 @@ class VegaReader {
     }
     const std::int64_t number = tokens.integer(what);
     if (done == 0) {
-      if (number != 0 && number != 1) tokens.fail(fmt::format("the first {} is {}; they count from 0 or 1", what, number));
+      if (number != 0 && number != 1)
+        tokens.fail(fmt::format("the first {} is {}; they count from 0 or 1", what, number));
       first = number;
     }
     const std::int64_t expected = first + static_cast<std::int64_t>(done);
-    if (number != expected) tokens.fail(fmt::format("{} {} where {} is expected; they count without gaps", what, number, expected));
+    if (number != expected)
+      tokens.fail(fmt::format("{} {} where {} is expected; they count without gaps", what, number, expected));
     return number;
   }
 
@@ -179,9 +181,12 @@ class VegaReader {
   void read_element_type(TextTokens& tokens) {
     const std::string type(tokens.word("TET"));
     if (type == "CUBIC") {
-      tokens.fail("CUBIC: a mesh of cubes; only tetrahedra are read: take the TET mesh of the model, or cut each cube into tets");
+      tokens.fail(
+          "CUBIC: a mesh of cubes; only tetrahedra are read: take the TET mesh of the model, or cut each cube into "
+          "tets");
     }
-    if (type != "TET" && type != "TETS") tokens.fail(fmt::format("element type {}; expected TET", TextTokens::quoted(type)));
+    if (type != "TET" && type != "TETS")
+      tokens.fail(fmt::format("element type {}; expected TET", TextTokens::quoted(type)));
     tokens.finish_line();
     section_ = Section::elements;
   }
@@ -218,7 +223,9 @@ class VegaReader {
 
   void finish_section(FilePlace next) {
     const auto expect = [&](const char* keyword, const char* what, std::size_t found) {
-      if (announced_ < 0) file_.draft.fail(next, fmt::format("{} (line {}) ends without its count of {}", keyword, section_place_.line, what));
+      if (announced_ < 0)
+        file_.draft.fail(next,
+                         fmt::format("{} (line {}) ends without its count of {}", keyword, section_place_.line, what));
       if (static_cast<std::int64_t>(found) == announced_) return;
       file_.draft.fail(next, fmt::format("{} of the {} {} announced after line {}; is the file truncated?", found,
                                          announced_, what, section_place_.line));
@@ -229,7 +236,8 @@ class VegaReader {
       case Section::element_type:
       case Section::material:
       case Section::region:
-        file_.draft.fail(next, fmt::format("the section of line {} is empty; is the file truncated?", section_place_.line));
+        file_.draft.fail(next,
+                         fmt::format("the section of line {} is empty; is the file truncated?", section_place_.line));
       case Section::none:
       case Section::set: break;
     }

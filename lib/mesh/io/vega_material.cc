@@ -42,7 +42,8 @@ void read_one_ratio(TextTokens& tokens, bool has_factor, MeshMaterial& m) {
 
 std::string rows(const Mat3& R) {
   std::string text;
-  for (int i = 0; i < 3; ++i) text += fmt::format("{}({:.9g}, {:.9g}, {:.9g})", i == 0 ? "" : ", ", R(i, 0), R(i, 1), R(i, 2));
+  for (int i = 0; i < 3; ++i)
+    text += fmt::format("{}({:.9g}, {:.9g}, {:.9g})", i == 0 ? "" : ", ", R(i, 0), R(i, 1), R(i, 2));
   return text;
 }
 
@@ -54,14 +55,16 @@ void read_axes(TextTokens& tokens, MeshMaterial& m, Warnings& warnings) {
   }
   const double error = (R.transpose() * R - Mat3::Identity()).cwiseAbs().maxCoeff();
   if (!(error <= kRounding)) {
-    tokens.fail(fmt::format("the axes R are not orthonormal: rows {}; R^T R differs from 1 by {:.3g}, at most {:.0e} is "
-                            "repaired: give three orthogonal unit vectors as columns",
-                            rows(R), error, kRounding));
+    tokens.fail(
+        fmt::format("the axes R are not orthonormal: rows {}; R^T R differs from 1 by {:.3g}, at most {:.0e} is "
+                    "repaired: give three orthogonal unit vectors as columns",
+                    rows(R), error, kRounding));
   }
   if (R.determinant() < 0) {
     R.col(2) = -R.col(2);
-    warnings.push_back(fmt::format("{}:{}: material {}: left-handed axes; axis 3 was turned, which is the same material",
-                                   tokens.path(), tokens.line(), TextTokens::quoted(m.name)));
+    warnings.push_back(
+        fmt::format("{}:{}: material {}: left-handed axes; axis 3 was turned, which is the same material",
+                    tokens.path(), tokens.line(), TextTokens::quoted(m.name)));
   }
   m.axes.col(0) = R.col(0).normalized();
   m.axes.col(1) = (R.col(1) - m.axes.col(0).dot(R.col(1)) * m.axes.col(0)).normalized();
@@ -100,8 +103,9 @@ MeshMaterial read_vega_material(TextTokens& tokens, const std::string& name, War
   const bool known = form == "_N3G3R9" || form == "_N3G3" || form == "_N1G1R9" || form == "_N1G1" ||
                      form == "_N1R9" || form == "_N1";
   if (!known) {
-    tokens.fail(fmt::format("material {}: kind {}; the forms of ORTHOTROPIC are _N3G3R9, _N3G3, _N1G1R9, _N1G1, _N1R9, _N1",
-                            TextTokens::quoted(name), TextTokens::quoted(type)));
+    tokens.fail(
+        fmt::format("material {}: kind {}; the forms of ORTHOTROPIC are _N3G3R9, _N3G3, _N1G1R9, _N1G1, _N1R9, _N1",
+                    TextTokens::quoted(name), TextTokens::quoted(type)));
   }
   m.kind = MeshMaterial::Kind::orthotropic;
   m.density = positive(tokens, "the density");

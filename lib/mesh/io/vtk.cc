@@ -39,7 +39,8 @@ class VtkReader {
     tokens_.finish_line();
     if (keyword() != "DATASET") tokens_.fail("expected DATASET");
     const std::string type = keyword();
-    if (type != "UNSTRUCTURED_GRID") tokens_.fail(fmt::format("DATASET {}; expected UNSTRUCTURED_GRID", TextTokens::quoted(type)));
+    if (type != "UNSTRUCTURED_GRID")
+      tokens_.fail(fmt::format("DATASET {}; expected UNSTRUCTURED_GRID", TextTokens::quoted(type)));
     tokens_.finish_line();
   }
 
@@ -106,8 +107,9 @@ class VtkReader {
 
   void read_attribute(const std::string& kind) {
     if (kind != "SCALARS" && kind != "VECTORS" && kind != "NORMALS" && kind != "TENSORS") {
-      tokens_.fail(fmt::format("unknown or unsupported keyword {}; save the file with plain scalars, vectors, tensors or fields",
-                               TextTokens::quoted(kind)));
+      tokens_.fail(
+          fmt::format("unknown or unsupported keyword {}; save the file with plain scalars, vectors, tensors or fields",
+                      TextTokens::quoted(kind)));
     }
     if (!target_) tokens_.fail(fmt::format("{} before CELL_DATA or POINT_DATA", kind));
     CellData data{.name = std::string(tokens_.word("a name"))};
@@ -193,7 +195,8 @@ class VtkReader {
     tokens_.skip_bytes(begin + 1 + bytes);
     if (std::endian::native == std::endian::little) {
       for (std::size_t i = 0; i + type.width <= block.size(); i += type.width) {
-        std::reverse(block.begin() + static_cast<std::ptrdiff_t>(i), block.begin() + static_cast<std::ptrdiff_t>(i + type.width));
+        std::reverse(block.begin() + static_cast<std::ptrdiff_t>(i),
+                     block.begin() + static_cast<std::ptrdiff_t>(i + type.width));
       }
     }
     return vtk_numbers(block, type);

@@ -39,7 +39,8 @@ std::int64_t whole(const VtkGrid& grid, double x, double low, double high, const
 }
 
 void check_sizes(const VtkGrid& grid) {
-  if (grid.points.size() % 3 != 0) fail(grid, fmt::format("{} coordinates are not three per point", grid.points.size()));
+  if (grid.points.size() % 3 != 0)
+    fail(grid, fmt::format("{} coordinates are not three per point", grid.points.size()));
   if (grid.types.size() != grid.offsets.size()) {
     fail(grid, fmt::format("{} types and {} offsets for the same cells", grid.types.size(), grid.offsets.size()));
   }
@@ -60,7 +61,8 @@ std::vector<std::size_t> select_tets(const VtkGrid& grid, MeshDraft& draft) {
   double begin = 0;
   for (std::size_t c = 0; c < grid.types.size(); ++c) {
     const auto size = static_cast<double>(grid.connectivity.size());
-    const double end = static_cast<double>(whole(grid, grid.offsets[c], begin, size, fmt::format("the offset of cell {}", c)));
+    const double end =
+        static_cast<double>(whole(grid, grid.offsets[c], begin, size, fmt::format("the offset of cell {}", c)));
     const int type = static_cast<int>(whole(grid, grid.types[c], 0, 255, fmt::format("the type of cell {}", c)));
     if (type == kVtkTetra) {
       if (end - begin != 4) fail(grid, fmt::format("cell {}: a tetrahedron of {} points", c, end - begin));
@@ -86,7 +88,8 @@ std::vector<std::size_t> select_tets(const VtkGrid& grid, MeshDraft& draft) {
 void add_nodes_and_tets(const VtkGrid& grid, const std::vector<std::size_t>& tets, MeshDraft& draft) {
   const std::size_t points = grid.points.size() / 3;
   for (std::size_t p = 0; p < points; ++p) {
-    draft.nodes.push_back({static_cast<std::int64_t>(p), {}, Vec3(grid.points[3 * p], grid.points[3 * p + 1], grid.points[3 * p + 2])});
+    draft.nodes.push_back(
+        {static_cast<std::int64_t>(p), {}, Vec3(grid.points[3 * p], grid.points[3 * p + 1], grid.points[3 * p + 2])});
   }
   for (const std::size_t c : tets) {
     FileTet tet;
@@ -144,7 +147,8 @@ std::vector<CellData> data_of_tets(std::vector<CellData> all, const std::vector<
   for (CellData& data : all) {
     const auto components = static_cast<std::size_t>(data.components);
     for (std::size_t t = 0; t < tets.size(); ++t) {  // tets[t] >= t: moves towards the front
-      for (std::size_t k = 0; k < components; ++k) data.values[components * t + k] = data.values[components * tets[t] + k];
+      for (std::size_t k = 0; k < components; ++k)
+        data.values[components * t + k] = data.values[components * tets[t] + k];
     }
     data.values.resize(components * tets.size());
   }

@@ -31,7 +31,8 @@ class VtuReader {
     split_appended_data();
     const pugi::xml_parse_result parsed =
         document_.load_buffer(xml_.data(), xml_.size(), pugi::parse_default, pugi::encoding_utf8);
-    if (!parsed) fail_at(parsed.offset, fmt::format("not well-formed XML ({}); is the file truncated?", parsed.description()));
+    if (!parsed)
+      fail_at(parsed.offset, fmt::format("not well-formed XML ({}); is the file truncated?", parsed.description()));
     const pugi::xml_node file = document_.child("VTKFile");
     if (!file) throw ConfigError(path_ + ": no <VTKFile>: this is not a VTK XML file (.vtu)");
     read_encoding(file);
@@ -67,8 +68,9 @@ class VtuReader {
     encoding_.header_width = header == "UInt32" ? 4 : 8;
     const std::string compressor = file.attribute("compressor").value();
     if (!compressor.empty() && compressor != "vtkZLibDataCompressor") {
-      fail(file, fmt::format("compressor {}; only vtkZLibDataCompressor is read: save again with zlib or without compression",
-                             TextTokens::quoted(compressor)));
+      fail(file,
+           fmt::format("compressor {}; only vtkZLibDataCompressor is read: save again with zlib or without compression",
+                       TextTokens::quoted(compressor)));
     }
     encoding_.zlib = !compressor.empty();
     const std::string appended = file.child("AppendedData").attribute("encoding").as_string("base64");
@@ -126,7 +128,8 @@ class VtuReader {
   CellData read_array(const pugi::xml_node& array, std::optional<std::size_t> tuples = {}) {
     const std::string name = array.attribute("Name").value();
     CellData data{.name = name, .components = array.attribute("NumberOfComponents").as_int(1)};
-    if (data.components < 1) fail(array, fmt::format("array {}: {} components", TextTokens::quoted(name), data.components));
+    if (data.components < 1)
+      fail(array, fmt::format("array {}: {} components", TextTokens::quoted(name), data.components));
     try {
       data.values = read_values(array, data.components, tuples);
     } catch (const std::runtime_error& error) {
@@ -160,7 +163,8 @@ class VtuReader {
     if (format == "appended") {
       encoding.base64 = appended_base64_;
       const std::uint64_t offset = array.attribute("offset").as_ullong();
-      if (offset >= appended_.size()) throw std::runtime_error(fmt::format("offset {} lies behind the end of the file; is it truncated?", offset));
+      if (offset >= appended_.size())
+        throw std::runtime_error(fmt::format("offset {} lies behind the end of the file; is it truncated?", offset));
       bytes = vtu_bytes(appended_.substr(static_cast<std::size_t>(offset)), encoding, admit_bytes);
     } else if (format == "binary") {
       encoding.base64 = true;
@@ -168,7 +172,8 @@ class VtuReader {
     } else {
       throw std::runtime_error("unknown format " + TextTokens::quoted(format));
     }
-    if (bytes.size() % type->width != 0) throw std::runtime_error(fmt::format("{} bytes are not whole numbers of type {}", bytes.size(), type_name));
+    if (bytes.size() % type->width != 0)
+      throw std::runtime_error(fmt::format("{} bytes are not whole numbers of type {}", bytes.size(), type_name));
     if (encoding.swap) swap_bytes(bytes, type->width);
     return vtk_numbers(bytes, *type);
   }
@@ -185,7 +190,9 @@ class VtuReader {
     return found;
   }
 
-  [[noreturn]] void fail(const pugi::xml_node& node, const std::string& message) const { fail_at(node.offset_debug(), message); }
+  [[noreturn]] void fail(const pugi::xml_node& node, const std::string& message) const {
+    fail_at(node.offset_debug(), message);
+  }
   [[noreturn]] void fail_at(std::ptrdiff_t offset, const std::string& message) const {
     fail_at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0)), message);
   }

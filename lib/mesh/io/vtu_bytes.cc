@@ -94,13 +94,15 @@ std::uint64_t take_length(ByteSource& source, const VtuEncoding& encoding) {
 
 void append_inflated(const std::string& compressed, std::uint64_t size, std::string& out) {
   if (size > kHighestRatio * compressed.size() + 64) {
-    throw std::runtime_error(fmt::format("a block of {} bytes cannot come out of {} compressed ones", size, compressed.size()));
+    throw std::runtime_error(
+        fmt::format("a block of {} bytes cannot come out of {} compressed ones", size, compressed.size()));
   }
   const std::size_t begin = out.size();
   out.resize(begin + static_cast<std::size_t>(size) + 1);  // never empty
   uLongf length = static_cast<uLongf>(size) + 1;
-  const int status = uncompress(reinterpret_cast<Bytef*>(out.data() + begin), &length,
-                                reinterpret_cast<const Bytef*>(compressed.data()), static_cast<uLong>(compressed.size()));
+  const int status =
+      uncompress(reinterpret_cast<Bytef*>(out.data() + begin), &length,
+                 reinterpret_cast<const Bytef*>(compressed.data()), static_cast<uLong>(compressed.size()));
   if (status != Z_OK || length != size) throw std::runtime_error("a damaged compressed block");
   out.resize(begin + static_cast<std::size_t>(size));
 }
@@ -134,7 +136,8 @@ std::string take_compressed(ByteSource& source, const VtuEncoding& encoding, con
 
 void swap_bytes(std::string& bytes, std::size_t width) {
   for (std::size_t i = 0; i + width <= bytes.size(); i += width) {
-    std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(i), bytes.begin() + static_cast<std::ptrdiff_t>(i + width));
+    std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(i),
+                 bytes.begin() + static_cast<std::ptrdiff_t>(i + width));
   }
 }
 

@@ -20,9 +20,10 @@ void require_file(const FilePath& file) {
 class FileSource : public MeshSource {
  public:
   static const Spec<FileSource>& spec() {
-    static const auto s = Spec<FileSource>()
-                              .key("file", &FileSource::file_, "A mesh file; relative to the scene.", {.required = true})
-                              .key("scale", &FileSource::scale_, kScale, {.range = kPositive});
+    static const auto s =
+        Spec<FileSource>()
+            .key("file", &FileSource::file_, "A mesh file; relative to the scene.", {.required = true})
+            .key("scale", &FileSource::scale_, kScale, {.range = kPositive});
     return s;
   }
   LoadedMesh load() const override {

@@ -32,9 +32,10 @@ RoundCells cells_of(const std::array<int, 3>& counts, double grading) {
 class CylinderSource : public MeshSource, public CylinderMesh {
  public:
   static const Spec<CylinderSource>& spec() {
-    static const auto s = round_spec<CylinderSource, CylinderMesh>().check([](const CylinderSource& c, const Config& config) {
-      if (c.counts[0] % 4 != 0) config.at("cells").at(0).fail("must be a multiple of 4 around a full cylinder");
-    });
+    static const auto s =
+        round_spec<CylinderSource, CylinderMesh>().check([](const CylinderSource& c, const Config& config) {
+          if (c.counts[0] % 4 != 0) config.at("cells").at(0).fail("must be a multiple of 4 around a full cylinder");
+        });
     return s;
   }
   LoadedMesh load() const override {
@@ -72,8 +73,10 @@ class TubeSource : public MeshSource, public TubeMesh {
 
 const bool registered[] = {
     Registry<MeshSource>::add<CylinderSource>(
-        "cylinder", "A full cylinder with a square core of around/4 cells a side. Region: body. Surfaces: end0, end1, outer."),
-    Registry<MeshSource>::add<TubeSource>("tube", "A hollow cylinder. Region: body. Surfaces: end0, end1, outer, inner."),
+        "cylinder",
+        "A full cylinder with a square core of around/4 cells a side. Region: body. Surfaces: end0, end1, outer."),
+    Registry<MeshSource>::add<TubeSource>("tube",
+                                          "A hollow cylinder. Region: body. Surfaces: end0, end1, outer, inner."),
 };
 
 }  // namespace

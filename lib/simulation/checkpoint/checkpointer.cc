@@ -8,7 +8,8 @@ namespace orthodyn {
 
 namespace {
 
-// By the clock, none is written for so many times as long as the last one took: a slow disk takes a tenth of the run at most.
+// By the clock, none is written for so many times as long as the last one took: a slow disk takes a tenth of the run at
+// most.
 constexpr double kRest = 10;
 
 double seconds_between(std::chrono::steady_clock::time_point a, std::chrono::steady_clock::time_point b) {
@@ -66,7 +67,8 @@ void Checkpointer::write(const State& state) {
 }
 
 Effort Checkpointer::effort() const {
-  return before_ + Effort{integrator_.statistics(), seconds_between(begin_, Clock::now()), cpu_seconds_now() - begin_cpu_};
+  return before_ +
+         Effort{integrator_.statistics(), seconds_between(begin_, Clock::now()), cpu_seconds_now() - begin_cpu_};
 }
 
 }  // namespace orthodyn

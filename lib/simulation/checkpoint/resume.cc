@@ -55,8 +55,8 @@ void require_same_model(const Checkpoint& checkpoint, const Setup& setup, const 
 
 void require_time_left(const Checkpoint& checkpoint, const Setup& setup) {
   if (setup.scene.time.end >= checkpoint.state.t) return;
-  setup.config.at("time").at("end").fail(fmt::format("{} s lies before the checkpoint at t = {:.6g} s; give a later end",
-                                                     setup.scene.time.end, checkpoint.state.t));
+  setup.config.at("time").at("end").fail(fmt::format(
+      "{} s lies before the checkpoint at t = {:.6g} s; give a later end", setup.scene.time.end, checkpoint.state.t));
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 namespace orthodyn {
 
-// Paths of values that differ, in the order of `now`. Numbers are compared as numbers, with their units; a key without a
-// value counts as absent.
+// Paths of values that differ, in the order of `now`. Numbers are compared as numbers, with their units; a key without
+// a value counts as absent.
 std::vector<std::string> changed_keys(const Config& before, const Config& now);
 
 // Of `changed`, those that make it another simulation: all but the end of the time span, checkpoints,

@@ -57,7 +57,8 @@ std::vector<std::string> assignments(const IntegratorSettings& settings) {
 }  // namespace
 
 std::size_t samples_within(double bytes, std::size_t unknowns) {
-  const double one = 2.0 * 2 * sizeof(double) * static_cast<double>(std::max<std::size_t>(unknowns, 1));  // q and v, twice
+  const double one =
+      2.0 * 2 * sizeof(double) * static_cast<double>(std::max<std::size_t>(unknowns, 1));  // q and v, twice
   return static_cast<std::size_t>(std::clamp(bytes / one, 2.0, double{kSamples}));
 }
 

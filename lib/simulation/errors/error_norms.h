@@ -1,7 +1,7 @@
 // The distance of a trajectory from a reference.
 //
 // Displacements u and velocities v are measured in the mass norm |u|_M = sqrt(u' M u), as the model's
-// kinetic energy weighs them, relative to the largest |u_ref|_M, resp. |v_ref|_M, over the samples;
+// kinetic energy weighs them, relative to the largest |u_ref|_M and |v_ref|_M over the samples;
 // probes by the length of their displacement relative to its largest length.
 #pragma once
 

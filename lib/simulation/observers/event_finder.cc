@@ -80,7 +80,9 @@ void EventFinder::find_in_step(std::size_t event, double begin, double end, cons
   }
 }
 
-void EventFinder::save(Archive& archive) const { archive.put("sides", std::vector<double>(side_.begin(), side_.end())); }
+void EventFinder::save(Archive& archive) const {
+  archive.put("sides", std::vector<double>(side_.begin(), side_.end()));
+}
 
 void EventFinder::restore(const Archive& archive) {
   const auto& sides = archive.numbers("sides", side_.size());

@@ -32,7 +32,8 @@ class EventFinder {
   void restore(const Archive& archive);
 
  private:
-  void find_in_step(std::size_t event, double begin, double end, const Interpolate& interpolate, std::vector<Crossing>& found);
+  void find_in_step(std::size_t event, double begin, double end, const Interpolate& interpolate,
+                    std::vector<Crossing>& found);
   double excess(const Event& event, const State& state) const;
 
   std::vector<Event> events_;

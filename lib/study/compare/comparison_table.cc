@@ -63,7 +63,7 @@ Json scales_json(const Json& scales) {
   return {{"displacement", scales.at("displacement")},
           {"velocity", scales.at("velocity")},
           {"words",
-           "largest displacement from the rest shape, resp. velocity, of the reference over time, in the mass "
+           "largest displacement from the rest shape, and largest velocity, of the reference over time, in the mass "
            "norm"}};
 }
 

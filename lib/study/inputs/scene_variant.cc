@@ -15,7 +15,8 @@ Assignments own_options(const Config& scene, const std::string& integrator,
   if (!scene.has(kIntegrator) || !scene.at(kIntegrator).is_map()) return out;
   const Config own = scene.at(kIntegrator);
   for (const auto& key : own.keys())
-    if (key != "type" && kept(key) && has_key(integrator, key)) out.emplace_back(key, YamlText{own.at(key).yaml(), {own.at(key).where()}});
+    if (key != "type" && kept(key) && has_key(integrator, key))
+      out.emplace_back(key, YamlText{own.at(key).yaml(), {own.at(key).where()}});
   return out;
 }
 

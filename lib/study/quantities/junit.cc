@@ -23,8 +23,9 @@ std::string escaped(const std::string& text) {
 
 std::string test_case(const CaseResult& result, const Check& check) {
   const auto& e = check.expectation;
-  std::string out = fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", escaped(result.file),
-                                escaped(e.title()), result.outcome.wall_seconds / static_cast<double>(result.checks.size()));
+  std::string out =
+      fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", escaped(result.file), escaped(e.title()),
+                  result.outcome.wall_seconds / static_cast<double>(result.checks.size()));
   if (!result.completed())
     return out + fmt::format(">\n    <error message=\"{}\"/>\n  </testcase>\n", escaped(result.outcome.message));
   if (check.passed()) return out + "/>\n";

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "lib/simulation/equilibrium.h"
+#include "lib/simulation/static_problem.h"
 #include "lib/simulation/load_steps.h"
 #include "lib/simulation/run.h"
 #include "lib/simulation/setup.h"

@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "lib/scene/quantity.h"
-#include "lib/simulation/equilibrium.h"
+#include "lib/simulation/static_problem.h"
 #include "lib/simulation/errors/snapshot.h"
 #include "lib/simulation/load_steps.h"
 #include "lib/simulation/machine.h"

@@ -38,7 +38,8 @@ void check_color(const std::string& color, const Config& at) {
 
 void check_frame(const FrameSpec& f, const Config& config) {
   check_color(f.color, config.at("color"));
-  if (f.view.size() != 2) config.at("view").fail("expected two angles [azimuth, elevation] in degrees", InputFault::form);
+  if (f.view.size() != 2)
+    config.at("view").fail("expected two angles [azimuth, elevation] in degrees", InputFault::form);
   if (f.up != "x" && f.up != "y" && f.up != "z") config.at("up").fail("expected x, y or z, found '" + f.up + "'");
 }
 

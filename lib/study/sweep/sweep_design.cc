@@ -102,8 +102,9 @@ class Expansion {
       point.impossible = e.what();
       if (sweep_.impossible == Impossible::stop)
         throw ConfigError(
-            e.place(), fmt::format("{} (in {}{})", e.message(), point.title,
-                                   e.fault() == InputFault::form ? "" : "; impossible: keep goes on without such points"));
+            e.place(),
+            fmt::format("{} (in {}{})", e.message(), point.title,
+                        e.fault() == InputFault::form ? "" : "; impossible: keep goes on without such points"));
     }
     if (scene) check_times(*scene, point.title);
     if (scene && !is_looked_up_) try_to_look_up_quantities(*scene);

@@ -76,17 +76,19 @@ class MovedBody : public testing::TestWithParam<Setting> {
  protected:
   std::string common() const { return "mass: " + GetParam().mass + "\n" + GetParam().more + "\n"; }
   BuiltTestScene moved() const {
-    return BuiltTestScene(scene(common() + "clamps: [{surface: x0, components: [x, y]}]\noutput: {reactions: true}\nmotions:\n"
-                                "  - " + kFormulas + "\n"));
+    return BuiltTestScene(scene(common() +
+                                "clamps: [{surface: x0, components: [x, y]}]\noutput: {reactions: true}\nmotions:\n"
+                                "  - " +
+                                kFormulas + "\n"));
   }
   BuiltTestScene all_free() const { return BuiltTestScene(scene(common())); }
 };
-INSTANTIATE_TEST_SUITE_P(
-    Settings, MovedBody,
-    testing::Values(Setting{"lumped", "lumped", ""}, Setting{"consistent", "consistent", ""},
-                    Setting{"lumped_damped", "lumped", "damping: {mass: 0.7, stiffness: 0.1}"},
-                    Setting{"consistent_damped", "consistent", "damping: {mass: 0.7, stiffness: 0.1}\ngravity: [1, 2, 3]"}),
-    [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(Settings, MovedBody,
+                         testing::Values(Setting{"lumped", "lumped", ""}, Setting{"consistent", "consistent", ""},
+                                         Setting{"lumped_damped", "lumped", "damping: {mass: 0.7, stiffness: 0.1}"},
+                                         Setting{"consistent_damped", "consistent",
+                                                 "damping: {mass: 0.7, stiffness: 0.1}\ngravity: [1, 2, 3]"}),
+                         [](const auto& tested) { return tested.param.name; });
 
 // A state of the moved body and the same of the body whose nodes are all unknowns.
 struct Both {
@@ -122,7 +124,8 @@ TEST_P(MovedBody, MovesAsIfTheSupportsExertedWhatTheirNodesNeed) {
 TEST_P(MovedBody, HasAForceThatIsTheSumOfItsParts) {
   Random random(325);
   const auto s = moved();
-  const Vector q = random_dofs(random, s.size(), 0.05), v = random_dofs(random, s.size(), 1), whole = s.force(q, v, 0.6);
+  const Vector q = random_dofs(random, s.size(), 0.05), v = random_dofs(random, s.size(), 1),
+               whole = s.force(q, v, 0.6);
   Vector sum = s.zero(), f = s.zero();
   for (const auto& part : s.model().force_parts()) {
     s.model().only({part})->force(0.6, q, v, f);
@@ -148,7 +151,9 @@ TEST_P(MovedBody, ReactionsAreWhatItsHeldNodesNeed) {
   }
   left[2] = 0;
   const State state{both.t, both.q, both.v};
-  const auto vector = [&](const char* name) { return Vec3(Eigen::Map<const Vec3>(s.model().evaluate(name, state).data())); };
+  const auto vector = [&](const char* name) {
+    return Vec3(Eigen::Map<const Vec3>(s.model().evaluate(name, state).data()));
+  };
   EXPECT_LE((vector("reaction.clamp_1") - left).norm(), 1e-12 * both.needed.norm());
   EXPECT_LE((vector("reaction.motion_1") - right).norm(), 1e-12 * both.needed.norm());
   EXPECT_LE((vector("torque.motion_1") - torque).norm(), 1e-12 * both.needed.norm());
@@ -162,7 +167,8 @@ TEST_P(MovedBody, HasTheKineticEnergyAndMomentumOfAllItsNodes) {
   const State state{both.t, both.q, both.v};
   EXPECT_NEAR(s.model().evaluate("energy.kinetic", state)[0], 0.5 * both.all_v.dot(momentum), 1e-13 * momentum.norm());
   const Vec3 sum = momentum.reshaped(3, momentum.size() / 3).rowwise().sum();
-  EXPECT_LE((Eigen::Map<const Vec3>(s.model().evaluate("momentum.linear", state).data()) - sum).norm(), 1e-13 * momentum.norm());
+  EXPECT_LE((Eigen::Map<const Vec3>(s.model().evaluate("momentum.linear", state).data()) - sum).norm(),
+            1e-13 * momentum.norm());
 }
 
 TEST_P(MovedBody, GainsTheWorkOfItsSupportsLessWhatIsDissipated) {
@@ -173,7 +179,8 @@ TEST_P(MovedBody, GainsTheWorkOfItsSupportsLessWhatIsDissipated) {
   const auto energy = [&](double h) {
     const State at{both.t + h, both.q + h * both.v + h * h / 2 * both.a, both.v + h * both.a};
     double sum = 0;
-    for (const char* kind : {"energy.kinetic", "energy.elastic", "energy.gravitational"}) sum += s.model().evaluate(kind, at)[0];
+    for (const char* kind : {"energy.kinetic", "energy.elastic", "energy.gravitational"})
+      sum += s.model().evaluate(kind, at)[0];
     return one(sum);
   };
   const double power = s.model().evaluate("power.loads", state)[0] - s.model().evaluate("power.dissipated", state)[0];
@@ -195,8 +202,9 @@ TEST(MovedBody, IsFreeOfStressWhereAllOfItTurnsWithItsSupport) {
 }
 
 TEST(MovedBody, CanBeMovedInSomeCoordinatesAndClampedInOthers) {
-  const BuiltTestScene s(scene("clamps: [{surface: x1, components: [y, z]}]\nmotions:\n"
-                               "  - {surface: x1, components: [x], translation: [0.1, 7, 7], factor: {type: sine, frequency: 0.5}}"));
+  const BuiltTestScene s(
+      scene("clamps: [{surface: x1, components: [y, z]}]\nmotions:\n"
+            "  - {surface: x1, components: [x], translation: [0.1, 7, 7], factor: {type: sine, frequency: 0.5}}"));
   const NodalExpansion at(s.model().parts(), 0.25, s.zero(), s.zero());
   const NodalVector& X = *s.model().parts().rest;
   for (Eigen::Index i = 0; i < X.cols(); ++i) {
@@ -214,8 +222,9 @@ TEST(MovedBody, WhoseInertiaPullsHasNoForceBetweenTwoStates) {
 }
 
 TEST(MovedBody, StopsAtTheKinksOfItsMotions) {
-  const BuiltTestScene s(scene("motions:\n  - {surface: x0, translation: [1, 0, 0], factor: {type: ramp, start: 0.5, end: 1}}\n"
-                               "  - {surface: x1, displacement: [t, 0, 0], kinks: [0.2, 5]}"));
+  const BuiltTestScene s(
+      scene("motions:\n  - {surface: x0, translation: [1, 0, 0], factor: {type: ramp, start: 0.5, end: 1}}\n"
+            "  - {surface: x1, displacement: [t, 0, 0], kinks: [0.2, 5]}"));
   EXPECT_EQ(s.model().breakpoints(0, 2), (std::vector<double>{0.2, 0.5, 1}));
 }
 

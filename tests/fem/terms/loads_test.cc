@@ -30,11 +30,13 @@ Vec3 moment(const NodalVector& f, const NodalVector& x) {
 TEST(Traction, ExertsTractionTimesAreaAtTheCentreOfTheSurface) {
   const Vec3 t(2, -3, 5);
   struct Side { const char* name; double area; Vec3 center; };
-  for (const auto& side : {Side{"x1", 0.5, {3, 2.5, 3.25}}, Side{"y0", 1, {2, 2, 3.25}}, Side{"z1", 2, {2, 2.5, 3.5}}}) {
+  for (const auto& side :
+       {Side{"x1", 0.5, {3, 2.5, 3.25}}, Side{"y0", 1, {2, 2, 3.25}}, Side{"z1", 2, {2, 2.5, 3.5}}}) {
     const auto s = box(fmt::format("loads: [{{surface: {}, traction: [2, -3, 5]}}]", side.name));
     const NodalVector f = s.nodal(s.force(s.zero()));
     EXPECT_LE((total(f) - side.area * t).norm(), 64 * kEps * t.norm()) << side.name;
-    EXPECT_LE((moment(f, s.positions(s.zero())) - side.center.cross(side.area * t)).norm(), 512 * kEps * t.norm()) << side.name;
+    EXPECT_LE((moment(f, s.positions(s.zero())) - side.center.cross(side.area * t)).norm(), 512 * kEps * t.norm())
+        << side.name;
   }
 }
 
@@ -46,7 +48,8 @@ TEST(Traction, IsDeadItFollowsNoMotion) {
 }
 
 TEST(Traction, GivenAsATotalForceIsThatForceOverTheArea) {
-  const auto a = box("loads: [{surface: z1, force: [2, -3, 5]}]"), b = box("loads: [{surface: z1, traction: [1, -1.5, 2.5]}]");
+  const auto a = box("loads: [{surface: z1, force: [2, -3, 5]}]"),
+             b = box("loads: [{surface: z1, traction: [1, -1.5, 2.5]}]");
   EXPECT_LE((a.force(a.zero()) - b.force(b.zero())).norm(), 64 * kEps);
 }
 
@@ -64,7 +67,8 @@ TEST(Gravity, ExertsMassTimesAccelerationAtTheCentreOfMass) {
   const NodalVector f = s.nodal(s.force(s.zero()));
   EXPECT_LE((total(f) - mass * g).norm(), 1e-13 * mass * g.norm());
   // With five tets a cell nodal masses alternate; the box of 3 x 2 x 2 cells is symmetric but along x.
-  EXPECT_LE(std::abs(moment(f, s.positions(s.zero()))[0] - Vec3(2, 2.5, 3.25).cross(mass * g)[0]), 1e-12 * mass * g.norm());
+  EXPECT_LE(std::abs(moment(f, s.positions(s.zero()))[0] - Vec3(2, 2.5, 3.25).cross(mass * g)[0]),
+            1e-12 * mass * g.norm());
 }
 
 TEST(Gravity, HasTheEnergyOfTheHeight) {
@@ -88,7 +92,8 @@ loads:
 TEST(Damping, PowerIsThatOfItsForceAndNeverNegative) {
   Random random(133);
   for (const char* corotation : {"exact", "warped"}) {
-    const auto s = box(fmt::format("damping: {{stiffness: 0.2, mass: 0.7}}\nelasticity: {{corotation: {}}}", corotation));
+    const auto s =
+        box(fmt::format("damping: {{stiffness: 0.2, mass: 0.7}}\nelasticity: {{corotation: {}}}", corotation));
     for (const double amplitude : {0.02, 0.3, 1.0}) {  // the last with inverted elements
       const Vector q = random_dofs(random, s.size(), amplitude), v = random_dofs(random, s.size(), 1);
       const double power = s.scalar("power.dissipated", q, v);

@@ -90,7 +90,8 @@ TEST_P(StoringTerms, GaussNewtonTangentIsPositiveSemidefinite) {
 
 TEST_P(StoringTerms, AreWithinTheFrequencyBound) {
   for (const char* mass : {"lumped", "consistent"}) {
-    const auto s = block(GetParam().term, kClamps + fmt::format("\nmass: {}\nelasticity: {{kinematics: linear}}", mass));
+    const auto s =
+        block(GetParam().term, kClamps + fmt::format("\nmass: {}\nelasticity: {{kinematics: linear}}", mass));
     const Vector squares = symmetric_eigenvalues(s.stiffness(s.zero()), s.mass());
     EXPECT_LE(std::sqrt(squares.maxCoeff()), s.model().frequency_bound()) << mass;
   }

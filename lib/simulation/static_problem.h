@@ -18,8 +18,8 @@ struct StaticProblem {
 // ConfigError for a body that is not held. `built` must outlive the problem.
 StaticProblem static_problem(const Scene& scene, const BuiltScene& built);
 
-// The static counterpart of a dynamic scene: its body as it is at the start, with supports that stand still, and with the
-// usual `statics` if it has none.
+// The static counterpart of a dynamic scene: its body as it is at the start, with supports that stand still, and with
+// the usual `statics` if it has none.
 Scene at_rest(const Scene& scene);
 
 // The free coordinates in equilibrium, with supports that stand still. Throws ConfigError as above, RunError where

@@ -1,4 +1,4 @@
-#include "tests/simulation/command.h"
+#include "tests/simulation/run_program.h"
 
 #include <sys/wait.h>
 #include <unistd.h>

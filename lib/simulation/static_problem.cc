@@ -1,4 +1,4 @@
-#include "lib/simulation/equilibrium.h"
+#include "lib/simulation/static_problem.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,8 @@ void require_held(const Scene& scene, const FemModel& model, double t) {
   const std::string freedom = describe_rigid_freedom(model, t);
   if (freedom.empty()) return;
   const std::string message = fmt::format(
-      "{}: it has no definite place at rest. Clamp it so that all six rigid motions are held (a surface, or three points "
+      "{}: it has no definite place at rest. Clamp it so that all six rigid motions are held (a surface, or three "
+      "points "
       "that are not in line)",
       freedom);
   if (scene.clamps.empty()) throw ConfigError("clamps: " + message);

@@ -1,4 +1,4 @@
-#include "integrators/sundials/options.h"
+#include "integrators/sundials/sundials_options.h"
 
 #include "lib/core/versions.h"
 #include "lib/linear/solver.h"
