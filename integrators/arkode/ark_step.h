@@ -1,5 +1,5 @@
-// What the Runge-Kutta methods of ARKODE share: its life, the step, adaptive or fixed, restarts where the
-// force could not be evaluated, and dense output by the quintic through both ends of a step.
+// What the Runge-Kutta methods of ARKODE share: creation and destruction of its memory, the step, adaptive or fixed,
+// restarts where the force could not be evaluated, and dense output by the quintic through both ends of a step.
 #pragma once
 
 #include <arkode/arkode_arkstep.h>

@@ -48,7 +48,7 @@ class Accelerations {
     double t = 0;
     Vector a;
   };
-  static constexpr double kMemory = 0.5;  // of a miss, at the next one
+  static constexpr double kMemory = 0.5;  // weight of the past prediction error after each new one
   static std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
   // Lagrange's formula for the latest `used`; zero for none.

@@ -19,7 +19,7 @@ StageSolver::StageSolver(const Model& model, const NewtonOptions& options, const
                          Statistics& statistics)
     : model_(model),
       kind_(options.newton),
-      insists_(options.step.has_value()),
+      exhaustive_(options.step.has_value()),
       tolerance_(options.nonlinear_coefficient),
       max_iterations_(options.max_newton_iterations),
       norm_(norm),
@@ -45,7 +45,7 @@ bool StageSolver::solve(const Stage& stage, VectorRef x, VectorRef q, VectorRef 
     x = guess_;
     if (prepare(stage, x, true) && iterate(stage, x, q, v, each_time)) return true;
   }
-  if (!insists_ || each_time || model_.traits().linear) return false;
+  if (!exhaustive_ || each_time || model_.traits().linear) return false;
   x = guess_;
   return prepare(stage, x, true) && iterate(stage, x, q, v, true);
 }

@@ -53,7 +53,7 @@ class StageSolver {
 
   const Model& model_;
   NewtonKind kind_;
-  bool insists_;  // a fixed step: all is tried before it is given up
+  bool exhaustive_;  // a fixed step: a new tangent at each iteration is tried before the stage is given up
   double tolerance_;
   int max_iterations_;
   ScaledNorm norm_;

@@ -1,7 +1,7 @@
 // Eigenvalues of dense symmetric matrices: Eigen's solvers (QR after tridiagonalisation, Golub & Van Loan, Matrix
 // Computations, 8.3), compiled once for N = 3, 6 and Eigen::Dynamic, since each use costs seconds of compilation.
 // Only the lower triangle is read; values ascend, in the unit of A (of A over B). Thread-safe.
-// An entry that is not finite makes values that are not; check before.
+// Values and vectors are NaN where the iteration does not converge, as for entries that are not finite.
 #pragma once
 
 #include "lib/core/types.h"

@@ -1,4 +1,4 @@
-// The weight chi that carries an anisotropic corotational energy safely across inversion:
+// The weight chi that keeps an anisotropic corotational energy continuously differentiable through inversion:
 //     Psi = chi W + (1 - chi) W_iso,   chi = smoothstep(q),   q = det G / (g0 + c min(det F, 0)^2).
 // An anisotropic W(S - I) is multi-valued where R is not unique (det G = 0), and its force grows
 // like 1/det G there; the nearest isotropic law is single-valued. chi = 1 for every det F >= 0 with

@@ -2,7 +2,7 @@
 //
 // R maximises tr(R^T F). It is unique exactly where G = tr(S) I - S is positive definite
 // (s2 + s3 > 0); elsewhere, e.g. for F = 0 or a mirrored element, the maximiser nearest to `tie` is
-// taken, so that all elements fall the same way. R is a pure function of F and `tie`, to round-off:
+// taken, so that ties are resolved alike in all elements. R is a pure function of F and `tie`, to round-off:
 // no iteration depends on earlier steps.
 //
 // Method: q = the quaternion of R is the top eigenvector of Davenport's symmetric 4x4 matrix; its
@@ -31,7 +31,7 @@ Polar<double> polar(const Mat3& F, const Mat3& tie);
 // The analytic continuation of the above, for complex-step derivatives; F regular (s2 + s3 > 0).
 Polar<std::complex<double>> polar(const Mat3T<std::complex<double>>& F, const Mat3& tie);
 
-// Of a batch: lanes outside the returned mask are to be done one by one by the first function, which knows every case.
+// Of a batch: lanes outside the returned mask must be computed again by the first function, which handles all cases.
 Batch::Mask polar(const Mat3T<Batch>& F, Polar<Batch>& p);
 
 }  // namespace orthodyn

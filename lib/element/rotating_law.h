@@ -1,8 +1,8 @@
 // What the laws that rotate with the material have in common: objective viscous stress, and what can
 // be observed at a point.
 //
-// Stiffness-proportional damping acts on the rate of the strain measure itself, so that rigid motion
-// costs nothing: potential beta chi dS:C:dS / 2, P = R (s + [c]), s = beta chi C:dS, G c = a(S s). As
+// Stiffness-proportional damping acts on the rate of the strain measure itself, so that a rigid
+// motion dissipates nothing: potential beta chi dS:C:dS / 2, P = R (s + [c]), s = beta chi C:dS, G c = a(S s). As
 // G becomes singular dS grows without bound, and chi (blend.h) takes it to zero.
 #pragma once
 

@@ -92,8 +92,8 @@ struct NodalExpansion {
 // The forces of all terms on all nodes, N.
 NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& nodal);
 
-// The two that no term stands for, added to the free forces f, N. Mass-proportional damping; and the pull of moved
-// nodes on free ones by a consistent mass, - M_fc a_c. v: free velocities, m/s.
+// Two forces that are no terms, added to the free forces f, N: mass-proportional damping, and with a consistent mass
+// the inertia -M_fc a_c by which moved nodes pull at free ones. v: free velocities, m/s.
 void add_mass_damping(const FemModel::Parts& parts, const NodalExpansion& nodal, const ConstVectorRef& v, VectorRef f);
 bool supports_pull(const FemModel::Parts& parts);
 void add_support_pull(const FemModel::Parts& parts, const NodalExpansion& nodal, VectorRef f);

@@ -23,10 +23,11 @@ class EquilibriumSolver {
 
   virtual ~EquilibriumSolver() = default;
 
-  // What may be found: an equilibrium to which the guess leads without doubt, or any.
+  // What may be found. nearby: an equilibrium on the branch of the guess; given up if Newton may have left it.
+  // anywhere: any.
   enum class Where { nearby, anywhere };
 
-  // From a guess, which it replaces if it finds something. Throws RunError for what a better guess cannot mend.
+  // q: the guess in, the equilibrium out if one is found, m. Throws RunError for failures that no other guess avoids.
   virtual Attempt solve(double t, Vector& q, Where where) = 0;
 
   virtual const Statistics& statistics() const = 0;

@@ -15,10 +15,10 @@ struct StepEnd {
   Vector q, v, a;
 };
 
-// q and v at a time between the ends. At an end, just what stands there.
+// q and v at a time between the ends. At an end, exactly the stored values.
 void interpolate(const StepEnd& begin, const StepEnd& end, double t, VectorRef q, VectorRef v);
 
-// The same by straight lines, of O(h^2): all that a method of order 1 has to give.
+// The same by linear interpolation, O(h^2): enough for a method of order 1.
 void interpolate_linearly(const StepEnd& begin, const StepEnd& end, double t, VectorRef q, VectorRef v);
 
 }  // namespace orthodyn

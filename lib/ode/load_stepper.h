@@ -3,7 +3,7 @@
 //
 // Each step has to lead to an equilibrium nearby (equilibrium.h), with a positive definite stiffness on the way: where
 // that fails for the smallest step the branch of stable equilibria ends (limit point, bifurcation), which is thus found
-// to within that step. Only then, and only if it may, it looks anywhere for an equilibrium, on whatever branch.
+// to within that step. Only then, and only if a jump is allowed, it searches for an equilibrium on any branch.
 #pragma once
 
 #include "lib/config/spec.h"

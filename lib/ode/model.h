@@ -1,6 +1,6 @@
-// The seam between physics and integrators: M q'' = f(t, q, v), v = q', with n generalised positions q.
+// The interface between physical models and integrators: M q'' = f(t, q, v), v = q', with n generalised positions q.
 //
-// Second-order form is the centre. With K = -df/dq and D = -df/dv on one pattern, every implicit scheme solves
+// It is in second-order form. With K = -df/dq and D = -df/dv on one pattern, every implicit scheme solves
 // A = w_m M + w_d D + w_k K with its own three weights.
 //
 // Units: q in m, v in m/s, f in N, M in kg, D in N s/m, K in N/m, t in s, for a mechanical model. Vectors have n
@@ -39,8 +39,8 @@ struct Weights {
 
 // K and D at one state, from Model::linearize(). `damping` is empty when D is a multiple of M.
 //
-// It may be handed to linearize() again, whatever it holds, of whatever model: it knows what filled it. Precondition:
-// nobody else changes the values in between.
+// May be handed to linearize() again for another state or model: it records whose constant matrices it holds.
+// Precondition: nobody else changes the values in between.
 struct Linearization {
   std::vector<double> stiffness, damping;
 
@@ -49,7 +49,7 @@ struct Linearization {
   std::uint64_t filled_by_ = 0;  // the number of the model whose constant K and D these are, or 0
 };
 
-// The force between two states. Of what has an energy U: f . (q1 - q0) = U(q0) - U(q1) to round-off, where U is
+// The force between two states. For forces with an energy U: f . (q1 - q0) = U(q0) - U(q1) to round-off, where U is
 // invariant under rotation without a torque about (x0 + x1) / 2, and f -> -grad U as q1 -> q0.
 // Source: Gonzalez (1996), Time integration and discrete Hamiltonian systems, J. Nonlinear Sci. 6.
 class DiscreteGradient {
@@ -117,7 +117,7 @@ class Model : public OutputSource {
     std::uint64_t value_;
   };
 
-  // Sets K, and D if the model has one, whatever K `out` holds: what linearize() does where it has something to do.
+  // Computes K, and D if the model has one, and overwrites `out`. Called by linearize() unless `out` is up to date.
   virtual void assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                         Linearization& out) const = 0;
 

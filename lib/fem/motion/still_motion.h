@@ -1,5 +1,4 @@
-// The places of another motion, taken and held: no velocity and no acceleration at any time. What a support does
-// that the body has settled upon.
+// The positions of another motion with zero velocity and acceleration, as supports have them in static analyses.
 #pragma once
 
 #include <memory>

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "lib/core/symmetric_eigen.h"
 #include "lib/simulation/errors/phase.h"
 
 namespace orthodyn {
@@ -49,8 +50,8 @@ Eigen::MatrixXd times_mass(const Model& model, const Eigen::MatrixXd& x) {
 Vector leading_mode(const Model& model, const Eigen::MatrixXd& q) {
   const Eigen::MatrixXd motion = q.colwise() - q.rowwise().mean();
   const Eigen::MatrixXd weighted = times_mass(model, motion);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(motion.transpose() * weighted);
-  return weighted * eigen.eigenvectors().rightCols<1>();
+  const auto modes = symmetric_eigenpairs(Eigen::MatrixXd(motion.transpose() * weighted));
+  return weighted * modes.vectors.rightCols<1>();
 }
 
 double interval(const Trajectory& t) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/core/symmetric_eigen.h"
+
 namespace orthodyn {
 
 namespace {
@@ -67,18 +69,18 @@ std::optional<ModalSolution> ModalSolution::find(const Model& model, const State
   Linearization at;
   model.linearize(initial.t, zero, zero, TangentKind::exact, at);
   const Eigen::MatrixXd M = dense(model, at, {1, 0, 0});
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(dense(model, at, {0, 0, 1}), M);
-  if (eigen.info() != Eigen::Success) return std::nullopt;
+  const auto modes = symmetric_eigenpairs(dense(model, at, {0, 0, 1}), M);
+  if (!modes.values.allFinite()) return std::nullopt;
   ModalSolution solution;
   solution.start_ = initial.t;
-  solution.shapes_ = eigen.eigenvectors();
+  solution.shapes_ = modes.vectors;
   const auto& phi = solution.shapes_;
   const Eigen::MatrixXd D = phi.transpose() * dense(model, at, {0, 1, 0}) * phi;
   solution.damping_ = D.diagonal();
   const double coupling = (D - Eigen::MatrixXd(solution.damping_.asDiagonal())).cwiseAbs().maxCoeff();
   const double largest_damping = solution.damping_.cwiseAbs().maxCoeff();
   if (coupling > kCoupling * largest_damping) return std::nullopt;
-  solution.lambda_ = eigen.eigenvalues();
+  solution.lambda_ = modes.values;
   const double largest = solution.lambda_.maxCoeff();
   for (Eigen::Index i = 0; i < solution.lambda_.size(); ++i) {
     double& lambda = solution.lambda_[i];
