@@ -21,7 +21,6 @@
 #include "integrators/solver_options.h"
 #include "integrators/sundials/callbacks.h"
 #include "integrators/sundials/solver_adapter.h"
-#include "lib/core/words.h"
 #include "lib/ode/equilibrium.h"
 #include "lib/ode/integrator.h"
 

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
 
@@ -20,6 +21,12 @@ struct FreeUnit {
 struct FreeConverter {
   void operator()(cv_converter* converter) const { cv_free(converter); }
 };
+// The parser of UDUNITS-2 keeps state of its own: one thread at a time.
+std::recursive_mutex& udunits() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
 using Unit = std::unique_ptr<ut_unit, FreeUnit>;
 using Converter = std::unique_ptr<cv_converter, FreeConverter>;
 
@@ -109,6 +116,7 @@ std::optional<NumberWithUnit> split_quantity(const std::string& text) {
 }
 
 double quantity_in(const std::string& text, const std::string& unit) {
+  const std::lock_guard lock(udunits());
   const auto fail = [&](const std::string& found) {
     throw std::invalid_argument(fmt::format("expected {}, found {}", expected(unit), found));
   };
@@ -129,6 +137,7 @@ double quantity_in(const std::string& text, const std::string& unit) {
 }
 
 double si_factor(const std::string& unit) {
+  const std::lock_guard lock(udunits());
   const Unit given = has_factor(unit.starts_with("1/") ? unit.substr(2) : unit) ? Unit() : parse(unit);
   if (given)
     for (const auto& [known, word] : kDimensions)
@@ -137,6 +146,7 @@ double si_factor(const std::string& unit) {
 }
 
 void check_dimension(const std::string& unit, const std::string& si) {
+  const std::lock_guard lock(udunits());
   si_factor(unit);
   quantity_in("1 " + unit, si == "1" ? "" : si);
 }

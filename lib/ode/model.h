@@ -109,8 +109,10 @@ class Model : public OutputSource {
    public:
     Number();
     Number(const Number&) : Number() {}
-    Number& operator=(const Number&) { return *this = Number(); }
-    Number& operator=(Number&&) = default;
+    Number& operator=(const Number&) {
+      value_ = Number().value_;
+      return *this;
+    }
     std::uint64_t value() const { return value_; }
 
    private:

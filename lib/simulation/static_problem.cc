@@ -13,10 +13,9 @@ void require_held(const Scene& scene, const FemModel& model, double t) {
   if (freedom.empty()) return;
   const std::string message = fmt::format(
       "{}: it has no definite place at rest. Clamp it so that all six rigid motions are held (a surface, or three "
-      "points "
-      "that are not in line)",
+      "points that are not in line)",
       freedom);
-  if (scene.clamps.empty()) throw ConfigError("clamps: " + message);
+  if (scene.clamps.empty()) throw ConfigError("clamps", message);
   scene.clamps.front().origin.fail(message);
 }
 

@@ -67,7 +67,8 @@ TEST_P(Integrators, TheEstimateIsWithinAFactorOfThreeOfTheTrueError) {
 INSTANTIATE_TEST_SUITE_P(ErrorEstimate, Integrators,
                          testing::Values("{type: cvode_bdf, rtol: 1e-3}", "{type: cvode_bdf, rtol: 1e-6}",
                                          "{type: ida_bdf, rtol: 1e-4}", "{type: arkode_dirk, rtol: 1e-4}",
-                                         "{type: arkode_dirk, step: 0.01, rtol: 1e-8}"));
+                                         "{type: arkode_dirk, step: 0.01, rtol: 1e-8}", "{type: central_differences}",
+                                         "{type: auto, method: central_differences, safety: 0.5}"));
 
 // At order 2 the plain difference is three quarters of the error.
 TEST(ErrorEstimate, RichardsonIsExactToLeadingOrderForAFixedStep) {

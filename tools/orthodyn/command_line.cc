@@ -2,6 +2,7 @@
 #include "tools/orthodyn/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <map>
 
 #include "lib/core/versions.h"
 #include "tools/orthodyn/command.h"

@@ -13,7 +13,8 @@ constexpr const char* kAllowed[] = {"time.end", "checkpoint", "expect", "integra
                                     "integrator.max_newton_iterations"};
 
 // The units of keys, one for each dimension.
-constexpr const char* kUnits[] = {"m", "s", "Pa", "kg/m^3", "m/s", "m/s^2", "rad", "rad/s", "N", "Hz", "bytes"};
+constexpr const char* kUnits[] = {"m", "s", "Pa", "kg/m^3", "m/s", "m/s^2", "rad", "rad/s", "N", "Hz",
+                                  "1/s", "N/m", "N s/m", "Pa/m", "bytes"};
 
 std::optional<double> number(const Config& value, const char* unit) {
   try {

@@ -31,6 +31,7 @@ double rounded(double x) { return std::strtod(fmt::format("{:.12g}", x).c_str(),
 IntegratorSettings refined(const IntegratorSettings& own) {
   IntegratorSettings more;
   if (own.step) more.step = rounded(*own.step / 2);
+  if (own.safety && !own.step) more.safety = rounded(*own.safety / 2);  // of a step that follows the critical one
   if (own.rtol) more.rtol = rounded(*own.rtol / kRefinement);
   if (own.h_max) more.h_max = rounded(*own.h_max / 2);
   if (own.h_min && *own.h_min > 0) more.h_min = 0;
@@ -46,6 +47,7 @@ std::vector<std::string> assignments(const IntegratorSettings& settings) {
     if (value) all.push_back(fmt::format("integrator.{}={:.12g}", key, *value));
   };
   add("step", settings.step);
+  add("safety", settings.safety);
   add("rtol", settings.rtol);
   add("h_max", settings.h_max);
   add("h_min", settings.h_min);
@@ -81,7 +83,8 @@ ErrorEstimator::ErrorEstimator(const Setup& setup, Plan plan)
   const Config section = setup.config.at("integrator");
   const auto resolved = Registry<IntegratorChoice>::read(section);  // with what the first run decided
   const IntegratorSettings own = resolved->settings();
-  if (!own.step && !own.rtol) section.fail("has neither rtol nor step, so that no more accurate run can be made");
+  if (!own.step && !own.rtol && !own.safety)
+    section.fail("has neither rtol nor step, so that no more accurate run can be made");
   fixed_step_ = own.step.has_value();
   const IntegratorSettings finer = refined(own);
   refinement_ = assignments(finer);

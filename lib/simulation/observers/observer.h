@@ -1,4 +1,4 @@
-// Something that looks on while a model is integrated: writes frames, curves, progress.
+// Is told of each state while a model is integrated: writes frames, curves, progress.
 #pragma once
 
 #include "lib/ode/event.h"

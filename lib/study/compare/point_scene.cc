@@ -23,13 +23,10 @@ bool is_kept_by_references(const std::string& key) {
 
 Config scene_of(const Problem& problem, const std::string& integrator,
                 const std::function<bool(const std::string&)>& kept, const Assignments& options) {
-  static const Assignments silent{{"output.fields", {"[]"}},
-                                  {"output.energy", {"false"}},
-                                  {"output.steps", {"false"}},
-                                  {"output.momentum", {"false"}},
-                                  {"expect", {"null"}}};
   Config config = with_integrator(problem.scene, integrator, options, kept);
-  assign(config, silent);
+  config.set("output.fields", std::vector<std::string>());
+  for (const char* key : {"output.energy", "output.steps", "output.momentum"}) config.set(key, false);
+  config.set("expect", nullptr);
   read_scene(config);
   return config;
 }

@@ -30,7 +30,7 @@ Config with_integrator(const SceneVariant& variant, const std::string& integrato
   assign(scene, variant.set);
   const Assignments own = own_options(scene, integrator, kept);
   assign(scene, kIntegrator, {"{}"});
-  assign(scene, path_of("type"), {integrator});
+  scene.set(path_of("type"), integrator);
   for (const auto& [key, value] : own) assign(scene, path_of(key), value);
   for (const auto& [key, value] : options) assign(scene, path_of(key), value);
   return scene;

@@ -22,9 +22,9 @@ void check(const Stability& stability, const Config& config) {
 
 // Reads it, too: wrong input shows before anything runs.
 Config scene_of(const SceneVariant& variant, const StabilityIntegrator& entry) {
-  static const Assignments silent{{"output.fields", {"[]"}}, {"output.energy", {"false"}}, {"output.steps", {"false"}}};
   Config config = with_integrator(variant, entry.type, entry.options, [](const std::string&) { return true; });
-  assign(config, silent);
+  config.set("output.fields", std::vector<std::string>());
+  for (const char* key : {"output.energy", "output.steps"}) config.set(key, false);
   if (read_scene(config).expect.empty())
     config.fail("expects nothing, so nothing can be judged; add a list 'expect' (see `orthodyn list expect`)");
   return config;

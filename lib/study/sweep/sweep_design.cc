@@ -151,8 +151,8 @@ class Expansion {
     const bool is_static = scene.analysis == Analysis::statical;
     const auto require = [&](const std::optional<double>& at, const std::string& place) {
       if (at && (*at < scene.time.start || *at > scene.time.end))
-        throw ConfigError(fmt::format("{}: {} s is outside of the time span of '{}', which is {} to {} s", place, *at,
-                                      title, scene.time.start, scene.time.end));
+        throw ConfigError(place, fmt::format("{} s is outside of the time span of '{}', which is {} to {} s", *at,
+                                             title, scene.time.start, scene.time.end));
     };
     for (const auto& [name, f] : sweep_.quantities) {
       if (f.quantity.empty()) continue;
