@@ -11,12 +11,13 @@ namespace orthodyn {
 
 // A setting without a value is one that the method does not have, or that its options leave open.
 struct IntegratorSettings {
-  std::optional<double> rtol;                            // local error allowed per step, relative to the scales
-  std::optional<double> step, h0, h_min, h_max;          // s: the fixed step; the first, smallest and largest step
-  std::optional<double> position_scale, velocity_scale;  // m, m/s
-  std::optional<double> safety;                          // share of the critical step of an explicit method
-  std::optional<long> max_steps;
-  std::optional<std::string> linear_solver;
+  std::optional<double> rtol = {};  // local error allowed per step, relative to the scales
+  std::optional<double> step = {};  // s: the fixed step
+  std::optional<double> h0 = {}, h_min = {}, h_max = {};           // s: the first, smallest and largest step
+  std::optional<double> position_scale = {}, velocity_scale = {};  // m, m/s
+  std::optional<double> safety = {};                               // share of the critical step of an explicit method
+  std::optional<long> max_steps = {};
+  std::optional<std::string> linear_solver = {};
 };
 
 // Throws ConfigError, with the key and without a place, for a number outside of the range of its key.

@@ -161,6 +161,12 @@ class TheCommand(OfAMatrix):
 
 
 PROBE = """<script>
+// A window that is not in front yet gets no focus events.
+const focus = HTMLElement.prototype.focus;
+HTMLElement.prototype.focus = function () {
+  focus.call(this);
+  if (!document.hasFocus()) this.dispatchEvent(new FocusEvent("focusin", {bubbles: true}));
+};
 const matrix = document.querySelector("table.matrix"), fields = matrix.querySelectorAll("td [data-p]");
 const tip = () => document.getElementById("tip").hidden ? "" : document.getElementById("tip").innerText.split("\\n")[0];
 const said = [];
