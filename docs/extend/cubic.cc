@@ -30,6 +30,6 @@ class Cubic : public Material {
   double c11_ = 0, c12_ = 0, c44_ = 0;
 };
 
-const bool registered = Registry<Material>::add<Cubic>("cubic", "Cubic symmetry: c11, c12, c44.");
+const bool cubic_registered = Registry<Material>::add<Cubic>("cubic", "Cubic symmetry: c11, c12, c44.");
 
 }  // namespace

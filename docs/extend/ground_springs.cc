@@ -69,7 +69,7 @@ class GroundSpringsChoice : public TermChoice {
   double radius_ = 0, stiffness_ = 0;
 };
 
-const bool registered =
+const bool ground_springs_registered =
     Registry<TermChoice>::add<GroundSpringsChoice>("ground_springs", "Springs that tie nodes to their places at rest.");
 
 }  // namespace

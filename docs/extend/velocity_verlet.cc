@@ -71,7 +71,7 @@ class VelocityVerletChoice : public SettableChoice<VelocityVerletChoice> {
   double step = 0;  // s
 };
 
-const bool registered = Registry<IntegratorChoice>::add<VelocityVerletChoice>(
+const bool velocity_verlet_registered = Registry<IntegratorChoice>::add<VelocityVerletChoice>(
     "velocity_verlet", "Leapfrog in velocity form: explicit, order 2, symplectic, fixed step.");
 
 }  // namespace

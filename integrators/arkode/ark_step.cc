@@ -9,7 +9,7 @@ namespace {
 constexpr int kMaxRetries = 20;
 constexpr double kRetryFactor = 0.25;
 
-ArkStep& self(void* user) { return *static_cast<ArkStep*>(user); }
+ArkStep& ark_step(void* user) { return *static_cast<ArkStep*>(user); }
 
 }  // namespace
 
@@ -21,7 +21,7 @@ void ArkStep::initialise(double t) {
   ORTHODYN_CAPTURE_ERRORS(ARKStepSetErrHandlerFn, context_, m, &callback_context_.message);
   require(ARKStepSetUserData(m, this));
   require(ARKStepWFtolerances(m, [](N_Vector, N_Vector weights, void* user) {
-    self(user).settings_.set_weights(weights);
+    ark_step(user).settings_.set_weights(weights);
     return 0;
   }));
   const auto& o = settings_.options;
@@ -164,7 +164,7 @@ void ArkStep::attach_reduced() {
   require(ARKStepSetLinSysFn(memory(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix, SUNMatrix,
                                           sunbooleantype jok, sunbooleantype* jcur, sunrealtype, void* user, N_Vector,
                                           N_Vector, N_Vector) {
-    return self(user).linearize_reduced(t, y, jok, jcur);
+    return ark_step(user).linearize_reduced(t, y, jok, jcur);
   }));
 }
 
@@ -172,7 +172,7 @@ void ArkStep::attach_full() {
   make_full_solver();
   require(ARKStepSetLinearSolver(memory(), solver_.get(), matrix_.get()));
   require(ARKStepSetJacFn(memory(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* user, N_Vector,
-                                       N_Vector, N_Vector) { return self(user).fill_full(t, y, J); }));
+                                       N_Vector, N_Vector) { return ark_step(user).fill_full(t, y, J); }));
 }
 
 }  // namespace orthodyn::sundials

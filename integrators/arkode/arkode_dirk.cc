@@ -73,7 +73,7 @@ class ArkodeDirkChoice : public SettableChoice<ArkodeDirkChoice>, public DirkOpt
   }
 };
 
-const bool registered = Registry<IntegratorChoice>::add<ArkodeDirkChoice>(
+const bool arkode_dirk_registered = Registry<IntegratorChoice>::add<ArkodeDirkChoice>(
     "arkode_dirk", "ARKODE: diagonally implicit Runge-Kutta methods of order 2-5, adaptive or with a fixed step.");
 
 }  // namespace

@@ -79,7 +79,7 @@ class ArkodeErkChoice : public SettableChoice<ArkodeErkChoice>, public ErkOption
   }
 };
 
-const bool registered = Registry<IntegratorChoice>::add<ArkodeErkChoice>(
+const bool arkode_erk_registered = Registry<IntegratorChoice>::add<ArkodeErkChoice>(
     "arkode_erk", "ARKODE: explicit Runge-Kutta methods of order 2-8, adaptive or with a fixed step.");
 
 }  // namespace

@@ -121,7 +121,7 @@ class ArkodeImexChoice : public SettableChoice<ArkodeImexChoice>, public ImexOpt
   }
 };
 
-const bool registered = Registry<IntegratorChoice>::add<ArkodeImexChoice>(
+const bool arkode_imex_registered = Registry<IntegratorChoice>::add<ArkodeImexChoice>(
     "arkode_imex", "ARKODE: additive Runge-Kutta methods of order 3-5, explicit in the parts of the force that "
                    "`explicit` names.");
 

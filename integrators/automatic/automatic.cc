@@ -89,7 +89,7 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public Automatic
   }
 };
 
-const bool registered = Registry<IntegratorChoice>::add<AutomaticChoice>(
+const bool automatic_registered = Registry<IntegratorChoice>::add<AutomaticChoice>(
     "auto", "Looks at the scene, takes one of the others and says why.");
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace orthodyn::sundials {
 
 namespace {
 
-Cvode& self(void* user) { return *static_cast<Cvode*>(user); }
+Cvode& cvode(void* user) { return *static_cast<Cvode*>(user); }
 
 }  // namespace
 
@@ -22,11 +22,11 @@ void Cvode::initialise(double t) {
   void* m = memory();
   ORTHODYN_CAPTURE_ERRORS(CVodeSetErrHandlerFn, context_, m, &callback_context_.message);
   require(CVodeInit(m, [](sunrealtype time, N_Vector y, N_Vector y_dot, void* user) {
-    return self(user).evaluate(time, y, y_dot);
+    return cvode(user).evaluate(time, y, y_dot);
   }, t, y()));
   require(CVodeSetUserData(m, this));
   require(CVodeWFtolerances(m, [](N_Vector, N_Vector weights, void* user) {
-    self(user).settings_.set_weights(weights);
+    cvode(user).settings_.set_weights(weights);
     return 0;
   }));
   const auto& o = settings_.options;
@@ -107,14 +107,14 @@ void Cvode::attach_reduced() {
   require(CVodeSetLinearSolver(memory(), solver_.get(), matrix_.get()));
   require(CVodeSetLinSysFn(memory(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix, sunbooleantype jok,
                                         sunbooleantype* jcur, sunrealtype, void* user, N_Vector, N_Vector,
-                                        N_Vector) { return self(user).linearize_reduced(t, y, jok, jcur); }));
+                                        N_Vector) { return cvode(user).linearize_reduced(t, y, jok, jcur); }));
 }
 
 void Cvode::attach_full() {
   make_full_solver();
   require(CVodeSetLinearSolver(memory(), solver_.get(), matrix_.get()));
   require(CVodeSetJacFn(memory(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* user, N_Vector,
-                                     N_Vector, N_Vector) { return self(user).fill_full(t, y, J); }));
+                                     N_Vector, N_Vector) { return cvode(user).fill_full(t, y, J); }));
 }
 
 }  // namespace orthodyn::sundials

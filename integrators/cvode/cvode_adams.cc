@@ -94,7 +94,7 @@ class CvodeAdamsChoice : public SettableChoice<CvodeAdamsChoice>, public AdamsOp
   }
 };
 
-const bool registered = Registry<IntegratorChoice>::add<CvodeAdamsChoice>(
+const bool cvode_adams_registered = Registry<IntegratorChoice>::add<CvodeAdamsChoice>(
     "cvode_adams", "CVODE: Adams-Moulton methods of order 1-12, adaptive; for smooth, lightly damped motion.");
 
 }  // namespace

@@ -32,7 +32,7 @@ class CvodeBdfChoice : public SettableChoice<CvodeBdfChoice>, public MultistepOp
   }
 };
 
-const bool registered = Registry<IntegratorChoice>::add<CvodeBdfChoice>(
+const bool cvode_bdf_registered = Registry<IntegratorChoice>::add<CvodeBdfChoice>(
     "cvode_bdf", "CVODE: backward differentiation formulas of order 1-5, adaptive, implicit.");
 
 }  // namespace

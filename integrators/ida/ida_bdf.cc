@@ -9,7 +9,7 @@
 namespace orthodyn::sundials {
 namespace {
 
-struct FreeMemory {
+struct FreeIda {
   void operator()(void* memory) const { IDAFree(&memory); }
 };
 
@@ -151,7 +151,7 @@ class IdaBdf : public SundialsIntegrator {
   int max_order_;
   OwnedVector y_dot_;
   double gamma_ = 0;  // 1/cj of the last set-up
-  std::unique_ptr<void, FreeMemory> memory_;
+  std::unique_ptr<void, FreeIda> memory_;
 };
 
 class IdaBdfChoice : public SettableChoice<IdaBdfChoice>, public MultistepOptions {
@@ -170,7 +170,7 @@ class IdaBdfChoice : public SettableChoice<IdaBdfChoice>, public MultistepOption
   }
 };
 
-const bool registered = Registry<IntegratorChoice>::add<IdaBdfChoice>(
+const bool ida_bdf_registered = Registry<IntegratorChoice>::add<IdaBdfChoice>(
     "ida_bdf", "IDA: backward differentiation formulas of order 1-5 on the implicit system, adaptive.");
 
 }  // namespace

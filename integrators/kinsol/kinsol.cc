@@ -34,7 +34,7 @@ struct KinsolOptions {
   std::string linear_solver = "cholmod";
 };
 
-struct FreeMemory {
+struct FreeKinsol {
   void operator()(void* memory) const { KINFree(&memory); }
 };
 
@@ -221,7 +221,7 @@ class Kinsol : public EquilibriumSolver {
   OwnedVector q_, position_weights_, force_weights_;
   OwnedMatrix plug_;
   OwnedSolver solver_;
-  std::unique_ptr<void, FreeMemory> memory_;
+  std::unique_ptr<void, FreeKinsol> memory_;
 };
 
 class KinsolChoice : public EquilibriumChoice, public KinsolOptions {
@@ -249,7 +249,7 @@ class KinsolChoice : public EquilibriumChoice, public KinsolOptions {
   }
 };
 
-const bool registered = Registry<EquilibriumChoice>::add<KinsolChoice>(
+const bool kinsol_registered = Registry<EquilibriumChoice>::add<KinsolChoice>(
     "kinsol", "KINSOL: Newton's method, K factored anew each time; down the energy where a branch was lost.");
 
 }  // namespace

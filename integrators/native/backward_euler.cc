@@ -22,7 +22,7 @@ class BackwardEulerChoice : public SettableChoice<BackwardEulerChoice>, public N
   }
 };
 
-const bool registered = Registry<IntegratorChoice>::add<BackwardEulerChoice>(
+const bool backward_euler_registered = Registry<IntegratorChoice>::add<BackwardEulerChoice>(
     "backward_euler", "Backward Euler, solved to the end by Newton's method; adaptive or with a fixed step.");
 
 }  // namespace

@@ -29,7 +29,7 @@ class BatheChoice : public SettableChoice<BatheChoice>, public NewtonOptions {
   }
 };
 
-const bool registered = Registry<IntegratorChoice>::add<BatheChoice>(
+const bool bathe_registered = Registry<IntegratorChoice>::add<BatheChoice>(
     "bathe", "Bathe's method of two parts with chosen damping of fast modes; adaptive or with a fixed step.");
 
 }  // namespace

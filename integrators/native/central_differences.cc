@@ -190,7 +190,7 @@ class CentralDifferencesChoice : public SettableChoice<CentralDifferencesChoice>
   }
 };
 
-const bool registered = Registry<IntegratorChoice>::add<CentralDifferencesChoice>(
+const bool central_differences_registered = Registry<IntegratorChoice>::add<CentralDifferencesChoice>(
     "central_differences", "Leapfrog of order 2, explicit, one force a step, at a fixed step below the critical one.");
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace {
 // Of the first correction: those of this size are wanted, and those below the other are round-off if they do not
 // shrink. So are corrections below the third, of the scales, however small the first one was, that have not shrunk for
 // some iterations.
-constexpr double kExact = 1e-15, kRoundOff = 1e-11, kNothing = 1e-9;
+constexpr double kExact = 1e-15, kResidualRoundOff = 1e-11, kNothing = 1e-9;
 constexpr int kStalled = 5;
 constexpr double kDiverged = 100;  // times the smallest correction so far
 constexpr int kAndersonDepth = 5;
@@ -121,7 +121,7 @@ class EnergyMomentum : public OneStep {
       if (k == 0) first = smallest = size;
       if (size <= kExact * first) return true;
       if (k > 0 && size >= smallest) {
-        if (size <= kRoundOff * first) return true;
+        if (size <= kResidualRoundOff * first) return true;
         if (size > kDiverged * smallest) return false;
         if (++stalled >= kStalled && size * norm_.rtol() <= kNothing) return true;
       } else {
@@ -129,7 +129,7 @@ class EnergyMomentum : public OneStep {
       }
       smallest = std::min(smallest, size);
     }
-    return smallest <= kRoundOff * first;
+    return smallest <= kResidualRoundOff * first;
   }
 
   // r <- A^-1 (f - M x)
@@ -176,7 +176,7 @@ class EnergyMomentumChoice : public SettableChoice<EnergyMomentumChoice>, public
   }
 };
 
-const bool registered = Registry<IntegratorChoice>::add<EnergyMomentumChoice>(
+const bool energy_momentum_registered = Registry<IntegratorChoice>::add<EnergyMomentumChoice>(
     "energy_momentum", "Keeps energy and momentum at any step; adaptive or with a fixed step, implicit.");
 
 }  // namespace

@@ -232,7 +232,7 @@ class ExponentialRosenbrockChoice : public SettableChoice<ExponentialRosenbrockC
   }
 };
 
-const bool registered = Registry<IntegratorChoice>::add<ExponentialRosenbrockChoice>(
+const bool exponential_rosenbrock_registered = Registry<IntegratorChoice>::add<ExponentialRosenbrockChoice>(
     "exponential_rosenbrock", "Exponential Rosenbrock method of order 3 (EXPRB32) in Krylov spaces: no factorisation.");
 
 }  // namespace

@@ -30,7 +30,7 @@ class GeneralizedAlphaChoice : public SettableChoice<GeneralizedAlphaChoice>, pu
   }
 };
 
-const bool registered = Registry<IntegratorChoice>::add<GeneralizedAlphaChoice>(
+const bool generalized_alpha_registered = Registry<IntegratorChoice>::add<GeneralizedAlphaChoice>(
     "generalized_alpha",
     "The generalised-alpha method with chosen damping of fast modes; adaptive or with a fixed step.");
 

@@ -24,7 +24,7 @@ class HhtAlphaChoice : public SettableChoice<HhtAlphaChoice>, public NewtonOptio
   }
 };
 
-const bool registered = Registry<IntegratorChoice>::add<HhtAlphaChoice>(
+const bool hht_alpha_registered = Registry<IntegratorChoice>::add<HhtAlphaChoice>(
     "hht_alpha", "The alpha method of Hilber, Hughes & Taylor; adaptive or with a fixed step, implicit.");
 
 }  // namespace

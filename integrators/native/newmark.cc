@@ -33,7 +33,7 @@ class NewmarkChoice : public SettableChoice<NewmarkChoice>, public NewtonOptions
   }
 };
 
-const bool registered = Registry<IntegratorChoice>::add<NewmarkChoice>(
+const bool newmark_registered = Registry<IntegratorChoice>::add<NewmarkChoice>(
     "newmark", "Newmark's method, by default the trapezoidal rule; adaptive or with a fixed step, implicit.");
 
 }  // namespace

@@ -105,7 +105,7 @@ class RosenbrockChoice : public SettableChoice<RosenbrockChoice>, public LinearO
   }
 };
 
-const bool registered = Registry<IntegratorChoice>::add<RosenbrockChoice>(
+const bool rosenbrock_registered = Registry<IntegratorChoice>::add<RosenbrockChoice>(
     "rosenbrock", "A Rosenbrock method of order 3 for old or inexact tangents: four linear solves a step, no Newton.");
 
 }  // namespace

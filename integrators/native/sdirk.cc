@@ -57,7 +57,7 @@ class SdirkChoice : public SettableChoice<SdirkChoice>, public NewtonOptions {
   }
 };
 
-const bool registered = Registry<IntegratorChoice>::add<SdirkChoice>(
+const bool sdirk_registered = Registry<IntegratorChoice>::add<SdirkChoice>(
     "sdirk", "Singly diagonally implicit Runge-Kutta methods of order 2-4; adaptive or with a fixed step.");
 
 }  // namespace

@@ -52,7 +52,7 @@ class SemiImplicitEulerChoice : public SettableChoice<SemiImplicitEulerChoice>, 
   }
 };
 
-const bool registered = Registry<IntegratorChoice>::add<SemiImplicitEulerChoice>(
+const bool semi_implicit_euler_registered = Registry<IntegratorChoice>::add<SemiImplicitEulerChoice>(
     "semi_implicit_euler", "Backward Euler with one linear solve a step, as in computer graphics.");
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 constexpr double kWeightDrift = 0.25;  // of w_k, up to which the factor is kept and corrections are scaled
 constexpr double kSameWeight = 1e-12;  // two equal steps are equal but for round-off
 constexpr double kSlow = 0.5;          // a rate at which a new tangent pays
-constexpr double kRoundOff = 1e-10;    // of the scales: corrections below it that do not shrink are round-off
+constexpr double kCorrectionRoundOff = 1e-10;    // of the scales: corrections below it that do not shrink are round-off
 constexpr double kLeastContractionFactor = 1e-3;  // of a nonlinear model: what is less is round-off
 }  // namespace
 
@@ -119,7 +119,7 @@ bool StageSolver::shrinks(double size, double last) {
   const double rate = size / last;
   if (rate >= 1) {
     contraction_factor_ = 0;  // round-off is as good as it gets
-    return size * norm_.rtol() <= kRoundOff;
+    return size * norm_.rtol() <= kCorrectionRoundOff;
   }
   contraction_factor_ = rate / (1 - rate);
   if (rate > kSlow) stale_ = true;

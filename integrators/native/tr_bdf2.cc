@@ -27,7 +27,7 @@ class TrBdf2Choice : public SettableChoice<TrBdf2Choice>, public NewtonOptions {
   }
 };
 
-const bool registered = Registry<IntegratorChoice>::add<TrBdf2Choice>(
+const bool tr_bdf2_registered = Registry<IntegratorChoice>::add<TrBdf2Choice>(
     "tr_bdf2", "TR-BDF2: trapezoidal rule and BDF2 in one step, with one matrix; adaptive or with a fixed step.");
 
 }  // namespace

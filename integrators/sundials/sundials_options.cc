@@ -7,7 +7,7 @@ namespace orthodyn::sundials {
 
 namespace {
 
-const bool registered =
+const bool sundials_options_registered =
     solver_registry()
         .emplace("klu_full", SolverKind{"SUNDIALS' sparse matrix and KLU on the full 2n x 2n system: the textbook "
                                         "path, and the baseline; symmetric or not.",

@@ -99,7 +99,7 @@ class Along : public AxesSource {
   double spiral_ = 0;  // rad
 };
 
-const bool registered = Registry<AxesSource>::add<Along>(
+const bool along_registered = Registry<AxesSource>::add<Along>(
     "along", "L along a smooth curve through points, in each element by its centroid: a branch, a muscle.");
 
 }  // namespace

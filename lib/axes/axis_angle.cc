@@ -30,7 +30,8 @@ class AxisAngle : public AxesSource {
   double angle_ = 0;
 };
 
-const bool registered = Registry<AxesSource>::add<AxisAngle>("axis_angle", "x, y, z turned about a direction.");
+const bool axis_angle_registered =
+    Registry<AxesSource>::add<AxisAngle>("axis_angle", "x, y, z turned about a direction.");
 
 }  // namespace
 }  // namespace orthodyn

@@ -37,7 +37,7 @@ class Cylindrical : public AxesSource {
   double spiral_ = 0;  // rad
 };
 
-const bool registered = Registry<AxesSource>::add<Cylindrical>(
+const bool cylindrical_registered = Registry<AxesSource>::add<Cylindrical>(
     "cylindrical", "L, R, T about a straight axis, in each element by its centroid: a stem, a tube.");
 
 }  // namespace

@@ -55,7 +55,7 @@ class Directions : public AxesSource {
   AxesRepair repair_ = AxesRepair::refuse;
 };
 
-const bool registered = Registry<AxesSource>::add<Directions>(
+const bool directions_registered = Registry<AxesSource>::add<Directions>(
     "directions", "The same directions everywhere.");
 
 }  // namespace

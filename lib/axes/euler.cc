@@ -55,7 +55,8 @@ class Euler : public AxesSource {
   EulerConvention convention_ = EulerConvention::zyx;
 };
 
-const bool registered = Registry<AxesSource>::add<Euler>("euler", "The same rotation everywhere, by three angles.");
+const bool euler_registered =
+    Registry<AxesSource>::add<Euler>("euler", "The same rotation everywhere, by three angles.");
 
 }  // namespace
 }  // namespace orthodyn

@@ -105,7 +105,7 @@ class AxesFile : public AxesSource {
   AxesRepair repair_ = AxesRepair::refuse;
 };
 
-const bool registered = Registry<AxesSource>::add<AxesFile>("file", "The axes of each element from a file.");
+const bool axes_file_registered = Registry<AxesSource>::add<AxesFile>("file", "The axes of each element from a file.");
 
 }  // namespace
 }  // namespace orthodyn

@@ -35,7 +35,7 @@ class MatrixAxes : public AxesSource {
   AxesRepair repair_ = AxesRepair::refuse;
 };
 
-const bool registered = Registry<AxesSource>::add<MatrixAxes>(
+const bool matrix_registered = Registry<AxesSource>::add<MatrixAxes>(
     "matrix", "The same rotation everywhere, with the axes as columns.");
 
 }  // namespace

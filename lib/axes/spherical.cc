@@ -49,7 +49,7 @@ class Spherical : public AxesSource {
   RenOrder order_ = RenOrder::REN;
 };
 
-const bool registered = Registry<AxesSource>::add<Spherical>(
+const bool spherical_registered = Registry<AxesSource>::add<Spherical>(
     "spherical", "Radial, east and north about a centre, in each element by its centroid.");
 
 }  // namespace

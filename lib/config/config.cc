@@ -16,15 +16,6 @@ namespace orthodyn {
 
 namespace {
 
-struct Document {
-  std::string file;
-  YAML::Node root;
-  bool records_defaults = false;
-  Origins included;                                                 // what does not stand in `file`
-  std::map<std::string, std::string> set;                           // by path: places of values set later, or ""
-  std::map<std::string, std::pair<YAML::Node, std::string>> files;  // by path: values that name files
-};
-
 // "mesh.cells.0" of "mesh.cells" is ".0"; nothing if it is neither that nor below it.
 std::optional<std::string> rest_below(const std::string& path, const std::string& top) {
   if (!path.starts_with(top) || (path.size() > top.size() && path[top.size()] != '.')) return {};
@@ -37,6 +28,15 @@ void remember(std::map<std::string, std::string>& set, const std::string& path, 
 }
 
 }  // namespace
+
+struct Config::Document {
+  std::string file;
+  YAML::Node root;
+  bool records_defaults = false;
+  Origins included;                                                 // what does not stand in `file`
+  std::map<std::string, std::string> set;                           // by path: places of values set later, or ""
+  std::map<std::string, std::pair<YAML::Node, std::string>> files;  // by path: values that name files
+};
 
 struct Config::Place {
   std::shared_ptr<Document> document;

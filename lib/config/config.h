@@ -101,6 +101,7 @@ class Config {
   std::string dump_for(const std::string& folder) const;
 
  private:
+  struct Document;
   struct Place;
   explicit Config(std::shared_ptr<const Place> place);
   Config copy(bool resolving) const;

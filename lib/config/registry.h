@@ -1,6 +1,6 @@
 // Things that the input chooses by name: `type: box`. One file declares one thing and registers it:
 //
-//   const bool registered = Registry<MeshSource>::add<BoxSource>("box", "A box of tetrahedra.");
+//   const bool box_registered = Registry<MeshSource>::add<BoxSource>("box", "A box of tetrahedra.");
 //
 // T derives from Base and has a static spec(); a static facts() may tell more about it, for lists.
 #pragma once

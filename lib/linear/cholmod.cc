@@ -148,7 +148,7 @@ class Cholmod : public LinearSolver {
   std::string description_;
 };
 
-const bool registered =
+const bool cholmod_registered =
     solver_registry()
         .emplace("cholmod", SolverKind{"CHOLMOD sparse Cholesky on the reduced n x n matrix, simplicial or "
                                        "supernodal by size; symmetric tangents.",

@@ -40,7 +40,7 @@ class EigenLdlt : public LinearSolver {
   Ldlt ldlt_;
 };
 
-const bool registered =
+const bool eigen_ldlt_registered =
     solver_registry()
         .emplace("eigen_ldlt", SolverKind{"Eigen's simplicial Cholesky on the reduced n x n matrix; symmetric "
                                           "tangents, small systems.",

@@ -83,7 +83,7 @@ class Klu : public LinearSolver {
   SparseMatrix full_;
 };
 
-const bool registered =
+const bool klu_registered =
     solver_registry()
         .emplace("klu", SolverKind{"KLU sparse LU on the reduced n x n matrix; symmetric or not.", true,
                                    [] { return std::make_unique<Klu>(); }})

@@ -122,7 +122,7 @@ class Anisotropic : public Material {
   RatioRepair repair_ = RatioRepair::none;
 };
 
-const bool registered = Registry<Material>::add<Anisotropic>(
+const bool anisotropic_registered = Registry<Material>::add<Anisotropic>(
     "anisotropic", "All 21 constants c11 to c66 of the stiffness; those of no symmetry default to 0.");
 
 }  // namespace

@@ -24,7 +24,7 @@ class Isotropic : public Material {
   double young_ = 0, nu_ = 0;
 };
 
-const bool registered =
+const bool isotropic_registered =
     Registry<Material>::add<Isotropic>("isotropic", "The same stiffness in every direction.");
 
 }  // namespace

@@ -132,7 +132,7 @@ class Orthotropic : public Material {
   RatioRepair repair_ = RatioRepair::none;
 };
 
-const bool registered = Registry<Material>::add<Orthotropic>(
+const bool orthotropic_registered = Registry<Material>::add<Orthotropic>(
     "orthotropic", "Nine measured constants: three Young's moduli, three Poisson's ratios, three shear moduli.");
 
 }  // namespace

@@ -52,7 +52,7 @@ class OrthotropicStable : public Material {
   double nu_ = 0, shear_factor_ = 1;
 };
 
-const bool registered = Registry<Material>::add<OrthotropicStable>(
+const bool orthotropic_stable_registered = Registry<Material>::add<OrthotropicStable>(
     "orthotropic_stable", "Three Young's moduli and one ratio nu in (-1, 1/2): stable for all moduli.");
 
 }  // namespace

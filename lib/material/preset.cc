@@ -39,7 +39,7 @@ class PresetMaterial : public Material {
   std::optional<double> own_density_;
 };
 
-const bool registered =
+const bool preset_registered =
     Registry<Material>::add<PresetMaterial>("preset", "Measured constants by name: woods and composites.");
 
 }  // namespace

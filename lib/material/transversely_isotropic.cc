@@ -96,7 +96,7 @@ class TransverselyIsotropic : public Material {
   RatioRepair repair_ = RatioRepair::none;
 };
 
-const bool registered = Registry<Material>::add<TransverselyIsotropic>(
+const bool transversely_isotropic_registered = Registry<Material>::add<TransverselyIsotropic>(
     "transversely_isotropic", "A fibre along axis 1 and the same in all directions across it: five constants.");
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include "tests/scene/scenes.h"
 
-namespace orthodyn {
+namespace orthodyn::rigid_freedom_test {
 namespace {
 
 const Vec3 kSizes[] = {{1, 1, 1}, {2, 1.3, 0.7}, {1, 0.1, 3.3}, {0.011, 0.023, 0.0057}, {1.7, 0.9, 0.31}};
@@ -42,4 +42,4 @@ TEST(RigidFreedom, IsThreeTurnsAboutOneCornerAndNoneOfThree) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::rigid_freedom_test

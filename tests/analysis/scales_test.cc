@@ -7,7 +7,7 @@
 
 #include "tests/scene/scenes.h"
 
-namespace orthodyn {
+namespace orthodyn::scales_test {
 namespace {
 
 Scales scales_of(const std::string& yaml) {
@@ -54,4 +54,4 @@ TEST(Scales, OfABodyThatIsOnlyMovedComeFromItsSupports) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::scales_test

@@ -10,7 +10,7 @@
 
 #include "tests/material/constants.h"
 
-namespace orthodyn {
+namespace orthodyn::singular_vectors_test {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -79,4 +79,4 @@ TEST(SingularVectors, OfZeroAreAnyBasis) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::singular_vectors_test

@@ -6,7 +6,7 @@
 #include "lib/simulation/setup.h"
 #include "tests/config/messages.h"
 
-namespace orthodyn {
+namespace orthodyn::strain_check_test {
 namespace {
 
 std::string bar(const std::string& more, const std::string& axes = "") {
@@ -91,4 +91,4 @@ TEST(StrainCheck, DoesNotTakeARotationForAStrain) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::strain_check_test

@@ -12,7 +12,7 @@
 #include "lib/element/corotational_law.h"
 #include "tests/element/states.h"
 
-namespace orthodyn {
+namespace orthodyn::strain_limits_test {
 namespace {
 
 // Stretched by e along `axis` under stress along it alone.
@@ -132,4 +132,4 @@ TEST(StrainLimits, DoNotDependOnTheUnitOfStress) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::strain_limits_test

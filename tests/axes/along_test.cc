@@ -8,7 +8,7 @@
 #include "lib/axes/curve.h"
 #include "tests/axes/axes_of.h"
 
-namespace orthodyn {
+namespace orthodyn::along_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -235,4 +235,4 @@ TEST_F(AxesFromFiles, BadTextIsRefusedWithItsLine) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::along_test

@@ -5,7 +5,7 @@
 
 #include "tests/axes/axes_of.h"
 
-namespace orthodyn {
+namespace orthodyn::curvilinear_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -112,4 +112,4 @@ TEST(SphericalAxes, AtThePolesAndTheCentreAreTheDocumentedOnes) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::curvilinear_test

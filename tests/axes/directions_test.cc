@@ -7,7 +7,7 @@
 #include "lib/axes/given_axes.h"
 #include "tests/axes/axes_of.h"
 
-namespace orthodyn {
+namespace orthodyn::directions_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -177,4 +177,4 @@ TEST(AxesSource, OfAnUnknownKindIsRefusedWithTheKnownOnes) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::directions_test

@@ -7,7 +7,7 @@
 #include "lib/mesh/box.h"
 #include "tests/axes/axes_of.h"
 
-namespace orthodyn {
+namespace orthodyn::vtu_test {
 namespace {
 
 class AxesFromVtu : public testing::Test {
@@ -102,4 +102,4 @@ TEST_F(AxesFromVtu, WithoutAxesAreRefusedWithWhatThereIs) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::vtu_test

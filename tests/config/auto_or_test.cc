@@ -2,8 +2,9 @@
 
 #include "lib/config/auto_or.h"
 #include "lib/config/spec.h"
+#include "tests/config/messages.h"
 
-namespace orthodyn {
+namespace orthodyn::auto_or_test {
 namespace {
 
 struct Stepping {
@@ -18,13 +19,8 @@ std::optional<double> step_of(const std::string& yaml) {
   return Stepping::spec().read(Config::from_text(yaml, "a.yaml")).step.value;
 }
 
-std::string refusal(const std::string& yaml) {
-  try {
-    step_of(yaml);
-  } catch (const ConfigError& e) {
-    return e.what();
-  }
-  return "";
+std::string refusal_of(const std::string& yaml) {
+  return refusal([&] { step_of(yaml); });
 }
 
 TEST(AutoOr, ReadsANumberWithOrWithoutItsUnitOrTheWord) {
@@ -35,12 +31,12 @@ TEST(AutoOr, ReadsANumberWithOrWithoutItsUnitOrTheWord) {
 }
 
 TEST(AutoOr, ChecksTheNumbersRangeAndUnit) {
-  EXPECT_NE(refusal("{step: 0}").find("must be > 0 s"), std::string::npos) << refusal("{step: 0}");
-  EXPECT_NE(refusal("{step: 2 m}").find("a.yaml:1:"), std::string::npos) << refusal("{step: 2 m}");
+  EXPECT_NE(refusal_of("{step: 0}").find("must be > 0 s"), std::string::npos) << refusal_of("{step: 0}");
+  EXPECT_NE(refusal_of("{step: 2 m}").find("a.yaml:1:"), std::string::npos) << refusal_of("{step: 2 m}");
 }
 
 TEST(AutoOr, NamesTheWordThatWasMeant) {
-  EXPECT_NE(refusal("{step: atuo}").find("did you mean 'auto'?"), std::string::npos) << refusal("{step: atuo}");
+  EXPECT_NE(refusal_of("{step: atuo}").find("did you mean 'auto'?"), std::string::npos) << refusal_of("{step: atuo}");
 }
 
 TEST(AutoOr, SaysWhatMayStandThere) {
@@ -49,4 +45,4 @@ TEST(AutoOr, SaysWhatMayStandThere) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::auto_or_test

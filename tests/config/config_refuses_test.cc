@@ -7,7 +7,7 @@
 #include "lib/config/config.h"
 #include "tests/config/messages.h"
 
-namespace orthodyn {
+namespace orthodyn::config_refuses_test {
 namespace {
 
 std::string refusal_of(const std::string& text) {
@@ -105,4 +105,4 @@ TEST(ConfigRefuses, AListWhereATextBelongs) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::config_refuses_test

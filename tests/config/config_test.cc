@@ -5,7 +5,7 @@
 
 #include "tests/config/messages.h"
 
-namespace orthodyn {
+namespace orthodyn::config_test {
 namespace {
 
 const char* kScene = R"(name: beam
@@ -165,4 +165,4 @@ TEST(Config, AnAliasReadsAsWhatItNames) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::config_test

@@ -6,7 +6,7 @@
 #include <atomic>
 #include <thread>
 
-namespace orthodyn {
+namespace orthodyn::formula_test {
 namespace {
 
 TEST(Formula, GivesEveryThreadTheValueAtItsOwnPoint) {
@@ -35,4 +35,4 @@ TEST(Formula, WithoutAValueNamesItsPlaceAndThePoint) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::formula_test

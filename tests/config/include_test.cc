@@ -7,7 +7,7 @@
 #include "lib/config/config.h"
 #include "tests/config/messages.h"
 
-namespace orthodyn {
+namespace orthodyn::include_test {
 namespace {
 
 class Include : public ::testing::Test {
@@ -113,4 +113,4 @@ TEST_F(Include, ADumpForAnotherFolderNamesTheSameFiles) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::include_test

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <concepts>
 #include <string>
 
 #include "lib/core/errors.h"
@@ -10,7 +11,7 @@
 namespace orthodyn {
 
 // The message of the ConfigError that `action` throws, or "accepted".
-template <class Action>
+template <std::invocable Action>
 std::string refusal(Action&& action) {
   try {
     action();

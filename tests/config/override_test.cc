@@ -4,7 +4,7 @@
 #include "lib/config/config.h"
 #include "tests/config/messages.h"
 
-namespace orthodyn {
+namespace orthodyn::override_test {
 namespace {
 
 Config scene() {
@@ -117,4 +117,4 @@ TEST(Override, ThatIsNotYamlIsRefusedWithItsText) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::override_test

@@ -5,7 +5,7 @@
 
 #include "tests/config/messages.h"
 
-namespace orthodyn {
+namespace orthodyn::registry_test {
 namespace {
 
 struct Shape {
@@ -93,4 +93,4 @@ TEST(Registry, AMemberIsReadThroughTheRegistry) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::registry_test

@@ -7,7 +7,7 @@
 
 #include "tests/config/messages.h"
 
-namespace orthodyn {
+namespace orthodyn::spec_test {
 namespace {
 
 struct Step {
@@ -184,4 +184,4 @@ TEST(Spec, AKeyThatMeansSomethingWithAnotherAloneIsNeitherTakenNorFilledInElsewh
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::spec_test

@@ -8,14 +8,17 @@
 
 namespace orthodyn {
 
-namespace {
+namespace values_test {
 enum class Split { five, six };
 }
+
 template <>
-struct Words<Split> {
+struct Words<values_test::Split> {
+  using Split = values_test::Split;
   static constexpr std::array<std::pair<Split, const char*>, 2> list{{{Split::five, "five"}, {Split::six, "six"}}};
 };
 
+namespace values_test {
 namespace {
 
 template <class V>
@@ -126,4 +129,5 @@ TEST(WriteValue, IsReadBackToTheSameValue) {
 }
 
 }  // namespace
+}  // namespace values_test
 }  // namespace orthodyn

@@ -1,7 +1,7 @@
 // Every integrator with every linear solver against exact solutions.
 #include "tests/contract/integrators.h"
 
-namespace orthodyn {
+namespace orthodyn::accuracy_test {
 namespace {
 
 class Accuracy : public testing::TestWithParam<Pair> {};
@@ -144,4 +144,4 @@ TEST(LinearSolvers, AllTakeTheSameStepsOnANonlinearModel) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::accuracy_test

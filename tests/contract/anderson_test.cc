@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace orthodyn {
+namespace orthodyn::anderson_test {
 namespace {
 
 // What is left of ones after so many iterations x <- x + g(x) with g(x) = -A x.
@@ -40,4 +40,4 @@ TEST(Anderson, BeginsAnewAfterARestart) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::anderson_test

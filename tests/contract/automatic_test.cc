@@ -7,7 +7,7 @@
 #include "integrators/error_control.h"
 #include "tests/contract/integrators.h"
 
-namespace orthodyn {
+namespace orthodyn::automatic_test {
 namespace {
 
 std::unique_ptr<Integrator> make(const SmallModel& model, const std::string& options) {
@@ -100,4 +100,4 @@ TEST(Automatic, RefusesAMethodThatThereIsNotWithTheNearest) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::automatic_test

@@ -3,7 +3,7 @@
 #include "tests/contract/integrators.h"
 #include "tests/fem/built_scene.h"
 
-namespace orthodyn {
+namespace orthodyn::beam_test {
 namespace {
 
 constexpr double kEnd = 0.5;
@@ -68,4 +68,4 @@ TEST(SmallBeamReference, IsThatOfTwoOtherMethods) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::beam_test

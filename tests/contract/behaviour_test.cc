@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace orthodyn {
+namespace orthodyn::behaviour_test {
 namespace {
 
 class Contract : public testing::TestWithParam<Pair> {
@@ -321,4 +321,4 @@ TEST_P(Contract, AnUnsymmetricTangentIsServedOrRefusedWithTheRemedy) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::behaviour_test

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-namespace orthodyn {
+namespace orthodyn::central_differences_test {
 namespace {
 
 std::unique_ptr<Integrator> leapfrog(const SmallModel& model, const std::string& keys = "") {
@@ -308,4 +308,4 @@ TEST(CentralDifferences, ServeAConsistentMass) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::central_differences_test

@@ -9,7 +9,7 @@
 
 #include "tests/contract/models.h"
 
-namespace orthodyn {
+namespace orthodyn::cost_estimate_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -125,4 +125,4 @@ TEST(CostEstimate, OfAModelWithoutDampingHasNone) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::cost_estimate_test

@@ -4,7 +4,7 @@
 #include "tests/contract/integrators.h"
 #include "tests/fem/built_scene.h"
 
-namespace orthodyn {
+namespace orthodyn::energy_momentum_test {
 namespace {
 
 // A free block, ten times stiffer along oblique fibres, that spins and is stretched a little.
@@ -60,4 +60,4 @@ TEST(EnergyMomentum, KeepsEnergyAndMomentumOverTenThousandStepsOfTwentyTimesTheE
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::energy_momentum_test

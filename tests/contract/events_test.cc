@@ -4,7 +4,7 @@
 #include "lib/simulation/run.h"
 #include "tests/contract/integrators.h"
 
-namespace orthodyn {
+namespace orthodyn::events_test {
 namespace {
 
 class Events : public testing::TestWithParam<Pair> {};
@@ -96,4 +96,4 @@ TEST_P(Events, ThatStopEndTheRunWhereTheyHappen) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::events_test

@@ -1,7 +1,7 @@
 // Explicit Runge-Kutta methods on the imaginary axis, and what their tables ask for; Adams methods' iterations.
 #include "tests/contract/integrators.h"
 
-namespace orthodyn {
+namespace orthodyn::explicit_runge_kutta_test {
 namespace {
 
 std::unique_ptr<Integrator> make(const SmallModel& model, const std::string& yaml) {
@@ -108,4 +108,4 @@ TEST(CvodeAdams, RefuseKeysOfTheOtherIteration) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::explicit_runge_kutta_test

@@ -4,7 +4,7 @@
 #include "integrators/native/krylov_phi.h"
 #include "tests/contract/integrators.h"
 
-namespace orthodyn {
+namespace orthodyn::exponential_rosenbrock_test {
 namespace {
 
 std::unique_ptr<Integrator> exponential(const SmallModel& model, const std::string& keys) {
@@ -134,4 +134,4 @@ TEST(ExponentialRosenbrock, EndsWhereAFixedStepNeedsALargerSpaceWithTheRemedy) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::exponential_rosenbrock_test

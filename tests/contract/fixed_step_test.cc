@@ -3,7 +3,7 @@
 
 #include <sstream>
 
-namespace orthodyn {
+namespace orthodyn::fixed_step_test {
 namespace {
 
 class FixedStep : public testing::TestWithParam<Pair> {
@@ -165,4 +165,4 @@ TEST(ArkodeDirk, RefusesAnUnknownTableWithTheNearestAndAllNames) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::fixed_step_test

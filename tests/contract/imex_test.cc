@@ -2,7 +2,7 @@
 #include "tests/contract/integrators.h"
 #include "tests/contract/parted_model.h"
 
-namespace orthodyn {
+namespace orthodyn::imex_test {
 namespace {
 
 std::unique_ptr<Integrator> imex(const SmallModel& model, const std::string& keys) {
@@ -95,4 +95,4 @@ TEST(Imex, RefusesAModelWithoutPartsWithTheRemedy) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::imex_test

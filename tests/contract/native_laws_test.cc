@@ -4,7 +4,7 @@
 #include "integrators/native/ros34pw2.h"
 #include "tests/contract/integrators.h"
 
-namespace orthodyn {
+namespace orthodyn::native_laws_test {
 namespace {
 
 LinearModel undamped(double omega, const Vector& start = Vector::Ones(1)) {
@@ -172,4 +172,4 @@ TEST(NativeMethods, RefuseSundialsOwnSolverWithTheRemedy) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::native_laws_test

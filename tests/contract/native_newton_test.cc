@@ -1,7 +1,7 @@
 // Newton's method in our own implicit methods: how often it makes a matrix, and what it does where it fails.
 #include "tests/contract/integrators.h"
 
-namespace orthodyn {
+namespace orthodyn::native_newton_test {
 namespace {
 
 std::unique_ptr<Integrator> make(const SmallModel& model, const std::string& options) {
@@ -77,4 +77,4 @@ TEST(NativeNewton, ThatNeverConvergesEndsInARunErrorWithTheRemedy) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::native_newton_test

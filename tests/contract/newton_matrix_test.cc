@@ -6,7 +6,7 @@
 #include "lib/core/errors.h"
 #include "tests/contract/models.h"
 
-namespace orthodyn {
+namespace orthodyn::newton_matrix_test {
 namespace {
 
 Vector product(const Model& model, const Weights& weights, TangentKind kind, const State& at, const Vector& x) {
@@ -105,4 +105,4 @@ TEST(NewtonMatrix, OfAnUnsymmetricTangentNeedsASolverThatTakesIt) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::newton_matrix_test

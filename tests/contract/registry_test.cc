@@ -1,7 +1,7 @@
 // The registry of integrators as a whole: every one is known to this suite, explains itself and is another.
 #include "tests/contract/integrators.h"
 
-namespace orthodyn {
+namespace orthodyn::registry_test {
 namespace {
 
 TEST(IntegratorRegistry, HoldsOnlyWhatThisSuiteTests) {
@@ -51,4 +51,4 @@ TEST(IntegratorRegistry, HasNoTwoNamesForOneMap) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::registry_test

@@ -1,7 +1,7 @@
 // Every integrator tells and takes the settings that it has keys for.
 #include "tests/contract/integrators.h"
 
-namespace orthodyn {
+namespace orthodyn::settings_test {
 namespace {
 
 std::vector<std::string> all_integrators() {
@@ -65,4 +65,4 @@ INSTANTIATE_TEST_SUITE_P(Settings, EveryChoice, testing::ValuesIn(all_integrator
                          [](const auto& tested) { return tested.param; });
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::settings_test

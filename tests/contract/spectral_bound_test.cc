@@ -8,7 +8,7 @@
 
 #include "tests/contract/models.h"
 
-namespace orthodyn {
+namespace orthodyn::spectral_bound_test {
 namespace {
 
 constexpr double kClose = 1.02;  // the residual, which is added, is at most a hundredth of the eigenvalue
@@ -82,4 +82,4 @@ TEST(SpectralBound, IsThatOfTheSymmetricPart) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::spectral_bound_test

@@ -7,7 +7,7 @@
 
 #include "tests/contract/models.h"
 
-namespace orthodyn {
+namespace orthodyn::stage_solver_test {
 namespace {
 
 // A solver of stages at a fixed step, from a model's initial state.
@@ -123,4 +123,4 @@ TEST(StageSolver, FiltersByTheInverseOfTheIterationMatrix) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::stage_solver_test

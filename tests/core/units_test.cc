@@ -8,7 +8,7 @@
 #include "lib/config/spec.h"
 #include "tests/config/messages.h"
 
-namespace orthodyn {
+namespace orthodyn::units_test {
 namespace {
 
 double read(const std::string& yaml, const Rule& rule) {
@@ -84,4 +84,4 @@ TEST(Units, ARateOfChangeIsToldApartFromItsInverse) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::units_test

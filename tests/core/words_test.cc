@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace orthodyn {
+namespace orthodyn::words_test {
 namespace {
 
 TEST(Join, SeparatesNames) {
@@ -45,4 +45,4 @@ TEST(ExpectedOneOf, ListsWhatIsKnown) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::words_test

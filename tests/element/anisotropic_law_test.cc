@@ -10,7 +10,7 @@
 #include "lib/element/warped_law.h"
 #include "tests/element/states.h"
 
-namespace orthodyn {
+namespace orthodyn::anisotropic_law_test {
 namespace {
 
 const Mat3 kQ = Random(80).rotation(), kA = Random(81).rotation();
@@ -99,4 +99,4 @@ TEST(AnisotropicLaw, ExertsNoTorque) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::anisotropic_law_test

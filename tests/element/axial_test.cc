@@ -5,7 +5,7 @@
 
 #include "tests/material/constants.h"
 
-namespace orthodyn {
+namespace orthodyn::axial_test {
 namespace {
 
 TEST(Axial, TheCrossMatrixMultipliesLikeTheCrossProduct) {
@@ -41,4 +41,4 @@ TEST(Axial, TheCofactorIsTheDeterminantTimesTheInverse) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::axial_test

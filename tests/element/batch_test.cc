@@ -5,7 +5,7 @@
 #include "lib/element/linear_law.h"
 #include "lib/element/warped_law.h"
 
-namespace orthodyn {
+namespace orthodyn::batch_test {
 namespace {
 
 const OrthotropicStiffness kStiff{12, 5, 3, 2, 1, 1.5, 2, 1, 1.2};
@@ -105,4 +105,4 @@ TEST(Batch, MarksLanesThatAreNotFinite) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::batch_test

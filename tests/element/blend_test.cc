@@ -7,7 +7,7 @@
 #include "lib/element/corotational_law.h"
 #include "tests/element/states.h"
 
-namespace orthodyn {
+namespace orthodyn::blend_test {
 namespace {
 
 template <class T>
@@ -118,4 +118,4 @@ TEST(Blend, LetsCollapsedElementsHaveFiniteEnergyAndStress) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::blend_test

@@ -7,7 +7,7 @@
 
 #include "tests/element/states.h"
 
-namespace orthodyn {
+namespace orthodyn::corotational_law_test {
 namespace {
 
 const Mat3 kQ = Random(20).rotation();  // material axes; F is F Q below
@@ -59,7 +59,7 @@ TEST(CorotationalLaw, StressInTheEigenframeIsSigmaTimesTheRatioOfStretches) {
   Random random(22);
   const auto C = fibre(100);
   for (int sample = 0; sample < 100; ++sample) {
-    const State state = random_strain(random, 0.4);
+    const Deformation state = random_strain(random, 0.4);
     const Mat3 sigma = state.V.transpose() * C.stress<double>(state.S() - Mat3::Identity()) * state.V;
     const Mat3 P =
         state.V.transpose() * state.R.transpose() * CorotationalLaw(C).stress<double>(state.F(), kQ) * state.V;
@@ -108,7 +108,7 @@ TEST(CorotationalLaw, OfAnIsotropicMaterialIsTheTextbookLaw) {
   const CorotationalLaw law(kIsotropic);
   const CorotationalLaw general(as_orthotropic(kIsotropic));
   for (int sample = 0; sample < 100; ++sample) {
-    const State state = random_strain(random, 0.5);
+    const Deformation state = random_strain(random, 0.5);
     const Vec3 e = state.s - Vec3::Ones();
     const Vec3 sigma = 2 * kIsotropic.mu * e + Vec3::Constant(kIsotropic.lambda * e.sum());
     const Mat3 P = state.R * state.V * sigma.asDiagonal() * state.V.transpose();
@@ -136,4 +136,4 @@ TEST(CorotationalLaw, ObservesNoCauchyStressInAnInvertedElement) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::corotational_law_test

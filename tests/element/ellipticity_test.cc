@@ -4,7 +4,7 @@
 #include "lib/element/corotational_law.h"
 #include "tests/element/states.h"
 
-namespace orthodyn {
+namespace orthodyn::ellipticity_test {
 namespace {
 
 // Fibre along axis 1, stretched by e under uniaxial stress: d2Psi of dF = i x j against the formulas.
@@ -52,4 +52,4 @@ TEST(Ellipticity, IsLostBySlidingAtTheTensileLimit) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::ellipticity_test

@@ -5,7 +5,7 @@
 
 #include "tests/element/states.h"
 
-namespace orthodyn {
+namespace orthodyn::linear_law_test {
 namespace {
 
 const Mat3 kQ = Random(60).rotation();
@@ -66,4 +66,4 @@ TEST(LinearLaw, ObservesStressInSpaceAndStrainInMaterialAxes) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::linear_law_test

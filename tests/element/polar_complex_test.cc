@@ -4,7 +4,7 @@
 #include "lib/element/polar.h"
 #include "tests/element/states.h"
 
-namespace orthodyn {
+namespace orthodyn::polar_complex_test {
 namespace {
 
 Mat3 rotation_of(const Mat3& F) { return polar(F, Mat3::Identity()).R; }
@@ -61,4 +61,4 @@ TEST(ComplexPolar, TheRateOfRIsTheOneOfTheRotationVector) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::polar_complex_test

@@ -9,7 +9,7 @@
 #include "lib/core/errors.h"
 #include "tests/element/states.h"
 
-namespace orthodyn {
+namespace orthodyn::polar_test {
 namespace {
 
 struct Kind {
@@ -95,7 +95,7 @@ TEST(Polar, GInverseIsTheInverseOfG) {
 TEST(Polar, KeepsTheRotationItWasBuiltFrom) {
   Random random(7);
   for (int sample = 0; sample < 200; ++sample) {
-    const State state = random_strain(random, 0.5);
+    const Deformation state = random_strain(random, 0.5);
     const auto p = polar(state.F(), Mat3::Identity());
     EXPECT_LE((p.R - state.R).norm(), 64 * kEps);
     EXPECT_LE((p.S - state.S()).norm(), 64 * kEps);
@@ -119,4 +119,4 @@ TEST(Polar, OfANumberThatIsNotFiniteIsRecoverable) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::polar_test

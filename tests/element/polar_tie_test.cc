@@ -6,7 +6,7 @@
 #include "lib/element/polar.h"
 #include "tests/element/states.h"
 
-namespace orthodyn {
+namespace orthodyn::polar_tie_test {
 namespace {
 
 // Mirror images of the unit element in one direction and in all; line and point.
@@ -53,4 +53,4 @@ TEST(PolarTie, OfAMirroredElementKeepsTheRotationNearestToTheTie) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::polar_tie_test

@@ -3,11 +3,11 @@
 
 namespace orthodyn {
 
-State random_state(Random& random, const Vec3& stretches) {
+Deformation random_state(Random& random, const Vec3& stretches) {
   return {random.rotation(), random.rotation(), stretches};
 }
 
-State random_strain(Random& random, double strain) {
+Deformation random_strain(Random& random, double strain) {
   return random_state(random, Vec3::Ones() + strain * random.vector());
 }
 

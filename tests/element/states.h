@@ -11,17 +11,17 @@ namespace orthodyn {
 using Complex = std::complex<double>;
 using CMat3 = Mat3T<Complex>;
 
-struct State {
+struct Deformation {
   Mat3 R, V;  // rotation; principal axes as columns
   Vec3 s;     // principal stretches, signed, s1 >= s2 >= |s3|
   Mat3 S() const { return V * s.asDiagonal() * V.transpose(); }
   Mat3 F() const { return R * S(); }
 };
 
-State random_state(Random& random, const Vec3& stretches);
+Deformation random_state(Random& random, const Vec3& stretches);
 
 // Principal stretches within 1 +- strain.
-State random_strain(Random& random, double strain);
+Deformation random_strain(Random& random, double strain);
 
 // Young's moduli ratio, 1, 1.
 OrthotropicStiffness fibre(double ratio);

@@ -6,7 +6,7 @@
 #include "lib/element/corotational_law.h"
 #include "tests/element/states.h"
 
-namespace orthodyn {
+namespace orthodyn::tangent_test {
 namespace {
 
 const Mat3 kQ = Random(33).rotation();
@@ -134,4 +134,4 @@ TEST(BlendedTangent, OfAnIsotropicMaterialIsPositiveSemidefiniteToo) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::tangent_test

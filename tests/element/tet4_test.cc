@@ -5,7 +5,7 @@
 #include "lib/element/corotational_law.h"
 #include "tests/element/states.h"
 
-namespace orthodyn {
+namespace orthodyn::tet4_test {
 namespace {
 
 // Edges of a tet of positive volume.
@@ -59,4 +59,4 @@ TEST(Tet4, NodeForcesOfTheCorotationalLawExertNoTorque) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::tet4_test

@@ -6,7 +6,7 @@
 #include "lib/element/corotational_law.h"
 #include "tests/element/states.h"
 
-namespace orthodyn {
+namespace orthodyn::viscous_test {
 namespace {
 
 const Mat3 kQ = Random(51).rotation();
@@ -117,4 +117,4 @@ TEST(DampingTangent, IsBetaTimesTheGaussNewtonTangentInRegularStates) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::viscous_test

@@ -5,7 +5,7 @@
 
 #include "tests/element/states.h"
 
-namespace orthodyn {
+namespace orthodyn::warped_law_test {
 namespace {
 
 const Mat3 kQ = Random(43).rotation();
@@ -56,7 +56,7 @@ TEST(WarpedLaw, DiffersFromTheExactLawByAtMostItsSkewPart) {
   Random random(46);
   const auto C = fibre(100);
   for (int sample = 0; sample < 50; ++sample) {
-    const State state = random_strain(random, 0.3);
+    const Deformation state = random_strain(random, 0.3);
     const Mat3 difference = state.R.transpose() * (CorotationalLaw(C).stress<double>(state.F(), kQ) -
                                                    warped(C).stress<double>(state.F(), kQ));
     EXPECT_LE(symmetric_part<double>(difference).norm(), 64 * kEps * voigt(C).norm());
@@ -83,7 +83,7 @@ TEST(WarpedLaw, TheUnsymmetricTangentDeservesItsName) {
 
 TEST(WarpedLaw, TheRotatedTangentIsTheRotatedStiffness) {
   Random random(48);
-  const State state = random_strain(random, 0.3);
+  const Deformation state = random_strain(random, 0.3);
   const auto form = warped(fibre(100), WarpedTangent::rotated).tangent(state.F(), kQ, TangentKind::exact, 0, nullptr);
   EXPECT_EQ(voigt(form.Hee), voigt(fibre(100)));
   EXPECT_LE((form.R - state.R).norm(), 64 * kEps);
@@ -110,4 +110,4 @@ TEST(WarpedLaw, IsDampedLikeTheExactLaw) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::warped_law_test

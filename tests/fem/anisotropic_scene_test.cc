@@ -4,7 +4,7 @@
 #include "lib/axes/frame.h"
 #include "tests/fem/built_scene.h"
 
-namespace orthodyn {
+namespace orthodyn::anisotropic_scene_test {
 namespace {
 
 // kTurnedAxes as a matrix.
@@ -57,4 +57,4 @@ TEST_P(AnisotropicScene, HasTheFrequencyBoundOfTheOrthotropicOne) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::anisotropic_scene_test

@@ -8,7 +8,7 @@
 #include "lib/mesh/box.h"
 #include "tests/material/constants.h"
 
-namespace orthodyn {
+namespace orthodyn::block_pattern_test {
 namespace {
 
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
@@ -114,4 +114,4 @@ TEST(Pattern, OfASymmetricMeshIsTheLowerTriangleOfTheGeneralOne) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::block_pattern_test

@@ -17,7 +17,7 @@ class GivenMesh : public MeshSource {
   LoadedMesh load() const override { return {given_mesh(), {}}; }
 };
 
-const bool registered = Registry<MeshSource>::add<GivenMesh>("given", "A test's own mesh.");
+const bool built_scene_registered = Registry<MeshSource>::add<GivenMesh>("given", "A test's own mesh.");
 
 }  // namespace
 

@@ -7,7 +7,7 @@
 
 #include "lib/fem/differences.h"
 
-namespace orthodyn {
+namespace orthodyn::differences_test {
 namespace {
 
 TEST(Differences, AreExactForPolynomialsOfDegreeEightWhereverTheyAreTaken) {
@@ -53,4 +53,4 @@ TEST(Differences, DoNotReachAcrossAKinkAndTakeItsRightSide) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::differences_test

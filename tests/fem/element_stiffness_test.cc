@@ -9,7 +9,7 @@
 #include "lib/element/warped_law.h"
 #include "tests/element/states.h"
 
-namespace orthodyn {
+namespace orthodyn::element_stiffness_test {
 namespace {
 
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
@@ -113,4 +113,4 @@ TEST(StrainGram, GivesTheElementsHighestFrequency) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::element_stiffness_test

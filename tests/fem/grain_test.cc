@@ -14,7 +14,7 @@
 #include "lib/mesh/selection.h"
 #include "tests/fem/built_scene.h"
 
-namespace orthodyn {
+namespace orthodyn::grain_test {
 namespace {
 
 TEST(ElementAxes, AreTheRotationsTheyWereMadeFrom) {
@@ -230,4 +230,4 @@ TEST(HoopReinforcedTube, UnderInnerPressureWidensAsKnownAndTheErrorIsOfSecondOrd
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::grain_test

@@ -10,7 +10,7 @@
 #include "lib/mesh/box.h"
 #include "tests/fem/built_scene.h"
 
-namespace orthodyn {
+namespace orthodyn::internal_force_test {
 namespace {
 
 BuiltTestScene body(const TetMesh& mesh, const std::string& material, const std::string& corotation = "exact",
@@ -255,4 +255,4 @@ TEST(InternalForce, TurnsWithTheWholeProblem) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::internal_force_test

@@ -6,7 +6,7 @@
 #include "lib/core/symmetric_eigen.h"
 #include "tests/fem/built_scene.h"
 
-namespace orthodyn {
+namespace orthodyn::mass_test {
 namespace {
 
 constexpr double kDensity = 3, kVolume = 2 * 1 * 0.5;
@@ -112,4 +112,4 @@ TEST(ConsistentMass, GivesTheKineticEnergyOfARigidSpinExactly) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::mass_test

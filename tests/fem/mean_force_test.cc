@@ -4,7 +4,7 @@
 #include "lib/core/errors.h"
 #include "tests/fem/built_scene.h"
 
-namespace orthodyn {
+namespace orthodyn::mean_force_test {
 namespace {
 
 std::string block(const std::string& material, const std::string& more = "") {
@@ -106,4 +106,4 @@ TEST(MeanForce, DoesNotExistForTheWarpedForce) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::mean_force_test

@@ -9,7 +9,7 @@
 #include "tests/fem/built_scene.h"
 #include "tests/fem/derivatives.h"
 
-namespace orthodyn {
+namespace orthodyn::model_derivatives_test {
 namespace {
 
 struct Case {
@@ -149,4 +149,4 @@ TEST_P(Derivatives, CombineIsTheWeightedSum) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::model_derivatives_test

@@ -3,7 +3,7 @@
 
 #include "tests/fem/built_scene.h"
 
-namespace orthodyn {
+namespace orthodyn::part_model_test {
 namespace {
 
 const BuiltTestScene& scene() {
@@ -95,4 +95,4 @@ TEST(ForceParts, HaveTheWholeMass) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::part_model_test

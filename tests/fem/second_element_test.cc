@@ -7,7 +7,7 @@
 #include "tests/element/states.h"
 #include "tests/fem/hex8.h"
 
-namespace orthodyn {
+namespace orthodyn::second_element_test {
 namespace {
 
 constexpr double kDensity = 3, kBeta = 0.2;
@@ -137,4 +137,4 @@ TEST_F(Bricks, AreBoundedInFrequency) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::second_element_test

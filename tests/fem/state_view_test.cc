@@ -7,7 +7,7 @@
 
 #include "tests/fem/built_scene.h"
 
-namespace orthodyn {
+namespace orthodyn::state_view_test {
 namespace {
 
 class Views : public testing::TestWithParam<std::string> {
@@ -53,4 +53,4 @@ TEST_P(Views, DoNotSeeWhatTheStateBecomesAfterwards) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::state_view_test

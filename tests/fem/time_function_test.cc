@@ -8,7 +8,7 @@
 #include "lib/fem/differences.h"
 #include "lib/fem/time_functions/time_function.h"
 
-namespace orthodyn {
+namespace orthodyn::time_function_test {
 namespace {
 
 std::shared_ptr<const TimeFunction> factor(const std::string& yaml) {
@@ -109,4 +109,4 @@ TEST_P(SmoothFactor, HasTheRateAndCurvatureOfItsValue) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::time_function_test

@@ -9,7 +9,7 @@
 #include "lib/core/errors.h"
 #include "tests/linear/systems.h"
 
-namespace orthodyn {
+namespace orthodyn::eigenmodes_test {
 namespace {
 
 struct Chain {
@@ -96,4 +96,4 @@ TEST(Eigenmodes, RefuseMoreModesThanUnknowns) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::eigenmodes_test

@@ -7,7 +7,7 @@
 
 #include "tests/linear/systems.h"
 
-namespace orthodyn {
+namespace orthodyn::solver_test {
 namespace {
 
 // Gaussian elimination without growth: backward error of a few eps, whatever n.
@@ -243,4 +243,4 @@ TEST(Solvers, CholmodIsSimplicialForSmallAndSupernodalForLargeSystems) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::solver_test

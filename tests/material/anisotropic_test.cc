@@ -8,7 +8,7 @@
 #include "tests/config/messages.h"
 #include "tests/material/constants.h"
 
-namespace orthodyn {
+namespace orthodyn::anisotropic_test {
 namespace {
 
 constexpr const char* kUsual = "11-22-33-23-13-12";
@@ -120,4 +120,4 @@ TEST(Anisotropic, IsStableExactlyIfItsTensorIsPositiveDefinite) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::anisotropic_test

@@ -10,7 +10,7 @@
 #include "tests/config/messages.h"
 #include "tests/material/constants.h"
 
-namespace orthodyn {
+namespace orthodyn::material_input_test {
 namespace {
 
 std::shared_ptr<const Material> read(const std::string& yaml) {
@@ -158,4 +158,4 @@ TEST(MaterialRefuses, ARatioWithTheRangeThatIsAcceptedUpToItsEnds) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::material_input_test

@@ -4,7 +4,7 @@
 #include "lib/material/stiffness.h"
 #include "tests/material/constants.h"
 
-namespace orthodyn {
+namespace orthodyn::nearest_isotropic_test {
 namespace {
 
 // The Euclidean norm of the fourth-order tensor of the difference.
@@ -39,4 +39,4 @@ TEST(NearestIsotropic, OfAStableTensorIsStable) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::nearest_isotropic_test

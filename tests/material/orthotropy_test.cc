@@ -8,7 +8,7 @@
 
 #include "tests/material/constants.h"
 
-namespace orthodyn {
+namespace orthodyn::orthotropy_test {
 namespace {
 
 Mat6 compliance(const OrthotropicConstants& c) {
@@ -121,4 +121,4 @@ TEST(Orthotropy, RenamingTheMaterialAxesRenamesTheEntriesOfTheStiffness) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::orthotropy_test

@@ -10,7 +10,7 @@
 #include "tests/config/messages.h"
 #include "tests/material/constants.h"
 
-namespace orthodyn {
+namespace orthodyn::presets_test {
 namespace {
 
 std::shared_ptr<const Material> read(const std::string& yaml) {
@@ -111,4 +111,4 @@ TEST(PresetMaterial, OfAnUnknownNameIsRefusedWithTheNearest) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::presets_test

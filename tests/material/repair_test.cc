@@ -8,7 +8,7 @@
 #include "tests/config/messages.h"
 #include "tests/material/constants.h"
 
-namespace orthodyn {
+namespace orthodyn::repair_test {
 namespace {
 
 std::shared_ptr<const Material> read(const std::string& yaml) {
@@ -91,4 +91,4 @@ TEST(Symmetrise, GoesBeforeTheRepair) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::repair_test

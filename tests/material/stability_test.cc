@@ -5,7 +5,7 @@
 #include "lib/material/orthotropy.h"
 #include "tests/material/constants.h"
 
-namespace orthodyn {
+namespace orthodyn::stability_test {
 namespace {
 
 // Rho(t r) has the eigenvalues 1 - t (1 - lambda): the boundary is at t = 1 / (1 - lambda_min).
@@ -87,4 +87,4 @@ TEST(Shrink, KeepsModuliAndTheRatiosOfTheRatios) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::stability_test

@@ -6,7 +6,7 @@
 #include "lib/material/material.h"
 #include "tests/material/constants.h"
 
-namespace orthodyn {
+namespace orthodyn::stable_family_test {
 namespace {
 
 OrthotropicStiffness read_family(const Vec3& E, double nu) {
@@ -81,4 +81,4 @@ TEST(StableFamily, TheShearFactorScalesTheShearModuliOnly) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::stable_family_test

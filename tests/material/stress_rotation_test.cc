@@ -4,7 +4,7 @@
 #include "lib/material/stiffness.h"
 #include "tests/material/constants.h"
 
-namespace orthodyn {
+namespace orthodyn::stress_rotation_test {
 namespace {
 
 // C'_ijkl = Q_ia Q_jb Q_kc Q_ld C_abcd
@@ -93,4 +93,4 @@ TEST(Stiffness, SumsAndMultiplesAreThoseOfTheMatrices) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::stress_rotation_test

@@ -7,7 +7,7 @@
 #include "tests/config/messages.h"
 #include "tests/material/constants.h"
 
-namespace orthodyn {
+namespace orthodyn::transversely_isotropic_test {
 namespace {
 
 std::string fibre_with(double nu_axial, double nu_transverse, const std::string& more = "") {
@@ -70,4 +70,4 @@ TEST(TransverselyIsotropic, WhenShrunkStaysIsotropicAcrossTheFibre) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::transversely_isotropic_test

@@ -5,7 +5,7 @@
 #include "lib/material/stiffness.h"
 #include "tests/material/constants.h"
 
-namespace orthodyn {
+namespace orthodyn::waves_test {
 namespace {
 
 constexpr double kDensity = 400;  // kg/m^3
@@ -50,4 +50,4 @@ TEST(Waves, HaveTheSameSpeedsInARotatedFrame) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::waves_test

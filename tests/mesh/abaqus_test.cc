@@ -4,7 +4,7 @@
 
 #include "tests/mesh/refusal.h"
 
-namespace orthodyn {
+namespace orthodyn::abaqus_test {
 namespace {
 
 const std::string kDeck = R"(*Heading
@@ -147,4 +147,4 @@ TEST(Abaqus, ARangeOfLargeStepsCostsNoMoreThanWhatItNames) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::abaqus_test

@@ -12,7 +12,7 @@
 
 #include "lib/core/errors.h"
 
-namespace orthodyn {
+namespace orthodyn::box_test {
 namespace {
 
 using Split = BoxMesh::Split;
@@ -210,4 +210,4 @@ TEST(MakeBoxRefuses, MoreNodesThanAnIntCanCount) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::box_test

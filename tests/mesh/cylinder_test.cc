@@ -8,7 +8,7 @@
 
 #include "tests/mesh/refusal.h"
 
-namespace orthodyn {
+namespace orthodyn::cylinder_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -174,4 +174,4 @@ TEST(Cylinder, RefusesWhatMakesNoMesh) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::cylinder_test

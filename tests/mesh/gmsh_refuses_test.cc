@@ -11,7 +11,7 @@
 #include "lib/mesh/io/gmsh.h"
 #include "tests/mesh/gmsh_test_file.h"
 
-namespace orthodyn {
+namespace orthodyn::gmsh_refuses_test {
 namespace {
 
 std::string refusal_of_path(const std::string& path) {
@@ -302,4 +302,4 @@ TEST(GmshRefuses, WithoutPrintingUnprintableBytes) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::gmsh_refuses_test

@@ -7,7 +7,7 @@
 
 #include "tests/mesh/gmsh_test_file.h"
 
-namespace orthodyn {
+namespace orthodyn::gmsh_test {
 namespace {
 
 LoadedMesh load(const std::string& content) { return read_gmsh(TemporaryFile(content).path()); }
@@ -202,4 +202,4 @@ TEST(Gmsh, BothFormatsOfTheReferenceMeshesGiveTheSame) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::gmsh_test

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/mesh/refusal.h"
+
 namespace orthodyn {
 
 // A file in a directory of its own; both are removed in the end.
@@ -31,13 +33,6 @@ class TemporaryFile {
  private:
   std::filesystem::path directory_;
 };
-
-// `text` with the first `from` replaced.
-inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  if (at == std::string::npos) throw std::logic_error("not in the text: " + from);
-  return text.replace(at, from.size(), to);
-}
 
 inline const std::string kFile22 = R"($MeshFormat
 2.2 0 8

@@ -18,7 +18,7 @@
 #include "lib/mesh/io/vtk.h"
 #include "lib/mesh/io/vtu.h"
 
-namespace orthodyn {
+namespace orthodyn::mutation_test {
 namespace {
 
 // One to four changes of bytes: to any byte, to one that means something, or cut off.
@@ -106,4 +106,4 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::mutation_test

@@ -7,7 +7,7 @@
 #include "lib/mesh/io/mesh_file.h"
 #include "tests/mesh/refusal.h"
 
-namespace orthodyn {
+namespace orthodyn::owner_files_test {
 namespace {
 
 LoadedMesh load(const std::string& name) {
@@ -101,4 +101,4 @@ TEST(MeshFile, AnUnknownEndingIsRefusedWithTheKnownOnes) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::owner_files_test

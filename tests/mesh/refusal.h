@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>  // mkdtemp
 
+#include <concepts>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -20,7 +21,7 @@
 namespace orthodyn {
 
 // The message of the ConfigError that this throws.
-template <class Action>
+template <std::invocable Action>
 std::string refusal_of(Action&& action) {
   try {
     action();

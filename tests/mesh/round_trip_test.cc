@@ -12,7 +12,7 @@
 #include "lib/mesh/io/mesh_format.h"
 #include "tests/mesh/refusal.h"
 
-namespace orthodyn {
+namespace orthodyn::round_trip_test {
 namespace {
 
 // Two regions that alternate, a surface, an inner one, a node set, and coordinates of all digits.
@@ -252,4 +252,4 @@ TEST(WriteMesh, ScalingMultipliesLengthsAndRefusesWhatCannotBeRepresented) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::round_trip_test

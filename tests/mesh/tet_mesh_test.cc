@@ -7,10 +7,10 @@
 #include <limits>
 #include <numbers>
 
-#include "lib/core/errors.h"
 #include "lib/mesh/box.h"
+#include "tests/mesh/refusal.h"
 
-namespace orthodyn {
+namespace orthodyn::tet_mesh_test {
 namespace {
 
 // The corner tet of the unit cube, volume 1/6.
@@ -41,17 +41,11 @@ TetMesh sliver(double angle, double scale) {
 }
 
 std::string refusal(TetMesh mesh, const MeshOrigin& origin = {"beam"}) {
-  try {
-    validate(mesh, origin);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return refusal_of([&] { validate(mesh, origin); });
 }
 
 #define EXPECT_STARTS_WITH(text, start) \
   EXPECT_EQ((text).substr(0, std::string(start).size()), start)
-#define EXPECT_CONTAINS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 TEST(TetMesh, TheBoundingBoxHoldsExactlyAllNodes) {
   TetMesh mesh = one_tet();
@@ -283,4 +277,4 @@ TEST(TetMesh, ANodeSetMayOnlyNameNodesOfTheMesh) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::tet_mesh_test

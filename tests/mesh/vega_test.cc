@@ -11,7 +11,7 @@
 #include "lib/core/errors.h"
 #include "tests/mesh/refusal.h"
 
-namespace orthodyn {
+namespace orthodyn::vega_test {
 namespace {
 
 const std::string kTwoTets = R"(# two tets
@@ -246,4 +246,4 @@ TEST(Vega, ReadsTheModelsThatComeWithVega) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::vega_test

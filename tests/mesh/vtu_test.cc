@@ -10,7 +10,7 @@
 #include "lib/mesh/io/vtk.h"
 #include "tests/mesh/refusal.h"
 
-namespace orthodyn {
+namespace orthodyn::vtu_test {
 namespace {
 
 const std::string kAscii = R"(<?xml version="1.0"?>
@@ -262,4 +262,4 @@ TEST(Vtk, ScalarsMayHaveNoLookupTable) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::vtu_test

@@ -6,7 +6,7 @@
 #include "lib/mesh/io/vtu.h"
 #include "tests/mesh/refusal.h"
 
-namespace orthodyn {
+namespace orthodyn::vtu_text_test {
 namespace {
 
 const std::vector<Vec3> kPoints{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1.0 / 3}};
@@ -55,4 +55,4 @@ INSTANTIATE_TEST_SUITE_P(Storages, AnyStorage, testing::Values(VtuStorage::ascii
                          [](const auto& test) { return test.param == VtuStorage::ascii ? "ascii" : "raw"; });
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::vtu_text_test

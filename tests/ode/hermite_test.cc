@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace orthodyn {
+namespace orthodyn::hermite_test {
 namespace {
 
 Vector one(double x) { return Vector::Constant(1, x); }
@@ -54,4 +54,4 @@ TEST(Hermite, PositionHasOrderSixAndVelocityOrderFive) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::hermite_test

@@ -4,7 +4,7 @@
 #include "lib/core/errors.h"
 #include "lib/ode/model.h"
 
-namespace orthodyn {
+namespace orthodyn::linearization_test {
 namespace {
 
 // q'' = -k q - d q', which counts its assemblies.
@@ -93,4 +93,4 @@ TEST(Linearization, ThatCouldNotBeAssembledIsTriedAgain) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::linearization_test

@@ -6,7 +6,7 @@
 #include "tests/contract/models.h"
 #include <gtest/gtest.h>
 
-namespace orthodyn {
+namespace orthodyn::load_stepper_test {
 namespace {
 
 // Von Mises' truss: two bars of EA = 1 from (-1, 0) and (1, 0) meet at the height z = 0.2 - q, pressed down by a load.
@@ -219,4 +219,4 @@ TEST(Kinsol, NamesTheSolversThatItTakes) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::load_stepper_test

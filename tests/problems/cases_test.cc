@@ -5,7 +5,7 @@
 
 #include "lib/study/quantities/verify.h"
 
-namespace orthodyn::study {
+namespace orthodyn::study::cases_test {
 namespace {
 
 class Cases : public testing::TestWithParam<std::string> {};
@@ -22,4 +22,4 @@ INSTANTIATE_TEST_SUITE_P(Configs, Cases, testing::ValuesIn(find_cases({ORTHODYN_
                          [](const auto& tested) { return std::filesystem::path(tested.param).stem().string(); });
 
 }  // namespace
-}  // namespace orthodyn::study
+}  // namespace orthodyn::study::cases_test

@@ -10,7 +10,7 @@
 #include "tests/contract/order.h"
 #include "tests/problems/running.h"
 
-namespace orthodyn {
+namespace orthodyn::free_flight_test {
 namespace {
 
 struct Flight {
@@ -153,4 +153,4 @@ time: {{end: 1}}
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::free_flight_test

@@ -7,7 +7,7 @@
 #include "lib/simulation/observers/balance.h"
 #include "tests/problems/running.h"
 
-namespace orthodyn {
+namespace orthodyn::hard_starts_test {
 namespace {
 
 using Place = std::function<Vec3(Random&, const Vec3& X)>;
@@ -72,4 +72,4 @@ time: {{end: 10}}
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::hard_starts_test

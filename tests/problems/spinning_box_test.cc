@@ -8,7 +8,7 @@
 
 #include "tests/problems/running.h"
 
-namespace orthodyn {
+namespace orthodyn::spinning_box_test {
 namespace {
 
 constexpr double kOmega = 4;
@@ -105,4 +105,4 @@ TEST(SpinningBox, RotatesRigidlyForHalfARevolution) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::spinning_box_test

@@ -11,7 +11,7 @@
 #include "lib/analysis/rigid_freedom.h"
 #include "tests/problems/running.h"
 
-namespace orthodyn {
+namespace orthodyn::static_scenes_test {
 namespace {
 
 std::string error_of(const std::string& yaml) {
@@ -250,4 +250,4 @@ time: {{end: 1}}
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::static_scenes_test

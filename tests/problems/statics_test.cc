@@ -12,7 +12,7 @@
 #include "lib/linear/solver.h"
 #include "tests/fem/built_scene.h"
 
-namespace orthodyn {
+namespace orthodyn::statics_test {
 namespace {
 
 Vector linear_static(const BuiltTestScene& s) {
@@ -146,4 +146,4 @@ TEST_F(Reference, StrainEnergyOfTheCantileverIsThatOfGetFem) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::statics_test

@@ -7,7 +7,7 @@
 #include "lib/simulation/setup.h"
 #include "tests/problems/running.h"
 
-namespace orthodyn {
+namespace orthodyn::vega_scenes_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -68,4 +68,4 @@ TEST_P(VegaScenes, SwingAlikeByTwoIntegrators) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::vega_scenes_test

@@ -8,7 +8,7 @@
 #include "lib/linear/solver.h"
 #include "tests/problems/running.h"
 
-namespace orthodyn {
+namespace orthodyn::vibration_test {
 namespace {
 
 // The lowest mode that `start` is not orthogonal to, by inverse iteration; its frequency in Hz.
@@ -132,4 +132,4 @@ time: {{end: {}}}
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::vibration_test

@@ -4,7 +4,7 @@
 #include "tests/config/messages.h"
 #include "tests/scene/scenes.h"
 
-namespace orthodyn {
+namespace orthodyn::build_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -130,4 +130,4 @@ time: {end: 1}
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::build_test

@@ -6,7 +6,7 @@
 #include "lib/simulation/setup.h"
 #include "tests/scene/scenes.h"
 
-namespace orthodyn {
+namespace orthodyn::equilibrium_test {
 namespace {
 
 // Stretched by u = 0.02 m s(t), with s(0.3) = 10 t^3 - 15 t^4 + 6 t^5; both rates of s are large there.
@@ -63,4 +63,4 @@ TEST(Equilibrium, HasReactionsThatCarryTheLoads) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::equilibrium_test

@@ -8,7 +8,7 @@
 #include "lib/axes/axes_source.h"
 #include "tests/scene/scenes.h"
 
-namespace orthodyn {
+namespace orthodyn::mesh_source_test {
 namespace {
 
 const std::string kTet = R"(*VERTICES
@@ -147,4 +147,4 @@ TEST(RoundScene, WhatMakesNoMeshIsRefusedWithItsKey) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::mesh_source_test

@@ -7,7 +7,7 @@
 #include "lib/simulation/setup.h"
 #include "tests/scene/scenes.h"
 
-namespace orthodyn {
+namespace orthodyn::motions_test {
 namespace {
 
 struct Refused {
@@ -135,4 +135,4 @@ TEST(FormulaMotion, IsNeverEvaluatedBeforeTheStart) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::motions_test

@@ -1,7 +1,7 @@
 // Bad scenes: one clear message with file:line:column, what was found, what is allowed.
 #include "tests/scene/scenes.h"
 
-namespace orthodyn {
+namespace orthodyn::refusal_test {
 namespace {
 
 struct BadScene {
@@ -83,4 +83,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& scene) { return scene.param.name; });
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::refusal_test

@@ -1,7 +1,7 @@
 // A run whose input files have changed since does not go on.
 #include "tests/simulation/resume_fixture.h"
 
-namespace orthodyn {
+namespace orthodyn::changed_files_test {
 namespace {
 
 TEST_F(Resume, AMeshFileThatHasChangedIsRefused) {
@@ -65,4 +65,4 @@ TEST_F(TetgenMesh, AFileOfTheInputThatHasChangedIsRefusedByItsName) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::changed_files_test

@@ -2,7 +2,7 @@
 #include "lib/mesh/io/mesh_file.h"
 #include "tests/simulation/run_program.h"
 
-namespace orthodyn {
+namespace orthodyn::command_line_test {
 namespace {
 
 using CommandLine = InFolder;
@@ -214,4 +214,4 @@ TEST_F(CommandLine, OptionsThatDoNotGoTogetherAreRefused) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::command_line_test

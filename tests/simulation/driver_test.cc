@@ -13,7 +13,7 @@
 #include "lib/scene/build.h"
 #include "tests/simulation/run_program.h"
 
-namespace orthodyn {
+namespace orthodyn::driver_test {
 namespace {
 
 struct Recorder : Observer {
@@ -218,4 +218,4 @@ TEST_F(CheckpointTime, IsSpentOnATenthOfTheRunAtMost) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::driver_test

@@ -1,7 +1,7 @@
 // `orthodyn run --estimate-error`.
 #include "tests/simulation/resume_fixture.h"
 
-namespace orthodyn {
+namespace orthodyn::error_of_run_test {
 namespace {
 
 TEST_F(Resume, TheErrorIsEstimatedOnRequestAndRecorded) {
@@ -25,4 +25,4 @@ TEST_F(Resume, AnEstimateThatCannotBeMadeIsRefusedBeforeTheEarlierResultIsTouche
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::error_of_run_test

@@ -8,7 +8,7 @@
 
 #include "lib/core/errors.h"
 
-namespace orthodyn {
+namespace orthodyn::event_finder_test {
 namespace {
 
 using Course = std::function<double(double)>;
@@ -109,4 +109,4 @@ TEST(EventFinder, SaysWhichQuantityIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::event_finder_test

@@ -4,7 +4,7 @@
 #include "lib/simulation/simulation.h"
 #include "tests/simulation/result_reader.h"
 
-namespace orthodyn {
+namespace orthodyn::five_lines_test {
 namespace {
 
 using FiveLines = InFolder;
@@ -116,4 +116,4 @@ TEST_F(FiveLines, WhatIsNoSceneIsRefusedAtOnce) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::five_lines_test

@@ -9,12 +9,11 @@
 #include <random>
 #include <thread>
 
+#include "lib/simulation/json.h"
 #include "tests/simulation/resume_fixture.h"
 
-namespace orthodyn {
+namespace orthodyn::killed_run_test {
 namespace {
-
-using Json = nlohmann::json;
 
 // Kills runs at moments of its choice.
 class Killed : public Resume {
@@ -136,4 +135,4 @@ TEST_F(Resume, ARunThatFilledTheDiskGoesOnWhenThereIsRoom) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::killed_run_test

@@ -10,7 +10,7 @@
 #include "tests/fem/built_scene.h"
 #include "tests/simulation/run_program.h"
 
-namespace orthodyn {
+namespace orthodyn::modes_test {
 namespace {
 
 Modes modes_of(const BuiltTestScene& s, int count) {
@@ -194,4 +194,4 @@ time: {end: 1}
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::modes_test

@@ -4,7 +4,7 @@
 #include "lib/core/errors.h"
 #include "tests/simulation/run_program.h"
 
-namespace orthodyn {
+namespace orthodyn::result_folder_test {
 namespace {
 
 class ResultFolders : public InFolder {
@@ -122,4 +122,4 @@ TEST_F(ResultFolders, WithADamagedRecordIsThatOfARunThatWasKilled) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::result_folder_test

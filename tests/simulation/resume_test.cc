@@ -1,10 +1,9 @@
 // Completed runs that are extended, and who may work in a folder.
+#include "lib/simulation/json.h"
 #include "tests/simulation/resume_fixture.h"
 
-namespace orthodyn {
+namespace orthodyn::resume_test {
 namespace {
-
-using Json = nlohmann::json;
 
 TEST_F(Resume, ACompletedRunIsLeftAloneAndCanBeExtended) {
   write("beam.yaml", kBeam + std::string(kFixedStep));
@@ -73,4 +72,4 @@ TEST_F(Resume, ItDoesNotGoTogetherWithForce) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::resume_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace orthodyn {
+namespace orthodyn::scene_changes_test {
 namespace {
 
 using Paths = std::vector<std::string>;
@@ -61,4 +61,4 @@ TEST(SceneChanges, ARunThatGoesOnMayChangeItsEndAndLimitsOnly) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::scene_changes_test

@@ -2,7 +2,7 @@
 #include "tests/simulation/run_program.h"
 #include "tests/simulation/result_reader.h"
 
-namespace orthodyn {
+namespace orthodyn::static_run_test {
 namespace {
 
 const char* const kShelf = R"(analysis: static
@@ -138,4 +138,4 @@ TEST_F(EventRun, RefusesVectorsUnknownQuantitiesAndAnErrorEstimateOfAStoppedRun)
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::static_run_test

@@ -3,12 +3,11 @@
 #include <map>
 #include <random>
 
+#include "lib/simulation/json.h"
 #include "tests/simulation/resume_fixture.h"
 
-namespace orthodyn {
+namespace orthodyn::stopped_run_test {
 namespace {
-
-using Json = nlohmann::json;
 
 // A run that stopped in the middle for max_steps.
 class Stopped : public Resume {
@@ -126,4 +125,4 @@ TEST_F(Stopped, OnlyFramesOfTheRunAreRemovedWhenItGoesOn) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::stopped_run_test

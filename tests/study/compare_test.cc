@@ -1,16 +1,14 @@
 // `orthodyn compare` as a user meets it: results, failures, interruption.
 #include <csignal>
-#include <nlohmann/json.hpp>
 #include <fstream>
 #include <set>
 #include <thread>
 
+#include "lib/simulation/json.h"
 #include "tests/simulation/run_program.h"
 
-namespace orthodyn {
+namespace orthodyn::compare_test {
 namespace {
-
-using Json = nlohmann::json;
 
 const char* const kSmall = R"(scenes: [swing.yaml]
 integrators: [cvode_bdf, ida_bdf]
@@ -331,4 +329,4 @@ TEST_F(Compare, NeverWritesIntoAFolderOfSomethingElse) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::compare_test

@@ -8,7 +8,7 @@
 #include "lib/ode/integrator.h"
 #include "tests/simulation/run_program.h"
 
-namespace orthodyn::study::compare {
+namespace orthodyn::study::compare::comparison_design_test {
 namespace {
 
 class Expand : public InFolder {
@@ -207,4 +207,4 @@ INSTANTIATE_TEST_SUITE_P(Configs, ShippedComparisons, testing::ValuesIn(shipped(
                          [](const auto& tested) { return fs::path(tested.param).stem().string(); });
 
 }  // namespace
-}  // namespace orthodyn::study::compare
+}  // namespace orthodyn::study::compare::comparison_design_test

@@ -6,7 +6,7 @@
 #include "lib/simulation/setup.h"
 #include "lib/simulation/errors/modal_solution.h"
 
-namespace orthodyn {
+namespace orthodyn::error_estimate_test {
 namespace {
 
 const std::string kLinear = R"(
@@ -114,4 +114,4 @@ TEST(ErrorEstimate, HasNothingToSayWithoutOutputs) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::error_estimate_test

@@ -9,7 +9,7 @@
 #include "lib/simulation/setup.h"
 #include "tests/simulation/run_program.h"
 
-namespace orthodyn {
+namespace orthodyn::error_norms_test {
 namespace {
 
 // A free cube of mass 8 kg that moves as a whole along x by s(t).
@@ -95,4 +95,4 @@ TEST_F(TrajectoryFile, ACutOneIsRefusedWithTheRemedy) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::error_norms_test

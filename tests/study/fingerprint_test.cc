@@ -8,7 +8,7 @@
 #include "lib/core/errors.h"
 #include "tests/simulation/run_program.h"
 
-namespace orthodyn {
+namespace orthodyn::fingerprint_test {
 namespace {
 
 class PluginFingerprint : public InFolder {
@@ -55,4 +55,4 @@ TEST_F(FilesFingerprint, AFileIsReadAgainOnlyWhenItHasChanged) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::fingerprint_test

@@ -7,7 +7,7 @@
 #include "lib/simulation/files.h"
 #include "tests/simulation/run_program.h"
 
-namespace orthodyn::study {
+namespace orthodyn::study::job_queue_test {
 namespace {
 
 // A shell script stands in for the program; it finds the job's folder in $2.
@@ -189,4 +189,4 @@ TEST_F(Jobs, WhatAnEventThrowsReachesTheCaller) {
 }
 
 }  // namespace
-}  // namespace orthodyn::study
+}  // namespace orthodyn::study::job_queue_test

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <set>
 
-namespace orthodyn {
+namespace orthodyn::latin_hypercube_test {
 namespace {
 
 TEST(LatinHypercube, HasOnePointInEveryStratumOfEveryDimension) {
@@ -44,4 +44,4 @@ TEST(LatinHypercube, StaysBelowOneAtTheEndOfTheLastStratum) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::latin_hypercube_test

@@ -6,7 +6,7 @@
 
 #include "lib/simulation/fingerprints.h"
 
-namespace orthodyn {
+namespace orthodyn::mesh_fingerprint_test {
 namespace {
 
 // Two elements with a common face, each a region.
@@ -100,4 +100,4 @@ TEST(EqualMeshes, HaveEqualFingerprints) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::mesh_fingerprint_test

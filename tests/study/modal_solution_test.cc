@@ -7,7 +7,7 @@
 
 #include "lib/simulation/setup.h"
 
-namespace orthodyn {
+namespace orthodyn::modal_solution_test {
 namespace {
 
 const std::string kLinear = R"(
@@ -89,4 +89,4 @@ TEST(Modal, DoesNotPretendForOtherModels) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::modal_solution_test

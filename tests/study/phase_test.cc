@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace orthodyn {
+namespace orthodyn::phase_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -37,4 +37,4 @@ TEST(Phase, MeasuresTheShiftBetweenTwoSignals) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::phase_test

@@ -8,7 +8,7 @@
 #include "lib/simulation/files.h"
 #include "tests/simulation/run_program.h"
 
-namespace orthodyn {
+namespace orthodyn::process_test {
 namespace {
 
 class Process : public InFolder {
@@ -55,4 +55,4 @@ TEST_F(Process, AMissingProgramIsAnExitCode) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::process_test

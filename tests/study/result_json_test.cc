@@ -9,7 +9,7 @@
 #include "lib/study/stability/stability_result.h"
 #include "lib/study/sweep/evaluation.h"
 
-namespace orthodyn::study {
+namespace orthodyn::study::result_json_test {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -177,4 +177,4 @@ TEST(StabilityResult, WithoutAGradeIsARefusalOrAFailure) {
 }
 
 }  // namespace
-}  // namespace orthodyn::study
+}  // namespace orthodyn::study::result_json_test

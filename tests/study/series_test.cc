@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace orthodyn {
+namespace orthodyn::series_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -98,4 +98,4 @@ TEST(Series, OnsetIsWhenTheSizeFirstPassesALevel) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::series_test

@@ -6,7 +6,7 @@
 #include "lib/study/stability/case_grade.h"
 #include "tests/simulation/run_program.h"
 
-namespace orthodyn::study::stability {
+namespace orthodyn::study::stability::stability_test {
 namespace {
 
 // Falls by g t^2 / 2 = 4.905 m in a second.
@@ -195,4 +195,4 @@ TEST(CaseGrade, TheWorstFigureDecides) {
 }
 
 }  // namespace
-}  // namespace orthodyn::study::stability
+}  // namespace orthodyn::study::stability::stability_test

@@ -2,13 +2,11 @@
 #pragma once
 
 #include <map>
-#include <nlohmann/json.hpp>
 
+#include "lib/simulation/json.h"
 #include "tests/simulation/run_program.h"
 
 namespace orthodyn {
-
-using Json = nlohmann::json;
 
 // A corner of a cube of one cell moves along x: an oscillator with damping (see configs/cases/one_node_damped.yaml).
 inline const char* const kOscillator = R"(mesh: {type: box, size: [0.1, 0.1, 0.1], cells: [1, 1, 1]}

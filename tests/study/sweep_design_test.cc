@@ -8,7 +8,7 @@
 
 #include "tests/simulation/run_program.h"
 
-namespace orthodyn::study::sweep {
+namespace orthodyn::study::sweep::sweep_design_test {
 namespace {
 
 using testing::HasSubstr;
@@ -339,4 +339,4 @@ TEST(ShippedSweeps, HavePointsThatCanAllBeComputed) {
 }
 
 }  // namespace
-}  // namespace orthodyn::study::sweep
+}  // namespace orthodyn::study::sweep::sweep_design_test

@@ -10,7 +10,7 @@
 #include "lib/scene/expectation.h"
 #include "tests/study/sweep_command.h"
 
-namespace orthodyn {
+namespace orthodyn::sweep_machines_test {
 namespace {
 
 TEST_F(SweepCommand, LosesAtMostThePointsInProgressWhenItIsKilled) {
@@ -124,4 +124,4 @@ TEST_F(SweepCommand, RefusesAFolderOfSomethingElse) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::sweep_machines_test

@@ -10,7 +10,7 @@
 #include "lib/scene/expectation.h"
 #include "tests/study/sweep_command.h"
 
-namespace orthodyn {
+namespace orthodyn::sweep_test {
 namespace {
 
 TEST_F(SweepCommand, ReplacesNoTableOfAnotherFile) {
@@ -284,4 +284,4 @@ TEST_F(SweepCommand, TheListsHaveTheLimits) {
 // Killed again and again, each time a while after one more point is finished, it leaves every finished point, and never
 // more unfinished ones than it has processes.
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::sweep_test

@@ -3,7 +3,7 @@
 
 #include "tests/simulation/run_program.h"
 
-namespace orthodyn::study {
+namespace orthodyn::study::verify_test {
 namespace {
 
 // Falls by g t^2 / 2 = 4.905 m in a second.
@@ -106,4 +106,4 @@ TEST_F(Verify, RefusesAFolderWithoutCasesAndASceneWithoutExpectations) {
 }
 
 }  // namespace
-}  // namespace orthodyn::study
+}  // namespace orthodyn::study::verify_test

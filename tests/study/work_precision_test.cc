@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace orthodyn::study::compare {
+namespace orthodyn::study::compare::work_precision_test {
 namespace {
 
 // error = control^p, time = control^-q
@@ -53,4 +53,4 @@ TEST(WorkPrecision, TargetsArePowersOfTenThatSomebodyReaches) {
 }
 
 }  // namespace
-}  // namespace orthodyn::study::compare
+}  // namespace orthodyn::study::compare::work_precision_test

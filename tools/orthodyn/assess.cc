@@ -19,7 +19,7 @@ void declare(AssessArguments& arguments, CommandOptions& options) {
   options.value("folder", arguments.folder).required();
 }
 
-const CommandRegistration kRegistration(
+const CommandRegistration assess_command(
     {.order = 61, .name = "assess", .sentence = "One trial of a matrix; called by stability.", .hidden = true}, declare,
     assess_folder);
 

@@ -153,7 +153,7 @@ void declare(CheckArguments& arguments, CommandOptions& options) {
   options.value("--out", arguments.out, "Folder for the axes; default out/axes/<scene>.").type("DIR").needs("--axes");
 }
 
-const CommandRegistration kRegistration({.order = 20,
+const CommandRegistration check_command({.order = 20,
                                          .name = "check",
                                          .sentence = "Read, validate and build a scene, and say what it consists of.",
                                          .examples = R"(

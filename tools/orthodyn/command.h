@@ -4,7 +4,7 @@
 //     options.flag("--force", arguments.force, "Replace files that are there already.");
 //   }
 //   int convert(const ConvertArguments& arguments) { ... return 0; }
-//   const CommandRegistration kRegistration({.order = 80, .name = "convert", .sentence = "..."}, declare, convert);
+//   const CommandRegistration convert_command({.order = 80, .name = "convert", .sentence = "..."}, declare, convert);
 //
 // A command returns the exit code of the program: 0 done, 1 an expectation was missed, 2 the input is at fault, 3 it
 // could not go on, 130 interrupted. It may throw: main.cc turns ConfigError into 2 and all else into 3.

@@ -13,14 +13,11 @@
 #include "tools/orthodyn/study_command.h"
 #include "tools/orthodyn/study_folder.h"
 
-namespace orthodyn {
+namespace orthodyn::study::compare {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-using namespace study;
-using namespace study::compare;
 
 std::string outcome_of(const MeasurementResult& result) {
   if (result.failure) return "failed: " + result.failure->reason;
@@ -88,19 +85,19 @@ int compare(const StudyArguments& arguments) {
   return complete ? failures.exit_code() : 130;
 }
 
-void declare(StudyArguments& arguments, CommandOptions& options) {
+void declare_comparison(StudyArguments& arguments, CommandOptions& options) {
   declare_study(arguments, options, {"comparison", "A comparison in YAML.", "comparisons", "compare", "points"});
 }
 
-const CommandRegistration kRegistration(
+const CommandRegistration compare_command(
     {.order = 40,
      .name = "compare",
      .sentence = "Compare integrators on scenes: error against time, as a report, CSV and JSON. Run again, it goes on.",
      .examples = R"(
   orthodyn compare configs/comparisons/damped_beam.yaml
   orthodyn compare mine.yaml --retry           once more, with what failed)"},
-    declare, compare);
+    declare_comparison, compare);
 
 }  // namespace
 
-}  // namespace orthodyn
+}  // namespace orthodyn::study::compare

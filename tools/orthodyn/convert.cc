@@ -38,7 +38,7 @@ void declare(ConvertArguments& arguments, CommandOptions& options) {
   options.flag("--force", arguments.force, "Replace files that are there already.");
 }
 
-const CommandRegistration kRegistration(
+const CommandRegistration convert_command(
     {.order = 80,
      .name = "convert",
      .sentence = "A mesh from one format to another, by the endings of the names.",

@@ -19,7 +19,7 @@ void declare(EvaluateArguments& arguments, CommandOptions& options) {
   options.value("folder", arguments.folder).required();
 }
 
-const CommandRegistration kRegistration(
+const CommandRegistration evaluate_command(
     {.order = 51, .name = "evaluate", .sentence = "One point of a sweep; called by sweep.", .hidden = true}, declare,
     evaluate_folder);
 

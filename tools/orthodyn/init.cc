@@ -22,7 +22,7 @@ struct InitArguments {
   std::optional<std::string> file;
 };
 
-constexpr const char* kHead = R"(# What this scene shows, in a sentence.
+constexpr const char* kSceneHead = R"(# What this scene shows, in a sentence.
 # Check it with `orthodyn check {file}`, run it with `orthodyn run {file}`.
 # Numbers are in SI units; where a key has a unit, "11.9 GPa" or "25 mm" will do too.
 )";
@@ -165,7 +165,7 @@ limits: {seconds: 20}      # of each trial
 )";
 
 const std::map<std::string, std::string>& starts() {
-  static const std::string head = kHead, body = kBody;
+  static const std::string head = kSceneHead, body = kBody;
   static const std::map<std::string, std::string> all = {
       {"scene", head + body + kMotion},
       {"static", head + kAnalysis + body + kRest},
@@ -206,7 +206,7 @@ void declare(InitArguments& arguments, CommandOptions& options) {
   options.value("file", arguments.file, "Its name; default KIND.yaml.").type("FILE.yaml");
 }
 
-const CommandRegistration kRegistration(
+const CommandRegistration init_command(
     {.order = 110, .name = "init", .sentence = "Write a commented file to start from.", .examples = R"(
   orthodyn init scene my.yaml
   orthodyn init sweep)"},

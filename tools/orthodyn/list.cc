@@ -39,7 +39,7 @@ void print_entry(const std::string& name, const std::string& sentence, const std
 }
 
 template <class Base>
-void print_registry() {
+void list_registry() {
   for (const auto& [name, entry] : Registry<Base>::entries()) {
     std::string sentence = entry.sentence;
     for (const auto& [fact, text] : entry.facts) sentence += fmt::format("\n    {}: {}", fact, text);
@@ -47,12 +47,12 @@ void print_registry() {
   }
 }
 
-void print_meshes() {
-  print_registry<MeshSource>();
+void list_meshes() {
+  list_registry<MeshSource>();
   fmt::print("  endings of mesh files: {}\n", known_mesh_endings());
 }
 
-void print_presets() {
+void list_presets() {
   for (const auto& p : presets()) {
     const auto& c = p.constants;
     const auto reverse = [&](double nu, int i, int j) { return nu * c.young[j] / c.young[i]; };
@@ -66,11 +66,11 @@ void print_presets() {
   }
 }
 
-void print_solvers() {
+void list_solvers() {
   for (const auto& [name, kind] : solver_registry()) print_entry(name, kind.sentence, {});
 }
 
-void print_terms() {
+void list_terms() {
   print_entry("elasticity", "Corotational or linear elasticity of every region.", Elasticity::spec().keys());
   print_entry("damping", "Rayleigh damping; the stiffness part is objective.", Damping::spec().keys());
   print_entry("gravity", "Uniform gravity: three numbers, m/s^2.", {});
@@ -80,12 +80,12 @@ void print_terms() {
   print_entry("clamps.<n>.plane", "Nodes on a plane.", PlaneSelection::spec().keys());
   print_entry("motions", "Nodes whose motion is prescribed; eliminated from the system.", SupportMotion::spec().keys());
   print_entry("motions.<n>.rotation", "A rotation of any size about an axis.", Rotation::spec().keys());
-  print_registry<TermChoice>();
+  list_registry<TermChoice>();
   print_entry("initial", "The state at the start.", Initial::spec().keys());
   print_entry("initial.noise", "Random offsets of the free coordinates.", Noise::spec().keys());
 }
 
-void print_scene() {
+void list_scene() {
   print_entry("scene", "The keys of a scene.", Scene::spec().keys());
   print_entry("time", "Time span.", TimeSpan::spec().keys());
   print_entry("regions.<name>", "What a region consists of.", Region::spec().keys());
@@ -93,28 +93,28 @@ void print_scene() {
   print_entry("output.probes.<name>", "A point whose fields are recorded.", Probe::spec().keys());
 }
 
-void print_expectations() {
+void list_expectations() {
   print_entry("expect.<n>", "A figure that `orthodyn verify` compares.", Expectation::spec().keys());
 }
 
-void print_statics() {
+void list_statics() {
   print_entry("statics", "How equilibrium is found, by analysis: static and start: equilibrium.",
               Statics::spec().keys());
-  print_registry<EquilibriumChoice>();
+  list_registry<EquilibriumChoice>();
 }
 
-void print_events() {
+void list_events() {
   print_entry("events.<n>", "A value that a quantity passes, logged or the end of the run.", EventSpec::spec().keys());
 }
 
-void print_comparison() {
+void list_comparison() {
   print_entry("comparison", "The keys of a comparison, for `orthodyn compare`.", Comparison::spec().keys());
   print_entry("scenes.<n>", "A scene of a comparison.", SceneEntry::spec().keys());
   print_entry("limits", "Of each point of a comparison.", Limits::spec().keys());
   print_entry("reference", "What errors are measured against.", ReferenceOptions::spec().keys());
 }
 
-void print_sweep() {
+void list_sweep() {
   print_entry("sweep", "The keys of a sweep, for `orthodyn sweep`.", Sweep::spec().keys());
   print_entry("scene", "The scene of a sweep, where it is a section.", SceneEntry::spec().keys());
   print_entry("vary.<name>", "Evenly spaced numbers.", NumberRange::spec().keys());
@@ -126,13 +126,13 @@ void print_sweep() {
   print_entry("limits", "Of each point of a sweep.", Limits::spec().keys());
 }
 
-void print_stability() {
+void list_stability() {
   print_entry("stability", "The keys of a file of hard cases, for `orthodyn stability`.", Stability::spec().keys());
   print_entry("cases.<n>", "A hard case.", HardCase::spec().keys());
   print_entry("limits", "Of each trial.", Limits::spec().keys());
 }
 
-void print_fields() {
+void list_fields() {
   const FemModel model{FemModel::Parts{}};
   for (const auto& info : model.outputs()) {
     if (info.location == Location::global) continue;
@@ -144,22 +144,22 @@ void print_fields() {
 
 const std::vector<std::pair<std::string, std::function<void()>>>& chapters() {
   static const std::vector<std::pair<std::string, std::function<void()>>> all = {
-      {"scene", print_scene},
-      {"materials", print_registry<Material>},
-      {"presets", print_presets},
-      {"meshes", print_meshes},
-      {"axes", print_registry<AxesSource>},
-      {"terms", print_terms},
-      {"factors", print_registry<TimeFunction>},
-      {"integrators", print_registry<IntegratorChoice>},
-      {"solvers", print_solvers},
-      {"statics", print_statics},
-      {"events", print_events},
-      {"expect", print_expectations},
-      {"comparison", print_comparison},
-      {"sweep", print_sweep},
-      {"stability", print_stability},
-      {"fields", print_fields},
+      {"scene", list_scene},
+      {"materials", list_registry<Material>},
+      {"presets", list_presets},
+      {"meshes", list_meshes},
+      {"axes", list_registry<AxesSource>},
+      {"terms", list_terms},
+      {"factors", list_registry<TimeFunction>},
+      {"integrators", list_registry<IntegratorChoice>},
+      {"solvers", list_solvers},
+      {"statics", list_statics},
+      {"events", list_events},
+      {"expect", list_expectations},
+      {"comparison", list_comparison},
+      {"sweep", list_sweep},
+      {"stability", list_stability},
+      {"fields", list_fields},
   };
   return all;
 }
@@ -194,7 +194,7 @@ void declare(ListArguments& arguments, CommandOptions& options) {
   options.flag("--markdown", arguments.markdown, "Every key of the input as one page in Markdown.");
 }
 
-const CommandRegistration kRegistration(
+const CommandRegistration list_command(
     {.order = 90, .name = "list", .sentence = "What can be named in a scene, each with its keys.", .examples = R"(
   orthodyn list materials
   orthodyn list --markdown > reference.md)"},

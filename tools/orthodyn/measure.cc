@@ -19,7 +19,7 @@ void declare(MeasureArguments& arguments, CommandOptions& options) {
   options.value("folder", arguments.folder).required();
 }
 
-const CommandRegistration kRegistration(
+const CommandRegistration measure_command(
     {.order = 41, .name = "measure", .sentence = "One point of a comparison; called by compare.", .hidden = true},
     declare, measure_folder);
 

@@ -83,7 +83,7 @@ void declare(ModesArguments& arguments, CommandOptions& options) {
   options.repeated("--set", arguments.set, "Change a value by its path.").type("PATH=VALUE");
 }
 
-const CommandRegistration kRegistration(
+const CommandRegistration modes_command(
     {.order = 30,
      .name = "modes",
      .sentence = "Natural frequencies and shapes of a scene's body, without damping.",

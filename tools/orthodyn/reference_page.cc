@@ -8,7 +8,7 @@ namespace orthodyn {
 
 namespace {
 
-constexpr const char* kHead = R"(# Reference: every key of the input
+constexpr const char* kReferenceHead = R"(# Reference: every key of the input
 
 Written by `orthodyn list --markdown` from the declarations that the program itself reads by; a test keeps
 this page up to date. Numbers are in SI units; a key with a unit also takes a text such as `"11.9 GPa"`,
@@ -48,7 +48,7 @@ void print_section(const InputSection& section) {
 }  // namespace
 
 void print_reference_page() {
-  fmt::print("{}", kHead);
+  fmt::print("{}", kReferenceHead);
   for (const auto& kind : input_kinds()) {
     fmt::print("\n## {}{}\n", static_cast<char>(std::toupper(static_cast<unsigned char>(kind.name.front()))),
                kind.name.substr(1));

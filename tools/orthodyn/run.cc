@@ -93,7 +93,7 @@ void declare(RunArguments& arguments, CommandOptions& options) {
       .excludes("--resume");
 }
 
-const CommandRegistration kRegistration({.order = 10,
+const CommandRegistration run_command({.order = 10,
                                          .name = "run",
                                          .sentence = "Run a scene: frames for ParaView, energies, steps, a summary.",
                                          .examples = R"(

@@ -193,7 +193,7 @@ void declare(SchemaArguments& arguments, CommandOptions& options) {
   options.value("kind", arguments.kind, "scene, comparison, sweep or stability; all in one schema if left out.");
 }
 
-const CommandRegistration kRegistration(
+const CommandRegistration schema_command(
     {.order = 100,
      .name = "schema",
      .sentence = "The JSON Schema of the input, for editors that complete and check YAML.",

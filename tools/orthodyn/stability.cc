@@ -16,14 +16,11 @@
 #include "tools/orthodyn/study_command.h"
 #include "tools/orthodyn/study_folder.h"
 
-namespace orthodyn {
+namespace orthodyn::study::stability {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-using namespace study;
-using namespace study::stability;
 
 constexpr auto kBetweenTables = std::chrono::seconds(10);
 
@@ -121,12 +118,12 @@ int try_stability(const StudyArguments& arguments) {
   return complete ? 0 : 130;
 }
 
-void declare(StudyArguments& arguments, CommandOptions& options) {
+void declare_stability(StudyArguments& arguments, CommandOptions& options) {
   declare_study(arguments, options, {"cases", "Hard cases in YAML.", "stability", "stability", "trials"});
   declare_jobs(arguments, options, "Trials");
 }
 
-const CommandRegistration kRegistration(
+const CommandRegistration stability_command(
     {.order = 60,
      .name = "stability",
      .sentence =
@@ -134,8 +131,8 @@ const CommandRegistration kRegistration(
      .examples = R"(
   orthodyn stability configs/stability/hard_cases.yaml --jobs 2
   orthodyn stability mine.yaml --retry         once more, with what failed)"},
-    declare, try_stability);
+    declare_stability, try_stability);
 
 }  // namespace
 
-}  // namespace orthodyn
+}  // namespace orthodyn::study::stability

@@ -19,7 +19,7 @@
 #include "tools/orthodyn/study_command.h"
 #include "tools/orthodyn/study_folder.h"
 
-namespace orthodyn {
+namespace orthodyn::study::sweep {
 
 namespace fs = std::filesystem;
 
@@ -31,9 +31,6 @@ struct SweepArguments : StudyArguments {
   std::optional<std::size_t> tasks;  // of the array
   bool collect = false;
 };
-
-using namespace study;
-using namespace study::sweep;
 
 // "3/20": the third of twenty.
 std::pair<std::size_t, std::size_t> parse_task(const std::string& text) {
@@ -230,7 +227,7 @@ void declare(SweepArguments& arguments, CommandOptions& options) {
 
 int sweep(const SweepArguments& arguments) { return SweepCommand(arguments).execute(); }
 
-const CommandRegistration kRegistration(
+const CommandRegistration sweep_command(
     {.order = 50,
      .name = "sweep",
      .sentence = "Figures of a scene over varied values, as a report, CSV and JSON. Run again, it goes on.",
@@ -242,4 +239,4 @@ const CommandRegistration kRegistration(
 
 }  // namespace
 
-}  // namespace orthodyn
+}  // namespace orthodyn::study::sweep

@@ -11,7 +11,7 @@
 #include "lib/simulation/scene_file.h"
 #include "tools/orthodyn/command.h"
 
-namespace orthodyn {
+namespace orthodyn::study {
 
 namespace fs = std::filesystem;
 
@@ -22,8 +22,6 @@ struct VerifyArguments {
   SceneChanges changes;
   std::optional<std::string> junit;
 };
-
-using namespace study;
 
 std::string case_name(const CaseResult& result) { return fs::path(result.file).stem().string(); }
 
@@ -95,7 +93,7 @@ void declare(VerifyArguments& arguments, CommandOptions& options) {
   options.value("--integrator", arguments.changes.integrator, "Short for --set integrator.type=NAME.");
 }
 
-const CommandRegistration kRegistration(
+const CommandRegistration verify_command(
     {.order = 70,
      .name = "verify",
      .sentence = "Run scenes that expect known figures, and compare: exit code 1 on a miss.",
@@ -106,4 +104,4 @@ const CommandRegistration kRegistration(
 
 }  // namespace
 
-}  // namespace orthodyn
+}  // namespace orthodyn::study

@@ -73,7 +73,7 @@ class DashpotChoice : public TermChoice, public Ends {
   double coefficient_ = 0;
 };
 
-const bool registered = Registry<TermChoice>::add<DashpotChoice>(
+const bool dashpot_registered = Registry<TermChoice>::add<DashpotChoice>(
     "dashpot",
     "Dashpots between two nodes, or from nodes to an anchor, against the rate of their length; without anchor, against "
     "all motion of the nodes.");

@@ -106,7 +106,7 @@ class GroundChoice : public TermChoice {
   std::optional<std::string> surface_;
 };
 
-const bool registered = Registry<TermChoice>::add<GroundChoice>(
+const bool ground_registered = Registry<TermChoice>::add<GroundChoice>(
     "ground", "A rigid plane that pushes back what is below it, by a smooth penalty; no friction, no damping.");
 
 }  // namespace

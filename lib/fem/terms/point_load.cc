@@ -35,7 +35,7 @@ class PointLoadChoice : public TermChoice, public Selection {
   std::shared_ptr<const TimeFunction> factor_;
 };
 
-const bool registered = Registry<TermChoice>::add<PointLoadChoice>(
+const bool point_load_registered = Registry<TermChoice>::add<PointLoadChoice>(
     "point_load", "A force on a node, or shared by several, that keeps its direction.");
 
 }  // namespace

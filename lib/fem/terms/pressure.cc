@@ -98,7 +98,7 @@ class PressureChoice : public TermChoice {
   std::shared_ptr<const TimeFunction> factor_;
 };
 
-const bool registered = Registry<TermChoice>::add<PressureChoice>(
+const bool pressure_registered = Registry<TermChoice>::add<PressureChoice>(
     "pressure", "Pressure on a surface that follows its motion; the symmetric part of its stiffness enters K.");
 
 }  // namespace

@@ -105,7 +105,7 @@ class SpringChoice : public TermChoice, public Ends {
   std::optional<double> rest_length_;
 };
 
-const bool registered = Registry<TermChoice>::add<SpringChoice>(
+const bool spring_registered = Registry<TermChoice>::add<SpringChoice>(
     "spring",
     "Springs between two nodes, or from nodes to the ground: k (l - l0) along the spring, for any displacement.");
 

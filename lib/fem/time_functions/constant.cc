@@ -21,7 +21,7 @@ class Constant : public TimeFunction {
   double value_ = 1;
 };
 
-const bool registered = Registry<TimeFunction>::add<Constant>("constant", "The same at all times.");
+const bool constant_registered = Registry<TimeFunction>::add<Constant>("constant", "The same at all times.");
 
 }  // namespace
 }  // namespace orthodyn

@@ -37,7 +37,7 @@ class Expression : public TimeFunction {
   double peak_ = 1, resolution_ = kUsualResolution;
 };
 
-const bool registered = Registry<TimeFunction>::add<Expression>("expression", "A formula of t.");
+const bool expression_registered = Registry<TimeFunction>::add<Expression>("expression", "A formula of t.");
 
 }  // namespace
 }  // namespace orthodyn

@@ -30,7 +30,7 @@ class Ramp : public TimeFunction {
   double start_ = 0, end_ = 0, value_ = 1;
 };
 
-const bool registered = Registry<TimeFunction>::add<Ramp>("ramp", "Linear from zero to a value, then constant.");
+const bool ramp_registered = Registry<TimeFunction>::add<Ramp>("ramp", "Linear from zero to a value, then constant.");
 
 }  // namespace
 }  // namespace orthodyn

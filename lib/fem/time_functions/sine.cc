@@ -27,7 +27,7 @@ class Sine : public TimeFunction {
   double frequency_ = 0, amplitude_ = 1, phase_ = 0;
 };
 
-const bool registered = Registry<TimeFunction>::add<Sine>("sine", "A sine.");
+const bool sine_registered = Registry<TimeFunction>::add<Sine>("sine", "A sine.");
 
 }  // namespace
 }  // namespace orthodyn

@@ -43,7 +43,7 @@ class SmoothStep : public TimeFunction {
   double start_ = 0, end_ = 0, value_ = 1;
 };
 
-const bool registered = Registry<TimeFunction>::add<SmoothStep>(
+const bool smooth_step_registered = Registry<TimeFunction>::add<SmoothStep>(
     "smooth_step", "From zero to a value with continuous rate and curvature (a quintic), then constant.");
 
 }  // namespace

@@ -63,7 +63,7 @@ class Table : public TimeFunction {
   Points points_;
 };
 
-const bool registered = Registry<TimeFunction>::add<Table>("table", "Piecewise linear through given points.");
+const bool table_registered = Registry<TimeFunction>::add<Table>("table", "Piecewise linear through given points.");
 
 }  // namespace
 }  // namespace orthodyn

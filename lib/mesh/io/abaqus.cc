@@ -176,7 +176,7 @@ class AbaqusMesh {
   std::size_t budget_ = 0;
 };
 
-const bool registered = register_mesh_format(
+const bool abaqus_registered = register_mesh_format(
     {.name = "Abaqus", .endings = {".inp"}, .read = read_abaqus, .write = write_abaqus});
 
 }  // namespace

@@ -69,7 +69,7 @@ std::pair<int, int> element_and_side(const TetMesh& mesh, const std::vector<TetF
   return {0, 0};  // not a face: no valid mesh
 }
 
-void add_nodes_and_tets(TextLines& lines, const TetMesh& mesh) {
+void add_abaqus_mesh(TextLines& lines, const TetMesh& mesh) {
   lines.text("*HEADING\nwritten by orthodyn\n*NODE\n");
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) lines.line(n + 1, mesh.nodes[n]);
   lines.text("*ELEMENT, TYPE=C3D4\n");
@@ -125,7 +125,7 @@ void add_surfaces(TextLines& lines, const TetMesh& mesh, Warnings& losses) {
 WrittenMesh write_abaqus(const LoadedMesh& loaded) {
   WrittenMesh written;
   TextLines lines(", ");
-  add_nodes_and_tets(lines, loaded.mesh);
+  add_abaqus_mesh(lines, loaded.mesh);
   add_regions(lines, loaded.mesh, written.losses);
   add_node_sets(lines, loaded.mesh, written.losses);
   add_surfaces(lines, loaded.mesh, written.losses);

@@ -132,7 +132,7 @@ class MeshBuilder {
   MeshDraft draft_;
 };
 
-const bool registered[] = {
+const bool gmsh_registered[] = {
     register_mesh_format({.name = "Gmsh", .endings = {".msh"}, .read = read_gmsh, .write = write_gmsh41}),
     register_mesh_format({.name = "Gmsh 2.2", .endings = {".msh2"}, .read = read_gmsh, .write = write_gmsh22})};
 

@@ -91,7 +91,7 @@ void read_node_block(TextTokens& tokens, const GmshSection& section, GmshFile& f
   }
 }
 
-void read_nodes(TextTokens& tokens, const GmshSection& section, GmshFile& file) {
+void read_node_blocks(TextTokens& tokens, const GmshSection& section, GmshFile& file) {
   const Totals totals = read_totals(tokens);
   for (std::int64_t b = 0; b < totals.blocks; ++b) {
     expect_record(tokens, section, b, totals.blocks, "blocks");
@@ -129,7 +129,7 @@ std::int64_t read_element_block(TextTokens& tokens, const GmshSection& section, 
   return count;
 }
 
-void read_elements(TextTokens& tokens, const GmshSection& section, GmshFile& file) {
+void read_element_blocks(TextTokens& tokens, const GmshSection& section, GmshFile& file) {
   const Totals totals = read_totals(tokens);
   std::size_t found = 0;
   for (std::int64_t b = 0; b < totals.blocks; ++b) {
@@ -151,8 +151,8 @@ void refuse_partitions(TextTokens& tokens, const GmshSection& section, GmshFile&
 GmshSectionReaders gmsh_v4_sections() {
   return {{"Entities", read_entities},
           {"PartitionedEntities", refuse_partitions},
-          {"Nodes", read_nodes},
-          {"Elements", read_elements}};
+          {"Nodes", read_node_blocks},
+          {"Elements", read_element_blocks}};
 }
 
 }  // namespace orthodyn

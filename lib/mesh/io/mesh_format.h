@@ -1,7 +1,7 @@
 // A kind of mesh file: how it is read and written, and what it cannot hold. A format is one source, or a few whose
 // names begin alike, and registers itself:
 //
-//   const bool registered =
+//   const bool gmsh_registered =
 //       register_mesh_format({.name = "Gmsh", .endings = {".msh"}, .read = read_gmsh, .write = write_gmsh41});
 //
 // The help of `orthodyn convert`, `orthodyn list meshes` and the messages about endings follow from the table.

@@ -191,7 +191,7 @@ std::string face_text(const TetMesh& mesh, Warnings& losses) {
   return lines.take();
 }
 
-const bool registered =
+const bool tetgen_registered =
     register_mesh_format({.name = "TetGen", .endings = {".node", ".ele"}, .read = read_tetgen, .write = write_tetgen});
 
 }  // namespace

@@ -140,7 +140,7 @@ void add_fixed(const FixedVertices& fixed, VegaFile& file) {
   if (set.empty()) tokens.fail("no vertices");
 }
 
-const bool registered = register_mesh_format({.name = "Vega",
+const bool vega_registered = register_mesh_format({.name = "Vega",
                                               .endings = {".veg"},
                                               .read = read_vega,
                                               .write = write_vega,

@@ -18,7 +18,7 @@ constexpr Punctuation kPunctuation{.commas = true, .comment = "#"};
 constexpr std::size_t kMostIncludes = 1000;
 // One file may be included at several places, but not so often that a small one fills the memory.
 constexpr std::uintmax_t kMostReadings = 10;  // of all bytes, on average
-constexpr std::uintmax_t kFreeBytes = 1'000'000;
+constexpr std::uintmax_t kFreeIncludedBytes = 1'000'000;
 
 enum class Section { none, vertices, element_type, elements, set, material, region };
 
@@ -119,7 +119,7 @@ class VegaReader {
     tokens.finish_line();
     const std::string text = read_text_file(path);
     included_bytes_ += text.size();
-    if (included_bytes_ > kFreeBytes + kMostReadings * (known_bytes_ + text.size())) {
+    if (included_bytes_ > kFreeIncludedBytes + kMostReadings * (known_bytes_ + text.size())) {
       tokens.fail(fmt::format("*INCLUDE {}: what is included so far is more than {} times the size of the files; "
                               "include each once",
                               TextTokens::quoted(name), kMostReadings));

@@ -39,7 +39,7 @@ std::string number_list(const std::vector<int>& indices) {
   return text;
 }
 
-void add_nodes_and_tets(TextLines& lines, const TetMesh& mesh) {
+void add_vega_mesh(TextLines& lines, const TetMesh& mesh) {
   lines.line("*VERTICES");
   lines.line(mesh.nodes.size(), 3, 0, 0);
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) lines.line(n + 1, mesh.nodes[n]);
@@ -86,7 +86,7 @@ void add_regions(TextLines& lines, const LoadedMesh& loaded, Warnings& losses) {
 WrittenMesh write_vega(const LoadedMesh& loaded) {
   WrittenMesh written;
   TextLines lines;
-  add_nodes_and_tets(lines, loaded.mesh);
+  add_vega_mesh(lines, loaded.mesh);
   add_regions(lines, loaded, written.losses);
   written.files.push_back({".veg", lines.take()});
   std::vector<std::string> lost;

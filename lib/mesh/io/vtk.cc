@@ -215,7 +215,7 @@ class VtkReader {
   std::vector<CellData>* target_ = nullptr;
 };
 
-const bool registered = register_mesh_format({.name = "VTK legacy", .endings = {".vtk"}, .read = read_vtk});
+const bool vtk_registered = register_mesh_format({.name = "VTK legacy", .endings = {".vtk"}, .read = read_vtk});
 
 }  // namespace
 

@@ -216,7 +216,7 @@ VtuArray membership(const std::string& name, const std::vector<int>& nodes, std:
   return inside;
 }
 
-const bool registered = register_mesh_format(
+const bool vtu_registered = register_mesh_format(
     {.name = "VTK XML", .endings = {".vtu"}, .read = read_vtu, .write = write_vtu, .holds_surfaces = false,
      .holds_cell_data = true});
 

@@ -13,7 +13,7 @@ namespace orthodyn {
 namespace {
 
 // Deflate reaches 1032:1 at most.
-constexpr std::uint64_t kHighestRatio = 1100;
+constexpr std::uint64_t kMostZlibRatio = 1100;
 
 int base64_value(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';
@@ -93,7 +93,7 @@ std::uint64_t take_length(ByteSource& source, const VtuEncoding& encoding) {
 }
 
 void append_inflated(const std::string& compressed, std::uint64_t size, std::string& out) {
-  if (size > kHighestRatio * compressed.size() + 64) {
+  if (size > kMostZlibRatio * compressed.size() + 64) {
     throw std::runtime_error(
         fmt::format("a block of {} bytes cannot come out of {} compressed ones", size, compressed.size()));
   }

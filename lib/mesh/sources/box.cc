@@ -73,7 +73,7 @@ class BoxSource : public MeshSource, public BoxMesh {
   Named<BoxRegion> parts_;
 };
 
-const bool registered = Registry<MeshSource>::add<BoxSource>(
+const bool box_registered = Registry<MeshSource>::add<BoxSource>(
     "box", "A box of tetrahedra. Region: body, and `parts`. Surfaces: x0, x1, y0, y1, z0, z1.");
 
 }  // namespace

@@ -86,7 +86,7 @@ class VegaSource : public MeshSource {
   double scale_ = 1;
 };
 
-const bool registered[] = {
+const bool file_registered[] = {
     Registry<MeshSource>::add<FileSource>("file", "A mesh file of any known format, chosen by its ending."),
     Registry<MeshSource>::add<GmshSource>(
         "gmsh", "A Gmsh file. Physical volumes become regions, physical surfaces surfaces, physical points node sets."),

@@ -71,7 +71,7 @@ class TubeSource : public MeshSource, public TubeMesh {
   double grading = 1;
 };
 
-const bool registered[] = {
+const bool round_registered[] = {
     Registry<MeshSource>::add<CylinderSource>(
         "cylinder",
         "A full cylinder with a square core of around/4 cells a side. Region: body. Surfaces: end0, end1, outer."),

@@ -16,51 +16,51 @@ namespace orthodyn {
 
 namespace {
 
-using Json = nlohmann::json;
+using SortedJson = nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr int kVersion = 2;
-constexpr const char* kMark = "orthodyn checkpoint ";
+constexpr const char* kCheckpointMark = "orthodyn checkpoint ";
 constexpr std::size_t kHeadSize = 2 + 20 + 3 + 1 + 16;  // CBOR's own, mark, version, space, fingerprint
 
-std::string cbor(const Json& json) {
+std::string cbor(const SortedJson& json) {
   std::string bytes;
-  Json::to_cbor(json, bytes);
+  SortedJson::to_cbor(json, bytes);
   return bytes;
 }
 
 std::string head(const std::string& content) {
-  return cbor(fmt::format("{}{:03} {}", kMark, kVersion, Fingerprint().add(content).text()));
+  return cbor(fmt::format("{}{:03} {}", kCheckpointMark, kVersion, Fingerprint().add(content).text()));
 }
 
 std::vector<double> numbers(const Vector& x) { return {x.begin(), x.end()}; }
 
-Vector vector(const Json& json) {
+Vector vector(const SortedJson& json) {
   const auto values = json.get<std::vector<double>>();
   return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-Archive archive(const Json& json) {
+Archive archive(const SortedJson& json) {
   Archive out;
   for (const auto& [name, values] : json.items()) out.put(name, values.get<std::vector<double>>());
   return out;
 }
 
-Json restarts_json(const std::vector<Restart>& restarts) {
-  Json out = Json::array();
+SortedJson restarts_json(const std::vector<Restart>& restarts) {
+  SortedJson out = SortedJson::array();
   for (const auto& r : restarts)
     out.push_back({{"time", r.time}, {"at", r.at}, {"after", r.after}, {"changed", r.changed}});
   return out;
 }
 
-std::vector<Restart> restarts_from(const Json& json) {
+std::vector<Restart> restarts_from(const SortedJson& json) {
   std::vector<Restart> out;
   for (const auto& r : json) out.push_back({r.at("time"), r.at("at"), r.at("after"), r.at("changed")});
   return out;
 }
 
-Json to_json(const Checkpoint& c) {
-  Json observers = Json::object();
+SortedJson to_json(const Checkpoint& c) {
+  SortedJson observers = SortedJson::object();
   for (const auto& [name, kept] : c.observers) observers[name] = kept.entries();
   return {{"program", orthodyn_version()},
           {"scene", c.scene},
@@ -77,7 +77,7 @@ Json to_json(const Checkpoint& c) {
           {"observers", observers}};
 }
 
-Checkpoint from_json(const Json& json) {
+Checkpoint from_json(const SortedJson& json) {
   Checkpoint c;
   c.scene = json.at("scene");
   c.mesh = json.at("mesh");
@@ -110,7 +110,7 @@ std::string content_of(const fs::path& path) {
 int version_of(const std::string& file) {
   int version = -1;
   const std::string expected = head("");
-  const auto digits = 2 + std::string(kMark).size();
+  const auto digits = 2 + std::string(kCheckpointMark).size();
   if (file.compare(0, digits, expected, 0, digits) != 0) return -1;
   const auto [end, error] = std::from_chars(file.data() + digits, file.data() + digits + 3, version);
   return error == std::errc{} && end == file.data() + digits + 3 ? version : -1;
@@ -134,8 +134,8 @@ Checkpoint Checkpoint::load(const fs::path& path) {
   const std::string content = file.substr(kHeadSize);
   if (file.compare(0, kHeadSize, head(content)) != 0) refuse(path, "is damaged or cut short");
   try {
-    return from_json(Json::from_cbor(content));
-  } catch (const Json::exception& e) {
+    return from_json(SortedJson::from_cbor(content));
+  } catch (const SortedJson::exception& e) {
     refuse(path, std::string("is incomplete: ") + e.what());
   } catch (const ConfigError& e) {
     refuse(path, e.what());

@@ -15,7 +15,7 @@ namespace orthodyn {
 
 namespace {
 
-constexpr std::size_t kSamples = 200;
+constexpr std::size_t kMostSamples = 200;
 constexpr double kBytes = 1e9;      // for the samples of both runs
 constexpr double kRefinement = 10;  // of rtol
 constexpr long kMoreSteps = 10;
@@ -61,7 +61,7 @@ std::vector<std::string> assignments(const IntegratorSettings& settings) {
 std::size_t samples_within(double bytes, std::size_t unknowns) {
   const double one =
       2.0 * 2 * sizeof(double) * static_cast<double>(std::max<std::size_t>(unknowns, 1));  // q and v, twice
-  return static_cast<std::size_t>(std::clamp(bytes / one, 2.0, double{kSamples}));
+  return static_cast<std::size_t>(std::clamp(bytes / one, 2.0, double{kMostSamples}));
 }
 
 ErrorEstimator::SampleRecorder::SampleRecorder(std::size_t outputs, std::size_t samples)

@@ -12,7 +12,7 @@ namespace orthodyn {
 namespace {
 
 // A file is the mark, N, the number of times, then times, q and v as doubles of this machine.
-constexpr char kMark[8] = {'O', 'D', 'T', 'R', 'A', 'J', '0', '1'};
+constexpr char kTrajectoryMark[8] = {'O', 'D', 'T', 'R', 'A', 'J', '0', '1'};
 struct Head {
   char mark[8];
   std::int64_t unknowns, times;
@@ -31,7 +31,7 @@ void read_doubles(std::ifstream& in, double* data, Eigen::Index count) {
 
 void Trajectory::save(const std::filesystem::path& path) const {
   Head head{{}, q.rows(), q.cols()};
-  std::memcpy(head.mark, kMark, sizeof kMark);
+  std::memcpy(head.mark, kTrajectoryMark, sizeof kTrajectoryMark);
   write_file(path, {bytes(&head, 1), bytes(times.data(), times.size()),
                     bytes(q.data(), static_cast<std::size_t>(q.size())),
                     bytes(v.data(), static_cast<std::size_t>(v.size()))});
@@ -41,7 +41,7 @@ bool Trajectory::is_whole(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   Head head{};
   in.read(reinterpret_cast<char*>(&head), sizeof head);
-  if (!in || std::memcmp(head.mark, kMark, sizeof kMark) != 0) return false;
+  if (!in || std::memcmp(head.mark, kTrajectoryMark, sizeof kTrajectoryMark) != 0) return false;
   const auto doubles = head.times * (1 + 2 * head.unknowns);
   std::error_code ec;
   return std::filesystem::file_size(path, ec) == sizeof head + static_cast<std::size_t>(doubles) * sizeof(double);
@@ -51,7 +51,7 @@ Trajectory Trajectory::load(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   Head head{};
   in.read(reinterpret_cast<char*>(&head), sizeof head);
-  if (!in || std::memcmp(head.mark, kMark, sizeof kMark) != 0)
+  if (!in || std::memcmp(head.mark, kTrajectoryMark, sizeof kTrajectoryMark) != 0)
     throw RunError(path.string() + ": is no trajectory; start the comparison again");
   Trajectory out;
   out.times.resize(static_cast<std::size_t>(head.times));

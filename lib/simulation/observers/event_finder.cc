@@ -13,7 +13,7 @@ namespace orthodyn {
 
 namespace {
 
-constexpr int kSamples = 4;  // per step
+constexpr int kSamplesPerStep = 4;
 
 int sign(double x) { return (x > 0) - (x < 0); }
 
@@ -63,8 +63,8 @@ void EventFinder::find_in_step(std::size_t event, double begin, double end, cons
     return excess(e, state);
   };
   double last_t = begin, last_x = side_[event] == 0 ? 0 : excess_at(begin);
-  for (int sample = 1; sample <= kSamples; ++sample) {
-    const double t = sample == kSamples ? end : begin + (end - begin) * sample / kSamples;
+  for (int sample = 1; sample <= kSamplesPerStep; ++sample) {
+    const double t = sample == kSamplesPerStep ? end : begin + (end - begin) * sample / kSamplesPerStep;
     const double x = excess_at(t);
     const bool passed = side_[event] != 0 && sign(x) != side_[event];
     const bool upward = side_[event] < 0;

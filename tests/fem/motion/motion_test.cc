@@ -10,7 +10,7 @@
 #include "tests/fem/built_scene.h"
 #include "tests/fem/derivatives.h"
 
-namespace orthodyn {
+namespace orthodyn::motion_test {
 namespace {
 
 SupportMotion read_motion(const std::string& yaml) { return SupportMotion::spec().read(Config::from_text(yaml)); }
@@ -240,4 +240,4 @@ TEST(UnmovedBody, HasNoReactionsUnlessTheyAreAskedFor) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::motion_test

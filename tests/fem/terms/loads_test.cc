@@ -8,7 +8,7 @@
 #include "lib/core/symmetric_eigen.h"
 #include "tests/fem/built_scene.h"
 
-namespace orthodyn {
+namespace orthodyn::loads_test {
 namespace {
 
 BuiltTestScene box(const std::string& rest) {
@@ -128,4 +128,4 @@ TEST(Damping, ByMassIsAlphaTimesTwiceTheKineticEnergy) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::loads_test

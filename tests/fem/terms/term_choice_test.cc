@@ -4,7 +4,7 @@
 
 #include "tests/fem/built_scene.h"
 
-namespace orthodyn {
+namespace orthodyn::term_choice_test {
 namespace {
 
 BuiltTestScene with(const std::string& keys) {
@@ -101,4 +101,4 @@ gravity: [0, 0, -9]
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::term_choice_test

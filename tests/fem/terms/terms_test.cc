@@ -8,7 +8,7 @@
 #include "tests/fem/built_scene.h"
 #include "tests/fem/derivatives.h"
 
-namespace orthodyn {
+namespace orthodyn::terms_test {
 namespace {
 
 struct Case {
@@ -273,4 +273,4 @@ TEST(Terms, ThatAreAbsentLeaveThePatternAlone) {
 }
 
 }  // namespace
-}  // namespace orthodyn
+}  // namespace orthodyn::terms_test
