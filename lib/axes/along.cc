@@ -77,7 +77,7 @@ class Along : public AxesSource {
     for (std::size_t row = 0; row < table.rows(); ++row)
       points.emplace_back(table.at(row, table.column("x")), table.at(row, table.column("y")),
                           table.at(row, table.column("z")));
-    check_points(points, [&](const std::string& sentence) { throw ConfigError(file_->path + ": " + sentence); });
+    check_points(points, [&](const std::string& sentence) { throw ConfigError(file_->path, sentence); });
     return points;
   }
 

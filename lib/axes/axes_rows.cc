@@ -17,8 +17,7 @@ const std::vector<std::string> kThird{"a3x", "a3y", "a3z"};
 int element_index(const CsvTable& table, std::size_t row, std::size_t column) {
   const double given = table.at(row, column);
   if (given != std::floor(given) || given < 0 || given > 2e9)
-    throw ConfigError(
-        fmt::format("{}: column element: expected a whole number from 0, found {}", table.where(row), given));
+    throw ConfigError(table.where(row), fmt::format("column element: expected a whole number from 0, found {}", given));
   return static_cast<int>(given);
 }
 
@@ -31,7 +30,7 @@ AxesRows read_axes_csv(const FilePath& file) {
   for (const auto& name : kFirstTwo) columns.push_back(table.column(name));
   if (third)
     for (const auto& name : kThird) {
-      if (!table.has(name)) throw ConfigError(file.path + ": axis 3 needs all of " + join(kThird, ","));
+      if (!table.has(name)) throw ConfigError(file.path, "axis 3 needs all of " + join(kThird, ","));
       columns.push_back(table.column(name));
     }
   AxesRows out{{}, third, !table.has("element"), file.path, {}};
@@ -66,8 +65,8 @@ std::vector<Components> axes_of(const LoadedMesh& loaded, const std::string& pat
   if (axes.size() >= 2) return axes;
   std::vector<std::string> names;
   for (const auto& data : loaded.cell_data) names.push_back(fmt::format("{} ({})", data.name, data.components));
-  throw ConfigError(fmt::format("{}: expected cell data axis_1, axis_2 (3 components each) or axes (9), found {}", path,
-                                names.empty() ? "none" : join(names)));
+  throw ConfigError(path, fmt::format("expected cell data axis_1, axis_2 (3 components each) or axes (9), found {}",
+                                      names.empty() ? "none" : join(names)));
 }
 
 AxesRows read_axes_vtu(const FilePath& file) {
@@ -77,7 +76,7 @@ AxesRows read_axes_vtu(const FilePath& file) {
   for (std::size_t cell = 0; cell < loaded.mesh.tets.size(); ++cell) {
     Mat3 m = Mat3::Zero();
     for (std::size_t i = 0; i < axes.size(); ++i) m.col(static_cast<Eigen::Index>(i)) = axes[i].of(cell);
-    if (!m.allFinite()) throw ConfigError(fmt::format("{}: cell {}: an axis is not a finite number", file.path, cell));
+    if (!m.allFinite()) throw ConfigError(file.path, fmt::format("cell {}: an axis is not a finite number", cell));
     out.rows.push_back({static_cast<int>(cell), m, static_cast<int>(cell)});
   }
   out.mesh = std::move(loaded.mesh);
@@ -88,11 +87,11 @@ AxesRows read_axes_vtu(const FilePath& file) {
 
 AxesRows read_axes_rows(const FilePath& file) {
   const std::string extension = std::filesystem::path(file.path).extension().string();
-  if (!std::filesystem::is_regular_file(file.path)) throw ConfigError(file.where + ": no such file: " + file.path);
+  if (!std::filesystem::is_regular_file(file.path)) throw ConfigError(file.where, "no such file: " + file.path);
   if (extension == ".csv") return read_axes_csv(file);
   if (extension == ".vtu") return read_axes_vtu(file);
-  throw ConfigError(
-      fmt::format("{}: '{}' is not a kind of file that axes are read from; known: .csv, .vtu", file.where, extension));
+  throw ConfigError(file.where,
+                    fmt::format("'{}' is not a kind of file that axes are read from; known: .csv, .vtu", extension));
 }
 
 }  // namespace orthodyn

@@ -33,7 +33,7 @@ bool parse(const std::string& text, double& value) { return parse_number(text, v
 void check_names(const CsvTable& table, const std::string& where, const std::vector<std::string>& required,
                  const std::vector<std::string>& optional) {
   const auto fail = [&](const std::string& what) {
-    throw ConfigError(where + ": " + what + "; the first line names the columns: " + join(required, ",") +
+    throw ConfigError(where, what + "; the first line names the columns: " + join(required, ",") +
                       (optional.empty() ? "" : " and, if wanted, " + join(optional, ",")));
   };
   for (std::size_t i = 0; i < table.names.size(); ++i) {
@@ -51,13 +51,13 @@ void check_names(const CsvTable& table, const std::string& where, const std::vec
 void add_row(CsvTable& table, const std::vector<std::string>& row, int line) {
   const auto where = fmt::format("{}:{}", table.path, line);
   if (row.size() != table.names.size())
-    throw ConfigError(fmt::format("{}: found {} entries where {} columns are named ({})", where, row.size(),
-                                  table.names.size(), join(table.names, ",")));
+    throw ConfigError(where, fmt::format("found {} entries where {} columns are named ({})", row.size(),
+                                         table.names.size(), join(table.names, ",")));
   for (std::size_t i = 0; i < row.size(); ++i) {
     double value;
     if (!parse(row[i], value))
-      throw ConfigError(fmt::format("{}: column {}: expected a finite number, found '{}'", where, table.names[i],
-                                    row[i].substr(0, 60)));
+      throw ConfigError(
+          where, fmt::format("column {}: expected a finite number, found '{}'", table.names[i], row[i].substr(0, 60)));
     table.values.push_back(value);
   }
   table.lines.push_back(line);
@@ -73,9 +73,9 @@ std::size_t CsvTable::column(const std::string& name) const {
 
 CsvTable read_csv(const FilePath& file, const std::vector<std::string>& required,
                   const std::vector<std::string>& optional) {
-  if (!std::filesystem::is_regular_file(file.path)) throw ConfigError(file.where + ": no such file: " + file.path);
+  if (!std::filesystem::is_regular_file(file.path)) throw ConfigError(file.where, "no such file: " + file.path);
   std::ifstream in(file.path);
-  if (!in) throw ConfigError(file.where + ": cannot be read: " + file.path);
+  if (!in) throw ConfigError(file.where, "cannot be read: " + file.path);
   CsvTable table{file.path, {}, {}, {}};
   std::string text;
   for (int line = 1; std::getline(in, text); ++line) {
@@ -89,7 +89,7 @@ CsvTable read_csv(const FilePath& file, const std::vector<std::string>& required
       add_row(table, entries(text), line);
     }
   }
-  if (table.rows() == 0) throw ConfigError(fmt::format("{}: {} has no rows of numbers", file.where, file.path));
+  if (table.rows() == 0) throw ConfigError(file.where, fmt::format("{} has no rows of numbers", file.path));
   return table;
 }
 

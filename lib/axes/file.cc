@@ -27,24 +27,25 @@ class AxesFile : public AxesSource {
     const AxesRows given = read_axes_rows(file_);
     const auto num_elements = mesh.tets.size();
     if (given.every && given.rows.size() != num_elements)
-      throw ConfigError(fmt::format("{}: {} rows for a mesh of {} elements; give one for each, or a column 'element'",
-                                    given.path, given.rows.size(), num_elements));
+      throw ConfigError(given.path,
+                        fmt::format("{} rows for a mesh of {} elements; give one for each, or a column 'element'",
+                                    given.rows.size(), num_elements));
     if (given.mesh) check_same_mesh(given, mesh);
     auto axes = std::make_shared<std::vector<Mat3>>(num_elements, Mat3::Zero());
     for (const auto& row : given.rows) {
       if (static_cast<std::size_t>(row.element) >= num_elements)
-        throw ConfigError(fmt::format("{}: element {} does not exist; the mesh has 0 to {}", given.where(row),
-                                      row.element, num_elements - 1));
+        throw ConfigError(given.where(row), fmt::format("element {} does not exist; the mesh has 0 to {}", row.element,
+                                                        num_elements - 1));
       Mat3& Q = (*axes)[static_cast<std::size_t>(row.element)];
       if (!Q.isZero(0))
-        throw ConfigError(fmt::format("{}: element {} has a row already", given.where(row), row.element));
+        throw ConfigError(given.where(row), fmt::format("element {} has a row already", row.element));
       Q = rotation(given, row);
     }
     note_repairs(given, notes);
     return [this, axes](const Vec3&, int element) {
       const Mat3& Q = (*axes)[static_cast<std::size_t>(element)];
       if (Q.isZero(0))
-        throw ConfigError(fmt::format("{}: {} has no row for element {}", file_.where, file_.path, element));
+        throw ConfigError(file_.where, fmt::format("{} has no row for element {}", file_.path, element));
       return Q;
     };
   }
@@ -67,10 +68,10 @@ class AxesFile : public AxesSource {
       const Vec3 a = (centroid(*given.mesh, e) - there.min) / there.diagonal(),
                  b = (centroid(mesh, e) - here.min) / here.diagonal();
       if (!((a - b).norm() < 1e-4))
-        throw ConfigError(
-            fmt::format("{}: cell {} is not where element {} of the scene's mesh is; the axes are of another "
-                        "mesh, or its elements have another order",
-                        given.path, e, e));
+        throw ConfigError(given.path,
+                          fmt::format("cell {} is not where element {} of the scene's mesh is; the axes are of another "
+                                      "mesh, or its elements have another order",
+                                      e, e));
     }
   }
 
@@ -84,7 +85,7 @@ class AxesFile : public AxesSource {
 
   Mat3 rotation(const AxesRows& given, const AxesRows::Row& row) const {
     const Mat3 m = columns(given, row);
-    check_axes(m, repair_, [&](const std::string& sentence) { throw ConfigError(given.where(row) + ": " + sentence); });
+    check_axes(m, repair_, [&](const std::string& sentence) { throw ConfigError(given.where(row), sentence); });
     return nearest_axes(m);
   }
 

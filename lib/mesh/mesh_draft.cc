@@ -105,7 +105,7 @@ std::string MeshDraft::where(FilePlace place) const {
 }
 
 void MeshDraft::fail(FilePlace place, const std::string& message) const {
-  throw ConfigError(where(place) + ": " + message);
+  throw ConfigError(where(place), message);
 }
 
 LoadedMesh build_mesh(MeshDraft draft) {

@@ -39,31 +39,31 @@ std::string triangle_name(const MeshOrigin& origin, const std::string& surface, 
 
 void check_sizes(const TetMesh& mesh, const MeshOrigin& origin) {
   if (mesh.tets.empty()) {
-    throw ConfigError(fmt::format("{}: the mesh has no tetrahedra", origin.source));
+    throw ConfigError(origin.source, "the mesh has no tetrahedra");
   }
   constexpr auto kMax = static_cast<std::size_t>(std::numeric_limits<int>::max());
   if (mesh.nodes.size() > kMax || mesh.tets.size() > kMax) {
-    throw ConfigError(fmt::format("{}: {} nodes and {} elements; at most {} of each can be numbered", origin.source,
-                                  mesh.nodes.size(), mesh.tets.size(), kMax));
+    throw ConfigError(origin.source, fmt::format("{} nodes and {} elements; at most {} of each can be numbered",
+                                                 mesh.nodes.size(), mesh.tets.size(), kMax));
   }
   if (mesh.region_of.size() != mesh.tets.size()) {
-    throw ConfigError(fmt::format("{}: {} elements but a region for {} of them", origin.source, mesh.tets.size(),
-                                  mesh.region_of.size()));
+    throw ConfigError(origin.source,
+                      fmt::format("{} elements but a region for {} of them", mesh.tets.size(), mesh.region_of.size()));
   }
 }
 
 void check_indices(const TetMesh& mesh, const MeshOrigin& origin) {
   const auto check_node = [&](int n, const auto& name) {
     if (n >= 0 && n < count(mesh.nodes)) return;
-    throw ConfigError(fmt::format("{}: uses node {}, but there are {} nodes (0 to {})", name(), n, mesh.nodes.size(),
-                                  count(mesh.nodes) - 1));
+    throw ConfigError(name(), fmt::format("uses node {}, but there are {} nodes (0 to {})", n, mesh.nodes.size(),
+                                          count(mesh.nodes) - 1));
   };
   for (int t = 0; t < count(mesh.tets); ++t) {
     const auto i = static_cast<std::size_t>(t);
     for (int n : mesh.tets[i]) check_node(n, [&] { return tet_name(origin, t); });
     if (mesh.region_of[i] < 0 || mesh.region_of[i] >= count(mesh.region_names)) {
-      throw ConfigError(fmt::format("{}: in region {}, but there are {} regions", tet_name(origin, t),
-                                    mesh.region_of[i], mesh.region_names.size()));
+      throw ConfigError(tet_name(origin, t), fmt::format("in region {}, but there are {} regions", mesh.region_of[i],
+                                                         mesh.region_names.size()));
     }
   }
   for (const auto& [surface, triangles] : mesh.surfaces) {
@@ -84,8 +84,7 @@ void check_coordinates(const TetMesh& mesh, const MeshOrigin& origin) {
   for (int n = 0; n < count(mesh.nodes); ++n) {
     const Vec3& x = node(mesh, n);
     if (x.allFinite()) continue;
-    throw ConfigError(
-        fmt::format("{}: coordinates ({}, {}, {}) are not finite", node_name(origin, n), x[0], x[1], x[2]));
+    throw ConfigError(node_name(origin, n), fmt::format("coordinates ({}, {}, {}) are not finite", x[0], x[1], x[2]));
   }
 }
 
@@ -115,11 +114,11 @@ void check_coincident_nodes(const TetMesh& mesh, const std::vector<char>& used, 
   });
   if (same == places.end()) return;
   const auto other = same + 1;
-  throw ConfigError(
-      fmt::format("{}: at exactly the same place ({}, {}, {}) as {}; elements that only touch there "
-                  "are not connected: merge the two nodes (Gmsh: \"Coherence\" before meshing, "
-                  "\"Coherence Mesh\" after)",
-                  node_name(origin, other->node), other->x, other->y, other->z, node_name(origin, same->node)));
+  throw ConfigError(node_name(origin, other->node),
+                    fmt::format("at exactly the same place ({}, {}, {}) as {}; elements that only touch there "
+                                "are not connected: merge the two nodes (Gmsh: \"Coherence\" before meshing, "
+                                "\"Coherence Mesh\" after)",
+                                other->x, other->y, other->z, node_name(origin, same->node)));
 }
 
 // Edges in units of the largest coordinate difference, so that nothing over- or underflows before
@@ -149,8 +148,8 @@ TetShape shape_of(const TetMesh& mesh, const Tet& tet) {
   for (const Tet& tet : mesh.tets) inverted += shape_of(mesh, tet).ratio < -kDegenerate;
   const std::string more =
       inverted == 1 ? "" : fmt::format("; {} of {} elements are inverted", inverted, mesh.tets.size());
-  throw ConfigError(fmt::format("{}: inverted (volume {:.3g} m^3); reorder two of its nodes or remesh{}",
-                                tet_name(origin, first),
+  throw ConfigError(tet_name(origin, first),
+                    fmt::format("inverted (volume {:.3g} m^3); reorder two of its nodes or remesh{}",
                                 signed_volume6(mesh, mesh.tets[static_cast<std::size_t>(first)]) / 6, more));
 }
 
@@ -159,17 +158,15 @@ void check_volumes(const TetMesh& mesh, const MeshOrigin& origin) {
     const Tet& tet = mesh.tets[static_cast<std::size_t>(t)];
     const TetShape shape = shape_of(mesh, tet);
     if (!(std::abs(shape.ratio) >= kDegenerate)) {  // NaN too
-      throw ConfigError(
-          fmt::format("{}: degenerate (volume {:.3g} m^3, longest edge {:.3g} m); remesh, or move "
-                      "its nodes apart",
-                      tet_name(origin, t), signed_volume6(mesh, tet) / 6, shape.longest_edge));
+      throw ConfigError(tet_name(origin, t),
+                        fmt::format("degenerate (volume {:.3g} m^3, longest edge {:.3g} m); remesh, or move "
+                                    "its nodes apart",
+                                    signed_volume6(mesh, tet) / 6, shape.longest_edge));
     }
     if (shape.ratio < 0) refuse_inverted(mesh, t, origin);
     if (!std::isnormal(signed_volume6(mesh, tet) / 6)) {
-      throw ConfigError(
-          fmt::format("{}: its volume cannot be represented (longest edge {:.3g} m); "
-                      "check the unit of length, metres are expected",
-                      tet_name(origin, t), shape.longest_edge));
+      throw ConfigError(tet_name(origin, t), fmt::format("its volume cannot be represented (longest edge {:.3g} m); "
+                      "check the unit of length, metres are expected", shape.longest_edge));
     }
   }
 }
@@ -180,13 +177,11 @@ void check_volumes(const TetMesh& mesh, const MeshOrigin& origin) {
   std::sort(first.begin(), first.end());
   std::sort(second.begin(), second.end());
   if (first == second) {
-    throw ConfigError(
-        fmt::format("{}: the same nodes as {}; an element belongs to one region: remove "
-                    "one of the two (Gmsh: a volume in two physical volumes?)",
-                    tet_name(origin, b), tet_name(origin, a)));
+    throw ConfigError(tet_name(origin, b), fmt::format("the same nodes as {}; an element belongs to one region: remove "
+                    "one of the two (Gmsh: a volume in two physical volumes?)", tet_name(origin, a)));
   }
-  throw ConfigError(fmt::format("{}: overlaps {} (both lie on the same side of a common face); remesh",
-                                tet_name(origin, b), tet_name(origin, a)));
+  throw ConfigError(tet_name(origin, b), fmt::format("overlaps {} (both lie on the same side of a common face); remesh",
+                                                     tet_name(origin, a)));
 }
 
 void check_overlaps(const TetMesh& mesh, const std::vector<TetFace>& faces, const MeshOrigin& origin) {
@@ -218,10 +213,10 @@ void settle_surface(const std::string& surface, std::vector<Triangle>& triangles
     sort_nodes(key);
     const std::size_t face = find_face(faces, key);
     if (face == faces.size()) {
-      throw ConfigError(
-          fmt::format("{}: surface \"{}\": not a face of any element; is the volume "
-                      "behind this surface part of the mesh?",
-                      triangle_name(origin, surface, k), surface));
+      throw ConfigError(triangle_name(origin, surface, k),
+                        fmt::format("surface \"{}\": not a face of any element; is the volume "
+                                    "behind this surface part of the mesh?",
+                                    surface));
     }
     if (!seen.insert(face).second) continue;
     const bool outer = end_of_face(faces, face) == face + 1;

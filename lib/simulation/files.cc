@@ -78,13 +78,15 @@ void GrowingFile::require(std::size_t size) const {
   std::error_code ec;
   const auto found = std::filesystem::file_size(path_, ec);
   if (ec)
-    throw ConfigError(fmt::format("{}: cannot be read ({}), but the checkpoint goes on writing to it; put it back, or "
+    throw ConfigError(path_.string(),
+                      fmt::format("cannot be read ({}), but the checkpoint goes on writing to it; put it back, or "
                                   "start anew with --force in place of --resume",
-                                  path_.string(), ec.message()));
+                                  ec.message()));
   if (found < size)
-    throw ConfigError(fmt::format("{}: has {} bytes, but the checkpoint knows of {}: the end is lost; start anew with "
+    throw ConfigError(path_.string(),
+                      fmt::format("has {} bytes, but the checkpoint knows of {}: the end is lost; start anew with "
                                   "--force in place of --resume",
-                                  path_.string(), found, size));
+                                  found, size));
 }
 
 void GrowingFile::go_on(std::size_t size) {

@@ -27,7 +27,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& f
     return;
   }
   close(file_);
-  throw ConfigError(fmt::format("{}: another {} is at work there; wait for it, or use --out", folder.string(), work));
+  throw ConfigError(folder.string(), fmt::format("another {} is at work there; wait for it, or use --out", work));
 }
 
 FolderLock::~FolderLock() { close(file_); }

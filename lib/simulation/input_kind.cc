@@ -26,8 +26,8 @@ void refuse_other_kinds(const Config& config, InputFile wanted) {
   const auto has = [&](const Mark& mark) { return config.has(mark.key); };
   if (std::any_of(kMarks.begin(), kMarks.end(), [&](const Mark& m) { return m.kind == wanted && has(m); })) return;
   if (const auto other = std::find_if(kMarks.begin(), kMarks.end(), has); other != kMarks.end())
-    throw ConfigError(fmt::format("{}: this is {}: orthodyn {} {}", config.file(), other->words, other->command,
-                                  config.file()));
+    throw ConfigError(config.file(),
+                      fmt::format("this is {}: orthodyn {} {}", other->words, other->command, config.file()));
 }
 
 }  // namespace orthodyn

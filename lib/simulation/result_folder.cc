@@ -45,10 +45,9 @@ ResultFolder::ResultFolder(fs::path path, Earlier earlier, std::function<void(co
   std::error_code ec;
   if (!fs::exists(path_, ec)) return;
   if (!fs::is_directory(path_, ec))
-    throw ConfigError(fmt::format("{}: is a file, expected a folder for the results; use --out", path_.string()));
+    throw ConfigError(path_.string(), "is a file, expected a folder for the results; use --out");
   if (!is_unused(path_) && !fs::exists(path_ / kRunRecordFile, ec))
-    throw ConfigError(
-        fmt::format("{}: holds files that are no result of a run; use --out with another folder", path_.string()));
+    throw ConfigError(path_.string(), "holds files that are no result of a run; use --out with another folder");
   lock();
   if (is_unused(path_)) return;
   if (earlier_ == Earlier::resume) consider_resuming();
@@ -61,10 +60,8 @@ void ResultFolder::lock() {
 }
 
 void ResultFolder::refuse_earlier_result() const {
-  throw ConfigError(
-      fmt::format("{}: holds an earlier result; use --force to replace it, --resume to go on "
-                  "from its checkpoint, or --out with another folder",
-                  path_.string()));
+  throw ConfigError(path_.string(), "holds an earlier result; use --force to replace it, --resume to go on "
+                  "from its checkpoint, or --out with another folder");
 }
 
 void ResultFolder::consider_resuming() {
@@ -73,10 +70,9 @@ void ResultFolder::consider_resuming() {
   if (resumes_ || has_just_begun(path_)) return;
   completed_ = earlier_status() == "completed";
   if (!completed_)
-    throw ConfigError(
-        fmt::format("{}: holds a result without a checkpoint, so that nothing can be resumed; start it anew "
-                    "with --force in place of --resume, and with 'checkpoint: {{every: 60}}' in the scene",
-                    path_.string()));
+    throw ConfigError(path_.string(),
+                      "holds a result without a checkpoint, so that nothing can be resumed; start it anew "
+                      "with --force in place of --resume, and with 'checkpoint: {every: 60}' in the scene");
 }
 
 fs::path ResultFolder::checkpoint() const { return path_ / kCheckpoint; }

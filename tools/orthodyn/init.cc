@@ -195,7 +195,7 @@ int init(const InitArguments& arguments) {
     throw ConfigError(fmt::format("nothing to start '{}' from; known: {}", kind, join(names)));
   }
   const fs::path path = arguments.file.value_or(kind + ".yaml");
-  if (fs::exists(path)) throw ConfigError(path.string() + ": exists already; choose another name");
+  if (fs::exists(path)) throw ConfigError(path.string(), "exists already; choose another name");
   write_file(path, {modeline(kind), with_file_name(start->second, path.string())});
   fmt::print("{}\n", path.string());
   return 0;

@@ -18,9 +18,9 @@ void refuse_other_folders(const fs::path& path, const std::string& kind) {
   std::error_code ec;
   if (!fs::exists(path, ec)) return;
   if (!fs::is_directory(path, ec))
-    throw ConfigError(fmt::format("{}: is a file, expected a folder for the results; use --out", path.string()));
+    throw ConfigError(path.string(), "is a file, expected a folder for the results; use --out");
   if (fs::is_empty(path, ec) || fs::exists(path / mark_of(kind), ec)) return;
-  throw ConfigError(fmt::format("{}: holds files that are no {}; use --out with another folder", path.string(), kind));
+  throw ConfigError(path.string(), fmt::format("holds files that are no {}; use --out with another folder", kind));
 }
 
 // A table says which file it is of; one that is gone may have been renamed.
@@ -30,9 +30,10 @@ void refuse_other_tables(const fs::path& path, const std::string& kind, const fs
   const std::string earlier = table.at("file");
   std::error_code ec;
   if (!fs::exists(earlier, ec) || fs::equivalent(earlier, file, ec)) return;
-  throw ConfigError(fmt::format("{}: holds the table of {}, which this one of {} would replace; use --out with another "
+  throw ConfigError(path.string(),
+                    fmt::format("holds the table of {}, which this one of {} would replace; use --out with another "
                                 "folder",
-                                path.string(), earlier, file.string()));
+                                earlier, file.string()));
 }
 
 }  // namespace

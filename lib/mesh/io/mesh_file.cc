@@ -32,14 +32,14 @@ void replace_together(const std::vector<MeshText>& files, const std::function<st
     }
     std::error_code ignored;
     for (const MeshText& f : files) fs::remove(beside(f), ignored);
-    throw ConfigError(fmt::format("{}: cannot be written: {}", place(file), reason));
+    throw ConfigError(place(file), fmt::format("cannot be written: {}", reason));
   }
   for (const MeshText& file : files) {
     std::error_code error;
     fs::rename(beside(file), place(file), error);
     if (error) {
-      throw ConfigError(
-          fmt::format("{}: cannot be written: {}; the mesh is in {}", place(file), error.message(), beside(file)));
+      throw ConfigError(place(file),
+                        fmt::format("cannot be written: {}; the mesh is in {}", error.message(), beside(file)));
     }
   }
 }
@@ -52,14 +52,14 @@ Warnings write_mesh(const LoadedMesh& loaded, const std::string& path, bool repl
   namespace fs = std::filesystem;
   const MeshFormat& format = mesh_format_of(path);
   if (!format.write)
-    throw ConfigError(fmt::format("{}: {} files are only read; write .vtu instead", path, format.name));
+    throw ConfigError(path, fmt::format("{} files are only read; write .vtu instead", format.name));
   WrittenMesh written = format.write(loaded);
   // The user's spelling for a single file, that of the format for several beside each other.
   const auto place = [&](const MeshText& file) {
     return written.files.size() == 1 ? path : fs::path(path).replace_extension(file.ending).string();
   };
   for (const MeshText& file : written.files) {
-    if (!replace && fs::exists(place(file))) throw ConfigError(place(file) + ": is there already; --force replaces it");
+    if (!replace && fs::exists(place(file))) throw ConfigError(place(file), "is there already; --force replaces it");
   }
   replace_together(written.files, place);
   for (std::string& loss : losses_in(format, loaded)) written.losses.push_back(std::move(loss));
@@ -70,8 +70,9 @@ void scale_mesh(TetMesh& mesh, double factor, const std::string& source) {
   for (Vec3& x : mesh.nodes) x *= factor;
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
     if (std::isnormal(signed_volume6(mesh, mesh.tets[e]) / 6)) continue;
-    throw ConfigError(fmt::format("{}: scaled by {}, the volume of element {} cannot be represented; check the scale",
-                                  source, factor, e));
+    throw ConfigError(
+        source,
+        fmt::format("scaled by {}, the volume of element {} cannot be represented; check the scale", factor, e));
   }
 }
 

@@ -48,8 +48,7 @@ const MeshFormat& mesh_format_of(const std::string& path) {
   for (const MeshFormat& format : mesh_formats()) {
     if (std::count(format.endings.begin(), format.endings.end(), ending) > 0) return format;
   }
-  throw ConfigError(
-      fmt::format("{}: no mesh format has the ending \"{}\"; known: {}", path, ending, known_mesh_endings()));
+  throw ConfigError(path, fmt::format("no mesh format has the ending \"{}\"; known: {}", ending, known_mesh_endings()));
 }
 
 Warnings losses_in(const MeshFormat& format, const LoadedMesh& loaded) {

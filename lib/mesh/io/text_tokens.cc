@@ -21,18 +21,18 @@ std::string read_text_file(const std::string& path) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) {
-    throw ConfigError(fmt::format("{}: cannot be opened: {}", path, error.message()));
+    throw ConfigError(path, fmt::format("cannot be opened: {}", error.message()));
   }
   if (!std::filesystem::is_regular_file(status)) {  // a pipe might never end
-    throw ConfigError(path + ": a directory or device, where a mesh file is expected");
+    throw ConfigError(path, "a directory or device, where a mesh file is expected");
   }
   std::ifstream stream(path, std::ios::binary | std::ios::ate);
   const std::streamoff size = stream ? std::streamoff(stream.tellg()) : -1;
-  if (size < 0) throw ConfigError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
+  if (size < 0) throw ConfigError(path, fmt::format("cannot be opened: {}", std::strerror(errno)));
   std::string text(static_cast<std::size_t>(size), '\0');
   stream.seekg(0);
   stream.read(text.data(), size);
-  if (!stream) throw ConfigError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  if (!stream) throw ConfigError(path, fmt::format("cannot be read: {}", std::strerror(errno)));
   return text;
 }
 
@@ -136,7 +136,7 @@ void TextTokens::skip_bytes(std::size_t bytes) {
 void TextTokens::fail(const std::string& message) const { fail_at(line_, message); }
 
 void TextTokens::fail_at(int line, const std::string& message) const {
-  throw ConfigError(fmt::format("{}:{}: {}", path_, line, message));
+  throw ConfigError(fmt::format("{}:{}", path_, line), message);
 }
 
 std::string TextTokens::quoted(std::string_view word) {

@@ -19,7 +19,7 @@ namespace orthodyn {
 namespace {
 
 [[noreturn]] void fail(const VtkGrid& grid, const std::string& message) {
-  throw ConfigError(grid.path + ": " + message);
+  throw ConfigError(grid.path, message);
 }
 
 std::string name_of_type(int type) {

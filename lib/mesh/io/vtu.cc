@@ -34,7 +34,7 @@ class VtuReader {
     if (!parsed)
       fail_at(parsed.offset, fmt::format("not well-formed XML ({}); is the file truncated?", parsed.description()));
     const pugi::xml_node file = document_.child("VTKFile");
-    if (!file) throw ConfigError(path_ + ": no <VTKFile>: this is not a VTK XML file (.vtu)");
+    if (!file) throw ConfigError(path_, "no <VTKFile>: this is not a VTK XML file (.vtu)");
     read_encoding(file);
     return read_grid(file);
   }
@@ -198,7 +198,7 @@ class VtuReader {
   }
   [[noreturn]] void fail_at(std::size_t offset, const std::string& message) const {
     const std::string_view before = text_.substr(0, std::min(offset, text_.size()));
-    throw ConfigError(fmt::format("{}:{}: {}", path_, 1 + std::count(before.begin(), before.end(), '\n'), message));
+    throw ConfigError(fmt::format("{}:{}", path_, 1 + std::count(before.begin(), before.end(), '\n')), message);
   }
 
   std::string path_;

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kScale = "Multiplies coordinates: 0.001 if they are in mm.";
 
 void require_file(const FilePath& file) {
-  if (!std::filesystem::is_regular_file(file.path)) throw ConfigError(file.where + ": no such file: " + file.path);
+  if (!std::filesystem::is_regular_file(file.path)) throw ConfigError(file.where, "no such file: " + file.path);
 }
 
 class FileSource : public MeshSource {

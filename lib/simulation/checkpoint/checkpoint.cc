@@ -94,8 +94,9 @@ Checkpoint from_json(const SortedJson& json) {
 }
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& message) {
-  throw ConfigError(fmt::format("{}: {}; the run cannot go on from it: start it anew with --force in place of --resume",
-                                path.string(), message));
+  throw ConfigError(
+      path.string(),
+      fmt::format("{}; the run cannot go on from it: start it anew with --force in place of --resume", message));
 }
 
 std::string content_of(const fs::path& path) {

@@ -68,13 +68,13 @@ void check_modes_folder(const fs::path& folder, bool replace) {
   std::error_code ec;
   if (!fs::exists(folder, ec)) return;
   if (!fs::is_directory(folder, ec))
-    throw ConfigError(fmt::format("{}: is a file, expected a folder for the results; use --out", folder.string()));
+    throw ConfigError(folder.string(), "is a file, expected a folder for the results; use --out");
   if (fs::is_empty(folder, ec)) return;
   if (!fs::exists(folder / "modes.csv", ec))
-    throw ConfigError(fmt::format("{}: holds files that are no modes; use --out with another folder", folder.string()));
+    throw ConfigError(folder.string(), "holds files that are no modes; use --out with another folder");
   if (!replace)
-    throw ConfigError(fmt::format("{}: holds earlier modes; use --force to replace them, or --out with another folder",
-                                  folder.string()));
+    throw ConfigError(folder.string(),
+                      "holds earlier modes; use --force to replace them, or --out with another folder");
 }
 
 void write_modes(const fs::path& folder, const ModalAnalysis& analysis) {

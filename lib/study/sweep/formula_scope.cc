@@ -42,10 +42,10 @@ double FormulaScope::evaluate(const std::string& formula, const std::string& whe
   try {
     return NamedFormula(formula, names_, where).at(values_);
   } catch (const std::invalid_argument& e) {
-    throw ConfigError(
-        fmt::format("{}: cannot read the formula '{}': {} Known: {}, pi, e, and functions such as sin, exp, "
-                    "sqrt.",
-                    where, formula, e.what(), join(names_)));
+    throw ConfigError(where,
+                      fmt::format("cannot read the formula '{}': {} Known: {}, pi, e, and functions such as sin, exp, "
+                                  "sqrt.",
+                                  formula, e.what(), join(names_)));
   }
 }
 
