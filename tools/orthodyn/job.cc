@@ -1,0 +1,36 @@
+// `orthodyn measure`, `evaluate` and `assess`: one job of a study, in a process of its own.
+#include "lib/study/compare/measurement.h"
+#include "lib/study/stability/evaluate_case.h"
+#include "lib/study/sweep/evaluate_point.h"
+#include "tools/orthodyn/command.h"
+
+namespace orthodyn {
+
+namespace {
+
+struct JobArguments {
+  std::string folder;
+};
+
+void declare(JobArguments& arguments, CommandOptions& options) { options.value("folder", arguments.folder).required(); }
+
+template <void (*work)(const std::filesystem::path&)>
+int do_in_folder(const JobArguments& arguments) {
+  work(arguments.folder);
+  return 0;
+}
+
+CommandText text(int order, const std::string& name, const std::string& sentence) {
+  return {.order = order, .name = name, .sentence = sentence, .hidden = true};
+}
+
+const CommandRegistration measure_command(text(41, "measure", "One point of a comparison; called by compare."), declare,
+                                          do_in_folder<study::compare::measure>);
+const CommandRegistration evaluate_command(text(51, "evaluate", "One point of a sweep; called by sweep."), declare,
+                                           do_in_folder<study::sweep::evaluate_point>);
+const CommandRegistration assess_command(text(61, "assess", "One case of a matrix; called by stability."), declare,
+                                         do_in_folder<study::stability::evaluate_case>);
+
+}  // namespace
+
+}  // namespace orthodyn
