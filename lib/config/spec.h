@@ -110,6 +110,9 @@ class Spec : public Keys {
     return target;
   }
 
+  // A section without keys.
+  T by_default() const { return read(Config::from_text("{}", "defaults")); }
+
  private:
   static const T& defaults() {
     static const T all{};

@@ -12,7 +12,7 @@ enum class Direction { up, down, both };
 
 struct Event {
   std::string name;
-  std::function<double(const State&)> quantity;
+  std::function<double(const ObservedState&)> quantity;
   double value = 0;  // in the quantity's unit
   Direction direction = Direction::both;
   bool stops = false;  // the run ends there

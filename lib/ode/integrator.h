@@ -76,7 +76,7 @@ class IntegratorChoice {
   virtual IntegratorSettings settings() const = 0;
 
   // The same options with those of the settings that have a value and that the method has. Throws ConfigError, without
-  // a place, for a number outside of the range of its key.
+  // a place, for a number outside of the range of its key. Conditions that join several keys are not checked.
   virtual std::unique_ptr<IntegratorChoice> with(const IntegratorSettings& settings) const = 0;
 
   // Throws ConfigError if the integrator cannot serve the model, which must outlive it.

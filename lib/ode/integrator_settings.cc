@@ -6,22 +6,29 @@
 
 namespace orthodyn {
 
-void check_ranges(const IntegratorSettings& settings, const std::vector<Key>& keys) {
-  const auto check = [&](const char* name, std::optional<double> value) {
-    for (const Key& key : keys)
-      if (value && key.name == name && !key.range.contains(*value))
-        throw ConfigError(fmt::format("{}: must be {}{}{}, found {}", name, range_text(key.range),
-                                      key.unit.empty() ? "" : " ", key.unit, *value));
+std::vector<std::pair<const char*, double>> numbers(const IntegratorSettings& s) {
+  std::vector<std::pair<const char*, double>> given;
+  const auto add = [&](const char* key, const auto& value) {
+    if (value) given.emplace_back(key, static_cast<double>(*value));
   };
-  check("rtol", settings.rtol);
-  check("step", settings.step);
-  check("h0", settings.h0);
-  check("h_min", settings.h_min);
-  check("h_max", settings.h_max);
-  check("position_scale", settings.position_scale);
-  check("velocity_scale", settings.velocity_scale);
-  check("safety", settings.safety);
-  check("max_steps", settings.max_steps);
+  add("step", s.step);
+  add("safety", s.safety);
+  add("rtol", s.rtol);
+  add("h_max", s.h_max);
+  add("h_min", s.h_min);
+  add("h0", s.h0);
+  add("position_scale", s.position_scale);
+  add("velocity_scale", s.velocity_scale);
+  add("max_steps", s.max_steps);
+  return given;
+}
+
+void check_ranges(const IntegratorSettings& settings, const std::vector<Key>& keys) {
+  for (const auto& [name, value] : numbers(settings))
+    for (const Key& key : keys)
+      if (key.name == name && !key.range.contains(value))
+        throw ConfigError(fmt::format("{}: must be {}{}{}, found {}", name, range_text(key.range),
+                                      key.unit.empty() ? "" : " ", key.unit, value));
 }
 
 }  // namespace orthodyn

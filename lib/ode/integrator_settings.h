@@ -20,6 +20,9 @@ struct IntegratorSettings {
   std::optional<std::string> linear_solver = {};
 };
 
+// The numbers that are given, by their keys.
+std::vector<std::pair<const char*, double>> numbers(const IntegratorSettings& settings);
+
 // Throws ConfigError, with the key and without a place, for a number outside of the range of its key.
 void check_ranges(const IntegratorSettings& settings, const std::vector<Key>& keys);
 

@@ -62,4 +62,26 @@ class OutputSource {
   virtual Geometry geometry() const { return {}; }
 };
 
+// A state with its source's view of it, which is made when it is first asked for and shared by all that look at the
+// state. For one thread at a time.
+class ObservedState {
+ public:
+  // Both must outlive it.
+  ObservedState(const OutputSource& source, const State& state) : source_(source), state_(state) {}
+
+  double t() const { return state_.t; }
+  const State& state() const { return state_; }
+
+  // As StateView::evaluate().
+  std::vector<double> evaluate(const std::string& name) const {
+    if (!view_) view_ = source_.view(state_);
+    return view_->evaluate(name);
+  }
+
+ private:
+  const OutputSource& source_;
+  const State& state_;
+  mutable std::unique_ptr<StateView> view_;
+};
+
 }  // namespace orthodyn

@@ -45,8 +45,8 @@ std::vector<Event> make_events(const Scene& scene, const FemModel& model) {
     if (quantity.components != 1)
       spec.origin.fail(fmt::format("'{}' is a vector: choose .x, .y, .z or .magnitude", spec.quantity));
     events.push_back({spec.name.value_or(spec.quantity),
-                      [values = quantity.values](const State& state) { return values(state)[0]; }, spec.crosses,
-                      spec.direction, spec.action == EventAction::stop});
+                      [values = quantity.values](const ObservedState& observed) { return values(observed)[0]; },
+                      spec.crosses, spec.direction, spec.action == EventAction::stop});
   }
   return events;
 }

@@ -8,6 +8,12 @@ struct Words<OutputTimes> {
       {{OutputTimes::interpolated, "interpolated"}, {OutputTimes::exact, "exact"}}};
 };
 
+template <>
+struct Words<EnergyTimes> {
+  static constexpr std::array<std::pair<EnergyTimes, const char*>, 2> list{
+      {{EnergyTimes::outputs, "outputs"}, {EnergyTimes::steps, "steps"}}};
+};
+
 const Spec<Probe>& Probe::spec() {
   static const auto s =
       Spec<Probe>()
@@ -30,6 +36,9 @@ const Spec<Output>& Output::spec() {
           .key("reactions", &Output::reactions,
                "Record force and torque of every clamp and motion on the body in probes.csv.")
           .key("energy", &Output::energy, "Write energy.csv.")
+          .key("energy_times", &Output::energy_times,
+               "outputs: energies are computed for the rows of energy.csv; steps: after each step, too, and the drift "
+               "of the summary is over all of them. It costs about one evaluation of the forces a step.")
           .key("steps", &Output::steps, "Write steps.csv.")
           .key("momentum", &Output::momentum, "Write momentum.csv.")
           .check([](const Output& output, const Config& config) {

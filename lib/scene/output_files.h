@@ -11,6 +11,9 @@ namespace orthodyn {
 
 enum class OutputTimes { interpolated, exact };
 
+// When energies are computed.
+enum class EnergyTimes { outputs, steps };
+
 // A point whose fields go to probes.csv.
 struct Probe {
   Vec3 at = Vec3::Zero();  // m, in the rest shape
@@ -26,6 +29,7 @@ struct Output {
   std::vector<std::string> fields{"displacement", "velocity"};
   Named<Probe> probes;
   bool reactions = false, energy = true, steps = true, momentum = false;
+  EnergyTimes energy_times = EnergyTimes::outputs;
   Origin origin;
   static const Spec<Output>& spec();
 };

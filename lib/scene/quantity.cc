@@ -37,11 +37,10 @@ bool is_component_of(const std::string& rest, const Source& source) {
   return source.components == 3 && std::find(kComponents.begin(), kComponents.end(), rest) != kComponents.end();
 }
 
-Quantity make_quantity(const std::string& name, const Source& source, const std::string& component,
-                       const FemModel& model) {
+Quantity make_quantity(const std::string& name, const Source& source, const std::string& component) {
   Quantity quantity{name, source.unit, source.components == 3 && component.empty() ? 3 : 1, {}};
-  quantity.values = [source, component, &model](const State& state) {
-    auto all = model.evaluate(source.output, state);
+  quantity.values = [source, component](const ObservedState& observed) {
+    const auto all = observed.evaluate(source.output);
     const auto first = source.node < 0 ? 0 : static_cast<std::size_t>(source.node * source.components);
     const auto count = source.components == 3 ? 3u : 1u;  // of det_f.smallest the value, not the element
     return pick({all.begin() + static_cast<std::ptrdiff_t>(first),
@@ -72,7 +71,7 @@ Quantity find_quantity(const std::string& name, const Scene& scene, const FemMod
   for (const auto& [source_name, source] : sources(scene, model)) {
     const std::string rest = after(name, source_name);
     if (name == source_name || (!rest.empty() && is_component_of(rest, source)))
-      return make_quantity(name, source, rest, model);
+      return make_quantity(name, source, rest);
     known.push_back(source_name);
     if (source.components != 3) continue;
     for (const char* component : kComponents) known.push_back(source_name + "." + component);

@@ -18,10 +18,10 @@ inline constexpr const char* kEnergyBalance = "energy.balance";
 struct Quantity {
   std::string name, unit;
   int components = 1;  // 3 where none was chosen of a vector
-  std::function<std::vector<double>(const State&)> values;  // empty for kEnergyBalance
+  std::function<std::vector<double>(const ObservedState&)> values;  // empty for kEnergyBalance
 };
 
-// Throws ConfigError at `origin`. `model` must outlive the quantity.
+// Throws ConfigError at `origin`.
 Quantity find_quantity(const std::string& name, const Scene& scene, const FemModel& model, const Origin& origin);
 
 }  // namespace orthodyn

@@ -129,7 +129,8 @@ class DynamicAnalysis {
                      .effort = before + Effort{integrator.statistics(), outcome.wall_seconds, outcome.cpu_seconds},
                      .factor_bytes = integrator.factor_bytes(),
                      .det_f = {inversion.smallest(), inversion.element(), inversion.time()}};
-    if (const auto& e = observers.energy) out.energy = {e->last(), e->drift(), e->scale(), e->relative_drift()};
+    if (const auto& e = observers.energy)
+      out.energy = {e->last(), e->drift(), e->scale(), e->relative_drift(), e->times()};
     if (const auto& m = observers.momentum) out.momentum = {m->angular_drift(), m->angular_scale()};
     if (outcome.status == Outcome::Status::failed) out.failure = failure_place(*setup_.built.model, outcome.last);
     return out;
@@ -155,10 +156,10 @@ class DynamicAnalysis {
     const bool longer = std::find(changed.begin(), changed.end(), "time.end") != changed.end();
     if (!longer && refused_changes(changed).empty())
       return nothing_to_do(read_number(earlier.at("time").at("end"), {.unit = "s"}));
-    throw ConfigError(
-        fmt::format("{}: holds a completed run without a checkpoint, which cannot be resumed with other "
-                    "values ({}); start anew with --force in place of --resume",
-                    folder_.path().string(), join(changed)));
+    throw ConfigError(folder_.path().string(),
+                      fmt::format("holds a completed run without a checkpoint, which cannot be resumed with other "
+                                  "values ({}); start anew with --force in place of --resume",
+                                  join(changed)));
   }
 
   RunContext context_;

@@ -21,9 +21,11 @@ std::vector<std::string> header(const std::vector<std::string>& energies) {
 
 }  // namespace
 
-Outcome run_static(LoadStepper& stepper, const std::vector<Observer*>& observers, const std::atomic<bool>& interrupt) {
+Outcome run_static(const Model& model, LoadStepper& stepper, const std::vector<Observer*>& observers,
+                   const std::atomic<bool>& interrupt) {
   return supervise(stepper.state(), observers, [&](Outcome& outcome) {
-    for (auto* o : observers) o->on_start(stepper.state());
+    const ObservedState start(model, outcome.last);
+    for (auto* o : observers) o->on_start(start);
     while (!stepper.done()) {
       if (interrupt) {
         outcome.status = Outcome::Status::interrupted;
@@ -31,24 +33,26 @@ Outcome run_static(LoadStepper& stepper, const std::vector<Observer*>& observers
       }
       stepper.step();
       outcome.last = stepper.state();
-      for (auto* o : observers) o->on_output(stepper.state());
+      const ObservedState equilibrium(model, outcome.last);
+      for (auto* o : observers) o->on_output(equilibrium);
     }
   });
 }
 
 LoadStepWriter::LoadStepWriter(const std::filesystem::path& path, const Model& model, const LoadStepper& stepper)
-    : model_(model), stepper_(stepper), energies_(energies_of(model)), file_(path, header(energies_)) {}
+    : stepper_(stepper), energies_(energies_of(model)), file_(path, header(energies_)) {}
 
-void LoadStepWriter::on_start(const State& state) {
+void LoadStepWriter::on_start(const ObservedState& observed) {
   file_.begin();
-  write(state);
+  write(observed);
 }
 
-void LoadStepWriter::write(const State& state) {
+void LoadStepWriter::write(const ObservedState& observed) {
+  const State& state = observed.state();
   const auto& attempt = stepper_.attempt();
   std::vector<double> row{state.t, static_cast<double>(attempt.iterations), attempt.residual,
                           state.q.lpNorm<Eigen::Infinity>()};
-  for (const auto& name : energies_) row.push_back(model_.evaluate(name, state)[0]);
+  for (const auto& name : energies_) row.push_back(observed.evaluate(name)[0]);
   file_.row(row);
 }
 

@@ -12,21 +12,22 @@
 namespace orthodyn {
 
 // Never throws for a computation that could not go on: that is an Outcome, whose last state is the last equilibrium.
-Outcome run_static(LoadStepper& stepper, const std::vector<Observer*>& observers, const std::atomic<bool>& interrupt);
+// `model` is what the observers may ask about.
+Outcome run_static(const Model& model, LoadStepper& stepper, const std::vector<Observer*>& observers,
+                   const std::atomic<bool>& interrupt);
 
 // load_steps.csv: for each equilibrium what it took, how well it holds, and how large the motion is; energies, where
 // the model tells them.
 class LoadStepWriter : public Observer {
  public:
-  // `model` and `stepper` must outlive it.
+  // `stepper` must outlive it.
   LoadStepWriter(const std::filesystem::path& path, const Model& model, const LoadStepper& stepper);
-  void on_start(const State& state) override;
-  void on_output(const State& state) override { write(state); }
+  void on_start(const ObservedState& observed) override;
+  void on_output(const ObservedState& observed) override { write(observed); }
 
  private:
-  void write(const State& state);
+  void write(const ObservedState& observed);
 
-  const Model& model_;
   const LoadStepper& stepper_;
   std::vector<std::string> energies_;
   CsvFile file_;

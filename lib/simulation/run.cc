@@ -13,8 +13,14 @@ class Driver {
  public:
   Driver(const Model& model, Integrator& integrator, const Plan& plan, const std::vector<Observer*>& observers,
          const std::atomic<bool>& interrupt, Outcome& outcome)
-      : integrator_(integrator), plan_(plan), observers_(observers), interrupt_(interrupt), outcome_(outcome),
-        tiny_(1e-12 * std::max(std::abs(outcome.last.t), std::abs(plan.end))), outputs_(plan.output_times) {
+      : model_(model),
+        integrator_(integrator),
+        plan_(plan),
+        observers_(observers),
+        interrupt_(interrupt),
+        outcome_(outcome),
+        tiny_(1e-12 * std::max(std::abs(outcome.last.t), std::abs(plan.end))),
+        outputs_(plan.output_times) {
     for (const double t : model.breakpoints(outcome.last.t, plan.end))
       if (t - (stops_.empty() ? outcome.last.t : stops_.back()) > tiny_ && plan.end - t > tiny_) stops_.push_back(t);
     stops_.push_back(plan.end);
@@ -27,8 +33,9 @@ class Driver {
 
   void advance() {
     outcome_.between_steps = false;
-    for (auto* o : observers_) plan_.delivered ? o->on_resume(outcome_.last) : o->on_start(outcome_.last);
-    if (plan_.events && !plan_.delivered) plan_.events->start(outcome_.last);
+    const ObservedState start(model_, outcome_.last);
+    for (auto* o : observers_) plan_.delivered ? o->on_resume(start) : o->on_start(start);
+    if (plan_.events && !plan_.delivered) plan_.events->start(start);
     outcome_.between_steps = true;
     integrator_.start(outcome_.last);
     for (const double stop : stops_) {
@@ -59,7 +66,8 @@ class Driver {
       deliver_outputs(info.t);
       if (stopper) deliver_last_output(info.t);
       integrator_.interpolate(info.t, outcome_.last);
-      for (auto* o : observers_) o->on_step(info, outcome_.last, integrator_);
+      const ObservedState end(model_, outcome_.last);
+      for (auto* o : observers_) o->on_step(info, end, integrator_);
       outcome_.between_steps = true;
       if (stopper) {
         outcome_.remark = fmt::format("stopped by the event '{}' at t = {:.9g} s", stopper->name, info.t);
@@ -73,7 +81,7 @@ class Driver {
   const Event* deliver_events(double begin, StepInfo& info) {
     if (!plan_.events || plan_.events->empty()) return nullptr;
     const auto interpolate = [&](double t, State& out) { integrator_.interpolate(t, out); };
-    for (const Crossing& crossing : plan_.events->find(begin, info.t, interpolate)) {
+    for (const Crossing& crossing : plan_.events->find(begin, info.t, model_, interpolate)) {
       deliver_outputs(crossing.state.t);
       for (auto* o : observers_) o->on_event(crossing);
       if (!crossing.event->stops) continue;
@@ -91,7 +99,8 @@ class Driver {
   void deliver_output(double t) {
     State state;
     integrator_.interpolate(t, state);
-    for (auto* o : observers_) o->on_output(state);
+    const ObservedState output(model_, state);
+    for (auto* o : observers_) o->on_output(output);
     last_output_ = t;
   }
 
@@ -100,6 +109,7 @@ class Driver {
     if (!outputs_.empty() && last_output_ != t) deliver_output(t);
   }
 
+  const Model& model_;
   Integrator& integrator_;
   const Plan& plan_;
   const std::vector<Observer*>& observers_;

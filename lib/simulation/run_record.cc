@@ -29,7 +29,7 @@ Json energy_json(const EnergySummary& energy) {
   const auto& e = energy.last;
   return {{"kinetic", e.kinetic},       {"elastic", e.elastic}, {"gravitational", e.gravitational},
           {"dissipated", e.dissipated}, {"loads", e.loads},     {"balance_drift", energy.drift},
-          {"scale", energy.scale}};
+          {"scale", energy.scale},      {"times", energy.times == EnergyTimes::steps ? "steps" : "outputs"}};
 }
 
 Json norms_json(const ErrorNorms& e) { return {{"final", e.final}, {"rms", e.l2}, {"largest", e.max}}; }
@@ -85,6 +85,7 @@ void add_equilibrium(Json& out, const EquilibriumResult& equilibrium, const Outc
   out["loads_at_time"] = equilibrium.loads_at_time;
   out["load_steps"] = equilibrium.load_steps;
   out["rejected_load_steps"] = equilibrium.rejected_load_steps;
+  out["jumps"] = equilibrium.jumps;
   out["largest_displacement"] = equilibrium.largest_displacement;
   out["residual"] = equilibrium.residual;
   out["solver"] = equilibrium.solver;

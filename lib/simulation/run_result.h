@@ -25,6 +25,7 @@ struct EnergySummary {
   EnergyBalance last;           // J
   double drift = 0, scale = 0;  // J: of the balance, and the largest energy
   double relative_drift = 0;
+  EnergyTimes times = EnergyTimes::outputs;  // of which the drift is the largest
 };
 
 struct MomentumSummary {
@@ -61,6 +62,7 @@ struct MotionResult {
 struct EquilibriumResult {
   double loads_at_time = 0;  // s
   long load_steps = 0, rejected_load_steps = 0;
+  long jumps = 0;                         // load steps to equilibria that may lie on another branch
   double largest_displacement = 0;        // m, of a coordinate
   double residual = 0, largest_load = 0;  // N, of a coordinate
   std::string solver = {};                // its linear solver

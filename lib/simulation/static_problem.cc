@@ -40,7 +40,7 @@ Scene at_rest(const Scene& scene) {
   Scene still = scene;
   still.analysis = Analysis::statical;
   still.time.end = scene.time.start;
-  if (!still.statics) still.statics = Statics::spec().read(Config::from_text("{}", "statics"));
+  if (!still.statics) still.statics = Statics::spec().by_default();
   return still;
 }
 

@@ -20,9 +20,9 @@ namespace {
 class LoadProgress : public Observer {
  public:
   LoadProgress(const LoadStepper& stepper, RunListener& listener) : stepper_(stepper), listener_(listener) {}
-  void on_output(const State& state) override {
+  void on_output(const ObservedState& observed) override {
     listener_.on_notice(
-        fmt::format("load factor {:.6g}: {} Newton iterations", state.t, stepper_.attempt().iterations));
+        fmt::format("load factor {:.6g}: {} Newton iterations", observed.t(), stepper_.attempt().iterations));
   }
 
  private:
@@ -72,6 +72,7 @@ EquilibriumResult equilibrium_result(const StaticProblem& problem, const State& 
   return {.loads_at_time = problem.path->time(),
           .load_steps = problem.stepper->steps(),
           .rejected_load_steps = problem.stepper->rejected(),
+          .jumps = problem.stepper->jumps(),
           .largest_displacement = last.q.lpNorm<Eigen::Infinity>(),
           .residual = problem.stepper->attempt().residual,
           .largest_load = problem.path->load().lpNorm<Eigen::Infinity>(),
@@ -95,7 +96,7 @@ RunResult run_static_analysis(RunContext context) {
   const auto own = context.listener.on_begin(setup);
   if (own) all.push_back(own.get());
   RunResult result{.scene = context.scene, .folder = folder};
-  result.outcome = run_static(*problem.stepper, all, context.interrupt);
+  result.outcome = run_static(*problem.path, *problem.stepper, all, context.interrupt);
   result.model = summarize(*setup.built.model);
   result.equilibrium = equilibrium_result(problem, result.outcome.last);
   context.listener.on_result(result);

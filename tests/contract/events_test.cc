@@ -13,10 +13,10 @@ INSTANTIATE_TEST_SUITE_P(Registry, Events, testing::ValuesIn(all_pairs()), pair_
 
 struct Watch : Observer {
   void on_event(const Crossing& crossing) override { crossings.push_back(crossing); }
-  void on_output(const State& state) override { outputs.push_back(state); }
-  void on_step(const StepInfo& info, const State& state, const Integrator&) override {
+  void on_output(const ObservedState& observed) override { outputs.push_back(observed.state()); }
+  void on_step(const StepInfo& info, const ObservedState& observed, const Integrator&) override {
     steps.push_back(info);
-    last = state;
+    last = observed.state();
   }
   std::vector<Crossing> crossings;
   std::vector<State> outputs;
@@ -24,7 +24,7 @@ struct Watch : Observer {
   State last;
 };
 
-double position(const State& state) { return state.q[0]; }
+double position(const ObservedState& observed) { return observed.state().q[0]; }
 
 Outcome run_with(const Pair& pair, const LinearModel& model, std::vector<Event> events, Watch& watch) {
   EventFinder finder(std::move(events));

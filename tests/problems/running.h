@@ -11,8 +11,8 @@ namespace orthodyn {
 
 struct Watch : Observer {
   explicit Watch(std::function<void(const State&)> f) : look(std::move(f)) {}
-  void on_start(const State& state) override { look(state); }
-  void on_output(const State& state) override { look(state); }
+  void on_start(const ObservedState& observed) override { look(observed.state()); }
+  void on_output(const ObservedState& observed) override { look(observed.state()); }
   std::function<void(const State&)> look;
 };
 

@@ -107,7 +107,7 @@ loads: [{surface: z1, traction: [0, 0, 1e4]}]
   const StaticProblem problem = static_problem(block.scene, block.built);
   std::vector<double> seen;
   Watch watch([&](const State& state) { seen.push_back(state.t); });
-  const Outcome outcome = run_static(*problem.stepper, {&watch}, {false});
+  const Outcome outcome = run_static(*problem.path, *problem.stepper, {&watch}, {false});
   EXPECT_EQ(outcome.status, Outcome::Status::failed);
   EXPECT_EQ(outcome.reason, Reason::too_many_steps);
   EXPECT_EQ(outcome.last.t, 0.75);

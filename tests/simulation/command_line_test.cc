@@ -1,5 +1,7 @@
 #include "lib/mesh/box.h"
 #include "lib/mesh/io/mesh_file.h"
+#include "lib/simulation/json.h"
+#include "tests/simulation/result_reader.h"
 #include "tests/simulation/run_program.h"
 
 namespace orthodyn::command_line_test {
@@ -131,18 +133,30 @@ TEST_F(CommandLine, AFullDiskEndsTheRunWithWholeFrames) {
   EXPECT_NE(read_text(folder_ / "out/swing/run.json").find("\"failed\""), std::string::npos);
 }
 
-TEST_F(CommandLine, DriftIsThatOfTheWholeRunNotOfItsFrames) {
+// J, of the run.json of out/swing.
+double balance_drift(const fs::path& folder) {
+  return Json::parse(read_text(folder / "out/swing/run.json")).at("energy").at("balance_drift");
+}
+
+TEST_F(CommandLine, DriftIsThatOfTheRowsOfEnergyCsv) {
   write("swing.yaml", kSwing);
-  const auto drift = [&](const std::string& frames) {
-    EXPECT_EQ(orthodyn("run swing.yaml --quiet --force --set output.frames=" + frames).exit_code, 0);
-    const auto json = read_text(folder_ / "out/swing/run.json");
-    const auto at = json.find("\"balance_drift\": ");
-    EXPECT_NE(at, std::string::npos);
-    return std::stod(json.substr(at + 17));
+  const auto result = orthodyn("run swing.yaml");
+  EXPECT_NE(result.output.find("of the largest energy, at the outputs"), std::string::npos) << result.output;
+  double largest = 0;
+  for (const auto& row : read_rows(folder_ / "out/swing/energy.csv")) largest = std::max(largest, std::abs(row.back()));
+  EXPECT_GT(largest, 0);
+  EXPECT_DOUBLE_EQ(balance_drift(folder_), largest);
+}
+
+TEST_F(CommandLine, DriftOverAllStepsIsThatOfTheWholeRunNotOfItsFrames) {
+  write("swing.yaml", kSwing);
+  const auto drift = [&](const std::string& set) {
+    EXPECT_EQ(orthodyn("run swing.yaml --quiet --force --set " + set).exit_code, 0);
+    return balance_drift(folder_);
   };
-  const double none = drift("0");
-  EXPECT_GT(none, 0);
-  EXPECT_NEAR(none, drift("20"), 0.2 * none);
+  const double none = drift("output.frames=0"), all = drift("output.energy_times=steps");
+  EXPECT_GT(none, drift("output.frames=3"));
+  EXPECT_NEAR(none, all, 0.2 * none);
 }
 
 TEST_F(CommandLine, SaysWhichForceIsAtWork) {

@@ -17,9 +17,9 @@ namespace orthodyn::driver_test {
 namespace {
 
 struct Recorder : Observer {
-  void on_start(const State& s) override { outputs.push_back(s.t); }
-  void on_output(const State& s) override { outputs.push_back(s.t); }
-  void on_step(const StepInfo& info, const State&, const Integrator&) override { steps.push_back(info.t); }
+  void on_start(const ObservedState& observed) override { outputs.push_back(observed.t()); }
+  void on_output(const ObservedState& observed) override { outputs.push_back(observed.t()); }
+  void on_step(const StepInfo& info, const ObservedState&, const Integrator&) override { steps.push_back(info.t); }
   void on_end() noexcept override { ++ends; }
   std::vector<double> outputs, steps;
   int ends = 0;
@@ -88,7 +88,7 @@ TEST(Driver, TakesTimesThatDifferByRoundOffForOne) {
 TEST(Driver, TurnsAFailureIntoAnOutcomeThatKeepsTheLastState) {
   Case swing(kSwing + std::string("mass: lumped\n"));
   struct Fails : Observer {
-    void on_step(const StepInfo& info, const State&, const Integrator&) override {
+    void on_step(const StepInfo& info, const ObservedState&, const Integrator&) override {
       if (info.t > 0.1) throw RunError("no space left", Reason::diverged);
     }
   } fails;
@@ -104,7 +104,7 @@ TEST(Driver, TurnsAFailureIntoAnOutcomeThatKeepsTheLastState) {
 TEST(Driver, TurnsALackOfMemoryIntoAnOutcomeThatSaysSo) {
   Case swing(kSwing + std::string("mass: lumped\n"));
   struct Fails : Observer {
-    void on_step(const StepInfo&, const State&, const Integrator&) override { throw std::bad_alloc(); }
+    void on_step(const StepInfo&, const ObservedState&, const Integrator&) override { throw std::bad_alloc(); }
   } fails;
   const auto outcome = swing.run_with({}, {&fails});
   EXPECT_EQ(outcome.status, Outcome::Status::failed);
@@ -126,7 +126,7 @@ TEST_F(Files, FrameZeroIsTheInitialStateAndTimesAreReal) {
 TEST_F(Files, AVtuHoldsAsManyBytesAsItsOffsetsSay) {
   Case swing(kSwing);
   FrameWriter frames(folder_, *swing.built.model, {"displacement", "velocity", "det_f", "stress_material", "region"});
-  frames.on_start(swing.built.initial);
+  frames.on_start({*swing.built.model, swing.built.initial});
   const auto text = read_text(folder_ / "frames/frame_00000.vtu");
   const auto base = text.find("<AppendedData encoding=\"raw\">\n_") + 31;
   ASSERT_NE(base, std::string::npos + 31);
@@ -186,7 +186,7 @@ TEST_F(Files, TheEnergyBalanceClosesAsTheToleranceFalls) {
   const auto drift = [&](const char* rtol) {
     Case swing(std::string(kSwing).replace(std::string(kSwing).find("1e-3"), 4, rtol) +
                "loads: [{surface: x1, force: [0, 2, 0], factor: {type: sine, frequency: 3}}]\n");
-    EnergyWriter energy(folder_ / "energy.csv", *swing.built.model, *swing.integrator);
+    EnergyWriter energy(folder_ / "energy.csv", *swing.built.model, *swing.integrator, EnergyTimes::outputs);
     swing.run_with({0, evenly_spaced(0, 0.5, 10), false}, {&energy});
     EXPECT_GT(energy.last().dissipated, 0);
     EXPECT_NE(energy.last().loads, 0);
@@ -212,8 +212,9 @@ TEST_F(CheckpointTime, IsSpentOnATenthOfTheRunAtMost) {
   Case swing(kSwing);
   SlowKeeper slow;
   Checkpointer checkpointer(folder_ / "checkpoint.cbor", {}, {.every = 1e-9}, {{"slow", &slow}}, *swing.integrator);
-  checkpointer.on_start(swing.built.initial);
-  for (int step = 0; step < 5; ++step) checkpointer.on_step({}, swing.built.initial, *swing.integrator);
+  const ObservedState initial(*swing.built.model, swing.built.initial);
+  checkpointer.on_start(initial);
+  for (int step = 0; step < 5; ++step) checkpointer.on_step({}, initial, *swing.integrator);
   EXPECT_EQ(slow.saved, 1);
 }
 

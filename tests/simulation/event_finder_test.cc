@@ -13,16 +13,20 @@ namespace {
 
 using Course = std::function<double(double)>;
 
-double first(const State& state) { return state.q[0]; }
+const OutputSource kNoOutputs;
+
+double first(const ObservedState& observed) { return observed.state().q[0]; }
 
 State at(const Course& course, double t) { return {t, Vector::Constant(1, course(t)), Vector::Zero(1)}; }
 
 // All crossings over steps of a given length, from t = 0.
 std::vector<Crossing> crossings(EventFinder& finder, const Course& course, double step, int steps) {
   std::vector<Crossing> all;
-  finder.start(at(course, 0));
+  const State initial = at(course, 0);
+  finder.start({kNoOutputs, initial});
   for (int k = 0; k < steps; ++k)
-    for (auto& c : finder.find(k * step, (k + 1) * step, [&](double t, State& out) { out = at(course, t); })) {
+    for (auto& c :
+         finder.find(k * step, (k + 1) * step, kNoOutputs, [&](double t, State&out) { out = at(course, t); })) {
       all.push_back(c);
       if (c.event->stops) return all;
     }
@@ -89,11 +93,13 @@ TEST(EventFinder, SeesTheValueReachedExactlyAtTheEndOfAStepOnce) {
 
 TEST(EventFinder, RemembersTheSideAcrossACheckpoint) {
   EventFinder before({event(1)}), after({event(1)});
-  before.start(at([](double t) { return t; }, 0.5));
+  const State initial = at([](double t) { return t; }, 0.5);
+  before.start({kNoOutputs, initial});
   Archive archive;
   before.save(archive);
   after.restore(archive);
-  const auto found = after.find(0.9, 1.1, [](double t, State& out) { out = at([](double s) { return s; }, t); });
+  const auto found =
+      after.find(0.9, 1.1, kNoOutputs, [](double t, State& out) { out = at([](double s) { return s; }, t); });
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found[0].state.t, 1, 1e-15);
 }

@@ -34,8 +34,12 @@ struct Estimated {
   TrajectoryErrors true_errors() const {
     const auto exact = ModalSolution::find(*setup.built.model, setup.built.initial);
     TrajectoryRecorder recorder(plan.output_times.size());
-    recorder.on_start(setup.built.initial);
-    for (const double t : plan.output_times) recorder.on_output(exact->at(t));
+    const auto& model = *setup.built.model;
+    recorder.on_start({model, setup.built.initial});
+    for (const double t : plan.output_times) {
+      const State state = exact->at(t);
+      recorder.on_output({model, state});
+    }
     return ReferenceNorms(*setup.built.model, recorder.trajectory(), {}).errors(trajectory);
   }
 

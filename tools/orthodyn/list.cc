@@ -8,7 +8,7 @@
 #include "lib/linear/solver.h"
 #include "lib/material/presets.h"
 #include "lib/mesh/io/mesh_format.h"
-#include "lib/scene/build.h"
+#include "lib/fem/fem_model.h"
 #include "lib/scene/scene.h"
 #include "lib/study/compare/comparison.h"
 #include "lib/study/stability/stability.h"

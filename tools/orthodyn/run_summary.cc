@@ -33,7 +33,8 @@ void print_energy(const EnergySummary& energy) {
   fmt::print(
       "  {:<15} kinetic {:.4g} J, elastic {:.4g} J, gravitational {:.4g} J, dissipated {:.4g} J, loads {:.4g} J\n",
       "energy", e.kinetic, e.elastic, e.gravitational, e.dissipated, e.loads);
-  fmt::print("  {:<15} {:.3g} of the largest energy\n", "balance drift", energy.relative_drift);
+  fmt::print("  {:<15} {:.3g} of the largest energy, {}\n", "balance drift", energy.relative_drift,
+             energy.times == EnergyTimes::steps ? "over all steps" : "at the outputs");
 }
 
 void print_motion(const RunResult& result, const MotionResult& motion) {
@@ -60,6 +61,9 @@ void print_equilibrium(const RunResult& result, const EquilibriumResult& equilib
              status_word(outcome.status), outcome.last.t, outcome.wall_seconds);
   fmt::print("  {:<20} {} ({} cut back), {} Newton iterations\n", "load steps", equilibrium.load_steps,
              equilibrium.rejected_load_steps, equilibrium.statistics.newton_iterations);
+  if (equilibrium.jumps > 0)
+    fmt::print("  {:<20} {} load step{} may have led to another branch of equilibria\n", "jumps", equilibrium.jumps,
+               equilibrium.jumps == 1 ? "" : "s");
   fmt::print("  {:<20} {}\n", "solver", equilibrium.solver);
   fmt::print("  {:<20} {:.6g} m\n", "largest displacement", equilibrium.largest_displacement);
   fmt::print("  {:<20} {:.2g} N, {:.2g} of the largest load on a coordinate\n", "residual", equilibrium.residual,

@@ -31,7 +31,7 @@ TerminalProgress::TerminalProgress(double start, double end, std::FILE* out)
       begin_(Clock::now()),
       last_(begin_) {}
 
-void TerminalProgress::on_step(const StepInfo& info, const State&, const Integrator&) {
+void TerminalProgress::on_step(const StepInfo& info, const ObservedState&, const Integrator&) {
   const auto now = Clock::now();
   if (terminal_ ? now - last_ < kTerminalPeriod : now - last_ < kPlainPeriod) return;
   last_ = now;

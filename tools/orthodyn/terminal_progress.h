@@ -11,8 +11,8 @@ namespace orthodyn {
 class TerminalProgress : public Observer {
  public:
   TerminalProgress(double start, double end, std::FILE* out);
-  void on_resume(const State& state) override { from_ = state.t; }
-  void on_step(const StepInfo& info, const State&, const Integrator&) override;
+  void on_resume(const ObservedState& observed) override { from_ = observed.t(); }
+  void on_step(const StepInfo& info, const ObservedState&, const Integrator&) override;
   void on_end() noexcept override;
 
  private:

@@ -30,25 +30,25 @@ void Checkpointer::start_clock() {
   begin_cpu_ = cpu_seconds_now();
 }
 
-void Checkpointer::on_start(const State& state) {
+void Checkpointer::on_start(const ObservedState& observed) {
   start_clock();
   checkpoint_.begun = true;
-  checkpoint_.last_output = state.t;
-  if (!times_.never) write(state);
+  checkpoint_.last_output = observed.t();
+  if (!times_.never) write(observed.state());
 }
 
-void Checkpointer::on_resume(const State&) { start_clock(); }
+void Checkpointer::on_resume(const ObservedState&) { start_clock(); }
 
-void Checkpointer::on_output(const State& state) {
-  checkpoint_.last_output = state.t;
+void Checkpointer::on_output(const ObservedState& observed) {
+  checkpoint_.last_output = observed.t();
   ++outputs_;
 }
 
-void Checkpointer::on_step(const StepInfo&, const State& state, const Integrator&) {
+void Checkpointer::on_step(const StepInfo&, const ObservedState& observed, const Integrator&) {
   if (times_.never) return;
   const double since = seconds_between(written_, Clock::now());
   const bool enough_outputs = times_.frames > 0 && outputs_ >= times_.frames;
-  if (enough_outputs || since >= std::max(times_.every, kRest * last_took_)) write(state);
+  if (enough_outputs || since >= std::max(times_.every, kRest * last_took_)) write(observed.state());
 }
 
 void Checkpointer::write(const State& state) {

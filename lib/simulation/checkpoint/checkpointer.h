@@ -30,10 +30,10 @@ class Checkpointer : public Observer {
   Checkpointer(std::filesystem::path path, Checkpoint begin, CheckpointTimes times, NamedObservers others,
                const Integrator& integrator);
 
-  void on_start(const State& state) override;
-  void on_resume(const State& state) override;
-  void on_output(const State& state) override;
-  void on_step(const StepInfo& info, const State& state, const Integrator& integrator) override;
+  void on_start(const ObservedState& observed) override;
+  void on_resume(const ObservedState& observed) override;
+  void on_output(const ObservedState& observed) override;
+  void on_step(const StepInfo& info, const ObservedState& observed, const Integrator& integrator) override;
 
   // Between steps only. Throws RunError.
   void write(const State& state);

@@ -37,9 +37,10 @@ void require_same_files(const Checkpoint& checkpoint, const Setup& setup, const 
   for (const auto& [file, print] : file_fingerprints(setup.config, folder)) {
     const auto before = checkpoint.files.find(file);
     if (before != checkpoint.files.end() && before->second == print) continue;
-    throw ConfigError(fmt::format("{}: is not the file that {} was computed with; put it back, or start anew with "
+    throw ConfigError((folder.path() / file).lexically_normal().string(),
+                      fmt::format("is not the file that {} was computed with; put it back, or start anew with "
                                   "--force in place of --resume",
-                                  (folder.path() / file).lexically_normal().string(), folder.checkpoint().string()));
+                                  folder.checkpoint().string()));
   }
 }
 
@@ -48,9 +49,9 @@ void require_same_model(const Checkpoint& checkpoint, const Setup& setup, const 
   if (checkpoint.mesh == mesh_fingerprint(model.parts().mesh) && checkpoint.state.q.size() == model.num_dofs() &&
       checkpoint.state.v.size() == model.num_dofs())
     return;
-  throw ConfigError(fmt::format("{}: the mesh is not the one that the checkpoint was computed with; put it back, or "
-                                "start anew with --force in place of --resume",
-                                folder.checkpoint().string()));
+  throw ConfigError(folder.checkpoint().string(),
+                    "the mesh is not the one that the checkpoint was computed with; put it back, or "
+                    "start anew with --force in place of --resume");
 }
 
 void require_time_left(const Checkpoint& checkpoint, const Setup& setup) {
@@ -66,8 +67,7 @@ void keep_scales(const Checkpoint& checkpoint, Config& scene) {
   if (!before.has("integrator")) return;
   for (const std::string key : {"position_scale", "velocity_scale"}) {
     const bool open = !scene.has("integrator") || !scene.at("integrator").has(key);
-    if (open && before.at("integrator").has(key))
-      scene.override_with(fmt::format("integrator.{}={}", key, before.at("integrator").at(key).text()));
+    if (open && before.at("integrator").has(key)) scene.set("integrator." + key, before.at("integrator").at(key));
   }
 }
 
@@ -87,10 +87,11 @@ Checkpoint continued(Checkpoint checkpoint, const Setup& setup, const std::strin
   const auto changed =
       changed_keys(Config::from_text(checkpoint.scene, "checkpoint.cbor"), Config::from_text(resolved));
   if (const auto refused = refused_changes(changed); !refused.empty())
-    throw ConfigError(fmt::format("{}: is that of another simulation: {} differ{}. A run that goes on may change "
+    throw ConfigError(folder.checkpoint().string(),
+                      fmt::format("is that of another simulation: {} differ{}. A run that goes on may change "
                                   "time.end, checkpoint, expect and the integrator's limits max_steps, h_min, "
                                   "max_newton_iterations; for all else choose another folder with --out",
-                                  folder.checkpoint().string(), join(refused), refused.size() == 1 ? "s" : ""));
+                                  join(refused), refused.size() == 1 ? "s" : ""));
   require_same_files(checkpoint, setup, folder);
   require_same_model(checkpoint, setup, folder);
   require_time_left(checkpoint, setup);

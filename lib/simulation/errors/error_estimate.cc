@@ -43,16 +43,7 @@ IntegratorSettings refined(const IntegratorSettings& own) {
 // As PATH=VALUE.
 std::vector<std::string> assignments(const IntegratorSettings& settings) {
   std::vector<std::string> all;
-  const auto add = [&](const char* key, std::optional<double> value) {
-    if (value) all.push_back(fmt::format("integrator.{}={:.12g}", key, *value));
-  };
-  add("step", settings.step);
-  add("safety", settings.safety);
-  add("rtol", settings.rtol);
-  add("h_max", settings.h_max);
-  add("h_min", settings.h_min);
-  add("h0", settings.h0);
-  if (settings.max_steps) all.push_back(fmt::format("integrator.max_steps={}", *settings.max_steps));
+  for (const auto& [key, value] : numbers(settings)) all.push_back(fmt::format("integrator.{}={:.12g}", key, value));
   return all;
 }
 
@@ -68,9 +59,9 @@ ErrorEstimator::SampleRecorder::SampleRecorder(std::size_t outputs, std::size_t 
     : outputs_(outputs), stride_(std::max<std::size_t>(stride_for(outputs, samples), 1)),
       samples_((outputs + stride_ - 1) / stride_) {}
 
-void ErrorEstimator::SampleRecorder::on_output(const State& state) {
+void ErrorEstimator::SampleRecorder::on_output(const ObservedState& observed) {
   ++seen_;
-  if (seen_ % stride_ == 0 || seen_ == outputs_) samples_.on_output(state);
+  if (seen_ % stride_ == 0 || seen_ == outputs_) samples_.on_output(observed);
 }
 
 ErrorEstimator::ErrorEstimator(const Setup& setup, Plan plan)

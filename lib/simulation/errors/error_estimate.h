@@ -51,9 +51,9 @@ class ErrorEstimator {
   class SampleRecorder : public Observer {
    public:
     SampleRecorder(std::size_t outputs, std::size_t samples);
-    void on_start(const State& state) override { samples_.on_start(state); }
-    void on_output(const State& state) override;
-    void on_step(const StepInfo& info, const State&, const Integrator&) override { order_ = info.order; }
+    void on_start(const ObservedState& observed) override { samples_.on_start(observed); }
+    void on_output(const ObservedState& observed) override;
+    void on_step(const StepInfo& info, const ObservedState&, const Integrator&) override { order_ = info.order; }
     const Trajectory& trajectory() const { return samples_.trajectory(); }
     int order() const { return order_; }
 

@@ -11,9 +11,9 @@ class Snapshot : public Observer {
  public:
   // Of the end, without a time. A time within the run must be among its output times.
   explicit Snapshot(std::optional<double> at) : at_(at) {}
-  void on_start(const State& s) override { state_ = s; }
-  void on_output(const State& s) override { keep(s); }
-  void on_step(const StepInfo&, const State& s, const Integrator&) override { keep(s); }
+  void on_start(const ObservedState& observed) override { state_ = observed.state(); }
+  void on_output(const ObservedState& observed) override { keep(observed.state()); }
+  void on_step(const StepInfo&, const ObservedState& observed, const Integrator&) override { keep(observed.state()); }
 
   const State& state() const { return state_; }
 

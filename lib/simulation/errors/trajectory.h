@@ -24,8 +24,8 @@ struct Trajectory {
 class TrajectoryRecorder : public Observer {
  public:
   explicit TrajectoryRecorder(std::size_t outputs) : outputs_(outputs) {}
-  void on_start(const State& state) override;
-  void on_output(const State& state) override;
+  void on_start(const ObservedState& observed) override;
+  void on_output(const ObservedState& observed) override;
 
   const Trajectory& trajectory() const { return trajectory_; }
 

@@ -41,38 +41,46 @@ void PowerIntegral::restore(const std::vector<double>& kept) {
   sum_ = kept[2];
 }
 
-EnergyMeter::EnergyMeter(const Model& model, const Integrator& integrator)
-    : model_(model), integrator_(integrator) {}
+EnergyMeter::EnergyMeter(const Model& model, const Integrator& integrator, EnergyTimes times)
+    : model_(model), integrator_(integrator), times_(times) {}
 
-void EnergyMeter::on_start(const State& state) {
-  const auto view = model_.view(state);
-  if (model_.traits().dissipative) dissipation_.start(state.t, view->evaluate("power.dissipated")[0]);
-  if (model_.traits().loaded) load_work_.start(state.t, view->evaluate("power.loads")[0]);
-  look(state.t, *view);
+void EnergyMeter::on_start(const ObservedState& observed) {
+  if (model_.traits().dissipative) dissipation_.start(observed.t(), observed.evaluate("power.dissipated")[0]);
+  if (model_.traits().loaded) load_work_.start(observed.t(), observed.evaluate("power.loads")[0]);
+  take_energies(observed);
   first_ = last_;
   drift_ = 0;
 }
 
-void EnergyMeter::look(const State& state) { look(state.t, *model_.view(state)); }
+void EnergyMeter::on_step(const StepInfo&, const ObservedState& observed, const Integrator&) {
+  times_ == EnergyTimes::steps ? look(observed) : advance_powers(observed);
+}
 
-void EnergyMeter::look(double t, const StateView& at) {
-  if ((model_.traits().dissipative || model_.traits().loaded) && t > powers_time()) advance_powers(t, at);
-  const auto energy = [&](const char* name) { return at.evaluate(name)[0]; };
+void EnergyMeter::look(const ObservedState& observed) {
+  advance_powers(observed);
+  take_energies(observed);
+}
+
+void EnergyMeter::take_energies(const ObservedState& observed) {
+  const auto energy = [&](const char* name) { return observed.evaluate(name)[0]; };
   last_ = {energy("energy.kinetic"), energy("energy.elastic"), energy("energy.gravitational"),
            dissipation_.value(), load_work_.value()};
   raise(drift_, std::abs(change()));
   scale_ = std::max({scale_, last_.kinetic, last_.elastic});
 }
 
-void EnergyMeter::advance_powers(double t, const StateView& at) {
+void EnergyMeter::advance_powers(const ObservedState& observed) {
+  const Traits& traits = model_.traits();
+  const double t = observed.t();
+  if ((!traits.dissipative && !traits.loaded) || t <= powers_time()) return;
   State state;
   integrator_.interpolate(0.5 * (powers_time() + t), state);
-  const auto middle = model_.view(state);
+  const ObservedState middle(model_, state);
   const auto advance = [&](PowerIntegral& integral, const char* power) {
-    integral.advance(t, middle->evaluate(power)[0], at.evaluate(power)[0]);
+    integral.advance(t, middle.evaluate(power)[0], observed.evaluate(power)[0]);
   };
-  if (model_.traits().dissipative) advance(dissipation_, "power.dissipated");
-  if (model_.traits().loaded) advance(load_work_, "power.loads");
+  if (traits.dissipative) advance(dissipation_, "power.dissipated");
+  if (traits.loaded) advance(load_work_, "power.loads");
 }
 
 void EnergyMeter::save(Archive& archive) {
@@ -93,17 +101,16 @@ void EnergyMeter::restore(const Archive& archive) {
   scale_ = archive.number("scale");
 }
 
-void MomentumMeter::on_start(const State& state) {
-  look(state);
+void MomentumMeter::on_start(const ObservedState& observed) {
+  look(observed);
   first_linear_ = linear_;
   first_angular_ = angular_;
   linear_drift_ = angular_drift_ = 0;
 }
 
-void MomentumMeter::look(const State& state) {
-  const auto view = model_.view(state);
+void MomentumMeter::look(const ObservedState& observed) {
   const auto vector = [&](const char* name) {
-    const auto values = view->evaluate(name);
+    const auto values = observed.evaluate(name);
     return Vec3(values[0], values[1], values[2]);
   };
   linear_ = vector("momentum.linear");
@@ -142,12 +149,12 @@ void InversionWatch::restore(const Archive& archive) {
   element_ = static_cast<int>(archive.count("element"));
 }
 
-void InversionWatch::look(const State& state) {
-  const auto now = model_.evaluate("det_f.smallest", state);
+void InversionWatch::look(const ObservedState& observed) {
+  const auto now = observed.evaluate("det_f.smallest");
   if (element_ >= 0 && now[0] >= smallest_) return;
   smallest_ = now[0];
   element_ = static_cast<int>(now[1]);
-  time_ = state.t;
+  time_ = observed.t();
 }
 
 }  // namespace orthodyn

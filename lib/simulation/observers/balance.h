@@ -1,9 +1,10 @@
-// What a trajectory should keep, followed over all steps: energy with what was dissipated and put in,
-// linear and angular momentum, and positive volumes. They write nothing.
+// What a trajectory should keep: energy with what was dissipated and put in, linear and angular momentum, and positive
+// volumes. They write nothing.
 #pragma once
 
 #include <vector>
 
+#include "lib/scene/output_files.h"
 #include "lib/simulation/observers/observer.h"
 
 namespace orthodyn {
@@ -32,34 +33,34 @@ struct EnergyBalance {
 
 class EnergyMeter : public Observer {
  public:
-  // `integrator` is the one that is run; both must outlive this. Powers are integrated, on the integrator's dense
-  // output, only where they can differ from zero.
-  EnergyMeter(const Model& model, const Integrator& integrator);
-  void on_start(const State& state) override;
-  void on_output(const State& state) override { look(state); }
-  void on_step(const StepInfo&, const State& state, const Integrator&) override { look(state); }
+  // `integrator` is the one that is run; both must outlive this. Powers are integrated over every step, on the
+  // integrator's dense output, but only where they can differ from zero.
+  EnergyMeter(const Model& model, const Integrator& integrator, EnergyTimes times = EnergyTimes::steps);
+  void on_start(const ObservedState& observed) override;
+  void on_output(const ObservedState& observed) override { look(observed); }
+  void on_step(const StepInfo&, const ObservedState& observed, const Integrator&) override;
   void save(Archive& archive) override;
   void restore(const Archive& archive) override;
 
+  // Of the last state looked at.
   const EnergyBalance& last() const { return last_; }
-  // Of the last state looked at, J.
-  double change() const { return last_.balance() - first_.balance(); }
-  // max |change| over all steps, and the largest kinetic or elastic energy, J.
+  double change() const { return last_.balance() - first_.balance(); }  // J
+  // max |change|, and the largest kinetic or elastic energy, J.
   double drift() const { return drift_; }
   double scale() const { return scale_; }
   double relative_drift() const { return scale_ > 0 ? drift_ / scale_ : 0; }
-
- protected:
-  // To a state within the integrator's last step.
-  void look(const State& state);
+  EnergyTimes times() const { return times_; }
 
  private:
   double powers_time() const { return model_.traits().dissipative ? dissipation_.time() : load_work_.time(); }
-  void advance_powers(double t, const StateView& at);
-  void look(double t, const StateView& at);
+  // To a state within the integrator's last step.
+  void advance_powers(const ObservedState& observed);
+  void look(const ObservedState& observed);
+  void take_energies(const ObservedState& observed);
 
   const Model& model_;
   const Integrator& integrator_;
+  EnergyTimes times_;
   PowerIntegral dissipation_, load_work_;
   EnergyBalance first_, last_;
   double drift_ = 0, scale_ = 0;
@@ -68,10 +69,9 @@ class EnergyMeter : public Observer {
 // Linear and angular momentum about the origin, kg m/s and kg m^2/s.
 class MomentumMeter : public Observer {
  public:
-  explicit MomentumMeter(const Model& model) : model_(model) {}
-  void on_start(const State& state) override;
-  void on_output(const State& state) override { look(state); }
-  void on_step(const StepInfo&, const State& state, const Integrator&) override { look(state); }
+  void on_start(const ObservedState& observed) override;
+  void on_output(const ObservedState& observed) override { look(observed); }
+  void on_step(const StepInfo&, const ObservedState& observed, const Integrator&) override { look(observed); }
   void save(Archive& archive) override;
   void restore(const Archive& archive) override;
 
@@ -84,11 +84,9 @@ class MomentumMeter : public Observer {
   double linear_scale() const { return first_linear_.norm(); }
   double angular_scale() const { return first_angular_.norm(); }
 
- protected:
-  void look(const State& state);
-
  private:
-  const Model& model_;
+  void look(const ObservedState& observed);
+
   Vec3 linear_ = Vec3::Zero(), angular_ = Vec3::Zero();
   Vec3 first_linear_ = Vec3::Zero(), first_angular_ = Vec3::Zero();
   double linear_drift_ = 0, angular_drift_ = 0;
@@ -97,9 +95,8 @@ class MomentumMeter : public Observer {
 // The smallest det F over all steps: an element with det F <= 0 is inverted.
 class InversionWatch : public Observer {
  public:
-  explicit InversionWatch(const Model& model) : model_(model) {}
-  void on_start(const State& state) override { look(state); }
-  void on_step(const StepInfo&, const State& state, const Integrator&) override { look(state); }
+  void on_start(const ObservedState& observed) override { look(observed); }
+  void on_step(const StepInfo&, const ObservedState& observed, const Integrator&) override { look(observed); }
   void save(Archive& archive) override;
   void restore(const Archive& archive) override;
 
@@ -108,8 +105,8 @@ class InversionWatch : public Observer {
   double time() const { return time_; }
 
  private:
-  void look(const State& state);
-  const Model& model_;
+  void look(const ObservedState& observed);
+
   double smallest_ = 1, time_ = 0;
   int element_ = -1;
 };

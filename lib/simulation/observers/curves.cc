@@ -7,20 +7,21 @@
 
 namespace orthodyn {
 
-EnergyWriter::EnergyWriter(const std::filesystem::path& path, const Model& model, const Integrator& integrator)
-    : EnergyMeter(model, integrator),
+EnergyWriter::EnergyWriter(const std::filesystem::path& path, const Model& model, const Integrator& integrator,
+                           EnergyTimes times)
+    : EnergyMeter(model, integrator, times),
       file_(path, {"t [s]", "kinetic [J]", "elastic [J]", "gravitational [J]", "dissipated [J]", "loads [J]",
                    "balance [J]"}) {}
 
-void EnergyWriter::on_start(const State& state) {
-  EnergyMeter::on_start(state);
+void EnergyWriter::on_start(const ObservedState& observed) {
+  EnergyMeter::on_start(observed);
   file_.begin();
-  write(state.t);
+  write(observed.t());
 }
 
-void EnergyWriter::on_output(const State& state) {
-  EnergyMeter::on_output(state);
-  write(state.t);
+void EnergyWriter::on_output(const ObservedState& observed) {
+  EnergyMeter::on_output(observed);
+  write(observed.t());
 }
 
 void EnergyWriter::save(Archive& archive) {
@@ -38,20 +39,19 @@ void EnergyWriter::write(double t) {
   file_.row({t, e.kinetic, e.elastic, e.gravitational, e.dissipated, e.loads, change()});
 }
 
-MomentumWriter::MomentumWriter(const std::filesystem::path& path, const Model& model)
-    : MomentumMeter(model),
-      file_(path, {"t [s]", "linear.x [kg m/s]", "linear.y [kg m/s]", "linear.z [kg m/s]",
+MomentumWriter::MomentumWriter(const std::filesystem::path& path)
+    : file_(path, {"t [s]", "linear.x [kg m/s]", "linear.y [kg m/s]", "linear.z [kg m/s]",
                    "angular.x [kg m^2/s]", "angular.y [kg m^2/s]", "angular.z [kg m^2/s]"}) {}
 
-void MomentumWriter::on_start(const State& state) {
-  MomentumMeter::on_start(state);
+void MomentumWriter::on_start(const ObservedState& observed) {
+  MomentumMeter::on_start(observed);
   file_.begin();
-  write(state.t);
+  write(observed.t());
 }
 
-void MomentumWriter::on_output(const State& state) {
-  MomentumMeter::on_output(state);
-  write(state.t);
+void MomentumWriter::on_output(const ObservedState& observed) {
+  MomentumMeter::on_output(observed);
+  write(observed.t());
 }
 
 void MomentumWriter::save(Archive& archive) {
@@ -72,7 +72,7 @@ void MomentumWriter::write(double t) {
 StepWriter::StepWriter(const std::filesystem::path& path)
     : file_(path, {"t [s]", "h [s]", "order", "newton_iterations", "rejected"}) {}
 
-void StepWriter::on_step(const StepInfo& info, const State&, const Integrator& integrator) {
+void StepWriter::on_step(const StepInfo& info, const ObservedState&, const Integrator& integrator) {
   const Statistics now = integrator.statistics();
   file_.row({info.t, info.h, static_cast<double>(info.order),
              static_cast<double>(now.newton_iterations - before_.newton_iterations),
@@ -109,21 +109,20 @@ std::vector<std::string> probe_header(const Model& model, const std::vector<Prob
 
 ProbeWriter::ProbeWriter(const std::filesystem::path& path, const Model& model, std::vector<ProbeColumn> columns,
                          const std::string& axis)
-    : model_(model), columns_(with_components(model, std::move(columns))),
+    : columns_(with_components(model, std::move(columns))),
       file_(path, probe_header(model, columns_, axis)) {}
 
-void ProbeWriter::on_start(const State& state) {
+void ProbeWriter::on_start(const ObservedState& observed) {
   file_.begin();
-  record(state);
+  record(observed);
 }
 
-void ProbeWriter::record(const State& state) {
-  const auto view = model_.view(state);
+void ProbeWriter::record(const ObservedState& observed) {
   std::map<std::string, std::vector<double>> fields;
-  std::vector<double> row{state.t};
+  std::vector<double> row{observed.t()};
   for (const auto& column : columns_) {
     auto [it, missing] = fields.try_emplace(column.field);
-    if (missing) it->second = view->evaluate(column.field);
+    if (missing) it->second = observed.evaluate(column.field);
     const auto first = it->second.begin() + std::ptrdiff_t{column.components} * column.node;
     row.insert(row.end(), first, first + column.components);
   }

@@ -14,10 +14,10 @@ namespace orthodyn {
 // energy.csv, its balance relative to the start (zero when exact); also the figures of the summary.
 class EnergyWriter : public EnergyMeter {
  public:
-  EnergyWriter(const std::filesystem::path& path, const Model& model, const Integrator& integrator);
-  void on_start(const State& state) override;
-  void on_resume(const State&) override { file_.go_on(); }
-  void on_output(const State& state) override;
+  EnergyWriter(const std::filesystem::path& path, const Model& model, const Integrator& integrator, EnergyTimes times);
+  void on_start(const ObservedState& observed) override;
+  void on_resume(const ObservedState&) override { file_.go_on(); }
+  void on_output(const ObservedState& observed) override;
   void save(Archive& archive) override;
   void restore(const Archive& archive) override;
 
@@ -29,10 +29,10 @@ class EnergyWriter : public EnergyMeter {
 // momentum.csv.
 class MomentumWriter : public MomentumMeter {
  public:
-  MomentumWriter(const std::filesystem::path& path, const Model& model);
-  void on_start(const State& state) override;
-  void on_resume(const State&) override { file_.go_on(); }
-  void on_output(const State& state) override;
+  explicit MomentumWriter(const std::filesystem::path& path);
+  void on_start(const ObservedState& observed) override;
+  void on_resume(const ObservedState&) override { file_.go_on(); }
+  void on_output(const ObservedState& observed) override;
   void save(Archive& archive) override;
   void restore(const Archive& archive) override;
 
@@ -45,11 +45,11 @@ class MomentumWriter : public MomentumMeter {
 class StepWriter : public Observer {
  public:
   explicit StepWriter(const std::filesystem::path& path);
-  void on_start(const State&) override { file_.begin(); }
-  void on_resume(const State&) override { file_.go_on(); }
+  void on_start(const ObservedState&) override { file_.begin(); }
+  void on_resume(const ObservedState&) override { file_.go_on(); }
   void save(Archive& archive) override { file_.save(archive); }
   void restore(const Archive& archive) override { file_.restore(archive); }
-  void on_step(const StepInfo& info, const State& state, const Integrator& integrator) override;
+  void on_step(const StepInfo& info, const ObservedState& observed, const Integrator& integrator) override;
 
  private:
   CsvFile file_;
@@ -69,15 +69,14 @@ class ProbeWriter : public Observer {
   // `axis` heads the column of State::t.
   ProbeWriter(const std::filesystem::path& path, const Model& model, std::vector<ProbeColumn> columns,
               const std::string& axis = "t [s]");
-  void on_start(const State& state) override;
-  void on_resume(const State&) override { file_.go_on(); }
-  void on_output(const State& state) override { record(state); }
+  void on_start(const ObservedState& observed) override;
+  void on_resume(const ObservedState&) override { file_.go_on(); }
+  void on_output(const ObservedState& observed) override { record(observed); }
   void save(Archive& archive) override { file_.save(archive); }
   void restore(const Archive& archive) override { file_.restore(archive); }
 
  private:
-  void record(const State& state);
-  const Model& model_;
+  void record(const ObservedState& observed);
   std::vector<ProbeColumn> columns_;
   CsvFile file_;
 };

@@ -27,57 +27,65 @@ double root(const std::function<double(double)>& f, double a, double fa, double 
   return high;
 }
 
-}  // namespace
-
-double EventFinder::excess(const Event& event, const State& state) const {
-  const double value = event.quantity(state);
+// Quantity less value.
+double excess(const Event& event, const ObservedState& observed) {
+  const double value = event.quantity(observed);
   if (!std::isfinite(value))
-    throw RunError(fmt::format("event '{}' at t = {:.6g} s: the quantity is not finite", event.name, state.t));
+    throw RunError(fmt::format("event '{}' at t = {:.6g} s: the quantity is not finite", event.name, observed.t()));
   return value - event.value;
 }
 
-void EventFinder::start(const State& state) {
+}  // namespace
+
+void EventFinder::start(const ObservedState& observed) {
   for (std::size_t k = 0; k < events_.size(); ++k) {
-    const double x = excess(events_[k], state);
+    const double x = excess(events_[k], observed);
     const double round_off = 64 * std::numeric_limits<double>::epsilon() * std::abs(events_[k].value);
     side_[k] = std::abs(x) <= round_off ? 0 : sign(x);
   }
 }
 
-std::vector<Crossing> EventFinder::find(double begin, double end, const Interpolate& interpolate) {
+EventFinder::Sample EventFinder::sample(double t, const OutputSource& source, const Interpolate& interpolate) const {
+  State state;
+  interpolate(t, state);
+  const ObservedState observed(source, state);
+  Sample sample{t, {}};
+  for (const Event& event : events_) sample.excess.push_back(excess(event, observed));
+  return sample;
+}
+
+std::vector<Crossing> EventFinder::find(double begin, double end, const OutputSource& source,
+                                        const Interpolate& interpolate) {
   std::vector<Crossing> found;
-  for (std::size_t k = 0; k < events_.size(); ++k) find_in_step(k, begin, end, interpolate, found);
+  State state;
+  Sample last = sample(begin, source, interpolate);
+  for (int s = 1; s <= kSamplesPerStep; ++s) {
+    const double t = s == kSamplesPerStep ? end : begin + (end - begin) * s / kSamplesPerStep;
+    Sample now = sample(t, source, interpolate);
+    for (std::size_t k = 0; k < events_.size(); ++k) {
+      const Event& event = events_[k];
+      const auto excess_at = [&](double time) {
+        interpolate(time, state);
+        return excess(event, {source, state});
+      };
+      const bool passed = side_[k] != 0 && sign(now.excess[k]) != side_[k];
+      const bool upward = side_[k] < 0;
+      if (passed && (event.direction == Direction::both || upward == (event.direction == Direction::up))) {
+        // What round-off shows at the step's beginning was seen before.
+        const double at = sign(last.excess[k]) == side_[k] ? root(excess_at, last.t, last.excess[k], t, now.excess[k])
+                                                           : last.t;
+        interpolate(at, state);
+        found.push_back({&event, state, upward});
+      }
+      side_[k] = sign(now.excess[k]);
+    }
+    last = std::move(now);
+  }
   std::stable_sort(found.begin(), found.end(),
                    [](const Crossing& a, const Crossing& b) { return a.state.t < b.state.t; });
   const auto stop = std::find_if(found.begin(), found.end(), [](const Crossing& c) { return c.event->stops; });
   if (stop != found.end()) found.erase(stop + 1, found.end());
   return found;
-}
-
-void EventFinder::find_in_step(std::size_t event, double begin, double end, const Interpolate& interpolate,
-                          std::vector<Crossing>& found) {
-  const Event& e = events_[event];
-  State state;
-  const auto excess_at = [&](double t) {
-    interpolate(t, state);
-    return excess(e, state);
-  };
-  double last_t = begin, last_x = side_[event] == 0 ? 0 : excess_at(begin);
-  for (int sample = 1; sample <= kSamplesPerStep; ++sample) {
-    const double t = sample == kSamplesPerStep ? end : begin + (end - begin) * sample / kSamplesPerStep;
-    const double x = excess_at(t);
-    const bool passed = side_[event] != 0 && sign(x) != side_[event];
-    const bool upward = side_[event] < 0;
-    if (passed && (e.direction == Direction::both || upward == (e.direction == Direction::up))) {
-      // What round-off shows at the step's beginning was seen before.
-      const double at = sign(last_x) == side_[event] ? root(excess_at, last_t, last_x, t, x) : last_t;
-      interpolate(at, state);
-      found.push_back({&e, state, upward});
-    }
-    side_[event] = sign(x);
-    last_t = t;
-    last_x = x;
-  }
 }
 
 void EventFinder::save(Archive& archive) const {

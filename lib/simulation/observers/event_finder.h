@@ -23,18 +23,21 @@ class EventFinder {
   bool empty() const { return events_.empty(); }
 
   // At the start, or anew. Throws RunError if a quantity is not finite.
-  void start(const State& state);
+  void start(const ObservedState& observed);
 
-  // Those in (begin, end], in the order of time; none after the first that stops the run.
-  std::vector<Crossing> find(double begin, double end, const Interpolate& interpolate);
+  // Those in (begin, end], in the order of time; none after the first that stops the run. `source` is what the
+  // quantities are of.
+  std::vector<Crossing> find(double begin, double end, const OutputSource& source, const Interpolate& interpolate);
 
   void save(Archive& archive) const;
   void restore(const Archive& archive);
 
  private:
-  void find_in_step(std::size_t event, double begin, double end, const Interpolate& interpolate,
-                    std::vector<Crossing>& found);
-  double excess(const Event& event, const State& state) const;
+  struct Sample {
+    double t;
+    std::vector<double> excess;  // of each event's quantity over its value
+  };
+  Sample sample(double t, const OutputSource& source, const Interpolate& interpolate) const;
 
   std::vector<Event> events_;
   std::vector<int> side_;  // of its value, where each quantity was last seen

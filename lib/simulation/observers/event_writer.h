@@ -14,8 +14,8 @@ class EventWriter : public Observer {
   // Keeps the finder's memory in checkpoints, too. `finder` must outlive it.
   EventWriter(const std::filesystem::path& path, EventFinder& finder);
 
-  void on_start(const State&) override { file_.begin(); }
-  void on_resume(const State&) override { file_.go_on(kept_); }
+  void on_start(const ObservedState&) override { file_.begin(); }
+  void on_resume(const ObservedState&) override { file_.go_on(kept_); }
   void on_event(const Crossing& crossing) override;
   void save(Archive& archive) override;
   void restore(const Archive& archive) override;

@@ -46,16 +46,15 @@ FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model, const
     if (std::find(fields.begin(), fields.end(), info.name) != fields.end()) fields_.push_back(info);
 }
 
-void FrameWriter::write(const State& state) {
-  const auto view = model_.view(state);
+void FrameWriter::write(const ObservedState& observed) {
   std::vector<VtuField> fields;
   for (const auto& info : fields_)
-    fields.push_back({info.name, info.location, info.components, view->evaluate(info.name)});
+    fields.push_back({info.name, info.location, info.components, observed.evaluate(info.name)});
   const fs::path path = frame(frames_);
   const Geometry geometry = model_.geometry();
   write_file(path, vtu_text(grid_of(geometry, std::move(fields), VtuNumber::float32), VtuStorage::raw));
   try {
-    collection_.append(fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"frames/{}\"/>\n", state.t,
+    collection_.append(fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"frames/{}\"/>\n", observed.t(),
                                    path.filename().string()));
   } catch (const RunError&) {  // no frame without its time
     std::error_code ignored;
@@ -67,9 +66,9 @@ void FrameWriter::write(const State& state) {
 
 fs::path FrameWriter::frame(std::size_t k) const { return folder_ / "frames" / fmt::format("frame_{:05}.vtu", k); }
 
-void FrameWriter::on_start(const State& state) {
+void FrameWriter::on_start(const ObservedState& observed) {
   collection_.begin();
-  write(state);
+  write(observed);
 }
 
 void FrameWriter::save(Archive& archive) {
@@ -87,12 +86,13 @@ void FrameWriter::restore(const Archive& archive) {
   collection_.require(kept_);
   for (std::size_t k = 0; k < frames_; ++k)
     if (std::error_code ec; !fs::exists(frame(k), ec))
-      throw ConfigError(fmt::format("{}: is missing, but the checkpoint knows of {} frames; put it back, or start anew "
+      throw ConfigError(frame(k).string(),
+                        fmt::format("is missing, but the checkpoint knows of {} frames; put it back, or start anew "
                                     "with --force in place of --resume",
-                                    frame(k).string(), frames_));
+                                    frames_));
 }
 
-void FrameWriter::on_resume(const State&) {
+void FrameWriter::on_resume(const ObservedState&) {
   collection_.go_on(kept_);
   remove_frames_from(frames_);
 }

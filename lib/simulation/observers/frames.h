@@ -28,14 +28,14 @@ class FrameWriter : public Observer {
   // outputs of the model, which must outlive the writer.
   FrameWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields);
 
-  void on_start(const State& state) override;
-  void on_resume(const State& state) override;
-  void on_output(const State& state) override { write(state); }
+  void on_start(const ObservedState& observed) override;
+  void on_resume(const ObservedState& observed) override;
+  void on_output(const ObservedState& observed) override { write(observed); }
   void save(Archive& archive) override;
   void restore(const Archive& archive) override;
 
  private:
-  void write(const State& state);
+  void write(const ObservedState& observed);
   std::filesystem::path frame(std::size_t k) const;
   void remove_frames_from(std::size_t count) const;
 

@@ -1,4 +1,5 @@
-// Is told of each state while a model is integrated: writes frames, curves, progress.
+// Is told of each state while a model is integrated: writes frames, curves, progress. What is computed of a state is
+// shared by all observers that are told of it.
 #pragma once
 
 #include "lib/ode/event.h"
@@ -12,20 +13,20 @@ class Observer {
   virtual ~Observer() = default;
 
   // At the initial state.
-  virtual void on_start(const State&) {}
+  virtual void on_start(const ObservedState&) {}
 
   // In place of on_start where a run goes on from a checkpoint, after restore().
-  virtual void on_resume(const State&) {}
+  virtual void on_resume(const ObservedState&) {}
 
   // At each output time, within the last step.
-  virtual void on_output(const State&) {}
+  virtual void on_output(const ObservedState&) {}
 
   // At each event, within the last step, in the order of time with the outputs.
   virtual void on_event(const Crossing&) {}
 
   // After each step, and after the outputs that fell into it: the state at its end.
   // `integrator.interpolate` works for times within the step.
-  virtual void on_step(const StepInfo&, const State&, const Integrator&) {}
+  virtual void on_step(const StepInfo&, const ObservedState&, const Integrator&) {}
 
   // When the run is over, however it ended.
   virtual void on_end() noexcept {}

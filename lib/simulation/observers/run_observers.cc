@@ -15,12 +15,14 @@ std::vector<ProbeColumn> probe_columns(const Scene& scene, const FemModel& model
 }
 
 RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& folder)
-    : inversion(*setup.built.model), finder_(setup.events) {
+    : finder_(setup.events) {
   const auto& model = *setup.built.model;
   const auto& scene = setup.scene;
   if (!scene.output.fields.empty()) frames_.emplace(folder, model, scene.output.fields);
-  if (scene.output.energy) energy.emplace(folder / "energy.csv", model, *setup.integrator);
-  if (scene.output.momentum) momentum.emplace(folder / "momentum.csv", model);
+  if (const auto& output = scene.output; output.energy)  // without outputs there would be no drift
+    energy.emplace(folder / "energy.csv", model, *setup.integrator,
+                   output.frames == 0 ? EnergyTimes::steps : output.energy_times);
+  if (scene.output.momentum) momentum.emplace(folder / "momentum.csv");
   if (scene.output.steps) steps_.emplace(folder / "steps.csv");
   if (const auto columns = probe_columns(scene, model); !columns.empty())
     probes_.emplace(folder / "probes.csv", model, columns);

@@ -28,9 +28,9 @@ constexpr double kDiverged = 1;
 class EnergyCourse : public EnergyMeter {
  public:
   using EnergyMeter::EnergyMeter;
-  void on_output(const State& state) override {
-    EnergyMeter::on_output(state);
-    times.push_back(state.t);
+  void on_output(const ObservedState& observed) override {
+    EnergyMeter::on_output(observed);
+    times.push_back(observed.t());
     changes.push_back(change());
   }
   std::vector<double> times, changes;
@@ -107,8 +107,12 @@ class Measurement {
 
   void take(const ModalSolution& exact) {
     TrajectoryRecorder recorder(times_.size());
-    recorder.on_start(setup_.built.initial);
-    for (const double t : times_) recorder.on_output(exact.at(t));
+    const auto& model = *setup_.built.model;
+    recorder.on_start({model, setup_.built.initial});
+    for (const double t : times_) {
+      const State state = exact.at(t);
+      recorder.on_output({model, state});
+    }
     result_.kind = MeasurementResult::Kind::exact;
     result_.own_errors = uniform_errors(exact.round_off(times_.back()), probe_points(setup_));
     compare(recorder.trajectory());
@@ -137,8 +141,8 @@ class Measurement {
     const auto integrator = fresh_integrator();
     TrajectoryRecorder trajectory(times_.size());
     EnergyCourse energy(model, *integrator);
-    MomentumMeter momentum(model);
-    InversionWatch inversion(model);
+    MomentumMeter momentum;
+    InversionWatch inversion;
     std::vector<Observer*> observers{&trajectory, &energy, &inversion};
     if (is_free(model)) observers.push_back(&momentum);
     const Plan plan{setup_.scene.time.end, times_, false};

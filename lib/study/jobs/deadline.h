@@ -13,8 +13,8 @@ class Deadline : public Observer {
   // `seconds` of wall time from now on.
   explicit Deadline(double seconds)
       : end_(Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
-  void on_step(const StepInfo&, const State&, const Integrator&) override { look(); }
-  void on_output(const State&) override { look(); }  // the steps of a static analysis
+  void on_step(const StepInfo&, const ObservedState&, const Integrator&) override { look(); }
+  void on_output(const ObservedState&) override { look(); }  // the steps of a static analysis
 
   std::atomic<bool> over{false};
 

@@ -126,22 +126,22 @@ double onset(const Series& s, double level) {
 }
 
 SeriesRecorder::SeriesRecorder(const Model& model, const Integrator& integrator, std::vector<Quantity> quantities)
-    : quantities_(std::move(quantities)) {
+    : model_(model), quantities_(std::move(quantities)) {
   for (const auto& q : quantities_) {
     series_.push_back({q.components, {}, {}});
     if (!q.values && !energy_) energy_ = std::make_unique<EnergyMeter>(model, integrator);
   }
 }
 
-void SeriesRecorder::on_start(const State& state) {
-  if (energy_) energy_->on_start(state);
-  record(state);
+void SeriesRecorder::on_start(const ObservedState& observed) {
+  if (energy_) energy_->on_start(observed);
+  record(observed);
 }
 
 // In the order of time with the other samples, as the energy balance needs: see on_step().
-void SeriesRecorder::on_output(const State& state) { pending_.push_back(state.t); }
+void SeriesRecorder::on_output(const ObservedState& observed) { pending_.push_back(observed.t()); }
 
-void SeriesRecorder::on_step(const StepInfo& info, const State& state, const Integrator& integrator) {
+void SeriesRecorder::on_step(const StepInfo& info, const ObservedState& observed, const Integrator& integrator) {
   std::vector<double> samples = pending_;
   for (int k = 1; k < kSamplesPerStep; ++k) samples.push_back(last_t_ + (info.t - last_t_) * k / kSamplesPerStep);
   std::sort(samples.begin(), samples.end());
@@ -149,9 +149,9 @@ void SeriesRecorder::on_step(const StepInfo& info, const State& state, const Int
     if (t <= last_t_ || t >= info.t) continue;
     State within;
     integrator.interpolate(t, within);
-    record(within);
+    record({model_, within});
   }
-  record(state);
+  record(observed);
   pending_.clear();
 }
 
@@ -164,20 +164,20 @@ double SeriesRecorder::at(std::size_t quantity, double t) const {
   return s.values[static_cast<std::size_t>(nearest - s.times.begin())];
 }
 
-void SeriesRecorder::record(const State& state) {
-  if (energy_) energy_->on_output(state);
+void SeriesRecorder::record(const ObservedState& observed) {
+  if (energy_) energy_->on_output(observed);
   for (std::size_t q = 0; q < quantities_.size(); ++q) {
-    const auto v = values(q, state);
-    series_[q].times.push_back(state.t);
+    const auto v = values(q, observed);
+    series_[q].times.push_back(observed.t());
     series_[q].values.insert(series_[q].values.end(), v.begin(), v.end());
   }
-  last_t_ = state.t;
+  last_t_ = observed.t();
 }
 
-std::vector<double> SeriesRecorder::values(std::size_t quantity, const State& state) const {
+std::vector<double> SeriesRecorder::values(std::size_t quantity, const ObservedState& observed) const {
   const auto& q = quantities_[quantity];
   if (!q.values) return {energy_->last().balance()};
-  return q.values(state);
+  return q.values(observed);
 }
 
 }  // namespace orthodyn

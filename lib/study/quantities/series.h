@@ -35,9 +35,9 @@ double onset(const Series& series, double level);
 class SeriesRecorder : public Observer {
  public:
   SeriesRecorder(const Model& model, const Integrator& integrator, std::vector<Quantity> quantities);
-  void on_start(const State& state) override;
-  void on_output(const State& state) override;
-  void on_step(const StepInfo& info, const State& state, const Integrator& integrator) override;
+  void on_start(const ObservedState& observed) override;
+  void on_output(const ObservedState& observed) override;
+  void on_step(const StepInfo& info, const ObservedState& observed, const Integrator& integrator) override;
 
   const Series& series(std::size_t quantity) const { return series_[quantity]; }
   // A scalar quantity at the start or at an output time of the run, but for round-off in the time.
@@ -46,9 +46,10 @@ class SeriesRecorder : public Observer {
   double energy_scale() const { return energy_ ? energy_->scale() : 0; }
 
  private:
-  void record(const State& state);
-  std::vector<double> values(std::size_t quantity, const State& state) const;
+  void record(const ObservedState& observed);
+  std::vector<double> values(std::size_t quantity, const ObservedState& observed) const;
 
+  const Model& model_;
   std::vector<Quantity> quantities_;
   std::vector<Series> series_;
   std::vector<double> pending_;          // output times within the step

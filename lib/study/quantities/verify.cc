@@ -27,11 +27,12 @@ std::vector<Quantity> quantities_of(const Setup& setup) {
 CaseResult verify_equilibrium(const Setup& setup, const std::atomic<bool>& interrupt) {
   const auto quantities = quantities_of(setup);
   const StaticProblem problem = static_problem(setup.scene, setup.built);
-  CaseResult result{setup.config.file(), run_static(*problem.stepper, {}, interrupt), {}};
+  CaseResult result{setup.config.file(), run_static(*problem.path, *problem.stepper, {}, interrupt), {}};
   const State state{problem.path->time(), result.outcome.last.q, result.outcome.last.v};
+  const ObservedState observed(*setup.built.model, state);
   for (std::size_t q = 0; q < quantities.size(); ++q)
     result.checks.push_back({setup.scene.expect[q],
-                             problem.stepper->done() ? quantities[q].values(state)[0] : std::nan(""),
+                             problem.stepper->done() ? quantities[q].values(observed)[0] : std::nan(""),
                              quantities[q].unit});
   return result;
 }
@@ -64,7 +65,7 @@ bool CaseResult::passed() const {
 std::vector<std::string> find_cases(const std::vector<std::string>& places) {
   std::vector<std::string> files;
   for (const auto& place : places) {
-    if (!fs::exists(place)) throw ConfigError(place + ": no such file or folder");
+    if (!fs::exists(place)) throw ConfigError(place, "no such file or folder");
     if (!fs::is_directory(place)) {
       files.push_back(place);
       continue;
@@ -72,7 +73,7 @@ std::vector<std::string> find_cases(const std::vector<std::string>& places) {
     std::vector<std::string> here;
     for (const auto& entry : fs::directory_iterator(place))
       if (entry.path().extension() == ".yaml") here.push_back(entry.path().string());
-    if (here.empty()) throw ConfigError(place + ": holds no *.yaml files");
+    if (here.empty()) throw ConfigError(place, "holds no *.yaml files");
     std::sort(here.begin(), here.end());
     files.insert(files.end(), here.begin(), here.end());
   }

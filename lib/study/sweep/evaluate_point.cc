@@ -109,14 +109,15 @@ class Evaluation {
   void find_equilibrium(const Setup& setup, const WantedQuantities& wanted) {
     const StaticProblem problem = static_problem(setup.scene, setup.built);
     Deadline deadline(input_.seconds);
-    const Outcome outcome = run_static(*problem.stepper, {&deadline}, deadline.over);
+    const Outcome outcome = run_static(*problem.path, *problem.stepper, {&deadline}, deadline.over);
     Statistics statistics = problem.solver->statistics();
     statistics.steps = problem.stepper->steps();
     statistics.rejected_steps = problem.stepper->rejected();
     if (!conclude(outcome, statistics)) return;
     const State state{problem.path->time(), outcome.last.q, outcome.last.v};
+    const ObservedState observed(*setup.built.model, state);
     for (std::size_t q = 0; q < wanted.figures.size(); ++q)
-      keep(wanted.figures[q]->first, wanted.quantities[q].values(state)[0], wanted.quantities[q].unit);
+      keep(wanted.figures[q]->first, wanted.quantities[q].values(observed)[0], wanted.quantities[q].unit);
     draw(*setup.built.model, state);
   }
 
