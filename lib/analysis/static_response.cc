@@ -6,11 +6,11 @@ namespace orthodyn {
 
 namespace {
 
-Vector peak_load(const FemModel& model) {
+Vector peak_load(const FemModel& model, double start, double end) {
   const auto& parts = model.parts();
   NodalVector sum = NodalVector::Zero(3, parts.rest->cols());
   const NodalVector still = NodalVector::Zero(3, parts.rest->cols());
-  for (const auto& load : parts.loads) load->add_peak_force({0, *parts.rest, still}, sum);
+  for (const auto& load : parts.loads) load->add_peak_force({start, *parts.rest, still}, end, sum);
   Vector free(model.num_dofs());
   parts.dofs->restrict_to(sum, free);
   return free;
@@ -18,8 +18,8 @@ Vector peak_load(const FemModel& model) {
 
 }  // namespace
 
-StaticResponse static_response(const FemModel& model) {
-  StaticResponse response{peak_load(model), {}};
+StaticResponse static_response(const FemModel& model, double start, double end) {
+  StaticResponse response{peak_load(model, start, end), {}};
   const Vector& load = response.load;
   if (load.norm() == 0) return response;
   const Vector zero = Vector::Zero(model.num_dofs());

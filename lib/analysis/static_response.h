@@ -14,6 +14,7 @@ struct StaticResponse {
   bool exists() const { return displacement.size() > 0; }
 };
 
-StaticResponse static_response(const FemModel& model);
+// Of the time from `start` to `end`, s.
+StaticResponse static_response(const FemModel& model, double start, double end);
 
 }  // namespace orthodyn

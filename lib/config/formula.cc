@@ -18,6 +18,16 @@ namespace {
 const bool version_registered =
     library_versions().emplace("muParser", mu::Parser().GetVersion(mu::pviBRIEF)).second;
 
+// muParser would change the variable.
+void refuse_assignment(const std::string& text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '=') continue;
+    if (i + 1 < text.size() && text[i + 1] == '=') ++i;
+    else if (i == 0 || std::string("<>!").find(text[i - 1]) == std::string::npos)
+      throw std::invalid_argument("It assigns a value; to compare, write ==.");
+  }
+}
+
 }  // namespace
 
 struct Formula::Parsed {
@@ -50,8 +60,11 @@ Formula::Formula(const std::string& text, const std::vector<std::string>& variab
     parser.DefineConst("pi", std::numbers::pi);
     parser.DefineConst("e", std::numbers::e);
     for (std::size_t i = 0; i < variables.size(); ++i) parser.DefineVar(variables[i], &parsed->variables[i]);
+    refuse_assignment(text);
     parser.SetExpr(text);
     parser.Eval();
+    if (parser.GetNumResults() > 1)
+      throw std::invalid_argument("It gives several values, for a comma separates them; write a decimal point.");
   } catch (const mu::Parser::exception_type& e) {
     throw std::invalid_argument(e.GetMsg());
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -11,10 +12,57 @@
 #include <vector>
 
 #include "lib/core/errors.h"
+#include "lib/core/utf8.h"
 
 namespace orthodyn {
 
 namespace {
+
+constexpr std::size_t kMostBytes = 64'000'000;
+constexpr int kMostDepth = 100;
+
+// A first pass that keeps nothing: one document, of bounded depth. Without it yaml-cpp reads documents without end
+// where something follows a flow collection ("{a: 1},").
+class BoundsCheck : public YAML::EventHandler {
+ public:
+  explicit BoundsCheck(const std::string& file) : file_(file) {}
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (++documents_ > 1)
+      throw ConfigError(mark_text(file_, mark), "more than one YAML document; keep what stands before this place");
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    descend(mark);
+  }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    descend(mark);
+  }
+  void OnSequenceEnd() override { --depth_; }
+  void OnMapEnd() override { --depth_; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+
+  int documents() const { return documents_; }
+
+ private:
+  void descend(const YAML::Mark& mark) {
+    if (++depth_ > kMostDepth) throw ConfigError(mark_text(file_, mark), "nested too deeply");
+  }
+
+  std::string file_;
+  int documents_ = 0, depth_ = 0;
+};
+
+void require_bounds(const std::string& text, const std::string& file) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  BoundsCheck bounds(file);
+  while (parser.HandleNextDocument(bounds)) {
+  }
+  if (bounds.documents() == 0) throw ConfigError(file, "the file is empty");
+}
 
 // yaml-cpp keeps duplicate keys and ignores merge keys in silence; an alias may contain itself.
 class StructureCheck {
@@ -22,10 +70,11 @@ class StructureCheck {
   explicit StructureCheck(const std::string& file) : file_(file) {}
 
   void visit(const YAML::Node& node, int depth) {
-    if (++visited_ > 1'000'000 || depth > 100)
+    if (++visited_ > 1'000'000 || depth > kMostDepth)
       fail(node, "nested too deeply (an alias that contains itself?)");
     if (const std::string& tag = node.Tag(); tag.size() > 1 && tag[0] == '!')
       fail(node, fmt::format("the tag {} is not supported; to read another file write the key `include: FILE`", tag));
+    if (node.IsScalar()) require_utf8(node);
     if (node.IsSequence())
       for (const auto& child : node) visit(child, depth + 1);
     if (node.IsMap()) visit_map(node, depth);
@@ -36,12 +85,21 @@ class StructureCheck {
     std::set<std::string> seen;
     for (const auto& entry : node) {
       if (!entry.first.IsScalar()) fail(entry.first, "a key must be a plain word");
+      require_utf8(entry.first);
       const std::string key = entry.first.Scalar();
       if (key == "<<") fail(entry.first, "merge keys (<<) are not supported; write the keys out");
       if (!seen.insert(key).second)
         fail(entry.first, fmt::format("key '{}' stands twice in the same section; keep one", key));
       visit(entry.second, depth + 1);
     }
+  }
+
+  // What is in comments is nobody's concern.
+  void require_utf8(const YAML::Node& node) const {
+    const std::size_t at = find_invalid_utf8(node.Scalar());
+    if (at != std::string::npos)
+      fail(node, fmt::format("the byte 0x{:02X} in it is not UTF-8; save the file in this encoding",
+                             static_cast<unsigned char>(node.Scalar()[at])));
   }
 
   [[noreturn]] void fail(const YAML::Node& node, const std::string& message) const {
@@ -141,19 +199,22 @@ std::string read_yaml_file(const std::string& path) {
   if (fs::is_directory(path, ec)) throw ConfigError(path, "is a folder, expected a YAML file");
   std::ifstream in(path, std::ios::binary);
   if (!in) throw ConfigError(path, "cannot be opened for reading");
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
+  std::string text;
+  std::array<char, 65536> piece;
+  while (in.read(piece.data(), piece.size()) || in.gcount() > 0) {
+    text.append(piece.data(), static_cast<std::size_t>(in.gcount()));
+    if (text.size() > kMostBytes)
+      throw ConfigError(path, fmt::format("is larger than {} MB, expected a YAML file", kMostBytes / 1'000'000));
+  }
+  return text;
 }
 
 YAML::Node parse_yaml(const std::string& text, const std::string& file) {
   try {
-    auto documents = YAML::LoadAll(text);
-    if (documents.empty()) throw ConfigError(file, "the file is empty");
-    if (documents.size() > 1)
-      throw ConfigError(file, "more than one YAML document; keep what stands before '---'");
-    StructureCheck(file).visit(documents[0], 0);
-    return documents[0];
+    require_bounds(text, file);
+    const YAML::Node root = YAML::Load(text);
+    StructureCheck(file).visit(root, 0);
+    return root;
   } catch (const YAML::Exception& e) {
     throw ConfigError(mark_text(file, e.mark), "not YAML: " + e.msg);
   }

@@ -2,6 +2,7 @@
 // the files that it includes. Behind Config, which is the door to all this.
 #pragma once
 
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <map>

@@ -20,8 +20,19 @@ void fail_to_write(const std::filesystem::path& path) {
 
 namespace {
 
+// To a device or a pipe, in whose place no file may come.
+void write_in_place(const std::filesystem::path& path, const std::vector<std::string>& parts) {
+  std::ofstream out(path, std::ios::binary);
+  for (const auto& text : parts) out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  out.close();
+  if (!out) fail_to_write(path);
+}
+
 void write_whole_file(const std::filesystem::path& path, const std::vector<std::string>& parts, bool lasting) {
   std::error_code ignored;
+  const auto kind = std::filesystem::status(path, ignored).type();
+  if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found)
+    return write_in_place(path, parts);
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
   const std::filesystem::path part = path.string() + ".part";
   {

@@ -8,7 +8,7 @@
 namespace orthodyn {
 
 // Writes the parts one after the other. To a neighbouring name first, then renamed: the file is
-// whole or absent. Its folder is made.
+// whole or absent. Its folder is made. Devices and pipes are written to as they are.
 void write_file(const std::filesystem::path& path, const std::vector<std::string>& parts);
 
 // The same; it survives a power cut once this has returned.

@@ -32,8 +32,8 @@ class Term {
 
   virtual void add_force(const NodalState& s, NodalVector& f) const = 0;
 
-  // What it exerts at the peak of its factor in time, on the body in state s.
-  virtual void add_peak_force(const NodalState& s, NodalVector& f) const { add_force(s, f); }
+  // What it exerts at the peak of its factor between s.t and `end` (s), on the body in state s.
+  virtual void add_peak_force(const NodalState& s, double /*end*/, NodalVector& f) const { add_force(s, f); }
 
   // The force between two states (DiscreteGradient in lib/ode/model.h): by default that of the middle, at rest,
   // which is exact where the energy is at most quadratic.

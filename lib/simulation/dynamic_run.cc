@@ -20,11 +20,11 @@ CheckpointTimes checkpoint_times(const Scene& scene) {
   return {scene.checkpoint->every, scene.checkpoint->frames.value_or(0), false};
 }
 
-// A run that ended early can be taken up again whether or not the scene asks for checkpoints; one that
-// completed can be extended if it does. A checkpoint that is there is kept up to date.
+// A run that ended early, by an event as well, can be taken up again whether or not the scene asks for checkpoints; one
+// that completed can be extended if it does. A checkpoint that is there is kept up to date.
 bool keeps_last_state(const Scene& scene, const Outcome& outcome, bool resumed) {
   if (!outcome.between_steps) return false;
-  return scene.checkpoint || resumed || outcome.status != Outcome::Status::completed;
+  return scene.checkpoint || resumed || outcome.status != Outcome::Status::completed || !outcome.remark.empty();
 }
 
 void require_whole_run(const Setup& setup) {
@@ -86,8 +86,8 @@ class DynamicAnalysis {
     RunResult result{.scene = context_.scene, .folder = folder_.path(), .model = summarize(*setup_.built.model)};
     result.outcome = integrate(begin, observers, result.resumable);
     result.motion = motion_result(result.outcome, begin.effort, observers);
-    context_.listener.on_result(result);
     record.finish(result);
+    context_.listener.on_result(result);
     if (!estimator_ || result.outcome.status != Outcome::Status::completed) return result;
     result.motion->error = repeat();
     record.finish(result);

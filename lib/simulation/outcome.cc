@@ -37,8 +37,8 @@ Outcome supervise(const State& initial, const std::vector<Observer*>& observers,
     work(outcome);
   } catch (const std::bad_alloc&) {
     fail(outcome, "out of memory; use a coarser mesh or another linear solver", Reason::out_of_memory);
-  } catch (const ConfigError&) {
-    throw;
+  } catch (const ConfigError& e) {  // of a formula that has no value there
+    fail(outcome, e.what(), Reason::force);
   } catch (const RunError& e) {
     fail(outcome, e.what(), e.reason());
   } catch (const std::exception& e) {

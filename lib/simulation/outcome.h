@@ -26,8 +26,7 @@ const char* status_word(Outcome::Status status);  // "completed"
 // Processor time of this process, s.
 double cpu_seconds_now();
 
-// Calls `work`, turns the exception that stops it into the outcome, and calls on_end of the observers. ConfigError is
-// not caught: the input is at fault.
+// Calls `work`, turns the exception that stops it into the outcome, and calls on_end of the observers.
 Outcome supervise(const State& initial, const std::vector<Observer*>& observers,
                   const std::function<void(Outcome&)>& work);
 

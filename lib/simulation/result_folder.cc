@@ -14,8 +14,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kResultFiles[] = {"frames",    "frames.pvd",      "probes.csv", "energy.csv", "momentum.csv",
-                                        "steps.csv", "checkpoint.cbor", "scene.yaml", "pictures",   kRunRecordFile};
+constexpr const char* kResultFiles[] = {"frames",       "frames.pvd", "probes.csv", "energy.csv",
+                                        "momentum.csv", "steps.csv",  "events.csv", "load_steps.csv",
+                                        "pictures",     "scene.yaml", "checkpoint.cbor", kRunRecordFile};
 
 constexpr const char* kCheckpoint = "checkpoint.cbor";
 constexpr const char* kLock = ".orthodyn-run";  // not run.json, which is renamed over

@@ -6,7 +6,8 @@ namespace orthodyn {
 
 namespace {
 
-std::string text(const Json& json) { return json.dump(2) + "\n"; }
+// A path need not be UTF-8.
+std::string text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 Json begin_json(const std::string& scene, const std::vector<std::string>& set, const std::vector<Restart>& restarts) {
   Json out{{"status", "running"},

@@ -99,8 +99,8 @@ RunResult run_static_analysis(RunContext context) {
   result.outcome = run_static(*problem.path, *problem.stepper, all, context.interrupt);
   result.model = summarize(*setup.built.model);
   result.equilibrium = equilibrium_result(problem, result.outcome.last);
-  context.listener.on_result(result);
   record.finish(result);
+  context.listener.on_result(result);
   return result;
 }
 

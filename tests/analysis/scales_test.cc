@@ -13,7 +13,8 @@ namespace {
 Scales scales_of(const std::string& yaml) {
   const Scene scene = read_scene(Config::from_text(yaml));
   const BuiltScene built = build(scene);
-  return estimate_scales(*built.model, built.initial, scene.time.end, static_response(*built.model));
+  return estimate_scales(*built.model, built.initial, scene.time.end,
+                         static_response(*built.model, scene.time.start, scene.time.end));
 }
 
 TEST(Scales, FollowTheStaticDeflectionOfAStiffBodyAndTheSizeOfASoftOne) {

@@ -35,7 +35,28 @@ TEST(ConfigRefuses, WhatIsNotYamlWithItsLine) {
 }
 
 TEST(ConfigRefuses, SeveralDocuments) {
-  EXPECT_TRUE(holds(refusal_of("a: 1\n---\nb: 2\n"), "more than one YAML document"));
+  EXPECT_TRUE(starts(refusal_of("a: 1\n---\nb: 2\n"), "a.yaml:2:1: more than one YAML document"));
+}
+
+TEST(ConfigRefuses, WhatFollowsTheDocument) {
+  for (const char* text : {"{a: 1},", "[1, 2],", "{a: 1}, {b: 2}", "{a: 1}]", "{a: 1},\n\n"})
+    EXPECT_TRUE(starts(refusal_of(text), "a.yaml:1:")) << text << ": " << refusal_of(text);
+  EXPECT_NE(refusal([] { Config::from_text("a: 1").override_with("a={b: 1},"); }), "accepted");
+}
+
+TEST(ConfigRefuses, DeepNestingBeforeItIsBuilt) {
+  for (const char* open : {"[", "{a: "}) {
+    std::string text;
+    for (int i = 0; i < 100'000; ++i) text += open;
+    EXPECT_TRUE(starts(refusal_of(text), "a.yaml:1:")) << refusal_of(text);
+  }
+}
+
+TEST(ConfigRefuses, WhatIsNotUtf8) {
+  EXPECT_EQ(refusal_of("a: 1\nTr\xE4ger: 2\n"),
+            "a.yaml:2:1: the byte 0xE4 in it is not UTF-8; save the file in this encoding");
+  EXPECT_TRUE(starts(refusal_of("a: [1, \"\xFC\"]\n"), "a.yaml:1:8: the byte 0xFC"));
+  EXPECT_EQ(refusal_of("a: 1  # f\xFCr\n"), "accepted");
 }
 
 TEST(ConfigRefuses, AKeyGivenTwice) {

@@ -34,5 +34,14 @@ TEST(Formula, WithoutAValueNamesItsPlaceAndThePoint) {
   }
 }
 
+TEST(Formula, RefusesAssignmentsAndSeveralValues) {
+  for (const char* text : {"t=3", "t = 3", "0,5*t", "t, 2", "t += 1"})
+    EXPECT_THROW(TimeFormula{text}, std::invalid_argument) << text;
+  EXPECT_EQ(TimeFormula("t == 3 ? 1 : 2").at(3), 1);
+  EXPECT_EQ(TimeFormula("t >= 3 ? 1 : 2").at(2), 2);
+  EXPECT_EQ(TimeFormula("t <= 3 && t != 2").at(2), 0);
+  EXPECT_EQ(TimeFormula("max(0, 5*t)").at(2), 10);
+}
+
 }  // namespace
 }  // namespace orthodyn::formula_test

@@ -21,7 +21,7 @@ TEST(TimeFunction, ConstantIsConstant) {
   EXPECT_EQ(f->value(1e9), -2);
   EXPECT_TRUE(f->constant());
   EXPECT_TRUE(f->kinks().empty());
-  EXPECT_EQ(f->peak(), 2);
+  EXPECT_EQ(f->peak(0, 1), 2);
 }
 
 TEST(TimeFunction, RampRisesBetweenItsKinks) {
@@ -29,7 +29,7 @@ TEST(TimeFunction, RampRisesBetweenItsKinks) {
   for (const auto& [t, expected] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {1.5, -1.0}, {3.0, -4.0}, {9.0, -4.0}})
     EXPECT_EQ(f->value(t), expected) << t;
   EXPECT_EQ(f->kinks(), (std::vector<double>{1, 3}));
-  EXPECT_EQ(f->peak(), 4);
+  EXPECT_EQ(f->peak(0, 1), 4);
   EXPECT_FALSE(f->constant());
 }
 
@@ -37,7 +37,7 @@ TEST(TimeFunction, SineHasFrequencyAmplitudeAndPhase) {
   const auto f = factor("{type: sine, frequency: 2, amplitude: 3, phase: 0.5}");
   EXPECT_NEAR(f->value(0.3), 3 * std::sin(2 * std::numbers::pi * 2 * 0.3 + 0.5), 1e-14);
   EXPECT_TRUE(f->kinks().empty());
-  EXPECT_EQ(f->peak(), 3);
+  EXPECT_EQ(f->peak(0, 1), 3);
 }
 
 TEST(TimeFunction, TableIsLinearBetweenItsPointsAndConstantBeyond) {
@@ -46,7 +46,7 @@ TEST(TimeFunction, TableIsLinearBetweenItsPointsAndConstantBeyond) {
        {std::pair{0.0, 2.0}, {1.0, 2.0}, {1.25, 0.0}, {2.0, -6.0}, {3.0, -3.0}, {4.0, 0.0}, {7.0, 0.0}})
     EXPECT_EQ(f->value(t), expected) << t;
   EXPECT_EQ(f->kinks(), (std::vector<double>{1, 2, 4}));
-  EXPECT_EQ(f->peak(), 6);
+  EXPECT_EQ(f->peak(0, 1), 6);
 }
 
 TEST(TimeFunction, RefusesTimesThatDoNotAscend) {
@@ -66,7 +66,7 @@ TEST(TimeFunction, SmoothStepRisesFromZeroToItsValueWithVanishingRates) {
   EXPECT_NEAR(f->rate(2), -4 / 2.0 * 15 / 8, 1e-14);  // 30/16 of the mean
   EXPECT_EQ(f->kinks(), (std::vector<double>{1, 3}));
   EXPECT_TRUE(f->has_continuous_rate());
-  EXPECT_EQ(f->peak(), 4);
+  EXPECT_EQ(f->peak(0, 1), 4);
 }
 
 TEST(TimeFunction, ExpressionIsItsFormula) {
@@ -74,8 +74,14 @@ TEST(TimeFunction, ExpressionIsItsFormula) {
   EXPECT_NEAR(f->value(0.3), 3 * 0.09 + std::sin(0.3), 1e-15);
   EXPECT_EQ(f->kinks(), std::vector<double>{0.5});
   EXPECT_FALSE(f->has_continuous_rate());
-  EXPECT_EQ(f->peak(), 7);
+  EXPECT_EQ(f->peak(0, 1), 7);
   EXPECT_FALSE(f->constant());
+}
+
+TEST(TimeFunction, AnExpressionsPeakIsThatOfTheTimeSpan) {
+  EXPECT_NEAR(factor("{type: expression, formula: 1e-4*sin(20*t)}")->peak(0, 1), 1e-4, 1e-8);
+  EXPECT_EQ(factor("{type: expression, formula: -3*t}")->peak(1, 2), 6);
+  EXPECT_NEAR(factor("{type: expression, formula: 2*sqrt(0.5-t)}")->peak(0, 1), std::sqrt(2), 1e-12);  // NaN later
 }
 
 TEST(TimeFunction, ExpressionThatHasNoValueSaysWhereAndWhen) {

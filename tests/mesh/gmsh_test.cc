@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "lib/mesh/io/mesh_file.h"
 #include "tests/mesh/gmsh_test_file.h"
 
 namespace orthodyn::gmsh_test {
@@ -199,6 +200,15 @@ TEST(Gmsh, BothFormatsOfTheReferenceMeshesGiveTheSame) {
     EXPECT_TRUE(v22.warnings.empty());
     EXPECT_FALSE(v22.mesh.surfaces.empty());
   }
+}
+
+TEST(Gmsh, NamesInLatin1BecomeUtf8WithAWarning) {
+  const TemporaryFile file(replaced(replaced(kFile22, "\"left\"", "\"Tr\xE4ger\""), "\"load\"", "\"B\xFCgel\""));
+  const LoadedMesh loaded = read_mesh(file.path());
+  EXPECT_EQ(loaded.mesh.region_names[0], "Tr\u00e4ger");
+  EXPECT_TRUE(loaded.mesh.surfaces.contains("B\u00fcgel"));
+  ASSERT_EQ(loaded.warnings.size(), 1u);
+  EXPECT_CONTAINS(loaded.warnings[0], "read as Latin-1: Tr\u00e4ger, B\u00fcgel");
 }
 
 }  // namespace

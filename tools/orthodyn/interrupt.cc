@@ -20,6 +20,8 @@ const std::atomic<bool>& interrupted() { return flag; }
 void catch_interrupts() {
   std::signal(SIGINT, set_flag);
   std::signal(SIGTERM, set_flag);
+  if (std::signal(SIGHUP, set_flag) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // under nohup
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 }  // namespace orthodyn

@@ -1,12 +1,13 @@
-// Ctrl-C as a flag that is read between steps; a second one ends the program.
+// Ctrl-C, and the other signals that end a program, as a flag that is read between steps; a second one ends it.
 #pragma once
 
 #include <atomic>
 
 namespace orthodyn {
 
-// True from the first SIGINT or SIGTERM on, once catch_interrupts() was called.
+// True from the first SIGINT, SIGTERM or SIGHUP on, once catch_interrupts() was called.
 const std::atomic<bool>& interrupted();
+// From here on nobody who stops to read what is printed ends the program, either.
 void catch_interrupts();
 
 }  // namespace orthodyn

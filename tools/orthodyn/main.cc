@@ -5,10 +5,14 @@
 #include <malloc.h>
 #endif
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <new>
 
 #include "lib/core/errors.h"
 #include "tools/orthodyn/command_line.h"
+#include "tools/orthodyn/notice.h"
 #include "tools/orthodyn/plugins.h"
 
 int main(int argc, char** argv) {
@@ -21,15 +25,19 @@ int main(int argc, char** argv) {
   if (line.exit_code) return *line.exit_code;
   try {
     load_plugins(line.plugins);
-    return line.run();
+    const int code = line.run();
+    // What is printed may wait in a buffer until here.
+    if (std::fflush(stdout) != 0)
+      throw RunError(fmt::format("cannot write to the standard output: {}", std::strerror(errno)));
+    return code;
   } catch (const ConfigError& e) {
-    fmt::print(stderr, "error: {}\n", e.what());
+    print_notice(fmt::format("error: {}\n", e.what()));
     return 2;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "error: out of memory; use a coarser mesh\n");
+    print_notice("error: out of memory; use a coarser mesh\n");
     return 3;
   } catch (const std::exception& e) {
-    fmt::print(stderr, "error: {}\n", e.what());
+    print_notice(fmt::format("error: {}\n", e.what()));
     return 3;
   }
 }

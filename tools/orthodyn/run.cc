@@ -6,6 +6,7 @@
 #include "lib/simulation/simulation.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/interrupt.h"
+#include "tools/orthodyn/notice.h"
 #include "tools/orthodyn/run_summary.h"
 #include "tools/orthodyn/scene_options.h"
 #include "tools/orthodyn/terminal_progress.h"
@@ -26,10 +27,10 @@ class Terminal : public RunListener {
  public:
   explicit Terminal(bool quiet) : quiet_(quiet) {}
 
-  void on_warning(const std::string& text) override { fmt::print(stderr, "warning: {}\n", text); }
+  void on_warning(const std::string& text) override { print_notice("warning: " + text + "\n"); }
 
   void on_notice(const std::string& text) override {
-    if (!quiet_) fmt::print(stderr, "{}\n", text);
+    if (!quiet_) print_notice(text + "\n");
   }
 
   std::unique_ptr<Observer> on_begin(const Setup& setup) override {

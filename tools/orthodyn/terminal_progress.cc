@@ -7,6 +7,8 @@
 #include <cmath>
 #include <string>
 
+#include "tools/orthodyn/notice.h"
+
 namespace orthodyn {
 
 namespace {
@@ -46,9 +48,10 @@ void TerminalProgress::show(const StepInfo& info, double elapsed) {
   if (terminal_) {
     constexpr int kWidth = 24;
     const auto filled = static_cast<std::size_t>(kWidth * done);
-    fmt::print(out_, "\r\x1b[K[{}{}] {}", std::string(filled, '='), std::string(kWidth - filled, ' '), line);
+    print_notice(fmt::format("\r\x1b[K[{}{}] {}", std::string(filled, '='), std::string(kWidth - filled, ' '), line),
+                 out_);
   } else {
-    fmt::print(out_, "{}\n", line);
+    print_notice(line + "\n", out_);
   }
   std::fflush(out_);
   shown_ = true;

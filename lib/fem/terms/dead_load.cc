@@ -10,8 +10,9 @@ void DeadLoad::add_force(const NodalState& s, NodalVector& f) const {
   for (const auto& [node, force] : forces_) f.col(node) += factor * force;
 }
 
-void DeadLoad::add_peak_force(const NodalState&, NodalVector& f) const {
-  for (const auto& [node, force] : forces_) f.col(node) += factor_->peak() * force;
+void DeadLoad::add_peak_force(const NodalState& s, double end, NodalVector& f) const {
+  const double peak = factor_->peak(s.t, end);
+  for (const auto& [node, force] : forces_) f.col(node) += peak * force;
 }
 
 double DeadLoad::load_power(const NodalState& s) const {

@@ -20,7 +20,7 @@ class DeadLoad : public Term {
   std::string name() const override { return name_; }
   std::string description() const override { return amount_.empty() ? name_ : name_ + ": " + amount_; }
   void add_force(const NodalState& s, NodalVector& f) const override;
-  void add_peak_force(const NodalState& s, NodalVector& f) const override;
+  void add_peak_force(const NodalState& s, double end, NodalVector& f) const override;
   double load_power(const NodalState& s) const override;
   std::vector<double> breakpoints(double start, double end) const override;
 

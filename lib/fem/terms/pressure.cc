@@ -37,8 +37,8 @@ void Pressure::add_force(const NodalState& s, NodalVector& f) const {
   add_force_of(pressure_ * factor_->value(s.t), s.x, f);
 }
 
-void Pressure::add_peak_force(const NodalState& s, NodalVector& f) const {
-  add_force_of(pressure_ * factor_->peak(), s.x, f);
+void Pressure::add_peak_force(const NodalState& s, double end, NodalVector& f) const {
+  add_force_of(pressure_ * factor_->peak(s.t, end), s.x, f);
 }
 
 void Pressure::add_tangent(const NodalState& s, TangentKind kind, double* stiffness, double*) const {

@@ -25,7 +25,7 @@ class Pressure : public Term {
   std::string name() const override { return "pressure on " + surface_; }
   std::size_t bytes() const override { return triangles_.capacity() * sizeof(Triangle); }
   void add_force(const NodalState& s, NodalVector& f) const override;
-  void add_peak_force(const NodalState& s, NodalVector& f) const override;
+  void add_peak_force(const NodalState& s, double end, NodalVector& f) const override;
   void add_tangent(const NodalState& s, TangentKind kind, double* stiffness, double* damping) const override;
   double load_power(const NodalState& s) const override;
   std::vector<double> breakpoints(double start, double end) const override;

@@ -15,7 +15,7 @@ class Constant : public TimeFunction {
   double rate(double) const override { return 0; }
   double curvature(double) const override { return 0; }
   bool constant() const override { return true; }
-  double peak() const override { return std::abs(value_); }
+  double peak(double, double) const override { return std::abs(value_); }
 
  private:
   double value_ = 1;

@@ -1,7 +1,11 @@
-#include "lib/fem/time_functions/time_function.h"
+#include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "lib/config/formula.h"
+#include "lib/core/errors.h"
 #include "lib/fem/differences.h"
+#include "lib/fem/time_functions/time_function.h"
 
 namespace orthodyn {
 namespace {
@@ -14,7 +18,9 @@ class Expression : public TimeFunction {
             .key("formula", &Expression::formula_, "The factor.", {.required = true})
             .key("kinks", &Expression::kinks_, "Times where it is not smooth; integrators restart there.",
                  {.unit = "s"})
-            .key("peak", &Expression::peak_, "The largest magnitude it reaches, for default scales of errors.",
+            .key("peak", &Expression::peak_,
+                 "The largest magnitude it reaches, for default scales of errors; default that of 1001 evenly spaced "
+                 "times.",
                  {.range = kNonNegative})
             .key("resolution", &Expression::resolution_,
                  "Step of the differences that give rate and curvature: a sixtieth of its shortest period, or less.",
@@ -25,7 +31,18 @@ class Expression : public TimeFunction {
   double rate(double t) const override { return differences(t).first; }
   double curvature(double t) const override { return differences(t).second; }
   std::vector<double> kinks() const override { return kinks_; }
-  double peak() const override { return peak_; }
+  double peak(double start, double end) const override {
+    if (peak_) return *peak_;
+    constexpr int kSamples = 1000;
+    double largest = 0;
+    for (int k = 0; k <= kSamples; ++k) {
+      try {
+        largest = std::max(largest, std::abs(formula_.at((start * (kSamples - k) + end * k) / kSamples)));
+      } catch (const ConfigError&) {  // no value there: the run will tell, if it comes so far
+      }
+    }
+    return largest;
+  }
 
  private:
   Differences<double> differences(double t) const {
@@ -34,7 +51,8 @@ class Expression : public TimeFunction {
 
   TimeFormula formula_;
   std::vector<double> kinks_;
-  double peak_ = 1, resolution_ = kUsualResolution;
+  std::optional<double> peak_;
+  double resolution_ = kUsualResolution;
 };
 
 const bool expression_registered = Registry<TimeFunction>::add<Expression>("expression", "A formula of t.");

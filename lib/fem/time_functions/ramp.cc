@@ -24,7 +24,7 @@ class Ramp : public TimeFunction {
   double rate(double t) const override { return t >= start_ && t < end_ ? value_ / (end_ - start_) : 0; }
   double curvature(double) const override { return 0; }
   std::vector<double> kinks() const override { return {start_, end_}; }
-  double peak() const override { return std::abs(value_); }
+  double peak(double, double) const override { return std::abs(value_); }
 
  private:
   double start_ = 0, end_ = 0, value_ = 1;

@@ -19,7 +19,7 @@ class Sine : public TimeFunction {
   double value(double t) const override { return amplitude_ * std::sin(omega() * t + phase_); }
   double rate(double t) const override { return amplitude_ * omega() * std::cos(omega() * t + phase_); }
   double curvature(double t) const override { return -omega() * omega() * value(t); }
-  double peak() const override { return std::abs(amplitude_); }
+  double peak(double, double) const override { return std::abs(amplitude_); }
 
  private:
   double omega() const { return 2 * std::numbers::pi * frequency_; }

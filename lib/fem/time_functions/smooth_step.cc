@@ -34,7 +34,7 @@ class SmoothStep : public TimeFunction {
   }
   std::vector<double> kinks() const override { return {start_, end_}; }  // of the third derivative
   bool has_continuous_rate() const override { return true; }
-  double peak() const override { return std::abs(value_); }
+  double peak(double, double) const override { return std::abs(value_); }
 
  private:
   double length() const { return end_ - start_; }

@@ -46,7 +46,7 @@ class Table : public TimeFunction {
     return times;
   }
 
-  double peak() const override {
+  double peak(double, double) const override {
     double largest = 0;
     for (const auto& point : points_) largest = std::max(largest, std::abs(point[1]));
     return largest;

@@ -17,7 +17,8 @@ class TimeFunction {
   virtual bool constant() const { return false; }
   virtual std::vector<double> kinks() const { return {}; }                 // where it is not smooth
   virtual bool has_continuous_rate() const { return kinks().empty(); }
-  virtual double peak() const = 0;  // the largest magnitude it reaches
+  // The largest magnitude it reaches between two times, or ever: for default scales of errors.
+  virtual double peak(double start, double end) const = 0;
 };
 
 // The times of `all` within (start, end).

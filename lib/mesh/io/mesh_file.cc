@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "lib/core/errors.h"
+#include "lib/core/utf8.h"
+#include "lib/core/words.h"
 #include "lib/core/write_file.h"
 #include "lib/mesh/io/mesh_format.h"
 
@@ -44,9 +46,53 @@ void replace_together(const std::vector<MeshText>& files, const std::function<st
   }
 }
 
+// Converts names, and remembers which.
+class Names {
+ public:
+  void convert(std::string& name) {
+    if (find_invalid_utf8(name) == std::string::npos) return;
+    name = utf8_from_latin1(name);
+    converted_.push_back(name);
+  }
+
+  // Of two names that become the same the second is lost.
+  template <class V>
+  void convert_keys(std::map<std::string, V>& map) {
+    std::map<std::string, V> out;
+    for (auto& [name, value] : map) {
+      std::string key = name;
+      convert(key);
+      out.emplace(std::move(key), std::move(value));
+    }
+    map = std::move(out);
+  }
+
+  const std::vector<std::string>& converted() const { return converted_; }
+
+ private:
+  std::vector<std::string> converted_;
+};
+
 }  // namespace
 
-LoadedMesh read_mesh(const std::string& path) { return mesh_format_of(path).read(path); }
+void make_names_utf8(LoadedMesh& loaded, const std::string& path) {
+  Names names;
+  for (std::string& name : loaded.mesh.region_names) names.convert(name);
+  names.convert_keys(loaded.mesh.surfaces);
+  names.convert_keys(loaded.mesh.node_sets);
+  names.convert_keys(loaded.materials);
+  for (auto& [region, material] : loaded.materials) names.convert(material.name);
+  for (CellData& data : loaded.cell_data) names.convert(data.name);
+  if (!names.converted().empty())
+    loaded.warnings.push_back(
+        fmt::format("{}: names that are not UTF-8 were read as Latin-1: {}", path, join(names.converted())));
+}
+
+LoadedMesh read_mesh(const std::string& path) {
+  LoadedMesh loaded = mesh_format_of(path).read(path);
+  make_names_utf8(loaded, path);
+  return loaded;
+}
 
 Warnings write_mesh(const LoadedMesh& loaded, const std::string& path, bool replace) {
   namespace fs = std::filesystem;

@@ -7,8 +7,12 @@
 
 namespace orthodyn {
 
-// Throws ConfigError.
+// Throws ConfigError. Names are UTF-8.
 LoadedMesh read_mesh(const std::string& path);
+
+// Names of regions, sets, materials and cell data that are not UTF-8, as the files that we write are, are taken for
+// Latin-1, with a warning.
+void make_names_utf8(LoadedMesh& loaded, const std::string& path);
 
 // Writes what the ending of `path` says, beside each other if there are several files, and returns what the
 // format could not hold. Throws ConfigError if a file is there already and `replace` is false (nothing

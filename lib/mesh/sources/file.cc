@@ -52,6 +52,7 @@ class GmshSource : public MeshSource {
   LoadedMesh load() const override {
     require_file(file_);
     LoadedMesh loaded = read_gmsh(file_.path);
+    make_names_utf8(loaded, file_.path);
     scale_mesh(loaded.mesh, scale_, file_.path);
     return loaded;
   }
@@ -75,6 +76,7 @@ class VegaSource : public MeshSource {
     require_file(file_);
     if (fixed_) require_file(*fixed_);
     LoadedMesh loaded = fixed_ ? read_vega(file_.path, {fixed_->path}) : read_vega(file_.path);
+    make_names_utf8(loaded, file_.path);
     scale_mesh(loaded.mesh, scale_, file_.path);
     return loaded;
   }

@@ -84,7 +84,12 @@ std::vector<Crossing> EventFinder::find(double begin, double end, const OutputSo
   std::stable_sort(found.begin(), found.end(),
                    [](const Crossing& a, const Crossing& b) { return a.state.t < b.state.t; });
   const auto stop = std::find_if(found.begin(), found.end(), [](const Crossing& c) { return c.event->stops; });
-  if (stop != found.end()) found.erase(stop + 1, found.end());
+  if (stop == found.end()) return found;
+  found.erase(stop + 1, found.end());
+  // A run that goes on from there has not seen the rest of the step.
+  const Sample there = sample(found.back().state.t, source, interpolate);
+  for (std::size_t k = 0; k < events_.size(); ++k)
+    if (&events_[k] != found.back().event) side_[k] = sign(there.excess[k]);
   return found;
 }
 

@@ -1,0 +1,95 @@
+// Nothing that was computed is lost: signals, closed pipes, full disks, formulas without a value, runs that events stop.
+#include <fstream>
+
+#include "lib/core/errors.h"
+#include "lib/core/write_file.h"
+#include "lib/simulation/json.h"
+#include "tests/simulation/result_reader.h"
+#include "tests/simulation/run_program.h"
+
+namespace orthodyn::losses_test {
+namespace {
+
+class Losses : public InFolder {
+ protected:
+  Json record() const { return Json::parse(read_text(folder_ / "out/swing/run.json")); }
+
+  // A long run, to which `action` is done once it has written a few frames.
+  CommandResult disturb(const std::string& action) const {
+    return shell("cd " + folder_.string() + " && " ORTHODYN_EXECUTABLE
+                 " run swing.yaml --quiet --set time.end=1e3 --set integrator.h_max=1e-3 --set output.interval=0.01 "
+                 "--set output.frames=null & pid=$!; for i in $(seq 100); do [ -e " +
+                 folder_.string() + "/out/swing/frames/frame_00003.vtu ] && break; sleep 0.1; done; " + action +
+                 "; wait $pid");
+  }
+};
+
+TEST_F(Losses, ATerminalThatCloses) {
+  write("swing.yaml", kSwing);
+  const auto result = disturb("kill -HUP $pid");
+  EXPECT_EQ(result.exit_code, 130) << result.output;
+  EXPECT_EQ(record()["status"], "interrupted");
+  EXPECT_TRUE(fs::exists(folder_ / "out/swing/checkpoint.cbor"));
+}
+
+TEST_F(Losses, AReaderOfTheSummaryThatLeaves) {
+  write("swing.yaml", kSwing);
+  const auto result = shell("cd " + folder_.string() + " && " ORTHODYN_EXECUTABLE " run swing.yaml 2>&1 | true");
+  EXPECT_EQ(record()["status"], "completed") << result.output;
+}
+
+TEST_F(Losses, AFullDiskBehindTheStandardOutput) {
+  const auto result = orthodyn("list solvers > /dev/full");
+  EXPECT_EQ(result.exit_code, 3) << result.output;
+  EXPECT_NE(result.output.find("No space left"), std::string::npos) << result.output;
+}
+
+TEST_F(Losses, ADeviceStaysADevice) {
+  EXPECT_THROW(write_file("/dev/full", {"text"}), RunError);
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+  EXPECT_FALSE(fs::exists("/dev/full.part"));
+}
+
+TEST_F(Losses, AFormulaThatLosesItsValueOnTheWay) {
+  write("swing.yaml", kSwing + std::string("loads: [{surface: x1, force: [0, 0, 1], factor: {type: expression, "
+                                           "formula: sqrt(0.3-t)}}]\n"));
+  const auto result = orthodyn("run swing.yaml --quiet");
+  EXPECT_EQ(result.exit_code, 3) << result.output;
+  EXPECT_NE(result.output.find("loads.0.factor.formula: 'sqrt(0.3-t)' is not a number at t = 0.3"),
+            std::string::npos)
+      << result.output;
+  EXPECT_EQ(record()["status"], "failed");
+  EXPECT_GT(read_rows(folder_ / "out/swing/energy.csv").size(), 2u);
+  EXPECT_TRUE(fs::exists(folder_ / "out/swing/checkpoint.cbor"));
+}
+
+// Two events in one step, of which the first stops the run: the second is seen by what goes on.
+TEST_F(Losses, ARunThatAnEventStopsGoesOn) {
+  const std::string events =
+      "events:\n"
+      "  - {quantity: tip.displacement.z, crosses: -0.02, action: stop}\n"
+      "  - {quantity: tip.displacement.z, crosses: -0.0201}\n";
+  write("swing.yaml", kSwing + events);
+  ASSERT_EQ(orthodyn("run swing.yaml --quiet").exit_code, 0);
+  EXPECT_EQ(record()["status"], "completed");
+  const auto stopped = read_rows(folder_ / "out/swing/energy.csv");
+  EXPECT_LT(stopped.back()[0], 0.5);
+  const auto again = orthodyn("run swing.yaml --quiet --resume");
+  ASSERT_EQ(again.exit_code, 0) << again.output;
+  EXPECT_EQ(read_rows(folder_ / "out/swing/energy.csv").back()[0], 0.5);
+  const std::string seen = read_text(folder_ / "out/swing/events.csv");
+  EXPECT_NE(seen.find(",-0.02,down"), std::string::npos) << seen;
+  EXPECT_NE(seen.find(",-0.0201,down"), std::string::npos) << seen;
+}
+
+TEST_F(Losses, ForceLeavesNothingOfAnEarlierResult) {
+  write("swing.yaml", kSwing + std::string("events: [{quantity: tip.displacement.z, crosses: -0.001}]\n"));
+  ASSERT_EQ(orthodyn("run swing.yaml --quiet").exit_code, 0);
+  ASSERT_TRUE(fs::exists(folder_ / "out/swing/events.csv"));
+  write("swing.yaml", kSwing);
+  ASSERT_EQ(orthodyn("run swing.yaml --quiet --force").exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "out/swing/events.csv"));
+}
+
+}  // namespace
+}  // namespace orthodyn::losses_test
