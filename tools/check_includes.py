@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks the dependency rule: which module may include which, and who may see which library.
 
-Usage: check_includes.py ROOT. Prints each violation as file:line and exits with 1 if there is one.
+Usage: check_includes.py [ROOT]. Prints each violation as file:line and exits with 1 if there is one.
 """
 import pathlib
 import re
@@ -87,6 +87,6 @@ def main(root):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
+    if len(sys.argv) > 2:
         sys.exit(__doc__)
-    sys.exit(main(sys.argv[1]))
+    sys.exit(main(sys.argv[1] if len(sys.argv) == 2 else str(pathlib.Path(__file__).resolve().parents[1])))

@@ -142,6 +142,11 @@ void ArkStep::attach_newton() {
   const auto& o = settings_.options;
   require(ARKStepSetNonlinConvCoef(m, o.nonlinear_coefficient));
   require(ARKStepSetMaxNonlinIters(m, o.max_newton_iterations));
+  if (!model_.traits().smooth) {
+    newton_.emplace(o.rtol, y(), context_);
+    require(ARKStepSetNonlinearSolver(m, newton_->get()));
+    newton_->replace_test();
+  }
   settings_.full ? attach_full() : attach_reduced();
   // The derivative of a stage is taken from its solution: a force evaluated there would multiply what
   // Newton left by the stiffness, and could fail after Newton has converged.

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "integrators/sundials/first_order.h"
+#include "integrators/sundials/newton_at_kinks.h"
 #include "lib/ode/hermite.h"
 
 namespace orthodyn::sundials {
@@ -68,6 +69,7 @@ class ArkStep : public FirstOrderIntegrator {
   int order_;
   long retries_ = 0;  // steps begun anew because a force could not be evaluated, since the last (re-)start
   StepEnd begin_, end_;  // of the last step
+  std::optional<NewtonAtKinks> newton_;
   std::unique_ptr<void, FreeMemory> memory_;
 };
 

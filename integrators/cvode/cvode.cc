@@ -93,6 +93,11 @@ std::size_t Cvode::workspace_bytes() const {
 }
 
 void Cvode::attach_newton() {
+  if (!model_.traits().smooth) {
+    newton_.emplace(settings_.options.rtol, y(), context_);
+    require(CVodeSetNonlinearSolver(memory(), newton_->get()));
+    newton_->replace_test();
+  }
   settings_.full ? attach_full() : attach_reduced();
   // A drifting gamma costs a refactorisation only from 50 % on: 10-20 % fewer of them.
   require(CVodeSetDeltaGammaMaxLSetup(memory(), 0.5));

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "integrators/sundials/first_order.h"
+#include "integrators/sundials/newton_at_kinks.h"
 
 namespace orthodyn::sundials {
 
@@ -41,6 +43,7 @@ class Cvode : public FirstOrderIntegrator {
   void attach_full();
 
   int max_order_;
+  std::optional<NewtonAtKinks> newton_;
   std::unique_ptr<void, FreeMemory> memory_;
 };
 

@@ -4,6 +4,7 @@
 #include <ida/ida_ls.h>
 
 #include "integrators/sundials/multistep.h"
+#include "integrators/sundials/newton_at_kinks.h"
 #include "integrators/sundials/sundials_integrator.h"
 
 namespace orthodyn::sundials {
@@ -39,6 +40,11 @@ class IdaBdf : public SundialsIntegrator {
     if (o.h0) require(IDASetInitStep(m, *o.h0));
     if (o.h_max) require(IDASetMaxStep(m, *o.h_max));
     if (o.h_min > 0) require(IDASetMinStep(m, o.h_min));
+    if (!model_.traits().smooth) {
+      newton_.emplace(settings_.options.rtol, y(), context_);
+      require(IDASetNonlinearSolver(m, newton_->get()));
+      newton_->replace_test();
+    }
     settings_.full ? attach_full() : attach_reduced();
   }
 
@@ -151,6 +157,7 @@ class IdaBdf : public SundialsIntegrator {
   int max_order_;
   OwnedVector y_dot_;
   double gamma_ = 0;  // 1/cj of the last set-up
+  std::optional<NewtonAtKinks> newton_;
   std::unique_ptr<void, FreeIda> memory_;
 };
 

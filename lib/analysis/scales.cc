@@ -32,6 +32,12 @@ Reach reach_of_supports(const FemModel& model, double start, double end) {
   return reach;
 }
 
+double contact_stiffness(const FemModel& model) {
+  double largest = 0;
+  for (const auto& term : model.parts().loads) largest = std::max(largest, term->contact_stiffness());
+  return largest;
+}
+
 }  // namespace
 
 Scales estimate_scales(const FemModel& model, const State& initial, double end, const StaticResponse& statics) {
@@ -46,6 +52,8 @@ Scales estimate_scales(const FemModel& model, const State& initial, double end, 
   const double deflection = statics.exists() ? statics.displacement.cwiseAbs().maxCoeff() : 0;
   const bool known = statics.exists() || (reach.distance > 0 && statics.load.isZero(0));
   if (known && at_rest) scales.position = std::min(scales.position, 2 * std::max(deflection, reach.distance));
+  if (const double k = contact_stiffness(model); k > 0 && energy + work > 0)
+    scales.position = std::min(scales.position, std::sqrt(2 * (energy + work) / k));
   if (scales.velocity == 0) scales.velocity = extent / (end - initial.t);
   return scales;
 }

@@ -48,6 +48,9 @@ class Term {
   // Adds to each node an upper bound of the row sums of its stiffness, N/m; elasticity has its own bound.
   virtual void add_stiffness_bound(Vector& /*row_sums*/) const {}
 
+  // Of the stiffest node of what touches and parts, N/m.
+  virtual double contact_stiffness() const { return 0; }
+
   virtual EnergyKind energy_kind() const { return EnergyKind::none; }
   virtual double energy(const NodalState&) const { return 0; }     // J
   virtual double dissipation(const NodalState&) const { return 0; }  // W, >= 0

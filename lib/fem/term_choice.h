@@ -30,8 +30,10 @@ class TermChoice {
   // Pairs of nodes that the term's tangent couples although they share no element.
   virtual NodePairs couplings(const TetMesh& /*mesh*/) const { return {}; }
 
-  // What changes for integrators when the model has such a term (damping_matrix, time_dependent,
-  // conservative, dissipative, loaded, linear); nothing for a conservative linear force.
+  // What changes for integrators when the model has such a term; nothing for a conservative linear force. A force that
+  // depends on velocity must say damping_matrix (else methods with a mean force leave it out), one that depends on t
+  // time_dependent, one that is not linear in q and v linear = false, one with kinks smooth = false; not conservative,
+  // dissipative and loaded are what energy balances go by.
   virtual void declare(Traits&) const {}
 };
 

@@ -31,6 +31,7 @@ struct Traits {
   bool conservative = true;     // total energy is constant when nothing is damped
   bool dissipative = false;     // power.dissipated can differ from zero
   bool loaded = false;          // power.loads can differ from zero
+  bool smooth = true;           // f has no kinks in q: nothing touches and parts
 };
 
 struct Weights {

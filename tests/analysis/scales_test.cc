@@ -1,6 +1,7 @@
 // The sizes that tolerances are relative to, of bodies whose motion is known beforehand.
 #include "lib/analysis/scales.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -44,6 +45,21 @@ time: {end: 1}
 TEST(Scales, OfASpinningFreeBodyComeFromItsKineticEnergy) {
   const auto yaml = replaced(kValidScene, "clamps:\n  - surface: x0\n", "initial: {velocity: [3, 0, 0]}\n");
   EXPECT_NEAR(scales_of(yaml).velocity, 3 * 3.0, 1e-12);
+}
+
+TEST(Scales, ShrinkWithTheStiffnessOfWhatTheBodyMayTouch) {
+  const auto block = [](const char* stiffness) {
+    return scales_of(fmt::format(R"(mesh: {{type: box, size: [1, 1, 1], cells: [2, 2, 2], origin: [0, 0, 1]}}
+materials: {{m: {{type: isotropic, density: 1000, young: 1e6, nu: 0}}}}
+terms: [{{type: ground, stiffness: {}}}]
+gravity: [0, 0, -10]
+time: {{end: 0.1}}
+)", stiffness));
+  };
+  // W = m g L; the node in the middle of a face has eight triangles of 1/8 m^2, a third of each is its own.
+  const double work = 1000 * 10, area = 1.0 / 3;
+  EXPECT_NEAR(block("1e9").position, std::sqrt(2 * work / (1e9 * area)), 1e-9);
+  EXPECT_NEAR(block("1e3").position, 0.1, 1e-12);
 }
 
 TEST(Scales, OfABodyThatIsOnlyMovedComeFromItsSupports) {

@@ -1,4 +1,5 @@
-// Nothing that was computed is lost: signals, closed pipes, full disks, formulas without a value, runs that events stop.
+// Nothing that was computed is lost: signals, closed pipes, full disks, formulas without a value, runs that events
+// stop.
 #include <fstream>
 
 #include "lib/core/errors.h"

@@ -62,6 +62,12 @@ void Ground::add_stiffness_bound(Vector& row_sums) const {
   for (const auto& [node, area] : areas_) row_sums[node] += plane_.stiffness * area;
 }
 
+double Ground::contact_stiffness() const {
+  double largest = 0;
+  for (const auto& [node, area] : areas_) largest = std::max(largest, area);
+  return plane_.stiffness * largest;
+}
+
 namespace {
 
 constexpr double kUsualOnset = 1e-3;  // of the mesh's diagonal
@@ -95,7 +101,7 @@ class GroundChoice : public TermChoice {
                                     body.pattern);
   }
 
-  void declare(Traits& traits) const override { traits.linear = false; }
+  void declare(Traits& traits) const override { traits.linear = traits.smooth = false; }
 
   Origin origin;
 

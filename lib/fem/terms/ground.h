@@ -33,6 +33,7 @@ class Ground : public Term {
   EnergyKind energy_kind() const override { return EnergyKind::elastic; }
   double energy(const NodalState& s) const override;
   void add_stiffness_bound(Vector& row_sums) const override;
+  double contact_stiffness() const override;
 
  private:
   double depth(int node, const NodalVector& x) const { return plane_.normal.dot(plane_.point - x.col(node)); }
