@@ -1,10 +1,10 @@
 // Newton's iteration for forces with kinks, such as contact.
 //
-// CVODE and IDA judge a first correction by the rate of convergence of earlier steps. Where the force has a kink between
-// the predicted and the corrected state, that rate means nothing: the correction is accepted, and with it a force that
-// may be off by any factor. Here every correction but a vanishing one is followed by another one, from the force at the
-// corrected state, and what is left is estimated by the rate of the two: with a matrix that is far too stiff corrections
-// are small and do not shrink.
+// CVODE and IDA judge a first correction by the rate of convergence of earlier steps. Where the force has a kink
+// between the predicted and the corrected state, that rate means nothing: the correction is accepted, and with it a
+// force that may be off by any factor. Here every correction but a vanishing one is followed by another one, from the
+// force at the corrected state, and what is left is estimated by the rate of the two: with a matrix that is far too
+// stiff corrections are small and do not shrink.
 #pragma once
 
 #include <sundials/sundials_nonlinearsolver.h>

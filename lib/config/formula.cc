@@ -71,6 +71,11 @@ Formula::Formula(const std::string& text, const std::vector<std::string>& variab
   parsed_ = std::move(parsed);
 }
 
+bool Formula::uses(const std::string& variable) const {
+  const std::lock_guard lock(parsed_->mutex);
+  return parsed_->parser.GetUsedVar().contains(variable);
+}
+
 double Formula::evaluate(const double* values) const {
   const double value = parsed_->at(values);
   if (std::isfinite(value)) return value;

@@ -19,6 +19,7 @@ class Formula {
   // Throws std::invalid_argument with muParser's complaint.
   Formula(const std::string& text, const std::vector<std::string>& variables, std::string where);
   const std::string& text() const { return text_; }
+  bool uses(const std::string& variable) const;
 
  protected:
   // The values of the variables, in their order. Throws ConfigError where the result is not a number.

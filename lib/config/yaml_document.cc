@@ -55,13 +55,24 @@ class BoundsCheck : public YAML::EventHandler {
   int documents_ = 0, depth_ = 0;
 };
 
+// Lines end with \n; \r\n and a \r alone, which yaml-cpp takes for a blank, become that.
+std::string with_plain_line_ends(const std::string& text) {
+  if (text.find('\r') == std::string::npos) return text;
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '\r') out += text[i];
+    else if (i + 1 == text.size() || text[i + 1] != '\n') out += '\n';
+  }
+  return out;
+}
+
 void require_bounds(const std::string& text, const std::string& file) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
   BoundsCheck bounds(file);
   while (parser.HandleNextDocument(bounds)) {
   }
-  if (bounds.documents() == 0) throw ConfigError(file, "the file is empty");
+  if (bounds.documents() == 0) throw ConfigError(file + ":1:1", "the file is empty");
 }
 
 // yaml-cpp keeps duplicate keys and ignores merge keys in silence; an alias may contain itself.
@@ -209,7 +220,8 @@ std::string read_yaml_file(const std::string& path) {
   return text;
 }
 
-YAML::Node parse_yaml(const std::string& text, const std::string& file) {
+YAML::Node parse_yaml(const std::string& given, const std::string& file) {
+  const std::string text = with_plain_line_ends(given);
   try {
     require_bounds(text, file);
     const YAML::Node root = YAML::Load(text);

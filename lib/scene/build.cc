@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "lib/axes/axes_source.h"
@@ -103,6 +104,11 @@ BuiltScene build(const Scene& scene) {
   parts.pattern = std::make_unique<BlockPattern>(elements.cells, *parts.dofs, symmetric, couplings(scene, parts.mesh));
   const auto density = densities(scene, parts.mesh, regions);
   parts.mass = std::make_unique<Mass>(scene.mass, elements, density, *parts.dofs, *parts.pattern);
+  if (!std::isnormal(parts.mass->total()))
+    throw ConfigError("mesh",
+                      fmt::format("its mass is {:.3g} kg, with which nothing can be computed; check density and "
+                                  "unit of length",
+                                  parts.mass->total()));
   parts.rest = std::make_unique<NodalVector>(3, num_nodes);
   for (int i = 0; i < num_nodes; ++i) parts.rest->col(i) = parts.mesh.nodes[static_cast<std::size_t>(i)];
   add_supports(std::move(supports), elements, density, parts);

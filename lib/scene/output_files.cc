@@ -43,6 +43,9 @@ const Spec<Output>& Output::spec() {
           .key("momentum", &Output::momentum, "Write momentum.csv.")
           .check([](const Output& output, const Config& config) {
             if (output.interval && output.frames) config.fail("give one of interval, frames");
+            for (const auto& [name, probe] : output.probes)
+              if (name.find_first_of(",\"\r\n") != std::string::npos)
+                probe.origin.fail("its name goes into a CSV file: no commas, quotes or line breaks");
           });
   return s;
 }

@@ -76,15 +76,37 @@ void check_dynamic(const Config& config, Scene& scene, bool is_timed) {
   if (scene.statics && !needs_statics)
     config.at("statics").fail("has no meaning in a run that starts from rest; remove it, or say start: equilibrium");
   if (needs_statics && !scene.statics) scene.statics = Statics::spec().read(config.fill("statics", "{}"));
-  if (needs_statics && scene.initial && (scene.initial->deformation_gradient || scene.initial->noise))
-    config.at("initial").fail("the shape is that of equilibrium (start); remove deformation_gradient and noise");
+  if (const auto& initial = scene.initial; needs_statics && initial)
+    if (initial->deformation_gradient || initial->displacement_field || initial->noise)
+      config.at("initial").fail(
+          "the shape is that of equilibrium (start); remove deformation_gradient, displacement_field and noise");
+}
+
+bool varies_in_time(const SupportMotion& motion) {
+  if (motion.displacement)
+    return std::any_of(motion.displacement->begin(), motion.displacement->end(),
+                       [](const TimePointFormula& formula) { return formula.uses("t"); });
+  return motion.factor && !motion.factor->constant();
+}
+
+// Statics take all at one time, which nobody but the user knows.
+void require_time_of_statics(const Config& config, const Scene& scene) {
+  constexpr const char* kAsk = "its factor varies in time: say by time: {end: ...} at which time the statics take it";
+  for (const Load& load : scene.loads)
+    if (!load.factor->constant()) load.origin.fail(kAsk);
+  for (std::size_t k = 0; k < scene.terms.size(); ++k) {
+    Traits traits;
+    scene.terms[k]->declare(traits);
+    if (traits.time_dependent) config.at("terms").at(k).fail(kAsk);
+  }
+  for (const SupportMotion& motion : scene.motions)
+    if (varies_in_time(motion))
+      motion.origin.fail("it varies in time: say by time: {end: ...} at which time the statics take it");
 }
 
 void check_static(const Config& config, Scene& scene, bool is_timed) {
   if (!scene.statics) scene.statics = Statics::spec().read(config.fill("statics", "{}"));
-  for (const Load& load : scene.loads)
-    if (!is_timed && !load.factor->constant())
-      load.origin.fail("its factor varies in time: say by time: {end: ...} at which time the statics take it");
+  if (!is_timed) require_time_of_statics(config, scene);
   const Config output = config.at("output");
   for (const char* key : {"interval", "frames"})
     if (output.has(key) && !output.at(key).is_null())

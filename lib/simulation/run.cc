@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace orthodyn {
 
@@ -21,8 +22,11 @@ class Driver {
         outcome_(outcome),
         tiny_(1e-12 * std::max(std::abs(outcome.last.t), std::abs(plan.end))),
         outputs_(plan.output_times) {
+    const double round_off =
+        8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(outcome.last.t), std::abs(plan.end));
     for (const double t : model.breakpoints(outcome.last.t, plan.end))
-      if (t - (stops_.empty() ? outcome.last.t : stops_.back()) > tiny_ && plan.end - t > tiny_) stops_.push_back(t);
+      if (t - (stops_.empty() ? outcome.last.t : stops_.back()) > round_off && plan.end - t > round_off)
+        stops_.push_back(t);
     stops_.push_back(plan.end);
     // An output that differs from a stop by round-off is meant to be there.
     for (double& t : outputs_)
@@ -115,7 +119,7 @@ class Driver {
   const std::vector<Observer*>& observers_;
   const std::atomic<bool>& interrupt_;
   Outcome& outcome_;
-  double tiny_;                          // times closer than this are one
+  double tiny_;                          // outputs that are closer to a stop than this are meant to be there
   std::vector<double> outputs_, stops_;
   std::optional<double> last_output_;
   std::size_t next_ = 0;

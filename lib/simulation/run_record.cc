@@ -1,5 +1,6 @@
 #include "lib/simulation/run_record.h"
 
+#include "lib/simulation/doubts.h"
 #include "lib/simulation/machine.h"
 
 namespace orthodyn {
@@ -109,6 +110,7 @@ void RunRecord::finish(const RunResult& result) const {
   out["model"] = model_json(result.model);
   if (result.motion) add_motion(out, *result.motion, result.outcome);
   if (result.equilibrium) add_equilibrium(out, *result.equilibrium, result.outcome);
+  if (const auto warnings = doubts(result); !warnings.empty()) out["warnings"] = warnings;
   file_.rewrite(text(out));
 }
 

@@ -24,8 +24,8 @@ TEST(ConfigRefuses, AFolder) {
 }
 
 TEST(ConfigRefuses, AnEmptyFile) {
-  EXPECT_EQ(refusal_of(""), "a.yaml: the file is empty");
-  EXPECT_EQ(refusal_of("# only a comment\n"), "a.yaml: the file is empty");
+  EXPECT_EQ(refusal_of(""), "a.yaml:1:1: the file is empty");
+  EXPECT_EQ(refusal_of("# only a comment\n"), "a.yaml:1:1: the file is empty");
 }
 
 TEST(ConfigRefuses, WhatIsNotYamlWithItsLine) {
@@ -57,6 +57,13 @@ TEST(ConfigRefuses, WhatIsNotUtf8) {
             "a.yaml:2:1: the byte 0xE4 in it is not UTF-8; save the file in this encoding");
   EXPECT_TRUE(starts(refusal_of("a: [1, \"\xFC\"]\n"), "a.yaml:1:8: the byte 0xFC"));
   EXPECT_EQ(refusal_of("a: 1  # f\xFCr\n"), "accepted");
+}
+
+TEST(Config, ReadsLinesThatEndWithCarriageReturns) {
+  for (const char* end : {"\r\n", "\r"}) {
+    const Config config = Config::from_text(std::string("a: 1") + end + "b: 2  # two" + end, "a.yaml");
+    EXPECT_EQ(config.at("b").number(), 2);
+  }
 }
 
 TEST(ConfigRefuses, AKeyGivenTwice) {

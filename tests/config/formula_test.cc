@@ -43,5 +43,10 @@ TEST(Formula, RefusesAssignmentsAndSeveralValues) {
   EXPECT_EQ(TimeFormula("max(0, 5*t)").at(2), 10);
 }
 
+TEST(Formula, KnowsWhatItUses) {
+  EXPECT_TRUE(TimePointFormula("0.1*sin(t)").uses("t"));
+  EXPECT_FALSE(TimePointFormula("0.1*sin(x) + tan(y)").uses("t"));
+}
+
 }  // namespace
 }  // namespace orthodyn::formula_test

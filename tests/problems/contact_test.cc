@@ -27,7 +27,8 @@ std::vector<Fall> falls() {
 
 class Contact : public testing::TestWithParam<Fall> {};
 
-// Seen of BDF before each correction at a kink was followed by another one: up to 3,000 times the energy that there was.
+// Seen of BDF before each correction at a kink was followed by another one: up to 3,000 times the energy that there
+// was.
 TEST_P(Contact, MakesNoEnergy) {
   const Fall& fall = GetParam();
   const BuiltTestScene s(fmt::format(R"(
@@ -48,7 +49,8 @@ integrator: {{type: {}, rtol: {}}}
     }
     double largest = 0;
   } energy(s.model(), *integrator);
-  const Outcome outcome = run(s.model(), *integrator, s.built.initial, {s.scene.time.end, {}, false}, {&energy}, {false});
+  const Outcome outcome =
+      run(s.model(), *integrator, s.built.initial, {s.scene.time.end, {}, false}, {&energy}, {false});
   EXPECT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
   const double fallen = 1 * 9.81 * 0.05;  // J, kg m/s^2 m
   EXPECT_GT(energy.scale(), 0.9 * fallen);  // it has fallen; soft ground lets it fall further

@@ -148,6 +148,18 @@ TEST_F(CommandLine, DriftIsThatOfTheRowsOfEnergyCsv) {
   EXPECT_DOUBLE_EQ(balance_drift(folder_), largest);
 }
 
+TEST_F(CommandLine, AMuchDriftingBalanceIsAWarning) {
+  write("swing.yaml", kSwing);
+  const auto trusted = orthodyn("run swing.yaml --quiet");
+  EXPECT_EQ(trusted.output.find("energy balance"), std::string::npos) << trusted.output;
+  const auto doubted = orthodyn(
+      "run swing.yaml --quiet --force --set damping=null --set 'integrator={type: backward_euler, step: 0.02}'");
+  EXPECT_EQ(doubted.exit_code, 0) << doubted.output;
+  EXPECT_NE(doubted.output.find("warning: the energy balance drifts by 0."), std::string::npos) << doubted.output;
+  EXPECT_GT(balance_drift(folder_), 0);
+  EXPECT_NE(read_text(folder_ / "out/swing/run.json").find("\"warnings\""), std::string::npos);
+}
+
 TEST_F(CommandLine, DriftOverAllStepsIsThatOfTheWholeRunNotOfItsFrames) {
   write("swing.yaml", kSwing);
   const auto drift = [&](const std::string& set) {

@@ -132,6 +132,20 @@ TEST_F(ModesCommand, RefusesMoreModesThanUnknownsAndAFreeBodyAboutEquilibrium) {
 }
 
 // Damped, and its support sets off at 3 m/s.
+TEST_F(ModesCommand, NeedNoTime) {
+  write("bar.yaml", "mesh: {type: box, size: [1, 0.1, 0.1], cells: [4, 1, 1]}\n"
+                    "materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0}}\n"
+                    "clamps: [{surface: x0}]\n");
+  for (const char* command : {"modes bar.yaml -n 3 --quiet", "check bar.yaml"}) {
+    const auto result = orthodyn(command);
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_NE(result.output.find("notice: the scene has no 'time'"), std::string::npos) << result.output;
+  }
+  const auto run = orthodyn("run bar.yaml");
+  EXPECT_EQ(run.exit_code, 2) << run.output;
+  EXPECT_NE(run.output.find("'time' is missing"), std::string::npos) << run.output;
+}
+
 TEST_F(ModesCommand, OfABodyOnAMovingSupportAreThoseOfTheClampedOne) {
   const std::string body = R"(
 mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1]}

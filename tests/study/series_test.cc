@@ -97,5 +97,22 @@ TEST(Series, OnsetIsWhenTheSizeFirstPassesALevel) {
   EXPECT_TRUE(std::isnan(onset(s, 5)));
 }
 
+TEST(Series, TheMaximumAtACornerIsItsSample) {
+  Series ramp;  // up to 0.1 at t = 1, then level, sampled unevenly
+  for (const double t : {0.0, 0.4, 0.8, 0.9, 1.0, 1.3, 1.7, 2.5}) {
+    ramp.times.push_back(t);
+    ramp.values.push_back(0.1 * std::min(t, 1.0));
+  }
+  EXPECT_EQ(maximum(ramp), 0.1);
+  EXPECT_EQ(time_of_maximum(ramp), 1);
+  Series tent;
+  for (const double t : {0.0, 0.5, 1.0, 1.4, 2.0, 3.0}) {
+    tent.times.push_back(t);
+    tent.values.push_back(t < 1 ? t : 2 - t);
+  }
+  EXPECT_EQ(maximum(tent), 1);
+  EXPECT_EQ(maximum(tent, -1), -1);
+}
+
 }  // namespace
 }  // namespace orthodyn::series_test

@@ -121,7 +121,7 @@ void write_and_draw_axes(const Setup& setup, const fs::path& folder) {
 }
 
 int check(const CheckArguments& arguments) {
-  Setup setup = set_up_and_warn(arguments.scene, arguments.changes);
+  Setup setup = set_up_without_time(arguments.scene, arguments.changes);
   const FemModel& model = *setup.built.model;
   const auto& parts = model.parts();
   fmt::print("{}: valid\n", arguments.scene);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/simulation/doubts.h"
+
 namespace orthodyn {
 
 namespace {
@@ -71,18 +73,6 @@ void print_equilibrium(const RunResult& result, const EquilibriumResult& equilib
   fmt::print("  {:<20} {}\n", "results", result.folder.string());
 }
 
-void warn_of_inversion(const EquilibriumResult& equilibrium) {
-  if (equilibrium.det_f.value > 0) return;
-  fmt::print(stderr, "warning: element {} is inverted (det F = {:.3g}): this equilibrium has no meaning\n",
-             equilibrium.det_f.element, equilibrium.det_f.value);
-}
-
-void warn_of_inversion(const MotionResult& motion) {
-  if (motion.det_f.value > 0) return;
-  fmt::print(stderr, "warning: element {} was inverted at t = {:.4g} s (det F = {:.3g})\n", motion.det_f.element,
-             motion.det_f.time, motion.det_f.value);
-}
-
 void print_what_remains(const RunResult& result) {
   if (result.outcome.status == Outcome::Status::interrupted)
     fmt::print(stderr, "interrupted at t = {:.6g} s; what was computed is in {}\n", result.outcome.last.t,
@@ -95,15 +85,10 @@ void print_what_remains(const RunResult& result) {
 
 void print_result(const RunResult& result, bool quiet) {
   if (result.outcome.status == Outcome::Status::failed) fmt::print(stderr, "error: {}\n", result.outcome.message);
-  if (result.equilibrium) {
-    warn_of_inversion(*result.equilibrium);
-    if (!quiet) print_equilibrium(result, *result.equilibrium);
-  }
-  if (result.motion) {
-    if (!quiet) print_motion(result, *result.motion);
-    warn_of_inversion(*result.motion);
-    print_what_remains(result);
-  }
+  if (result.equilibrium && !quiet) print_equilibrium(result, *result.equilibrium);
+  if (result.motion && !quiet) print_motion(result, *result.motion);
+  for (const auto& doubt : doubts(result)) fmt::print(stderr, "warning: {}\n", doubt);
+  if (result.motion) print_what_remains(result);
 }
 
 void print_error(const ErrorEstimate& error) {

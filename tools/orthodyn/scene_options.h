@@ -19,4 +19,7 @@ void declare_scene(SceneArguments& arguments, CommandOptions& options);
 // Reads, validates and builds; prints warnings to stderr. Throws ConfigError.
 Setup set_up_and_warn(const std::string& scene, const SceneChanges& changes);
 
+// The same for what needs no `time`: a second is taken where the scene does not say, with a notice.
+Setup set_up_without_time(const std::string& scene, const SceneChanges& changes);
+
 }  // namespace orthodyn

@@ -16,6 +16,17 @@ struct Vertex {
   double t = kNone, value = kNone;
 };
 
+// Whether the curve bends beside the sample, too, where there are samples: through a corner, such as that of a ramp,
+// goes no parabola. `a` is half the second derivative of that through the sample and its neighbours.
+bool is_round(const Series& s, std::size_t k, double a) {
+  constexpr double kShare = 0.25;  // of the bend in the middle
+  const auto bend = [&](std::size_t i) {  // half the second derivative
+    const double h0 = s.times[i] - s.times[i - 1], h1 = s.times[i + 1] - s.times[i];
+    return ((s.values[i + 1] - s.values[i]) / h1 - (s.values[i] - s.values[i - 1]) / h0) / (h0 + h1);
+  };
+  return (k < 2 || bend(k - 1) / a >= kShare) && (k + 2 >= s.size() || bend(k + 1) / a >= kShare);
+}
+
 Vertex vertex(const Series& s, double sign) {
   if (s.times.empty()) return {};
   const auto better = [&](double a, double b) { return sign * a < sign * b; };
@@ -27,7 +38,7 @@ Vertex vertex(const Series& s, double sign) {
   const double y0 = s.values[k - 1] - s.values[k], y1 = s.values[k + 1] - s.values[k];
   // y = b h + a h^2
   const double a = (y1 / h1 - y0 / h0) / (h1 - h0), b = y0 / h0 - a * h0;
-  if (!(sign * a < 0)) return sample;
+  if (!(sign * a < 0) || !is_round(s, k, a)) return sample;
   return {s.times[k] - b / (2 * a), s.values[k] - b * b / (4 * a)};
 }
 

@@ -1,0 +1,35 @@
+#include "lib/simulation/doubts.h"
+
+#include <fmt/format.h>
+
+namespace orthodyn {
+
+namespace {
+
+constexpr double kMuchDrift = 0.01;  // of the largest energy
+
+std::string drift_sentence(const EnergySummary& energy) {
+  return fmt::format(
+      "the energy balance drifts by {:.2g} of the largest energy: energy was made or lost by the integration, or what "
+      "fast vibrations dissipate was not resolved. Run it with --estimate-error, which tells how far off the motion is, "
+      "or with a smaller integrator.rtol",
+      energy.relative_drift);
+}
+
+}  // namespace
+
+std::vector<std::string> doubts(const RunResult& result) {
+  std::vector<std::string> all;
+  if (const auto& equilibrium = result.equilibrium; equilibrium && !(equilibrium->det_f.value > 0))
+    all.push_back(fmt::format("element {} is inverted (det F = {:.3g}): this equilibrium has no meaning",
+                              equilibrium->det_f.element, equilibrium->det_f.value));
+  if (const auto& motion = result.motion) {
+    if (!(motion->det_f.value > 0))
+      all.push_back(fmt::format("element {} was inverted at t = {:.4g} s (det F = {:.3g})", motion->det_f.element,
+                                motion->det_f.time, motion->det_f.value));
+    if (motion->energy && motion->energy->relative_drift > kMuchDrift) all.push_back(drift_sentence(*motion->energy));
+  }
+  return all;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,15 @@
+// What in a result should not be taken on trust, though it was computed to its end.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lib/simulation/run_result.h"
+
+namespace orthodyn {
+
+// A sentence each: what was found, what it means, what to do. Inverted elements; an energy balance that drifts by more
+// than a hundredth of the largest energy.
+std::vector<std::string> doubts(const RunResult& result);
+
+}  // namespace orthodyn
