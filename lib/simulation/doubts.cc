@@ -11,7 +11,8 @@ constexpr double kMuchDrift = 0.01;  // of the largest energy
 std::string drift_sentence(const EnergySummary& energy) {
   return fmt::format(
       "the energy balance drifts by {:.2g} of the largest energy: energy was made or lost by the integration, or what "
-      "fast vibrations dissipate was not resolved. Run it with --estimate-error, which tells how far off the motion is, "
+      "fast vibrations dissipate was not resolved. Run it with --estimate-error, which tells how far off the motion "
+      "is, "
       "or with a smaller integrator.rtol",
       energy.relative_drift);
 }

@@ -94,5 +94,16 @@ TEST_F(TrajectoryFile, ACutOneIsRefusedWithTheRemedy) {
   }
 }
 
+TEST_F(TrajectoryFile, OneWithAFlippedBitIsRefused) {
+  Rigid().moving([](double t) { return t; }, 3).save(folder_ / "t.bin");
+  const std::string whole = read_text(folder_ / "t.bin");
+  for (std::size_t at = 0; at < whole.size(); at += 5) {
+    std::string flipped = whole;
+    flipped[at] = static_cast<char>(flipped[at] ^ 4);
+    std::ofstream(folder_ / "t.bin", std::ios::binary) << flipped;
+    EXPECT_FALSE(Trajectory::is_whole(folder_ / "t.bin")) << at;
+  }
+}
+
 }  // namespace
 }  // namespace orthodyn::error_norms_test

@@ -24,7 +24,7 @@ class Jobs : public InFolder {
     std::vector<Job> all;
     for (int i = 0; i < count; ++i) {
       const std::string name(1, static_cast<char>('a' + i));
-      all.push_back({name, "do", folder_ / "jobs" / name, "{}", {{"number", i}}, {seconds, 8e9}});
+      all.push_back({name, "do", folder_ / "jobs" / name, "{}", with_fingerprint({{"number", i}}), {seconds, 8e9}});
     }
     return all;
   }
@@ -122,17 +122,31 @@ TEST_F(Jobs, WhichResultsAreFinal) {
   const Job job = jobs(1)[0];
   const auto is_final = [&](OldFailures failures) { return !finished_result(job, failures).is_null(); };
   EXPECT_FALSE(is_final(OldFailures::keep));
-  leave(job, R"({"status": "completed"})");
+  for (const char* damaged : {"{}", R"({"status": "compl)", R"({"status": "completed"})", "[]", ""}) {
+    leave(job, damaged);
+    EXPECT_FALSE(is_final(OldFailures::keep)) << damaged;
+  }
+  write_result(job.folder, {{"status", "completed"}});
   EXPECT_TRUE(is_final(OldFailures::keep));
   EXPECT_TRUE(is_final(OldFailures::retry));
-  leave(job, R"({"status": "failed", "reason": "refused", "message": "no"})");
+  write_result(job.folder, to_json(Failure{"refused", "no"}));
   EXPECT_TRUE(is_final(OldFailures::keep));
   EXPECT_FALSE(is_final(OldFailures::retry));
-  leave(job, R"({"status": "failed", "reason": "crashed", "message": "no"})");
+  write_result(job.folder, to_json(Failure{"crashed", "no"}));
   EXPECT_FALSE(is_final(OldFailures::keep));
   EXPECT_FALSE(is_final(OldFailures::retry));
-  leave(job, R"({"status": "compl)");
-  EXPECT_FALSE(is_final(OldFailures::keep));
+}
+
+TEST_F(Jobs, AResultWithAFlippedBitIsDoneAgain) {
+  const Job job = jobs(1)[0];
+  write_result(job.folder, {{"status", "completed"}, {"error", 0.0152}});
+  const std::string whole = read_text(job.folder / kResultFile);
+  for (std::size_t at = 0; at + 1 < whole.size(); ++at) {  // but for the end of the line
+    std::string flipped = whole;
+    flipped[at] = static_cast<char>(flipped[at] ^ 2);
+    leave(job, flipped);
+    EXPECT_TRUE(finished_result(job).is_null()) << flipped;
+  }
 }
 
 TEST_F(Jobs, AResultWhoseOtherFilesAreNotWholeIsDoneAgain) {

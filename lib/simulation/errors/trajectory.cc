@@ -5,17 +5,20 @@
 #include <fstream>
 
 #include "lib/core/errors.h"
+#include "lib/core/fingerprint.h"
 #include "lib/simulation/files.h"
 
 namespace orthodyn {
 
 namespace {
 
-// A file is the mark, N, the number of times, then times, q and v as doubles of this machine.
-constexpr char kTrajectoryMark[8] = {'O', 'D', 'T', 'R', 'A', 'J', '0', '1'};
+// A file is the mark, N, the number of times, the fingerprint of what follows, then times, q and v as doubles of this
+// machine.
+constexpr char kTrajectoryMark[8] = {'O', 'D', 'T', 'R', 'A', 'J', '0', '2'};
 struct Head {
   char mark[8];
   std::int64_t unknowns, times;
+  char fingerprint[16];
 };
 
 template <class T>
@@ -23,45 +26,51 @@ std::string bytes(const T* data, std::size_t count) {
   return {reinterpret_cast<const char*>(data), count * sizeof(T)};
 }
 
-void read_doubles(std::ifstream& in, double* data, Eigen::Index count) {
-  in.read(reinterpret_cast<char*>(data), static_cast<std::streamsize>(count) * std::streamsize{sizeof(double)});
+// Times, q and v, one after the other; empty if the file is not as it was written.
+std::vector<double> numbers_in(const std::filesystem::path& path, Head& head) {
+  std::ifstream in(path, std::ios::binary);
+  in.read(reinterpret_cast<char*>(&head), sizeof head);
+  if (!in || std::memcmp(head.mark, kTrajectoryMark, sizeof kTrajectoryMark) != 0) return {};
+  std::error_code ec;
+  const auto size = std::filesystem::file_size(path, ec);
+  const auto doubles = (size - sizeof head) / sizeof(double);
+  if (ec || head.times < 0 || head.unknowns < 0 ||
+      static_cast<double>(doubles) != static_cast<double>(head.times) * (1 + 2 * static_cast<double>(head.unknowns)))
+    return {};
+  std::vector<double> numbers(doubles);
+  in.read(reinterpret_cast<char*>(numbers.data()), static_cast<std::streamsize>(doubles * sizeof(double)));
+  if (!in || in.peek() != std::char_traits<char>::eof()) return {};
+  const std::string found = Fingerprint().add(bytes(numbers.data(), numbers.size())).text();
+  return found.compare(0, std::string::npos, head.fingerprint, sizeof head.fingerprint) == 0 ? numbers
+                                                                                             : std::vector<double>{};
 }
 
 }  // namespace
 
 void Trajectory::save(const std::filesystem::path& path) const {
-  Head head{{}, q.rows(), q.cols()};
+  const std::string numbers = bytes(times.data(), times.size()) + bytes(q.data(), static_cast<std::size_t>(q.size())) +
+                              bytes(v.data(), static_cast<std::size_t>(v.size()));
+  Head head{{}, q.rows(), q.cols(), {}};
   std::memcpy(head.mark, kTrajectoryMark, sizeof kTrajectoryMark);
-  write_file(path, {bytes(&head, 1), bytes(times.data(), times.size()),
-                    bytes(q.data(), static_cast<std::size_t>(q.size())),
-                    bytes(v.data(), static_cast<std::size_t>(v.size()))});
+  std::memcpy(head.fingerprint, Fingerprint().add(numbers).text().data(), sizeof head.fingerprint);
+  write_file(path, {bytes(&head, 1), numbers});
 }
 
 bool Trajectory::is_whole(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
   Head head{};
-  in.read(reinterpret_cast<char*>(&head), sizeof head);
-  if (!in || std::memcmp(head.mark, kTrajectoryMark, sizeof kTrajectoryMark) != 0) return false;
-  const auto doubles = head.times * (1 + 2 * head.unknowns);
-  std::error_code ec;
-  return std::filesystem::file_size(path, ec) == sizeof head + static_cast<std::size_t>(doubles) * sizeof(double);
+  return !numbers_in(path, head).empty();
 }
 
 Trajectory Trajectory::load(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
   Head head{};
-  in.read(reinterpret_cast<char*>(&head), sizeof head);
-  if (!in || std::memcmp(head.mark, kTrajectoryMark, sizeof kTrajectoryMark) != 0)
-    throw RunError(path.string() + ": is no trajectory; start the comparison again");
-  Trajectory out;
-  out.times.resize(static_cast<std::size_t>(head.times));
-  out.q.resize(head.unknowns, head.times);
-  out.v.resize(head.unknowns, head.times);
-  read_doubles(in, out.times.data(), head.times);
-  read_doubles(in, out.q.data(), out.q.size());
-  read_doubles(in, out.v.data(), out.v.size());
-  if (!in) throw RunError(path.string() + ": is cut short; start the comparison again");
-  return out;
+  const std::vector<double> numbers = numbers_in(path, head);
+  if (numbers.empty())
+    throw RunError(path.string() + ": is no trajectory, or damaged; start the comparison again");
+  const auto size = static_cast<std::ptrdiff_t>(head.unknowns * head.times);
+  const double* at = numbers.data() + head.times;
+  return {{numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(head.times)},
+          Eigen::Map<const Eigen::MatrixXd>(at, head.unknowns, head.times),
+          Eigen::Map<const Eigen::MatrixXd>(at + size, head.unknowns, head.times)};
 }
 
 void TrajectoryRecorder::on_start(const ObservedState& observed) {

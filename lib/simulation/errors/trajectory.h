@@ -16,7 +16,7 @@ struct Trajectory {
   void save(const std::filesystem::path& path) const;
   static Trajectory load(const std::filesystem::path& path);
 
-  // True if the file is whole, by its size.
+  // True if the file is as it was written, by its fingerprint.
   static bool is_whole(const std::filesystem::path& path);
 };
 

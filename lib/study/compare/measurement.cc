@@ -62,7 +62,7 @@ TrajectoryErrors uniform_errors(double e, const std::vector<ProbePoint>& probes)
 bool was_inverted(const MeasurementResult& result) { return result.smallest_det_f && *result.smallest_det_f <= 0; }
 
 MeasurementResult result_in(const fs::path& folder) {
-  const Json json = read_json(folder / kResultFile);
+  const Json json = read_result(folder);
   return json.is_object() ? measurement_from(json) : MeasurementResult{};
 }
 

@@ -60,10 +60,10 @@ Json run_job(const std::string& program, const Job& job, const Stop& stop) {
   fs::remove(result_file, ignored);
   const ProcessEnd end = run_process({program, job.command, job.folder.string()}, log, job.limits, stop);
   if (end.kind == ProcessEnd::Kind::interrupted) return nullptr;
-  Json result = read_json(result_file);
-  if (result.is_object()) return result;
+  Json result = read_result(job.folder);
+  if (!result.is_null()) return result;
   result = to_json(failure_of(end, log));
-  write_file(result_file, {to_text(result)});
+  write_result(job.folder, result);
   return result;
 }
 
@@ -74,7 +74,7 @@ void serve_job(const fs::path& folder, const std::function<Json(const Json&)>& w
     throw RunError("the program has changed since this was started; start it again");
   Json result = result_of([&] { return work(input); });
   result["at"] = utc_now();
-  write_file(folder / kResultFile, {to_text(result)});
+  write_result(folder, result);
 }
 
 }  // namespace orthodyn::study

@@ -6,11 +6,15 @@
 #include <set>
 
 #include "lib/core/errors.h"
+#include "lib/core/fingerprint.h"
+#include "lib/simulation/files.h"
 #include "lib/study/jobs/json_values.h"
 
 namespace orthodyn::study {
 
 namespace {
+
+constexpr const char* kSeal = "fingerprint";
 
 bool is(const std::optional<Failure>& failure, const char* reason) { return failure && failure->reason == reason; }
 
@@ -33,9 +37,26 @@ Failure failure_of(const Outcome& outcome, double seconds) {
                       outcome.last.t, seconds)};
 }
 
+Json with_fingerprint(Json result) {
+  result[kSeal] = Fingerprint().add(to_text(result)).text();
+  return result;
+}
+
+void write_result(const std::filesystem::path& folder, const Json& result) {
+  write_file(folder / kResultFile, {to_text(with_fingerprint(result))});
+}
+
+Json read_result(const std::filesystem::path& folder) {
+  Json result = read_json(folder / kResultFile);
+  const Json seal = member(result, kSeal);
+  if (!seal.is_string()) return nullptr;
+  result.erase(kSeal);
+  return seal == Fingerprint().add(to_text(result)).text() ? result : Json(nullptr);
+}
+
 Json finished_result(const Job& job, OldFailures failures) {
-  Json result = read_json(job.folder / kResultFile);
-  if (!result.is_object()) return nullptr;
+  Json result = read_result(job.folder);
+  if (result.is_null()) return nullptr;
   const auto failure = failure_from(result);
   if (is(failure, kCrashed) || (failure && failures == OldFailures::retry)) return nullptr;
   if (job.is_whole && !job.is_whole(result)) return nullptr;
@@ -50,7 +71,7 @@ std::size_t number_at_limits(const std::vector<Job>& jobs) {
   std::set<std::filesystem::path> folders;
   for (const auto& job : jobs) folders.insert(job.folder);
   return static_cast<std::size_t>(std::count_if(folders.begin(), folders.end(), [](const auto& folder) {
-    return met_a_limit(failure_from(read_json(folder / kResultFile)));
+    return met_a_limit(failure_from(read_result(folder)));
   }));
 }
 

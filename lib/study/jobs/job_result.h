@@ -34,6 +34,11 @@ Failure failure_of(const Outcome& outcome, double seconds);
 // What to do about the failures of an earlier run.
 enum class OldFailures { keep, retry };
 
+// A result as it is kept in a job's folder, with a fingerprint of itself: what was damaged or cut short since is none.
+Json with_fingerprint(Json result);
+void write_result(const std::filesystem::path& folder, const Json& result);
+Json read_result(const std::filesystem::path& folder);  // null if there is none
+
 // The result of an earlier run that need not be done again; null if there is none, if it is not whole, or if it is to
 // be tried again: always after a crash, whose cause may be gone by now, and every failure if `failures` says so.
 Json finished_result(const Job& job, OldFailures failures = OldFailures::keep);

@@ -97,7 +97,7 @@ Json point_json(const Sweep& sweep, const Point& point, const std::optional<Job>
 Results results_of(const std::vector<Job>& jobs) {
   Results all;
   for (const auto& job : jobs)
-    if (const Json result = read_json(job.folder / kResultFile); result.is_object())
+    if (const Json result = read_result(job.folder); result.is_object())
       all.emplace(job.folder, evaluation_from(result));
   return all;
 }
