@@ -36,7 +36,6 @@ class IdaBdf : public SundialsIntegrator {
     const auto& o = settings_.options;
     require(IDASetMaxOrd(m, max_order_));
     require(IDASetNonlinConvCoef(m, o.nonlinear_coefficient));
-    require(IDASetMaxNonlinIters(m, o.max_newton_iterations));
     if (o.h0) require(IDASetInitStep(m, *o.h0));
     if (o.h_max) require(IDASetMaxStep(m, *o.h_max));
     if (o.h_min > 0) require(IDASetMinStep(m, o.h_min));
@@ -45,6 +44,7 @@ class IdaBdf : public SundialsIntegrator {
       require(IDASetNonlinearSolver(m, newton_->get()));
       newton_->replace_test();
     }
+    require(IDASetMaxNonlinIters(m, o.max_newton_iterations));
     settings_.full ? attach_full() : attach_reduced();
   }
 

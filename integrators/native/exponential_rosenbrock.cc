@@ -48,6 +48,8 @@ class ExponentialRosenbrock : public ExplicitStep {
 
   Decisions decisions() const override { return scale_decisions(scales_); }
 
+  bool has_accurate_interpolation() const override { return false; }
+
  private:
   static Words words(const ExponentialOptions& options) {
     if (options.step) return {"exponential_rosenbrock", "lower integrator.step", "integrator.step"};

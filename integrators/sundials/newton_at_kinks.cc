@@ -8,7 +8,7 @@ namespace orthodyn::sundials {
 
 namespace {
 
-constexpr double kRoundOff = 1e-12;  // of the scales: corrections below it need no other one
+constexpr double kRoundOff = 1e-11;  // of the scales: corrections below it need no other one
 constexpr double kShare = 0.1;       // of what is allowed to Newton's method for smooth forces
 constexpr double kDiverging = 0.9;   // a rate at which a new matrix or a shorter step is needed
 

@@ -1,10 +1,11 @@
 // Newton's iteration for forces with kinks, such as contact.
 //
-// CVODE and IDA judge a first correction by the rate of convergence of earlier steps. Where the force has a kink
-// between the predicted and the corrected state, that rate means nothing: the correction is accepted, and with it a
-// force that may be off by any factor. Here every correction but a vanishing one is followed by another one, from the
-// force at the corrected state, and what is left is estimated by the rate of the two: with a matrix that is far too
-// stiff corrections are small and do not shrink.
+// CVODE and IDA judge a first correction by the rate of convergence of earlier steps, ARKODE by none. Where the force
+// has a kink between the predicted and the corrected state, either means nothing: the correction is accepted, and with
+// it a force that may be off by any factor. Here every correction but one of the size of round-off is followed by
+// another one, from the force at the corrected state, and what is left is estimated by the rate of the two: with a
+// matrix that is far too stiff corrections are small and do not shrink. The tolerance is a tenth of that for smooth
+// forces.
 #pragma once
 
 #include <sundials/sundials_nonlinearsolver.h>
@@ -20,7 +21,7 @@ class NewtonAtKinks {
   NewtonAtKinks(const NewtonAtKinks&) = delete;
   NewtonAtKinks& operator=(const NewtonAtKinks&) = delete;
 
-  // To be handed to CVODE or IDA, which put in their own test.
+  // To be handed to the library, which puts in its own test.
   SUNNonlinearSolver get() const { return solver_.get(); }
   // After that.
   void replace_test();

@@ -11,6 +11,8 @@ SundialsIntegrator::SundialsIntegrator(std::string name, const Model& model, con
     : model_(model), settings_(settings), y_(make_vector(size(), context_)), momentum_(model.num_dofs()),
       name_(std::move(name)) {
   if (!settings.implicit) return;
+  if (!model.traits().smooth && settings.options.max_newton_iterations < 2)
+    throw ConfigError("max_newton_iterations: must be at least 2 where the body may touch something, found 1");
   if (settings.full) full_.emplace(model);
   else reduced_.emplace(model, settings.options.linear_solver, settings.options.tangent(), statistics_);
 }

@@ -32,6 +32,8 @@ Reach reach_of_supports(const FemModel& model, double start, double end) {
   return reach;
 }
 
+constexpr double kLeastShare = 1e-6;  // of the extent: errors far below it are round-off
+
 double contact_stiffness(const FemModel& model) {
   double largest = 0;
   for (const auto& term : model.parts().loads) largest = std::max(largest, term->contact_stiffness());
@@ -53,7 +55,7 @@ Scales estimate_scales(const FemModel& model, const State& initial, double end, 
   const bool known = statics.exists() || (reach.distance > 0 && statics.load.isZero(0));
   if (known && at_rest) scales.position = std::min(scales.position, 2 * std::max(deflection, reach.distance));
   if (const double k = contact_stiffness(model); k > 0 && energy + work > 0)
-    scales.position = std::min(scales.position, std::sqrt(2 * (energy + work) / k));
+    scales.position = std::min(scales.position, std::max(std::sqrt(2 * (energy + work) / k), kLeastShare * extent));
   if (scales.velocity == 0) scales.velocity = extent / (end - initial.t);
   return scales;
 }

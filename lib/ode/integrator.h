@@ -34,6 +34,10 @@ class Integrator {
   // The solution at a time within the last step.
   virtual void interpolate(double t, State& out) const = 0;
 
+  // False for a method whose steps may be long against the periods of the motion, between whose ends no polynomial has
+  // its accuracy: its steps are to end at the output times.
+  virtual bool has_accurate_interpolation() const { return true; }
+
   virtual const Statistics& statistics() const = 0;
 
   // Bytes that factorisations take, or will take, workspace included; and all else that the integrator

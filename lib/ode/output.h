@@ -68,6 +68,7 @@ class ObservedState {
  public:
   // Both must outlive it.
   ObservedState(const OutputSource& source, const State& state) : source_(source), state_(state) {}
+  ObservedState(const OutputSource& source, State&& state) = delete;
 
   double t() const { return state_.t; }
   const State& state() const { return state_; }

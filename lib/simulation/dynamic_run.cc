@@ -130,7 +130,7 @@ class DynamicAnalysis {
                      .factor_bytes = integrator.factor_bytes(),
                      .det_f = {inversion.smallest(), inversion.element(), inversion.time()}};
     if (const auto& e = observers.energy)
-      out.energy = {e->last(), e->drift(), e->scale(), e->relative_drift(), e->times()};
+      out.energy = {e->last(), e->time(), e->drift(), e->scale(), e->relative_drift(), e->times()};
     if (const auto& m = observers.momentum) out.momentum = {m->angular_drift(), m->angular_scale()};
     if (outcome.status == Outcome::Status::failed) out.failure = failure_place(*setup_.built.model, outcome.last);
     return out;
@@ -151,7 +151,7 @@ class DynamicAnalysis {
 
   // A completed run without a checkpoint: it needs nothing, unless the scene has changed.
   RunResult accept_completed() const {
-    const auto earlier = Config::from_file((folder_.path() / "scene.yaml").string());
+    const auto earlier = with_defaults(Config::from_file((folder_.path() / "scene.yaml").string()));
     const auto changed = changed_keys(earlier, Config::from_text(context_.resolved));
     const bool longer = std::find(changed.begin(), changed.end(), "time.end") != changed.end();
     if (!longer && refused_changes(changed).empty())

@@ -23,7 +23,7 @@ class Driver {
         tiny_(1e-12 * std::max(std::abs(outcome.last.t), std::abs(plan.end))),
         outputs_(plan.output_times) {
     const double round_off =
-        8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(outcome.last.t), std::abs(plan.end));
+        1000 * std::numeric_limits<double>::epsilon() * std::max(std::abs(outcome.last.t), std::abs(plan.end));
     for (const double t : model.breakpoints(outcome.last.t, plan.end))
       if (t - (stops_.empty() ? outcome.last.t : stops_.back()) > round_off && plan.end - t > round_off)
         stops_.push_back(t);
@@ -37,9 +37,7 @@ class Driver {
 
   void advance() {
     outcome_.between_steps = false;
-    const ObservedState start(model_, outcome_.last);
-    for (auto* o : observers_) plan_.delivered ? o->on_resume(start) : o->on_start(start);
-    if (plan_.events && !plan_.delivered) plan_.events->start(start);
+    tell_of_start({model_, outcome_.last});
     outcome_.between_steps = true;
     integrator_.start(outcome_.last);
     for (const double stop : stops_) {
@@ -49,6 +47,11 @@ class Driver {
   }
 
  private:
+  void tell_of_start(const ObservedState& start) {
+    for (auto* o : observers_) plan_.delivered ? o->on_resume(start) : o->on_start(start);
+    if (plan_.events && !plan_.delivered) plan_.events->start(start);
+  }
+
   void skip_delivered(double last) {
     while (next_ < outputs_.size() && outputs_[next_] <= last + tiny_) ++next_;
     // A plan that differs by round-off from the earlier one must not ask for what lies behind.
@@ -62,7 +65,8 @@ class Driver {
         outcome_.status = Outcome::Status::interrupted;
         return false;
       }
-      const double limit = plan_.exact_times && next_ < outputs_.size() ? std::min(stop, outputs_[next_]) : stop;
+      const bool exact = plan_.exact_times || !integrator_.has_accurate_interpolation();
+      const double limit = exact && next_ < outputs_.size() ? std::min(stop, outputs_[next_]) : stop;
       const double begin = outcome_.last.t;
       StepInfo info = integrator_.step(limit);
       outcome_.between_steps = false;

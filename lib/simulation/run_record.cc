@@ -29,9 +29,15 @@ Json model_json(const ModelSummary& model) {
 
 Json energy_json(const EnergySummary& energy) {
   const auto& e = energy.last;
-  return {{"kinetic", e.kinetic},       {"elastic", e.elastic}, {"gravitational", e.gravitational},
-          {"dissipated", e.dissipated}, {"loads", e.loads},     {"balance_drift", energy.drift},
-          {"scale", energy.scale},      {"times", energy.times == EnergyTimes::steps ? "steps" : "outputs"}};
+  return {{"time", energy.time},
+          {"kinetic", e.kinetic},
+          {"elastic", e.elastic},
+          {"gravitational", e.gravitational},
+          {"dissipated", e.dissipated},
+          {"loads", e.loads},
+          {"balance_drift", energy.drift},
+          {"scale", energy.scale},
+          {"times", energy.times == EnergyTimes::steps ? "steps" : "outputs"}};
 }
 
 Json norms_json(const ErrorNorms& e) { return {{"final", e.final}, {"rms", e.l2}, {"largest", e.max}}; }

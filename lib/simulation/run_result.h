@@ -23,6 +23,7 @@ struct ModelSummary {
 
 struct EnergySummary {
   EnergyBalance last;           // J
+  double time = 0;              // of that, s
   double drift = 0, scale = 0;  // J: of the balance, and the largest energy
   double relative_drift = 0;
   EnergyTimes times = EnergyTimes::outputs;  // of which the drift is the largest

@@ -82,6 +82,7 @@ TEST(TimeFunction, AnExpressionsPeakIsThatOfTheTimeSpan) {
   EXPECT_NEAR(factor("{type: expression, formula: 1e-4*sin(20*t)}")->peak(0, 1), 1e-4, 1e-8);
   EXPECT_EQ(factor("{type: expression, formula: -3*t}")->peak(1, 2), 6);
   EXPECT_NEAR(factor("{type: expression, formula: 2*sqrt(0.5-t)}")->peak(0, 1), std::sqrt(2), 1e-12);  // NaN later
+  EXPECT_NEAR(factor("{type: expression, formula: sin(2*pi*50*t)}")->peak(0, 10), 1, 1e-3);
 }
 
 TEST(TimeFunction, ExpressionThatHasNoValueSaysWhereAndWhen) {

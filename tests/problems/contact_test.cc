@@ -19,7 +19,8 @@ void PrintTo(const Fall& fall, std::ostream* out) {
 
 std::vector<Fall> falls() {
   std::vector<Fall> all;
-  for (const char* integrator : {"cvode_bdf", "ida_bdf", "newmark", "tr_bdf2", "generalized_alpha", "energy_momentum"})
+  for (const char* integrator :
+       {"cvode_bdf", "ida_bdf", "newmark", "tr_bdf2", "generalized_alpha", "energy_momentum", "arkode_dirk"})
     for (const char* stiffness : {"1e5", "1e8", "1e11"})
       for (const double rtol : {1e-2, 1e-3}) all.push_back({integrator, stiffness, rtol});
   return all;
@@ -54,7 +55,9 @@ integrator: {{type: {}, rtol: {}}}
   EXPECT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
   const double fallen = 1 * 9.81 * 0.05;  // J, kg m/s^2 m
   EXPECT_GT(energy.scale(), 0.9 * fallen);  // it has fallen; soft ground lets it fall further
-  EXPECT_LE(energy.largest, 10 * fall.rtol * fallen);
+  const double rtols = std::string(fall.integrator) == "arkode_dirk" ? 50 : 10;
+  EXPECT_LE(energy.largest, rtols * fall.rtol * fallen);
+  if (fall.rtol < 1e-2) EXPECT_GT(energy.change(), -0.5 * fallen);  // it bounces
 }
 
 INSTANTIATE_TEST_SUITE_P(Ground, Contact, testing::ValuesIn(falls()));

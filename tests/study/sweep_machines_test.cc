@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lib/scene/expectation.h"
+#include "lib/study/jobs/job_result.h"
 #include "tests/study/sweep_command.h"
 
 namespace orthodyn::sweep_machines_test {
@@ -74,9 +75,8 @@ TEST_F(SweepCommand, CollectListsAsManyPointsAsItCounts) {
   EXPECT_EQ(missing(), 18);
   EXPECT_EQ(table().at("missing"), 18);
   // A process that died has left a reason: the point is in the table, and not missing.
-  const std::string crashed = R"({"status": "failed", "reason": "crashed", "message": "ended by signal 9"})";
   const std::string some = results().begin()->first;
-  std::ofstream(some) << crashed;
+  study::write_result(fs::path(some).parent_path(), study::to_json(study::Failure{"crashed", "ended by signal 9"}));
   EXPECT_EQ(missing(), 18);
   EXPECT_EQ(table().at("missing"), 18);
   EXPECT_EQ(sweep("--quiet").exit_code, 0);

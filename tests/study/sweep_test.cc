@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lib/scene/expectation.h"
+#include "lib/study/jobs/job_result.h"
 #include "tests/study/sweep_command.h"
 
 namespace orthodyn::sweep_test {
@@ -212,8 +213,8 @@ TEST_F(SweepCommand, TriesFailuresAgainWhereThatIsAskedFor) {
   write("s.yaml", "scene: scene.yaml\nvary: {materials.soft.young: [1e5, 1e6]}\nquantities: {hertz: {mode: 1}}\n");
   ASSERT_EQ(sweep().exit_code, 0);
   const auto whole = results();
-  std::ofstream(whole.begin()->first)
-      << R"({"status": "failed", "reason": "time limit", "message": "on a slow machine"})";
+  study::write_result(fs::path(whole.begin()->first).parent_path(),
+                      study::to_json(study::Failure{"time limit", "on a slow machine"}));
   const auto kept = sweep();
   EXPECT_EQ(kept.exit_code, 0);
   EXPECT_NE(kept.output.find(": time limit: on a slow machine"), std::string::npos) << kept.output;

@@ -121,10 +121,10 @@ void write_and_draw_axes(const Setup& setup, const fs::path& folder) {
 }
 
 int check(const CheckArguments& arguments) {
-  Setup setup = set_up_without_time(arguments.scene, arguments.changes);
+  auto [setup, has_time] = set_up_without_time(arguments.scene, arguments.changes);
   const FemModel& model = *setup.built.model;
   const auto& parts = model.parts();
-  fmt::print("{}: valid\n", arguments.scene);
+  fmt::print("{}: valid{}\n", arguments.scene, has_time ? "" : ", but for the missing 'time'");
   fmt::print("mesh\n  {} nodes, {} elements, regions {}\n", parts.mesh.nodes.size(), parts.mesh.tets.size(),
              join(parts.mesh.region_names));
   const Box box = bounding_box(parts.mesh);

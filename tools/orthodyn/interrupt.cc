@@ -10,7 +10,7 @@ std::atomic<bool> flag{false};
 
 void set_flag(int signal) {
   flag = true;
-  std::signal(signal, SIG_DFL);
+  std::signal(signal, signal == SIGHUP ? SIG_IGN : SIG_DFL);  // shell and kernel may each send one
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace orthodyn {
 
 // True from the first SIGINT, SIGTERM or SIGHUP on, once catch_interrupts() was called.
 const std::atomic<bool>& interrupted();
-// From here on nobody who stops to read what is printed ends the program, either.
+// From here on a reader of what is printed that goes away does not end the program, either.
 void catch_interrupts();
 
 }  // namespace orthodyn

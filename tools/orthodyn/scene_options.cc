@@ -25,14 +25,14 @@ Setup set_up_and_warn(const std::string& scene, const SceneChanges& changes) {
   return set_up_and_warn(read_scene_file(scene, changes));
 }
 
-Setup set_up_without_time(const std::string& file, const SceneChanges& changes) {
+SetupOfAnyTime set_up_without_time(const std::string& file, const SceneChanges& changes) {
   Config scene = read_scene_file(file, changes);
   const bool timed = scene.is_map() && (scene.has("time") || scene.has("analysis"));
   if (scene.is_map() && !timed) {
     fmt::print(stderr, "notice: the scene has no 'time', which a run needs; 1 s is taken here\n");
     scene.set("time.end", 1.0);
   }
-  return set_up_and_warn(std::move(scene));
+  return {set_up_and_warn(std::move(scene)), timed};
 }
 
 }  // namespace orthodyn

@@ -20,6 +20,10 @@ void declare_scene(SceneArguments& arguments, CommandOptions& options);
 Setup set_up_and_warn(const std::string& scene, const SceneChanges& changes);
 
 // The same for what needs no `time`: a second is taken where the scene does not say, with a notice.
-Setup set_up_without_time(const std::string& scene, const SceneChanges& changes);
+struct SetupOfAnyTime {
+  Setup setup;
+  bool has_time;
+};
+SetupOfAnyTime set_up_without_time(const std::string& scene, const SceneChanges& changes);
 
 }  // namespace orthodyn

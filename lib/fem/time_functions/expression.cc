@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "lib/config/formula.h"
@@ -19,8 +20,8 @@ class Expression : public TimeFunction {
             .key("kinks", &Expression::kinks_, "Times where it is not smooth; integrators restart there.",
                  {.unit = "s"})
             .key("peak", &Expression::peak_,
-                 "The largest magnitude it reaches, for default scales of errors; default that of 1001 evenly spaced "
-                 "times.",
+                 "The largest magnitude it reaches, for default scales of errors; default that found at 1000 times of "
+                 "the span.",
                  {.range = kNonNegative})
             .key("resolution", &Expression::resolution_,
                  "Step of the differences that give rate and curvature: a sixtieth of its shortest period, or less.",
@@ -33,11 +34,13 @@ class Expression : public TimeFunction {
   std::vector<double> kinks() const override { return kinks_; }
   double peak(double start, double end) const override {
     if (peak_) return *peak_;
+    // By the golden ratio, for evenly spaced times may all be zeros of an oscillation.
     constexpr int kSamples = 1000;
     double largest = 0;
     for (int k = 0; k <= kSamples; ++k) {
+      const double share = k * std::numbers::phi - std::floor(k * std::numbers::phi);
       try {
-        largest = std::max(largest, std::abs(formula_.at((start * (kSamples - k) + end * k) / kSamples)));
+        largest = std::max(largest, std::abs(formula_.at(k < kSamples ? start + share * (end - start) : end)));
       } catch (const ConfigError&) {  // no value there: the run will tell, if it comes so far
       }
     }

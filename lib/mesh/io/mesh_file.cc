@@ -49,20 +49,23 @@ void replace_together(const std::vector<MeshText>& files, const std::function<st
 // Converts names, and remembers which.
 class Names {
  public:
+  explicit Names(const std::string& path) : path_(path) {}
+
   void convert(std::string& name) {
     if (find_invalid_utf8(name) == std::string::npos) return;
     name = utf8_from_latin1(name);
     converted_.push_back(name);
   }
 
-  // Of two names that become the same the second is lost.
   template <class V>
   void convert_keys(std::map<std::string, V>& map) {
     std::map<std::string, V> out;
     for (auto& [name, value] : map) {
       std::string key = name;
       convert(key);
-      out.emplace(std::move(key), std::move(value));
+      if (!out.emplace(key, std::move(value)).second)
+        throw ConfigError(path_, fmt::format("two names are '{}' once those that are not UTF-8 are read as Latin-1; "
+                                             "rename one, or save the file as UTF-8", key));
     }
     map = std::move(out);
   }
@@ -70,13 +73,14 @@ class Names {
   const std::vector<std::string>& converted() const { return converted_; }
 
  private:
+  const std::string& path_;
   std::vector<std::string> converted_;
 };
 
 }  // namespace
 
 void make_names_utf8(LoadedMesh& loaded, const std::string& path) {
-  Names names;
+  Names names(path);
   for (std::string& name : loaded.mesh.region_names) names.convert(name);
   names.convert_keys(loaded.mesh.surfaces);
   names.convert_keys(loaded.mesh.node_sets);

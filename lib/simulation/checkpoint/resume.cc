@@ -85,7 +85,7 @@ Checkpoint first_checkpoint(const Setup& setup, const std::string& resolved, con
 Checkpoint continued(Checkpoint checkpoint, const Setup& setup, const std::string& resolved,
                      const ResultFolder& folder) {
   const auto changed =
-      changed_keys(Config::from_text(checkpoint.scene, "checkpoint.cbor"), Config::from_text(resolved));
+      changed_keys(with_defaults(Config::from_text(checkpoint.scene, "checkpoint.cbor")), Config::from_text(resolved));
   if (const auto refused = refused_changes(changed); !refused.empty())
     throw ConfigError(folder.checkpoint().string(),
                       fmt::format("is that of another simulation: {} differ{}. A run that goes on may change "

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "lib/config/values.h"
+#include "lib/scene/scene.h"
 
 namespace orthodyn {
 
@@ -61,6 +62,12 @@ void compare(const Config& before, const Config& now, const std::string& path, s
 }
 
 }  // namespace
+
+Config with_defaults(const Config& scene) {
+  Config all = scene.resolving();
+  read_scene(all);
+  return all;
+}
 
 std::vector<std::string> changed_keys(const Config& before, const Config& now) {
   std::vector<std::string> changed;

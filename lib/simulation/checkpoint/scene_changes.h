@@ -8,6 +8,9 @@
 
 namespace orthodyn {
 
+// A resolved scene, perhaps of an earlier version, with the defaults of keys that it does not have.
+Config with_defaults(const Config& scene);
+
 // Paths of values that differ, in the order of `now`. Numbers are compared as numbers, with their units; a key without
 // a value counts as absent.
 std::vector<std::string> changed_keys(const Config& before, const Config& now);

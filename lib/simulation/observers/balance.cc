@@ -53,7 +53,10 @@ void EnergyMeter::on_start(const ObservedState& observed) {
 }
 
 void EnergyMeter::on_step(const StepInfo&, const ObservedState& observed, const Integrator&) {
-  times_ == EnergyTimes::steps ? look(observed) : advance_powers(observed);
+  if (times_ == EnergyTimes::steps) return look(observed);
+  advance_powers(observed);
+  // Outputs may all fall on moments of little energy.
+  scale_ = std::max(scale_, observed.evaluate("energy.kinetic")[0]);
 }
 
 void EnergyMeter::look(const ObservedState& observed) {
@@ -63,6 +66,7 @@ void EnergyMeter::look(const ObservedState& observed) {
 
 void EnergyMeter::take_energies(const ObservedState& observed) {
   const auto energy = [&](const char* name) { return observed.evaluate(name)[0]; };
+  time_ = observed.t();
   last_ = {energy("energy.kinetic"), energy("energy.elastic"), energy("energy.gravitational"),
            dissipation_.value(), load_work_.value()};
   raise(drift_, std::abs(change()));

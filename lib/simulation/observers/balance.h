@@ -50,6 +50,7 @@ class EnergyMeter : public Observer {
   double scale() const { return scale_; }
   double relative_drift() const { return scale_ > 0 ? drift_ / scale_ : 0; }
   EnergyTimes times() const { return times_; }
+  double time() const { return time_; }  // of last(), s
 
  private:
   double powers_time() const { return model_.traits().dissipative ? dissipation_.time() : load_work_.time(); }
@@ -63,7 +64,7 @@ class EnergyMeter : public Observer {
   EnergyTimes times_;
   PowerIntegral dissipation_, load_work_;
   EnergyBalance first_, last_;
-  double drift_ = 0, scale_ = 0;
+  double time_ = 0, drift_ = 0, scale_ = 0;
 };
 
 // Linear and angular momentum about the origin, kg m/s and kg m^2/s.

@@ -89,7 +89,7 @@ std::vector<Crossing> EventFinder::find(double begin, double end, const OutputSo
   // A run that goes on from there has not seen the rest of the step.
   const Sample there = sample(found.back().state.t, source, interpolate);
   for (std::size_t k = 0; k < events_.size(); ++k)
-    if (&events_[k] != found.back().event) side_[k] = sign(there.excess[k]);
+    side_[k] = &events_[k] != found.back().event ? sign(there.excess[k]) : found.back().upward ? 1 : -1;
   return found;
 }
 
