@@ -277,7 +277,7 @@ TEST_P(Contract, AnIndefiniteTangentFallsBackToGaussNewtonWhichIsCounted) {
   if (!controls_its_error(GetParam().integrator)) GTEST_SKIP() << "takes fixed steps only";
   if (!tested(GetParam().integrator).stiff) GTEST_SKIP() << "takes short steps only";
   const auto model = upright_column();
-  const auto integrator = make(model, {1e-4, 2});
+  const auto integrator = make(model, {1e-3, 2});
   State state = model.initial();
   integrator->start(state);
   StepInfo info;
