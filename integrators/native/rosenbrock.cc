@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kStages = 4;
 
-// What the embedded method sees of a step's error is a tenth of what its errors add up to in a body that turns: they all
-// point the same way. So that rtol means to this method what it means to others:
+// The error test is held to rtol divided by this. At the same rtol a pendulum on one node drifted by 0.34 J of 10.5 J,
+// and by 0.08 J with BDF (docs/decisions.md).
 constexpr double kStrictness = 10;
 
 LinearOptions stricter(LinearOptions options) {
@@ -44,8 +44,8 @@ struct Transformed {
 class Rosenbrock : public LinearlyImplicit {
  public:
   Rosenbrock(const Model& model, const LinearOptions& options, const Scales& scales, int tangent_steps)
-      : LinearlyImplicit("rosenbrock", model, stricter(options), scales, tangent_steps), u_q_(model.num_dofs(), kStages),
-        u_v_(model.num_dofs(), kStages), f_(model.num_dofs()), p_(model.num_dofs()),
+      : LinearlyImplicit("rosenbrock", model, stricter(options), scales, tangent_steps),
+        u_q_(model.num_dofs(), kStages), u_v_(model.num_dofs(), kStages), f_(model.num_dofs()), p_(model.num_dofs()),
         f_t_(Vector::Zero(model.num_dofs())), still_(model.num_dofs()) {}
 
  protected:
@@ -113,7 +113,8 @@ class RosenbrockChoice : public SettableChoice<RosenbrockChoice>, public LinearO
   }
   static MethodFacts facts() {
     return method_facts("3", "L-stable with the tangent of each step", "momentum",
-                        "ROS34PW2: Rang & Angermann 2005; error estimate: embedded order 2");
+                        "ROS34PW2: Rang & Angermann 2005; error estimate: embedded order 2 and one Newton correction, "
+                        "at rtol/10");
   }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     return std::make_unique<Rosenbrock>(model, *this, scales(task), tangent_steps);

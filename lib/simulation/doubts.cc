@@ -12,8 +12,7 @@ std::string drift_sentence(const EnergySummary& energy) {
   return fmt::format(
       "the energy balance drifts by {:.2g} of the largest energy: energy was made or lost by the integration, or what "
       "fast vibrations dissipate was not resolved. Run it with --estimate-error, which tells how far off the motion "
-      "is, "
-      "or with a smaller integrator.rtol",
+      "is, or with a smaller integrator.rtol or integrator.step",
       energy.relative_drift);
 }
 

@@ -92,6 +92,7 @@ void EnergyMeter::save(Archive& archive) {
   archive.put("load_work", load_work_.kept());
   archive.put("first", kept(first_));
   archive.put("last", kept(last_));
+  archive.put("time", time_);
   archive.put("drift", drift_);
   archive.put("scale", scale_);
 }
@@ -101,6 +102,7 @@ void EnergyMeter::restore(const Archive& archive) {
   load_work_.restore(archive.numbers("load_work", 3));
   first_ = balance_from(archive.numbers("first", 5));
   last_ = balance_from(archive.numbers("last", 5));
+  if (archive.entries().contains("time")) time_ = archive.number("time");  // earlier checkpoints have none
   drift_ = archive.number("drift");
   scale_ = archive.number("scale");
 }
