@@ -39,7 +39,8 @@ template <class T>
 Spec<T> ErrorControl::spec_for() {
   using C = ErrorControl;
   return Spec<T>()
-      .key("rtol", &C::rtol, "Local error allowed per step, relative to the scales.", {.range = {0, 1, true, true}})
+      .key("rtol", &C::rtol, "Local error allowed per step, relative to the scales.",
+           {.range = {1e-14, 1, false, true}})
       .key("position_scale", &C::position_scale, "Size of motion; default from the scene.",
            {.unit = "m", .range = kPositive})
       .key("velocity_scale", &C::velocity_scale, "Size of velocities; default from the scene.",

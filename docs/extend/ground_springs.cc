@@ -8,13 +8,13 @@ using namespace orthodyn;
 class GroundSprings : public Term {
  public:
   GroundSprings(double stiffness, std::vector<int> nodes, const Discretization& body)
-      : k_(stiffness), nodes_(std::move(nodes)), rest_(body.rest), pattern_(body.pattern) {}
+      : k_(stiffness), nodes_(std::move(nodes)), pattern_(body.pattern) {}
 
   std::string name() const override { return "springs to ground"; }
   std::string description() const override { return name() + ": " + std::to_string(nodes_.size()) + " nodes"; }
 
   void add_force(const NodalState& s, NodalVector& f) const override {
-    for (const int i : nodes_) f.col(i) -= k_ * (s.x.col(i) - rest_.col(i));
+    for (const int i : nodes_) f.col(i) -= k_ * s.u.col(i);
   }
 
   // -df/dx: k on the diagonal block of each node.
@@ -30,14 +30,13 @@ class GroundSprings : public Term {
   EnergyKind energy_kind() const override { return EnergyKind::elastic; }
   double energy(const NodalState& s) const override {
     double sum = 0;
-    for (const int i : nodes_) sum += 0.5 * k_ * (s.x.col(i) - rest_.col(i)).squaredNorm();
+    for (const int i : nodes_) sum += 0.5 * k_ * s.u.col(i).squaredNorm();
     return sum;
   }
 
  private:
   double k_;
   std::vector<int> nodes_;
-  const NodalVector& rest_;
   const BlockPattern& pattern_;
 };
 

@@ -24,9 +24,9 @@ Reach reach_of_supports(const FemModel& model, double start, double end) {
   Reach reach;
   if (!parts.moved) return reach;
   for (int k = 0; k <= kSamples; ++k) {
-    NodalVector x = *parts.rest, v = NodalVector::Zero(3, x.cols());
-    parts.moved->place(start + (end - start) * k / kSamples, x, v);
-    reach.distance = std::max(reach.distance, (x - *parts.rest).colwise().norm().maxCoeff());
+    NodalVector u = NodalVector::Zero(3, parts.rest->cols()), v = u;
+    parts.moved->place(start + (end - start) * k / kSamples, u, v);
+    reach.distance = std::max(reach.distance, u.colwise().norm().maxCoeff());
     reach.speed = std::max(reach.speed, v.colwise().norm().maxCoeff());
   }
   return reach;

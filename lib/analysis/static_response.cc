@@ -10,7 +10,7 @@ Vector peak_load(const FemModel& model, double start, double end) {
   const auto& parts = model.parts();
   NodalVector sum = NodalVector::Zero(3, parts.rest->cols());
   const NodalVector still = NodalVector::Zero(3, parts.rest->cols());
-  for (const auto& load : parts.loads) load->add_peak_force({start, *parts.rest, still}, end, sum);
+  for (const auto& load : parts.loads) load->add_peak_force({start, *parts.rest, still, still}, end, sum);
   Vector free(model.num_dofs());
   parts.dofs->restrict_to(sum, free);
   return free;

@@ -103,9 +103,9 @@ std::array<AxisLimits, 3> searched_limits(const AnisotropicStiffness& C) {
   for (int axis = 0; axis < 3; ++axis) {
     const Mat3 unit = uniaxial_strain(S, axis);
     const auto holds = [&](double strain) {
-      const Mat3 F = Mat3::Identity() + strain * unit;
-      if (!is_positive_definite(F)) return false;
-      return is_strongly_elliptic(expand(law.tangent(F, Mat3::Identity(), TangentKind::exact, 0, nullptr)));
+      const Mat3 H = strain * unit, I = Mat3::Identity();
+      if (!is_positive_definite(I + H)) return false;
+      return is_strongly_elliptic(expand(law.tangent(H, I, TangentKind::exact, 0, nullptr)));
     };
     AxisLimits& limits = out[static_cast<std::size_t>(axis)];
     if (const auto e = first_failure(holds, -0.95)) limits.compression = {*e, LimitKind::oblique, axis};

@@ -65,7 +65,12 @@ inline bool all(const Batch::Mask& m) {
   return every != 0;
 }
 
-inline double select(bool m, double a, double b) { return m ? a : b; }
+inline Batch real(const Batch& x) { return x; }
+
+template <class T>
+T select(bool m, const T& a, const T& b) {
+  return m ? a : b;
+}
 inline bool all(bool m) { return m; }
 
 }  // namespace orthodyn

@@ -5,8 +5,8 @@
 // C. Inverted states are blended into the nearest isotropic law (blend.h). For isotropic C, c = 0
 // and no blending is needed: neither is computed.
 //
-// F is taken in material axes: F^ = F Q, the columns of Q being the axes, so that C is in its sparse
-// form; P^ = P Q likewise. Stateless: R is a pure function of F.
+// Given is the displacement gradient H = F - I (strain.h), in material axes: H^ = H Q, the columns of Q being the axes,
+// so that C is in its sparse form; F^ = F Q and P^ = P Q likewise. Stateless: R is a pure function of F.
 //
 // Derivation: with X = R^T dF, w = G^-1 a(X), dS = sym(X) - sym([w] S), T = sigma + [c], tau = T S:
 //     d2Psi = dS:C:dS + 2 w . a(dS T^T) + w . (tr(tau) I - tau) w,
@@ -47,9 +47,9 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
 
   // Energy per volume, J/m^3.
   template <class T>
-  T energy(const Mat3T<T>& F, const Mat3& Q) const {
-    const auto p = polar(F, Q);
-    const Mat3T<T> e = p.S - Mat3T<T>::Identity();
+  T energy(const Mat3T<T>& H, const Mat3& Q) const {
+    const auto p = polar(deformation_gradient<T>(H, Q), Q);
+    const Mat3T<T> e = stretch_strain<T>(H, Q, p.S);
     const T W = T(0.5) * contract<T>(C_.stress(e), e);
     if constexpr (C::kIsotropic) {
       return W;
@@ -61,37 +61,36 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
 
   // First Piola-Kirchhoff stress times Q; with F_rate the viscous stress of weight beta is added.
   template <class T>
-  Mat3T<T> stress(const Mat3T<T>& F, const Mat3& Q, const Mat3T<T>* F_rate = nullptr,
+  Mat3T<T> stress(const Mat3T<T>& H, const Mat3& Q, const Mat3T<T>* F_rate = nullptr,
                   double beta = 0) const {
-    const auto p = polar(F, Q);
+    const auto p = polar(deformation_gradient<T>(H, Q), Q);
     T chi(1);
-    Mat3T<T> P = p.R * rotated_stress(p, chi);
+    Mat3T<T> P = p.R * rotated_stress<T>(p, stretch_strain<T>(H, Q, p.S), chi);
     if (F_rate) P += viscous_stress<T>(p, C_, damping_weight(p, chi, T(beta)), *F_rate);
     return P;
   }
 
   // stress() for a batch of points; right in the lanes of `good`, the others (inverted, singular) are
   // to be done one by one.
-  Mat3T<Batch> batch_stress(const Mat3T<Batch>& F, const Mat3&, const Mat3T<Batch>* F_rate, double beta,
+  template <class Axes>
+  Mat3T<Batch> batch_stress(const Mat3T<Batch>& H, const Axes& Q, const Mat3T<Batch>* F_rate, double beta,
                             Batch::Mask& good) const {
     Polar<Batch> p;
-    good = polar(F, p);
-    good = good & is_regular<Batch>(p.S, p.det_G);
-    Mat3T<Batch> P = p.R * regular_stress<Batch>(p);
+    good = this->regular_polar(H, Q, p);
+    Mat3T<Batch> P = p.R * regular_stress<Batch>(p, stretch_strain<Batch>(H, Q, p.S));
     if (F_rate) P += viscous_stress<Batch>(p, C_, Batch(beta), *F_rate);
     return P;
   }
 
   // The elastic tangent and, if asked for, the damping tangent dP/dF_rate. Where the energy is
   // blended, `exact` too is a positive semidefinite approximation: the Hessian is unbounded there.
-  Form tangent(const Mat3& F, const Mat3& Q, TangentKind kind, double beta, Form* damping) const {
-    const auto p = polar(F, Q);
+  Form tangent(const Mat3& H, const Mat3& Q, TangentKind kind, double beta, Form* damping) const {
+    const auto p = polar(deformation_gradient<double>(H, Q), Q);
     const auto b = blend<double>(p.S, p.det_G);
     if (damping) *damping = gauss_newton_form(p, beta * sparse_, b.chi);
     if (b.chi < 1) return blended_form(p, b.chi);
     if (kind == TangentKind::gauss_newton) return gauss_newton_form(p, sparse_, 1);
-    double chi = 1;
-    return exact_form(p, sparse_, rotated_stress(p, chi));
+    return exact_form(p, sparse_, regular_stress<double>(p, stretch_strain<double>(H, Q, p.S)));
   }
 
   // The stress of two states, P Q, with P : (F1 - F0) = Psi(F1) - Psi(F0) and P (F0 + F1)^T symmetric, which is
@@ -99,40 +98,41 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
   // Psi is quadratic in S and S^2 = C, so that X needs no quotient of differences: with the means s of S and
   // sigma, Psi1 - Psi0 = sigma : (S1 - S0) and s (S1 - S0) + (S1 - S0) s = C1 - C0 give s X + X s = 2 sigma.
   // Throws RecoverableError where an end is inverted or blended: C does not know the sign of det F.
-  Mat3 mean_stress(const Mat3& F0, const Mat3& F1, const Mat3& Q) const {
+  Mat3 mean_stress(const Mat3& H0, const Mat3& H1, const Mat3& Q) const {
+    const Mat3 F0 = deformation_gradient<double>(H0, Q), F1 = deformation_gradient<double>(H1, Q);
     const auto p0 = polar(F0, Q), p1 = polar(F1, Q);
     for (const auto* p : {&p0, &p1})
       if (!(p->S.determinant() > 0) || !is_regular<double>(p->S, p->det_G))
         throw RecoverableError("an element is inverted or flattened, where steps that keep the energy have no force");
     const Mat3 S = 0.5 * (p0.S + p1.S);
-    return 0.5 * (F0 + F1) * solve_lyapunov(S, 2 * C_.stress(Mat3(S - Mat3::Identity())));
+    const Mat3 strain = 0.5 * (stretch_strain<double>(H0, Q, p0.S) + stretch_strain<double>(H1, Q, p1.S));
+    return 0.5 * (F0 + F1) * solve_lyapunov(S, 2 * C_.stress(strain));
   }
 
-  // The stress in the rotated frame, T = sigma + [c] with P = R T, where chi = 1.
+  // The stress in the rotated frame, T = sigma + [c] with P = R T, where chi = 1; e = S - I.
   template <class T>
-  Mat3T<T> regular_stress(const Polar<T>& p) const {
-    const Mat3T<T> sigma = C_.stress(Mat3T<T>(p.S - Mat3T<T>::Identity()));
+  Mat3T<T> regular_stress(const Polar<T>& p, const Mat3T<T>& e) const {
+    const Mat3T<T> sigma = C_.stress(e);
     if constexpr (C::kIsotropic) {
       return sigma;
     } else {
-      const Vec3T<T> c = p.G_inverse * axial<T>(p.S * sigma);
+      const Vec3T<T> c = p.G_inverse * axial<T>(e * sigma);  // a(S sigma), for a(sigma) = 0
       return sigma + cross_matrix<T>(c);
     }
   }
 
   // The same in any state, and its chi.
   template <class T>
-  Mat3T<T> rotated_stress(const Polar<T>& p, T& chi) const {
+  Mat3T<T> rotated_stress(const Polar<T>& p, const Mat3T<T>& e, T& chi) const {
     if constexpr (C::kIsotropic) {
-      return regular_stress(p);
+      return regular_stress<T>(p, e);
     } else {
       const auto b = blend<T>(p.S, p.det_G);
       chi = b.chi;
-      if (std::real(chi) == 1) return regular_stress(p);
-      const Mat3T<T> e = p.S - Mat3T<T>::Identity();
+      if (std::real(chi) == 1) return regular_stress<T>(p, e);
       const Mat3T<T> sigma_iso = isotropic_.stress(e);
       const T excess = T(0.5) * contract<T>(Mat3T<T>(C_.stress(e) - sigma_iso), e);
-      return chi * regular_stress(p) + (T(1) - chi) * sigma_iso + excess * b.gradient;
+      return chi * regular_stress<T>(p, e) + (T(1) - chi) * sigma_iso + excess * b.gradient;
     }
   }
 

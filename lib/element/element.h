@@ -1,8 +1,8 @@
 // An element: how the nodes of a cell interpolate, and where the law is evaluated.
 //
-// With shape functions N_a that sum to one, F = sum_a x_a grad N_a = sum_{a>0} (x_a - x_0) grad N_a: only the gradients
-// of nodes 1, 2, ... are kept, and node 0 takes minus the sum of the others' forces. Gradients are in material axes,
-// g_a = Q^T grad N_a with the axes as columns of Q, so that all products are F Q and P Q.
+// With shape functions N_a that sum to one, H = F - I = sum_a u_a grad N_a = sum_{a>0} (u_a - u_0) grad N_a: only the
+// gradients of nodes 1, 2, ... are kept, and node 0 takes minus the sum of the others' forces. Gradients are in
+// material axes, g_a = Q^T grad N_a with the axes as columns of Q, so that all products are H Q and P Q.
 //
 // One element per file. A struct E with static members is an element if it satisfies the concept below; fem is
 // compiled for it by ElementTypeOf<E> (lib/fem/element_type_of.h). All functions are pure.
@@ -19,7 +19,7 @@ namespace orthodyn {
 template <int kNodes>
 using ElementNodes = Eigen::Matrix<double, 3, kNodes>;
 
-// x_a - x_0 for a = 1, 2, ..., m; or of velocities, m/s.
+// u_a - u_0 for a = 1, 2, ..., m; of positions likewise, or of velocities, m/s.
 template <int kNodes>
 using NodeDifferences = Eigen::Matrix<double, 3, kNodes - 1>;
 
@@ -34,7 +34,7 @@ struct ElementPoint {
   Eigen::Matrix<double, kNodes - 1, 3> B;  // rows: the gradients g_a of nodes 1, 2, ..., 1/m
   double volume;                           // its part of the element's, m^3
 
-  // F Q from the current node differences, or its rate from their rates.
+  // H Q from differences of displacements, F Q from those of positions, F_rate Q from those of velocities.
   Mat3 gradient(const NodeDifferences<kNodes>& d) const { return d * B; }
 
   // Columns: the forces -V dPsi/dx on nodes 1, 2, ... (N) for the stress P Q (Pa).

@@ -1,4 +1,4 @@
-// Small strain: Psi = e:C:e / 2 with e = sym(F) - I. Not invariant under rotation; its tangent is
+// Small strain: Psi = e:C:e / 2 with e = sym(H), H = F - I. Not invariant under rotation; its tangent is
 // constant.
 #pragma once
 
@@ -10,53 +10,53 @@ template <class C>
 class LinearLaw {
  public:
   static constexpr const char* kName = "small strain";
-  static constexpr bool kBatchesNeedAxes = true;
   static constexpr bool kHasEnergy = true;
   using Form = TangentFormOf<TangentStiffness<C>>;
 
   explicit LinearLaw(const C& stiffness) : C_(stiffness) {}
 
-  // Q: one rotation for all lanes of a batch (Mat3), or one for each (Mat3T<Batch>).
+  // Arguments as in corotational_law.h. Q: one rotation for all lanes of a batch (Mat3), or one for each
+  // (Mat3T<Batch>).
   template <class T, class Axes>
-  T energy(const Mat3T<T>& F, const Axes& Q) const {
-    const Mat3T<T> e = strain<T>(F, Q);
+  T energy(const Mat3T<T>& H, const Axes& Q) const {
+    const Mat3T<T> e = small_strain<T>(H, Q);
     return T(0.5) * contract<T>(C_.stress(e), e);
   }
 
   template <class T, class Axes>
-  Mat3T<T> stress(const Mat3T<T>& F, const Axes& Q, const Mat3T<T>* F_rate = nullptr,
+  Mat3T<T> stress(const Mat3T<T>& H, const Axes& Q, const Mat3T<T>* F_rate = nullptr,
                   double beta = 0) const {
-    Mat3T<T> s = C_.stress(strain<T>(F, Q));
-    if (F_rate) s += T(beta) * C_.stress(Mat3T<T>(symmetric_part<T>(Q.transpose().template cast<T>() * *F_rate)));
+    Mat3T<T> s = C_.stress(small_strain<T>(H, Q));
+    if (F_rate) s += T(beta) * C_.stress(small_strain<T>(*F_rate, Q));
     return Q.template cast<T>() * s;
   }
 
-  // With P : (F1 - F0) = Psi(F1) - Psi(F0): Psi is quadratic.
-  Mat3 mean_stress(const Mat3& F0, const Mat3& F1, const Mat3& Q) const {
-    return stress<double>(0.5 * (F0 + F1), Q);
+  // With P : (H1 - H0) = Psi(H1) - Psi(H0): Psi is quadratic.
+  Mat3 mean_stress(const Mat3& H0, const Mat3& H1, const Mat3& Q) const {
+    return stress<double>(0.5 * (H0 + H1), Q);
   }
 
   template <class Axes>
-  Mat3T<Batch> batch_stress(const Mat3T<Batch>& F, const Axes& Q, const Mat3T<Batch>* F_rate, double beta,
+  Mat3T<Batch> batch_stress(const Mat3T<Batch>& H, const Axes& Q, const Mat3T<Batch>* F_rate, double beta,
                             Batch::Mask& good) const {
-    good = F(0, 0) <= F(0, 0);  // all but NaN
-    return stress<Batch>(F, Q, F_rate, beta);
+    good = H(0, 0) <= H(0, 0);  // all but NaN
+    return stress<Batch>(H, Q, F_rate, beta);
   }
 
   template <class Axes>
-  Batch batch_energy(const Mat3T<Batch>& F, const Axes& Q, Batch::Mask& good) const {
-    good = F(0, 0) <= F(0, 0);  // all but NaN
-    return energy<Batch>(F, Q);
+  Batch batch_energy(const Mat3T<Batch>& H, const Axes& Q, Batch::Mask& good) const {
+    good = H(0, 0) <= H(0, 0);  // all but NaN
+    return energy<Batch>(H, Q);
   }
 
   double dissipation(const Mat3&, const Mat3& Q, const Mat3& F_rate, double beta) const {
-    const Mat3 rate = symmetric_part<double>(Q.transpose() * F_rate);
+    const Mat3 rate = small_strain<double>(F_rate, Q);
     return beta * contract<double>(C_.stress(rate), rate);
   }
   template <class Axes>
   Batch batch_dissipation(const Mat3T<Batch>&, const Axes& Q, const Mat3T<Batch>& F_rate, double beta,
                           Batch::Mask& good) const {
-    const Mat3T<Batch> rate = symmetric_part<Batch>(Q.transpose().template cast<Batch>() * F_rate);
+    const Mat3T<Batch> rate = small_strain<Batch>(F_rate, Q);
     good = rate(0, 0) <= rate(0, 0);  // all but NaN
     return Batch(beta) * contract<Batch>(C_.stress(rate), rate);
   }
@@ -69,17 +69,11 @@ class LinearLaw {
     return form(1);
   }
 
-  PointObservation observe(const Mat3& F, const Mat3& Q) const {
-    return {stress<double>(F, Q) * Q.transpose(), Q, strain<double>(F, Q)};
+  PointObservation observe(const Mat3& H, const Mat3& Q) const {
+    return {stress<double>(H, Q) * Q.transpose(), Q, small_strain<double>(H, Q)};
   }
 
  private:
-  // In material axes; F is F Q.
-  template <class T, class Axes>
-  static Mat3T<T> strain(const Mat3T<T>& F, const Axes& Q) {
-    return symmetric_part<T>(Q.transpose().template cast<T>() * F) - Mat3T<T>::Identity();
-  }
-
   C C_;
 };
 

@@ -9,6 +9,7 @@
 #include "lib/element/blend.h"
 #include "lib/element/observation.h"
 #include "lib/element/polar.h"
+#include "lib/element/strain.h"
 
 namespace orthodyn {
 
@@ -22,46 +23,52 @@ Mat3T<T> viscous_stress(const Polar<T>& p, const C& stiffness, const T& beta_chi
   return p.R * (s + cross_matrix<T>(c));
 }
 
-// Law derives from RotatingLaw<Law, C> and has stress(F, Q).
+// Law derives from RotatingLaw<Law, C> and has stress(H, Q); arguments as in corotational_law.h.
 template <class Law, class C>
 class RotatingLaw {
  public:
-  static constexpr bool kBatchesNeedAxes = false;  // F Q tells all but how a tie of the polar decomposition is broken
-
   explicit RotatingLaw(const C& stiffness) : C_(stiffness) {}
 
   // Energy per volume of a batch; right in the lanes of `good`.
-  Batch batch_energy(const Mat3T<Batch>& F, const Mat3&, Batch::Mask& good) const {
+  template <class Axes>
+  Batch batch_energy(const Mat3T<Batch>& H, const Axes& Q, Batch::Mask& good) const {
     Polar<Batch> p;
-    good = polar(F, p);
-    good = good & is_regular<Batch>(p.S, p.det_G);
-    const Mat3T<Batch> e = p.S - Mat3T<Batch>::Identity();
+    good = regular_polar(H, Q, p);
+    const Mat3T<Batch> e = stretch_strain<Batch>(H, Q, p.S);
     return Batch(0.5) * contract<Batch>(C_.stress(e), e);
   }
 
   // Power per volume that damping takes, beta chi dS:C:dS, W/m^3.
-  double dissipation(const Mat3& F, const Mat3& Q, const Mat3& F_rate, double beta) const {
-    const auto p = polar(F, Q);
+  double dissipation(const Mat3& H, const Mat3& Q, const Mat3& F_rate, double beta) const {
+    const auto p = polar(deformation_gradient<double>(H, Q), Q);
     const double chi = blend<double>(p.S, p.det_G).chi;
     return contract<double>(viscous_stress<double>(p, C_, beta * chi, F_rate), F_rate);
   }
 
   // The same for a batch; right in the lanes of `good`.
-  Batch batch_dissipation(const Mat3T<Batch>& F, const Mat3&, const Mat3T<Batch>& F_rate, double beta,
+  template <class Axes>
+  Batch batch_dissipation(const Mat3T<Batch>& H, const Axes& Q, const Mat3T<Batch>& F_rate, double beta,
                           Batch::Mask& good) const {
     Polar<Batch> p;
-    good = polar(F, p);
-    good = good & is_regular<Batch>(p.S, p.det_G);
+    good = regular_polar(H, Q, p);
     return contract<Batch>(viscous_stress<Batch>(p, C_, Batch(beta), F_rate), F_rate);
   }
 
-  PointObservation observe(const Mat3& F, const Mat3& Q) const {
+  PointObservation observe(const Mat3& H, const Mat3& Q) const {
+    const Mat3 F = deformation_gradient<double>(H, Q);
     const auto p = polar(F, Q);
-    const Mat3 P = static_cast<const Law&>(*this).template stress<double>(F, Q);
-    return {cauchy_stress(P, F), p.R, p.S - Mat3::Identity()};
+    const Mat3 P = static_cast<const Law&>(*this).template stress<double>(H, Q);
+    return {cauchy_stress(P, F), p.R, stretch_strain<double>(H, Q, p.S)};
   }
 
  protected:
+  // The mask of regular lanes.
+  template <class Axes>
+  static Batch::Mask regular_polar(const Mat3T<Batch>& H, const Axes& Q, Polar<Batch>& p) {
+    const Batch::Mask good = polar(deformation_gradient<Batch>(H, Q), p);
+    return good & is_regular<Batch>(p.S, p.det_G);
+  }
+
   C C_;
 };
 

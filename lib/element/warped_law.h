@@ -21,45 +21,39 @@ class WarpedLaw : public RotatingLaw<WarpedLaw<C>, C> {
       : RotatingLaw<WarpedLaw, C>(stiffness), exact_(stiffness), tangent_(tangent) {}
 
   template <class T>
-  T energy(const Mat3T<T>& F, const Mat3& Q) const {
-    const auto p = polar(F, Q);
-    const Mat3T<T> e = p.S - Mat3T<T>::Identity();
+  T energy(const Mat3T<T>& H, const Mat3& Q) const {
+    const auto p = polar(deformation_gradient<T>(H, Q), Q);
+    const Mat3T<T> e = stretch_strain<T>(H, Q, p.S);
     return T(0.5) * contract<T>(C_.stress(e), e);
   }
 
   template <class T>
-  Mat3T<T> stress(const Mat3T<T>& F, const Mat3& Q, const Mat3T<T>* F_rate = nullptr,
+  Mat3T<T> stress(const Mat3T<T>& H, const Mat3& Q, const Mat3T<T>* F_rate = nullptr,
                   double beta = 0) const {
-    const auto p = polar(F, Q);
-    T chi(1);
-    Mat3T<T> P = p.R * rotated_stress(p, chi);
+    const auto p = polar(deformation_gradient<T>(H, Q), Q);
+    Mat3T<T> P = p.R * C_.stress(stretch_strain<T>(H, Q, p.S));
     if (F_rate)
       P += viscous_stress<T>(p, C_, T(beta) * blend<T>(p.S, p.det_G).chi, *F_rate);
     return P;
   }
 
-  Mat3T<Batch> batch_stress(const Mat3T<Batch>& F, const Mat3&, const Mat3T<Batch>* F_rate, double beta,
+  template <class Axes>
+  Mat3T<Batch> batch_stress(const Mat3T<Batch>& H, const Axes& Q, const Mat3T<Batch>* F_rate, double beta,
                             Batch::Mask& good) const {
     Polar<Batch> p;
-    good = polar(F, p);
+    good = polar(deformation_gradient<Batch>(H, Q), p);
     if (F_rate) good = good & is_regular<Batch>(p.S, p.det_G);
-    Batch chi(1);
-    Mat3T<Batch> P = p.R * rotated_stress<Batch>(p, chi);
+    Mat3T<Batch> P = p.R * C_.stress(stretch_strain<Batch>(H, Q, p.S));
     if (F_rate) P += viscous_stress<Batch>(p, C_, Batch(beta), *F_rate);
     return P;
   }
 
-  Form tangent(const Mat3& F, const Mat3& Q, TangentKind kind, double beta, Form* damping) const {
-    const auto p = polar(F, Q);
-    if (damping) exact_.tangent(F, Q, TangentKind::gauss_newton, beta, damping);
+  Form tangent(const Mat3& H, const Mat3& Q, TangentKind kind, double beta, Form* damping) const {
+    const auto p = polar(deformation_gradient<double>(H, Q), Q);
+    if (damping) exact_.tangent(H, Q, TangentKind::gauss_newton, beta, damping);
     return kind == TangentKind::exact && tangent_ == WarpedTangent::unsymmetric && p.det_G > kBlendG0
-               ? unsymmetric_form(p)
+               ? unsymmetric_form(p, stretch_strain<double>(H, Q, p.S))
                : rotated_form(p);
-  }
-
-  template <class T>
-  Mat3T<T> rotated_stress(const Polar<T>& p, T&) const {
-    return C_.stress(Mat3T<T>(p.S - Mat3T<T>::Identity()));
   }
 
  private:
@@ -68,10 +62,9 @@ class WarpedLaw : public RotatingLaw<WarpedLaw<C>, C> {
   }
 
   // d(R sigma) = R ([w] sigma + C : dS), dS = e - N w, w = G^-1 a.
-  Form unsymmetric_form(const Polar<double>& p) const {
+  Form unsymmetric_form(const Polar<double>& p, const Mat3& strain) const {
     Form form = gauss_newton_form(p, as_tangent(C_), 1);
-    double chi = 1;
-    const Mat3 sigma = rotated_stress(p, chi);
+    const Mat3 sigma = C_.stress(strain);
     for (int k = 0; k < 3; ++k) {
       const Vec3 w = p.G_inverse.col(k);
       const Mat3 D = symmetric_part<double>(cross_matrix<double>(w) * sigma);

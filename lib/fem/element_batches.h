@@ -35,9 +35,9 @@ class ElementBatches {
   Nodes nodes(int k) const { return at(k).nodes[lane(k)]; }
   ElementPoint<kNodes> point(int k, int point) const;
 
-  // F Q at a point of a whole batch or of one element, from nodal positions; F_rate Q from velocities.
-  Mat3T<Batch> gradients(int batch, int point, const NodalVector& x) const;
-  Mat3 gradient(int k, int p, const NodalVector& x) const { return differences_of(nodes(k), x) * point(k, p).B; }
+  // H Q = (F - I) Q at a point of a whole batch or of one element, from nodal displacements; F_rate Q from velocities.
+  Mat3T<Batch> gradients(int batch, int point, const NodalVector& u) const;
+  Mat3 gradient(int k, int p, const NodalVector& u) const { return differences_of(nodes(k), u) * point(k, p).B; }
 
   // m^3, zero for the copies.
   Batch volumes(int batch, int point) const { return Batch::load(at_point(batch, point).volume); }
@@ -61,7 +61,7 @@ class ElementBatches {
     std::array<Point, static_cast<std::size_t>(kPoints)> points;
   };
 
-  static NodeDifferences<kNodes> differences_of(const Nodes& nodes, const NodalVector& x);
+  static NodeDifferences<kNodes> differences_of(const Nodes& nodes, const NodalVector& u);
   const One& at(int k) const { return batches_[static_cast<std::size_t>(k / kLanes)]; }
   const Point& at_point(int batch, int point) const {
     return batches_[static_cast<std::size_t>(batch)].points[static_cast<std::size_t>(point)];
@@ -101,20 +101,20 @@ auto ElementBatches<E>::point(int k, int p) const -> ElementPoint<kNodes> {
 }
 
 template <Element E>
-auto ElementBatches<E>::differences_of(const Nodes& nodes, const NodalVector& x) -> NodeDifferences<kNodes> {
+auto ElementBatches<E>::differences_of(const Nodes& nodes, const NodalVector& u) -> NodeDifferences<kNodes> {
   NodeDifferences<kNodes> d;
-  for (int a = 1; a < kNodes; ++a) d.col(a - 1) = x.col(nodes[static_cast<std::size_t>(a)]) - x.col(nodes[0]);
+  for (int a = 1; a < kNodes; ++a) d.col(a - 1) = u.col(nodes[static_cast<std::size_t>(a)]) - u.col(nodes[0]);
   return d;
 }
 
 // The two below are compiled apart from the laws' kernels, with which they would compete for registers.
 template <Element E>
-[[gnu::noipa]] Mat3T<Batch> ElementBatches<E>::gradients(int batch, int p, const NodalVector& x) const {
+[[gnu::noipa]] Mat3T<Batch> ElementBatches<E>::gradients(int batch, int p, const NodalVector& u) const {
   const One& one = batches_[static_cast<std::size_t>(batch)];
   alignas(64) double corner[kCoordinates][kLanes];
   for (std::size_t l = 0; l < kLanes; ++l)
     for (std::size_t a = 0; a < kNodes; ++a) {
-      const double* node = x.data() + 3 * static_cast<std::ptrdiff_t>(one.nodes[l][a]);
+      const double* node = u.data() + 3 * static_cast<std::ptrdiff_t>(one.nodes[l][a]);
       for (std::size_t i = 0; i < 3; ++i) corner[3 * a + i][l] = node[i];
     }
   const Point& point = at_point(batch, p);

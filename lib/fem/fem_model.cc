@@ -10,10 +10,11 @@ namespace orthodyn {
 
 NodalExpansion::NodalExpansion(const FemModel::Parts& parts, double time, const ConstVectorRef& q,
                                const ConstVectorRef& v)
-    : t(time), x(*parts.rest), u_rate(NodalVector::Zero(3, parts.rest->cols())) {
-  parts.dofs->add_to(q, x);
+    : t(time), u(NodalVector::Zero(3, parts.rest->cols())), u_rate(u) {
+  parts.dofs->add_to(q, u);
   parts.dofs->add_to(v, u_rate);
-  if (parts.moved) parts.moved->place(t, x, u_rate);
+  if (parts.moved) parts.moved->place(t, u, u_rate);
+  x = *parts.rest + u;
 }
 
 namespace {
@@ -139,8 +140,8 @@ std::vector<std::pair<std::string, std::size_t>> FemModel::memory() const {
   std::size_t elements = 0;
   for_each_term(parts_, [&](const Term& term) { elements += term.bytes(); });
   const auto& pattern = parts_.pattern->pattern();
-  // Positions, velocities and forces of all nodes, while a force is computed.
-  const std::size_t expansion = 3 * nodes * sizeof(Vec3);
+  // Displacements, velocities, positions and forces of all nodes, while a force is computed.
+  const std::size_t expansion = 4 * nodes * sizeof(Vec3);
   std::vector<std::pair<std::string, std::size_t>> all = {
       {"mesh", nodes * (2 * sizeof(Vec3) + 3 * sizeof(int)) + mesh.tets.size() * (sizeof(Tet) + sizeof(int))},
       {"elements", elements},

@@ -81,12 +81,12 @@ class FemModel : public Model {
   std::unique_ptr<const DiscreteGradient> mean_force_;  // null where a term has no energy
 };
 
-// All nodes' positions (m) and velocities (m/s) at a state of the free coordinates.
+// All nodes' positions and displacements (m) and velocities (m/s) at a state of the free coordinates.
 struct NodalExpansion {
   NodalExpansion(const FemModel::Parts& parts, double time, const ConstVectorRef& q, const ConstVectorRef& v);
-  NodalState state() const { return {t, x, u_rate}; }
+  NodalState state() const { return {t, x, u, u_rate}; }
   double t;
-  NodalVector x, u_rate;
+  NodalVector u, u_rate, x;
 };
 
 // The forces of all terms on all nodes, N.

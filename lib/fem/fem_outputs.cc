@@ -91,7 +91,7 @@ double imbalance(const View& view) {
   const NodalExpansion& nodal = view.nodal();
   const Vector still = Vector::Zero(parts.dofs->num_dofs());
   Vector q(still.size()), free(still.size());
-  parts.dofs->restrict_to(nodal.x - *parts.rest, q);
+  parts.dofs->restrict_to(nodal.u, q);
   const NodalExpansion resting(parts, nodal.t, q, still);
   free_forces(parts, resting, still, term_forces(parts, resting), free);
   NodalVector forces = NodalVector::Zero(3, nodal.x.cols());
@@ -122,7 +122,7 @@ Output scalar(const std::string& name, const std::string& unit, const std::strin
 const std::vector<Output>& all_outputs() {
   static const std::vector<Output> all = {
       {{"displacement", Location::node, 3, "m", "Displacement from the rest shape."},
-       [](const View& view) { return flat(NodalVector(view.nodal().x - *view.parts().rest)); }},
+       [](const View& view) { return flat(view.nodal().u); }},
       {{"velocity", Location::node, 3, "m/s", "Velocity."}, [](const View& view) { return flat(view.nodal().u_rate); }},
       {{"region", Location::cell, 1, "1", "Index of the region."},
        [](const View& view) {

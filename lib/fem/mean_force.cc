@@ -15,7 +15,7 @@ void add_damping(const FemModel::Parts& parts, const NodalState& moving, NodalVe
   NodalVector without = NodalVector::Zero(3, moving.x.cols());
   const auto add = [&](const Term& term) {
     term.add_force(moving, sum);
-    term.add_force({moving.t, moving.x, still}, without);
+    term.add_force({moving.t, moving.x, moving.u, still}, without);
   };
   for (const auto& term : parts.elastic) add(*term);
   for (const auto& term : parts.loads) add(*term);
@@ -32,8 +32,9 @@ void MeanForce::mean_force(double t0, const ConstVectorRef& q0, double t1, const
   add_mean_forces(parts_, begin.state(), end.state(), sum);
   if (parts_.traits.damping_matrix) {
     const double t = 0.5 * (t0 + t1);
-    const NodalVector x = 0.5 * (begin.x + end.x), rate = NodalExpansion(parts_, t, q0, v).u_rate;
-    add_damping(parts_, {t, x, rate}, sum);
+    const NodalVector x = 0.5 * (begin.x + end.x), u = 0.5 * (begin.u + end.u);
+    const NodalVector rate = NodalExpansion(parts_, t, q0, v).u_rate;
+    add_damping(parts_, {t, x, u, rate}, sum);
   }
   parts_.dofs->restrict_to(sum, f);
   if (parts_.mass_damping == 0) return;

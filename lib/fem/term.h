@@ -10,11 +10,13 @@
 
 namespace orthodyn {
 
-// Positions and velocities of all nodes, clamped ones included.
+// Positions, displacements and velocities of all nodes, clamped ones included. What vanishes at rest is to be computed
+// from u: the digits that x has of a small displacement are few.
 struct NodalState {
-  double t;               // s
-  const NodalVector& x;   // m
-  const NodalVector& v;   // m/s
+  double t;              // s
+  const NodalVector& x;  // m; the rest position plus u
+  const NodalVector& u;  // m
+  const NodalVector& v;  // m/s
 };
 
 enum class EnergyKind { none, elastic, gravitational };
@@ -38,8 +40,8 @@ class Term {
   // The force between two states (DiscreteGradient in lib/ode/model.h): by default that of the middle, at rest,
   // which is exact where the energy is at most quadratic.
   virtual void add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const {
-    const NodalVector x = 0.5 * (s0.x + s1.x), still = NodalVector::Zero(3, x.cols());
-    add_force({0.5 * (s0.t + s1.t), x, still}, f);
+    const NodalVector x = 0.5 * (s0.x + s1.x), u = 0.5 * (s0.u + s1.u), still = NodalVector::Zero(3, x.cols());
+    add_force({0.5 * (s0.t + s1.t), x, u, still}, f);
   }
 
   // Adds -df/dx to `stiffness` and -df/dv to `damping` (null if the model has no D).

@@ -18,6 +18,7 @@ class EquilibriumSolver {
     bool indefinite = false;  // given up since the stiffness was not positive definite on the way
     long iterations = 0;
     double residual = 0;  // N, the largest component of f
+    bool above_tolerance = false;  // found, though round-off keeps the residual above its tolerance
     std::string failure_reason;  // why not found
   };
 

@@ -32,6 +32,7 @@ struct Traits {
   bool dissipative = false;     // power.dissipated can differ from zero
   bool loaded = false;          // power.loads can differ from zero
   bool smooth = true;           // f has no kinks in q: nothing touches and parts
+  bool exact_stiffness = true;  // K is -df/dq, or its symmetric part, and no approximation
 };
 
 struct Weights {

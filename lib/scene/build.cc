@@ -66,6 +66,7 @@ Traits traits_of(const Scene& scene, const std::vector<const Region*>& regions) 
   traits.damped = std::all_of(regions.begin(), regions.end(), is_damped);
   traits.damping_matrix = std::any_of(regions.begin(), regions.end(), is_damped);
   traits.lumped_mass = scene.mass == MassKind::lumped;
+  traits.exact_stiffness = scene.elasticity.has_exact_tangent();
   traits.dissipative = traits.damping_matrix || (scene.damping && scene.damping->mass > 0);
   traits.conservative = !scene.elasticity.is_warped() && !traits.dissipative;
   for (const SupportMotion& motion : scene.motions) motion.declare(traits);

@@ -16,13 +16,22 @@ std::string drift_sentence(const EnergySummary& energy) {
       energy.relative_drift);
 }
 
+void add_doubts(const EquilibriumResult& equilibrium, std::vector<std::string>& all) {
+  if (!(equilibrium.det_f.value > 0))
+    all.push_back(fmt::format("element {} is inverted (det F = {:.3g}): this equilibrium has no meaning",
+                              equilibrium.det_f.element, equilibrium.det_f.value));
+  if (equilibrium.residual_above_tolerance)
+    all.push_back(
+        fmt::format("the residual, {:.2g} of the largest load, is above statics.solver.rtol: it is the round-off of "
+                    "internal forces, and a further correction would change nothing else. Raise statics.solver.rtol",
+                    equilibrium.residual / equilibrium.largest_load));
+}
+
 }  // namespace
 
 std::vector<std::string> doubts(const RunResult& result) {
   std::vector<std::string> all;
-  if (const auto& equilibrium = result.equilibrium; equilibrium && !(equilibrium->det_f.value > 0))
-    all.push_back(fmt::format("element {} is inverted (det F = {:.3g}): this equilibrium has no meaning",
-                              equilibrium->det_f.element, equilibrium->det_f.value));
+  if (result.equilibrium) add_doubts(*result.equilibrium, all);
   if (const auto& motion = result.motion) {
     if (!(motion->det_f.value > 0))
       all.push_back(fmt::format("element {} was inverted at t = {:.4g} s (det F = {:.3g})", motion->det_f.element,

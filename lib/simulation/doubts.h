@@ -8,8 +8,8 @@
 
 namespace orthodyn {
 
-// A sentence each: what was found, what it means, what to do. Inverted elements; an energy balance that drifts by more
-// than a hundredth of the largest energy.
+// A sentence each: what was found, what it means, what to do. Inverted elements; a residual above its tolerance; an
+// energy balance that drifts by more than a hundredth of the largest energy.
 std::vector<std::string> doubts(const RunResult& result);
 
 }  // namespace orthodyn

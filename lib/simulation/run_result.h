@@ -66,6 +66,7 @@ struct EquilibriumResult {
   long jumps = 0;                         // load steps to equilibria that may lie on another branch
   double largest_displacement = 0;        // m, of a coordinate
   double residual = 0, largest_load = 0;  // N, of a coordinate
+  bool residual_above_tolerance = false;
   std::string solver = {};                // its linear solver
   Statistics statistics = {};
   SmallestDetF det_f = {};

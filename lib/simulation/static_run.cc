@@ -76,6 +76,7 @@ EquilibriumResult equilibrium_result(const StaticProblem& problem, const State& 
           .largest_displacement = last.q.lpNorm<Eigen::Infinity>(),
           .residual = problem.stepper->attempt().residual,
           .largest_load = problem.path->load().lpNorm<Eigen::Infinity>(),
+          .residual_above_tolerance = problem.stepper->attempt().above_tolerance,
           .solver = problem.solver->description(),
           .statistics = problem.solver->statistics(),
           .det_f = {det_f[0], static_cast<long>(det_f[1]), problem.path->time()}};

@@ -31,7 +31,8 @@ double softest_wave(const Mat9& H, const Vec3& n) {
 // The smallest eigenvalue of the acoustic tensor over directions: a half sphere of samples, the axes among
 // them.
 double smallest_acoustic_eigenvalue(const OrthotropicStiffness& C, const Mat3& F) {
-  const Mat9 H = in_space(CorotationalLaw(C).tangent(F, Mat3::Identity(), TangentKind::exact, 0, nullptr));
+  const Mat9 H =
+      in_space(CorotationalLaw(C).tangent(F - Mat3::Identity(), Mat3::Identity(), TangentKind::exact, 0, nullptr));
   constexpr int kSteps = 12;
   double smallest = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= kSteps; ++i)

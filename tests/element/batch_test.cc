@@ -25,35 +25,41 @@ std::array<Mat3, Batch::kLanes> states(double strain, int inverted = -1) {
 }
 
 Mat3T<Batch> pack(const std::array<Mat3, Batch::kLanes>& lanes) {
-  Mat3T<Batch> F;
+  Mat3T<Batch> all;
   for (int i = 0; i < 9; ++i) {
     double values[Batch::kLanes];
     for (int l = 0; l < Batch::kLanes; ++l) values[l] = lanes[static_cast<std::size_t>(l)](i);
-    F(i) = Batch::load(values);
+    all(i) = Batch::load(values);
   }
-  return F;
+  return all;
+}
+
+// (F - I) Q of lanes of F Q.
+Mat3T<Batch> pack_gradients(std::array<Mat3, Batch::kLanes> lanes) {
+  for (Mat3& F : lanes) F -= kAxes;
+  return pack(lanes);
 }
 
 template <class Law>
 void expect_lanes_equal(const Law& law, double strain) {
   const auto F = states(strain), rates = states(1);
-  const auto F_batch = pack(F), rate_batch = pack(rates);
+  const auto H_batch = pack_gradients(F), rate_batch = pack(rates);
   for (const bool damped : {false, true}) {
     Batch::Mask good;
-    const auto P = law.batch_stress(F_batch, kAxes, damped ? &rate_batch : nullptr, 0.3, good);
+    const auto P = law.batch_stress(H_batch, kAxes, damped ? &rate_batch : nullptr, 0.3, good);
     ASSERT_TRUE(all(good));
     for (int l = 0; l < Batch::kLanes; ++l) {
       const auto& rate = rates[static_cast<std::size_t>(l)];
       const Mat3 expected =
-          law.template stress<double>(F[static_cast<std::size_t>(l)], kAxes, damped ? &rate : nullptr, 0.3);
+          law.template stress<double>(F[static_cast<std::size_t>(l)] - kAxes, kAxes, damped ? &rate : nullptr, 0.3);
       for (int i = 0; i < 9; ++i) EXPECT_NEAR(P(i)[l], expected(i), 1e-13 * (0.1 * kStiff.c11 + expected.norm()));
     }
   }
   Batch::Mask good;
-  const Batch power = law.batch_dissipation(F_batch, kAxes, rate_batch, 0.3, good);
+  const Batch power = law.batch_dissipation(H_batch, kAxes, rate_batch, 0.3, good);
   for (int l = 0; l < Batch::kLanes; ++l) {
     const double expected =
-        law.dissipation(F[static_cast<std::size_t>(l)], kAxes, rates[static_cast<std::size_t>(l)], 0.3);
+        law.dissipation(F[static_cast<std::size_t>(l)] - kAxes, kAxes, rates[static_cast<std::size_t>(l)], 0.3);
     EXPECT_NEAR(power[l], expected, 1e-12 * expected);
   }
 }
@@ -84,11 +90,11 @@ TEST(Batch, LeavesAnInvertedLaneToTheScalarLawAndDoesTheOthers) {
   const auto F = states(0.1, inverted);
   const CorotationalLaw law(kStiff);
   Batch::Mask good;
-  const auto P = law.batch_stress(pack(F), kAxes, nullptr, 0, good);
+  const auto P = law.batch_stress(pack_gradients(F), kAxes, nullptr, 0, good);
   for (int l = 0; l < Batch::kLanes; ++l) {
     EXPECT_EQ(good[l] != 0, l != inverted) << "lane " << l;
     if (l == inverted) continue;
-    const Mat3 expected = law.stress<double>(F[static_cast<std::size_t>(l)], kAxes);
+    const Mat3 expected = law.stress<double>(F[static_cast<std::size_t>(l)] - kAxes, kAxes);
     for (int i = 0; i < 9; ++i) EXPECT_NEAR(P(i)[l], expected(i), 1e-13 * expected.norm());
   }
 }
@@ -98,7 +104,7 @@ TEST(Batch, MarksLanesThatAreNotFinite) {
   F[1](2, 0) = std::numeric_limits<double>::quiet_NaN();
   F[2].setZero();
   Batch::Mask good;
-  CorotationalLaw(kStiff).batch_stress(pack(F), kAxes, nullptr, 0, good);
+  CorotationalLaw(kStiff).batch_stress(pack_gradients(F), kAxes, nullptr, 0, good);
   EXPECT_EQ(good[1], 0);
   EXPECT_EQ(good[2], 0);
   EXPECT_NE(good[0], 0);

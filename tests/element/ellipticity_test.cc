@@ -14,8 +14,8 @@ class Fibre {
       : c_(stable_family({ratio, 1, 1}, 0.3)), s1_(1 + e), s2_(1 - c_.nu12 * e), sigma1_(ratio * e) {}
   double curvature(int i, int j) const {
     const Mat3 F = Vec3(s1_, s2_, s2_).asDiagonal();
-    const Mat9 H =
-        in_space(CorotationalLaw(stiffness(c_)).tangent(F, Mat3::Identity(), TangentKind::exact, 0, nullptr));
+    const Mat9 H = in_space(
+        CorotationalLaw(stiffness(c_)).tangent(F - Mat3::Identity(), Mat3::Identity(), TangentKind::exact, 0, nullptr));
     return H(i + 3 * j, i + 3 * j);
   }
   double kink() const { return (4 * c_.g12 * s2_ * s2_ + sigma1_ * (2 * s2_ + s1_)) / ((s1_ + s2_) * (s1_ + s2_)); }

@@ -52,7 +52,7 @@ Mat9 jacobian(const Function& f, const Mat3& F) {
 
 template <class Law>
 Mat9 stress_jacobian(const Law& law, const Mat3& F, const Mat3& Q) {
-  return jacobian([&](const CMat3& G) { return law.template stress<Complex>(G, Q); }, F);
+  return jacobian([&](const CMat3& G) { return law.template stress<Complex>(G - Q.cast<Complex>(), Q); }, F);
 }
 
 template <class Law>
@@ -61,7 +61,7 @@ Mat3 energy_gradient(const Law& law, const Mat3& F, const Mat3& Q) {
   for (int k = 0; k < 9; ++k) {
     CMat3 G = F.cast<Complex>();
     G(k % 3, k / 3) += Complex(0, kComplexStep);
-    P(k % 3, k / 3) = law.template energy<Complex>(G, Q).imag() / kComplexStep;
+    P(k % 3, k / 3) = law.template energy<Complex>(G - Q.cast<Complex>(), Q).imag() / kComplexStep;
   }
   return P;
 }

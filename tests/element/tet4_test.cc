@@ -51,7 +51,7 @@ TEST(Tet4, NodeForcesOfTheCorotationalLawExertNoTorque) {
     const Mat3 edges = random_edges(random), Q = random.rotation();
     const auto tet = Tet4::point(0, edges, Q);
     const Mat3 now = random_strain(random, 0.3).F() * edges;
-    const Mat3 forces = tet.node_forces(law.stress<double>(tet.gradient(now), Q));
+    const Mat3 forces = tet.node_forces(law.stress<double>(tet.gradient(now) - Q, Q));
     Vec3 torque = Vec3::Zero();
     for (int k = 0; k < 3; ++k) torque += Vec3(now.col(k)).cross(Vec3(forces.col(k)));
     EXPECT_LE(torque.norm(), 1e-13 * forces.norm() * now.norm());

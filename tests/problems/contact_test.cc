@@ -74,7 +74,8 @@ integrator: {type: rosenbrock}
 )");
   const auto integrator = s.scene.integrator->make(s.model(), task_of(s.scene, s.built));
   EnergyMeter energy(s.model(), *integrator);
-  const Outcome outcome = run(s.model(), *integrator, s.built.initial, {s.scene.time.end, {}, false}, {&energy}, {false});
+  const Outcome outcome =
+      run(s.model(), *integrator, s.built.initial, {s.scene.time.end, {}, false}, {&energy}, {false});
   EXPECT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
   EXPECT_LE(energy.drift(), 5e-3 * energy.scale());
 }

@@ -49,6 +49,45 @@ TEST_F(StaticRun, ThatCannotGoOnKeepsItsStepsAndSaysWhere) {
   EXPECT_NE(read_text(folder_ / "out/run.json").find("\"status\": \"failed\""), std::string::npos);
 }
 
+// Displacements that vanish beside the body's size.
+TEST_F(StaticRun, OfALinearModelMeetsItsToleranceInOneCorrectionAStep) {
+  write("shelf.yaml", kShelf);
+  const auto result = orthodyn("run shelf.yaml --out out --set elasticity.kinematics=linear --set "
+                               "'loads.0.traction=[1e-9, 0, 0]'");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  for (const auto& row : read_rows(folder_ / "out/load_steps.csv"))
+    if (row[0] > 0) EXPECT_LE(row[2], 1e-8 * 2e-11 / 4) << row[0];  // N: a corner's share of the load
+}
+
+TEST_F(StaticRun, SaysThatRoundOffIsAboveItsTolerance) {
+  write("shelf.yaml", kShelf);
+  const auto result = orthodyn("run shelf.yaml --out out --quiet --set statics.solver.rtol=1e-15 --set "
+                               "'mesh.cells=[20, 4, 4]' --set 'loads.0.traction=[0, 0, 1]'");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_NE(result.output.find("round-off of internal forces"), std::string::npos) << result.output;
+}
+
+// The strip does not buckle: R K R^T is no derivative of the warped force.
+TEST_F(StaticRun, WithAnApproximateStiffnessDoesNotSpeakOfBuckling) {
+  const std::string strip = R"(analysis: static
+mesh: {type: box, size: [1, 0.04, 0.01], cells: [40, 2, 2]}
+materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0}}
+elasticity: {corotation: warped}
+clamps: [{surface: x0}]
+loads: [{surface: x1, force: [0, 0, 80]}]
+statics: {min_step: 0.02}
+output: {fields: []}
+)";
+  write("strip.yaml", strip);
+  const auto rotated = orthodyn("run strip.yaml --out rotated --quiet");
+  EXPECT_EQ(rotated.exit_code, 3);
+  EXPECT_EQ(rotated.output.find("buckles"), std::string::npos) << rotated.output;
+  EXPECT_NE(rotated.output.find("warped_tangent: unsymmetric"), std::string::npos) << rotated.output;
+  const auto exact = orthodyn("run strip.yaml --out exact --quiet --set elasticity.warped_tangent=unsymmetric --set "
+                              "statics.solver.linear_solver=klu");
+  EXPECT_EQ(exact.exit_code, 0) << exact.output;
+}
+
 TEST_F(StaticRun, RefusesAFreeBodyBeforeItWritesAnything) {
   write("shelf.yaml", kShelf);
   const auto result = orthodyn("run shelf.yaml --out out --set clamps=[]");

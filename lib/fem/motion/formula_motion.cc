@@ -16,7 +16,7 @@ Moved FormulaMotion::at(double t, const NodalVector& X) const {
     const Vec3 rest = X.col(i);
     const auto u = [&](double time) { return Vec3(u_[0].at(time, rest), u_[1].at(time, rest), u_[2].at(time, rest)); };
     const Differences<Vec3> d = smooth_differences<Vec3>(u, t, resolution_, limits_);
-    out.x.col(i) = rest + u(t);
+    out.u.col(i) = u(t);
     out.v.col(i) = d.first;
     out.a.col(i) = d.second;
   }

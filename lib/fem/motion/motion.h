@@ -1,4 +1,4 @@
-// How the points of a support move: position, velocity and acceleration as functions of time and of the place
+// How the points of a support move: displacement, velocity and acceleration as functions of time and of the place
 // at rest.
 #pragma once
 
@@ -10,7 +10,7 @@ namespace orthodyn {
 
 // A column per point; m, m/s, m/s^2.
 struct Moved {
-  NodalVector x, v, a;
+  NodalVector u, v, a;
 };
 
 class Motion {

@@ -19,10 +19,10 @@ MovedNodes::MovedNodes(std::vector<Part> parts, const NodalVector& rest)
   for (const Part& part : parts_) rest_.push_back(rest(Eigen::all, part.nodes));
 }
 
-void MovedNodes::place(double t, NodalVector& x, NodalVector& v) const {
+void MovedNodes::place(double t, NodalVector& u, NodalVector& v) const {
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const Moved moved = parts_[k].motion->at(t, rest_[k]);
-    copy_moved(parts_[k], moved.x, x);
+    copy_moved(parts_[k], moved.u, u);
     copy_moved(parts_[k], moved.v, v);
   }
 }

@@ -1,5 +1,5 @@
-// The nodes whose motion is prescribed. They are no part of the system: it sees their positions and velocities
-// through the forces of elements and, with a consistent mass, their accelerations.
+// The nodes whose motion is prescribed. They are no part of the system: it sees their displacements and
+// velocities through the forces of elements and, with a consistent mass, their accelerations.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ class MovedNodes {
   MovedNodes(std::vector<Part> parts, const NodalVector& rest);
 
   // Overwrites the moved coordinates.
-  void place(double t, NodalVector& x, NodalVector& v) const;
+  void place(double t, NodalVector& u, NodalVector& v) const;
   // Zero for all others; m/s^2.
   NodalVector accelerations(double t) const;
   std::size_t num_coordinates() const;

@@ -1,5 +1,5 @@
 // A rigid motion by one factor s(t): a rotation by the angle phi s about an axis that is itself translated by s T,
-//   x = c + s T + R (X - c),  v = s' T + w x r,  a = s'' T + w' x r + w x (w x r),
+//   u = s T + (R - I)(X - c),  v = s' T + w x r,  a = s'' T + w' x r + w x (w x r),
 // with r = R (X - c), w = phi s' e, w' = phi s'' e; for angles of any size.
 #pragma once
 

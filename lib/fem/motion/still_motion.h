@@ -1,4 +1,4 @@
-// The positions of another motion with zero velocity and acceleration, as supports have them in static analyses.
+// The displacements of another motion with zero velocity and acceleration, as supports have them in static analyses.
 #pragma once
 
 #include <memory>

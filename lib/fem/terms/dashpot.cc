@@ -19,7 +19,7 @@ Mat3 Dashpots::matrix(const Link& link, const NodalVector& x) const {
 }
 
 void Dashpots::add_force(const NodalState& s, NodalVector& f) const {
-  for (const Link& link : links_) link.add_force(-matrix(link, s.x) * link.rate(s.v), f);
+  for (const Link& link : links_) link.add_force(-matrix(link, s.x) * link.change(s.v), f);
 }
 
 void Dashpots::add_tangent(const NodalState& s, TangentKind, double*, double* damping) const {
@@ -30,7 +30,7 @@ void Dashpots::add_tangent(const NodalState& s, TangentKind, double*, double* da
 double Dashpots::dissipation(const NodalState& s) const {
   double sum = 0;
   for (const Link& link : links_) {
-    const Vec3 rate = link.rate(s.v);
+    const Vec3 rate = link.change(s.v);
     sum += rate.dot(matrix(link, s.x) * rate);
   }
   return sum;

@@ -44,11 +44,11 @@ class ElasticTermOf final : public ElasticTerm {
 
   void add_force(const NodalState& s, NodalVector& f) const override {
     for_each_batch_point([&](int b, int p) {
-      const Mat3T<Batch> F = elements_.gradients(b, p, s.x);
+      const Mat3T<Batch> H = elements_.gradients(b, p, s.u);
       Mat3T<Batch> rate;
       if (damped()) rate = elements_.gradients(b, p, s.v);
       Batch::Mask good;
-      const Mat3T<Batch> P = law_.batch_stress(F, batch_axes(b), damped() ? &rate : nullptr, region_.beta, good);
+      const Mat3T<Batch> P = law_.batch_stress(H, axes().batch(b), damped() ? &rate : nullptr, region_.beta, good);
       if (all(good)) elements_.add_forces(b, p, P, f);
       else add_forces_one_by_one(b, p, s, f);
     });
@@ -61,7 +61,7 @@ class ElasticTermOf final : public ElasticTerm {
       for (int k = 0; k < size(); ++k)
         for (int p = 0; p < E::kPoints; ++p)
           elements_.add_force(
-              k, p, law_.mean_stress(elements_.gradient(k, p, s0.x), elements_.gradient(k, p, s1.x), axes().of(k)), f);
+              k, p, law_.mean_stress(elements_.gradient(k, p, s0.u), elements_.gradient(k, p, s1.u), axes().of(k)), f);
   }
 
   void add_tangent(const NodalState& s, TangentKind kind, double* K, double* D) const override {
@@ -70,7 +70,7 @@ class ElasticTermOf final : public ElasticTerm {
     for (int k = 0; k < size(); ++k) {
       for (int p = 0; p < E::kPoints; ++p) {
         Form damping_form;
-        const Form form = law_.tangent(elements_.gradient(k, p, s.x), axes().of(k), kind, region_.beta,
+        const Form form = law_.tangent(elements_.gradient(k, p, s.u), axes().of(k), kind, region_.beta,
                                        with_damping ? &damping_form : nullptr);
         gather_point(k, p, form, stiffness);
         if (with_damping) gather_point(k, p, damping_form, damping);
@@ -83,20 +83,20 @@ class ElasticTermOf final : public ElasticTerm {
   double energy(const NodalState& s) const override {
     return integrate(
         [&](int b, int p, Batch::Mask& good) {
-          return law_.batch_energy(elements_.gradients(b, p, s.x), batch_axes(b), good);
+          return law_.batch_energy(elements_.gradients(b, p, s.u), axes().batch(b), good);
         },
-        [&](int k, int p) { return law_.template energy<double>(elements_.gradient(k, p, s.x), axes().of(k)); });
+        [&](int k, int p) { return law_.template energy<double>(elements_.gradient(k, p, s.u), axes().of(k)); });
   }
 
   double dissipation(const NodalState& s) const override {
     if (!damped()) return 0;
     return integrate(
         [&](int b, int p, Batch::Mask& good) {
-          return law_.batch_dissipation(elements_.gradients(b, p, s.x), batch_axes(b), elements_.gradients(b, p, s.v),
+          return law_.batch_dissipation(elements_.gradients(b, p, s.u), axes().batch(b), elements_.gradients(b, p, s.v),
                                         region_.beta, good);
         },
         [&](int k, int p) {
-          return law_.dissipation(elements_.gradient(k, p, s.x), axes().of(k), elements_.gradient(k, p, s.v),
+          return law_.dissipation(elements_.gradient(k, p, s.u), axes().of(k), elements_.gradient(k, p, s.v),
                                   region_.beta);
         });
   }
@@ -105,17 +105,19 @@ class ElasticTermOf final : public ElasticTerm {
   int cell(int k) const override { return region_.cells[static_cast<std::size_t>(k)]; }
 
   Mat3 small_strain(int k, const NodalVector& u) const override {
-    return symmetric_part<double>(axes().of(k).transpose() * mean_gradient(k, u));
+    return orthodyn::small_strain<double>(mean_gradient(k, u), axes().of(k));
   }
 
   double det_F(int k, const NodalState& s) const override {
-    double smallest = elements_.gradient(k, 0, s.x).determinant();
-    for (int p = 1; p < E::kPoints; ++p) smallest = std::min(smallest, elements_.gradient(k, p, s.x).determinant());
+    const Mat3 Q = axes().of(k);
+    double smallest = std::numeric_limits<double>::infinity();
+    for (int p = 0; p < E::kPoints; ++p)
+      smallest = std::min(smallest, deformation_gradient<double>(elements_.gradient(k, p, s.u), Q).determinant());
     return smallest;
   }
 
   PointObservation observe(int k, const NodalState& s) const override {
-    return law_.observe(mean_gradient(k, s.x), axes().of(k));
+    return law_.observe(mean_gradient(k, s.u), axes().of(k));
   }
 
   double max_frequency_squared(double density) const override {
@@ -138,12 +140,6 @@ class ElasticTermOf final : public ElasticTerm {
 
   const ElementAxes& axes() const { return region_.axes; }
   bool damped() const { return region_.beta > 0; }
-
-  // Laws that turn with the material do not look at it: F Q has it already.
-  decltype(auto) batch_axes(int b) const {
-    if constexpr (Law::kBatchesNeedAxes) return axes().batch(b);
-    else return (kNotLookedAt);
-  }
 
   template <class Visit>
   void for_each_batch_point(Visit&& visit) const {
@@ -169,13 +165,13 @@ class ElasticTermOf final : public ElasticTerm {
     return sum;
   }
 
-  // The volume's mean of F Q.
-  Mat3 mean_gradient(int k, const NodalVector& x) const {
-    if constexpr (E::kPoints == 1) return elements_.gradient(k, 0, x);
+  // The volume's mean of H Q.
+  Mat3 mean_gradient(int k, const NodalVector& u) const {
+    if constexpr (E::kPoints == 1) return elements_.gradient(k, 0, u);
     Mat3 sum = Mat3::Zero();
     double volume = 0;
     for (int p = 0; p < E::kPoints; ++p) {
-      sum += elements_.volume(k, p) * elements_.gradient(k, p, x);
+      sum += elements_.volume(k, p) * elements_.gradient(k, p, u);
       volume += elements_.volume(k, p);
     }
     return sum / volume;
@@ -202,13 +198,11 @@ class ElasticTermOf final : public ElasticTerm {
       Mat3 rate;
       if (damped()) rate = elements_.gradient(k, p, s.v);
       elements_.add_force(k, p,
-                          law_.template stress<double>(elements_.gradient(k, p, s.x), axes().of(k),
+                          law_.template stress<double>(elements_.gradient(k, p, s.u), axes().of(k),
                                                        damped() ? &rate : nullptr, region_.beta),
                           f);
     });
   }
-
-  static inline const Mat3 kNotLookedAt = Mat3::Identity();
 
   ElasticRegion region_;
   Law law_;

@@ -16,6 +16,7 @@ struct ElasticityOptions {
   // Whether the elastic force has no energy: it is neither conservative nor free of a net torque.
   bool is_warped() const { return kinematics == Kinematics::corotational && corotation == Corotation::warped; }
   bool has_symmetric_tangent() const { return !(is_warped() && warped_tangent == WarpedTangent::unsymmetric); }
+  bool has_exact_tangent() const { return !(is_warped() && warped_tangent == WarpedTangent::rotated); }
 };
 
 }  // namespace orthodyn

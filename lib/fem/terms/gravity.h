@@ -1,4 +1,4 @@
-// Uniform gravity: f_i = m_i g, energy - sum m_i g . (x_i - X_i).
+// Uniform gravity: f_i = m_i g, energy - sum m_i g . u_i.
 #pragma once
 
 #include "lib/config/values.h"
@@ -8,19 +8,17 @@ namespace orthodyn {
 
 class Gravity : public Term {
  public:
-  // nodal_masses in kg; rest positions in m; both must outlive the term.
-  Gravity(const Vec3& g, const Vector& nodal_masses, const NodalVector& rest)
-      : g_(g), masses_(nodal_masses), rest_(rest) {}
+  // nodal_masses in kg; they must outlive the term.
+  Gravity(const Vec3& g, const Vector& nodal_masses) : g_(g), masses_(nodal_masses) {}
 
   std::string name() const override { return "gravity"; }
   void add_force(const NodalState&, NodalVector& f) const override { f += g_ * masses_.transpose(); }
   EnergyKind energy_kind() const override { return EnergyKind::gravitational; }
-  double energy(const NodalState& s) const override { return -g_.dot((s.x - rest_) * masses_); }
+  double energy(const NodalState& s) const override { return -g_.dot(s.u * masses_); }
 
  private:
   Vec3 g_;
   const Vector& masses_;
-  const NodalVector& rest_;
 };
 
 // The key `gravity` of a scene: three numbers, m/s^2.
@@ -28,7 +26,7 @@ struct GravityChoice : TermChoice {
   Vec3 g = Vec3::Zero();
 
   std::unique_ptr<Term> make(const Discretization& body) const override {
-    return std::make_unique<Gravity>(g, body.nodal_masses, body.rest);
+    return std::make_unique<Gravity>(g, body.nodal_masses);
   }
 };
 

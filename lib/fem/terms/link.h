@@ -11,9 +11,9 @@ struct Link {
   int b = -1;                    // -1: the ground
   Vec3 anchor = Vec3::Zero();    // m; of the ground
 
-  // From the other end to node a, m; and its rate, m/s.
+  // From the other end to node a, m; and how it changes by displacements u, m, or velocities, m/s.
   Vec3 span(const NodalVector& x) const { return x.col(a) - (b < 0 ? anchor : Vec3(x.col(b))); }
-  Vec3 rate(const NodalVector& v) const { return b < 0 ? Vec3(v.col(a)) : Vec3(v.col(a) - v.col(b)); }
+  Vec3 change(const NodalVector& u) const { return b < 0 ? Vec3(u.col(a)) : Vec3(u.col(a) - u.col(b)); }
 
   // `force` on node a, its opposite on the other end.
   void add_force(const Vec3& force, NodalVector& f) const {

@@ -12,11 +12,24 @@ namespace orthodyn {
 
 namespace {
 
-// l0/l; 0 for a rest length of zero.
-double contraction(const SpringLink& link, double length) {
-  if (link.rest_length == 0) return 0;
+struct Stretched {
+  Vec3 span;          // m
+  double length;      // m
+  double elongation;  // l - l0, m
+};
+
+Stretched stretched(const SpringLink& link, const NodalVector& displacement) {
+  const Vec3 &D = link.at_rest, u = link.change(displacement), d = D + u;
+  const double L = D.norm(), l = d.norm();
+  const double change = L + l > 0 ? u.dot(2 * D + u) / (L + l) : 0;
+  return {d, l, change + (L - link.free_length)};
+}
+
+// (l - l0)/l; 1 for a free length of zero.
+double relative(const SpringLink& link, double elongation, double length) {
+  if (link.free_length == 0) return 1;
   if (!(length > 0)) throw RecoverableError("a spring has shrunk to a point and has no direction");
-  return link.rest_length / length;
+  return elongation / length;
 }
 
 }  // namespace
@@ -25,26 +38,26 @@ std::string Springs::description() const { return fmt::format("{}: {} of {:.6g} 
 
 void Springs::add_force(const NodalState& s, NodalVector& f) const {
   for (const SpringLink& link : links_) {
-    const Vec3 d = link.span(s.x);
-    link.add_force(-k_ * (1 - contraction(link, d.norm())) * d, f);
+    const Stretched now = stretched(link, s.u);
+    link.add_force(-k_ * relative(link, now.elongation, now.length) * now.span, f);
   }
 }
 
 void Springs::add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const {
   for (const SpringLink& link : links_) {
-    const Vec3 d0 = link.span(s0.x), d1 = link.span(s1.x);
-    link.add_force(-k_ / 2 * (1 - contraction(link, (d0.norm() + d1.norm()) / 2)) * (d0 + d1), f);
+    const Stretched before = stretched(link, s0.u), after = stretched(link, s1.u);
+    const double mean = relative(link, before.elongation + after.elongation, before.length + after.length);
+    link.add_force(-k_ / 2 * mean * (before.span + after.span), f);
   }
 }
 
 void Springs::add_tangent(const NodalState& s, TangentKind kind, double* stiffness, double*) const {
   for (const SpringLink& link : links_) {
-    const Vec3 d = link.span(s.x);
-    const double c = contraction(link, d.norm());
-    double across = 1 - c;  // negative under compression
+    const auto [d, length, elongation] = stretched(link, s.u);
+    double across = relative(link, elongation, length);  // negative under compression
     if (kind == TangentKind::gauss_newton) across = std::max(across, 0.0);
     Mat3 block = across * Mat3::Identity();
-    if (c > 0) block += (1 - across) / d.squaredNorm() * d * d.transpose();
+    if (link.free_length > 0) block += (1 - across) / (length * length) * d * d.transpose();
     link.add_block(k_ * block, pattern_, stiffness);
   }
 }
@@ -52,8 +65,8 @@ void Springs::add_tangent(const NodalState& s, TangentKind kind, double* stiffne
 double Springs::energy(const NodalState& s) const {
   double sum = 0;
   for (const SpringLink& link : links_) {
-    const double stretch = link.span(s.x).norm() - link.rest_length;
-    sum += 0.5 * k_ * stretch * stretch;
+    const double elongation = stretched(link, s.u).elongation;
+    sum += 0.5 * k_ * elongation * elongation;
   }
   return sum;
 }
@@ -85,10 +98,11 @@ class SpringChoice : public TermChoice, public Ends {
   std::unique_ptr<Term> make(const Discretization& body) const override {
     std::vector<SpringLink> springs;
     for (const Link& link : links(body.mesh)) {
-      const double length = link.span(body.rest).norm();
-      const double rest_length = rest_length_.value_or(length);
-      if (length == 0 && rest_length > 0) origin.fail("a node lies on the anchor, so that its spring has no direction");
-      springs.push_back({link, rest_length});
+      const Vec3 at_rest = link.span(body.rest);
+      const double free_length = rest_length_.value_or(at_rest.norm());
+      if (at_rest.norm() == 0 && free_length > 0)
+        origin.fail("a node lies on the anchor, so that its spring has no direction");
+      springs.push_back({link, at_rest, free_length});
     }
     const double each = stiffness_ / static_cast<double>(springs.size());
     return std::make_unique<Springs>(each, std::move(springs), body.pattern);

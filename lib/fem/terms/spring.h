@@ -1,10 +1,11 @@
-// Springs along their links, for any displacement: with span d, length l = |d| and direction n = d/l,
+// Springs along their links, for any displacement: with span d, length l = |d|, free length l0 and direction n = d/l,
 //   energy k (l - l0)^2/2,  force on node a -k (l - l0) n,
 //   stiffness k n n^T + k (1 - l0/l) (I - n n^T),
 // and between two states the force -k (1 - 2 l0/(l_0 + l_1)) (d_0 + d_1)/2, whose work is the change of the energy:
 // the discrete derivative in l^2 (Gonzalez 1996).
-// A rest length of zero makes the force -k d, linear and defined everywhere; else a spring that has shrunk to a
-// point has no direction: RecoverableError.
+// With the span D at rest, L = |D|, the elongation is l - l0 = (L - l0) + (2 D + u) . u / (L + l), in which small u
+// keep their digits. A free length of zero makes the force -k d, linear and defined everywhere; else a spring that has
+// shrunk to a point has no direction: RecoverableError.
 #pragma once
 
 #include <vector>
@@ -15,7 +16,8 @@
 namespace orthodyn {
 
 struct SpringLink : Link {
-  double rest_length = 0;  // m
+  Vec3 at_rest = Vec3::Zero();  // the span in the rest shape, m
+  double free_length = 0;       // without force, m
 };
 
 class Springs : public Term {

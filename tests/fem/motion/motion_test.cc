@@ -30,13 +30,13 @@ class Motions : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Kinds, Motions, testing::Values(kTurnAndShift, kFormulas),
                          [](const auto& tested) { return tested.index == 0 ? "rigid" : "formulas"; });
 
-TEST_P(Motions, HaveTheVelocityAndAccelerationOfTheirPositions) {
+TEST_P(Motions, HaveTheVelocityAndAccelerationOfTheirDisplacements) {
   const auto motion = read_motion(GetParam()).motion();
   const NodalVector X = some_points();
   for (const double t : {0.4, 1.0, 1.7}) {
-    const auto position = [&](double h) { return Vector(motion->at(t + h, X).x.reshaped()); };
+    const auto displacement = [&](double h) { return Vector(motion->at(t + h, X).u.reshaped()); };
     const auto velocity = [&](double h) { return Vector(motion->at(t + h, X).v.reshaped()); };
-    expect_derivative(position, motion->at(t, X).v.reshaped());
+    expect_derivative(displacement, motion->at(t, X).v.reshaped());
     expect_derivative(velocity, motion->at(t, X).a.reshaped());
   }
 }
@@ -47,16 +47,25 @@ TEST(RigidMotion, KeepsDistancesAndTurnsByTheWholeAngle) {
   NodalVector X(3, 2);
   X << 2, 1, 0, 0, 7, -1;
   const Moved moved = motion->at(0, X);
-  EXPECT_LE((moved.x.col(0) - Vec3(1, 1, 7)).norm(), 1e-14);
-  EXPECT_LE((moved.x.col(1) - Vec3(1, 0, -1)).norm(), 1e-14);
+  EXPECT_LE((X.col(0) + moved.u.col(0) - Vec3(1, 1, 7)).norm(), 1e-14);
+  EXPECT_LE((X.col(1) + moved.u.col(1) - Vec3(1, 0, -1)).norm(), 1e-14);
   EXPECT_EQ(moved.v.norm() + moved.a.norm(), 0);
+}
+
+TEST(RigidMotion, ByASmallAngleHasAllDigits) {
+  const auto motion = read_motion("{surface: x1, rotation: {point: [0, 0, 0], axis: [0, 0, 1], angle: 1e-9}, "
+                                  "factor: {type: constant}}").motion();
+  NodalVector X(3, 1);
+  X << 3, 4, 0;
+  const Vec3 expected(-4e-9 - 1.5e-18, 3e-9 - 2e-18, 0);  // angle x r - angle^2 r/2
+  EXPECT_LE((motion->at(0, X).u - expected).norm(), 4 * kEps * 5e-9);
 }
 
 TEST(RigidMotion, PassesHalfATurnWithoutAJump) {
   const auto motion = read_motion(kTurnAndShift).motion();
   const NodalVector X = some_points();
   for (double t = 0; t < 2; t += 0.01)
-    EXPECT_LE((motion->at(t + 1e-6, X).x - motion->at(t, X).x - 1e-6 * motion->at(t, X).v).norm(), 1e-9) << t;
+    EXPECT_LE((motion->at(t + 1e-6, X).u - motion->at(t, X).u - 1e-6 * motion->at(t, X).v).norm(), 1e-9) << t;
 }
 
 std::string scene(const std::string& rest) {
@@ -194,7 +203,7 @@ TEST(MovedBody, IsFreeOfStressWhereAllOfItTurnsWithItsSupport) {
   const auto motion = read_motion(kTurnAndShift).motion();
   const NodalVector& X = *s.model().parts().rest;
   for (const double t : {0.7, 1.3, 2.0}) {
-    const NodalVector u = motion->at(t, X).x - X;
+    const NodalVector u = motion->at(t, X).u;
     Vector q(s.size());
     s.model().parts().dofs->restrict_to(u, q);
     EXPECT_LE(s.force(q, s.zero(), t).norm(), 1e-12) << t;

@@ -1,0 +1,42 @@
+// Strains from the displacement gradient H = F - I, to a few ulp of the strain itself.
+//
+// Laws are given H and not F: F, and the stretch S of its polar decomposition, hold a small strain to eps only. With
+//     S^2 - I = F^T F - I = (I + H/2)^T H + H^T (I + H/2) = 2 E   and   S^2 - I = 2 e + e^2,   e = S - I,
+// e = E - e^2/2: an e with an error of eps on the right gives one with an error of eps |e| on the left.
+//
+// H is taken in material axes, H^ = H Q, as F is: F^ = Q + H^. Q is one rotation (Mat3), or one for each lane of a batch
+// (Mat3T<Batch>).
+#pragma once
+
+#include "lib/element/axial.h"
+#include "lib/element/batch.h"
+
+namespace orthodyn {
+
+template <class T, class Axes>
+Mat3T<T> deformation_gradient(const Mat3T<T>& H, const Axes& Q) {
+  return Q.template cast<T>() + H;
+}
+
+// sym(F) - I in material axes.
+template <class T, class Axes>
+Mat3T<T> small_strain(const Mat3T<T>& H, const Axes& Q) {
+  return symmetric_part<T>(Q.transpose().template cast<T>() * H);
+}
+
+// S - I in material axes, S being that of the polar decomposition of F.
+template <class T, class Axes>
+Mat3T<T> stretch_strain(const Mat3T<T>& H, const Axes& Q, const Mat3T<T>& S) {
+  using std::real;
+  const auto choose = [](const auto& mask, const Mat3T<T>& a, const Mat3T<T>& b) -> Mat3T<T> {
+    return a.binaryExpr(b, [&](const T& x, const T& y) { return select(mask, x, y); });
+  };
+  const Mat3T<T> E = symmetric_part<T>((Q.template cast<T>() + T(0.5) * H).transpose() * H);
+  const Mat3T<T> rough = S - Mat3T<T>::Identity();
+  const T size = rough.cwiseProduct(rough).sum();
+  const Mat3T<T> e = choose(real(size) < 1e-16, E, rough);  // in e^2
+  const Mat3T<T> precise = E - T(0.5) * e * e;
+  return choose(real(size) < 1, precise, rough);  // of large strains S - I loses nothing
+}
+
+}  // namespace orthodyn
