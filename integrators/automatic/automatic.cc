@@ -27,6 +27,8 @@ class Automatic : public Integrator {
   void start(const State& state) override { integrator_->start(state); }
   StepInfo step(double t_stop) override { return integrator_->step(t_stop); }
   void interpolate(double t, State& out) const override { integrator_->interpolate(t, out); }
+  bool has_accurate_interpolation() const override { return integrator_->has_accurate_interpolation(); }
+  std::optional<State> mean_state() const override { return integrator_->mean_state(); }
   const Statistics& statistics() const override { return integrator_->statistics(); }
   std::size_t factor_bytes() const override { return integrator_->factor_bytes(); }
   std::size_t bytes() const override { return integrator_->bytes(); }

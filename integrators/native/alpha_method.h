@@ -32,6 +32,7 @@ class AlphaMethod : public OneStep {
 
  protected:
   Orders orders() const override { return {p_.order(), p_.order() + 1}; }
+  bool balances_by_mean_velocity() const override { return true; }
   void restarted() override;
   bool attempt(double h) override;
   void estimate(double h, VectorRef e_q, VectorRef e_v) override;

@@ -49,6 +49,7 @@ class EnergyMomentum : public OneStep {
 
  protected:
   Orders orders() const override { return {2, 3}; }
+  bool balances_by_mean_velocity() const override { return true; }
   void restarted() override { last_h_ = 0; }
 
   bool attempt(double h) override {

@@ -25,6 +25,11 @@ void ExplicitStep::start(const State& state) {
   }
 }
 
+std::optional<State> ExplicitStep::mean_of_step() const {
+  if (begin_.t == end_.t) return std::nullopt;
+  return orthodyn::mean_state(begin_, end_);
+}
+
 StepInfo ExplicitStep::step(double t_stop) {
   if (statistics_.steps >= max_steps_)
     throw RunError(fmt::format("{} gave up at t = {:.6g} s after {} steps (max_steps); raise integrator.max_steps{}",

@@ -36,6 +36,8 @@ class ExplicitStep : public Integrator {
   [[noreturn]] void fail(const std::string& what, Reason reason) const;
 
   const StepEnd& end() const { return end_; }
+  // Of the last step, for Integrator::mean_state(); none before the first.
+  std::optional<State> mean_of_step() const;
 
   const Model& model_;
   Statistics statistics_;

@@ -75,6 +75,11 @@ void OneStep::interpolate(double t, State& out) const {
   else orthodyn::interpolate(before_, now_, t, out.q, out.v);
 }
 
+std::optional<State> OneStep::mean_state() const {
+  if (!balances_by_mean_velocity() || before_.t == now_.t) return std::nullopt;
+  return orthodyn::mean_state(before_, now_);
+}
+
 void OneStep::accept(double h) {
   accepted(h);
   std::swap(before_, now_);

@@ -21,6 +21,7 @@ class OneStep : public Integrator {
   void start(const State& state) override;
   StepInfo step(double t_stop) override;
   void interpolate(double t, State& out) const override;
+  std::optional<State> mean_state() const override;
   const Statistics& statistics() const override { return statistics_; }
   std::size_t bytes() const override;
   Decisions decisions() const override;
@@ -33,6 +34,8 @@ class OneStep : public Integrator {
   OneStep(std::string name, const Model& model, const LinearOptions& options, const Scales& scales);
 
   virtual Orders orders() const = 0;
+  // Integrator::mean_state().
+  virtual bool balances_by_mean_velocity() const { return false; }
   // now() is a new beginning: what is remembered of earlier steps does not hold.
   virtual void restarted() = 0;
   // One step of length h, s, from now() to next_, whose t is set: writes its q, v and a = M^-1 f. False if no solution

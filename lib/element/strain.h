@@ -4,8 +4,8 @@
 //     S^2 - I = F^T F - I = (I + H/2)^T H + H^T (I + H/2) = 2 E   and   S^2 - I = 2 e + e^2,   e = S - I,
 // e = E - e^2/2: an e with an error of eps on the right gives one with an error of eps |e| on the left.
 //
-// H is taken in material axes, H^ = H Q, as F is: F^ = Q + H^. Q is one rotation (Mat3), or one for each lane of a batch
-// (Mat3T<Batch>).
+// H is taken in material axes, H^ = H Q, as F is: F^ = Q + H^. Q is one rotation (Mat3), or one for each lane of a
+// batch (Mat3T<Batch>).
 #pragma once
 
 #include "lib/element/axial.h"

@@ -25,4 +25,8 @@ void interpolate_linearly(const StepEnd& begin, const StepEnd& end, double t, Ve
   v = (1 - s) * begin.v + s * end.v;
 }
 
+State mean_state(const StepEnd& begin, const StepEnd& end) {
+  return {0.5 * (begin.t + end.t), 0.5 * (begin.q + end.q), (end.q - begin.q) / (end.t - begin.t)};
+}
+
 }  // namespace orthodyn

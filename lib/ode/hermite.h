@@ -5,7 +5,7 @@
 // (Hairer, Norsett & Wanner 1993, II.6, with three conditions per end).
 #pragma once
 
-#include "lib/core/types.h"
+#include "lib/ode/output.h"
 
 namespace orthodyn {
 
@@ -20,5 +20,8 @@ void interpolate(const StepEnd& begin, const StepEnd& end, double t, VectorRef q
 
 // The same by linear interpolation, O(h^2): enough for a method of order 1.
 void interpolate_linearly(const StepEnd& begin, const StepEnd& end, double t, VectorRef q, VectorRef v);
+
+// The middle of the ends' positions, with the mean velocity of the step.
+State mean_state(const StepEnd& begin, const StepEnd& end);
 
 }  // namespace orthodyn

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +38,11 @@ class Integrator {
   // False for a method whose steps may be long against the periods of the motion, between whose ends no polynomial has
   // its accuracy: its steps are to end at the output times.
   virtual bool has_accurate_interpolation() const { return true; }
+
+  // The last step's middle, (q0 + q1)/2 with the mean velocity (q1 - q0)/h, of a method in whose energy balance powers
+  // are those there: its velocities of stiff modes alternate from step to step and would dissipate what was never lost.
+  // None: powers are to be integrated along interpolate().
+  virtual std::optional<State> mean_state() const { return std::nullopt; }
 
   virtual const Statistics& statistics() const = 0;
 

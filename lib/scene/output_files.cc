@@ -36,6 +36,10 @@ const Spec<Output>& Output::spec() {
           .key("reactions", &Output::reactions,
                "Record force and torque of every clamp and motion on the body in probes.csv.")
           .key("energy", &Output::energy, "Write energy.csv.")
+          .key("accumulated_error", &Output::accumulated_error,
+               "Tell after runs of 500 steps and more how far the errors of the steps may have added up, by "
+               "integrating a "
+               "few short parts again; costs some per cent.")
           .key("energy_times", &Output::energy_times,
                "outputs: energies are computed for the rows of energy.csv; steps: after each step, too, and the drift "
                "of the summary is over all of them. It costs about one evaluation of the forces a step.")

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace orthodyn {
 
 namespace {
@@ -14,6 +16,19 @@ std::string drift_sentence(const EnergySummary& energy) {
       "fast vibrations dissipate was not resolved. Run it with --estimate-error, which tells how far off the motion "
       "is, or with a smaller integrator.rtol or integrator.step",
       energy.relative_drift);
+}
+
+// An error that the eye sees, or a hundred times what was allowed a step if that is more; never a tenth.
+double much_error(double rtol) { return std::min(std::max(0.01, 100 * rtol), 0.1); }
+
+std::string accumulation_sentence(const MotionResult& motion) {
+  return fmt::format(
+      "the errors of {} steps, each within its tolerance, may have added up to {:.2g} of the largest motion: most "
+      "often "
+      "it lags behind or runs ahead. Lower integrator.rtol or step, take {}, or see with --estimate-error how far off "
+      "it is",
+      motion.effort.statistics.steps, motion.accumulated->error,
+      motion.integrator == "arkode_dirk" ? "a smaller h_max" : "integrator.type: arkode_dirk");
 }
 
 void add_doubts(const EquilibriumResult& equilibrium, std::vector<std::string>& all) {
@@ -38,6 +53,8 @@ std::vector<std::string> doubts(const RunResult& result) {
                                 motion->det_f.time, motion->det_f.value));
     if (motion->energy && !(motion->energy->relative_drift <= kMuchDrift))
       all.push_back(drift_sentence(*motion->energy));
+    if (motion->accumulated && !(motion->accumulated->error <= much_error(motion->rtol)))
+      all.push_back(accumulation_sentence(*motion));
   }
   return all;
 }

@@ -86,6 +86,10 @@ class DynamicAnalysis {
     RunResult result{.scene = context_.scene, .folder = folder_.path(), .model = summarize(*setup_.built.model)};
     result.outcome = integrate(begin, observers, result.resumable);
     result.motion = motion_result(result.outcome, begin.effort, observers);
+    if (parts_ && result.outcome.status == Outcome::Status::completed)
+      result.motion->accumulated =
+          accumulated_error(setup_, *parts_, result.motion->effort.statistics.steps, result.outcome.last.t,
+                            context_.interrupt);
     record.finish(result);
     context_.listener.on_result(result);
     if (!estimator_ || result.outcome.status != Outcome::Status::completed) return result;
@@ -103,6 +107,7 @@ class DynamicAnalysis {
     const auto progress = context_.listener.on_begin(setup_);
     auto all = observers.all(progress.get(), checkpointer);
     if (estimator_) all.push_back(&estimator_->recorder());
+    if (setup_.scene.output.accumulated_error) all.push_back(&parts_.emplace(*setup_.built.model));
     const Outcome outcome =
         orthodyn::run(*setup_.built.model, *setup_.integrator, begin.state, plan, all, context_.interrupt);
     const bool kept = keeps_last_state(setup_.scene, outcome, begin.begun) && keep(outcome.last, checkpointer);
@@ -132,6 +137,7 @@ class DynamicAnalysis {
     if (const auto& e = observers.energy)
       out.energy = {e->last(), e->time(), e->drift(), e->scale(), e->relative_drift(), e->times()};
     if (const auto& m = observers.momentum) out.momentum = {m->angular_drift(), m->angular_scale()};
+    out.rtol = Registry<IntegratorChoice>::read(setup_.config.at("integrator"))->settings().rtol.value_or(0);
     if (outcome.status == Outcome::Status::failed) out.failure = failure_place(*setup_.built.model, outcome.last);
     return out;
   }
@@ -166,6 +172,7 @@ class DynamicAnalysis {
   const Setup& setup_;
   ResultFolder& folder_;
   std::optional<ErrorEstimator> estimator_;
+  std::optional<PartRecorder> parts_;
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "lib/simulation/observers/balance.h"
 #include "lib/simulation/checkpoint/effort.h"
+#include "lib/simulation/errors/accumulated_error.h"
 #include "lib/simulation/errors/error_estimate.h"
 #include "lib/simulation/outcome.h"
 
@@ -56,7 +57,9 @@ struct MotionResult {
   std::optional<EnergySummary> energy = {};      // where the scene asks for energy.csv
   std::optional<MomentumSummary> momentum = {};  // likewise momentum.csv
   std::optional<FailurePlace> failure = {};      // of a run that failed
+  std::optional<AccumulatedError> accumulated = {};  // of a long run
   std::optional<ErrorEstimate> error = {};       // if it was asked for
+  double rtol = 0;                               // of its steps; 0 where they are fixed
 };
 
 // Of a static analysis: the last equilibrium.

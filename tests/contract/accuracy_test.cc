@@ -56,6 +56,19 @@ TEST_P(Accuracy, BetweenStepsFallsWithTheTolerance) {
   for (const double fraction : {0.3, 0.7}) expect_orders(damped_oscillator(), GetParam(), fraction);
 }
 
+// The polynomial between the ends of a step is no worse than they are, also where the step is long against fast
+// vibrations that have died out. Methods that say so step to their outputs instead.
+TEST_P(Accuracy, BetweenLongStepsIsThatOfTheSteps) {
+  if (!tested(GetParam().integrator).stiff) GTEST_SKIP() << "not for stiff models";
+  const auto model = stiff_pair();
+  if (!make_integrator(GetParam(), model)->has_accurate_interpolation()) GTEST_SKIP() << "steps to its outputs";
+  for (const double rtol : {1e-4, 1e-6, 1e-8}) {
+    const double at_steps = largest_error(model, GetParam(), {rtol});
+    for (const double fraction : {0.3, 0.7})
+      EXPECT_LE(largest_error(model, GetParam(), {rtol}, fraction), 5 * std::max(at_steps, rtol)) << rtol;
+  }
+}
+
 TEST_P(Accuracy, OfAnUnsymmetricModelFallsWithTheTolerance) {
   if (GetParam().solver != "none" && !solver_registry().at(GetParam().solver).takes_general)
     GTEST_SKIP() << "refused by design";

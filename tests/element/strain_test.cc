@@ -10,8 +10,8 @@ namespace {
 
 const Mat3 kQ = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
 
-// (F - I) Q of F = R (I + e), with R the rotation by the angle |w| about w, to a few ulp of w and e; e and w in material
-// axes.
+// (F - I) Q of F = R (I + e), with R the rotation by the angle |w| about w, to a few ulp of w and e; e and w in
+// material axes.
 Mat3 gradient_of(const Mat3& e, const Vec3& w) {
   const double angle = w.norm(), half = std::sin(angle / 2);
   const Mat3 W = cross_matrix<double>(w / angle);
@@ -102,7 +102,9 @@ TEST(Laws, OfSmallMotionsKeepTheWorkOfADiscreteStep) {
   Random random(65);
   const CorotationalLaw law(stiffness(spruce()));
   for (int sample = 0; sample < 20; ++sample) {
-    const auto next = [&] { return gradient_of(1e-12 * symmetric_part<double>(random.matrix()), 1e-12 * random.vector()); };
+    const auto next = [&] {
+      return gradient_of(1e-12 * symmetric_part<double>(random.matrix()), 1e-12 * random.vector());
+    };
     const Mat3 H0 = next(), H1 = next();
     const double work = contract<double>(law.mean_stress(H0, H1, kQ), H1 - H0);
     const double before = law.energy<double>(H0, kQ), after = law.energy<double>(H1, kQ);

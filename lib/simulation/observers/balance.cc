@@ -35,6 +35,12 @@ void PowerIntegral::advance(double t, double middle, double end) {
   last_ = end;
 }
 
+void PowerIntegral::advance_by_mean(double t, double mean, double end) {
+  sum_ += (t - t_) * mean;
+  t_ = t;
+  last_ = end;
+}
+
 void PowerIntegral::restore(const std::vector<double>& kept) {
   t_ = kept[0];
   last_ = kept[1];
@@ -78,10 +84,14 @@ void EnergyMeter::advance_powers(const ObservedState& observed) {
   const double t = observed.t();
   if ((!traits.dissipative && !traits.loaded) || t <= powers_time()) return;
   State state;
-  integrator_.interpolate(0.5 * (powers_time() + t), state);
+  const auto mean = integrator_.mean_state();
+  if (mean) state = *mean;
+  else integrator_.interpolate(0.5 * (powers_time() + t), state);
   const ObservedState middle(model_, state);
   const auto advance = [&](PowerIntegral& integral, const char* power) {
-    integral.advance(t, middle.evaluate(power)[0], observed.evaluate(power)[0]);
+    const double there = middle.evaluate(power)[0], end = observed.evaluate(power)[0];
+    if (mean) integral.advance_by_mean(t, there, end);
+    else integral.advance(t, there, end);
   };
   if (traits.dissipative) advance(dissipation_, "power.dissipated");
   if (traits.loaded) advance(load_work_, "power.loads");

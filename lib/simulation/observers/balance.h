@@ -9,12 +9,13 @@
 
 namespace orthodyn {
 
-// The integral of a power (W) over time, J: Simpson's rule from each time to the next.
+// The integral of a power (W) over time, J: by Simpson's rule or, where the method says so, by the step's mean.
 class PowerIntegral {
  public:
   void start(double t, double power);
   // To a later time; the power in the middle and there.
   void advance(double t, double middle, double end);
+  void advance_by_mean(double t, double mean, double end);
   double time() const { return t_; }
   double value() const { return sum_; }
   std::vector<double> kept() const { return {t_, last_, sum_}; }
@@ -34,7 +35,7 @@ struct EnergyBalance {
 class EnergyMeter : public Observer {
  public:
   // `integrator` is the one that is run; both must outlive this. Powers are integrated over every step, on the
-  // integrator's dense output, but only where they can differ from zero.
+  // integrator's dense output or at its mean state, but only where they can differ from zero.
   EnergyMeter(const Model& model, const Integrator& integrator, EnergyTimes times = EnergyTimes::steps);
   void on_start(const ObservedState& observed) override;
   void on_output(const ObservedState& observed) override { look(observed); }
