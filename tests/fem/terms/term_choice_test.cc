@@ -97,7 +97,8 @@ gravity: [0, 0, -9]
     EXPECT_TRUE(terms[k]->description().starts_with(expected[k])) << terms[k]->description();
   }
   EXPECT_EQ(terms[2]->description(), "springs: 4 of 0.25 N/m");
-  EXPECT_EQ(terms[5]->description(), "point load: 4 nodes");
+  EXPECT_EQ(terms[1]->description(), "traction on x1: [1, 0, 0] N in total");
+  EXPECT_EQ(terms[5]->description(), "point load: 4 nodes, [1, 0, 0] N in total");
 }
 
 }  // namespace
