@@ -1,9 +1,9 @@
 // `axes: {type: along}`: L follows a curve through points: a branch, a muscle, a bent tube.
 #include "lib/axes/axes_source.h"
-#include "lib/axes/csv_table.h"
 #include "lib/axes/curve.h"
 #include "lib/axes/frame.h"
 #include "lib/axes/lrt.h"
+#include "lib/config/csv_table.h"
 
 namespace orthodyn {
 

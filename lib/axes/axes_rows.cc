@@ -1,11 +1,10 @@
 #include "lib/axes/axes_rows.h"
 
-#include <cmath>
 #include <filesystem>
 
+#include "lib/config/csv_table.h"
 #include "lib/core/errors.h"
 #include "lib/mesh/io/vtu.h"
-#include "lib/axes/csv_table.h"
 
 namespace orthodyn {
 
@@ -13,13 +12,6 @@ namespace {
 
 const std::vector<std::string> kFirstTwo{"a1x", "a1y", "a1z", "a2x", "a2y", "a2z"};
 const std::vector<std::string> kThird{"a3x", "a3y", "a3z"};
-
-int element_index(const CsvTable& table, std::size_t row, std::size_t column) {
-  const double given = table.at(row, column);
-  if (given != std::floor(given) || given < 0 || given > 2e9)
-    throw ConfigError(table.where(row), fmt::format("column element: expected a whole number from 0, found {}", given));
-  return static_cast<int>(given);
-}
 
 AxesRows read_axes_csv(const FilePath& file) {
   auto optional = kThird;
@@ -35,7 +27,7 @@ AxesRows read_axes_csv(const FilePath& file) {
     }
   AxesRows out{{}, third, !table.has("element"), file.path, {}};
   for (std::size_t k = 0; k < table.rows(); ++k) {
-    const int element = out.every ? static_cast<int>(k) : element_index(table, k, table.column("element"));
+    const int element = out.every ? static_cast<int>(k) : table.index(k, "element");
     Mat3 m = Mat3::Zero();
     for (std::size_t i = 0; i < columns.size(); ++i) m(static_cast<Eigen::Index>(i)) = table.at(k, columns[i]);
     out.rows.push_back({element, m, table.lines[k]});

@@ -3,10 +3,14 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "lib/config/registry.h"
 #include "lib/fem/block_pattern.h"
 #include "lib/fem/term.h"
+#include "lib/fem/terms/elasticity_options.h"
 #include "lib/mesh/tet_mesh.h"
 #include "lib/ode/model.h"
 
@@ -23,6 +27,10 @@ struct Discretization {
 class TermChoice {
  public:
   virtual ~TermChoice() = default;
+
+  // Of keys that were left out and depend on the kinematics: names and values, as YAML.
+  using Defaults = std::vector<std::pair<std::string, std::string>>;
+  virtual Defaults defaults(const ElasticityOptions&) const { return {}; }
 
   // A tangent may couple nodes of one element, and those of couplings(). Throws ConfigError.
   virtual std::unique_ptr<Term> make(const Discretization& body) const = 0;

@@ -115,6 +115,22 @@ void check_static(const Config& config, Scene& scene, bool is_timed) {
   if (scene.output.momentum) output.at("momentum").fail("nothing moves in statics; remove it");
 }
 
+bool is_given(const Config& section, const std::string& key) {
+  return section.has(key) && !section.at(key).is_null();
+}
+
+// Terms whose defaults depend on the kinematics are read again with them.
+void complete_terms(const Config& config, Scene& scene) {
+  for (std::size_t k = 0; k < scene.terms.size(); ++k) {
+    const auto defaults = scene.terms[k]->defaults(scene.elasticity);
+    if (defaults.empty()) continue;
+    const Config term = config.at("terms").at(k);
+    for (const auto& [key, yaml] : defaults)
+      if (!is_given(term, key)) term.fill(key, yaml);
+    scene.terms[k] = Registry<TermChoice>::read(term);
+  }
+}
+
 }  // namespace
 
 Scene read_scene(const Config& input) {
@@ -123,6 +139,7 @@ Scene read_scene(const Config& input) {
     config.at("scenes").fail("a scene has no such key; a comparison of scenes is run by `orthodyn compare`");
   const bool is_timed = config.is_map() && config.has("time") && !config.at("time").is_null();
   Scene scene = Scene::spec().read(config);
+  complete_terms(config, scene);
   scene.analysis == Analysis::statical ? check_static(config, scene, is_timed) : check_dynamic(config, scene, is_timed);
   if (!config.has("materials")) fill_mesh_materials(config, scene);
   if (scene.materials.empty()) config.at("materials").fail("is empty; give at least one material");

@@ -54,6 +54,19 @@ TEST(ResolvedScene, SpellsOutDefaultsButNoTermThatIsAbsent) {
     EXPECT_EQ(text.find(key), std::string::npos) << key;
 }
 
+TEST(ResolvedScene, SaysWhetherPressureFollowsWhichHangsOnTheKinematics) {
+  const std::string pressure =
+      "\nterms: [{type: pressure, pressure: 1}, {type: pressure, pressure: 1, follows: FOLLOWS}]";
+  const auto follows = [&](const std::string& kinematics, const std::string& second) {
+    const Config config = Config::from_text(kValidScene + "elasticity: {kinematics: " + kinematics + "}" +
+                                            replaced(pressure, "FOLLOWS", second)).resolving();
+    read_scene(config);
+    return config.at("terms").at(0).at("follows").text() + " " + config.at("terms").at(1).at("follows").text();
+  };
+  EXPECT_EQ(follows("linear", "true"), "false true");
+  EXPECT_EQ(follows("corotational", "false"), "true false");
+}
+
 TEST(BuiltScene, HoldsOnlyTheTermsThatItNames) {
   const auto bare = build_text(kValidScene);
   EXPECT_EQ(bare.model->parts().loads.size(), 0u);

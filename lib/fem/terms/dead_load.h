@@ -14,11 +14,11 @@ namespace orthodyn {
 
 class DeadLoad : public Term {
  public:
-  // forces: N, at factor 1. `amount` follows the name in the description: "4 nodes".
+  // forces: N, at factor 1. `amount` stands in the description before their sum: "4 nodes".
   DeadLoad(std::string name, NodalForces forces, std::shared_ptr<const TimeFunction> factor, std::string amount = "");
 
   std::string name() const override { return name_; }
-  std::string description() const override { return amount_.empty() ? name_ : name_ + ": " + amount_; }
+  std::string description() const override;
   void add_force(const NodalState& s, NodalVector& f) const override;
   void add_peak_force(const NodalState& s, double end, NodalVector& f) const override;
   double load_power(const NodalState& s) const override;

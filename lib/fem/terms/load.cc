@@ -10,7 +10,8 @@ const Spec<Load>& Load::spec() {
   static const auto s =
       Spec<Load>()
           .key("surface", &Load::surface, "A named surface of the mesh.", {.required = true})
-          .key("traction", &Load::traction, "Dead traction per undeformed area.", {.unit = "Pa"})
+          .key("traction", &Load::traction, 
+               "Dead traction per undeformed area: three numbers, or formulas of the rest position.", {.unit = "Pa"})
           .key("force", &Load::force, "Total dead force, spread evenly over the surface.", {.unit = "N"})
           .key("factor", &Load::factor, "Factor in time.", {.fallback = "{type: constant}"})
           .check([](const Load& load, const Config& config) {
@@ -21,8 +22,9 @@ const Spec<Load>& Load::spec() {
 
 std::unique_ptr<Term> Load::make(const Discretization& body) const {
   const auto& triangles = find_surface(body.mesh, surface, origin);
-  const Vec3 per_area = traction ? *traction : *force / surface_area(body.mesh, triangles);
-  return std::make_unique<DeadLoad>("traction on " + surface, surface_forces(body.mesh, triangles, per_area), factor);
+  auto forces = traction ? surface_forces(body.mesh, triangles, *traction)
+                         : surface_forces(body.mesh, triangles, *force / surface_area(body.mesh, triangles));
+  return std::make_unique<DeadLoad>("traction on " + surface, std::move(forces), factor);
 }
 
 void Load::declare(Traits& traits) const { declare_load(*factor, traits); }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "lib/core/symmetric_eigen.h"
 #include "tests/fem/built_scene.h"
@@ -42,9 +43,58 @@ TEST(Traction, ExertsTractionTimesAreaAtTheCentreOfTheSurface) {
 
 TEST(Traction, IsDeadItFollowsNoMotion) {
   Random random(131);
-  const auto s = box("loads: [{surface: x1, traction: [2, -3, 5]}]"), unloaded = box("");
-  const Vector q = random_dofs(random, s.size(), 0.1);
-  EXPECT_LE((s.force(q) - unloaded.force(q) - s.force(s.zero())).norm(), 1e-13 * s.force(q).norm());
+  for (const char* traction : {"[2, -3, 5]", "[2*y, -3*x, 5 + z^2]"}) {
+    const auto s = box(fmt::format("loads: [{{surface: x1, traction: {}}}]", traction)), unloaded = box("");
+    const Vector q = random_dofs(random, s.size(), 0.1);
+    EXPECT_LE((s.force(q) - unloaded.force(q) - s.force(s.zero())).norm(), 1e-13 * s.force(q).norm()) << traction;
+    EXPECT_EQ(s.stiffness(q), unloaded.stiffness(q)) << traction;
+  }
+}
+
+// The face x = 3 of the box is [2, 3] x [3, 3.5] in y and z.
+double power_integral(double from, double to, int power) {
+  return (std::pow(to, power + 1) - std::pow(from, power + 1)) / (power + 1);
+}
+double face_integral(int y, int z) { return power_integral(2, 3, y) * power_integral(3, 3.5, z); }
+
+TEST(Traction, ByLinearFormulasHasTheirForceAndMoment) {
+  const auto s = box("loads: [{surface: x1, traction: [\"2 - y + 3*z\", 4, x*z]}]");
+  const NodalVector f = s.nodal(s.force(s.zero()));
+  const double t_x = 2 * face_integral(0, 0) - face_integral(1, 0) + 3 * face_integral(0, 1);
+  const double y_t_x = 2 * face_integral(1, 0) - face_integral(2, 0) + 3 * face_integral(1, 1);
+  const double z_t_x = 2 * face_integral(0, 1) - face_integral(1, 1) + 3 * face_integral(0, 2);
+  const double t_y = 4 * face_integral(0, 0), z_t_y = 4 * face_integral(0, 1);
+  const double t_z = 3 * face_integral(0, 1), y_t_z = 3 * face_integral(1, 1);
+  EXPECT_LE((total(f) - Vec3(t_x, t_y, t_z)).norm(), 256 * kEps * total(f).norm());
+  const Vec3 m = moment(f, s.positions(s.zero()));
+  EXPECT_LE((m - Vec3(y_t_z - z_t_y, z_t_x - 3 * t_z, 3 * t_y - y_t_x)).norm(), 1024 * kEps * m.norm());
+}
+
+TEST(Traction, ByAFormulaOfDegreeFourIsIntegratedExactly) {
+  for (const auto& [formula, y, z] : {std::tuple{"y^2", 2, 0}, {"y*z", 1, 1}, {"y^4", 4, 0}, {"y^2*z^2", 2, 2}}) {
+    const auto s = box(fmt::format("loads: [{{surface: x1, traction: [\"{}\", 0, 0]}}]", formula));
+    const NodalVector f = s.nodal(s.force(s.zero())), x = s.positions(s.zero());
+    EXPECT_NEAR(f.row(0).sum(), face_integral(y, z), 1e-13 * face_integral(y, z)) << formula;
+    EXPECT_NEAR(f.row(0).dot(x.row(1)), face_integral(y + 1, z), 1e-13 * face_integral(y + 1, z)) << formula;
+    EXPECT_NEAR(f.row(0).dot(x.row(2)), face_integral(y, z + 1), 1e-13 * face_integral(y, z + 1)) << formula;
+  }
+  // Not one of degree six.
+  const auto s = box("loads: [{surface: x1, traction: [y^6, 0, 0]}]");
+  const double sum = s.force(s.zero()).sum();
+  EXPECT_GT(std::abs(sum - face_integral(6, 0)), 1e-10 * sum);
+}
+
+TEST(Traction, TakesUnitsAndFormulasSideBySide) {
+  const auto a = box("loads: [{surface: x1, traction: [2 kPa, -3 Pa, \"1e3*0.005\"]}]"),
+             b = box("loads: [{surface: x1, traction: [2000, -3, 5]}]");
+  EXPECT_LE((a.force(a.zero()) - b.force(b.zero())).norm(), 64 * kEps * b.force(b.zero()).norm());
+}
+
+TEST(Traction, ByAFormulaKeepsItsPeak) {
+  const auto s = box("loads: [{surface: x1, traction: [y, 0, 0], factor: {type: sine, frequency: 1, amplitude: 3}}]");
+  NodalVector peak = NodalVector::Zero(3, s.model().parts().rest->cols());
+  s.model().parts().loads.at(0)->add_peak_force({0, *s.model().parts().rest, peak}, 10, peak);
+  EXPECT_NEAR(peak.row(0).sum(), 3 * face_integral(1, 0), 1e-12);
 }
 
 TEST(Traction, GivenAsATotalForceIsThatForceOverTheArea) {

@@ -56,7 +56,11 @@ INSTANTIATE_TEST_SUITE_P(
             "swinging_point_load",
             "terms: [{type: point_load, nearest: [1, 1, 1], force: [1, 0, 0], factor: {type: sine, frequency: 1}}]",
             "time_dependent not_conservative loaded"},
-        Declared{"pressure", "terms: [{type: pressure, surface: x1, pressure: 1}]",
+        Declared{"load_by_a_formula", "loads: [{surface: x1, traction: [x*y, 0, 0]}]", "loaded"},
+        Declared{"pressure", "terms: [{type: pressure, surface: x1, pressure: 1}]", "loaded"},
+        Declared{"ramped_pressure", "terms: [{type: pressure, pressure: 1, factor: {type: ramp, end: 1}}]",
+                 "time_dependent not_conservative loaded"},
+        Declared{"pressure_that_follows", "terms: [{type: pressure, surface: x1, pressure: 1, follows: true}]",
                  "nonlinear not_conservative loaded"},
         Declared{"springs_in_place", "terms: [{type: spring, surface: x1, stiffness: 1}]", ""},
         Declared{"spring_to_an_anchor", "terms: [{type: spring, surface: x1, anchor: [2, 0, 0], stiffness: 1}]",
@@ -83,7 +87,7 @@ terms:
   - {type: ground, stiffness: 1}
   - {type: point_load, surface: x1, force: [1, 0, 0]}
   - {type: pressure, surface: x1, pressure: 1}
-  - {type: pressure, pressure: 1}
+  - {type: pressure, pressure: 1, follows: true}
 loads: [{surface: x1, force: [1, 0, 0]}]
 gravity: [0, 0, -9]
 )");
@@ -97,7 +101,10 @@ gravity: [0, 0, -9]
     EXPECT_TRUE(terms[k]->description().starts_with(expected[k])) << terms[k]->description();
   }
   EXPECT_EQ(terms[2]->description(), "springs: 4 of 0.25 N/m");
-  EXPECT_EQ(terms[5]->description(), "point load: 4 nodes");
+  EXPECT_EQ(terms[1]->description(), "traction on x1: [1, 0, 0] N in total");
+  EXPECT_EQ(terms[5]->description(), "point load: 4 nodes, [1, 0, 0] N in total");
+  EXPECT_EQ(terms[6]->description(), "pressure on x1: dead, [-1, 0, 0] N in total");
+  EXPECT_EQ(terms[7]->description(), "pressure on the whole outer surface: follows the surface");
 }
 
 }  // namespace

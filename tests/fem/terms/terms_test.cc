@@ -198,9 +198,53 @@ TEST(Pressure, OnAClosedSurfaceIsMinusTheGradientOfPressureTimesVolume) {
 
 TEST(Pressure, HasThePowerOfItsForce) {
   Random random(309);
-  const auto s = block("{type: pressure, surface: x1, pressure: 0.4}"), without = block("");
-  const Vector q = random_dofs(random, s.size(), 0.1), v = random_dofs(random, s.size(), 1);
-  EXPECT_NEAR(s.scalar("power.loads", q, v), (s.force(q) - without.force(q)).dot(v), 1e-13 * v.norm());
+  const auto without = block("");
+  for (const char* keys : {"pressure: 0.4", "pressure: y + 2*z", "pressure: 0.4, follows: false"}) {
+    const auto s = block(fmt::format("{{type: pressure, surface: x1, {}}}", keys));
+    const Vector q = random_dofs(random, s.size(), 0.1), v = random_dofs(random, s.size(), 1);
+    EXPECT_NEAR(s.scalar("power.loads", q, v), (s.force(q) - without.force(q)).dot(v), 1e-13 * v.norm()) << keys;
+  }
+}
+
+TEST(Pressure, ThatIsDeadKeepsItsDirectionAndIsThatOfRest) {
+  const auto dead = block("{type: pressure, surface: x1, pressure: 0.4, follows: false}");
+  const auto following = block("{type: pressure, surface: x1, pressure: 0.4}"), without = block("");
+  EXPECT_LE((dead.force(dead.zero()) - following.force(following.zero())).norm(), 8 * kEps);
+  const Mat3 R = Random(314).rotation();
+  const Vector q = dead.dofs([&](const Vec3& X) { return Vec3(1.7 * R * X - X); });
+  EXPECT_LE((dead.force(q) - without.force(q) - dead.force(dead.zero())).norm(), 1e-12);
+  EXPECT_EQ(dead.stiffness(q), without.stiffness(q));
+}
+
+TEST(Pressure, ByAFormulaIsThatOfThePlaceAtRest) {
+  for (const char* follows : {"true", "false"}) {
+    const auto s = block(fmt::format("{{type: pressure, surface: x1, pressure: y^2*z, follows: {}, "
+                                     "factor: {{type: constant, value: 3}}}}", follows));
+    const NodalVector f = s.nodal(s.force(s.zero())), x = s.positions(s.zero());
+    EXPECT_NEAR(f.row(0).sum(), -3 * (1. / 3) * (1. / 2), 1e-13);
+    EXPECT_NEAR(f.row(0).dot(x.row(1)), -3 * (1. / 4) * (1. / 2), 1e-13);
+    EXPECT_NEAR(f.row(0).dot(x.row(2)), -3 * (1. / 3) * (1. / 3), 1e-13);
+    EXPECT_LE(f.bottomRows(2).norm(), 1e-14);
+  }
+}
+
+// Water around a body buoys it up by the weight of its volume of water: divergence theorem.
+TEST(Pressure, ThatGrowsWithDepthBuoysUp) {
+  const auto s = block("{type: pressure, pressure: 4*(2 - z)}");
+  EXPECT_LE((s.nodal(s.force(s.zero())).rowwise().sum() - Vec3(0, 0, 4)).norm(), 1e-13);
+}
+
+TEST(Pressure, ThatIsDeadOnAllFacesOfALinearCubeStrainsItEvenly) {
+  const auto s = BuiltTestScene(R"(
+mesh: {type: box, size: [1, 1, 1], cells: [2, 2, 2]}
+materials: {m: {type: isotropic, density: 1, young: 10, nu: 0.3}}
+elasticity: {kinematics: linear}
+clamps: [{surface: x0, components: [x]}, {surface: y0, components: [y]}, {surface: z0, components: [z]}]
+terms: [{type: pressure, pressure: 2}]
+time: {end: 1}
+)");
+  const double strain = -2 * (1 - 2 * 0.3) / 10;  // -p/(3 K), not small: of a linear body
+  EXPECT_LE(s.force(s.dofs([&](const Vec3& X) { return Vec3(strain * X); })).norm(), 1e-13);
 }
 
 TEST(Pressure, FollowsTheSurface) {
@@ -210,9 +254,13 @@ TEST(Pressure, FollowsTheSurface) {
   EXPECT_LE((f.rowwise().sum() - R * Vec3(-0.4, 0, 0)).norm(), 1e-13);
 }
 
-TEST(Pressure, OnAnOpenSurfaceGivesTheSymmetricPartOfItsDerivative) {
+class PressureOnAnOpenSurface : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Pressures, PressureOnAnOpenSurface, testing::Values("0.4", "0.3 + 0.5*y*z"),
+                         [](const auto& tested) { return tested.index == 0 ? "uniform" : "by_a_formula"; });
+
+TEST_P(PressureOnAnOpenSurface, GivesTheSymmetricPartOfItsDerivative) {
   Random random(311);
-  const std::string term = "{type: pressure, surface: x1, pressure: 0.4}";
+  const std::string term = fmt::format("{{type: pressure, surface: x1, pressure: {}}}", GetParam());
   const std::string general = "elasticity: {corotation: warped, warped_tangent: unsymmetric}";
   const auto s = block(term), without = block("");
   const auto s_general = block(term, general), without_general = block("", general);
@@ -262,7 +310,9 @@ TEST(Terms, WithALinearForceLeaveALinearModelLinear) {
   const std::string linear = "elasticity: {kinematics: linear}";
   EXPECT_TRUE(block(kInPlace.term, linear).model().traits().linear);
   EXPECT_TRUE(block(kDrag.term, linear).model().traits().linear);
-  for (const Case& c : {kSpring, kToAnchor, kOnset, kClosed, kBetween})
+  EXPECT_TRUE(block(kClosed.term, linear).model().traits().linear);
+  EXPECT_FALSE(block("{type: pressure, pressure: 0.4, follows: true}", linear).model().traits().linear);
+  for (const Case& c : {kSpring, kToAnchor, kOnset, kBetween})
     EXPECT_FALSE(block(c.term, linear).model().traits().linear) << c.name;
 }
 

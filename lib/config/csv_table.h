@@ -18,6 +18,8 @@ struct CsvTable {
   double at(std::size_t row, std::size_t column) const { return values[row * names.size() + column]; }
   bool has(const std::string& name) const;
   std::size_t column(const std::string& name) const;  // which must be there
+  // A whole number from 0, as elements and nodes are counted. Throws ConfigError for any other.
+  int index(std::size_t row, const std::string& name) const;
   std::string where(std::size_t row) const { return fmt::format("{}:{}", path, lines[row]); }
 };
 

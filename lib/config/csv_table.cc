@@ -1,5 +1,6 @@
-#include "lib/axes/csv_table.h"
+#include "lib/config/csv_table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -69,6 +70,13 @@ bool CsvTable::has(const std::string& name) const { return std::find(names.begin
 
 std::size_t CsvTable::column(const std::string& name) const {
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+int CsvTable::index(std::size_t row, const std::string& name) const {
+  const double given = at(row, column(name));
+  if (given != std::floor(given) || given < 0 || given > 2e9)
+    throw ConfigError(where(row), fmt::format("column {}: expected a whole number from 0, found {}", name, given));
+  return static_cast<int>(given);
 }
 
 CsvTable read_csv(const FilePath& file, const std::vector<std::string>& required,

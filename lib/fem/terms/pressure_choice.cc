@@ -1,0 +1,80 @@
+// The term `pressure`: one that follows the surface, or a dead load with the areas and normals of rest.
+#include <map>
+
+#include "lib/config/point_quantity.h"
+#include "lib/fem/surface.h"
+#include "lib/fem/term_choice.h"
+#include "lib/fem/terms/dead_load.h"
+#include "lib/fem/terms/pressure.h"
+#include "lib/mesh/selection.h"
+
+namespace orthodyn {
+namespace {
+
+std::vector<PressedTriangle> pressed(const TetMesh& mesh, const std::vector<Triangle>& triangles,
+                                     const PointQuantity& pressure) {
+  std::vector<PressedTriangle> all;
+  for (const Triangle& t : triangles) all.push_back({t, node_means(mesh, t, pressure)});
+  return all;
+}
+
+NodalForces forces_at_rest(const NodalVector& rest, const std::vector<PressedTriangle>& triangles) {
+  std::map<int, Vec3> sums;
+  for (const PressedTriangle& t : triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      sums.try_emplace(t.nodes[i], Vec3::Zero()).first->second += t.force(rest, i);
+  return {sums.begin(), sums.end()};
+}
+
+class PressureChoice : public TermChoice {
+ public:
+  static const Spec<PressureChoice>& spec() {
+    using P = PressureChoice;
+    static const auto s =
+        Spec<P>()
+            .key("surface", &P::surface_, "A named surface; default the whole outer surface.")
+            .key("pressure", &P::pressure_,
+                 "Positive where it pushes on the body: a number, or a formula of the rest position.",
+                 {.required = true, .unit = "Pa"})
+            .key("follows", &P::follows_,
+                 "true: it turns and grows with the surface. false: a dead load, with the areas and normals of rest. "
+                 "Default true; with kinematics: linear false.")
+            .key("factor", &P::factor_, "Factor in time.", {.fallback = "{type: constant}"});
+    return s;
+  }
+
+  // What is linear otherwise stays so.
+  Defaults defaults(const ElasticityOptions& elasticity) const override {
+    return {{"follows", elasticity.kinematics == Kinematics::linear ? "false" : "true"}};
+  }
+
+  std::unique_ptr<Term> make(const Discretization& body) const override {
+    const std::string where = surface_.value_or("the whole outer surface");
+    auto triangles = pressed(body.mesh, surface_or_all(body.mesh, surface_, origin), pressure_);
+    if (follows()) return std::make_unique<Pressure>(where, std::move(triangles), factor_, body.pattern);
+    return std::make_unique<DeadLoad>("pressure on " + where, forces_at_rest(body.rest, triangles), factor_, "dead");
+  }
+
+  // One that follows: its stiffness changes with the shape; an open surface's work depends on the path.
+  void declare(Traits& traits) const override {
+    declare_load(*factor_, traits);
+    if (follows()) traits.linear = traits.conservative = false;
+  }
+
+  Origin origin;
+
+ private:
+  bool follows() const { return follows_.value_or(true); }
+
+  std::optional<std::string> surface_;
+  PointQuantity pressure_;
+  std::optional<bool> follows_;
+  std::shared_ptr<const TimeFunction> factor_;
+};
+
+const bool pressure_registered = Registry<TermChoice>::add<PressureChoice>(
+    "pressure",
+    "Pressure on a surface, which it follows by default (the symmetric part of its stiffness enters K), or dead.");
+
+}  // namespace
+}  // namespace orthodyn
