@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lib/core/errors.h"
+#include "lib/core/golden.h"
 
 namespace orthodyn {
 
@@ -25,11 +26,21 @@ Reach reach_of_supports(const FemModel& model, double start, double end) {
   if (!parts.moved) return reach;
   for (int k = 0; k <= kSamples; ++k) {
     NodalVector u = NodalVector::Zero(3, parts.rest->cols()), v = u;
-    parts.moved->place(start + (end - start) * k / kSamples, u, v);
+    parts.moved->place(k < kSamples ? start + (end - start) * golden_share(k) : end, u, v);
     reach.distance = std::max(reach.distance, u.colwise().norm().maxCoeff());
     reach.speed = std::max(reach.speed, v.colwise().norm().maxCoeff());
   }
   return reach;
+}
+
+// m; 0 where it is not known. Displacements are twice those of the loads' static response, and three times the root
+// mean square of the vibrations that initial velocities start.
+double size_of_motion(const State& initial, const StaticResponse& statics, const Reach& reach) {
+  const bool held_by_stiffness = statics.displacement.size() > 0;
+  const bool moves = !initial.v.isZero(0), is_moved = reach.distance > 0, is_loaded = !statics.load.isZero(0);
+  if (!held_by_stiffness && (moves || is_loaded || !is_moved)) return 0;
+  const double deflection = is_loaded ? statics.displacement.cwiseAbs().maxCoeff() : 0;
+  return 2 * std::max(deflection, reach.distance) + 3 * statics.vibration + initial.q.lpNorm<Eigen::Infinity>();
 }
 
 constexpr double kLeastShare = 1e-6;  // of the extent: errors far below it are round-off
@@ -48,12 +59,11 @@ Scales estimate_scales(const FemModel& model, const State& initial, double end, 
   const bool at_rest = initial.q.isZero(0) && initial.v.isZero(0);
   const double energy = at_rest ? 0 : initial_energy(model, initial);  // not round-off
   if (!std::isfinite(energy)) throw ConfigError("the initial state has no finite energy; check `initial`");
-  const double work = statics.exists() ? statics.work : extent * statics.load.lpNorm<1>();
+  const double work = statics.exists() || statics.load.isZero(0) ? statics.work : extent * statics.load.lpNorm<1>();
   const Reach reach = reach_of_supports(model, initial.t, end);
   Scales scales{0.1 * extent, 3 * std::sqrt(2 * (energy + work) / mass + reach.speed * reach.speed)};
-  const double deflection = statics.exists() ? statics.displacement.cwiseAbs().maxCoeff() : 0;
-  const bool known = statics.exists() || (reach.distance > 0 && statics.load.isZero(0));
-  if (known && at_rest) scales.position = std::min(scales.position, 2 * std::max(deflection, reach.distance));
+  if (const double size = size_of_motion(initial, statics, reach); size > 0)
+    scales.position = std::min(scales.position, size);
   if (const double k = contact_stiffness(model); k > 0 && energy + work > 0)
     scales.position = std::min(scales.position, std::max(std::sqrt(2 * (energy + work) / k), kLeastShare * extent));
   if (scales.velocity == 0) scales.velocity = extent / (end - initial.t);

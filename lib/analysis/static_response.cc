@@ -1,41 +1,59 @@
 #include "lib/analysis/static_response.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "lib/linear/solver.h"
 
 namespace orthodyn {
 
 namespace {
 
-Vector peak_load(const FemModel& model, double start, double end) {
-  const auto& parts = model.parts();
-  NodalVector sum = NodalVector::Zero(3, parts.rest->cols());
-  const NodalVector still = NodalVector::Zero(3, parts.rest->cols());
-  for (const auto& load : parts.loads) load->add_peak_force({start, *parts.rest, still, still}, end, sum);
+Vector peak_load(const FemModel& model, const State& initial, double end) {
+  const Vector still = Vector::Zero(model.num_dofs());
+  const NodalExpansion nodal(model.parts(), initial.t, initial.q, still);
+  NodalVector sum = NodalVector::Zero(3, nodal.x.cols());
+  for (const auto& load : model.parts().loads) load->add_peak_force(nodal.state(), end, sum);
   Vector free(model.num_dofs());
-  parts.dofs->restrict_to(sum, free);
+  model.parts().dofs->restrict_to(sum, free);
   return free;
+}
+
+// K at rest, factored; null where it is singular or nearly so.
+std::unique_ptr<LinearSolver> factored_stiffness(const FemModel& model, std::vector<double>& values) {
+  const Vector zero = Vector::Zero(model.num_dofs());
+  Linearization at;
+  model.linearize(0, zero, zero, TangentKind::gauss_newton, at);
+  values.resize(at.stiffness.size());
+  model.combine({0, 0, 1}, at, values.data());
+  auto solver = solver_registry().at(model.pattern().symmetric ? "cholmod" : "klu").make();
+  solver->analyze(model.pattern());
+  return solver->factor(values.data()) == FactorStatus::ok ? std::move(solver) : nullptr;
 }
 
 }  // namespace
 
-StaticResponse static_response(const FemModel& model, double start, double end) {
-  StaticResponse response{peak_load(model, start, end), {}};
+StaticResponse static_response(const FemModel& model, const State& initial, double end) {
+  StaticResponse response{peak_load(model, initial, end), {}};
   const Vector& load = response.load;
-  if (load.norm() == 0) return response;
-  const Vector zero = Vector::Zero(model.num_dofs());
-  Linearization at;
-  model.linearize(0, zero, zero, TangentKind::gauss_newton, at);
-  std::vector<double> values(at.stiffness.size());
-  model.combine({0, 0, 1}, at, values.data());
-  auto solver = solver_registry().at(model.pattern().symmetric ? "cholmod" : "klu").make();
-  solver->analyze(model.pattern());
-  if (solver->factor(values.data()) != FactorStatus::ok) return response;
-  Vector u(load.size()), residual(load.size());
-  solver->solve(load, u);
-  model.pattern().multiply(values.data(), u, residual);
-  if (!u.allFinite() || !((residual - load).norm() < 1e-3 * load.norm())) return response;
+  Vector momentum(load.size());
+  model.multiply_mass(initial.v, momentum);
+  if (load.isZero(0) && momentum.isZero(0)) return response;
+  std::vector<double> values;
+  const auto solver = factored_stiffness(model, values);
+  if (!solver) return response;
+  const auto solve = [&](const Vector& b) {  // empty where round-off decides
+    Vector x(b.size()), Kx(b.size());
+    solver->solve(b, x);
+    model.pattern().multiply(values.data(), x, Kx);
+    return x.allFinite() && (Kx - b).norm() <= 1e-3 * b.norm() ? x : Vector();
+  };
+  Vector u = solve(load), w = solve(momentum);
+  if (u.size() == 0 || w.size() == 0) return response;
   response.work = u.dot(load);
   response.displacement = std::move(u);
+  // Modes of frequency omega start with v and reach v/omega: the sum of (M v)^2/omega^2 is p K^-1 p.
+  response.vibration = std::sqrt(std::max(w.dot(momentum), 0.0) / model.parts().mass->total());
   return response;
 }
 

@@ -98,7 +98,7 @@ Task task_of(const Scene& scene, const BuiltScene& built) {
   const double frames = scene.output.frames.value_or(50);
   const double interval = scene.output.interval.value_or((end - start) / std::max(frames, 1.0));
   const auto scales = [&built, start = start, end = end] {
-    return estimate_scales(*built.model, built.initial, end, static_response(*built.model, start, end));
+    return estimate_scales(*built.model, built.initial, end, static_response(*built.model, built.initial, end));
   };
   return {scales, built.initial, end, interval};
 }
@@ -112,7 +112,7 @@ Setup set_up(const Config& input) {
   warn_of_distant_probes(scene, built);
   std::optional<StaticResponse> statics;  // made once, for whoever asks first
   const auto response = [&]() -> const StaticResponse& {
-    if (!statics) statics = static_response(*built.model, scene.time.start, scene.time.end);
+    if (!statics) statics = static_response(*built.model, built.initial, scene.time.end);
     return *statics;
   };
   const auto stiffness = elastic_stiffness(scene, *built.model);

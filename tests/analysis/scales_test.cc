@@ -15,7 +15,7 @@ Scales scales_of(const std::string& yaml) {
   const Scene scene = read_scene(Config::from_text(yaml));
   const BuiltScene built = build(scene);
   return estimate_scales(*built.model, built.initial, scene.time.end,
-                         static_response(*built.model, scene.time.start, scene.time.end));
+                         static_response(*built.model, built.initial, scene.time.end));
 }
 
 TEST(Scales, FollowTheStaticDeflectionOfAStiffBodyAndTheSizeOfASoftOne) {
@@ -45,6 +45,25 @@ time: {end: 1}
 TEST(Scales, OfASpinningFreeBodyComeFromItsKineticEnergy) {
   const auto yaml = replaced(kValidScene, "clamps:\n  - surface: x0\n", "initial: {velocity: [3, 0, 0]}\n");
   EXPECT_NEAR(scales_of(yaml).velocity, 3 * 3.0, 1e-12);
+}
+
+// One spring k = E A/L with the mass m of the four nodes at its end: v0 starts an amplitude of v0 sqrt(m/k).
+TEST(Scales, OfAHeldBodyThatIsStruckComeFromTheVibration) {
+  const std::string bar = R"(mesh: {type: box, size: [2, 1, 1], cells: [1, 1, 1]}
+materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0}}
+clamps: [{surface: x0}, {box: {min: [0, 0, 0], max: [2, 1, 1]}, components: [y, z]}]
+initial: {velocity: [3e-3, 0, 0]}
+time: {end: 0.1}
+)";
+  const double m = 2000 / 2, k = 1e9 / 2;
+  EXPECT_NEAR(scales_of(bar).position, 3 * 3e-3 * std::sqrt(m / k) * std::sqrt(m / 2000), 1e-10);
+}
+
+// Evenly spaced samples of the base's motion would all be its zeros.
+TEST(Scales, SeeAMotionOfWholePeriods) {
+  const auto yaml = kValidScene + "motions: [{surface: x1, translation: [1e-9, 0, 0], "
+                                  "factor: {type: sine, frequency: 2000}}]\n";
+  EXPECT_NEAR(scales_of(replaced(yaml, "end: 1", "end: 0.1")).position, 2e-9, 1e-11);
 }
 
 TEST(Scales, ShrinkWithTheStiffnessOfWhatTheBodyMayTouch) {

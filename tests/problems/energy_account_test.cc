@@ -30,7 +30,8 @@ TEST_P(EnergyAccount, OfABeamThatComesToRestIsClosed) {
   const BuiltTestScene s(kBeam + "integrator: {type: " + GetParam() + "}\n");
   const auto integrator = s.scene.integrator->make(s.model(), task_of(s.scene, s.built));
   EnergyMeter meter(s.model(), *integrator);
-  const Outcome outcome = run(s.model(), *integrator, s.built.initial, {s.scene.time.end, {}, false}, {&meter}, {false});
+  const Outcome outcome =
+      run(s.model(), *integrator, s.built.initial, {s.scene.time.end, {}, false}, {&meter}, {false});
   ASSERT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
   const EnergyBalance& e = meter.last();
   EXPECT_LE(e.kinetic, 1e-6 * e.loads);

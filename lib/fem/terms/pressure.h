@@ -4,10 +4,10 @@
 // triangles.
 //
 // A surface without boundary under uniform pressure has the energy p V; the force of others has none, so its work
-// counts as that of a load. Of the derivative -df_i/dx_b = p_i/2 [x_{b+2} - x_{b+1}] a symmetric pattern takes the symmetric
-// part (p_i [..]_b - p_b [..]_i)/4: exact where the pressure is uniform on a closed surface, or on one whose edge is
-// held; elsewhere the Newton matrix is approximate and the force exact (Hibbitt 1979, Some follower forces and load
-// stiffness).
+// counts as that of a load. Of the derivative -df_i/dx_b = p_i/2 [x_{b+2} - x_{b+1}] a symmetric pattern takes the
+// symmetric part (p_i [..]_b - p_b [..]_i)/4: exact where the pressure is uniform on a closed surface, or on one whose
+// edge is held; elsewhere the Newton matrix is approximate and the force exact (Hibbitt 1979, Some follower forces and
+// load stiffness).
 #pragma once
 
 #include <memory>

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "lib/config/formula.h"
 #include "lib/core/errors.h"
+#include "lib/core/golden.h"
 #include "lib/fem/differences.h"
 #include "lib/fem/time_functions/time_function.h"
 
@@ -34,13 +34,12 @@ class Expression : public TimeFunction {
   std::vector<double> kinks() const override { return kinks_; }
   double peak(double start, double end) const override {
     if (peak_) return *peak_;
-    // By the golden ratio, for evenly spaced times may all be zeros of an oscillation.
     constexpr int kSamples = 1000;
     double largest = 0;
     for (int k = 0; k <= kSamples; ++k) {
-      const double share = k * std::numbers::phi - std::floor(k * std::numbers::phi);
       try {
-        largest = std::max(largest, std::abs(formula_.at(k < kSamples ? start + share * (end - start) : end)));
+        largest =
+            std::max(largest, std::abs(formula_.at(k < kSamples ? start + golden_share(k) * (end - start) : end)));
       } catch (const ConfigError&) {  // no value there: the run will tell, if it comes so far
       }
     }

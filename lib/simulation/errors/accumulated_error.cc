@@ -30,8 +30,8 @@ double decay_rate(const ObservedState& at) {
 }
 
 // At the end of the part. None where the second integration fails or is interrupted.
-std::optional<State> integrated_again(const Setup& setup, const IntegratorChoice& method, const PartRecorder::Part& part,
-                                      const std::atomic<bool>& interrupt) {
+std::optional<State> integrated_again(const Setup& setup, const IntegratorChoice& method,
+                                      const PartRecorder::Part& part, const std::atomic<bool>& interrupt) {
   const Model& model = *setup.built.model;
   const auto integrator = method.make(model, task_of(setup.scene, setup.built));
   Plan plan;

@@ -24,35 +24,11 @@ Vec3 vector_from(const std::vector<double>& x) { return {x[0], x[1], x[2]}; }
 
 }  // namespace
 
-void PowerIntegral::start(double t, double power) {
-  t_ = t;
-  last_ = power;
-}
-
-void PowerIntegral::advance(double t, double middle, double end) {
-  sum_ += (t - t_) / 6 * (last_ + 4 * middle + end);
-  t_ = t;
-  last_ = end;
-}
-
-void PowerIntegral::advance_by_mean(double t, double mean, double end) {
-  sum_ += (t - t_) * mean;
-  t_ = t;
-  last_ = end;
-}
-
-void PowerIntegral::restore(const std::vector<double>& kept) {
-  t_ = kept[0];
-  last_ = kept[1];
-  sum_ = kept[2];
-}
-
 EnergyMeter::EnergyMeter(const Model& model, const Integrator& integrator, EnergyTimes times)
     : model_(model), integrator_(integrator), times_(times) {}
 
 void EnergyMeter::on_start(const ObservedState& observed) {
-  if (model_.traits().dissipative) dissipation_.start(observed.t(), observed.evaluate("power.dissipated")[0]);
-  if (model_.traits().loaded) load_work_.start(observed.t(), observed.evaluate("power.loads")[0]);
+  powers_time_ = observed.t();
   take_energies(observed);
   first_ = last_;
   drift_ = 0;
@@ -60,13 +36,13 @@ void EnergyMeter::on_start(const ObservedState& observed) {
 
 void EnergyMeter::on_step(const StepInfo&, const ObservedState& observed, const Integrator&) {
   if (times_ == EnergyTimes::steps) return look(observed);
-  advance_powers(observed);
+  advance_powers(observed.t());
   // Outputs may all fall on moments of little energy.
   scale_ = std::max(scale_, observed.evaluate("energy.kinetic")[0]);
 }
 
 void EnergyMeter::look(const ObservedState& observed) {
-  advance_powers(observed);
+  advance_powers(observed.t());
   take_energies(observed);
 }
 
@@ -74,32 +50,33 @@ void EnergyMeter::take_energies(const ObservedState& observed) {
   const auto energy = [&](const char* name) { return observed.evaluate(name)[0]; };
   time_ = observed.t();
   last_ = {energy("energy.kinetic"), energy("energy.elastic"), energy("energy.gravitational"),
-           dissipation_.value(), load_work_.value()};
+           dissipated_, load_work_};
   raise(drift_, std::abs(change()));
   scale_ = std::max({scale_, last_.kinetic, last_.elastic});
 }
 
-void EnergyMeter::advance_powers(const ObservedState& observed) {
+void EnergyMeter::advance_powers(double t) {
   const Traits& traits = model_.traits();
-  const double t = observed.t();
-  if ((!traits.dissipative && !traits.loaded) || t <= powers_time()) return;
+  const double begin = powers_time_, h = t - begin;
+  if ((!traits.dissipative && !traits.loaded) || h <= 0) return;
+  powers_time_ = t;
+  if (const auto mean = integrator_.mean_state()) return add_powers(*mean, h);
+  // Never at the ends of a step, where velocities of supports may jump.
   State state;
-  const auto mean = integrator_.mean_state();
-  if (mean) state = *mean;
-  else integrator_.interpolate(0.5 * (powers_time() + t), state);
-  const ObservedState middle(model_, state);
-  const auto advance = [&](PowerIntegral& integral, const char* power) {
-    const double there = middle.evaluate(power)[0], end = observed.evaluate(power)[0];
-    if (mean) integral.advance_by_mean(t, there, end);
-    else integral.advance(t, there, end);
-  };
-  if (traits.dissipative) advance(dissipation_, "power.dissipated");
-  if (traits.loaded) advance(load_work_, "power.loads");
+  for (const double share : {0.5 - std::sqrt(1.0 / 12), 0.5 + std::sqrt(1.0 / 12)}) {
+    integrator_.interpolate(begin + share * h, state);
+    add_powers(state, h / 2);
+  }
+}
+
+void EnergyMeter::add_powers(const State& at, double duration) {
+  const ObservedState observed(model_, at);
+  if (model_.traits().dissipative) dissipated_ += duration * observed.evaluate("power.dissipated")[0];
+  if (model_.traits().loaded) load_work_ += duration * observed.evaluate("power.loads")[0];
 }
 
 void EnergyMeter::save(Archive& archive) {
-  archive.put("dissipation", dissipation_.kept());
-  archive.put("load_work", load_work_.kept());
+  archive.put("powers", {powers_time_, dissipated_, load_work_});
   archive.put("first", kept(first_));
   archive.put("last", kept(last_));
   archive.put("time", time_);
@@ -108,8 +85,8 @@ void EnergyMeter::save(Archive& archive) {
 }
 
 void EnergyMeter::restore(const Archive& archive) {
-  dissipation_.restore(archive.numbers("dissipation", 3));
-  load_work_.restore(archive.numbers("load_work", 3));
+  const auto& powers = archive.numbers("powers", 3);
+  powers_time_ = powers[0], dissipated_ = powers[1], load_work_ = powers[2];
   first_ = balance_from(archive.numbers("first", 5));
   last_ = balance_from(archive.numbers("last", 5));
   if (archive.entries().contains("time")) time_ = archive.number("time");  // earlier checkpoints have none

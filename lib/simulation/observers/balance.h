@@ -9,22 +9,6 @@
 
 namespace orthodyn {
 
-// The integral of a power (W) over time, J: by Simpson's rule or, where the method says so, by the step's mean.
-class PowerIntegral {
- public:
-  void start(double t, double power);
-  // To a later time; the power in the middle and there.
-  void advance(double t, double middle, double end);
-  void advance_by_mean(double t, double mean, double end);
-  double time() const { return t_; }
-  double value() const { return sum_; }
-  std::vector<double> kept() const { return {t_, last_, sum_}; }
-  void restore(const std::vector<double>& kept);
-
- private:
-  double t_ = 0, last_ = 0, sum_ = 0;
-};
-
 struct EnergyBalance {
   double kinetic = 0, elastic = 0, gravitational = 0;  // J
   double dissipated = 0, loads = 0;                    // J since the start
@@ -34,8 +18,8 @@ struct EnergyBalance {
 
 class EnergyMeter : public Observer {
  public:
-  // `integrator` is the one that is run; both must outlive this. Powers are integrated over every step, on the
-  // integrator's dense output or at its mean state, but only where they can differ from zero.
+  // `integrator` is the one that is run; both must outlive this. Powers are integrated over every step, by
+  // Gauss' two points on the integrator's dense output or at its mean state, but only where they can differ from zero.
   EnergyMeter(const Model& model, const Integrator& integrator, EnergyTimes times = EnergyTimes::steps);
   void on_start(const ObservedState& observed) override;
   void on_output(const ObservedState& observed) override { look(observed); }
@@ -54,16 +38,16 @@ class EnergyMeter : public Observer {
   double time() const { return time_; }  // of last(), s
 
  private:
-  double powers_time() const { return model_.traits().dissipative ? dissipation_.time() : load_work_.time(); }
-  // To a state within the integrator's last step.
-  void advance_powers(const ObservedState& observed);
+  // To a time within the integrator's last step, s.
+  void advance_powers(double t);
+  void add_powers(const State& at, double duration);
   void look(const ObservedState& observed);
   void take_energies(const ObservedState& observed);
 
   const Model& model_;
   const Integrator& integrator_;
   EnergyTimes times_;
-  PowerIntegral dissipation_, load_work_;
+  double powers_time_ = 0, dissipated_ = 0, load_work_ = 0;  // s; J up to then
   EnergyBalance first_, last_;
   double time_ = 0, drift_ = 0, scale_ = 0;
 };

@@ -57,6 +57,11 @@ double integral_over_last(const Series& s, std::size_t k) {
   return g * (s.values[k + 2] - g * (next / 2 + (next - slope) / (h + g) * g / 6));
 }
 
+bool is_even(const Series& s, std::size_t k) {
+  const double h = s.times[k + 1] - s.times[k], g = s.times[k + 2] - s.times[k + 1];
+  return std::max(h, g) <= 4 * std::min(h, g);
+}
+
 }  // namespace
 
 double maximum(const Series& series, double sign) { return vertex(series, sign).value; }
@@ -68,12 +73,13 @@ double mean(const Series& s) {
   if (n < 2) return kNone;
   double sum = 0;
   for (std::size_t k = 0; k + 1 < n; ++k) {
-    // Parabolas through either neighbour, averaged; at the ends there is one.
+    // Parabolas through either neighbour, averaged; at the ends there is one. None through samples of very different
+    // distances, which lie beside a jump: it would leave their range by far.
     double pieces = 0;
     int count = 0;
-    if (k > 0) pieces += integral_over_last(s, k - 1), ++count;
-    if (k + 2 < n) pieces += integral_over_first(s, k), ++count;
-    sum += count > 0 ? pieces / count : 0.5 * (s.values[0] + s.values[1]) * (s.times[1] - s.times[0]);
+    if (k > 0 && is_even(s, k - 1)) pieces += integral_over_last(s, k - 1), ++count;
+    if (k + 2 < n && is_even(s, k)) pieces += integral_over_first(s, k), ++count;
+    sum += count > 0 ? pieces / count : 0.5 * (s.values[k] + s.values[k + 1]) * (s.times[k + 1] - s.times[k]);
   }
   return sum / (s.times.back() - s.times.front());
 }
