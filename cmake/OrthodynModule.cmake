@@ -19,6 +19,11 @@ if(ORTHODYN_SANITIZE)
                          -fno-sanitize-recover=undefined -fno-sanitize=null,alignment,object-size,vptr)
   target_link_options(orthodyn_options INTERFACE -fsanitize=address,undefined)
 endif()
+if(ORTHODYN_FUZZ)
+  target_compile_options(orthodyn_options INTERFACE -O1 -g1 -fsanitize=address,undefined,fuzzer-no-link
+                         -fno-sanitize-recover=undefined -fno-sanitize=vptr)
+  target_link_options(orthodyn_options INTERFACE -fsanitize=address,undefined)
+endif()
 
 # Position-independent code as in a library for programs, too: else they could not share its precompiled headers.
 target_compile_options(orthodyn_options INTERFACE -fPIC)

@@ -31,7 +31,7 @@ class ConfigError : public std::runtime_error {
 };
 
 // Why a computation could not go on, in one word for a table.
-enum class Reason { other, diverged, step_too_small, too_many_steps, newton, error_test, force, out_of_memory };
+enum class Reason { other, diverged, step_too_small, too_many_steps, newton, error_test, force, out_of_memory, disk };
 
 inline const char* reason_name(Reason reason) {
   switch (reason) {
@@ -43,6 +43,7 @@ inline const char* reason_name(Reason reason) {
     case Reason::error_test: return "error test";
     case Reason::force: return "force";
     case Reason::out_of_memory: return "out of memory";
+    case Reason::disk: return "disk";
   }
   return "other";
 }

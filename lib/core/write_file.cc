@@ -15,7 +15,8 @@ namespace orthodyn {
 
 void fail_to_write(const std::filesystem::path& path) {
   throw RunError(fmt::format("cannot write {}: {}; free some space or choose another folder with --out",
-                             path.string(), std::strerror(errno)));
+                             path.string(), std::strerror(errno)),
+                 Reason::disk);
 }
 
 namespace {
@@ -29,31 +30,35 @@ void write_in_place(const std::filesystem::path& path, const std::vector<std::st
 }
 
 void write_whole_file(const std::filesystem::path& path, const std::vector<std::string>& parts, bool lasting) {
-  std::error_code ignored;
-  const auto kind = std::filesystem::status(path, ignored).type();
+  std::error_code ec;
+  const auto kind = std::filesystem::status(path, ec).type();
   if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found)
     return write_in_place(path, parts);
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
+  make_folder_of(path);
   const std::filesystem::path part = path.string() + ".part";
-  {
-    std::ofstream out(part, std::ios::binary);
-    for (const auto& text : parts) out.write(text.data(), static_cast<std::streamsize>(text.size()));
-    out.close();
-    if (!out) {
-      const int error = errno;
-      std::filesystem::remove(part, ignored);
-      errno = error;
-      fail_to_write(path);
-    }
+  try {
+    write_in_place(part, parts);
+    if (lasting) make_lasting(part);
+    std::filesystem::rename(part, path, ec);
+    errno = ec.value();
+    if (ec) fail_to_write(path);
+  } catch (const RunError&) {
+    const int error = errno;
+    std::filesystem::remove(part, ec);
+    errno = error;
+    fail_to_write(path);
   }
-  if (lasting) make_lasting(part);
-  std::error_code ec;
-  std::filesystem::rename(part, path, ec);
-  if (ec) fail_to_write(path);
   if (lasting) make_lasting(path.has_parent_path() ? path.parent_path() : ".");  // the new name
 }
 
 }  // namespace
+
+void make_folder_of(const std::filesystem::path& path) {
+  std::error_code ec;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ec);
+  errno = ec.value();
+  if (ec) fail_to_write(path);
+}
 
 void write_file(const std::filesystem::path& path, const std::vector<std::string>& parts) {
   write_whole_file(path, parts, false);

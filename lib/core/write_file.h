@@ -17,7 +17,10 @@ void write_lasting_file(const std::filesystem::path& path, const std::vector<std
 // Waits until what was written to a file is on the disk.
 void make_lasting(const std::filesystem::path& path);
 
-// What the three throw, with the reason in errno.
+// The folder that a file is to stand in, with those above it.
+void make_folder_of(const std::filesystem::path& path);
+
+// What they throw, with the reason in errno.
 [[noreturn]] void fail_to_write(const std::filesystem::path& path);
 
 }  // namespace orthodyn

@@ -81,6 +81,19 @@ NodePairs couplings(const Scene& scene, const TetMesh& mesh) {
   return all;
 }
 
+// Volumes and gradients of shapes, and their squares, must be numbers.
+void require_size(const TetMesh& mesh) {
+  constexpr double kSmallest = 1e-50, kLargest = 1e50;
+  const Box box = bounding_box(mesh);
+  const double smallest = box.size().minCoeff();
+  const double largest = std::max(box.min.lpNorm<Eigen::Infinity>(), box.max.lpNorm<Eigen::Infinity>());
+  if (smallest >= kSmallest && largest <= kLargest) return;
+  throw ConfigError("mesh",
+                    fmt::format("it extends from {} to {} m; extents below {:.0e} m and coordinates beyond {:.0e} m "
+                                "cannot be computed with; check the unit of length",
+                                Value<Vec3>::yaml(box.min), Value<Vec3>::yaml(box.max), kSmallest, kLargest));
+}
+
 // What the materials had to change of the input.
 void add_notes(const Scene& scene, Warnings& warnings) {
   for (const auto& [name, material] : scene.materials)
@@ -93,6 +106,7 @@ BuiltScene build(const Scene& scene) {
   LoadedMesh loaded = load_mesh(scene);
   FemModel::Parts parts;
   parts.mesh = std::move(loaded.mesh);
+  require_size(parts.mesh);
   const auto regions = assign_regions(scene, parts.mesh);
   Supports supports = make_supports(scene, parts.mesh);
   const int num_nodes = static_cast<int>(parts.mesh.nodes.size());

@@ -80,6 +80,8 @@ class DynamicAnalysis {
     observers.restore(begin);
     context_.listener.on_notice(fmt::format(
         "resumes at t = {:.6g} s; the integrator starts anew there: a multistep method at order 1", begin.state.t));
+    if (const auto& changed = begin.restarts.back().changed; !changed.empty())
+      context_.listener.on_notice("changed since the checkpoint: " + join(changed));
   }
 
   RunResult compute(const Checkpoint& begin, RunObservers& observers, const RunRecord& record) {

@@ -49,8 +49,7 @@ void GrowingFile::open(int flags) {
 }
 
 void GrowingFile::begin() {
-  std::error_code ignored;
-  if (path_.has_parent_path()) std::filesystem::create_directories(path_.parent_path(), ignored);
+  make_folder_of(path_);
   open(O_CREAT | O_TRUNC);
   size_ = 0;
   append(head_);

@@ -6,6 +6,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/simulation/json.h"
+#include "lib/simulation/outcome.h"
 #include "lib/simulation/run_record.h"
 
 namespace orthodyn {
@@ -21,11 +22,14 @@ constexpr const char* kResultFiles[] = {"frames",       "frames.pvd", "probes.cs
 constexpr const char* kCheckpoint = "checkpoint.cbor";
 constexpr const char* kLock = ".orthodyn-run";  // not run.json, which is renamed over
 
-// A lock is left behind by every run, also by one that was refused.
+// A lock is left behind by every run, also by one that was refused; a part of a record by one that was killed while it
+// wrote its first file.
 bool is_unused(const fs::path& folder) {
   std::error_code ec;
-  for (const auto& entry : fs::directory_iterator(folder, ec))
-    if (entry.path().filename() != kLock) return false;
+  for (const auto& entry : fs::directory_iterator(folder, ec)) {
+    const auto name = entry.path().filename();
+    if (name != kLock && name != std::string(kRunRecordFile) + ".part") return false;
+  }
   return true;
 }
 
@@ -83,8 +87,10 @@ std::string ResultFolder::earlier_status() const {
   const auto json = Json::parse(in, nullptr, false);
   const std::string status = json.is_object() && json.contains("status") && json["status"].is_string()
                                  ? json["status"].get<std::string>()
-                                 : "running";
-  return status == "running" ? "killed" : status;
+                                 : "";
+  for (const auto known : {Outcome::Status::completed, Outcome::Status::interrupted, Outcome::Status::failed})
+    if (status == status_word(known)) return status;
+  return "killed";
 }
 
 void ResultFolder::prepare() {

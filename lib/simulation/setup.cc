@@ -91,6 +91,22 @@ void start_from_equilibrium(const Scene& scene, BuiltScene& built) {
   }
 }
 
+// Otherwise it shows in whatever looks at the start first, where nothing can be said about the input.
+void require_force_at_start(const Config& config, const BuiltScene& built) {
+  const State& start = built.initial;
+  Vector force(start.q.size());
+  std::string reason = "it is not finite";
+  try {
+    built.model->force(start.t, start.q, start.v, force);
+    if (force.allFinite()) return;
+  } catch (const RecoverableError& e) {
+    reason = e.what();
+  }
+  config.at(config.has("initial") ? "initial" : "mesh")
+      .fail(fmt::format("the force at the start cannot be evaluated: {}; check the initial state, the loads and the "
+                        "unit of length", reason));
+}
+
 }  // namespace
 
 Task task_of(const Scene& scene, const BuiltScene& built) {
@@ -107,6 +123,7 @@ Setup set_up(const Config& input) {
   Config config = input.resolving();
   Scene scene = read_scene(config);
   BuiltScene built = build(scene);
+  if (scene.analysis == Analysis::dynamic) require_force_at_start(config, built);
   check_outputs(scene, *built.model);
   check_expectations(scene, *built.model);
   warn_of_distant_probes(scene, built);

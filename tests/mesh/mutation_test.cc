@@ -17,37 +17,10 @@
 #include "lib/mesh/io/vega.h"
 #include "lib/mesh/io/vtk.h"
 #include "lib/mesh/io/vtu.h"
+#include "tests/fuzz/mutation.h"
 
 namespace orthodyn::mutation_test {
 namespace {
-
-// One to four changes of bytes: to any byte, to one that means something, or cut off.
-std::string mutated(std::string text, std::mt19937& random) {
-  const std::string meaningful = "0123456789-+.eE$*,#<>_= \n\r\t\"";
-  for (std::size_t changes = 1 + random() % 4; changes > 0 && !text.empty(); --changes) {
-    const std::size_t at = random() % text.size();
-    switch (random() % 6) {
-      case 0:
-        text[at] = static_cast<char>(random() % 256);
-        break;
-      case 1:
-        text[at] = meaningful[random() % meaningful.size()];
-        break;
-      case 2:
-        text.insert(at, 1, meaningful[random() % meaningful.size()]);
-        break;
-      case 3:
-        text.erase(at, 1 + random() % 8);
-        break;
-      case 4:
-        text.insert(at, text.substr(random() % text.size(), random() % 40));
-        break;
-      default:
-        if (random() % 4 == 0) text.resize(at);
-    }
-  }
-  return text;
-}
 
 std::string content_of(const std::string& name) {
   std::ifstream file(std::string(ORTHODYN_SOURCE_DIR) + "/tests/mesh/data/" + name, std::ios::binary);
@@ -68,7 +41,7 @@ TEST_P(AnyMutation, LoadsOrIsRefused) {
   int loaded = 0;
   constexpr int kFiles = 500;
   for (int i = 0; i < kFiles; ++i) {
-    const std::string content = mutated(seed, random);
+    const std::string content = with_mutated_bytes(seed, random);
     try {
       GetParam().read("beam", content);
       ++loaded;

@@ -1,4 +1,7 @@
 // Bad scenes: one clear message with file:line:column, what was found, what is allowed.
+#include <sys/resource.h>
+
+#include "lib/simulation/setup.h"
 #include "tests/scene/scenes.h"
 
 namespace orthodyn::refusal_test {
@@ -64,6 +67,12 @@ INSTANTIATE_TEST_SUITE_P(
                  "output: {probes: {\"a,b\": {at: [0, 0, 0]}}}\ntime:",
                  {"output.probes.a,b", "no commas"}},
         BadScene{"no_mass", "1000", "1e-310", {"mesh", "its mass is", "check density"}},
+        BadScene{"too_long", "size: [2, 1, 1]", "size: [1e300, 1, 1]", {"mesh: it extends", "unit of length"}},
+        BadScene{"too_flat", "size: [2, 1, 1]", "size: [2, 1e-200, 1]", {"mesh: it extends", "1e-50 m"}},
+        BadScene{"more_elements_than_numbers",
+                 "cells: [2, 1, 1]",
+                 "cells: [1000000, 1000000, 1000000]",
+                 {"scene.yaml:1:43: mesh.cells: 5e+18 elements, the most is 5e+08"}},
         BadScene{"missing_file",
                  "{type: box, size: [2, 1, 1], cells: [2, 1, 1]}",
                  "{type: gmsh, file: nowhere.msh}",
@@ -102,6 +111,53 @@ INSTANTIATE_TEST_SUITE_P(
             {"scene.yaml:3:9: materials.soft", "nu23=1.7", "indefinite", "smallest eigenvalue", "must lie in",
              "Nearest stable set"}}),
     [](const auto& scene) { return scene.param.name; });
+
+// Lowers a limit that the system does not enforce.
+class LittleMemory {
+ public:
+  LittleMemory() {
+    getrlimit(RLIMIT_RSS, &before_);
+    const rlimit little{1'000'000'000, before_.rlim_max};
+    setrlimit(RLIMIT_RSS, &little);
+  }
+  ~LittleMemory() { setrlimit(RLIMIT_RSS, &before_); }
+  LittleMemory(const LittleMemory&) = delete;
+  LittleMemory& operator=(const LittleMemory&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+TEST(MeshesToBeMade, ThatDoNotFitIntoTheMemoryAreRefusedWithWhatTheyNeed) {
+  const LittleMemory little;
+  const auto refused = [](const std::string& mesh) {
+    return refusal(replaced(kValidScene, "{type: box, size: [2, 1, 1], cells: [2, 1, 1]}", mesh));
+  };
+  EXPECT_NE(refused("{type: box, size: [2, 1, 1], cells: [1000, 1000, 1]}")
+                .find("mesh.cells: 5e+06 elements need at least 3 GB of memory, and there are 1 GB; use fewer cells"),
+            std::string::npos);
+  EXPECT_NE(
+      refused("{type: cylinder, radius: 1, length: 1, cells: [400, 100, 40]}").find("mesh.cells: 1.2e+07 elements"),
+      std::string::npos);
+  EXPECT_NE(refused("{type: tube, radius: 1, inner_radius: 0.5, length: 1, cells: [400, 100, 40]}")
+                .find("mesh.cells: 9.6e+06 elements"),
+            std::string::npos);
+}
+
+TEST(TheStart, WhoseForceIsNoNumberIsRefusedAtItsPlace) {
+  const auto refused = [](const std::string& more) -> std::string {
+    try {
+      set_up(Config::from_text(kValidScene + more, "scene.yaml"));
+    } catch (const ConfigError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refused("initial: {deformation_gradient: [[1, 0, 0], [0, 1e308, 0], [0, 0, 1e308]]}\n")
+                .find("scene.yaml:7:10: initial: the force at the start cannot be evaluated"),
+            std::string::npos);
+  EXPECT_EQ(refused("initial: {deformation_gradient: [[0, 0, 0], [0, 0, 0], [0, 0, 0]]}\n"), "");  // in a point
+}
 
 }  // namespace
 }  // namespace orthodyn::refusal_test

@@ -104,6 +104,12 @@ TEST_F(ResultFolders, BeginsAnewWhereARunHadJustBegun) {
   EXPECT_FALSE(folder.is_completed_without_checkpoint());
 }
 
+TEST_F(ResultFolders, WithAPartOfARecordAloneIsUnused) {
+  put("run.json.part");
+  EXPECT_FALSE(open(Earlier::resume).resumes());
+  open(Earlier::keep).prepare();
+}
+
 TEST_F(ResultFolders, WithoutACheckpointIsCompleteOrCannotBeResumed) {
   put("energy.csv");
   put_result("completed");
@@ -115,7 +121,7 @@ TEST_F(ResultFolders, WithoutACheckpointIsCompleteOrCannotBeResumed) {
 }
 
 TEST_F(ResultFolders, WithADamagedRecordIsThatOfARunThatWasKilled) {
-  for (const char* text : {"", "{\"status\":", "[]", "{\"status\": 3}"}) {
+  for (const char* text : {"", "{\"status\":", "[]", "{\"status\": 3}", "{\"status\": \"coopleted\"}"}) {
     put("run.json", text);
     EXPECT_EQ(open(Earlier::replace).earlier_status(), "killed") << text;
   }

@@ -56,6 +56,16 @@ void print_answers(const Json& table) {
   }
 }
 
+// What failed beside the points, on which all errors hang.
+void print_failed_references(const ComparisonRun& run) {
+  for (const auto& [problem, reference] : run.references()) {
+    const auto& failure = reference.check ? reference.check->failure : reference.result.failure;
+    if (!failure) continue;
+    fmt::print(stderr, "{} of {} failed: {}: {}\n", reference.check ? "the check of the reference" : "the reference",
+               run.design().problems[problem].label, failure->reason, failure->message);
+  }
+}
+
 int compare(const StudyArguments& arguments) {
   const Comparison comparison = read_comparison(Config::from_file(arguments.file));
   Design design = expand(comparison);
@@ -77,6 +87,7 @@ int compare(const StudyArguments& arguments) {
   if (!complete) tell_of_interrupt("points", folder);
   if (!arguments.quiet && !table.is_null()) print_answers(table);
   if (arguments.no_report || !table.is_null()) show_report(folder, arguments);
+  print_failed_references(run);
   FailureSummary failures;
   for (const auto& [i, result] : run.results())
     failures.add(title(run.design(), run.design().points[i]), result.failure);

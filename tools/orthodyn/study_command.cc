@@ -22,7 +22,8 @@ fs::path folder_for(const StudyArguments& arguments, const fs::path& usual, cons
 study::JobQueue job_queue(const StudyArguments& arguments, int workers) {
   catch_interrupts();
   const auto failures = arguments.retry ? study::OldFailures::retry : study::OldFailures::keep;
-  return {{this_program().string(), workers, failures}, interrupted()};
+  const auto warn = [](const std::string& text) { fmt::print(stderr, "warning: {}\n", text); };
+  return {{this_program().string(), workers, failures, warn}, interrupted()};
 }
 
 int worker_count(const StudyArguments& arguments) {

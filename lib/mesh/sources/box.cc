@@ -1,6 +1,7 @@
 // The mesh source `box`.
 #include "lib/mesh/box.h"
 #include "lib/mesh/mesh_source.h"
+#include "lib/mesh/sources/number_of_elements.h"
 
 namespace orthodyn {
 
@@ -58,8 +59,8 @@ class BoxSource : public MeshSource, public BoxMesh {
             .key("parts", &BoxSource::parts_,
                  "Further regions by name: the elements whose centroid lies between `min` and `max`.")
             .check([](const BoxSource& box, const Config& config) {
-              const double tets = 6.0 * box.cells[0] * box.cells[1] * box.cells[2];
-              if (tets > 5e8) config.at("cells").fail("more than 5e8 elements; use fewer cells");
+              const double tets_per_cell = box.split == BoxMesh::Split::five ? 5 : 6;
+              require_room(tets_per_cell * box.cells[0] * box.cells[1] * box.cells[2], config.at("cells"));
             });
     return s;
   }

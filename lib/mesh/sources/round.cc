@@ -1,6 +1,7 @@
 // The mesh sources `cylinder` and `tube`.
 #include "lib/mesh/cylinder.h"
 #include "lib/mesh/mesh_source.h"
+#include "lib/mesh/sources/number_of_elements.h"
 
 namespace orthodyn {
 namespace {
@@ -19,8 +20,7 @@ Spec<S> round_spec() {
       .key("axis", &Mesh::axis, "Direction from end0 to end1, of any length.")
       .check([](const S& source, const Config& config) {
         const auto [around, through, along] = source.counts;
-        if (6.0 * around * (through + around) * along > 5e8)
-          config.at("cells").fail("may make more than 5e8 elements; use fewer cells");
+        require_room(S::tets(around, through) * along, config.at("cells"));
         if (source.axis.norm() == 0) config.at("axis").fail("is zero; give a direction");
       });
 }
@@ -44,6 +44,9 @@ class CylinderSource : public MeshSource, public CylinderMesh {
     return {.mesh = make_cylinder(cylinder)};
   }
 
+  // Of a layer: three for each triangle of rings and core.
+  static double tets(double around, double through) { return 6 * (around * through + around * around / 16); }
+
   std::array<int, 3> counts{16, 2, 8};
   double grading = 1;
 };
@@ -66,6 +69,8 @@ class TubeSource : public MeshSource, public TubeMesh {
     tube.cells = cells_of(counts, grading);
     return {.mesh = make_tube(tube)};
   }
+
+  static double tets(double around, double through) { return 6 * around * through; }  // of a layer
 
   std::array<int, 3> counts{16, 2, 8};
   double grading = 1;

@@ -36,6 +36,8 @@ bool JobQueue::run(const std::vector<Job>& jobs, const JobEvents& events) const 
     if (!cached) {
       {
         const std::lock_guard lock(telling);
+        if (const auto damaged = damaged_file(jobs[first]))
+          options_.warn(damaged->string() + " is damaged: done again");
         events.starts(first);
       }
       result = run_job(options_.program, jobs[first], [&] { return interrupt_ || pool.is_stopping(); });

@@ -24,6 +24,8 @@ class JobQueue {
     std::string program;  // started as `PROGRAM COMMAND FOLDER`
     int workers = 1;      // processes at a time
     OldFailures failures = OldFailures::keep;
+    // Told of what an earlier run has left and is damaged, which is done again.
+    std::function<void(const std::string& text)> warn = [](const std::string&) {};
   };
 
   // `interrupt` ends the jobs in progress, without a result; it must outlive the queue.

@@ -18,6 +18,11 @@ constexpr const char* kSeal = "fingerprint";
 
 bool is(const std::optional<Failure>& failure, const char* reason) { return failure && failure->reason == reason; }
 
+// The next time it may go well.
+bool is_of_the_moment(const std::optional<Failure>& failure) {
+  return is(failure, kCrashed) || is(failure, reason_name(Reason::disk));
+}
+
 }  // namespace
 
 Json to_json(const Failure& failure) {
@@ -58,9 +63,17 @@ Json finished_result(const Job& job, OldFailures failures) {
   Json result = read_result(job.folder);
   if (result.is_null()) return nullptr;
   const auto failure = failure_from(result);
-  if (is(failure, kCrashed) || (failure && failures == OldFailures::retry)) return nullptr;
+  if (is_of_the_moment(failure) || (failure && failures == OldFailures::retry)) return nullptr;
   if (job.is_whole && !job.is_whole(result)) return nullptr;
   return result;
+}
+
+std::optional<std::filesystem::path> damaged_file(const Job& job) {
+  const Json result = read_result(job.folder);
+  if (std::error_code ec; result.is_null() && std::filesystem::exists(job.folder / kResultFile, ec))
+    return job.folder / kResultFile;
+  if (!result.is_null() && job.is_whole && !job.is_whole(result)) return job.folder;
+  return std::nullopt;
 }
 
 bool met_a_limit(const std::optional<Failure>& failure) {

@@ -40,8 +40,13 @@ void write_result(const std::filesystem::path& folder, const Json& result);
 Json read_result(const std::filesystem::path& folder);  // null if there is none
 
 // The result of an earlier run that need not be done again; null if there is none, if it is not whole, or if it is to
-// be tried again: always after a crash, whose cause may be gone by now, and every failure if `failures` says so.
+// be tried again: always after a crash or a full disk, whose cause may be gone by now, and every failure if `failures`
+// says so.
 Json finished_result(const Job& job, OldFailures failures = OldFailures::keep);
+
+// What an earlier run has left of a job and has changed since: its result, or its folder for the files that belong to
+// it.
+std::optional<std::filesystem::path> damaged_file(const Job& job);
 
 // A failure at the limit of time or memory: with more of either, or on another machine, it may get through.
 bool met_a_limit(const std::optional<Failure>& failure);
