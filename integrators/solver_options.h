@@ -48,7 +48,7 @@ struct SolverOptions {
 
 // When Newton's method stops.
 struct NewtonLimits {
-  double nonlinear_coefficient = 0.01;
+  double nonlinear_coefficient = 1e-3;
   int max_newton_iterations = 6;
 
   // These keys, in the Spec of a struct derived from this one: what nonlinear_coefficient is a fraction of, and what

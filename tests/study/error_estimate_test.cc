@@ -107,8 +107,8 @@ TEST(ErrorEstimate, TakesFewerSamplesOfALargeModel) {
 }
 
 TEST(ErrorEstimate, ARefinedValueThatIsRefusedIsRefusedBeforeTheRun) {
-  // A tenth of the smallest number is zero.
-  const auto setup = set_up(Config::from_text(kLinear + "integrator: {type: arkode_dirk, step: 0.01, rtol: 5e-324}\n"));
+  // A tenth of the smallest tolerance is none.
+  const auto setup = set_up(Config::from_text(kLinear + "integrator: {type: arkode_dirk, step: 0.01, rtol: 1e-14}\n"));
   EXPECT_THROW(ErrorEstimator(setup, Plan{1, {0.5, 1}, false}), ConfigError);
 }
 

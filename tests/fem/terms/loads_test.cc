@@ -92,8 +92,9 @@ TEST(Traction, TakesUnitsAndFormulasSideBySide) {
 
 TEST(Traction, ByAFormulaKeepsItsPeak) {
   const auto s = box("loads: [{surface: x1, traction: [y, 0, 0], factor: {type: sine, frequency: 1, amplitude: 3}}]");
-  NodalVector peak = NodalVector::Zero(3, s.model().parts().rest->cols());
-  s.model().parts().loads.at(0)->add_peak_force({0, *s.model().parts().rest, peak}, 10, peak);
+  const NodalVector still = NodalVector::Zero(3, s.model().parts().rest->cols());
+  NodalVector peak = still;
+  s.model().parts().loads.at(0)->add_peak_force({0, *s.model().parts().rest, still, still}, 10, peak);
   EXPECT_NEAR(peak.row(0).sum(), 3 * face_integral(1, 0), 1e-12);
 }
 
