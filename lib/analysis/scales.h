@@ -1,12 +1,12 @@
 // How large motion and velocity will be, roughly: what error tolerances are relative to.
 //
-// Position: a tenth of the body's largest extent L; less if it is known to move less: twice the linear static deflection
-// u under all loads at their peaks, or twice as far as moved supports go, and of a body that is held three times the
-// amplitude of the vibrations that initial velocities start. Where it may touch something whose stiffness at a node is k, at most sqrt(2 (E0 + W) / k), but not below
-// 1e-6 L: errors of position are errors of the energy of contact.
-// Velocity: 3 sqrt(2 (E0 + W) / m + V^2), with E0 the initial elastic and kinetic energy, m the mass, W
-// the work of the peak loads through that deflection, for an unclamped body through L, and V the largest
-// speed of moved supports.
+// Position: a tenth of the body's largest extent L; less if it is known to move less: twice the linear static
+// deflection u under all loads at their peaks, or twice as far as moved supports go, and of a body that is held three
+// times the amplitude of the vibrations that initial velocities start. Where it may touch something whose stiffness at
+// a node is k, at most sqrt(2 (E0 + W) / k), but not below 1e-6 L: errors of position are errors of the energy of
+// contact. Velocity: 3 sqrt(2 (E0 + W) / m + V^2), with E0 the initial elastic and kinetic energy, m the mass, W the
+// work of the peak loads through that deflection, for an unclamped body through L, and V the largest speed of moved
+// supports.
 #pragma once
 
 #include "lib/analysis/static_response.h"

@@ -9,6 +9,7 @@ namespace orthodyn {
 namespace {
 
 constexpr double kMuchDrift = 0.01;  // of the largest energy
+constexpr double kMuchError = 0.05;  // of the largest displacement
 
 std::string drift_sentence(const EnergySummary& energy) {
   return fmt::format(
@@ -17,9 +18,6 @@ std::string drift_sentence(const EnergySummary& energy) {
       "is, or with a smaller integrator.rtol or integrator.step",
       energy.relative_drift);
 }
-
-// An error that the eye sees, or a hundred times what was allowed a step if that is more; never a tenth.
-double much_error(double rtol) { return std::min(std::max(0.01, 100 * rtol), 0.1); }
 
 std::string accumulation_sentence(const MotionResult& motion) {
   return fmt::format(
@@ -53,7 +51,7 @@ std::vector<std::string> doubts(const RunResult& result) {
                                 motion->det_f.time, motion->det_f.value));
     if (motion->energy && !(motion->energy->relative_drift <= kMuchDrift))
       all.push_back(drift_sentence(*motion->energy));
-    if (motion->accumulated && !(motion->accumulated->error <= much_error(motion->rtol)))
+    if (motion->accumulated && !(motion->accumulated->error <= kMuchError))
       all.push_back(accumulation_sentence(*motion));
   }
   return all;

@@ -139,7 +139,6 @@ class DynamicAnalysis {
     if (const auto& e = observers.energy)
       out.energy = {e->last(), e->time(), e->drift(), e->scale(), e->relative_drift(), e->times()};
     if (const auto& m = observers.momentum) out.momentum = {m->angular_drift(), m->angular_scale()};
-    out.rtol = Registry<IntegratorChoice>::read(setup_.config.at("integrator"))->settings().rtol.value_or(0);
     if (outcome.status == Outcome::Status::failed) out.failure = failure_place(*setup_.built.model, outcome.last);
     return out;
   }

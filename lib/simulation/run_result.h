@@ -59,7 +59,6 @@ struct MotionResult {
   std::optional<FailurePlace> failure = {};      // of a run that failed
   std::optional<AccumulatedError> accumulated = {};  // of a long run
   std::optional<ErrorEstimate> error = {};       // if it was asked for
-  double rtol = 0;                               // of its steps; 0 where they are fixed
 };
 
 // Of a static analysis: the last equilibrium.

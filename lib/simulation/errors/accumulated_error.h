@@ -2,8 +2,10 @@
 // is integrated again, more accurately, from the run's own state at its begin.
 //
 // The differences at the ends of the parts, per step, are those of all steps; they are added up without a sign, as
-// those of a phase do, and die away as fast as the vibrations do by what damping takes. A figure of the right size for
-// motions that repeat themselves, no bound: where neighbouring motions part exponentially, it is too small.
+// those of a phase do, and die away as fast as the vibrations do by what damping takes. A difference of velocities
+// counts by the displacements that it leads to until the end: little, where it is of fast vibrations; all the way,
+// where no stiffness turns it back. A figure of the right size for motions that repeat themselves, no bound: too small
+// where neighbouring motions part exponentially, too large where errors of steps cancel.
 #pragma once
 
 #include <atomic>
@@ -17,7 +19,7 @@
 namespace orthodyn {
 
 struct AccumulatedError {
-  double error = 0;         // relative to the largest displacement or velocity, in the mass norm
+  double error = 0;          // of displacements, relative to the largest, in the mass norm
   int parts = 0, steps = 0;  // that were looked at; and how many steps each has
   std::string against;      // by what: "arkode_dirk at rtol 1e-05"
   double wall_seconds = 0;
@@ -38,9 +40,7 @@ class PartRecorder : public Observer {
   void on_step(const StepInfo& info, const ObservedState& observed, const Integrator&) override;
 
   const std::deque<Part>& parts() const { return parts_; }
-  // The largest |u|_M and |v|_M that were seen, sqrt(kg) m and sqrt(kg) m/s.
-  double displacement() const { return displacement_; }
-  double velocity() const { return velocity_; }
+  double displacement() const { return displacement_; }  // the largest |u|_M that was seen, sqrt(kg) m
 
   static constexpr int kSteps = 10;  // of a part
 
@@ -52,7 +52,7 @@ class PartRecorder : public Observer {
   std::deque<Part> parts_;
   std::optional<Part> open_;
   long step_ = 0, stride_ = 500, opened_at_ = 0;
-  double displacement_ = 0, velocity_ = 0;
+  double displacement_ = 0;
 };
 
 // After a run of so many steps has reached `end`, s. None if it was too short, if nothing moves, or if a part cannot be
