@@ -5,7 +5,7 @@ namespace orthodyn {
 Scales ErrorControl::scales(const Task& task) const {
   const bool given = position_scale && velocity_scale;
   const Scales estimated = given ? Scales{} : task.scales();
-  return {position_scale.value_or(estimated.position), velocity_scale.value_or(estimated.velocity)};
+  return {position_scale.value_or(estimated.position), velocity_scale.value_or(estimated.velocity), estimated.omega};
 }
 
 void check_error_control(const ErrorControl& control, const Config& config) {

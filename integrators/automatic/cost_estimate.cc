@@ -37,6 +37,7 @@ CostEstimate estimate_cost(const Model& model, const Task& task, const Scales& s
   CostEstimate cost;
   const double span = task.end - task.initial.t, omega = kScaleOfMotion * scales.velocity / scales.position;
   cost.phase = span * omega;
+  cost.known_phase = span * scales.omega;
   Statistics unused;
   cost.explicit_steps = std::numeric_limits<double>::infinity();
   try {
@@ -55,7 +56,8 @@ CostEstimate estimate_cost(const Model& model, const Task& task, const Scales& s
 
 double safety_of_central_differences(const CostEstimate& cost, double rtol) {
   constexpr double kErrorPerTolerance = 10, kEnergyPerTolerance = 100, kMost = 0.9;
-  const double at_limit = cost.phase * std::pow(cost.phase / cost.explicit_steps, 2) / 24;
+  const double phase = std::max(cost.phase, cost.known_phase);
+  const double at_limit = phase * std::pow(phase / cost.explicit_steps, 2) / 24;
   return std::min({kMost, std::sqrt(kErrorPerTolerance * rtol / at_limit), std::sqrt(kEnergyPerTolerance * rtol)});
 }
 

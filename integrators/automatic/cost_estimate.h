@@ -16,6 +16,7 @@ struct CostEstimate {
   double damping_ratio = 0;                // of the motion itself, by stiffness-proportional damping in every region
   double explicit_steps = 0;               // of central differences at the critical step; infinite if it has none
   double phase = 0;                        // rad, by which the motion goes on over the time span, about
+  double known_phase = 0;                  // the same where the motion's frequency is known; 0 where it is not
   double solve_cost = 0, factor_cost = 0;  // of an implicit step's solve and factorisation, in forces
 };
 
@@ -34,7 +35,7 @@ MethodChoice choose_method(const CostEstimate& cost, double rtol, double most_ex
 
 // The share s of the critical step h_c at which the errors of central differences are those of other methods at this
 // rtol: in the phase at the end, phase (s omega h_c)^2 / 24 = 10 rtol, and in the energy of the fastest vibrations,
-// s^2 = 100 rtol; at most 0.9. omega h_c is phase / explicit_steps.
+// s^2 = 100 rtol; at most 0.9. omega h_c is phase / explicit_steps; the phase is the known one where that is larger.
 double safety_of_central_differences(const CostEstimate& cost, double rtol);
 
 }  // namespace orthodyn

@@ -62,8 +62,10 @@ Scales estimate_scales(const FemModel& model, const State& initial, double end, 
   const double work = statics.exists() || statics.load.isZero(0) ? statics.work : extent * statics.load.lpNorm<1>();
   const Reach reach = reach_of_supports(model, initial.t, end);
   Scales scales{0.1 * extent, 3 * std::sqrt(2 * (energy + work) / mass + reach.speed * reach.speed)};
-  if (const double size = size_of_motion(initial, statics, reach); size > 0)
-    scales.position = std::min(scales.position, size);
+  if (const double size = size_of_motion(initial, statics, reach); size > 0 && size < scales.position) {
+    scales.omega = 2.0 / 3 * scales.velocity / size;
+    scales.position = size;
+  }
   if (const double k = contact_stiffness(model); k > 0 && energy + work > 0)
     scales.position = std::min(scales.position, std::max(std::sqrt(2 * (energy + work) / k), kLeastShare * extent));
   if (scales.velocity == 0) scales.velocity = extent / (end - initial.t);

@@ -7,6 +7,8 @@
 // contact. Velocity: 3 sqrt(2 (E0 + W) / m + V^2), with E0 the initial elastic and kinetic energy, m the mass, W the
 // work of the peak loads through that deflection, for an unclamped body through L, and V the largest speed of moved
 // supports.
+// Frequency: 2/3 of velocity over position where that of the motion itself is known: one is three times a root mean
+// square, the other twice a size.
 #pragma once
 
 #include "lib/analysis/static_response.h"

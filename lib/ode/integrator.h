@@ -59,6 +59,7 @@ class Integrator {
 // of rtol * velocity in every velocity, is at tolerance.
 struct Scales {
   double position = 1, velocity = 1;
+  double omega = 0;  // rad/s, of the motion, about; 0 where it is not known
 };
 
 // What an integrator is wanted for.
