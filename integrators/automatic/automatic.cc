@@ -67,7 +67,8 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public Automatic
                         "docs/speed-against-error.md");
   }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
-    const Scales own = scales(task);
+    Scales own = scales(task);
+    if (!method && own.omega == 0) own.omega = task.scales().omega;  // also where the scales themselves are given
     // central_differences has no error control whose steps could be limited.
     const bool limits_steps = h0 || h_max || h_min > 0;
     const MethodChoice choice = method ? MethodChoice{*method, rationale, safety}

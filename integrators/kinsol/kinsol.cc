@@ -9,7 +9,7 @@
 // the motion's size. The residual, which rises beyond a limit point, is not looked at either.
 //
 // Round-off of large internal forces may keep the residual from falling below the tolerance; a solution then is
-// where Newton's next correction is round-off itself, and the attempt says so.
+// where Newton's next correction is below the tolerance of the motion, or round-off itself, and the attempt says so.
 //
 // With an approximate K corrections may fail to contract anywhere: that says nothing on the branch.
 #include <fmt/format.h>
@@ -173,7 +173,7 @@ class Kinsol : public EquilibriumSolver {
     return f.lpNorm<Eigen::Infinity>();
   }
 
-  // Whether one more Newton step would change nothing but round-off.
+  // Whether one more Newton step would change next to nothing. One by an approximate K may be short far from there.
   bool is_settled() {
     try {
       Vector f(model_.num_dofs()), correction(f.size());
@@ -182,7 +182,8 @@ class Kinsol : public EquilibriumSolver {
       if (factor() != 0) return false;
       matrix_->solve(f, correction);
       const double motion = std::max(view(q_.get()).lpNorm<Eigen::Infinity>(), 1e-3 * task_.length);
-      return correction.lpNorm<Eigen::Infinity>() <= std::max(options_.rtol, kRoundOff) * motion;
+      return correction.lpNorm<Eigen::Infinity>() <=
+             std::max(model_.traits().exact_stiffness ? options_.rtol : 0, kRoundOff) * motion;
     } catch (const RecoverableError&) {
       return false;
     }

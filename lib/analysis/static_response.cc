@@ -9,6 +9,8 @@ namespace orthodyn {
 
 namespace {
 
+constexpr int kLargestForVelocities = 30'000;  // unknowns
+
 Vector peak_load(const FemModel& model, const State& initial, double end) {
   const Vector still = Vector::Zero(model.num_dofs());
   const NodalExpansion nodal(model.parts(), initial.t, initial.q, still);
@@ -38,7 +40,9 @@ StaticResponse static_response(const FemModel& model, const State& initial, doub
   const Vector& load = response.load;
   Vector momentum(load.size());
   model.multiply_mass(initial.v, momentum);
-  if (load.isZero(0) && momentum.isZero(0)) return response;
+  // Nothing to respond to; or velocities alone, of a body that nothing holds or that is too large for a scale's sake.
+  const bool is_free = model.num_dofs() == 3 * model.parts().dofs->num_nodes();
+  if (load.isZero(0) && (momentum.isZero(0) || is_free || model.num_dofs() > kLargestForVelocities)) return response;
   std::vector<double> values;
   const auto solver = factored_stiffness(model, values);
   if (!solver) return response;

@@ -17,4 +17,9 @@ double memory_limit() {
   return bytes;
 }
 
+bool addresses_are_limited() {
+  rlimit limit{};
+  return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
 }  // namespace orthodyn

@@ -7,4 +7,7 @@ namespace orthodyn {
 // enforce).
 double memory_limit();
 
+// Whether addresses are limited (ulimit -v), and not only what is resident.
+bool addresses_are_limited();
+
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// Strains from the displacement gradient H = F - I, to a few ulp of the strain itself.
+// Strains from the displacement gradient H = F - I, to a few ulp of the larger of strain and rotation.
 //
 // Laws are given H and not F: F, and the stretch S of its polar decomposition, hold a small strain to eps only. With
 //     S^2 - I = F^T F - I = (I + H/2)^T H + H^T (I + H/2) = 2 E   and   S^2 - I = 2 e + e^2,   e = S - I,

@@ -37,7 +37,7 @@ const Spec<Output>& Output::spec() {
                "Record force and torque of every clamp and motion on the body in probes.csv.")
           .key("energy", &Output::energy, "Write energy.csv.")
           .key("accumulated_error", &Output::accumulated_error,
-               "Tell after runs of 500 steps and more how far the errors of the steps may have added up, by "
+               "Tell after runs of some 500 steps and more how far the errors of the steps may have added up, by "
                "integrating a "
                "few short parts again; costs some per cent.")
           .key("energy_times", &Output::energy_times,

@@ -19,14 +19,22 @@ std::string drift_sentence(const EnergySummary& energy) {
       energy.relative_drift);
 }
 
+// That which `auto` has taken, too.
+std::string method_of(const MotionResult& motion) {
+  for (const auto& [key, value] : motion.decisions)
+    if (key == "method") return value;
+  return motion.integrator;
+}
+
 std::string accumulation_sentence(const MotionResult& motion) {
   return fmt::format(
       "the errors of {} steps, each within its tolerance, may have added up to {:.2g} of the largest motion: most "
       "often "
-      "it lags behind or runs ahead. Lower integrator.rtol or step, take {}, or see with --estimate-error how far off "
+      "it lags behind or runs ahead. Take smaller steps (integrator.rtol, integrator.step), {}, or see with "
+      "--estimate-error how far off "
       "it is",
       motion.effort.statistics.steps, motion.accumulated->error,
-      motion.integrator == "arkode_dirk" ? "a smaller h_max" : "integrator.type: arkode_dirk");
+      method_of(motion) == "arkode_dirk" ? "a smaller integrator.h_max" : "integrator.type: arkode_dirk");
 }
 
 void add_doubts(const EquilibriumResult& equilibrium, std::vector<std::string>& all) {
@@ -35,8 +43,9 @@ void add_doubts(const EquilibriumResult& equilibrium, std::vector<std::string>& 
                               equilibrium.det_f.element, equilibrium.det_f.value));
   if (equilibrium.residual_above_tolerance)
     all.push_back(
-        fmt::format("the residual, {:.2g} of the largest load, is above statics.solver.rtol: it is the round-off of "
-                    "internal forces, and a further correction would change nothing else. Raise statics.solver.rtol",
+        fmt::format("the residual, {:.2g} of the largest load, is above statics.solver.rtol, though Newton's next "
+                    "correction is below it: most often by the round-off of large internal forces. Raise "
+                    "statics.solver.rtol",
                     equilibrium.residual / equilibrium.largest_load));
 }
 

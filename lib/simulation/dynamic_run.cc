@@ -88,11 +88,11 @@ class DynamicAnalysis {
     RunResult result{.scene = context_.scene, .folder = folder_.path(), .model = summarize(*setup_.built.model)};
     result.outcome = integrate(begin, observers, result.resumable);
     result.motion = motion_result(result.outcome, begin.effort, observers);
-    if (parts_ && result.outcome.status == Outcome::Status::completed)
-      result.motion->accumulated =
-          accumulated_error(setup_, *parts_, result.motion->effort.statistics.steps, result.outcome.last.t,
-                            context_.interrupt);
     record.finish(result);
+    if (parts_ && result.outcome.status == Outcome::Status::completed) {
+      result.motion->accumulated = accumulated(result.outcome.last.t);
+      record.finish(result);
+    }
     context_.listener.on_result(result);
     if (!estimator_ || result.outcome.status != Outcome::Status::completed) return result;
     result.motion->error = repeat();
@@ -141,6 +141,16 @@ class DynamicAnalysis {
     if (const auto& m = observers.momentum) out.momentum = {m->angular_drift(), m->angular_scale()};
     if (outcome.status == Outcome::Status::failed) out.failure = failure_place(*setup_.built.model, outcome.last);
     return out;
+  }
+
+  // None where it cannot be had: a run that has completed is not to fail in another way.
+  std::optional<AccumulatedError> accumulated(double end) {
+    try {
+      return accumulated_error(setup_, *setup_.integrator, *parts_, end, context_.interrupt);
+    } catch (const std::exception& e) {
+      context_.listener.on_warning(fmt::format("how far errors have added up is not known: {}", e.what()));
+      return std::nullopt;
+    }
   }
 
   // The run once more, for the estimate of its error.

@@ -82,7 +82,7 @@ void add_motion(Json& out, const MotionResult& motion, const Outcome& outcome) {
     out["momentum"] = {{"angular_drift", motion.momentum->angular_drift},
                        {"angular_scale", motion.momentum->angular_scale}};
   if (const auto& e = motion.accumulated)
-    out["accumulated_error"] = {{"error", e->error}, {"parts", e->parts}, {"steps_each", e->steps},
+    out["accumulated_error"] = {{"error", e->error}, {"parts", e->parts}, {"steps_each", e->steps}, {"since", e->since},
                                 {"against", e->against}, {"wall_seconds", e->wall_seconds}};
   if (motion.error) out["estimated_error"] = error_json(*motion.error);
   if (!outcome.remark.empty()) out["remark"] = outcome.remark;

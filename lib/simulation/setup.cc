@@ -139,7 +139,10 @@ Setup set_up(const Config& input) {
   std::vector<Event> events = make_events(scene, *built.model);
   std::unique_ptr<Integrator> integrator;
   if (scene.analysis == Analysis::dynamic) {
-    if (scene.start == Start::equilibrium) start_from_equilibrium(scene, built);
+    if (scene.start == Start::equilibrium) {
+      start_from_equilibrium(scene, built);
+      statics.reset();  // it is of another initial state
+    }
     Task task = task_of(scene, built);
     task.scales = [&] { return estimate_scales(*built.model, built.initial, scene.time.end, response()); };
     integrator = make_integrator(config, scene, task, *built.model);

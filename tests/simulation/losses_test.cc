@@ -51,6 +51,27 @@ TEST_F(Losses, ADeviceStaysADevice) {
   EXPECT_FALSE(fs::exists("/dev/full.part"));
 }
 
+// With two threads OpenBLAS waits for ever for addresses that it cannot have.
+TEST_F(Losses, ALimitOfAddresses) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer itself takes more addresses";
+#endif
+  write("block.yaml", R"(
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [45, 9, 9]}
+materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
+clamps: [{surface: x0}]
+gravity: [0, 0, -9.81]
+time: {end: 1}
+integrator: {type: cvode_bdf, max_steps: 2}
+output: {fields: []}
+)");
+  const auto result = shell("cd " + folder_.string() +
+                            " && ulimit -v 600000 && OPENBLAS_NUM_THREADS=2 timeout -s KILL 120 " ORTHODYN_EXECUTABLE
+                            " run block.yaml --quiet");
+  EXPECT_EQ(result.exit_code, 3) << result.output;  // max_steps, and not killed
+  EXPECT_NE(result.output.find("max_steps"), std::string::npos) << result.output;
+}
+
 TEST_F(Losses, AFormulaThatLosesItsValueOnTheWay) {
   write("swing.yaml", kSwing + std::string("loads: [{surface: x1, force: [0, 0, 1], factor: {type: expression, "
                                            "formula: sqrt(0.3-t)}}]\n"));

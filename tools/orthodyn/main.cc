@@ -5,18 +5,37 @@
 #include <malloc.h>
 #endif
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <new>
 
 #include "lib/core/errors.h"
+#include "lib/core/memory.h"
 #include "tools/orthodyn/command_line.h"
 #include "tools/orthodyn/notice.h"
 #include "tools/orthodyn/plugins.h"
 
+namespace {
+
+// OpenBLAS makes its threads when it is loaded, and waits for ever for memory that they cannot have: where addresses
+// are limited the program starts again with one.
+void start_with_one_blas_thread_if_addresses_are_limited(char** argv) {
+  constexpr const char* kThreads = "OPENBLAS_NUM_THREADS";
+  const char* threads = std::getenv(kThreads);
+  if (!orthodyn::addresses_are_limited() || (threads && std::strcmp(threads, "1") == 0)) return;
+  setenv(kThreads, "1", 1);
+  execv("/proc/self/exe", argv);  // returns only where it fails; then with as many threads as there are
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace orthodyn;
+  start_with_one_blas_thread_if_addresses_are_limited(argv);
 #ifdef __GLIBC__
   // Large blocks go back to the system when freed: a fifth less memory at 84,000 elements.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);

@@ -53,8 +53,10 @@ void print_motion(const RunResult& result, const MotionResult& motion) {
     fmt::print("  {:<15} {:.3g} of the initial angular momentum\n", "momentum drift",
                motion.momentum->angular_drift / motion.momentum->angular_scale);
   if (const auto& e = motion.accumulated)
-    fmt::print("  {:<15} about {:.2g} of the largest motion, by {} part{} of {} steps against {} ({:.2f} s)\n", "error",
-               e->error, e->parts, e->parts == 1 ? "" : "s", e->steps, e->against, e->wall_seconds);
+    fmt::print(
+        "  {:<15} about {:.2g} of the largest motion since t = {:.4g} s, by {} part{} of {} steps against {} ({:.2f} "
+        "s)\n",
+        "error", e->error, e->since, e->parts, e->parts == 1 ? "" : "s", e->steps, e->against, e->wall_seconds);
   fmt::print("  {:<15} {:.4g} in element {} at t = {:.4g} s{}\n", "smallest det F", motion.det_f.value,
              motion.det_f.element, motion.det_f.time, motion.det_f.value <= 0 ? ": INVERTED" : "");
   fmt::print("  {:<15} {}\n", "results", result.folder.string());

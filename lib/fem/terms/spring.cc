@@ -19,7 +19,7 @@ struct Stretched {
 };
 
 Stretched stretched(const SpringLink& link, const NodalVector& displacement) {
-  const Vec3 &D = link.at_rest, u = link.change(displacement), d = D + u;
+  const Vec3 D = link.at_rest, u = link.change(displacement), d = D + u;
   const double L = D.norm(), l = d.norm();
   const double change = L + l > 0 ? u.dot(2 * D + u) / (L + l) : 0;
   return {d, l, change + (L - link.free_length)};

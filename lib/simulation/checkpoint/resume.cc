@@ -87,11 +87,13 @@ Checkpoint continued(Checkpoint checkpoint, const Setup& setup, const std::strin
   const auto changed =
       changed_keys(with_defaults(Config::from_text(checkpoint.scene, "checkpoint.cbor")), Config::from_text(resolved));
   if (const auto refused = refused_changes(changed); !refused.empty())
-    throw ConfigError(folder.checkpoint().string(),
-                      fmt::format("is that of another simulation: {} differ{}. A run that goes on may change "
-                                  "time.end, checkpoint, expect and the integrator's limits max_steps, h_min, "
-                                  "max_newton_iterations; for all else choose another folder with --out",
-                                  join(refused), refused.size() == 1 ? "s" : ""));
+    throw ConfigError(
+        folder.checkpoint().string(),
+        fmt::format(
+            "is that of another simulation: {} differ{}. A run that goes on may change "
+            "time.end, checkpoint, expect and the integrator's limits max_steps, h_min, "
+            "max_newton_iterations, and output.accumulated_error; for all else choose another folder with --out",
+            join(refused), refused.size() == 1 ? "s" : ""));
   require_same_files(checkpoint, setup, folder);
   require_same_model(checkpoint, setup, folder);
   require_time_left(checkpoint, setup);

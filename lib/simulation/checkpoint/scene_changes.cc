@@ -11,7 +11,7 @@ namespace orthodyn {
 namespace {
 
 constexpr const char* kAllowed[] = {"time.end", "checkpoint", "expect", "integrator.max_steps", "integrator.h_min",
-                                    "integrator.max_newton_iterations"};
+                                    "integrator.max_newton_iterations", "output.accumulated_error"};
 
 // The units of keys, one for each dimension.
 constexpr const char* kUnits[] = {"m", "s", "Pa", "kg/m^3", "m/s", "m/s^2", "rad", "rad/s", "N", "Hz",

@@ -21,7 +21,8 @@ namespace orthodyn {
 struct AccumulatedError {
   double error = 0;          // of displacements, relative to the largest, in the mass norm
   int parts = 0, steps = 0;  // that were looked at; and how many steps each has
-  std::string against;      // by what: "arkode_dirk at rtol 1e-05"
+  double since = 0;          // s: the start, or where the run was resumed
+  std::string against;       // by what: "arkode_dirk at rtol 1e-05"
   double wall_seconds = 0;
 };
 
@@ -30,34 +31,40 @@ class PartRecorder : public Observer {
  public:
   struct Part {
     State begin, end;
-    double decay = 0;  // 1/s, of the amplitude of vibrations
   };
 
   // `model` must outlive it.
   explicit PartRecorder(const Model& model) : model_(model) {}
-  void on_start(const ObservedState& observed) override { measure(observed); }
-  void on_resume(const ObservedState& observed) override { measure(observed); }
+  void on_start(const ObservedState& observed) override { start(observed); }
+  void on_resume(const ObservedState& observed) override { start(observed); }
+  void on_output(const ObservedState& observed) override { measure(observed); }
   void on_step(const StepInfo& info, const ObservedState& observed, const Integrator&) override;
 
   const std::deque<Part>& parts() const { return parts_; }
+  double since() const { return since_; }  // s
+  long steps() const { return step_; }     // since then
   double displacement() const { return displacement_; }  // the largest |u|_M that was seen, sqrt(kg) m
+  double decay() const;  // 1/s, of the amplitude of vibrations by what damping takes, on average over the parts
 
   static constexpr int kSteps = 10;  // of a part
 
  private:
+  void start(const ObservedState& observed);
   void measure(const ObservedState& observed);
-  void begin_part(const ObservedState& observed);
+  void add_powers(const ObservedState& observed);
 
   const Model& model_;
   std::deque<Part> parts_;
   std::optional<Part> open_;
   long step_ = 0, stride_ = 500, opened_at_ = 0;
-  double displacement_ = 0;
+  double since_ = 0, displacement_ = 0;
+  double dissipated_ = 0, kinetic_ = 0;  // sums, W and J
 };
 
-// After a run of so many steps has reached `end`, s. None if it was too short, if nothing moves, or if a part cannot be
-// integrated again.
-std::optional<AccumulatedError> accumulated_error(const Setup& setup, const PartRecorder& recorder, long steps,
-                                                  double end, const std::atomic<bool>& interrupt);
+// After the run has reached `end`, s; `run` is its integrator. None if it was too short, if nothing moves, if a part
+// cannot be integrated again, or if that would need a large factorisation in a run that had none.
+std::optional<AccumulatedError> accumulated_error(const Setup& setup, const Integrator& run,
+                                                  const PartRecorder& recorder, double end,
+                                                  const std::atomic<bool>& interrupt);
 
 }  // namespace orthodyn

@@ -89,7 +89,7 @@ void EnergyMeter::restore(const Archive& archive) {
   powers_time_ = powers[0], dissipated_ = powers[1], load_work_ = powers[2];
   first_ = balance_from(archive.numbers("first", 5));
   last_ = balance_from(archive.numbers("last", 5));
-  if (archive.entries().contains("time")) time_ = archive.number("time");  // earlier checkpoints have none
+  time_ = archive.number("time");
   drift_ = archive.number("drift");
   scale_ = archive.number("scale");
 }
