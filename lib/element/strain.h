@@ -28,15 +28,21 @@ Mat3T<T> small_strain(const Mat3T<T>& H, const Axes& Q) {
 template <class T, class Axes>
 Mat3T<T> stretch_strain(const Mat3T<T>& H, const Axes& Q, const Mat3T<T>& S) {
   using std::real;
-  const auto choose = [](const auto& mask, const Mat3T<T>& a, const Mat3T<T>& b) -> Mat3T<T> {
-    return a.binaryExpr(b, [&](const T& x, const T& y) { return select(mask, x, y); });
-  };
-  const Mat3T<T> E = symmetric_part<T>((Q.template cast<T>() + T(0.5) * H).transpose() * H);
-  const Mat3T<T> rough = S - Mat3T<T>::Identity();
-  const T size = rough.cwiseProduct(rough).sum();
-  const Mat3T<T> e = choose(real(size) < 1e-16, E, rough);  // in e^2
-  const Mat3T<T> precise = E - T(0.5) * e * e;
-  return choose(real(size) < 1, precise, rough);  // of large strains S - I loses nothing
+  const Mat3T<T> M = (Q.template cast<T>() + T(0.5) * H).transpose() * H, rough = S - Mat3T<T>::Identity();
+  const auto size = real(rough.cwiseProduct(rough).sum());
+  const auto is_tiny = size < 1e-16, is_small = size < 1;  // of large strains S - I loses nothing
+  Mat3T<T> E, e, strain;  // of E the upper triangle
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j) {
+      E(i, j) = T(0.5) * (M(i, j) + M(j, i));
+      e(i, j) = e(j, i) = select(is_tiny, E(i, j), rough(i, j));  // in e^2
+    }
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j) {
+      const T precise = E(i, j) - T(0.5) * (e(i, 0) * e(0, j) + e(i, 1) * e(1, j) + e(i, 2) * e(2, j));
+      strain(i, j) = strain(j, i) = select(is_small, precise, rough(i, j));
+    }
+  return strain;
 }
 
 }  // namespace orthodyn
