@@ -26,8 +26,9 @@ TetMesh& given_mesh() {
   return mesh;
 }
 
-BuiltTestScene::BuiltTestScene(const std::string& yaml)
-    : scene(read_scene(Config::from_text(yaml))), built(build(scene)) {}
+BuiltTestScene::BuiltTestScene(const std::string& yaml) : BuiltTestScene(Config::from_text(yaml)) {}
+
+BuiltTestScene::BuiltTestScene(const Config& config) : scene(read_scene(config)), built(build(scene)) {}
 
 Vector BuiltTestScene::force(const Vector& q, const Vector& v, double t) const {
   Vector f(size());

@@ -13,6 +13,7 @@ TetMesh& given_mesh();
 
 struct BuiltTestScene {
   explicit BuiltTestScene(const std::string& yaml);
+  explicit BuiltTestScene(const Config& config);
 
   const FemModel& model() const { return *built.model; }
   const TetMesh& mesh() const { return model().parts().mesh; }

@@ -40,9 +40,11 @@ TEST_F(Losses, AReaderOfTheSummaryThatLeaves) {
 }
 
 TEST_F(Losses, AFullDiskBehindTheStandardOutput) {
-  const auto result = orthodyn("list solvers > /dev/full");
-  EXPECT_EQ(result.exit_code, 3) << result.output;
-  EXPECT_NE(result.output.find("No space left"), std::string::npos) << result.output;
+  for (const char* arguments : {"list solvers", "--help", "run --help", "--version"}) {
+    const auto result = orthodyn(std::string(arguments) + " > /dev/full");
+    EXPECT_EQ(result.exit_code, 3) << arguments << result.output;
+    EXPECT_NE(result.output.find("No space left"), std::string::npos) << result.output;
+  }
 }
 
 TEST_F(Losses, ADeviceStaysADevice) {

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <iostream>
 #include <new>
 
 #include "lib/core/errors.h"
@@ -41,12 +42,12 @@ int main(int argc, char** argv) {
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
 #endif
   const CommandLine line = parse_command_line(argc, argv);
-  if (line.exit_code) return *line.exit_code;
   try {
-    load_plugins(line.plugins);
-    const int code = line.run();
+    if (!line.exit_code) load_plugins(line.plugins);
+    const int code = line.exit_code ? *line.exit_code : line.run();
     // What is printed may wait in a buffer until here.
-    if (std::fflush(stdout) != 0)
+    std::cout.flush();
+    if (!std::cout || std::fflush(stdout) != 0)
       throw RunError(fmt::format("cannot write to the standard output: {}", std::strerror(errno)));
     return code;
   } catch (const ConfigError& e) {
