@@ -16,7 +16,7 @@ ALLOWED = {
     "lib/core": set(),
     "lib/config": {"lib/core"},
     "lib/material": BASIC,
-    "lib/mesh": BASIC,
+    "lib/mesh": BASIC | {"lib/element"},
     "lib/linear": {"lib/core"},
     "lib/ode": BASIC,
     "lib/element": {"lib/core", "lib/material"},

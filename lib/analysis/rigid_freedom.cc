@@ -8,6 +8,7 @@
 #include "lib/analysis/singular_vectors.h"
 #include "lib/config/values.h"
 #include "lib/core/words.h"
+#include "lib/mesh/quadratic.h"
 
 namespace orthodyn {
 
@@ -25,12 +26,13 @@ std::vector<int> parts_of(const TetMesh& mesh) {
     while (up(i) != i) i = up(i) = up(up(i));
     return i;
   };
-  for (const auto& tet : mesh.tets)
-    for (const int node : tet) parent[static_cast<std::size_t>(root(node))] = root(tet[0]);
+  const Cells cells = tet_cells(mesh);
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    for (const int node : cells[c]) parent[static_cast<std::size_t>(root(node))] = root(cells[c][0]);
   std::vector<int> number(mesh.nodes.size(), -1), part(mesh.nodes.size(), -1);
   int count = 0;
-  for (const auto& tet : mesh.tets)
-    for (const int node : tet) {
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    for (const int node : cells[c]) {
       int& k = number[static_cast<std::size_t>(root(node))];
       if (k < 0) k = count++;
       part[static_cast<std::size_t>(node)] = k;

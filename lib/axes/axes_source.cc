@@ -8,13 +8,18 @@ Vec3 centroid(const TetMesh& mesh, int cell) {
   return sum / 4;
 }
 
-ElementAxes element_axes(const AxesSource& source, const AxesField& field, const TetMesh& mesh,
+ElementAxes element_axes(const AxesSource& source, const AxesField& field, const ElementMesh& mesh,
                          const std::vector<int>& cells) {
-  if (source.uniform()) return field(centroid(mesh, cells.front()), cells.front());
+  const auto points_of = [&](int cell) { return mesh.type.points(mesh.positions(static_cast<std::size_t>(cell))); };
+  const ElementType::Nodes first = points_of(cells.front());
+  if (source.uniform()) return field(first.col(0), cells.front());
   std::vector<Mat3> each;
-  each.reserve(cells.size());
-  for (const int cell : cells) each.push_back(field(centroid(mesh, cell), cell));
-  return ElementAxes(each);
+  each.reserve(cells.size() * static_cast<std::size_t>(first.cols()));
+  for (const int cell : cells) {
+    const ElementType::Nodes points = points_of(cell);
+    for (Eigen::Index p = 0; p < points.cols(); ++p) each.push_back(field(points.col(p), cell));
+  }
+  return ElementAxes(each, static_cast<int>(first.cols()));
 }
 
 }  // namespace orthodyn

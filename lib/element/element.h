@@ -35,7 +35,7 @@ struct ElementPoint {
   double volume;                           // its part of the element's, m^3
 
   // H Q from differences of displacements, F Q from those of positions, F_rate Q from those of velocities.
-  Mat3 gradient(const NodeDifferences<kNodes>& d) const { return d * B; }
+  Mat3 gradient(const NodeDifferences<kNodes>& d) const { return d.lazyProduct(B); }
 
   // Columns: the forces -V dPsi/dx on nodes 1, 2, ... (N) for the stress P Q (Pa).
   NodeDifferences<kNodes> node_forces(const Mat3& P) const { return -volume * P * B.transpose(); }
@@ -53,6 +53,7 @@ concept Element = requires(int point, NodeDifferences<E::kNodes> d, ElementNodes
   { E::kLumpedToConsistent } -> std::convertible_to<double>;
   // Point number `point` of [0, kPoints) of an element with these node differences at rest and these axes.
   { E::point(point, d, Q) } -> std::same_as<ElementPoint<E::kNodes>>;
+  { E::place_of(point, X) } -> std::same_as<Vec3>;  // m, at rest
   { E::mass(X, density) } -> std::same_as<double>;  // kg, density in kg/m^3
   // integral of rho N_a N_b dV, kg.
   { E::consistent_mass(X, density) } -> std::same_as<Eigen::Matrix<double, E::kNodes, E::kNodes>>;

@@ -17,6 +17,8 @@ struct Tet4 {
     return {edges.inverse() * Q, edges.determinant() / 6};
   }
 
+  static Vec3 place_of(int, const ElementNodes<kNodes>& X) { return X.rowwise().sum() / 4; }
+
   static double mass(const ElementNodes<kNodes>& X, double density) {
     const Vec3 a = X.col(1) - X.col(0), b = X.col(2) - X.col(0), c = X.col(3) - X.col(0);
     return density * a.dot(b.cross(c)) / 6;

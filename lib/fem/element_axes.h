@@ -1,6 +1,6 @@
-// The material axes of a region's elements: one rotation for all, or one for each.
+// The material axes of a region's elements: one rotation for all, or one at each integration point.
 //
-// Those of each element are kept as unit quaternions: 32 bytes instead of 72.
+// Those of each point are kept as unit quaternions: 32 bytes instead of 72.
 #pragma once
 
 #include <array>
@@ -13,24 +13,27 @@ namespace orthodyn {
 class ElementAxes {
  public:
   ElementAxes(const Mat3& all) : all_(all) {}  // NOLINT: a rotation is the axes of all elements
-  // Precondition: at least one; rotations.
-  explicit ElementAxes(const std::vector<Mat3>& each);
+  // One after the other those at the points of each element. Preconditions: at least one element; rotations.
+  explicit ElementAxes(const std::vector<Mat3>& each, int points = 1);
 
   bool uniform() const { return packs_.empty(); }
   std::size_t bytes() const { return packs_.capacity() * sizeof(Pack); }
 
-  // A rotation to round-off whose columns are the directions 1, 2, 3.
-  Mat3 of(int k) const {
+  // At a point of element k: a rotation to round-off whose columns are the directions 1, 2, 3.
+  Mat3 of(int k, int point) const {
     if (uniform()) return all_;
-    const Pack& pack = packs_[static_cast<std::size_t>(k / Batch::kLanes)];
+    const Pack& pack = at(k / Batch::kLanes, point);
     const auto lane = static_cast<std::size_t>(k % Batch::kLanes);
     return rotation<double>(pack[0][lane], pack[1][lane], pack[2][lane], pack[3][lane]);
   }
 
-  // Those of a batch of elements, Batch::kLanes of them, and copies beyond the last one.
-  Mat3T<Batch> batch(int b) const {
+  // The mean over the points of element k, for what is told of the whole element.
+  Mat3 mean(int k) const;
+
+  // At a point of a batch of elements, Batch::kLanes of them, and copies beyond the last one.
+  Mat3T<Batch> batch(int b, int point) const {
     if (uniform()) return all_.cast<Batch>();
-    const Pack& pack = packs_[static_cast<std::size_t>(b)];
+    const Pack& pack = at(b, point);
     return rotation<Batch>(Batch::load(pack[0].data()), Batch::load(pack[1].data()), Batch::load(pack[2].data()),
                            Batch::load(pack[3].data()));
   }
@@ -54,8 +57,11 @@ class ElementAxes {
     return Q;
   }
 
+  const Pack& at(int batch, int point) const { return packs_[static_cast<std::size_t>(batch * points_ + point)]; }
+
   Mat3 all_ = Mat3::Identity();
-  std::vector<Pack> packs_;
+  int points_ = 1;
+  std::vector<Pack> packs_;  // of each batch those of its points
 };
 
 }  // namespace orthodyn

@@ -37,7 +37,7 @@ class ElementBatches {
 
   // H Q = (F - I) Q at a point of a whole batch or of one element, from nodal displacements; F_rate Q from velocities.
   Mat3T<Batch> gradients(int batch, int point, const NodalVector& u) const;
-  Mat3 gradient(int k, int p, const NodalVector& u) const { return differences_of(nodes(k), u) * point(k, p).B; }
+  Mat3 gradient(int k, int p, const NodalVector& u) const { return point(k, p).gradient(differences_of(nodes(k), u)); }
 
   // m^3, zero for the copies.
   Batch volumes(int batch, int point) const { return Batch::load(at_point(batch, point).volume); }
@@ -83,7 +83,7 @@ ElementBatches<E>::ElementBatches(const ElementMesh& mesh, const std::vector<int
     One& one = batches_[static_cast<std::size_t>(k / kLanes)];
     std::copy_n(mesh.cells[cell].begin(), kNodes, one.nodes[lane(k)].begin());
     for (int p = 0; p < kPoints; ++p) {
-      const ElementPoint<kNodes> point = E::point(p, rest, axes.of(filler ? 0 : k));
+      const ElementPoint<kNodes> point = E::point(p, rest, axes.of(filler ? 0 : k, p));
       Point& out = one.points[static_cast<std::size_t>(p)];
       for (int i = 0; i < kGradients; ++i) out.B[i][lane(k)] = point.B(i);
       out.volume[lane(k)] = filler ? 0 : point.volume;
@@ -125,7 +125,7 @@ template <Element E>
       d(i, a) = Batch::load(corner[3 * a + 3 + i]) - Batch::load(corner[i]);
       B(a, i) = Batch::load(point.B[(kNodes - 1) * i + a]);
     }
-  return d * B;
+  return d.lazyProduct(B);
 }
 
 template <Element E>
@@ -135,7 +135,7 @@ template <Element E>
   const Batch volume = Batch::load(point.volume);
   GradientBatch B;
   for (int i = 0; i < kGradients; ++i) B(i) = -volume * Batch::load(point.B[i]);
-  const DifferenceBatch forces = P * B.transpose();
+  const DifferenceBatch forces = P.lazyProduct(B.transpose());
   alignas(64) double corner[kCoordinates][kLanes];
   for (int i = 0; i < 3; ++i) {
     Batch sum = forces(i, 0);

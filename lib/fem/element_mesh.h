@@ -6,7 +6,7 @@
 
 #include "lib/core/cells.h"
 #include "lib/fem/element_type.h"
-#include "lib/mesh/tet_mesh.h"
+#include "lib/mesh/quadratic.h"
 
 namespace orthodyn {
 
@@ -20,7 +20,8 @@ struct ElementMesh {
       : type(its_type), nodes(positions_at_rest), cells(std::move(its_cells)) {}
 
   // The tetrahedra of a mesh, which must outlive it.
-  explicit ElementMesh(const TetMesh& mesh) : ElementMesh(linear_tetrahedron(), mesh.nodes, Cells(mesh.tets)) {}
+  explicit ElementMesh(const TetMesh& mesh)
+      : ElementMesh(mesh.order() == 1 ? linear_tetrahedron() : quadratic_tetrahedron(), mesh.nodes, tet_cells(mesh)) {}
 
   // Of the nodes of one cell, a column each.
   ElementType::Nodes positions(std::size_t cell) const {

@@ -23,6 +23,9 @@ class ElementType {
   virtual int num_nodes() const = 0;
   virtual int vtk_cell_type() const = 0;
 
+  // Where the law is evaluated: a column per integration point, m, at rest.
+  virtual Nodes points(const Nodes& X) const = 0;
+
   // Of one element, kg; density in kg/m^3. The lumped masses are positive and sum to density times volume.
   virtual Vector lumped_mass(const Nodes& X, double density) const = 0;
   virtual Eigen::MatrixXd consistent_mass(const Nodes& X, double density) const = 0;
@@ -37,5 +40,6 @@ class ElementType {
 
 // The types there are.
 const ElementType& linear_tetrahedron();
+const ElementType& quadratic_tetrahedron();
 
 }  // namespace orthodyn

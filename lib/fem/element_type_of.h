@@ -16,6 +16,12 @@ class ElementTypeOf final : public ElementType {
   int num_nodes() const override { return E::kNodes; }
   int vtk_cell_type() const override { return E::kVtkCellType; }
 
+  Nodes points(const Nodes& X) const override {
+    Nodes out(3, E::kPoints);
+    for (int p = 0; p < E::kPoints; ++p) out.col(p) = E::place_of(p, X);
+    return out;
+  }
+
   Vector lumped_mass(const Nodes& X, double density) const override {
     return E::mass(X, density) * Eigen::Map<const Eigen::Matrix<double, E::kNodes, 1>>(E::kLumpedShares.data());
   }

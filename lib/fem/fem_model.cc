@@ -143,7 +143,8 @@ std::vector<std::pair<std::string, std::size_t>> FemModel::memory() const {
   // Displacements, velocities, positions and forces of all nodes, while a force is computed.
   const std::size_t expansion = 4 * nodes * sizeof(Vec3);
   std::vector<std::pair<std::string, std::size_t>> all = {
-      {"mesh", nodes * (2 * sizeof(Vec3) + 3 * sizeof(int)) + mesh.tets.size() * (sizeof(Tet) + sizeof(int))},
+      {"mesh", nodes * (2 * sizeof(Vec3) + 3 * sizeof(int)) + mesh.tets.size() * (sizeof(Tet) + sizeof(int)) +
+                   mesh.midsides.size() * sizeof(Midsides)},
       {"elements", elements},
       {"pattern", (pattern.row.size() + pattern.column_start.size()) * sizeof(int)},
       {"mass", parts_.mass->bytes()},

@@ -25,16 +25,19 @@ Mass::Mass(MassKind kind, const ElementMesh& mesh, const std::vector<double>& de
 
 void Mass::add_consistent(const ElementMesh& mesh, const std::vector<double>& density, const BlockPattern& pattern) {
   values_.assign(pattern_.row.size(), 0);
+  row_sums_ = Vector::Zero(nodal_.size());
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
     const auto nodes = mesh.cells[e];
     const Eigen::MatrixXd M = mesh.type.consistent_mass(mesh.positions(e), density[e]);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      row_sums_[nodes[i]] += M.row(static_cast<Eigen::Index>(i)).sum();
       for (std::size_t j = 0; j < nodes.size(); ++j) {
         const int a = nodes[i], b = nodes[j];
         if (pattern.symmetric() && a < b) continue;
         const double m = M(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
         pattern.add(a, b, pattern.offset(a, b), m * Mat3::Identity(), values_.data());
       }
+    }
   }
 }
 
@@ -42,7 +45,7 @@ Mass::~Mass() = default;
 
 std::size_t Mass::bytes() const {
   const std::lock_guard lock(solving_);
-  return static_cast<std::size_t>(nodal_.size() + diagonal_.size()) * sizeof(double) +
+  return static_cast<std::size_t>(nodal_.size() + diagonal_.size() + row_sums_.size()) * sizeof(double) +
          values_.capacity() * sizeof(double) + (factored_ ? solver_->factor_bytes() : 0);
 }
 

@@ -29,6 +29,9 @@ class Mass {
   double total() const { return nodal_.sum(); }
   // The lumped masses of all nodes, kg, for either kind.
   const Vector& nodal() const { return nodal_; }
+  // The row sums of the whole mass matrix, kg: what a uniform acceleration of all nodes takes. Those of a consistent
+  // mass may be negative.
+  const Vector& row_sums() const { return lumped() ? nodal_ : row_sums_; }
   // By what squared frequencies with this mass can exceed those with nodal(); 1 if lumped.
   double frequency_excess() const { return frequency_excess_; }
   // Taken, the factorisation included if there is one.
@@ -50,6 +53,7 @@ class Mass {
   Vector nodal_;
   double frequency_excess_;
   Vector diagonal_;             // lumped
+  Vector row_sums_;             // consistent
   std::vector<double> values_;  // consistent
 
   // Of a consistent mass. A solver has workspace of its own: one solve at a time.

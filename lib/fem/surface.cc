@@ -2,53 +2,54 @@
 
 #include <map>
 
-#include "lib/element/tri3.h"
+#include "lib/fem/face_nodes.h"
 
 namespace orthodyn {
 
 namespace {
 
-Tri3::Nodes nodes_of(const TetMesh& mesh, const Triangle& triangle) {
-  Tri3::Nodes X;
-  for (std::size_t a = 0; a < triangle.size(); ++a)
-    X.col(static_cast<Eigen::Index>(a)) = mesh.nodes[static_cast<std::size_t>(triangle[a])];
-  return X;
+// Sums what `of_face` gives for the nodes of each face, a column each.
+template <class Value, class OfFace>
+std::vector<std::pair<int, Value>> sum_over_faces(const TetMesh& mesh, const std::vector<Triangle>& triangles,
+                                                  const Value& zero, const OfFace& of_face) {
+  std::map<int, Value> sums;
+  for_each_face(mesh, triangles, [&]<Face F>(std::span<const int> nodes, const FaceNodes<F>& X) {
+    const auto values = of_face.template operator()<F>(X);
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      sums.try_emplace(nodes[a], zero).first->second += values(static_cast<Eigen::Index>(a));
+  });
+  return {sums.begin(), sums.end()};
+}
+
+template <class Traction>
+NodalForces forces_of(const TetMesh& mesh, const std::vector<Triangle>& triangles, const Traction& traction) {
+  return sum_over_faces<Vec3>(mesh, triangles, Vec3::Zero(), [&]<Face F>(const FaceNodes<F>& X) {
+    return [all = node_integrals<F>(X, traction)](Eigen::Index a) { return Vec3(all.col(a)); };
+  });
 }
 
 }  // namespace
 
 double surface_area(const TetMesh& mesh, const std::vector<Triangle>& triangles) {
   double sum = 0;
-  for (const auto& t : triangles) sum += Tri3::area(nodes_of(mesh, t));
+  for_each_face(mesh, triangles, [&]<Face F>(std::span<const int>, const FaceNodes<F>& X) { sum += area<F>(X); });
   return sum;
 }
 
 NodalForces surface_forces(const TetMesh& mesh, const std::vector<Triangle>& triangles, const Vec3& traction) {
-  std::map<int, Vec3> sums;
-  for (const auto& t : triangles) {
-    const auto areas = Tri3::node_areas(nodes_of(mesh, t));
-    for (std::size_t a = 0; a < t.size(); ++a)
-      sums.try_emplace(t[a], Vec3::Zero()).first->second += areas[a] * traction;
-  }
-  return {sums.begin(), sums.end()};
+  return forces_of(mesh, triangles, [&](const Vec3&) { return traction; });
 }
 
 NodalForces surface_forces(const TetMesh& mesh, const std::vector<Triangle>& triangles,
                            const std::array<PointQuantity, 3>& traction) {
-  std::map<int, Vec3> sums;
-  for (const auto& t : triangles) {
-    const double area = Tri3::area(nodes_of(mesh, t));
-    Mat3 means;  // a row for each component
-    for (std::size_t c = 0; c < 3; ++c) means.row(static_cast<Eigen::Index>(c)) = node_means(mesh, t, traction[c]);
-    for (std::size_t a = 0; a < t.size(); ++a)
-      sums.try_emplace(t[a], Vec3::Zero()).first->second += area * means.col(static_cast<Eigen::Index>(a));
-  }
-  return {sums.begin(), sums.end()};
+  return forces_of(mesh, triangles,
+                   [&](const Vec3& x) { return Vec3(traction[0].at(x), traction[1].at(x), traction[2].at(x)); });
 }
 
-Vec3 node_means(const TetMesh& mesh, const Triangle& triangle, const PointQuantity& g) {
-  if (g.uniform()) return Vec3::Constant(g.at(Vec3::Zero()) / 3);
-  return Tri3::node_means(nodes_of(mesh, triangle), [&](const Vec3& x) { return g.at(x); });
+std::vector<std::pair<int, double>> node_areas(const TetMesh& mesh, const std::vector<Triangle>& triangles) {
+  return sum_over_faces<double>(mesh, triangles, 0, [&]<Face F>(const FaceNodes<F>& X) {
+    return [whole = area<F>(X)](Eigen::Index a) { return whole * F::kNodeShares[static_cast<std::size_t>(a)]; };
+  });
 }
 
 }  // namespace orthodyn

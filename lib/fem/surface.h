@@ -18,11 +18,12 @@ double surface_area(const TetMesh& mesh, const std::vector<Triangle>& triangles)
 // A traction (Pa, per undeformed area) on a surface: F_i = integral of N_i t dA, for nodes in ascending order.
 NodalForces surface_forces(const TetMesh& mesh, const std::vector<Triangle>& triangles, const Vec3& traction);
 
-// The same of components that may depend on the position at rest: exact for polynomials of degree 4.
+// The same of components that may depend on the position at rest: exact for polynomials of degree 4 on the plane
+// faces of linear tetrahedra, of degree 3 on those of quadratic ones.
 NodalForces surface_forces(const TetMesh& mesh, const std::vector<Triangle>& triangles,
                            const std::array<PointQuantity, 3>& traction);
 
-// The means over the triangle of N_i g, for each of its nodes.
-Vec3 node_means(const TetMesh& mesh, const Triangle& triangle, const PointQuantity& g);
+// Each node's share of a surface where something acts on nodes alone, as contact does: positive, m^2.
+std::vector<std::pair<int, double>> node_areas(const TetMesh& mesh, const std::vector<Triangle>& triangles);
 
 }  // namespace orthodyn

@@ -21,7 +21,7 @@ struct Discretization {
   const TetMesh& mesh;
   const NodalVector& rest;      // node positions, m
   const BlockPattern& pattern;
-  const Vector& nodal_masses;   // kg
+  const Vector& nodal_masses;   // kg, the row sums of the mass matrix
 };
 
 class TermChoice {

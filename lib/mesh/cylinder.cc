@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <string>
 #include <utility>
 
 #include "lib/core/errors.h"
 #include "lib/mesh/extrude.h"
+#include "lib/mesh/quadratic.h"
 
 namespace orthodyn {
 namespace {
@@ -87,22 +90,55 @@ void append_quad(PlaneMesh& plane, int a, int b, int c, int d, bool even) {
   }
 }
 
+// The way from a loop inside to the circle. A place on it: `turn` counts cells around, `way` goes from 0 to 1.
+struct Rings {
+  std::function<Point(double turn)> inside;
+  double radius, first_angle;
+  int around;
+
+  struct Place {
+    double turn, way;
+  };
+  Point at(const Place& place) const {
+    const Point begin = inside(place.turn);
+    const Point end = on_circle(radius, first_angle + 2 * std::numbers::pi * place.turn / around);
+    return {begin[0] + place.way * (end[0] - begin[0]), begin[1] + place.way * (end[1] - begin[1])};
+  }
+  Point middle(const Place& a, const Place& b) const {
+    const double turn = std::remainder(b.turn - a.turn, around);
+    return at({a.turn + turn / 2, (a.way + b.way) / 2});
+  }
+};
+
+// A plane mesh whose outer part are rings.
+struct RoundPlane {
+  PlaneMesh mesh = {};
+  Rings rings = {};
+  std::map<int, Rings::Place> places = {};  // of the nodes on rings
+  std::vector<int> outer = {}, inner = {};  // those on the circles
+
+  // Where the node on the edge between two nodes belongs.
+  Point middle(int a, int b) const {
+    const auto place_a = places.find(a), place_b = places.find(b);
+    if (place_a != places.end() && place_b != places.end()) return rings.middle(place_a->second, place_b->second);
+    const Point &p = mesh.nodes[static_cast<std::size_t>(a)], &q = mesh.nodes[static_cast<std::size_t>(b)];
+    return {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2};
+  }
+};
+
 // Rings of quadrangles outward from the loop of nodes `inside` (counter-clockwise) to the circle.
-// Returns the nodes of the circle.
-std::vector<int> append_rings(PlaneMesh& plane, std::vector<int> inside, double first_angle, double radius,
-                              const RoundCells& cells) {
+void append_rings(RoundPlane& round, std::vector<int> inside, const RoundCells& cells) {
+  PlaneMesh& plane = round.mesh;
   const int count = cells.around;
-  const std::vector<double> places = ring_places(cells);
-  std::vector<Point> start;
-  for (const int n : inside) start.push_back(plane.nodes[static_cast<std::size_t>(n)]);
+  const std::vector<double> ways = ring_places(cells);
+  for (int k = 0; k < count; ++k) round.places[inside[static_cast<std::size_t>(k)]] = {double(k), 0};
   for (int ring = 1; ring <= cells.through; ++ring) {
-    const double place = places[static_cast<std::size_t>(ring)];
     std::vector<int> outside;
     for (int k = 0; k < count; ++k) {
-      const Point end = on_circle(radius, first_angle + 2 * std::numbers::pi * k / count);
-      const Point& begin = start[static_cast<std::size_t>(k)];
+      const Rings::Place place{double(k), ways[static_cast<std::size_t>(ring)]};
       outside.push_back(static_cast<int>(plane.nodes.size()));
-      plane.nodes.push_back({begin[0] + place * (end[0] - begin[0]), begin[1] + place * (end[1] - begin[1])});
+      round.places[outside.back()] = place;
+      plane.nodes.push_back(round.rings.at(place));
     }
     for (int k = 0; k < count; ++k) {
       const auto here = static_cast<std::size_t>(k), next = static_cast<std::size_t>((k + 1) % count);
@@ -110,7 +146,7 @@ std::vector<int> append_rings(PlaneMesh& plane, std::vector<int> inside, double 
     }
     inside = std::move(outside);
   }
-  return inside;
+  round.outer = std::move(inside);
 }
 
 // A square grid blown up half way to a disc: its corners and those of the rings stay blunt.
@@ -154,16 +190,27 @@ Mat3 rotation_from_z(const Vec3& a) {
   return cosine * Mat3::Identity() + sine * cross_u + (1 - cosine) * u * u.transpose();
 }
 
-// Surfaces by which nodes of the plane lie on which circle; then the body is put into place.
-TetMesh finish(const PlaneMesh& plane, const std::vector<int>& outer, const std::vector<int>& inner, double length,
-               int layers, const Vec3& origin, const Vec3& axis) {
+// Nodes on edges, where they are wanted, follow the rings.
+void make_round(TetMesh& mesh, const RoundPlane& plane) {
+  const int per_layer = static_cast<int>(plane.mesh.nodes.size());
+  make_quadratic(mesh, [&](int a, int b) {
+    const auto [x, y] = plane.middle(a % per_layer, b % per_layer);
+    return Vec3(x, y, 0.5 * (mesh.nodes[static_cast<std::size_t>(a)][2] + mesh.nodes[static_cast<std::size_t>(b)][2]));
+  });
+}
+
+// Surfaces by which nodes of the plane lie on which circle; then the body is put into place. `Mesh` is CylinderMesh or
+// TubeMesh.
+template <class Mesh>
+TetMesh finish(const RoundPlane& plane, const Mesh& round) {
+  const Vec3 &origin = round.origin, &axis = round.axis;
   require(axis.allFinite() && axis.norm() > 0, "the axis is zero or not finite; give a direction");
   require(origin.allFinite(), "the origin is not finite");
-  TetMesh mesh = extrude(plane, length, layers);
-  const int per_layer = static_cast<int>(plane.nodes.size());
-  std::vector<char> side(plane.nodes.size(), 0);
-  for (const int n : outer) side[static_cast<std::size_t>(n)] = 'o';
-  for (const int n : inner) side[static_cast<std::size_t>(n)] = 'i';
+  TetMesh mesh = extrude(plane.mesh, round.length, round.cells.along);
+  const int per_layer = static_cast<int>(plane.mesh.nodes.size());
+  std::vector<char> side(plane.mesh.nodes.size(), 0);
+  for (const int n : plane.outer) side[static_cast<std::size_t>(n)] = 'o';
+  for (const int n : plane.inner) side[static_cast<std::size_t>(n)] = 'i';
   for (const Triangle& t : boundary_triangles(mesh)) {
     const auto layer = [&](std::size_t k) { return t[k] / per_layer; };
     if (layer(0) == layer(1) && layer(1) == layer(2)) {
@@ -172,6 +219,7 @@ TetMesh finish(const PlaneMesh& plane, const std::vector<int>& outer, const std:
       mesh.surfaces[side[static_cast<std::size_t>(t[0] % per_layer)] == 'o' ? "outer" : "inner"].push_back(t);
     }
   }
+  if (round.order == 2) make_round(mesh, plane);
   const Mat3 rotation = rotation_from_z(axis.stableNormalized());
   const bool turned = axis.head<2>().norm() > 0 || axis[2] < 0;
   for (Vec3& x : mesh.nodes) x = origin + (turned ? Vec3(rotation * x) : x);
@@ -185,10 +233,21 @@ TetMesh make_cylinder(const CylinderMesh& cylinder) {
   check_size(cylinder.length, "length");
   check_cells(cylinder.cells, true);
   const int n = cylinder.cells.around / 4;
-  PlaneMesh plane = make_core(n, kCore * cylinder.radius);
-  const double first_angle = -0.75 * std::numbers::pi;  // of the corner of lowest coordinates
-  const auto outer = append_rings(plane, outline_of_core(n), first_angle, cylinder.radius, cylinder.cells);
-  return finish(plane, outer, {}, cylinder.length, cylinder.cells.along, cylinder.origin, cylinder.axis);
+  RoundPlane plane{.mesh = make_core(n, kCore * cylinder.radius)};
+  const auto outline = outline_of_core(n);
+  std::vector<Point> loop;
+  for (const int node : outline) loop.push_back(plane.mesh.nodes[static_cast<std::size_t>(node)]);
+  const auto straight = [loop](double turn) -> Point {
+    const double whole = std::floor(turn), part = turn - whole;
+    const auto count = static_cast<int>(loop.size());
+    const auto at = [&](int k) -> const Point& { return loop[static_cast<std::size_t>((k % count + count) % count)]; };
+    const Point &a = at(static_cast<int>(whole)), &b = at(static_cast<int>(whole) + 1);
+    return {a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])};
+  };
+  // The first angle is that of the corner of lowest coordinates.
+  plane.rings = {straight, cylinder.radius, -0.75 * std::numbers::pi, cylinder.cells.around};
+  append_rings(plane, outline, cylinder.cells);
+  return finish(plane, cylinder);
 }
 
 TetMesh make_tube(const TubeMesh& tube) {
@@ -199,14 +258,18 @@ TetMesh make_tube(const TubeMesh& tube) {
       tube.inner_radius < tube.radius,
       fmt::format("inner radius {} m, radius {} m; the inner one must be the smaller", tube.inner_radius, tube.radius));
   check_cells(tube.cells, false);
-  PlaneMesh plane;
-  std::vector<int> inner;
-  for (int k = 0; k < tube.cells.around; ++k) {
-    inner.push_back(k);
-    plane.nodes.push_back(on_circle(tube.inner_radius, 2 * std::numbers::pi * k / tube.cells.around));
+  RoundPlane plane;
+  const int around = tube.cells.around;
+  const auto circle = [radius = tube.inner_radius, around](double turn) {
+    return on_circle(radius, 2 * std::numbers::pi * turn / around);
+  };
+  plane.rings = {circle, tube.radius, 0, around};
+  for (int k = 0; k < around; ++k) {
+    plane.inner.push_back(k);
+    plane.mesh.nodes.push_back(circle(k));
   }
-  const auto outer = append_rings(plane, inner, 0, tube.radius, tube.cells);
-  return finish(plane, outer, inner, tube.length, tube.cells.along, tube.origin, tube.axis);
+  append_rings(plane, plane.inner, tube.cells);
+  return finish(plane, tube);
 }
 
 }  // namespace orthodyn

@@ -20,6 +20,7 @@ struct CylinderMesh {
   Vec3 origin = Vec3::Zero();     // centre of end0, m
   Vec3 axis{0, 0, 1};             // from end0 to end1, of any length
   RoundCells cells;
+  int order = 1;  // 2: quadratic, with curved edges
 };
 
 struct TubeMesh {
@@ -27,10 +28,12 @@ struct TubeMesh {
   Vec3 origin = Vec3::Zero();                         // centre of end0, m
   Vec3 axis{0, 0, 1};                                 // from end0 to end1, of any length
   RoundCells cells;
+  int order = 1;  // 2: quadratic, with curved edges
 };
 
 // One region "body"; surfaces "end0", "end1", "outer" and, of the tube, "inner", oriented outward.
-// The circles are regular polygons of `around` corners on the circle. Throw ConfigError (without a
+// The circles are regular polygons of `around` corners on the circle; at order 2 the nodes on edges lie on the true
+// surfaces, and between them where the rings would bend. Throw ConfigError (without a
 // file) for sizes that are not positive and finite, counts below 1 (around: below 3, and for the
 // cylinder not a multiple of 4), a grading outside of [0.01, 100], a zero axis, and more nodes or tets
 // than an int can count.

@@ -27,15 +27,23 @@ void sort_by_tag(MeshDraft& draft) {
 }
 
 template <std::size_t N>
-std::array<int, N> node_numbers(const MeshDraft& draft, const NodeNumbers& number, const auto& element) {
+std::array<int, N> node_numbers(const MeshDraft& draft, const NodeNumbers& number, const auto& element,
+                                const std::array<std::int64_t, N>& tags) {
   std::array<int, N> numbers{};
   for (std::size_t i = 0; i < N; ++i) {
-    numbers[i] = number(element.nodes[i]);
+    numbers[i] = number(tags[i]);
     if (numbers[i] >= 0) continue;
-    draft.fail(element.place, fmt::format("element {}: node {} is not defined in {}", element.tag, element.nodes[i],
+    draft.fail(element.place, fmt::format("element {}: node {} is not defined in {}", element.tag, tags[i],
                                           draft.nodes_section));
   }
   return numbers;
+}
+
+void check_order(const MeshDraft& draft) {
+  for (const FileTet& tet : draft.tets)
+    if (tet.midsides.has_value() != draft.tets.front().midsides.has_value())
+      draft.fail(tet.place, fmt::format("element {} is {}, earlier ones are not; all must be of one order", tet.tag,
+                                        tet.midsides ? "quadratic" : "linear"));
 }
 
 TetMesh number_nodes(const MeshDraft& draft) {
@@ -44,12 +52,13 @@ TetMesh number_nodes(const MeshDraft& draft) {
   mesh.region_names = draft.region_names;
   for (const FileNode& node : draft.nodes) mesh.nodes.push_back(node.x);
   for (const FileTet& tet : draft.tets) {
-    mesh.tets.push_back(node_numbers<4>(draft, number, tet));
+    mesh.tets.push_back(node_numbers(draft, number, tet, tet.nodes));
+    if (tet.midsides) mesh.midsides.push_back(node_numbers(draft, number, tet, *tet.midsides));
     mesh.region_of.push_back(tet.region);
   }
   for (const auto& [name, triangles] : draft.surfaces) {
     auto& surface = mesh.surfaces[name];
-    for (const FileTriangle& t : triangles) surface.push_back(node_numbers<3>(draft, number, t));
+    for (const FileTriangle& t : triangles) surface.push_back(node_numbers(draft, number, t, t.nodes));
   }
   for (const auto& [name, uses] : draft.node_sets) {
     auto& set = mesh.node_sets[name];
@@ -69,6 +78,10 @@ bool turn_if_all_inverted(TetMesh& mesh) {
   const auto inverted = [&](const Tet& tet) { return signed_volume6(mesh, tet) < 0; };
   if (mesh.tets.size() < 2 || !std::all_of(mesh.tets.begin(), mesh.tets.end(), inverted)) return false;
   for (Tet& tet : mesh.tets) std::swap(tet[2], tet[3]);
+  for (Midsides& middles : mesh.midsides) {
+    std::swap(middles[1], middles[4]);
+    std::swap(middles[2], middles[3]);
+  }
   return true;
 }
 
@@ -110,6 +123,7 @@ void MeshDraft::fail(FilePlace place, const std::string& message) const {
 
 LoadedMesh build_mesh(MeshDraft draft) {
   sort_by_tag(draft);
+  check_order(draft);
   LoadedMesh loaded{.mesh = number_nodes(draft), .warnings = std::move(draft.warnings)};
   if (turn_if_all_inverted(loaded.mesh)) {
     loaded.warnings.push_back(fmt::format("{}: all {} elements count their nodes the other way round; they were turned",

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct FileNode {
 struct FileTet {
   std::int64_t tag = 0;
   std::array<std::int64_t, 4> nodes{};
+  std::optional<std::array<std::int64_t, 6>> midsides = {};  // of a quadratic one, in the order of kTetEdges
   FilePlace place;
   int region = 0;  // index into MeshDraft::region_names
 };
@@ -61,8 +63,8 @@ struct MeshDraft {
   [[noreturn]] void fail(FilePlace place, const std::string& message) const;
 };
 
-// Nodes are numbered by ascending tag; elements keep their order. A mesh whose elements are all
-// inverted was written by a program that counts the nodes of a tet the other way round: they are
+// Nodes are numbered by ascending tag; elements keep their order. Linear and quadratic elements do not mix. A mesh
+// whose elements are all inverted was written by a program that counts the nodes of a tet the other way round: they are
 // turned, with a warning. Throws ConfigError for tags that are not defined or defined twice, for a
 // mesh without elements, and for what validate() refuses.
 LoadedMesh build_mesh(MeshDraft draft);

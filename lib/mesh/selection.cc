@@ -7,6 +7,7 @@
 #include <set>
 
 #include "lib/core/words.h"
+#include "lib/mesh/quadratic.h"
 
 namespace orthodyn {
 
@@ -70,9 +71,8 @@ std::set<int> select(const Selection& selection, const TetMesh& mesh) {
   if (selection.nodes) return node_set(mesh, *selection.nodes, selection.origin);
   if (selection.nearest) return {nearest_node(mesh, *selection.nearest)};
   if (selection.surface) {
-    std::set<int> out;
-    for (const Triangle& t : find_surface(mesh, *selection.surface, selection.origin)) out.insert(t.begin(), t.end());
-    return out;
+    const Cells faces = face_cells(mesh, find_surface(mesh, *selection.surface, selection.origin));
+    return {faces.nodes().begin(), faces.nodes().end()};
   }
   if (selection.box)
     return nodes_where(mesh, [&](const Vec3& x) {

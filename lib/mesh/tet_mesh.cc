@@ -1,6 +1,8 @@
 #include "lib/mesh/tet_mesh.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "lib/core/errors.h"
 #include "lib/mesh/tet_faces.h"
@@ -25,6 +27,27 @@ double signed_volume6(const TetMesh& mesh, const Tet& tet) {
   const Vec3 b = node(2) - node(0);
   const Vec3 c = node(3) - node(0);
   return a.dot(b.cross(c));
+}
+
+void remove_nodes(TetMesh& mesh, const std::vector<char>& marked) {
+  std::vector<int> new_index(mesh.nodes.size(), -1);
+  std::vector<Vec3> kept;
+  for (std::size_t n = 0; n < marked.size(); ++n) {
+    if (marked[n]) continue;
+    new_index[n] = static_cast<int>(kept.size());
+    kept.push_back(mesh.nodes[n]);
+  }
+  mesh.nodes = std::move(kept);
+  const auto renumber = [&](int& n) { n = new_index[static_cast<std::size_t>(n)]; };
+  for (Tet& tet : mesh.tets) std::for_each(tet.begin(), tet.end(), renumber);
+  for (Midsides& middles : mesh.midsides) std::for_each(middles.begin(), middles.end(), renumber);
+  for (auto& [surface, triangles] : mesh.surfaces) {
+    for (Triangle& t : triangles) std::for_each(t.begin(), t.end(), renumber);
+  }
+  for (auto& [set, nodes] : mesh.node_sets) {
+    std::erase_if(nodes, [&](int n) { return marked[static_cast<std::size_t>(n)] != 0; });
+    std::for_each(nodes.begin(), nodes.end(), renumber);
+  }
 }
 
 std::vector<Triangle> boundary_triangles(const TetMesh& mesh) {

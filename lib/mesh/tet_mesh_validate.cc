@@ -7,9 +7,12 @@
 #include <limits>
 #include <set>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include "lib/core/errors.h"
+#include "lib/element/tet10.h"
+#include "lib/mesh/quadratic.h"
 #include "lib/mesh/tet_faces.h"
 #include "lib/mesh/tet_mesh.h"
 
@@ -50,6 +53,10 @@ void check_sizes(const TetMesh& mesh, const MeshOrigin& origin) {
     throw ConfigError(origin.source,
                       fmt::format("{} elements but a region for {} of them", mesh.tets.size(), mesh.region_of.size()));
   }
+  if (mesh.order() == 2 && mesh.midsides.size() != mesh.tets.size()) {
+    throw ConfigError(origin.source, fmt::format("{} of {} elements are quadratic; all must be of one order",
+                                                 mesh.midsides.size(), mesh.tets.size()));
+  }
 }
 
 void check_indices(const TetMesh& mesh, const MeshOrigin& origin) {
@@ -61,6 +68,8 @@ void check_indices(const TetMesh& mesh, const MeshOrigin& origin) {
   for (int t = 0; t < count(mesh.tets); ++t) {
     const auto i = static_cast<std::size_t>(t);
     for (int n : mesh.tets[i]) check_node(n, [&] { return tet_name(origin, t); });
+    if (mesh.order() == 2)
+      for (int n : mesh.midsides[i]) check_node(n, [&] { return tet_name(origin, t); });
     if (mesh.region_of[i] < 0 || mesh.region_of[i] >= count(mesh.region_names)) {
       throw ConfigError(tet_name(origin, t), fmt::format("in region {}, but there are {} regions", mesh.region_of[i],
                                                          mesh.region_names.size()));
@@ -92,6 +101,9 @@ std::vector<char> used_nodes(const TetMesh& mesh) {
   std::vector<char> used(mesh.nodes.size(), 0);
   for (const Tet& tet : mesh.tets) {
     for (int n : tet) used[static_cast<std::size_t>(n)] = 1;
+  }
+  for (const Midsides& middles : mesh.midsides) {
+    for (int n : middles) used[static_cast<std::size_t>(n)] = 1;
   }
   return used;
 }
@@ -171,6 +183,51 @@ void check_volumes(const TetMesh& mesh, const MeshOrigin& origin) {
   }
 }
 
+// A node on an edge belongs to that edge alone, and is the same for all elements around it.
+void check_edges(const TetMesh& mesh, const MeshOrigin& origin) {
+  std::vector<char> corner(mesh.nodes.size(), 0);
+  for (const Tet& tet : mesh.tets)
+    for (int n : tet) corner[static_cast<std::size_t>(n)] = 1;
+  std::vector<std::pair<int, int>> edge_of(mesh.nodes.size(), {-1, -1});
+  const EdgeNodes middles(mesh);  // of the first element that has the edge
+  for (int t = 0; t < count(mesh.tets); ++t) {
+    const auto i = static_cast<std::size_t>(t);
+    for (std::size_t e = 0; e < kTetEdges.size(); ++e) {
+      const int middle = mesh.midsides[i][e], a = mesh.tets[i][kTetEdges[e][0]], b = mesh.tets[i][kTetEdges[e][1]];
+      const std::pair<int, int> edge = std::minmax(a, b);
+      auto& known = edge_of[static_cast<std::size_t>(middle)];
+      const bool elsewhere = known.first >= 0 && known != edge;
+      known = edge;
+      if (!corner[static_cast<std::size_t>(middle)] && !elsewhere && middles.at(a, b) == middle) continue;
+      throw ConfigError(tet_name(origin, t),
+                        fmt::format("{} is on the edge between {} and {}, and elsewhere a corner, on another edge or "
+                                    "not on this one; elements must share all nodes of a common edge: remesh",
+                                    node_name(origin, middle), node_name(origin, a), node_name(origin, b)));
+    }
+  }
+}
+
+// The map from barycentric coordinates must not turn over anywhere that it is asked for.
+void check_curved(const TetMesh& mesh, const MeshOrigin& origin) {
+  const Cells cells = tet_cells(mesh);
+  for (int t = 0; t < count(mesh.tets); ++t) {
+    const auto nodes = cells[static_cast<std::size_t>(t)];
+    ElementNodes<Tet10::kNodes> X;
+    for (Eigen::Index a = 0; a < X.cols(); ++a) X.col(a) = node(mesh, nodes[static_cast<std::size_t>(a)]);
+    const NodeDifferences<Tet10::kNodes> rest = differences<Tet10::kNodes>(X);
+    const double straight = signed_volume6(mesh, mesh.tets[static_cast<std::size_t>(t)]);
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const auto& L : Tet10::checked_places())
+      smallest = std::min(smallest, Tet10::jacobian(rest, L).determinant() / straight);
+    if (smallest > 0) continue;
+    throw ConfigError(tet_name(origin, t),
+                      fmt::format("its curved edges fold it over (det dX/dL is {:.3g} of that with straight edges); "
+                                  "remesh finer, straighten it (Gmsh: Mesh.SecondOrderLinear = 1), or optimise it "
+                                  "(Gmsh: Mesh.HighOrderOptimize)",
+                                  smallest));
+  }
+}
+
 [[noreturn]] void refuse_overlap(const TetMesh& mesh, int a, int b, const MeshOrigin& origin) {
   Tet first = mesh.tets[static_cast<std::size_t>(a)];
   Tet second = mesh.tets[static_cast<std::size_t>(b)];
@@ -235,23 +292,9 @@ void remove_unused_nodes(TetMesh& mesh, const std::vector<char>& used, const Mes
   const auto first = std::find(used.begin(), used.end(), 0) - used.begin();
   warnings.push_back(fmt::format("{}: removed {} node{} that no element uses (first: {})", origin.source, unused,
                                  unused == 1 ? "" : "s", node_name(origin, static_cast<int>(first))));
-  std::vector<int> new_index(mesh.nodes.size(), -1);
-  std::vector<Vec3> kept;
-  for (std::size_t n = 0; n < used.size(); ++n) {
-    if (!used[n]) continue;
-    new_index[n] = count(kept);
-    kept.push_back(mesh.nodes[n]);
-  }
-  mesh.nodes = std::move(kept);
-  const auto renumber = [&](int& n) { n = new_index[static_cast<std::size_t>(n)]; };
-  for (Tet& tet : mesh.tets) std::for_each(tet.begin(), tet.end(), renumber);
-  for (auto& [surface, triangles] : mesh.surfaces) {
-    for (Triangle& t : triangles) std::for_each(t.begin(), t.end(), renumber);
-  }
-  for (auto& [set, nodes] : mesh.node_sets) {
-    std::erase_if(nodes, [&](int n) { return !used[static_cast<std::size_t>(n)]; });
-    std::for_each(nodes.begin(), nodes.end(), renumber);
-  }
+  std::vector<char> marked(used.size());
+  std::transform(used.begin(), used.end(), marked.begin(), [](char is_used) { return is_used ? 0 : 1; });
+  remove_nodes(mesh, marked);
 }
 
 void sort_node_sets(TetMesh& mesh) {
@@ -270,6 +313,10 @@ Warnings validate(TetMesh& mesh, const MeshOrigin& origin) {
   const std::vector<char> used = used_nodes(mesh);
   check_coincident_nodes(mesh, used, origin);
   check_volumes(mesh, origin);
+  if (mesh.order() == 2) {
+    check_edges(mesh, origin);
+    check_curved(mesh, origin);
+  }
   const std::vector<TetFace> faces = sorted_faces(mesh);
   check_overlaps(mesh, faces, origin);
 

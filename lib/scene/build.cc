@@ -38,7 +38,7 @@ void add_elasticity(const Scene& scene, const std::vector<const Region*>& region
     if (cells.empty()) continue;
     AxesField& field = fields[&region];
     if (!field) field = region.axes->field(mesh, notes);
-    const ElementAxes axes = element_axes(*region.axes, field, mesh, cells);
+    const ElementAxes axes = element_axes(*region.axes, field, elements, cells);
     parts.elastic.push_back(elements.type.elastic_term(
         elements, {mesh.region_names[r], std::move(cells), material_of(scene, region).stiffness(), axes,
                    stiffness_damping(scene, region), scene.elasticity}, *parts.pattern));
@@ -47,7 +47,7 @@ void add_elasticity(const Scene& scene, const std::vector<const Region*>& region
 }
 
 void add_force_terms(const Scene& scene, FemModel::Parts& parts) {
-  const Discretization body{parts.mesh, *parts.rest, *parts.pattern, parts.mass->nodal()};
+  const Discretization body{parts.mesh, *parts.rest, *parts.pattern, parts.mass->row_sums()};
   for (const TermChoice* term : scene.force_terms()) parts.loads.push_back(term->make(body));
 }
 

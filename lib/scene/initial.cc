@@ -44,7 +44,7 @@ Vec3 at(const std::array<PointFormula, 3>& field, const Vec3& x) {
 }
 
 Vec3 center_of_mass(const FemModel::Parts& parts) {
-  return *parts.rest * parts.mass->nodal() / parts.mass->total();
+  return *parts.rest * parts.mass->row_sums() / parts.mass->total();
 }
 
 // Of each node, for a body displaced by u.

@@ -12,6 +12,8 @@
 #include "lib/fem/element_mesh.h"
 #include "lib/mesh/box.h"
 #include "lib/mesh/selection.h"
+#include "lib/axes/axes_source.h"
+#include "lib/mesh/quadratic.h"
 #include "tests/fem/built_scene.h"
 
 namespace orthodyn::grain_test {
@@ -19,18 +21,46 @@ namespace {
 
 TEST(ElementAxes, AreTheRotationsTheyWereMadeFrom) {
   Random random(201);
-  std::vector<Mat3> each;
-  for (int k = 0; k < 2 * Batch::kLanes + 1; ++k) each.push_back(random.rotation());
-  each[1] = Vec3(-1, -1, 1).asDiagonal();  // half turns, whose quaternion has no real part
-  each[2] = Vec3(1, -1, -1).asDiagonal();
-  const ElementAxes axes(each);
-  EXPECT_FALSE(axes.uniform());
-  for (int k = 0; k < static_cast<int>(each.size()); ++k) {
-    const Mat3 Q = axes.of(k);
-    EXPECT_LE((Q - each[static_cast<std::size_t>(k)]).cwiseAbs().maxCoeff(), 16 * kEps);
-    EXPECT_LE((Q.transpose() * Q - Mat3::Identity()).cwiseAbs().maxCoeff(), 16 * kEps);
-    const Mat3T<Batch> packed = axes.batch(k / Batch::kLanes);
-    for (int i = 0; i < 9; ++i) EXPECT_EQ(packed(i)[k % Batch::kLanes], Q(i));
+  for (const int points : {1, 4}) {
+    const int size = 2 * Batch::kLanes + 1;
+    std::vector<Mat3> each;
+    for (int k = 0; k < points * size; ++k) each.push_back(random.rotation());
+    each[1] = Vec3(-1, -1, 1).asDiagonal();  // half turns, whose quaternion has no real part
+    each[2] = Vec3(1, -1, -1).asDiagonal();
+    const ElementAxes axes(each, points);
+    EXPECT_FALSE(axes.uniform());
+    for (int k = 0; k < size; ++k)
+      for (int p = 0; p < points; ++p) {
+        const Mat3 Q = axes.of(k, p);
+        EXPECT_LE((Q - each[static_cast<std::size_t>(points * k + p)]).cwiseAbs().maxCoeff(), 16 * kEps);
+        EXPECT_LE((Q.transpose() * Q - Mat3::Identity()).cwiseAbs().maxCoeff(), 16 * kEps);
+        const Mat3T<Batch> packed = axes.batch(k / Batch::kLanes, p);
+        for (int i = 0; i < 9; ++i) EXPECT_EQ(packed(i)[k % Batch::kLanes], Q(i));
+      }
+  }
+}
+
+TEST(ElementAxes, HaveTheMeanOfTheirPoints) {
+  const auto turned = [](double angle) { return Mat3(Eigen::AngleAxisd(angle, Vec3(1, 2, 2) / 3)); };
+  const ElementAxes axes({turned(0.1), turned(0.3), turned(0.4), turned(0.6)}, 4);
+  EXPECT_LE((axes.mean(0) - turned(0.35)).norm(), 64 * kEps);
+}
+
+// A grain that turns within an element is taken where the law is evaluated.
+TEST(ElementAxes, OfQuadraticElementsAreThoseAtTheirPoints) {
+  TetMesh mesh = make_box({.size = {2, 1, 1}, .cells = {1, 1, 1}});
+  make_quadratic(mesh);
+  const auto source = Registry<AxesSource>::read(
+      Config::from_text("axes: {type: cylindrical, point: [5, 5, 0], axis: [0, 0, 1]}", "a.yaml").at("axes"));
+  Warnings notes;
+  const AxesField field = source->field(mesh, notes);
+  const ElementMesh elements(mesh);
+  const ElementAxes axes = element_axes(*source, field, elements, {0, 1, 2, 3, 4});
+  for (int k = 0; k < 5; ++k) {
+    const auto points = elements.type.points(elements.positions(static_cast<std::size_t>(k)));
+    ASSERT_EQ(points.cols(), 4);
+    for (int p = 0; p < 4; ++p)
+      EXPECT_LE((axes.of(k, p) - field(points.col(p), k)).norm(), 16 * kEps);
   }
 }
 

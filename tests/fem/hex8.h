@@ -35,6 +35,12 @@ struct Hex8 {
     return {slopes * J.inverse() * Q, J.determinant()};
   }
 
+  static Vec3 place_of(int p, const ElementNodes<kNodes>& X) {
+    Vec3 at = Vec3::Zero();
+    for (int a = 0; a < kNodes; ++a) at += shape(a, gauss_point(p)) * X.col(a);
+    return at;
+  }
+
   static double mass(const ElementNodes<kNodes>& X, double density) {
     double volume = 0;
     for (int p = 0; p < kPoints; ++p) volume += point(p, differences<kNodes>(X), Mat3::Identity()).volume;

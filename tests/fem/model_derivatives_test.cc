@@ -6,6 +6,7 @@
 
 #include "lib/core/symmetric_eigen.h"
 #include "lib/mesh/box.h"
+#include "lib/mesh/quadratic.h"
 #include "tests/fem/built_scene.h"
 #include "tests/fem/derivatives.h"
 
@@ -14,6 +15,7 @@ namespace {
 
 struct Case {
   std::string name, material, extra, axes = kTurnedAxes;
+  bool curved = false;  // quadratic elements with curved edges
 };
 void PrintTo(const Case& c, std::ostream* os) { *os << c.name; }
 
@@ -30,6 +32,13 @@ const Case kLinearGrain{"linear_grain", fibre_material(10), "elasticity: {kinema
 const Case kWarpedGrain{"warped_grain", fibre_material(10),
                         "elasticity: {corotation: warped, warped_tangent: unsymmetric}", kCylinder};
 
+const Case kCurved{"curved", fibre_material(10), "", kCylinder, true};
+const Case kCurvedLinear{"curved_linear", fibre_material(10), "elasticity: {kinematics: linear}", kTurnedAxes, true};
+const Case kCurvedWarped{"curved_warped", fibre_material(10),
+                         "elasticity: {corotation: warped, warped_tangent: unsymmetric}", kTurnedAxes, true};
+const Case kCurvedIsotropic{"curved_isotropic", "{type: isotropic, density: 1, young: 2, nu: 0.3}",
+                            "mass: consistent", kTurnedAxes, true};
+
 // A clamped block of two by two by one cells, one corner of it free in x only. With `two_regions` the
 // half x > 0.5 is a softer material with more damping.
 BuiltTestScene block(const Case& c, const std::string& more = "") {
@@ -42,6 +51,13 @@ BuiltTestScene block(const Case& c, const std::string& more = "") {
       for (const int node : mesh.tets[e]) x += mesh.nodes[static_cast<std::size_t>(node)][0] / 4;
       mesh.region_of[e] = x > 0.5;
     }
+  }
+  if (c.curved) {
+    Random random(110);
+    make_quadratic(mesh, [&](int a, int b) {
+      const Vec3 middle = (mesh.nodes[static_cast<std::size_t>(a)] + mesh.nodes[static_cast<std::size_t>(b)]) / 2;
+      return Vec3(middle + 0.02 * random.vector());
+    });
   }
   given_mesh() = mesh;
   const std::string soft =
@@ -62,11 +78,12 @@ class ConservativeDerivatives : public Derivatives {};
 const auto name_of = [](const auto& tested) { return tested.param.name; };
 INSTANTIATE_TEST_SUITE_P(Models, Derivatives,
                          testing::Values(kExact, kIsotropicCase, kAnisotropic, kWarped, kLinear, kTwoRegions, kGrain,
-                                         kLinearGrain, kWarpedGrain),
+                                         kLinearGrain, kWarpedGrain, kCurved, kCurvedLinear, kCurvedWarped,
+                                         kCurvedIsotropic),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Models, ConservativeDerivatives,
                          testing::Values(kExact, kIsotropicCase, kAnisotropic, kLinear, kTwoRegions, kGrain,
-                                         kLinearGrain),
+                                         kLinearGrain, kCurved, kCurvedLinear, kCurvedIsotropic),
                          name_of);
 
 TEST_P(ConservativeDerivatives, ForceIsMinusTheGradientOfElasticAndGravitationalEnergy) {

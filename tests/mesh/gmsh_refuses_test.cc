@@ -89,11 +89,13 @@ TEST(GmshRefuses, OtherVersionsWithARemedy) {
             std::string::npos);
 }
 
-TEST(GmshRefuses, SecondOrderElements) {
-  const std::string words = "set Mesh.ElementOrder = 1";
-  expect_refused(kFile22, "4 4 2 1 1 1 2 3 4", "4 11 2 1 1 1 2 3 4 1 2 3 4 5 1", words);
-  expect_refused(kFile22, "3 2 2 5 1 1 3 2", "3 9 2 5 1 1 3 2 4 5 1", words);
-  expect_refused(kFile41, "3 1 4 1", "3 1 11 1", words);
+TEST(GmshRefuses, ElementsOfTwoOrders) {
+  expect_refused(kFile22, "4 4 2 1 1 1 2 3 4", "4 11 2 1 1 1 2 3 4 1 2 3 4 5 1", "all must be of one order", 1);
+  expect_refused(kFile41, "3 1 4 1", "3 1 11 1", "expected a node tag, found the end of the line", 1);
+}
+
+TEST(GmshRefuses, ElementsOfThirdOrder) {
+  expect_refused(kFile22, "4 4 2 1 1 1 2 3 4", "4 29 2 1 1 1 2 3 4", "set Mesh.ElementOrder = 1 or 2");
 }
 
 TEST(GmshRefuses, ElementsThatAreNotTetrahedra) {
@@ -109,8 +111,8 @@ TEST(GmshRefuses, ElementsThatAreNotTetrahedra) {
 }
 
 TEST(GmshRefuses, UnknownElementTypes) {
-  expect_refused(kFile22, "4 4 2 1 1", "4 17 2 1 1", "element type 17; only linear tetrahedra");
-  expect_refused(kFile22, "4 4 2 1 1", "4 -4 2 1 1", "element type -4; only linear tetrahedra");
+  expect_refused(kFile22, "4 4 2 1 1", "4 17 2 1 1", "element type 17; only linear and quadratic tetrahedra");
+  expect_refused(kFile22, "4 4 2 1 1", "4 -4 2 1 1", "element type -4; only linear and quadratic tetrahedra");
 }
 
 TEST(GmshRefuses, PartitionedMeshes) {

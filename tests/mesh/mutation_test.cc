@@ -63,6 +63,10 @@ void read_damaged_elements(const std::string& stem, std::string_view ele) {
   read_tetgen_text(stem, {content_of("cube.node"), ele, content_of("cube.face")});
 }
 
+void read_damaged_quadratic_elements(const std::string& stem, std::string_view ele) {
+  read_tetgen_text(stem, {content_of("cube_o2.node"), ele, content_of("cube_o2.face")});
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Formats, AnyMutation,
     testing::Values(Format{"two_boxes_22.msh", read_gmsh_text}, Format{"two_boxes_41.msh", read_gmsh_text},
@@ -71,7 +75,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Format{"two_boxes_meshio_zlib.vtu", read_vtu_text},
                     Format{"two_boxes_meshio_ascii.vtk", read_vtk_text},
                     Format{"two_boxes_meshio_binary.vtk", read_vtk_text}, Format{"cube.node", read_damaged_nodes},
-                    Format{"cube.ele", read_damaged_elements}),
+                    Format{"cube.ele", read_damaged_elements}, Format{"octant_22.msh", read_gmsh_text},
+                    Format{"octant_41.msh", read_gmsh_text}, Format{"octant_gmsh.inp", read_abaqus_text},
+                    Format{"octant_gmsh.vtk", read_vtk_text}, Format{"cube_o2.ele", read_damaged_quadratic_elements}),
     [](const auto& test) {
       std::string name = test.param.seed;
       for (char& c : name) c = c == '.' ? '_' : c;

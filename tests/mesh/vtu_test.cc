@@ -214,8 +214,9 @@ TEST_P(RefusedVtu, SaysWhatIsWrongAndWhere) {
 INSTANTIATE_TEST_SUITE_P(
     Vtu, RefusedVtu,
     testing::Values(
-        BadVtu{"hexahedron", "10 10", "10 12", "body.vtu: cell 1: a hexahedron (type 12); only linear tetrahedra"},
-        BadVtu{"second_order", "10 10", "10 24", "a quadratic tet (type 24)"},
+        BadVtu{"hexahedron", "10 10", "10 12",
+               "body.vtu: cell 1: a hexahedron (type 12); only linear and quadratic tetrahedra"},
+        BadVtu{"second_order", "10 10", "10 24", "cell 1: a tetrahedron (type 24) of 4 points; expected 10"},
         BadVtu{"point", "2 3 4<", "2 3 5<", "body.vtu: element 1: a point is 5; expected an integer from 0 to 4"},
         BadVtu{"offset", "4 8", "4 9", "the offset of cell 1 is 9"},
         BadVtu{"count", "NumberOfCells=\"2\"", "NumberOfCells=\"3\"",

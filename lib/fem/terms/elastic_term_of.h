@@ -48,7 +48,7 @@ class ElasticTermOf final : public ElasticTerm {
       Mat3T<Batch> rate;
       if (damped()) rate = elements_.gradients(b, p, s.v);
       Batch::Mask good;
-      const Mat3T<Batch> P = law_.batch_stress(H, axes().batch(b), damped() ? &rate : nullptr, region_.beta, good);
+      const Mat3T<Batch> P = law_.batch_stress(H, axes().batch(b, p), damped() ? &rate : nullptr, region_.beta, good);
       if (all(good)) elements_.add_forces(b, p, P, f);
       else add_forces_one_by_one(b, p, s, f);
     });
@@ -61,7 +61,8 @@ class ElasticTermOf final : public ElasticTerm {
       for (int k = 0; k < size(); ++k)
         for (int p = 0; p < E::kPoints; ++p)
           elements_.add_force(
-              k, p, law_.mean_stress(elements_.gradient(k, p, s0.u), elements_.gradient(k, p, s1.u), axes().of(k)), f);
+              k, p, law_.mean_stress(elements_.gradient(k, p, s0.u), elements_.gradient(k, p, s1.u), axes().of(k, p)),
+              f);
   }
 
   void add_tangent(const NodalState& s, TangentKind kind, double* K, double* D) const override {
@@ -70,7 +71,7 @@ class ElasticTermOf final : public ElasticTerm {
     for (int k = 0; k < size(); ++k) {
       for (int p = 0; p < E::kPoints; ++p) {
         Form damping_form;
-        const Form form = law_.tangent(elements_.gradient(k, p, s.u), axes().of(k), kind, region_.beta,
+        const Form form = law_.tangent(elements_.gradient(k, p, s.u), axes().of(k, p), kind, region_.beta,
                                        with_damping ? &damping_form : nullptr);
         gather_point(k, p, form, stiffness);
         if (with_damping) gather_point(k, p, damping_form, damping);
@@ -83,20 +84,20 @@ class ElasticTermOf final : public ElasticTerm {
   double energy(const NodalState& s) const override {
     return integrate(
         [&](int b, int p, Batch::Mask& good) {
-          return law_.batch_energy(elements_.gradients(b, p, s.u), axes().batch(b), good);
+          return law_.batch_energy(elements_.gradients(b, p, s.u), axes().batch(b, p), good);
         },
-        [&](int k, int p) { return law_.template energy<double>(elements_.gradient(k, p, s.u), axes().of(k)); });
+        [&](int k, int p) { return law_.template energy<double>(elements_.gradient(k, p, s.u), axes().of(k, p)); });
   }
 
   double dissipation(const NodalState& s) const override {
     if (!damped()) return 0;
     return integrate(
         [&](int b, int p, Batch::Mask& good) {
-          return law_.batch_dissipation(elements_.gradients(b, p, s.u), axes().batch(b), elements_.gradients(b, p, s.v),
-                                        region_.beta, good);
+          return law_.batch_dissipation(elements_.gradients(b, p, s.u), axes().batch(b, p),
+                                        elements_.gradients(b, p, s.v), region_.beta, good);
         },
         [&](int k, int p) {
-          return law_.dissipation(elements_.gradient(k, p, s.u), axes().of(k), elements_.gradient(k, p, s.v),
+          return law_.dissipation(elements_.gradient(k, p, s.u), axes().of(k, p), elements_.gradient(k, p, s.v),
                                   region_.beta);
         });
   }
@@ -105,19 +106,19 @@ class ElasticTermOf final : public ElasticTerm {
   int cell(int k) const override { return region_.cells[static_cast<std::size_t>(k)]; }
 
   Mat3 small_strain(int k, const NodalVector& u) const override {
-    return orthodyn::small_strain<double>(mean_gradient(k, u), axes().of(k));
+    return orthodyn::small_strain<double>(mean_gradient(k, u), axes().mean(k));
   }
 
   double det_F(int k, const NodalState& s) const override {
-    const Mat3 Q = axes().of(k);
     double smallest = std::numeric_limits<double>::infinity();
     for (int p = 0; p < E::kPoints; ++p)
-      smallest = std::min(smallest, deformation_gradient<double>(elements_.gradient(k, p, s.u), Q).determinant());
+      smallest = std::min(smallest,
+                          deformation_gradient<double>(elements_.gradient(k, p, s.u), axes().of(k, p)).determinant());
     return smallest;
   }
 
   PointObservation observe(int k, const NodalState& s) const override {
-    return law_.observe(mean_gradient(k, s.u), axes().of(k));
+    return law_.observe(mean_gradient(k, s.u), axes().mean(k));
   }
 
   double max_frequency_squared(double density) const override {
@@ -165,16 +166,16 @@ class ElasticTermOf final : public ElasticTerm {
     return sum;
   }
 
-  // The volume's mean of H Q.
+  // The volume's mean of H, times the mean axes.
   Mat3 mean_gradient(int k, const NodalVector& u) const {
     if constexpr (E::kPoints == 1) return elements_.gradient(k, 0, u);
     Mat3 sum = Mat3::Zero();
     double volume = 0;
     for (int p = 0; p < E::kPoints; ++p) {
-      sum += elements_.volume(k, p) * elements_.gradient(k, p, u);
+      sum += elements_.volume(k, p) * elements_.gradient(k, p, u) * axes().of(k, p).transpose();
       volume += elements_.volume(k, p);
     }
-    return sum / volume;
+    return sum / volume * axes().mean(k);
   }
 
   // Sets the blocks at the first point and adds to them at the others.
@@ -198,7 +199,7 @@ class ElasticTermOf final : public ElasticTerm {
       Mat3 rate;
       if (damped()) rate = elements_.gradient(k, p, s.v);
       elements_.add_force(k, p,
-                          law_.template stress<double>(elements_.gradient(k, p, s.u), axes().of(k),
+                          law_.template stress<double>(elements_.gradient(k, p, s.u), axes().of(k, p),
                                                        damped() ? &rate : nullptr, region_.beta),
                           f);
     });

@@ -1,4 +1,5 @@
-// Uniform gravity: f_i = m_i g, energy - sum m_i g . u_i.
+// Uniform gravity: f_i = m_i g with the row sums m_i of the mass matrix, so that free fall is uniform; energy
+// - sum m_i g . u_i.
 #pragma once
 
 #include "lib/config/values.h"

@@ -93,12 +93,9 @@ class GroundChoice : public TermChoice {
 
   std::unique_ptr<Term> make(const Discretization& body) const override {
     const auto triangles = surface_or_all(body.mesh, surface_, origin);
-    std::vector<std::pair<int, double>> areas;
-    for (const auto& [node, share] : surface_forces(body.mesh, triangles, Vec3::UnitX()))
-      areas.emplace_back(node, share[0]);
     const double onset = onset_.value_or(kUsualOnset * bounding_box(body.mesh).diagonal());
-    return std::make_unique<Ground>(GroundPlane{point_, normal_.normalized(), stiffness_, onset}, std::move(areas),
-                                    body.pattern);
+    return std::make_unique<Ground>(GroundPlane{point_, normal_.normalized(), stiffness_, onset},
+                                    node_areas(body.mesh, triangles), body.pattern);
   }
 
   void declare(Traits& traits) const override { traits.linear = traits.smooth = false; }

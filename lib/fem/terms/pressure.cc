@@ -1,72 +1,106 @@
 #include "lib/fem/terms/pressure.h"
 
+#include <algorithm>
+
 #include "lib/element/axial.h"
+#include "lib/element/tri3.h"
+#include "lib/element/tri6.h"
 
 namespace orthodyn {
 
 namespace {
 
-Vec3 area_vector(const NodalVector& x, const Triangle& t) {
-  const Vec3 base = x.col(t[0]);
-  return 0.5 * (x.col(t[1]) - base).cross(x.col(t[2]) - base);
-}
+// Where the tangents are taken: anywhere if they are the same everywhere.
+const Vec3& tangent_point(int k) { return triangle_points_of_degree_5()[static_cast<std::size_t>(k)].L; }
 
-// [opposite side of node b]: 2 da/dx_b.
-Mat3 area_gradient(const NodalVector& x, const Triangle& t, std::size_t b) {
-  return cross_matrix<double>(x.col(t[(b + 2) % 3]) - x.col(t[(b + 1) % 3]));
+template <Face F>
+FaceNodes<F> positions_of(const std::array<int, F::kNodes>& nodes, const NodalVector& x) {
+  FaceNodes<F> out;
+  for (std::size_t a = 0; a < nodes.size(); ++a) out.col(static_cast<Eigen::Index>(a)) = x.col(nodes[a]);
+  return out;
 }
 
 }  // namespace
 
-Vec3 PressedTriangle::force(const NodalVector& x, std::size_t i) const {
-  return -pressures[static_cast<Eigen::Index>(i)] * area_vector(x, nodes);
-}
-
-Pressure::Pressure(std::string surface, std::vector<PressedTriangle> triangles,
-                   std::shared_ptr<const TimeFunction> factor, const BlockPattern& pattern)
-    : surface_(std::move(surface)), triangles_(std::move(triangles)), factor_(std::move(factor)), pattern_(pattern) {}
-
-void Pressure::add_force_of(double factor, const NodalVector& x, NodalVector& f) const {
-  for (const PressedTriangle& t : triangles_) {
-    const Vec3 push = -factor * area_vector(x, t.nodes);
-    for (std::size_t i = 0; i < 3; ++i) f.col(t.nodes[i]) += t.pressures[static_cast<Eigen::Index>(i)] * push;
+template <Face F>
+PressedFace<F>::PressedFace(std::span<const int> its_nodes, const FaceNodes<F>& X, const PointQuantity& p) {
+  std::copy(its_nodes.begin(), its_nodes.end(), nodes.begin());
+  weights.setZero();
+  int k = 0;
+  for (const auto& [L, weight] : triangle_points_of_degree_5()) {
+    weights.col(std::min(k, F::kTangentPoints - 1)) += 0.5 * weight * p.at(Vec3(X * F::shape(L))) * F::shape(L);
+    ++k;
   }
 }
 
-void Pressure::add_force(const NodalState& s, NodalVector& f) const { add_force_of(factor_->value(s.t), s.x, f); }
+template <Face F>
+FaceNodes<F> PressedFace<F>::forces(const NodalVector& x) const {
+  const FaceNodes<F> corners = positions_of<F>(nodes, x);
+  FaceNodes<F> out = FaceNodes<F>::Zero();
+  for (int k = 0; k < F::kTangentPoints; ++k)
+    out -= normal_at<F>(corners, tangent_point(k)) * weights.col(k).transpose();
+  return out;
+}
 
-void Pressure::add_peak_force(const NodalState& s, double end, NodalVector& f) const {
+template <Face F>
+void Pressure<F>::add_force_of(double factor, const NodalVector& x, NodalVector& f) const {
+  for (const PressedFace<F>& face : faces_) {
+    const FaceNodes<F> forces = factor * face.forces(x);
+    for (std::size_t a = 0; a < F::kNodes; ++a) f.col(face.nodes[a]) += forces.col(static_cast<Eigen::Index>(a));
+  }
+}
+
+template <Face F>
+void Pressure<F>::add_force(const NodalState& s, NodalVector& f) const {
+  add_force_of(factor_->value(s.t), s.x, f);
+}
+
+template <Face F>
+void Pressure<F>::add_peak_force(const NodalState& s, double end, NodalVector& f) const {
   add_force_of(factor_->peak(s.t, end), s.x, f);
 }
 
-void Pressure::add_tangent(const NodalState& s, TangentKind kind, double* stiffness, double*) const {
+// -df_a/dx_b = sum_k W_ak A_b(k), skew A_b = d(x_,1 x x_,2)/dx_b = N_b,2 [x_,1] - N_b,1 [x_,2].
+template <Face F>
+void Pressure<F>::add_tangent(const NodalState& s, TangentKind kind, double* stiffness, double*) const {
   if (kind == TangentKind::gauss_newton) return;  // indefinite
   const double factor = factor_->value(s.t);
-  for (const auto& [t, pressures] : triangles_) {
-    const Vec3 half = factor / 2 * pressures;
-    for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t b = 0; b < 3; ++b) {
-        if (pattern_.symmetric() && t[a] <= t[b]) continue;  // the diagonal's symmetric part is zero
-        Mat3 block = half[static_cast<Eigen::Index>(a)] * area_gradient(s.x, t, b);
-        if (pattern_.symmetric())
-          block = 0.5 * (block - half[static_cast<Eigen::Index>(b)] * area_gradient(s.x, t, a));
-        pattern_.add(t[a], t[b], pattern_.offset(t[a], t[b]), block, stiffness);
-      }
+  for (const auto& [nodes, weights] : faces_) {
+    const FaceNodes<F> x = positions_of<F>(nodes, s.x);
+    for (int k = 0; k < F::kTangentPoints; ++k) {
+      const auto slopes = F::slopes(tangent_point(k));
+      const Eigen::Matrix<double, 3, 2> tangents = x * slopes;
+      const Mat3 first = factor * cross_matrix<double>(tangents.col(0));
+      const Mat3 second = factor * cross_matrix<double>(tangents.col(1));
+      const auto area_gradient = [&](Eigen::Index b) { return slopes(b, 1) * first - slopes(b, 0) * second; };
+      for (std::size_t i = 0; i < F::kNodes; ++i)
+        for (std::size_t j = 0; j < F::kNodes; ++j) {
+          if (pattern_.symmetric() && nodes[i] <= nodes[j]) continue;  // the diagonal's symmetric part is zero
+          const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
+          Mat3 block = weights(a, k) * area_gradient(b);
+          if (pattern_.symmetric()) block = 0.5 * (block - weights(b, k) * area_gradient(a));
+          pattern_.add(nodes[i], nodes[j], pattern_.offset(nodes[i], nodes[j]), block, stiffness);
+        }
+    }
   }
 }
 
-double Pressure::load_power(const NodalState& s) const {
+template <Face F>
+double Pressure<F>::load_power(const NodalState& s) const {
   double power = 0;  // at factor 1
-  for (const PressedTriangle& t : triangles_) {
-    Mat3 v;
-    for (std::size_t i = 0; i < 3; ++i) v.col(static_cast<Eigen::Index>(i)) = s.v.col(t.nodes[i]);
-    power -= area_vector(s.x, t.nodes).dot(v * t.pressures);
-  }
+  for (const PressedFace<F>& face : faces_)
+    power += face.forces(s.x).cwiseProduct(positions_of<F>(face.nodes, s.v)).sum();
   return factor_->value(s.t) * power;
 }
 
-std::vector<double> Pressure::breakpoints(double start, double end) const {
+template <Face F>
+std::vector<double> Pressure<F>::breakpoints(double start, double end) const {
   return times_between(factor_->kinks(), start, end);
 }
+
+template struct PressedFace<Tri3>;
+template struct PressedFace<Tri6>;
+template class Pressure<Tri3>;
+template class Pressure<Tri6>;
 
 }  // namespace orthodyn

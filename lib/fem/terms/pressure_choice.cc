@@ -2,6 +2,7 @@
 #include <map>
 
 #include "lib/config/point_quantity.h"
+#include "lib/fem/face_nodes.h"
 #include "lib/fem/surface.h"
 #include "lib/fem/term_choice.h"
 #include "lib/fem/terms/dead_load.h"
@@ -11,18 +12,14 @@
 namespace orthodyn {
 namespace {
 
-std::vector<PressedTriangle> pressed(const TetMesh& mesh, const std::vector<Triangle>& triangles,
-                                     const PointQuantity& pressure) {
-  std::vector<PressedTriangle> all;
-  for (const Triangle& t : triangles) all.push_back({t, node_means(mesh, t, pressure)});
-  return all;
-}
-
-NodalForces forces_at_rest(const NodalVector& rest, const std::vector<PressedTriangle>& triangles) {
+template <Face F>
+NodalForces forces_at_rest(const NodalVector& rest, const std::vector<PressedFace<F>>& faces) {
   std::map<int, Vec3> sums;
-  for (const PressedTriangle& t : triangles)
-    for (std::size_t i = 0; i < 3; ++i)
-      sums.try_emplace(t.nodes[i], Vec3::Zero()).first->second += t.force(rest, i);
+  for (const PressedFace<F>& face : faces) {
+    const FaceNodes<F> forces = face.forces(rest);
+    for (std::size_t a = 0; a < face.nodes.size(); ++a)
+      sums.try_emplace(face.nodes[a], Vec3::Zero()).first->second += forces.col(static_cast<Eigen::Index>(a));
+  }
   return {sums.begin(), sums.end()};
 }
 
@@ -49,10 +46,7 @@ class PressureChoice : public TermChoice {
   }
 
   std::unique_ptr<Term> make(const Discretization& body) const override {
-    const std::string where = surface_.value_or("the whole outer surface");
-    auto triangles = pressed(body.mesh, surface_or_all(body.mesh, surface_, origin), pressure_);
-    if (follows()) return std::make_unique<Pressure>(where, std::move(triangles), factor_, body.pattern);
-    return std::make_unique<DeadLoad>("pressure on " + where, forces_at_rest(body.rest, triangles), factor_, "dead");
+    return body.mesh.order() == 1 ? make_of<Tri3>(body) : make_of<Tri6>(body);
   }
 
   // One that follows: its stiffness changes with the shape; an open surface's work depends on the path.
@@ -65,6 +59,17 @@ class PressureChoice : public TermChoice {
 
  private:
   bool follows() const { return follows_.value_or(true); }
+
+  template <Face F>
+  std::unique_ptr<Term> make_of(const Discretization& body) const {
+    const std::string where = surface_.value_or("the whole outer surface");
+    std::vector<PressedFace<F>> faces;
+    for_each_face_of<F>(
+        body.mesh, surface_or_all(body.mesh, surface_, origin),
+        [&](std::span<const int> nodes, const FaceNodes<F>& X) { faces.emplace_back(nodes, X, pressure_); });
+    if (follows()) return std::make_unique<Pressure<F>>(where, std::move(faces), factor_, body.pattern);
+    return std::make_unique<DeadLoad>("pressure on " + where, forces_at_rest<F>(body.rest, faces), factor_, "dead");
+  }
 
   std::optional<std::string> surface_;
   PointQuantity pressure_;

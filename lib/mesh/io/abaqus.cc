@@ -31,7 +31,7 @@ class AbaqusMesh {
   }
 
   MeshDraft build() {
-    if (draft_.tets.empty()) draft_.fail({}, "no elements of type C3D4");
+    if (draft_.tets.empty()) draft_.fail({}, "no elements of type C3D4 or C3D10");
     check_elements_differ();
     add_regions();
     add_surfaces();
@@ -158,8 +158,8 @@ class AbaqusMesh {
           triangles.push_back({tet.tag, {tet.nodes[a], tet.nodes[b], tet.nodes[c]}, face.elements.place});
         });
         if (found == 0)
-          draft_.fail(face.elements.place,
-                      fmt::format("surface {}: no such element of type C3D4", TextTokens::quoted(surface.name)));
+          draft_.fail(face.elements.place, fmt::format("surface {}: no such element of type C3D4 or C3D10",
+                                                       TextTokens::quoted(surface.name)));
       }
     }
     if (file_.triangles.empty()) return;

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "lib/mesh/io/text_tokens.h"
 
@@ -53,12 +55,23 @@ struct Keyword {
   }
 };
 
-// Three-node elements of planes, shells, membranes and rigid bodies.
-bool is_triangle(const std::string& type) {
-  for (const char* start : {"CPS3", "CPE3", "CPEG3", "CAX3", "S3", "STRI3", "M3D3", "R3D3", "DS3", "SFM3D3", "DC2D3"}) {
+// Elements of planes, shells, membranes and rigid bodies, of three nodes or of six.
+bool is_triangle(const std::string& type, bool quadratic) {
+  static const std::vector<const char*> linear{"CPS3",  "CPE3", "CPEG3", "CAX3",   "S3",    "STRI3",
+                                               "M3D3", "R3D3", "DS3",   "SFM3D3", "DC2D3"};
+  static const std::vector<const char*> of_six{"CPS6", "CPE6", "CPEG6",  "CAX6", "STRI65",
+                                               "M3D6", "DS6",  "SFM3D6", "DC2D6"};
+  for (const char* start : quadratic ? of_six : linear) {
     if (type.starts_with(start) && type.find_first_of("0123456789", std::string(start).size()) == std::string::npos)
       return true;
   }
+  return false;
+}
+
+// C3D10 and its variants for hybrid, modified and improved stress: the same nodes.
+bool is_quadratic_tet(const std::string& type) {
+  for (const char* known : {"C3D10", "C3D10H", "C3D10M", "C3D10MH", "C3D10HS", "C3D10I", "C3D10T"})
+    if (type == known) return true;
   return false;
 }
 
@@ -172,13 +185,17 @@ class AbaqusReader {
     const std::string set = keyword.parameter("ELSET");
     if (type == "C3D4" || type == "C3D4H") {
       while (!at_keyword()) read_element(file_.draft.tets, set);
-    } else if (is_triangle(type)) {
+    } else if (is_quadratic_tet(type)) {
+      while (!at_keyword()) read_element(file_.draft.tets, set, true);
+    } else if (is_triangle(type, false)) {
       while (!at_keyword()) read_element(file_.triangles, set);
+    } else if (is_triangle(type, true)) {
+      while (!at_keyword()) read_element(file_.triangles, set, true);
     } else if (type.empty() || type.find("3D") != std::string::npos) {
       // Trusses and beams in space have 3D in their names, too.
       if (type.starts_with("T3D") || type.starts_with("R3D") || type.starts_with("M3D")) return ignore(type);
       file_.draft.fail(keyword.place,
-                       fmt::format("elements of type {}; only linear tetrahedra (C3D4) are read: mesh again with these",
+                       fmt::format("elements of type {}; only tetrahedra (C3D4, C3D10) are read: mesh again with these",
                                    type.empty() ? "(none given)" : type));
     } else {
       ignore(type);
@@ -191,15 +208,27 @@ class AbaqusReader {
   }
 
   // The nodes may go on in the next line.
+  void read_nodes_of(std::int64_t element, auto& nodes) {
+    for (std::int64_t& node : nodes) {
+      if (tokens_.peek() == '\0') tokens_.skip_line();
+      if (at_keyword()) tokens_.fail(fmt::format("element {} ends early; is the file truncated?", element));
+      node = tokens_.integer("a node");
+    }
+  }
+
   template <class Element>
-  void read_element(std::vector<Element>& elements, const std::string& set) {
+  void read_element(std::vector<Element>& elements, const std::string& set, bool quadratic = false) {
     Element element;
     element.place.line = tokens_.line();
     element.tag = tokens_.integer("the number of an element");
-    for (std::int64_t& node : element.nodes) {
-      if (tokens_.peek() == '\0') tokens_.skip_line();
-      if (at_keyword()) tokens_.fail(fmt::format("element {} ends early; is the file truncated?", element.tag));
-      node = tokens_.integer("a node");
+    read_nodes_of(element.tag, element.nodes);
+    if (quadratic) {
+      if constexpr (requires { element.midsides; }) {
+        read_nodes_of(element.tag, element.midsides.emplace());
+      } else {
+        std::array<std::int64_t, 3> on_edges;  // those of the tet behind
+        read_nodes_of(element.tag, on_edges);
+      }
     }
     tokens_.finish_line();
     elements.push_back(element);

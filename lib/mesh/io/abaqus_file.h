@@ -25,7 +25,7 @@ struct AbaqusSet {
   int order = 0;  // of the last line that added to it
 };
 
-// Nodes of the faces S1 to S4 of C3D4, by their places in the element.
+// Nodes of the faces S1 to S4 of C3D4 and C3D10, by their places in the element.
 constexpr std::array<std::array<std::size_t, 3>, 4> kAbaqusFaces{{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
 
 struct AbaqusFace {
@@ -42,7 +42,7 @@ using AbaqusSets = std::map<std::string, AbaqusSet>;
 
 struct AbaqusFile {
   MeshDraft draft;                      // nodes and tets
-  std::vector<FileTriangle> triangles;  // elements of three nodes
+  std::vector<FileTriangle> triangles;  // elements of three corners
   AbaqusSets node_sets, element_sets;
   std::map<std::string, AbaqusSurface> surfaces;
   std::vector<AbaqusMembers> sections;  // the element set of each *SOLID SECTION

@@ -7,6 +7,7 @@
 #include "lib/mesh/io/abaqus.h"
 #include "lib/mesh/io/abaqus_file.h"
 #include "lib/mesh/io/text_lines.h"
+#include "lib/mesh/quadratic.h"
 #include "lib/mesh/tet_faces.h"
 
 namespace orthodyn {
@@ -72,8 +73,9 @@ std::pair<int, int> element_and_side(const TetMesh& mesh, const std::vector<TetF
 void add_abaqus_mesh(TextLines& lines, const TetMesh& mesh) {
   lines.text("*HEADING\nwritten by orthodyn\n*NODE\n");
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) lines.line(n + 1, mesh.nodes[n]);
-  lines.text("*ELEMENT, TYPE=C3D4\n");
-  for (std::size_t e = 0; e < mesh.tets.size(); ++e) lines.line(e + 1, FromOne{mesh.tets[e]});
+  lines.text(mesh.order() == 1 ? "*ELEMENT, TYPE=C3D4\n" : "*ELEMENT, TYPE=C3D10\n");
+  const Cells cells = tet_cells(mesh);
+  for (std::size_t e = 0; e < cells.size(); ++e) lines.line(e + 1, FromOne{cells[e]});
 }
 
 // Gives sets their names in the file.

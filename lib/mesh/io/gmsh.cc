@@ -59,7 +59,7 @@ class MeshBuilder {
   }
 
   // The physical tag of a tet, 0 if it has none.
-  int region_tag(const GmshElement<4>& tet) const {
+  int region_tag(const GmshTet& tet) const {
     const std::vector<int>& groups = groups_of(tet);
     if (groups.empty()) return 0;
     for (int group : groups) {
@@ -75,7 +75,7 @@ class MeshBuilder {
   // Groups of the same name are one region.
   void add_regions() {
     std::map<int, int> tets_with;
-    for (const GmshElement<4>& tet : file_.tets) ++tets_with[region_tag(tet)];
+    for (const GmshTet& tet : file_.tets) ++tets_with[region_tag(tet)];
     for (const auto& [tag, tets] : tets_with) {
       region_index_[tag] = draft_.region_index(tag == 0 ? "body" : group_name(3, tag));
     }
@@ -88,8 +88,8 @@ class MeshBuilder {
 
   void add_tets() {
     draft_.tets.reserve(file_.tets.size());
-    for (const GmshElement<4>& tet : file_.tets) {
-      draft_.tets.push_back({tet.tag, tet.nodes, {tet.line}, region_index_.at(region_tag(tet))});
+    for (const GmshTet& tet : file_.tets) {
+      draft_.tets.push_back({tet.tag, tet.nodes, tet.midsides, {tet.line}, region_index_.at(region_tag(tet))});
     }
   }
 

@@ -180,34 +180,44 @@ GmshKind check_element_type(const TextTokens& tokens, std::int64_t type) {
                       name, type));
     }
     case 9:
+      return GmshKind::quadratic_triangle;
     case 11:
-      tokens.fail(
-          fmt::format("a second-order {} (element type {}); only linear tetrahedra are read: "
-                      "set Mesh.ElementOrder = 1 (gmsh -order 1) and mesh again",
-                      type == 9 ? "triangle" : "tetrahedron", type));
+      return GmshKind::quadratic_tet;
     default:
       tokens.fail(
-          fmt::format("element type {}; only linear tetrahedra (4) with triangles (2), lines "
-                      "and points are read: set Mesh.ElementOrder = 1 and mesh again without "
-                      "\"Recombine\"",
+          fmt::format("element type {}; only linear and quadratic tetrahedra (4, 11) with triangles (2, 9), lines and "
+                      "points are read: set Mesh.ElementOrder = 1 or 2 and mesh again without \"Recombine\"",
                       type));
   }
 }
 
 void read_element_nodes(TextTokens& tokens, GmshKind kind, std::int64_t tag, int groups, GmshFile& file) {
   const int line = tokens.line();
-  const auto read = [&]<std::size_t N>(std::vector<GmshElement<N>>& elements) {
-    GmshElement<N> element{tag, {}, line, groups};
-    for (std::int64_t& node : element.nodes) node = tokens.integer("a node tag");
-    tokens.finish_line();
-    elements.push_back(element);
+  const auto read = [&](auto& nodes) {
+    for (std::int64_t& node : nodes) node = tokens.integer("a node tag");
   };
-  if (kind == GmshKind::tet) return read(file.tets);
+  const auto read_element = [&]<std::size_t N>(std::vector<GmshElement<N>>& elements) {
+    read(elements.emplace_back(GmshElement<N>{tag, {}, line, groups}).nodes);
+  };
   // A triangle of no surface, or a point of no set, is of no use.
   const bool grouped = !file.group_sets[static_cast<std::size_t>(groups)].empty();
-  if (kind == GmshKind::triangle && grouped) return read(file.triangles);
-  if (kind == GmshKind::point && grouped) return read(file.points);
-  tokens.skip_line();
+  const bool triangle = kind == GmshKind::triangle || kind == GmshKind::quadratic_triangle;
+  if (kind == GmshKind::tet || kind == GmshKind::quadratic_tet) {
+    GmshTet& tet = file.tets.emplace_back(GmshTet{{tag, {}, line, groups}});
+    read(tet.nodes);
+    if (kind == GmshKind::quadratic_tet) {
+      read(tet.midsides.emplace());
+      std::swap((*tet.midsides)[4], (*tet.midsides)[5]);  // Gmsh has edge 23 before 13
+    }
+  } else if (triangle && grouped) {
+    read_element(file.triangles);
+    if (kind == GmshKind::quadratic_triangle) return tokens.skip_line();  // its middle nodes are those of the tet
+  } else if (kind == GmshKind::point && grouped) {
+    read_element(file.points);
+  } else {
+    return tokens.skip_line();
+  }
+  tokens.finish_line();
 }
 
 }  // namespace orthodyn

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,10 @@ struct GmshElement {
   int groups;  // index into GmshFile::group_sets
 };
 
+struct GmshTet : GmshElement<4> {
+  std::optional<std::array<std::int64_t, 6>> midsides = {};  // of a quadratic one, in the order of kTetEdges
+};
+
 struct GmshFile {
   using DimTag = std::pair<int, int>;
 
@@ -31,7 +36,7 @@ struct GmshFile {
   std::vector<FileNode> nodes;
   std::vector<GmshElement<1>> points;     // only those in a physical point
   std::vector<GmshElement<3>> triangles;  // only those in a physical surface
-  std::vector<GmshElement<4>> tets;
+  std::vector<GmshTet> tets;
   // Sets of physical tags that elements refer to; ascending, no duplicates. The first is empty.
   // Negative where the group is oriented against the element.
   std::vector<std::vector<int>> group_sets = {{}};
@@ -73,9 +78,9 @@ void end_section(TextTokens& tokens, const GmshSection& section);
 // The index of this set of physical tags in group_sets.
 int intern_groups(GmshFile& file, std::vector<int> groups);
 
-enum class GmshKind { ignored, point, triangle, tet };
+enum class GmshKind { ignored, point, triangle, quadratic_triangle, tet, quadratic_tet };
 
-// Refuses everything but points, lines, triangles and linear tets.
+// Refuses everything but points, lines, and linear or quadratic triangles and tets.
 GmshKind check_element_type(const TextTokens& tokens, std::int64_t type);
 
 // Reads the nodes of an element up to the end of the line.

@@ -1,6 +1,9 @@
 // Gmsh formats 2.2 and 4.1: regions, surfaces and node sets as physical volumes, surfaces and points.
+#include <utility>
+
 #include "lib/mesh/io/gmsh.h"
 #include "lib/mesh/io/text_lines.h"
+#include "lib/mesh/quadratic.h"
 
 namespace orthodyn {
 namespace {
@@ -22,7 +25,9 @@ std::vector<Group> groups_of(const TetMesh& mesh) {
   tag = 0;
   for (const auto& [name, triangles] : mesh.surfaces) {
     groups.push_back({2, ++tag, name});
-    for (const Triangle& t : triangles) groups.back().elements.emplace_back(t.begin(), t.end());
+    const Cells faces = face_cells(mesh, triangles);
+    for (std::size_t k = 0; k < faces.size(); ++k)
+      groups.back().elements.emplace_back(faces[k].begin(), faces[k].end());
   }
   tag = 0;
   for (const std::string& name : mesh.region_names) groups.push_back({3, ++tag, name});
@@ -35,7 +40,22 @@ std::size_t elements_of(const TetMesh& mesh, const std::vector<Group>& groups) {
   return count;
 }
 
-constexpr int type_of(int dim) { return dim == 0 ? 15 : dim == 2 ? 2 : 4; }
+int type_of(const TetMesh& mesh, int dim) {
+  const bool quadratic = mesh.order() == 2;
+  return dim == 0 ? 15 : dim == 2 ? (quadratic ? 9 : 2) : quadratic ? 11 : 4;
+}
+
+// The tets in Gmsh's order, which has edge 23 before 13.
+std::vector<std::vector<int>> gmsh_tets(const TetMesh& mesh) {
+  const Cells cells = tet_cells(mesh);
+  std::vector<std::vector<int>> tets;
+  tets.reserve(cells.size());
+  for (std::size_t e = 0; e < cells.size(); ++e) {
+    auto& nodes = tets.emplace_back(cells[e].begin(), cells[e].end());
+    if (nodes.size() == 10) std::swap(nodes[8], nodes[9]);
+  }
+  return tets;
+}
 
 void add_head(TextLines& lines, const char* version, const std::vector<Group>& groups) {
   lines.line("$MeshFormat");
@@ -78,18 +98,19 @@ void add_nodes(TextLines& lines, const TetMesh& mesh) {
 
 // Consecutive tets of a region form one block, so that their order stays. Returns the number of blocks.
 std::size_t add_blocks(TextLines& lines, const TetMesh& mesh, const std::vector<Group>& groups) {
+  const auto tets = gmsh_tets(mesh);
   std::size_t blocks = 0, number = 0;
   for (const Group& group : groups) {
     if (group.elements.empty()) continue;
     ++blocks;
-    lines.line(group.dim, group.tag, type_of(group.dim), group.elements.size());
+    lines.line(group.dim, group.tag, type_of(mesh, group.dim), group.elements.size());
     for (const auto& nodes : group.elements) lines.line(++number, FromOne{nodes});
   }
   for (std::size_t e = 0; e < mesh.tets.size(); ++blocks) {
     std::size_t end = e;
     while (end < mesh.tets.size() && mesh.region_of[end] == mesh.region_of[e]) ++end;
-    lines.line(3, mesh.region_of[e] + 1, type_of(3), end - e);
-    for (; e < end; ++e) lines.line(++number, FromOne{mesh.tets[e]});
+    lines.line(3, mesh.region_of[e] + 1, type_of(mesh, 3), end - e);
+    for (; e < end; ++e) lines.line(++number, FromOne{tets[e]});
   }
   return blocks;
 }
@@ -106,15 +127,16 @@ WrittenMesh write_gmsh22(const LoadedMesh& loaded) {
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) lines.line(n + 1, mesh.nodes[n]);
   lines.text("$EndNodes\n$Elements\n");
   lines.line(elements_of(mesh, groups));
+  const auto tets = gmsh_tets(mesh);
   std::size_t number = 0;
   for (const Group& group : groups) {
     for (const auto& nodes : group.elements) {
-      lines.line(++number, type_of(group.dim), 2, group.tag, group.tag, FromOne{nodes});
+      lines.line(++number, type_of(mesh, group.dim), 2, group.tag, group.tag, FromOne{nodes});
     }
   }
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
     const int tag = mesh.region_of[e] + 1;
-    lines.line(++number, type_of(3), 2, tag, tag, FromOne{mesh.tets[e]});
+    lines.line(++number, type_of(mesh, 3), 2, tag, tag, FromOne{tets[e]});
   }
   lines.line("$EndElements");
   return msh_file(lines);

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -12,9 +14,44 @@
 #include "lib/mesh/io/text_lines.h"
 #include "lib/mesh/io/text_tokens.h"
 #include "lib/mesh/mesh_draft.h"
+#include "lib/mesh/node_numbers.h"
+#include "lib/mesh/quadratic.h"
 
 namespace orthodyn {
 namespace {
+
+// Puts the nodes on the edges of a quadratic tetrahedron into the order of kTetEdges by where they are: half way, as
+// TetGen makes them, whichever order its versions list them in.
+class MiddleSorter {
+ public:
+  explicit MiddleSorter(std::vector<FileNode> nodes) : nodes_(std::move(nodes)), number_(sorted(nodes_)) {}
+
+  // Leaves elements alone whose nodes are not all there: they are refused later.
+  void sort(const std::array<std::int64_t, 4>& corners, std::array<std::int64_t, 6>& midsides) const {
+    for (const std::int64_t tag : corners)
+      if (number_(tag) < 0) return;
+    for (const std::int64_t tag : midsides)
+      if (number_(tag) < 0) return;
+    for (std::size_t e = 0; e < kTetEdges.size(); ++e) {
+      const Vec3 half_way = 0.5 * (at(corners[kTetEdges[e][0]]) + at(corners[kTetEdges[e][1]]));
+      const auto nearer = [&](std::int64_t a, std::int64_t b) {
+        return (at(a) - half_way).squaredNorm() < (at(b) - half_way).squaredNorm();
+      };
+      std::iter_swap(midsides.begin() + static_cast<std::ptrdiff_t>(e),
+                     std::min_element(midsides.begin() + static_cast<std::ptrdiff_t>(e), midsides.end(), nearer));
+    }
+  }
+
+ private:
+  static const std::vector<FileNode>& sorted(std::vector<FileNode>& nodes) {
+    std::stable_sort(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) { return a.tag < b.tag; });
+    return nodes;
+  }
+  const Vec3& at(std::int64_t tag) const { return nodes_[static_cast<std::size_t>(number_(tag))].x; }
+
+  std::vector<FileNode> nodes_;
+  NodeNumbers number_;
+};
 
 class TetgenReader {
  public:
@@ -72,10 +109,9 @@ class TetgenReader {
     TextTokens tokens(draft_.files[1], text, {.comment = "#"});
     const std::int64_t count = tokens.count("the number of tetrahedra");
     const std::int64_t nodes = tokens.integer("the nodes per tetrahedron");
-    if (nodes != 4) {
-      tokens.fail(
-          fmt::format("{} nodes per tetrahedron; only linear ones (4) are read: run tetgen without -o2", nodes));
-    }
+    if (nodes != 4 && nodes != 10) tokens.fail(fmt::format("{} nodes per tetrahedron; expected 4, or 10 (-o2)", nodes));
+    std::optional<MiddleSorter> middles;
+    if (nodes == 10) middles.emplace(draft_.nodes);
     const std::int64_t attributes = tokens.peek() ? tokens.count("the number of attributes") : 0;
     tokens.finish_line();
     if (count == 0) tokens.fail("no tetrahedra");
@@ -83,6 +119,10 @@ class TetgenReader {
       FileTet tet{.tag = 0, .nodes = {}, .place = {tokens.line(), 1}};
       tet.tag = tokens.integer("the number of a tetrahedron");
       for (std::int64_t& node : tet.nodes) node = tokens.integer("a node");
+      if (middles) {
+        for (std::int64_t& node : tet.midsides.emplace()) node = tokens.integer("a node");
+        middles->sort(tet.nodes, *tet.midsides);
+      }
       const bool named = attributes > 0;
       tet.region =
           draft_.region_index(named ? fmt::format("region{}", tokens.real("the attribute of a region")) : "body");
@@ -94,12 +134,15 @@ class TetgenReader {
   void read_faces(std::string_view text) {
     TextTokens tokens(draft_.files[2], text, {.comment = "#"});
     const std::int64_t count = tokens.count("the number of faces");
+    const bool quadratic = !draft_.tets.empty() && draft_.tets.front().midsides.has_value();
     const bool markers = tokens.peek() && read_flag(tokens);
     tokens.finish_line();
     read_records(tokens, count, "faces", [&] {
       FileTriangle face{.tag = 0, .nodes = {}, .place = {tokens.line(), 2}};
       face.tag = tokens.integer("the number of a face");
       for (std::int64_t& node : face.nodes) node = tokens.integer("a node");
+      if (quadratic)
+        for (int k = 0; k < 3; ++k) tokens.integer("a node on an edge");
       const std::int64_t marker = markers ? tokens.integer("a marker") : 0;
       while (tokens.peek()) tokens.integer("a neighbour");  // with tetgen -nn
       if (marker != 0) draft_.surfaces[fmt::format("marker{}", marker)].push_back(face);
@@ -168,10 +211,11 @@ std::string ele_text(const TetMesh& mesh, Warnings& losses) {
   std::map<std::string, int> numbers;
   if (!plain) numbers = numbers_of("region", mesh.region_names, losses);
   TextLines lines;
-  lines.line(mesh.tets.size(), 4, plain ? 0 : 1);
+  const Cells cells = tet_cells(mesh);
+  lines.line(mesh.tets.size(), cells.nodes_per_cell(), plain ? 0 : 1);
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
     lines.add(e + 1);
-    lines.add(FromOne{mesh.tets[e]});
+    lines.add(FromOne{cells[e]});
     if (!plain) lines.add(numbers.at(mesh.region_names[static_cast<std::size_t>(mesh.region_of[e])]));
     lines.end_line();
   }
@@ -186,7 +230,8 @@ std::string face_text(const TetMesh& mesh, Warnings& losses) {
   lines.line(count, 1);
   std::size_t face = 0;
   for (const auto& [name, triangles] : mesh.surfaces) {
-    for (const Triangle& t : triangles) lines.line(++face, FromOne{t}, numbers.at(name));
+    const Cells faces = face_cells(mesh, triangles);
+    for (std::size_t k = 0; k < faces.size(); ++k) lines.line(++face, FromOne{faces[k]}, numbers.at(name));
   }
   return lines.take();
 }

@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "lib/core/errors.h"
 #include "lib/mesh/io/text_lines.h"
 #include "lib/mesh/io/vega.h"
 
@@ -84,6 +85,8 @@ void add_regions(TextLines& lines, const LoadedMesh& loaded, Warnings& losses) {
 }  // namespace
 
 WrittenMesh write_vega(const LoadedMesh& loaded) {
+  if (loaded.mesh.order() == 2)
+    throw ConfigError("Vega files hold linear tetrahedra only; write .vtu, .msh or .inp, or give the mesh `order: 1`");
   WrittenMesh written;
   TextLines lines;
   add_vega_mesh(lines, loaded.mesh);

@@ -26,7 +26,7 @@ std::string name_of_type(int type) {
   static const std::map<int, const char*> names{
       {6, "triangle strip"},       {7, "polygon"},           {8, "pixel"},         {9, "quadrangle"},
       {11, "voxel"},               {12, "hexahedron"},       {13, "wedge"},        {14, "pyramid"},
-      {22, "quadratic triangle"},  {23, "quadratic quad"},   {24, "quadratic tet"}, {25, "quadratic hexahedron"},
+      {23, "quadratic quad"}, {25, "quadratic hexahedron"},
       {42, "polyhedron"},          {71, "Lagrange tet"}};
   const auto found = names.find(type);
   return found == names.end() ? fmt::format("cell type {}", type) : fmt::format("{} (type {})", found->second, type);
@@ -55,6 +55,8 @@ void check_sizes(const VtkGrid& grid) {
   check(grid.point_data, grid.points.size() / 3, "points");
 }
 
+int points_of_tet(double type) { return type == kVtkTetra ? 4 : 10; }
+
 // The cells that are tets; the others are counted or refused.
 std::vector<std::size_t> select_tets(const VtkGrid& grid, MeshDraft& draft) {
   std::vector<std::size_t> tets;
@@ -64,12 +66,14 @@ std::vector<std::size_t> select_tets(const VtkGrid& grid, MeshDraft& draft) {
     const double end =
         static_cast<double>(whole(grid, grid.offsets[c], begin, size, fmt::format("the offset of cell {}", c)));
     const int type = static_cast<int>(whole(grid, grid.types[c], 0, 255, fmt::format("the type of cell {}", c)));
-    if (type == kVtkTetra) {
-      if (end - begin != 4) fail(grid, fmt::format("cell {}: a tetrahedron of {} points", c, end - begin));
+    if (type == kVtkTetra || type == kVtkQuadraticTetra) {
+      if (end - begin != points_of_tet(type))
+        fail(grid, fmt::format("cell {}: a tetrahedron (type {}) of {} points; expected {}", c, type, end - begin,
+                               points_of_tet(type)));
       tets.push_back(c);
-    } else if (type > 5) {
-      fail(grid, fmt::format("cell {}: a {}; only linear tetrahedra (10) are read, with vertices, lines and triangles "
-                             "beside them: mesh again, or cut the cells (ParaView: Tetrahedralize)",
+    } else if (type > 5 && type != 21 && type != 22) {
+      fail(grid, fmt::format("cell {}: a {}; only linear and quadratic tetrahedra (10, 24) are read, with vertices, "
+                             "lines and triangles beside them: mesh again, or cut the cells (ParaView: Tetrahedralize)",
                              c, name_of_type(type)));
     }
     begin = end;
@@ -77,7 +81,7 @@ std::vector<std::size_t> select_tets(const VtkGrid& grid, MeshDraft& draft) {
   if (begin != static_cast<double>(grid.connectivity.size())) {
     fail(grid, fmt::format("connectivity has {} entries, but the cells end at {}", grid.connectivity.size(), begin));
   }
-  if (tets.empty()) fail(grid, "no tetrahedra (cell type 10)");
+  if (tets.empty()) fail(grid, "no tetrahedra (cell type 10 or 24)");
   if (tets.size() < grid.types.size()) {
     draft.warnings.push_back(fmt::format("{}: {} vertices, lines and triangles are ignored", grid.path,
                                          grid.types.size() - tets.size()));
@@ -94,11 +98,14 @@ void add_nodes_and_tets(const VtkGrid& grid, const std::vector<std::size_t>& tet
   for (const std::size_t c : tets) {
     FileTet tet;
     tet.tag = static_cast<std::int64_t>(c);
-    const auto begin = static_cast<std::size_t>(grid.offsets[c]) - 4;
-    for (std::size_t i = 0; i < 4; ++i) {
-      tet.nodes[i] = whole(grid, grid.connectivity[begin + i], 0, static_cast<double>(points) - 1,
-                           fmt::format("element {}: a point", c));
-    }
+    auto next = static_cast<std::size_t>(grid.offsets[c]) - static_cast<std::size_t>(points_of_tet(grid.types[c]));
+    const auto read = [&](auto& nodes) {
+      for (std::int64_t& node : nodes)
+        node = whole(grid, grid.connectivity[next++], 0, static_cast<double>(points) - 1,
+                     fmt::format("element {}: a point", c));
+    };
+    read(tet.nodes);
+    if (grid.types[c] == kVtkQuadraticTetra) read(tet.midsides.emplace());
     draft.tets.push_back(tet);
   }
 }

@@ -12,7 +12,7 @@
 
 namespace orthodyn {
 
-inline constexpr int kVtkTetra = 10;  // the linear tetrahedron in vtkCellType.h
+inline constexpr int kVtkTetra = 10, kVtkQuadraticTetra = 24;  // in vtkCellType.h
 
 // Numbers as read; nothing is checked yet.
 struct VtkGrid {
@@ -25,7 +25,7 @@ struct VtkGrid {
   std::vector<std::string> region_names = {};  // by number, of field data "region_names"; may be empty
 };
 
-// Tets become the mesh; vertices, lines and triangles are ignored with a warning; other cells are
+// Linear or quadratic tets become the mesh; vertices, lines and triangles are ignored with a warning; other cells are
 // refused by name. The integer cell data "region" (or "gmsh:physical", as meshio names it) makes
 // regions "region<k>", in ascending order; point data "nodes:NAME" makes the node set NAME of the
 // points where it is not zero. All cell data are kept, for the tets. Throws ConfigError "file: found,

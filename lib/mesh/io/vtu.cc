@@ -14,6 +14,7 @@
 #include "lib/mesh/io/vtk_grid.h"
 #include "lib/mesh/io/vtu_bytes.h"
 #include "lib/mesh/io/vtu_text.h"
+#include "lib/mesh/quadratic.h"
 
 namespace orthodyn {
 namespace {
@@ -230,8 +231,11 @@ LoadedMesh read_vtu_text(const std::string& path, std::string_view text) {
 
 WrittenMesh write_vtu(const LoadedMesh& loaded) {
   const TetMesh& mesh = loaded.mesh;
-  VtuGrid grid{.points = mesh.nodes, .cell_type = kVtkTetra, .points_per_cell = 4, .connectivity = {}};
-  for (const Tet& tet : mesh.tets) grid.connectivity.insert(grid.connectivity.end(), tet.begin(), tet.end());
+  const Cells cells = tet_cells(mesh);
+  VtuGrid grid{.points = mesh.nodes,
+               .cell_type = mesh.order() == 1 ? kVtkTetra : kVtkQuadraticTetra,
+               .points_per_cell = static_cast<std::size_t>(cells.nodes_per_cell()),
+               .connectivity = cells.nodes()};
   for (const auto& [name, nodes] : mesh.node_sets) {
     grid.point_data.push_back(membership(name, nodes, mesh.nodes.size()));
   }

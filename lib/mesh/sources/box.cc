@@ -1,6 +1,7 @@
 // The mesh source `box`.
 #include "lib/mesh/box.h"
 #include "lib/mesh/mesh_source.h"
+#include "lib/mesh/sources/element_order.h"
 #include "lib/mesh/sources/number_of_elements.h"
 
 namespace orthodyn {
@@ -56,6 +57,7 @@ class BoxSource : public MeshSource, public BoxMesh {
             .key("origin", &BoxMesh::origin, "The corner with the lowest coordinates.", {.unit = "m"})
             .key("split", &BoxMesh::split,
                  "Tets per cell: five (mirror symmetric for even cells) or six (all cells alike).")
+            .key("order", &BoxSource::order, kOrderSentence, kOrderRule)
             .key("parts", &BoxSource::parts_,
                  "Further regions by name: the elements whose centroid lies between `min` and `max`.")
             .check([](const BoxSource& box, const Config& config) {
@@ -67,8 +69,11 @@ class BoxSource : public MeshSource, public BoxMesh {
   LoadedMesh load() const override {
     TetMesh mesh = make_box(*this);
     for (const auto& [name, part] : parts_) assign(mesh, name, part);
+    set_order(mesh, order);
     return {std::move(mesh), {}};
   }
+
+  int order = 1;
 
  private:
   Named<BoxRegion> parts_;

@@ -7,6 +7,7 @@
 #include "lib/mesh/io/mesh_format.h"
 #include "lib/mesh/io/vega.h"
 #include "lib/mesh/mesh_source.h"
+#include "lib/mesh/sources/element_order.h"
 
 namespace orthodyn {
 namespace {
@@ -23,13 +24,15 @@ class FileSource : public MeshSource {
     static const auto s =
         Spec<FileSource>()
             .key("file", &FileSource::file_, "A mesh file; relative to the scene.", {.required = true})
-            .key("scale", &FileSource::scale_, kScale, {.range = kPositive});
+            .key("scale", &FileSource::scale_, kScale, {.range = kPositive})
+            .key("order", &FileSource::order_, kFileOrderSentence, kOrderRule);
     return s;
   }
   LoadedMesh load() const override {
     require_file(file_);
     LoadedMesh loaded = read_mesh(file_.path);
     scale_mesh(loaded.mesh, scale_, file_.path);
+    set_order(loaded.mesh, order_);
     return loaded;
   }
   bool may_bring_materials() const override { return mesh_format_of(file_.path).holds_materials; }
@@ -37,6 +40,7 @@ class FileSource : public MeshSource {
  private:
   FilePath file_;
   double scale_ = 1;
+  std::optional<int> order_;
 };
 
 class GmshSource : public MeshSource {
@@ -46,7 +50,8 @@ class GmshSource : public MeshSource {
         Spec<GmshSource>()
             .key("file", &GmshSource::file_, "A .msh file, version 2.2 or 4.1; relative to the scene.",
                  {.required = true})
-            .key("scale", &GmshSource::scale_, kScale, {.range = kPositive});
+            .key("scale", &GmshSource::scale_, kScale, {.range = kPositive})
+            .key("order", &GmshSource::order_, kFileOrderSentence, kOrderRule);
     return s;
   }
   LoadedMesh load() const override {
@@ -54,12 +59,14 @@ class GmshSource : public MeshSource {
     LoadedMesh loaded = read_gmsh(file_.path);
     make_names_utf8(loaded, file_.path);
     scale_mesh(loaded.mesh, scale_, file_.path);
+    set_order(loaded.mesh, order_);
     return loaded;
   }
 
  private:
   FilePath file_;
   double scale_ = 1;
+  std::optional<int> order_;
 };
 
 class VegaSource : public MeshSource {
@@ -69,7 +76,8 @@ class VegaSource : public MeshSource {
         Spec<VegaSource>()
             .key("file", &VegaSource::file_, "A .veg file of tetrahedra; relative to the scene.", {.required = true})
             .key("fixed", &VegaSource::fixed_, "A .bou file: its vertices become the node set `fixed`.")
-            .key("scale", &VegaSource::scale_, kScale, {.range = kPositive});
+            .key("scale", &VegaSource::scale_, kScale, {.range = kPositive})
+            .key("order", &VegaSource::order_, kFileOrderSentence, kOrderRule);
     return s;
   }
   LoadedMesh load() const override {
@@ -78,6 +86,7 @@ class VegaSource : public MeshSource {
     LoadedMesh loaded = fixed_ ? read_vega(file_.path, {fixed_->path}) : read_vega(file_.path);
     make_names_utf8(loaded, file_.path);
     scale_mesh(loaded.mesh, scale_, file_.path);
+    set_order(loaded.mesh, order_);
     return loaded;
   }
   bool may_bring_materials() const override { return true; }
@@ -86,6 +95,7 @@ class VegaSource : public MeshSource {
   FilePath file_;
   std::optional<FilePath> fixed_;
   double scale_ = 1;
+  std::optional<int> order_;
 };
 
 const bool file_registered[] = {

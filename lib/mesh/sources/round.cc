@@ -1,6 +1,7 @@
 // The mesh sources `cylinder` and `tube`.
 #include "lib/mesh/cylinder.h"
 #include "lib/mesh/mesh_source.h"
+#include "lib/mesh/sources/element_order.h"
 #include "lib/mesh/sources/number_of_elements.h"
 
 namespace orthodyn {
@@ -16,6 +17,7 @@ Spec<S> round_spec() {
       .key("length", &Mesh::length, "Length along the axis.", {.required = true, .unit = "m", .range = kPositive})
       .key("cells", &S::counts, "Cells around, through (rings), along.", {.required = true, .range = {1, 1e6}})
       .key("grading", &S::grading, "Thickness of the outermost ring over that of the innermost.", {.range = kGrading})
+      .key("order", &Mesh::order, kOrderSentence, kOrderRule)
       .key("origin", &Mesh::origin, "Centre of end0.", {.unit = "m"})
       .key("axis", &Mesh::axis, "Direction from end0 to end1, of any length.")
       .check([](const S& source, const Config& config) {

@@ -1,0 +1,118 @@
+// The quadratic tetrahedron: corners 0 to 3 as those of the linear one, and a node on each edge, in the order of
+// kEdges. With L_0 to L_3 the barycentric coordinates (Zienkiewicz & Taylor 2000, vol. 1, 8.8):
+//
+//   N_i = L_i (2 L_i - 1) at corners,  N_ij = 4 L_i L_j on edges.
+//
+// Stiffness: 4 points, degree 2 (Hammer & Stroud 1956): exact for a strain that is linear in an element with straight
+// edges, and of full rank, 4 x 6 = 30 - 6. Masses: Gauss points in collapsed coordinates, degree 7: exact for
+// N_a N_b det J, also where edges are curved. Lumped: the diagonal of the consistent mass scaled to the sum (Hinton,
+// Rock & Zienkiewicz 1976), for the corners' row sums are negative.
+#pragma once
+
+#include <Eigen/LU>
+
+#include "lib/element/element.h"
+#include "lib/element/quadrature.h"
+
+namespace orthodyn {
+
+struct Tet10 {
+  static constexpr const char* kName = "quadratic tetrahedron";
+  static constexpr int kNodes = 10, kPoints = 4;
+  static constexpr int kVtkCellType = 24;  // VTK_QUADRATIC_TETRA
+  static constexpr std::array<std::array<int, 2>, 6> kEdges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+  static constexpr double kCorner = 1.0 / 36, kMiddle = 4.0 / 27;
+  static constexpr std::array<double, kNodes> kLumpedShares{kCorner, kCorner, kCorner, kCorner, kMiddle,
+                                                            kMiddle, kMiddle, kMiddle, kMiddle, kMiddle};
+  static constexpr double kLumpedToConsistent = 70.0 / 9;  // with straight edges
+
+  using Barycentric = Eigen::Vector4d;
+  using Values = Eigen::Matrix<double, kNodes, 1>;
+  using Slopes = Eigen::Matrix<double, kNodes, 3>;  // by L_1, L_2, L_3
+
+  static Values shape(const Barycentric& L) {
+    Values N;
+    for (int i = 0; i < 4; ++i) N[i] = L[i] * (2 * L[i] - 1);
+    for (int e = 0; e < 6; ++e) N[4 + e] = 4 * L[edge(e)[0]] * L[edge(e)[1]];
+    return N;
+  }
+
+  static Slopes shape_slopes(const Barycentric& L) {
+    Eigen::Matrix<double, kNodes, 4> by_L = Eigen::Matrix<double, kNodes, 4>::Zero();
+    for (int i = 0; i < 4; ++i) by_L(i, i) = 4 * L[i] - 1;
+    for (int e = 0; e < 6; ++e) {
+      const auto [i, j] = edge(e);
+      by_L(4 + e, i) = 4 * L[j];
+      by_L(4 + e, j) = 4 * L[i];
+    }
+    return by_L.rightCols<3>().colwise() - by_L.col(0);
+  }
+
+  // dX/dL at a place, m: its determinant is six times the volume of an element with straight edges.
+  static Mat3 jacobian(const NodeDifferences<kNodes>& rest, const Barycentric& L) {
+    return rest * shape_slopes(L).bottomRows<kNodes - 1>();
+  }
+
+  static Barycentric place(int point) {
+    static constexpr double root = 2.23606797749979;  // of 5
+    Barycentric L = Barycentric::Constant((5 - root) / 20);
+    L[point] = (5 + 3 * root) / 20;
+    return L;
+  }
+
+  // The integration points and the nodes.
+  static std::array<Barycentric, 14> checked_places() {
+    std::array<Barycentric, 14> all;
+    std::size_t k = 0;
+    for (int p = 0; p < kPoints; ++p) all[k++] = place(p);
+    for (int i = 0; i < 4; ++i) all[k++] = Barycentric::Unit(i);
+    for (const auto& [i, j] : kEdges) all[k++] = (Barycentric::Unit(i) + Barycentric::Unit(j)) / 2;
+    return all;
+  }
+
+  static ElementPoint<kNodes> point(int p, const NodeDifferences<kNodes>& rest, const Mat3& Q) {
+    const auto slopes = shape_slopes(place(p)).bottomRows<kNodes - 1>().eval();
+    const Mat3 J = rest * slopes;
+    return {slopes * J.inverse() * Q, J.determinant() / 24};
+  }
+
+  static Vec3 place_of(int p, const ElementNodes<kNodes>& X) { return X * shape(place(p)); }
+
+  static double mass(const ElementNodes<kNodes>& X, double density) {
+    const NodeDifferences<kNodes> rest = differences<kNodes>(X);
+    double volume = 0;
+    for (const MassPoint& p : mass_points()) volume += p.weight * (rest * p.slopes).determinant();
+    return density * volume;
+  }
+
+  static Eigen::Matrix<double, kNodes, kNodes> consistent_mass(const ElementNodes<kNodes>& X, double density) {
+    const NodeDifferences<kNodes> rest = differences<kNodes>(X);
+    Eigen::Matrix<double, kNodes, kNodes> M = Eigen::Matrix<double, kNodes, kNodes>::Zero();
+    for (const MassPoint& p : mass_points())
+      M += density * p.weight * (rest * p.slopes).determinant() * p.N * p.N.transpose();
+    return M;
+  }
+
+ private:
+  struct MassPoint {
+    Values N;
+    Eigen::Matrix<double, kNodes - 1, 3> slopes;
+    double weight;  // sum 1/6
+  };
+
+  static const std::array<int, 2>& edge(int e) { return kEdges[static_cast<std::size_t>(e)]; }
+
+  static const std::vector<MassPoint>& mass_points() {
+    static const std::vector<MassPoint> all = [] {
+      std::vector<MassPoint> points;
+      for (const TetrahedronPoint& at : tetrahedron_points_of_degree_7())
+        points.push_back({shape(at.L), shape_slopes(at.L).bottomRows<kNodes - 1>(), at.weight});
+      return points;
+    }();
+    return all;
+  }
+};
+
+static_assert(Element<Tet10>);
+
+}  // namespace orthodyn

@@ -1,0 +1,89 @@
+#include "lib/mesh/quadratic.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace orthodyn {
+
+namespace {
+
+std::uint64_t edge_key(int a, int b) {
+  const auto [low, high] = std::minmax(a, b);
+  return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint64_t>(high);
+}
+
+// Those of the set's edges on the surface.
+void add_middles(const EdgeNodes& middles, const std::vector<Triangle>& surface, std::vector<int>& set) {
+  std::vector<int> more;
+  const auto has = [&](int node) { return std::binary_search(set.begin(), set.end(), node); };
+  for (const Triangle& t : surface)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (has(t[k]) && has(t[(k + 1) % 3])) more.push_back(middles.at(t[k], t[(k + 1) % 3]));
+  set.insert(set.end(), more.begin(), more.end());
+  std::sort(set.begin(), set.end());
+  set.erase(std::unique(set.begin(), set.end()), set.end());
+}
+
+}  // namespace
+
+EdgeNodes::EdgeNodes(const TetMesh& mesh) {
+  nodes_.reserve(mesh.tets.size() + mesh.tets.size() / 2);  // a large mesh has about 1.2 edges a tet
+  for (std::size_t t = 0; t < mesh.midsides.size(); ++t)
+    for (std::size_t e = 0; e < kTetEdges.size(); ++e)
+      nodes_.emplace(edge_key(mesh.tets[t][kTetEdges[e][0]], mesh.tets[t][kTetEdges[e][1]]), mesh.midsides[t][e]);
+}
+
+int EdgeNodes::at(int a, int b) const { return nodes_.at(edge_key(a, b)); }
+
+void make_quadratic(TetMesh& mesh, const MiddlePlace& place) {
+  std::unordered_map<std::uint64_t, int> middles;
+  const auto middle = [&](int a, int b) {
+    const auto [entry, is_new] = middles.try_emplace(edge_key(a, b), static_cast<int>(mesh.nodes.size()));
+    if (is_new) {
+      const auto at = [&](int n) -> const Vec3& { return mesh.nodes[static_cast<std::size_t>(n)]; };
+      mesh.nodes.push_back(place ? place(a, b) : Vec3(0.5 * (at(a) + at(b))));
+    }
+    return entry->second;
+  };
+  mesh.midsides.resize(mesh.tets.size());
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    for (std::size_t e = 0; e < kTetEdges.size(); ++e)
+      mesh.midsides[t][e] = middle(mesh.tets[t][kTetEdges[e][0]], mesh.tets[t][kTetEdges[e][1]]);
+  if (mesh.node_sets.empty()) return;
+  const EdgeNodes all(mesh);
+  const auto surface = boundary_triangles(mesh);
+  for (auto& [name, set] : mesh.node_sets) add_middles(all, surface, set);
+}
+
+void make_linear(TetMesh& mesh) {
+  std::vector<char> is_middle(mesh.nodes.size(), 0);
+  for (const Midsides& middles : mesh.midsides)
+    for (const int n : middles) is_middle[static_cast<std::size_t>(n)] = 1;
+  mesh.midsides.clear();
+  remove_nodes(mesh, is_middle);
+}
+
+Cells tet_cells(const TetMesh& mesh) {
+  if (mesh.order() == 1) return Cells(mesh.tets);
+  std::vector<int> nodes;
+  nodes.reserve(10 * mesh.tets.size());
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    nodes.insert(nodes.end(), mesh.tets[t].begin(), mesh.tets[t].end());
+    nodes.insert(nodes.end(), mesh.midsides[t].begin(), mesh.midsides[t].end());
+  }
+  return {10, std::move(nodes)};
+}
+
+Cells face_cells(const TetMesh& mesh, const std::vector<Triangle>& triangles) {
+  if (mesh.order() == 1) return Cells(triangles);
+  const EdgeNodes middles(mesh);
+  std::vector<int> nodes;
+  nodes.reserve(6 * triangles.size());
+  for (const Triangle& t : triangles) {
+    nodes.insert(nodes.end(), t.begin(), t.end());
+    for (std::size_t k = 0; k < 3; ++k) nodes.push_back(middles.at(t[k], t[(k + 1) % 3]));
+  }
+  return {6, std::move(nodes)};
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,10 @@
+SetFactory("Built-in");
+lc=0.5;
+Point(1)={0,0,0,lc};Point(2)={1,0,0,lc};Point(3)={0,1,0,lc};Point(4)={0,0,1,lc};
+Circle(1)={2,1,3};Circle(2)={3,1,4};Circle(3)={4,1,2};Line(4)={1,2};Line(5)={1,3};Line(6)={1,4};
+Curve Loop(1)={1,2,3};Surface(1)={1};
+Curve Loop(2)={4,1,-5};Plane Surface(2)={2};
+Curve Loop(3)={5,2,-6};Plane Surface(3)={3};
+Curve Loop(4)={6,3,-4};Plane Surface(4)={4};
+Surface Loop(1)={1,2,3,4};Volume(1)={1};
+Physical Surface("round")={1};Physical Surface("flat")={2};Physical Volume("octant")={1};Physical Point("tip")={4};

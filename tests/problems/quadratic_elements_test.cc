@@ -1,0 +1,259 @@
+// Quadratic tetrahedra: patch tests, orders in space, a beam, and what is conserved.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include <Eigen/SparseCholesky>
+
+#include "lib/element/tet10.h"
+#include "lib/mesh/box.h"
+#include "tests/problems/running.h"
+
+namespace orthodyn::quadratic_elements_test {
+namespace {
+
+const std::string kWood =
+    "{type: orthotropic, density: 1, young: [10, 1, 0.5], nu12: 0.4, nu23: 0.4, nu31: 0.02, g12: 0.7, g23: 0.1, "
+    "g13: 0.6}";
+
+// A free box with oblique axes in small strain; inner nodes are shifted where it is `distorted`.
+BuiltTestScene box(int cells, int order, bool distorted = false) {
+  TetMesh mesh = make_box({.cells = {cells, cells, cells}, .split = BoxMesh::Split::six});
+  Random random(501);
+  if (distorted)
+    for (Vec3& x : mesh.nodes)
+      if ((x.array() > 0.01).all() && (x.array() < 0.99).all()) x += 0.15 / cells * random.vector();
+  if (order == 2) make_quadratic(mesh);
+  given_mesh() = mesh;
+  return BuiltTestScene(fmt::format(R"(
+mesh: {{type: given}}
+materials: {{m: {}}}
+regions: {{body: {{material: m, axes: {}}}}}
+elasticity: {{kinematics: linear}}
+mass: consistent
+time: {{end: 1}}
+)", kWood, kTurnedAxes));
+}
+
+bool is_inner(const Vec3& x) { return (x.array() > 1e-9).all() && (x.array() < 1 - 1e-9).all(); }
+
+// The stress of a displacement gradient, Pa: the law of the scene itself, by the force of one free tetrahedron.
+class Law {
+ public:
+  Law() : one_(one_tet()) {}
+  Mat3 stress(const Mat3& gradient) const {
+    NodalVector u(3, 4);
+    for (Eigen::Index a = 0; a < 4; ++a) u.col(a) = gradient * Vec3(one_.model().parts().rest->col(a));
+    Vector q(12);
+    one_.model().parts().dofs->restrict_to(u, q);
+    const NodalVector f = one_.nodal(one_.force(q));
+    return -6 * f.rightCols<3>();  // nodes 1, 2, 3 of the unit tet: f_a = -V P grad N_a
+  }
+
+ private:
+  static BuiltTestScene one_tet() {
+    TetMesh mesh;
+    mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    mesh.tets = {{0, 1, 2, 3}};
+    mesh.region_of = {0};
+    mesh.region_names = {"body"};
+    given_mesh() = mesh;
+    return BuiltTestScene(fmt::format(R"(
+mesh: {{type: given}}
+materials: {{m: {}}}
+regions: {{body: {{material: m, axes: {}}}}}
+elasticity: {{kinematics: linear}}
+time: {{end: 1}}
+)", kWood, kTurnedAxes));
+  }
+  BuiltTestScene one_;
+};
+
+// u_i = a_i + A_ij x_j + x . B_i x / 2 needs the body force b = -div stress, which is uniform: the force of every inner
+// node balances it.
+TEST(PatchTest, OfAQuadraticDisplacementIsPassedByQuadraticElements) {
+  Random random(502);
+  const Mat3 A = random.matrix();
+  Mat3 B[3];
+  for (Mat3& b : B) {
+    b = random.matrix();
+    b = (b + b.transpose()).eval();
+  }
+  const auto u = [&](const Vec3& x) {
+    Vec3 out = A * x;
+    for (int i = 0; i < 3; ++i) out[i] += 0.5 * x.dot(B[i] * x);
+    return out;
+  };
+  const Law law;
+  Vec3 divergence = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) {
+    Mat3 change;  // of grad u with x_k
+    for (int i = 0; i < 3; ++i) change.row(i) = B[i].col(k).transpose();
+    divergence += law.stress(change).col(k);
+  }
+  const auto residual = [&](int order) {
+    const BuiltTestScene s = box(3, order, true);
+    const NodalVector f = s.nodal(s.force(s.dofs(u)));
+    const Vector& weights = s.model().parts().mass->row_sums();  // density 1
+    double largest = 0;
+    for (Eigen::Index n = 0; n < f.cols(); ++n)
+      if (is_inner(s.model().parts().rest->col(n)))
+        largest = std::max(largest, (f.col(n) - weights[n] * divergence).norm());
+    return largest / divergence.norm();
+  };
+  EXPECT_LE(residual(2), 1e-13);
+  EXPECT_GE(residual(1), 1e-3);
+}
+
+TEST(PatchTest, OfALinearDisplacementIsPassedByBoth) {
+  Random random(503);
+  const Mat3 A = random.matrix();
+  for (const int order : {1, 2}) {
+    const BuiltTestScene s = box(3, order, true);
+    const NodalVector f = s.nodal(s.force(s.dofs([&](const Vec3& x) { return Vec3(A * x); })));
+    for (Eigen::Index n = 0; n < f.cols(); ++n)
+      if (is_inner(s.model().parts().rest->col(n))) EXPECT_LE(f.col(n).norm(), 1e-14);
+  }
+}
+
+// Shape functions and their gradients at barycentric coordinates, by the order of the mesh.
+Vector shape(int order, const Eigen::Vector4d& L) {
+  if (order == 1) return L;
+  return Tet10::shape(L);
+}
+Eigen::MatrixXd slopes(int order, const Eigen::Vector4d& L) {
+  if (order == 2) return Tet10::shape_slopes(L);
+  Eigen::MatrixXd by_L(4, 3);
+  by_L << -1, -1, -1, Mat3::Identity();
+  return by_L;
+}
+
+struct SpaceError {
+  double displacement, gradient;  // L2 norms
+};
+
+// The error of a manufactured solution u = sin(2 x_1 + x_2) w + cos(x_2 - 2 x_3) z with its body force and boundary
+// values.
+SpaceError manufactured(int cells, int order) {
+  const Vec3 w(1, -0.5, 0.3), z(0.2, 0.7, -1), k(2, 1, 0), l(0, 1, -2);
+  const auto u = [&](const Vec3& x) { return Vec3(std::sin(k.dot(x)) * w + std::cos(l.dot(x)) * z); };
+  const auto gradient = [&](const Vec3& x) {
+    return Mat3(std::cos(k.dot(x)) * w * k.transpose() - std::sin(l.dot(x)) * z * l.transpose());
+  };
+  const Law law;
+  const Vec3 along_k = law.stress(w * k.transpose()) * k, along_l = law.stress(z * l.transpose()) * l;
+  const auto body_force = [&](const Vec3& x) {
+    return Vec3(std::sin(k.dot(x)) * along_k + std::cos(l.dot(x)) * along_l);
+  };
+
+  const BuiltTestScene s = box(cells, order);
+  const ElementMesh elements(s.mesh());
+  const auto each_point = [&](const auto& visit) {
+    for (std::size_t c = 0; c < elements.cells.size(); ++c) {
+      const auto X = elements.positions(c);
+      for (const auto& [L, weight] : tetrahedron_points_of_degree_7()) {
+        const Mat3 J = X * slopes(order, L);
+        visit(elements.cells[c], shape(order, L), Eigen::MatrixXd(slopes(order, L) * J.inverse()),
+              Vec3(X * shape(order, L)), weight * J.determinant());
+      }
+    }
+  };
+  NodalVector load = NodalVector::Zero(3, s.model().parts().rest->cols());
+  each_point([&](auto nodes, const Vector& N, const Eigen::MatrixXd&, const Vec3& x, double volume) {
+    const Vec3 b = volume * body_force(x);
+    for (std::size_t a = 0; a < nodes.size(); ++a) load.col(nodes[a]) += N[static_cast<Eigen::Index>(a)] * b;
+  });
+
+  // K u = f at the free coordinates, with u given on the surface.
+  Linearization at;
+  s.model().linearize(0, s.zero(), s.zero(), TangentKind::exact, at);
+  const Eigen::SparseMatrix<double> lower = s.model().pattern().matrix(at.stiffness.data());
+  Eigen::SparseMatrix<double> K = lower.selfadjointView<Eigen::Lower>();
+  Vector q = s.dofs(u), f(s.size());
+  s.model().parts().dofs->restrict_to(load, f);
+  const Vector held = s.dofs([&](const Vec3& x) { return Vec3(Vec3::Constant(is_inner(x) ? 0 : 1)); });
+  q = q.cwiseProduct(held);
+  f -= K * q;
+  for (int j = 0; j < K.outerSize(); ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(K, j); it; ++it)
+      if (held[it.row()] + held[it.col()] > 0) it.valueRef() = it.row() == it.col() ? 1 : 0;
+  f = f.cwiseProduct(Vector::Ones(f.size()) - held);
+  q += Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(K).solve(f);
+
+  const NodalVector nodal = s.nodal(q);
+  SpaceError error{0, 0};
+  each_point([&](auto nodes, const Vector& N, const Eigen::MatrixXd& G, const Vec3& x, double volume) {
+    Vec3 value = -u(x);
+    Mat3 slope = -gradient(x);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      const auto row = static_cast<Eigen::Index>(a);
+      value += N[row] * nodal.col(nodes[a]);
+      slope += nodal.col(nodes[a]) * G.row(row);
+    }
+    error.displacement += volume * value.squaredNorm();
+    error.gradient += volume * slope.squaredNorm();
+  });
+  return {std::sqrt(error.displacement), std::sqrt(error.gradient)};
+}
+
+class Space : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Order, Space, testing::Values(1, 2));
+
+TEST_P(Space, ErrorsFallWithTheOrderOfTheElement) {
+  const int order = GetParam(), cells = order == 1 ? 6 : 3;
+  const SpaceError coarse = manufactured(cells, order), fine = manufactured(2 * cells, order);
+  EXPECT_NEAR(std::log2(coarse.displacement / fine.displacement), order + 1, 0.2);
+  EXPECT_NEAR(std::log2(coarse.gradient / fine.gradient), order, 0.1);
+}
+
+// Without contraction a clamp does not disturb: Timoshenko's beam, with a shear factor of 5/6.
+TEST(QuadraticBeam, BendsAsTimoshenkosAndALinearOneTwoThirdsAsFar) {
+  const auto bending = [](int order) {
+    const BuiltTestScene s(fmt::format(R"(
+mesh: {{type: box, size: [1, 0.1, 0.1], cells: [20, 2, 2], order: {}}}
+materials: {{m: {{type: isotropic, density: 1, young: 1e9, nu: 0}}}}
+elasticity: {{kinematics: linear}}
+clamps: [{{surface: x0}}]
+loads: [{{surface: x1, force: [0, 0, -1]}}]
+time: {{end: 1}}
+)", order));
+    Linearization at;
+    s.model().linearize(0, s.zero(), s.zero(), TangentKind::exact, at);
+    const Eigen::SparseMatrix<double> K = s.model().pattern().matrix(at.stiffness.data());
+    const Vector q = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(K).solve(s.force(s.zero()));
+    return -s.nodal(q)(2, nearest_node(s.mesh(), {1, 0.05, 0.05}));
+  };
+  const double I = 1e-4 / 12, shear = 1 / (5.0 / 6 * 0.5e9 * 0.01), expected = 1 / (3 * 1e9 * I) + shear;
+  EXPECT_NEAR(bending(2), expected, 5e-3 * expected);
+  EXPECT_LT(bending(1), 0.7 * expected);
+}
+
+TEST(QuadraticElements, InFreeFlightKeepEnergyAndMomentum) {
+  for (const double rtol : {1e-5, 1e-7}) {
+    const BuiltTestScene s(fmt::format(R"(
+mesh: {{type: cylinder, radius: 0.5, length: 1, cells: [8, 1, 1], order: 2}}
+materials: {{m: {{type: orthotropic_stable, density: 1, young: [10, 1, 1], nu: 0.3}}}}
+regions: {{body: {{material: m, axes: {}}}}}
+initial: {{spin: [0.3, 0.2, 1], deformation_gradient: [[1.2, 0, 0], [0, 1, 0], [0, 0, 1]]}}
+integrator: {{type: arkode_dirk, rtol: {}}}
+time: {{end: 1.5}}
+)", kTurnedAxes, rtol));
+    double first = 0, worst = 0;
+    Vec3 L = Vec3::Zero(), twist = Vec3::Zero();
+    const auto outcome = run_scene(s, 20, [&](const State& state) {
+      if (state.t == 0) {
+        first = total_energy(s, state);
+        L = momentum(s, "angular", state);
+      }
+      worst = std::max(worst, std::abs(total_energy(s, state) / first - 1));
+      twist = twist.cwiseMax((momentum(s, "angular", state) - L).cwiseAbs());
+    });
+    EXPECT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
+    EXPECT_LE(worst, 100 * rtol);
+    EXPECT_LE(twist.norm(), 100 * rtol * L.norm());
+  }
+}
+
+}  // namespace
+}  // namespace orthodyn::quadratic_elements_test
