@@ -15,6 +15,7 @@ from tiny_result import POINTS, TETS, Vtu, fields_at, write_result  # noqa: E402
 
 from draw.errors import DrawError  # noqa: E402
 from draw.series import Series  # noqa: E402
+from draw.surface import boundary_faces  # noqa: E402
 from draw.table import Table  # noqa: E402
 from draw.vtu import read_vtu  # noqa: E402
 
@@ -56,6 +57,18 @@ class Reading(InAFolder):
             self.read(Vtu().content({}, {}, types=12))
         with self.assertRaisesRegex(DrawError, "names point 9, but there are 5"):
             self.read(Vtu(tets=np.array([[0, 1, 2, 9]])).content({}, {}))
+
+    def test_a_quadratic_tet_is_drawn_as_eight_linear_ones(self):
+        corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+        edges = [(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)]
+        points = np.vstack([corners, [(corners[a] + corners[b]) / 2 for a, b in edges]])
+        frame = self.read(Vtu(points, np.arange(10)[None]).content({}, {"region": np.array([[7]], "i4")}, types=24))
+        a, b, c, d = (frame.points[frame.tets[:, k]] for k in range(4))
+        volumes = np.abs(np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a)) / 6
+        np.testing.assert_allclose(volumes, 1 / 48)
+        self.assertEqual(frame.cell_fields["region"].tolist(), [[7]] * 8)
+        faces, _ = boundary_faces(frame.points, frame.tets)
+        self.assertEqual(len(faces), 16)  # four for each: none is left between the eight
 
     def test_frames_are_in_the_order_of_their_times(self):
         series = Series(write_result(self.folder / "r", [0.0, 0.5, 1.0, 4.0]))

@@ -41,7 +41,7 @@ class Vtu:
                 *(self.array(k, v) for k, v in cell.items()), "</CellData><Points>",
                 self.array("Points", self.points), "</Points><Cells>",
                 self.array("connectivity", self.tets.ravel().astype(self.index)),
-                self.array("offsets", 4 * np.arange(1, m + 1).astype(self.index)),
+                self.array("offsets", self.tets.shape[1] * np.arange(1, m + 1).astype(self.index)),
                 self.array("types", np.full(m, types, "u1")), "</Cells>"]
         header_type = {"<Q": "UInt64", "<I": "UInt32"}[self.header]
         xml = (f'<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" '

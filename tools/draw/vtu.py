@@ -11,7 +11,9 @@ import numpy as np
 
 from .errors import DrawError
 
-VTK_TETRA = 10
+NODES_OF = {10: 4, 24: 10}  # VTK_TETRA, VTK_QUADRATIC_TETRA
+# A quadratic tet is drawn as eight linear ones: at each corner one, and four around a diagonal of the rest.
+EIGHTHS = ((0, 4, 6, 7), (4, 1, 5, 8), (6, 5, 2, 9), (7, 8, 9, 3), (6, 8, 4, 5), (6, 8, 5, 9), (6, 8, 9, 7), (6, 8, 7, 4))
 NUMPY_TYPE = {f"{k}{bits}": f"{c}{bits // 8}" for k, c, sizes in
               (("Float", "f", (32, 64)), ("Int", "i", (8, 16, 32, 64)), ("UInt", "u", (8, 16, 32, 64)))
               for bits in sizes}
@@ -19,7 +21,7 @@ NUMPY_TYPE = {f"{k}{bits}": f"{c}{bits // 8}" for k, c, sizes in
 
 @dataclass
 class Frame:
-    """Rest positions (n,3), tets (m,4) and the fields by name, each (n or m, components)."""
+    """Rest positions (n,3), linear tets (m,4) and the fields by name, each (n or m, components)."""
     points: np.ndarray
     tets: np.ndarray
     node_fields: dict = field(default_factory=dict)
@@ -89,20 +91,23 @@ def _split_appended(path, content):
 
 
 def _tets(arrays, cells, count, num_points):
+    """Tets (m,4), and as how many of them each cell is drawn."""
     named = {a.get("Name"): a for a in cells}
     missing = {"connectivity", "offsets", "types"} - set(named)
     if missing:
         raise arrays.damaged(f"Cells lack {', '.join(sorted(missing))}")
-    other = set(arrays.read(named["types"], count).ravel().tolist()) - {VTK_TETRA}
-    if other:
-        raise arrays.damaged(f"cells of VTK type {sorted(other)}; only tetrahedra (type {VTK_TETRA}) can be drawn")
+    types = set(arrays.read(named["types"], count).ravel().tolist())
+    if len(types) > 1 or types - NODES_OF.keys():
+        raise arrays.damaged(f"cells of VTK type {sorted(types)}; only linear or quadratic tetrahedra (types 10, 24) "
+                             "can be drawn")
+    size = NODES_OF[types.pop()] if types else 4
     nodes = arrays.read(named["connectivity"], None)
-    if nodes.size != 4 * count:
-        raise arrays.damaged(f"connectivity has {nodes.size} entries; {count} tetrahedra need {4 * count}")
-    tets = nodes.reshape(count, 4).astype(np.int64)
-    if tets.size and (tets.min() < 0 or tets.max() >= num_points):
-        raise arrays.damaged(f"connectivity names point {tets.max()}, but there are {num_points} points")
-    return tets
+    if nodes.size != size * count:
+        raise arrays.damaged(f"connectivity has {nodes.size} entries; {count} tetrahedra need {size * count}")
+    nodes = nodes.reshape(count, size).astype(np.int64)
+    if nodes.size and (nodes.min() < 0 or nodes.max() >= num_points):
+        raise arrays.damaged(f"connectivity names point {nodes.max()}, but there are {num_points} points")
+    return (nodes, 1) if size == 4 else (nodes[:, EIGHTHS].reshape(-1, 4), len(EIGHTHS))
 
 
 def read_vtu(path):
@@ -127,6 +132,8 @@ def read_vtu(path):
             raise arrays.damaged(f"points have {points.shape[1]} components; 3 belong")
         fields = [{a.get("Name"): arrays.read(a, count) for a in piece.findall(f"{where}/DataArray")}
                   for where, count in (("PointData", num_points), ("CellData", num_cells))]
-        return Frame(points, _tets(arrays, piece.find("Cells"), num_cells, num_points), *fields)
+        tets, parts = _tets(arrays, piece.find("Cells"), num_cells, num_points)
+        of_nodes, of_cells = fields
+        return Frame(points, tets, of_nodes, {name: np.repeat(values, parts, axis=0) for name, values in of_cells.items()})
     except (TypeError, ValueError) as error:
         raise arrays.damaged(f"a count or offset is no whole number ({error})") from None
