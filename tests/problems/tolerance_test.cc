@@ -26,6 +26,7 @@ class Tolerance : public testing::TestWithParam<Tested> {
     const ScenePart part = std::get<1>(GetParam());
     Config config = Config::from_file(std::string(ORTHODYN_SOURCE_DIR "/configs/scenes/") + part.name + ".yaml");
     config.set_yaml("mesh.cells", part.cells);
+    config.set_yaml("mesh.order", "1");
     config.set_yaml("time.end", part.end);
     config.set_yaml("integrator", integrator);
     const BuiltTestScene s(config);
