@@ -48,9 +48,9 @@ class Along : public AxesSource {
 
   AxesField field(const TetMesh&, Warnings&) const override {
     const auto curve = std::make_shared<const Curve>(make_curve());
-    return [this, curve](const Vec3& centroid, int) {
-      const Curve::Foot foot = curve->nearest(centroid);
-      Vec3 arm = centroid - foot.point;
+    return [this, curve](const Vec3& place, int) {
+      const Curve::Foot foot = curve->nearest(place);
+      Vec3 arm = place - foot.point;
       arm -= foot.tangent.dot(arm) * foot.tangent;  // beyond an end
       const bool on_the_curve = !(arm.norm() > 1e-9 * curve->length());
       const Vec3& radial = across_ == Across::carried || on_the_curve ? foot.normal : arm;
@@ -100,7 +100,7 @@ class Along : public AxesSource {
 };
 
 const bool along_registered = Registry<AxesSource>::add<Along>(
-    "along", "L along a smooth curve through points, in each element by its centroid: a branch, a muscle.");
+    "along", "L along a smooth curve through points, where the law is evaluated: a branch, a muscle.");
 
 }  // namespace
 }  // namespace orthodyn

@@ -24,9 +24,9 @@ class Cylindrical : public AxesSource {
   }
 
   AxesField field(const TetMesh&, Warnings&) const override {
-    return [this, L = Vec3(axis_.stableNormalized())](const Vec3& centroid, int) {
-      const Vec3 arm = centroid - point_, radial = arm - L.dot(arm) * L;
-      const double noise = 1e-12 * (centroid.norm() + point_.norm());
+    return [this, L = Vec3(axis_.stableNormalized())](const Vec3& place, int) {
+      const Vec3 arm = place - point_, radial = arm - L.dot(arm) * L;
+      const double noise = 1e-12 * (place.norm() + point_.norm());
       return lrt_axes(L, radial.norm() > noise ? radial : any_normal(L), order_, spiral_);
     };
   }
@@ -38,7 +38,7 @@ class Cylindrical : public AxesSource {
 };
 
 const bool cylindrical_registered = Registry<AxesSource>::add<Cylindrical>(
-    "cylindrical", "L, R, T about a straight axis, in each element by its centroid: a stem, a tube.");
+    "cylindrical", "L, R, T about a straight axis, where the law is evaluated: a stem, a tube.");
 
 }  // namespace
 }  // namespace orthodyn

@@ -33,9 +33,9 @@ class Spherical : public AxesSource {
   }
 
   AxesField field(const TetMesh&, Warnings&) const override {
-    return [this, pole = Vec3(pole_.stableNormalized())](const Vec3& centroid, int) {
-      const double noise = 1e-12 * (centroid.norm() + center_.norm());
-      Vec3 radial = centroid - center_;
+    return [this, pole = Vec3(pole_.stableNormalized())](const Vec3& place, int) {
+      const double noise = 1e-12 * (place.norm() + center_.norm());
+      Vec3 radial = place - center_;
       if (!(radial.norm() > noise)) radial = pole;
       const bool on_the_poles = radial.cross(pole).norm() <= std::max(noise, 1e-12 * radial.norm());
       const Mat3 rne = frame(radial, on_the_poles ? any_normal(pole) : pole);
@@ -50,7 +50,7 @@ class Spherical : public AxesSource {
 };
 
 const bool spherical_registered = Registry<AxesSource>::add<Spherical>(
-    "spherical", "Radial, east and north about a centre, in each element by its centroid.");
+    "spherical", "Radial, east and north about a centre, where the law is evaluated.");
 
 }  // namespace
 }  // namespace orthodyn

@@ -5,8 +5,8 @@
 //
 // Stiffness: 4 points, degree 2 (Hammer & Stroud 1956): exact for a strain that is linear in an element with straight
 // edges, and of full rank, 4 x 6 = 30 - 6. Masses: Gauss points in collapsed coordinates, degree 7: exact for
-// N_a N_b det J, also where edges are curved. Lumped: the diagonal of the consistent mass scaled to the sum (Hinton,
-// Rock & Zienkiewicz 1976), for the corners' row sums are negative.
+// N_a N_b det J, also where edges are curved. Lumped: the diagonal of the consistent mass of straight edges, scaled to
+// the sum (Hinton, Rock & Zienkiewicz 1976), for the corners' row sums are negative.
 #pragma once
 
 #include <Eigen/LU>
@@ -60,13 +60,16 @@ struct Tet10 {
     return L;
   }
 
-  // The integration points and the nodes.
-  static std::array<Barycentric, 14> checked_places() {
-    std::array<Barycentric, 14> all;
-    std::size_t k = 0;
-    for (int p = 0; p < kPoints; ++p) all[k++] = place(p);
-    for (int i = 0; i < 4; ++i) all[k++] = Barycentric::Unit(i);
-    for (const auto& [i, j] : kEdges) all[k++] = (Barycentric::Unit(i) + Barycentric::Unit(j)) / 2;
+  // The nodes and all places where stiffness and masses are integrated.
+  static const std::vector<Barycentric>& checked_places() {
+    static const std::vector<Barycentric> all = [] {
+      std::vector<Barycentric> places;
+      for (int p = 0; p < kPoints; ++p) places.push_back(place(p));
+      for (int i = 0; i < 4; ++i) places.push_back(Barycentric::Unit(i));
+      for (const auto& [i, j] : kEdges) places.push_back((Barycentric::Unit(i) + Barycentric::Unit(j)) / 2);
+      for (const TetrahedronPoint& at : tetrahedron_points_of_degree_7()) places.push_back(at.L);
+      return places;
+    }();
     return all;
   }
 

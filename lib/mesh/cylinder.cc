@@ -104,9 +104,10 @@ struct Rings {
     const Point end = on_circle(radius, first_angle + 2 * std::numbers::pi * place.turn / around);
     return {begin[0] + place.way * (end[0] - begin[0]), begin[1] + place.way * (end[1] - begin[1])};
   }
+  // Cells from a to b, the shorter way around.
+  double turns(const Place& a, const Place& b) const { return std::remainder(b.turn - a.turn, around); }
   Point middle(const Place& a, const Place& b) const {
-    const double turn = std::remainder(b.turn - a.turn, around);
-    return at({a.turn + turn / 2, (a.way + b.way) / 2});
+    return at({a.turn + turns(a, b) / 2, (a.way + b.way) / 2});
   }
 };
 
@@ -120,7 +121,10 @@ struct RoundPlane {
   // Where the node on the edge between two nodes belongs.
   Point middle(int a, int b) const {
     const auto place_a = places.find(a), place_b = places.find(b);
-    if (place_a != places.end() && place_b != places.end()) return rings.middle(place_a->second, place_b->second);
+    const bool both = place_a != places.end() && place_b != places.end();
+    // A core of a single cell has a diagonal between nodes of the rings.
+    if (both && std::abs(rings.turns(place_a->second, place_b->second)) <= 1)
+      return rings.middle(place_a->second, place_b->second);
     const Point &p = mesh.nodes[static_cast<std::size_t>(a)], &q = mesh.nodes[static_cast<std::size_t>(b)];
     return {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2};
   }
@@ -219,7 +223,10 @@ TetMesh finish(const RoundPlane& plane, const Mesh& round) {
       mesh.surfaces[side[static_cast<std::size_t>(t[0] % per_layer)] == 'o' ? "outer" : "inner"].push_back(t);
     }
   }
-  if (round.order == 2) make_round(mesh, plane);
+  if (round.order == 2) {
+    make_round(mesh, plane);
+    validate(mesh, {"the mesh of order 2"});
+  }
   const Mat3 rotation = rotation_from_z(axis.stableNormalized());
   const bool turned = axis.head<2>().norm() > 0 || axis[2] < 0;
   for (Vec3& x : mesh.nodes) x = origin + (turned ? Vec3(rotation * x) : x);

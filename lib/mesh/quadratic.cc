@@ -33,6 +33,18 @@ EdgeNodes::EdgeNodes(const TetMesh& mesh) {
       nodes_.emplace(edge_key(mesh.tets[t][kTetEdges[e][0]], mesh.tets[t][kTetEdges[e][1]]), mesh.midsides[t][e]);
 }
 
+EdgeNodes::EdgeNodes(const TetMesh& mesh, const std::vector<Triangle>& faces) {
+  std::vector<char> wanted(mesh.nodes.size(), 0);
+  for (const Triangle& t : faces)
+    for (const int n : t) wanted[static_cast<std::size_t>(n)] = 1;
+  for (std::size_t t = 0; t < mesh.midsides.size(); ++t)
+    for (std::size_t e = 0; e < kTetEdges.size(); ++e) {
+      const int a = mesh.tets[t][kTetEdges[e][0]], b = mesh.tets[t][kTetEdges[e][1]];
+      if (wanted[static_cast<std::size_t>(a)] && wanted[static_cast<std::size_t>(b)])
+        nodes_.emplace(edge_key(a, b), mesh.midsides[t][e]);
+    }
+}
+
 int EdgeNodes::at(int a, int b) const { return nodes_.at(edge_key(a, b)); }
 
 void make_quadratic(TetMesh& mesh, const MiddlePlace& place) {
@@ -76,7 +88,7 @@ Cells tet_cells(const TetMesh& mesh) {
 
 Cells face_cells(const TetMesh& mesh, const std::vector<Triangle>& triangles) {
   if (mesh.order() == 1) return Cells(triangles);
-  const EdgeNodes middles(mesh);
+  const EdgeNodes middles(mesh, triangles);
   std::vector<int> nodes;
   nodes.reserve(6 * triangles.size());
   for (const Triangle& t : triangles) {

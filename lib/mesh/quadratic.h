@@ -14,7 +14,9 @@ namespace orthodyn {
 class EdgeNodes {
  public:
   explicit EdgeNodes(const TetMesh& mesh);
-  // Precondition: the mesh has this edge.
+  // Of the edges between corners of these faces only.
+  EdgeNodes(const TetMesh& mesh, const std::vector<Triangle>& faces);
+  // Precondition: this edge is among them.
   int at(int a, int b) const;
 
  private:

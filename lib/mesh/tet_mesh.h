@@ -65,7 +65,8 @@ using Warnings = std::vector<std::string>;
 
 // Makes sure that the mesh can be computed with: at least one element, indices in range,
 // coordinates finite, no element that is inverted or degenerate (six volumes below 1e-14 of its
-// longest edge cubed; of a quadratic one the map from the rest shape likewise at each integration point and node), no
+// longest edge cubed) and none that its curved edges fold over (det dX/dL below 1e-6 of that with straight edges at a
+// node, or where stiffness or masses are integrated), no
 // two elements that overlap at a common face or have different nodes on a common edge, no two nodes of elements at
 // exactly the same place (a crack by mistake), no surface triangle that is not a face of an
 // element. Nodes that no element uses (also from the node sets) and triangles that a surface lists

@@ -24,7 +24,8 @@ std::string bytes(const std::vector<T>& list) {
 
 std::string mesh_fingerprint(const TetMesh& mesh) {
   Fingerprint print;
-  print.add(bytes(mesh.nodes)).add(bytes(mesh.tets)).add(bytes(mesh.midsides)).add(bytes(mesh.region_of));
+  print.add(bytes(mesh.nodes)).add(bytes(mesh.tets)).add(bytes(mesh.region_of));
+  if (mesh.order() == 2) print.add(bytes(mesh.midsides));
   print.add(std::to_string(mesh.region_names.size()));
   for (const auto& name : mesh.region_names) print.add(name);
   print.add(std::to_string(mesh.surfaces.size()));

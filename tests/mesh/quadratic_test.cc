@@ -83,6 +83,17 @@ TEST(Quadratic, MadeLinearAgainIsTheMeshOfBefore) {
   EXPECT_EQ(mesh.nodes, linear.nodes);
   EXPECT_EQ(mesh.tets, linear.tets);
   EXPECT_EQ(mesh.surfaces, linear.surfaces);
+  for (const int n : mesh.node_sets.at("left")) EXPECT_EQ(mesh.nodes[static_cast<std::size_t>(n)][0], 0);
+  EXPECT_EQ(mesh.node_sets.at("left").size(), 4u);
+}
+
+// A curved one: nodes on edges are far from half way.
+TEST(QuadraticFiles, OfTetgenKeepACurvedMesh) {
+  const TemporaryFolder folder;
+  const TetMesh tube = make_tube({.inner_radius = 0.9, .radius = 1, .length = 0.5,
+                                  .cells = {.around = 8, .through = 1, .along = 1}, .order = 2});
+  write_mesh({.mesh = tube}, folder.path("tube.node"), false);
+  EXPECT_EQ(read_mesh(folder.path("tube.node")).mesh.midsides, tube.midsides);
 }
 
 TEST(Quadratic, TwoNodesOnOneEdgeAreRefused) {
@@ -184,6 +195,14 @@ TEST(Quadratic, RoundBodiesHaveTheirTrueSurfaceAtOrderTwo) {
   lies_on(cylinder, "outer", 1);
   lies_on(tube, "outer", 1);
   lies_on(tube, "inner", 0.9);
+  // The coarsest, whose core is a single cell and whose ring three; nothing folds over.
+  const TetMesh four =
+      make_cylinder({.radius = 1, .length = 2, .cells = {.around = 4, .through = 1, .along = 1}, .order = 2});
+  const TetMesh three = make_tube({.inner_radius = 0.3, .radius = 1, .length = 2,
+                                   .cells = {.around = 3, .through = 1, .along = 1}, .order = 2});
+  lies_on(four, "outer", 1);
+  EXPECT_NEAR(volume(four), 2 * std::numbers::pi, 0.2);
+  EXPECT_NEAR(volume(three), 2 * std::numbers::pi * 0.91, 0.5);
 }
 
 }  // namespace

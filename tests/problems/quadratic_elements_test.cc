@@ -6,6 +6,7 @@
 
 #include <Eigen/SparseCholesky>
 
+#include "lib/core/symmetric_eigen.h"
 #include "lib/element/tet10.h"
 #include "lib/mesh/box.h"
 #include "tests/problems/running.h"
@@ -227,6 +228,93 @@ time: {{end: 1}}
   const double I = 1e-4 / 12, shear = 1 / (5.0 / 6 * 0.5e9 * 0.01), expected = 1 / (3 * 1e9 * I) + shear;
   EXPECT_NEAR(bending(2), expected, 5e-3 * expected);
   EXPECT_LT(bending(1), 0.7 * expected);
+}
+
+// A round body of curved elements under loads on faces.
+BuiltTestScene round(const std::string& more) {
+  return BuiltTestScene(fmt::format(R"(
+mesh: {{type: cylinder, radius: 0.5, length: 1, cells: [8, 1, 2], order: 2}}
+materials: {{m: {{type: isotropic, density: 2, young: 1, nu: 0.3}}}}
+time: {{end: 1}}
+{}
+)", more));
+}
+
+// Without gravity and at rest only the loads act.
+Vec3 resultant(const NodalVector& f) { return f.rowwise().sum(); }
+Vec3 moment(const BuiltTestScene& s, const NodalVector& f) {
+  Vec3 sum = Vec3::Zero();
+  for (Eigen::Index n = 0; n < f.cols(); ++n) sum += Vec3(s.model().parts().rest->col(n)).cross(Vec3(f.col(n)));
+  return sum;
+}
+
+TEST(QuadraticFaces, CarryTheResultantAndMomentOfATraction) {
+  const auto s = round("loads: [{surface: end1, traction: [\"1 + x\", \"2*y\", 3]}]");
+  const NodalVector f = s.nodal(s.force(s.zero()));
+  // Over the disc of radius 1/2 at z = 1, area pi/4, to the accuracy of eight curved edges.
+  // M = integral of (3 y - 2 y, (1 + x) - 3 x, 2 x y - (1 + x) y): all but the 1 is odd.
+  const double area = std::numbers::pi / 4;
+  EXPECT_LE((resultant(f) - Vec3(area, 0, 3 * area)).norm(), 3e-3);
+  EXPECT_LE((moment(s, f) - Vec3(0, area, 0)).norm(), 3e-3);
+}
+
+TEST(QuadraticFaces, UnderPressureAllAroundHaveTheEnergyPV) {
+  const auto s = round("terms: [{type: pressure, pressure: 0.7}]");
+  const auto bare = round("");
+  Random random(504);
+  const Vector q = random_dofs(random, s.size(), 0.02), d = random_dofs(random, s.size(), 1);
+  const NodalVector f = s.nodal(s.force(q) - bare.force(q));
+  EXPECT_LE(resultant(f).norm(), 1e-13);
+  // The work on d is -p dV: V by the elements themselves, of which det F is a polynomial along d.
+  const auto volume = [&](double h) {
+    const NodalVector x = s.positions(q + h * d);
+    const ElementMesh elements(s.mesh());
+    double sum = 0;
+    for (std::size_t c = 0; c < elements.cells.size(); ++c) {
+      ElementNodes<10> now;
+      for (Eigen::Index a = 0; a < 10; ++a) now.col(a) = x.col(elements.cells[c][static_cast<std::size_t>(a)]);
+      sum += Tet10::mass(now, 1);
+    }
+    return sum;
+  };
+  const double rate = (volume(-2e-3) - 8 * volume(-1e-3) + 8 * volume(1e-3) - volume(2e-3)) / 12e-3;  // exact: cubic
+  const Vector push = s.force(q) - bare.force(q);
+  EXPECT_NEAR(push.dot(d), -0.7 * rate, 1e-10);
+  // Its stiffness is the derivative of its force, and symmetric.
+  const Vector difference = (s.force(q + 1e-3 * d) - bare.force(q + 1e-3 * d) - s.force(q - 1e-3 * d) +
+                             bare.force(q - 1e-3 * d)) / 2e-3;  // exact: quadratic
+  const Eigen::MatrixXd K = s.stiffness(q) - bare.stiffness(q);
+  EXPECT_LE((difference + K * d).norm(), 1e-10 * difference.norm());
+}
+
+TEST(QuadraticFaces, OfContactShareTheAreaAmongAllTheirNodes) {
+  const auto s = round("terms: [{type: ground, point: [0, 0, 0.1], stiffness: 10, onset: 1e-3, surface: end0}]");
+  const NodalVector f = s.nodal(s.force(s.zero()));
+  EXPECT_NEAR(resultant(f)[2], 10 * (0.1 - 0.5e-3) * std::numbers::pi / 4, 2e-3);
+  for (Eigen::Index n = 0; n < f.cols(); ++n)
+    if (s.model().parts().rest->col(n)[2] == 0) EXPECT_GT(f(2, n), 0);
+}
+
+TEST(QuadraticElements, FallFreelyWithoutStrainWithEitherMass) {
+  for (const char* mass : {"lumped", "consistent"}) {
+    const auto s = round(fmt::format("gravity: [1, -2, 3]\nmass: {}", mass));
+    Vector a = s.force(s.zero());
+    s.model().solve_mass(a);
+    const NodalVector nodal = s.nodal(a);
+    for (Eigen::Index n = 0; n < nodal.cols(); ++n) EXPECT_LE((nodal.col(n) - Vec3(1, -2, 3)).norm(), 1e-11) << mass;
+  }
+}
+
+// The largest frequency is that of the whole mass and stiffness, curved elements included.
+TEST(QuadraticElements, AreNoFasterThanTheirBound) {
+  const auto s = round("");
+  const Eigen::MatrixXd K = s.stiffness(s.zero());
+  const Vector root = s.mass().diagonal().cwiseSqrt();
+  const Vector squares =
+      symmetric_eigenvalues(Eigen::MatrixXd(root.asDiagonal().inverse() * K * root.asDiagonal().inverse()));
+  const double fastest = std::sqrt(squares[squares.size() - 1]);
+  EXPECT_LE(fastest, s.model().frequency_bound());
+  EXPECT_GE(fastest, 0.3 * s.model().frequency_bound());
 }
 
 TEST(QuadraticElements, InFreeFlightKeepEnergyAndMomentum) {

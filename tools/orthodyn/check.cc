@@ -103,13 +103,13 @@ void print_supports(const FemModel& model) {
   if (moved > 0) fmt::print("motions\n  {} of {} coordinates are moved\n", moved, coordinates);
 }
 
-// "cylindrical, per element", for each region of the mesh by its name.
+// "cylindrical, by place", for each region of the mesh by its name.
 void print_axes(const Setup& setup) {
   fmt::print("axes\n");
   const Config regions = setup.config.at("regions");
   for (const auto& [name, region] : setup.scene.regions)
     fmt::print("  region {}: {}, {}\n", name, regions.at(name).at("axes").at("type").text(),
-               region.axes->uniform() ? "one for all elements" : "per element");
+               region.axes->uniform() ? "one for all elements" : "by place");
 }
 
 // Has a picture drawn from them, too.

@@ -34,8 +34,11 @@ class ElasticTerm : public Term {
   // What can be seen at the mean deformation gradient of an element.
   virtual PointObservation observe(int k, const NodalState& s) const = 0;
 
-  // The mean of sym(grad u) in material axes, of a small displacement u (m).
-  virtual Mat3 small_strain(int k, const NodalVector& u) const = 0;
+  // At one of the points where the law is evaluated, in material axes: sym(grad u) of a small displacement u (m), and
+  // the strain of a state.
+  virtual int num_points() const = 0;
+  virtual Mat3 small_strain(int k, int point, const NodalVector& u) const = 0;
+  virtual Mat3 strain(int k, int point, const NodalState& s) const = 0;
 
   // The smallest of the element's points; not positive where it is inverted.
   virtual double det_F(int k, const NodalState& s) const = 0;

@@ -24,7 +24,10 @@ class ElasticTermOf final : public ElasticTerm {
   ElasticTermOf(const ElementMesh& mesh, ElasticRegion region, const Law& law, const BlockPattern& pattern)
       : region_(std::move(region)), law_(law), pattern_(pattern), elements_(mesh, region_.cells, region_.axes) {
     offsets_.reserve(region_.cells.size());
-    for (int k = 0; k < size(); ++k) offsets_.emplace_back(elements_.nodes(k), pattern);
+    for (int k = 0; k < size(); ++k) {
+      offsets_.emplace_back(elements_.nodes(k), pattern);
+      if constexpr (E::kPoints > 1) note_volume(k, mesh.positions(static_cast<std::size_t>(cell(k))));
+    }
   }
 
   std::string name() const override { return "elasticity of region " + region_.name; }
@@ -105,8 +108,14 @@ class ElasticTermOf final : public ElasticTerm {
   int size() const override { return static_cast<int>(region_.cells.size()); }
   int cell(int k) const override { return region_.cells[static_cast<std::size_t>(k)]; }
 
-  Mat3 small_strain(int k, const NodalVector& u) const override {
-    return orthodyn::small_strain<double>(mean_gradient(k, u), axes().mean(k));
+  int num_points() const override { return E::kPoints; }
+
+  Mat3 small_strain(int k, int p, const NodalVector& u) const override {
+    return orthodyn::small_strain<double>(elements_.gradient(k, p, u), axes().of(k, p));
+  }
+
+  Mat3 strain(int k, int p, const NodalState& s) const override {
+    return law_.observe(elements_.gradient(k, p, s.u), axes().of(k, p)).strain;
   }
 
   double det_F(int k, const NodalState& s) const override {
@@ -124,7 +133,7 @@ class ElasticTermOf final : public ElasticTerm {
   double max_frequency_squared(double density) const override {
     // With G = (G_1, G_2, ...) of a point and masses rho V s_a, its share V_p G^T C G of the stiffness has against the
     // share V_p / V of the mass the largest eigenvalue of C^(1/2) (sum G_a G_a^T / s_a) C^(1/2) / rho. The quotient of
-    // the sums is no larger than the largest of these.
+    // the sums is no larger than the largest of these, times sum V_p / V where edges are curved.
     const Mat6 root = Mat6(Eigen::LLT<Mat6>(voigt(region_.stiffness)).matrixL());
     double largest = 0;
     for (int k = 0; k < size(); ++k)
@@ -132,7 +141,7 @@ class ElasticTermOf final : public ElasticTerm {
         const Mat6 A = root.transpose() * strain_gram(elements_.point(k, p), E::kLumpedShares) * root;
         largest = std::max(largest, symmetric_eigenvalues(A)[5]);
       }
-    return largest / density;
+    return volume_excess_ * largest / density;
   }
 
  private:
@@ -178,6 +187,12 @@ class ElasticTermOf final : public ElasticTerm {
     return sum / volume * axes().mean(k);
   }
 
+  void note_volume(int k, const ElementNodes<E::kNodes>& X) {
+    double sum = 0;
+    for (int p = 0; p < E::kPoints; ++p) sum += elements_.volume(k, p);
+    volume_excess_ = std::max(volume_excess_, sum / E::mass(X, 1));
+  }
+
   // Sets the blocks at the first point and adds to them at the others.
   void gather_point(int k, int p, const Form& form, ElementBlocks<E::kNodes>& blocks) const {
     if (p == 0) {
@@ -210,6 +225,7 @@ class ElasticTermOf final : public ElasticTerm {
   const BlockPattern& pattern_;
   ElementBatches<E> elements_;
   std::vector<Offsets> offsets_;
+  double volume_excess_ = 1;  // the largest ratio of the points' volumes to the element's
 };
 
 }  // namespace orthodyn

@@ -18,7 +18,7 @@ namespace orthodyn {
 // as metres.
 //
 // Throws ConfigError "file:line: found, remedy" for anything that is not a complete and valid mesh
-// of linear tets (see validate()). Memory use is bounded by the size of the file, whatever counts
+// of linear or quadratic tets (see validate()). Memory use is bounded by the size of the file, whatever counts
 // it announces.
 LoadedMesh read_gmsh(const std::string& path);
 

@@ -20,29 +20,48 @@
 namespace orthodyn {
 namespace {
 
-// Puts the nodes on the edges of a quadratic tetrahedron into the order of kTetEdges by where they are: half way, as
-// TetGen makes them, whichever order its versions list them in.
+// Puts the nodes on the edges of quadratic tetrahedra into the order of kTetEdges, whichever order a version of TetGen
+// lists them in: the one in which most elements have them nearest to where TetGen makes them, half way.
 class MiddleSorter {
  public:
   explicit MiddleSorter(std::vector<FileNode> nodes) : nodes_(std::move(nodes)), number_(sorted(nodes_)) {}
 
-  // Leaves elements alone whose nodes are not all there: they are refused later.
-  void sort(const std::array<std::int64_t, 4>& corners, std::array<std::int64_t, 6>& midsides) const {
-    for (const std::int64_t tag : corners)
-      if (number_(tag) < 0) return;
-    for (const std::int64_t tag : midsides)
-      if (number_(tag) < 0) return;
-    for (std::size_t e = 0; e < kTetEdges.size(); ++e) {
-      const Vec3 half_way = 0.5 * (at(corners[kTetEdges[e][0]]) + at(corners[kTetEdges[e][1]]));
-      const auto nearer = [&](std::int64_t a, std::int64_t b) {
-        return (at(a) - half_way).squaredNorm() < (at(b) - half_way).squaredNorm();
-      };
-      std::iter_swap(midsides.begin() + static_cast<std::ptrdiff_t>(e),
-                     std::min_element(midsides.begin() + static_cast<std::ptrdiff_t>(e), midsides.end(), nearer));
+  void sort(std::vector<FileTet>& tets) const {
+    std::map<Order, int> found;
+    for (const FileTet& tet : tets)
+      if (const auto order = order_of(tet)) ++found[*order];
+    if (found.empty()) return;
+    const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
+    const Order order = std::max_element(found.begin(), found.end(), fewer)->first;
+    for (FileTet& tet : tets) {
+      const auto listed = *tet.midsides;
+      for (std::size_t e = 0; e < order.size(); ++e) (*tet.midsides)[e] = listed[order[e]];
     }
   }
 
  private:
+  using Order = std::array<std::size_t, 6>;  // for each edge the place in the list
+
+  // None where nodes are missing, which is refused later, or one is nearest to two edges.
+  std::optional<Order> order_of(const FileTet& tet) const {
+    for (const std::int64_t tag : tet.nodes)
+      if (number_(tag) < 0) return std::nullopt;
+    for (const std::int64_t tag : *tet.midsides)
+      if (number_(tag) < 0) return std::nullopt;
+    Order order{};
+    std::set<std::size_t> taken;
+    for (std::size_t e = 0; e < kTetEdges.size(); ++e) {
+      const Vec3 half_way = 0.5 * (at(tet.nodes[kTetEdges[e][0]]) + at(tet.nodes[kTetEdges[e][1]]));
+      const auto nearer = [&](std::int64_t a, std::int64_t b) {
+        return (at(a) - half_way).squaredNorm() < (at(b) - half_way).squaredNorm();
+      };
+      const auto nearest = std::min_element(tet.midsides->begin(), tet.midsides->end(), nearer);
+      order[e] = static_cast<std::size_t>(nearest - tet.midsides->begin());
+      if (!taken.insert(order[e]).second) return std::nullopt;
+    }
+    return order;
+  }
+
   static const std::vector<FileNode>& sorted(std::vector<FileNode>& nodes) {
     std::stable_sort(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) { return a.tag < b.tag; });
     return nodes;
@@ -110,8 +129,6 @@ class TetgenReader {
     const std::int64_t count = tokens.count("the number of tetrahedra");
     const std::int64_t nodes = tokens.integer("the nodes per tetrahedron");
     if (nodes != 4 && nodes != 10) tokens.fail(fmt::format("{} nodes per tetrahedron; expected 4, or 10 (-o2)", nodes));
-    std::optional<MiddleSorter> middles;
-    if (nodes == 10) middles.emplace(draft_.nodes);
     const std::int64_t attributes = tokens.peek() ? tokens.count("the number of attributes") : 0;
     tokens.finish_line();
     if (count == 0) tokens.fail("no tetrahedra");
@@ -119,16 +136,15 @@ class TetgenReader {
       FileTet tet{.tag = 0, .nodes = {}, .place = {tokens.line(), 1}};
       tet.tag = tokens.integer("the number of a tetrahedron");
       for (std::int64_t& node : tet.nodes) node = tokens.integer("a node");
-      if (middles) {
+      if (nodes == 10)
         for (std::int64_t& node : tet.midsides.emplace()) node = tokens.integer("a node");
-        middles->sort(tet.nodes, *tet.midsides);
-      }
       const bool named = attributes > 0;
       tet.region =
           draft_.region_index(named ? fmt::format("region{}", tokens.real("the attribute of a region")) : "body");
       for (std::int64_t k = 1; k < attributes; ++k) tokens.real("an attribute");
       draft_.tets.push_back(tet);
     });
+    if (nodes == 10) MiddleSorter(draft_.nodes).sort(draft_.tets);
   }
 
   void read_faces(std::string_view text) {

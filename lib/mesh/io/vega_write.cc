@@ -86,7 +86,7 @@ void add_regions(TextLines& lines, const LoadedMesh& loaded, Warnings& losses) {
 
 WrittenMesh write_vega(const LoadedMesh& loaded) {
   if (loaded.mesh.order() == 2)
-    throw ConfigError("Vega files hold linear tetrahedra only; write .vtu, .msh or .inp, or give the mesh `order: 1`");
+    throw ConfigError("Vega files hold linear tetrahedra only; write .vtu, .msh or .inp");
   WrittenMesh written;
   TextLines lines;
   add_vega_mesh(lines, loaded.mesh);
