@@ -164,7 +164,7 @@ TEST(Tet10, LumpedEnergyExceedsConsistentByNoMoreThanItSays) {
   EXPECT_NEAR(1 / symmetric_eigenvalues(scaled)[0], Tet10::kLumpedToConsistent, 1e-10);
 }
 
-// The divergence theorem over the curved faces, by the map itself: V = integral of det dX/dL.
+// V = integral of det dX/dL, by a rule of another kind.
 TEST(Tet10, HasTheMassOfItsCurvedShape) {
   Random random(407);
   const Nodes X = random_curved(random);
