@@ -102,7 +102,7 @@ Warnings strain_warnings(const FemModel& model, const std::vector<Stiffness>& st
       check("twice the linear static response to the loads",
            [&](int k, int p) -> Mat3 { return kOvershoot * term->small_strain(k, p, u); });
     if (!initial.q.isZero(0))
-      check("the initial deformation", [&](int k, int p) { return term->strain(k, p, start.state()); });
+      check("the initial deformation", [&](int k, int p) { return term->observe_point(k, p, start.state()).strain; });
   }
   return out;
 }

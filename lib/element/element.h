@@ -54,6 +54,10 @@ concept Element = requires(int point, NodeDifferences<E::kNodes> d, ElementNodes
   // Point number `point` of [0, kPoints) of an element with these node differences at rest and these axes.
   { E::point(point, d, Q) } -> std::same_as<ElementPoint<E::kNodes>>;
   { E::place_of(point, X) } -> std::same_as<Vec3>;  // m, at rest
+  // Of complete polynomials that the shape functions hold.
+  { E::kDegree } -> std::convertible_to<int>;
+  // Takes values at the points to the nodes, along the polynomial through the points.
+  { E::points_to_nodes() } -> std::same_as<Eigen::Matrix<double, E::kNodes, E::kPoints>>;
   { E::mass(X, density) } -> std::same_as<double>;  // kg, density in kg/m^3
   // integral of rho N_a N_b dV, kg.
   { E::consistent_mass(X, density) } -> std::same_as<Eigen::Matrix<double, E::kNodes, E::kNodes>>;

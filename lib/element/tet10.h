@@ -18,7 +18,7 @@ namespace orthodyn {
 
 struct Tet10 {
   static constexpr const char* kName = "quadratic tetrahedron";
-  static constexpr int kNodes = 10, kPoints = 4;
+  static constexpr int kNodes = 10, kPoints = 4, kDegree = 2;
   static constexpr int kVtkCellType = 24;  // VTK_QUADRATIC_TETRA
   static constexpr std::array<std::array<int, 2>, 6> kEdges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
   static constexpr double kCorner = 1.0 / 36, kMiddle = 4.0 / 27;
@@ -80,6 +80,17 @@ struct Tet10 {
   }
 
   static Vec3 place_of(int p, const ElementNodes<kNodes>& X) { return X * shape(place(p)); }
+
+  // A linear function is sum L_i(node) c_i with the values c at the corners, and sum L_i(point) c_i at the points.
+  static Eigen::Matrix<double, kNodes, kPoints> points_to_nodes() {
+    Eigen::Matrix<double, kNodes, 4> at_nodes = Eigen::Matrix<double, kNodes, 4>::Zero();
+    Eigen::Matrix4d at_points;
+    for (int i = 0; i < 4; ++i) at_nodes(i, i) = 1;
+    for (int e = 0; e < 6; ++e)
+      for (const int i : edge(e)) at_nodes(4 + e, i) = 0.5;
+    for (int p = 0; p < kPoints; ++p) at_points.row(p) = place(p).transpose();
+    return at_nodes * at_points.inverse();
+  }
 
   static double mass(const ElementNodes<kNodes>& X, double density) {
     const NodeDifferences<kNodes> rest = differences<kNodes>(X);

@@ -8,7 +8,7 @@ namespace orthodyn {
 
 struct Tet4 {
   static constexpr const char* kName = "linear tetrahedron";
-  static constexpr int kNodes = 4, kPoints = 1;
+  static constexpr int kNodes = 4, kPoints = 1, kDegree = 1;
   static constexpr int kVtkCellType = 10;  // VTK_TETRA
   static constexpr std::array<double, kNodes> kLumpedShares{0.25, 0.25, 0.25, 0.25};
   static constexpr double kLumpedToConsistent = 5;  // m/4 against the smallest eigenvalue of the consistent mass, m/20
@@ -18,6 +18,8 @@ struct Tet4 {
   }
 
   static Vec3 place_of(int, const ElementNodes<kNodes>& X) { return X.rowwise().sum() / 4; }
+
+  static Eigen::Vector4d points_to_nodes() { return Eigen::Vector4d::Ones(); }
 
   static double mass(const ElementNodes<kNodes>& X, double density) {
     const Vec3 a = X.col(1) - X.col(0), b = X.col(2) - X.col(0), c = X.col(3) - X.col(0);

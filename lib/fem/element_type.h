@@ -26,6 +26,10 @@ class ElementType {
   // Where the law is evaluated: a column per integration point, m, at rest.
   virtual Nodes points(const Nodes& X) const = 0;
 
+  // Element::kDegree and points_to_nodes().
+  virtual int degree() const = 0;
+  virtual Eigen::MatrixXd points_to_nodes() const = 0;
+
   // Of one element, kg; density in kg/m^3. The lumped masses are positive and sum to density times volume.
   virtual Vector lumped_mass(const Nodes& X, double density) const = 0;
   virtual Eigen::MatrixXd consistent_mass(const Nodes& X, double density) const = 0;

@@ -22,6 +22,9 @@ class ElementTypeOf final : public ElementType {
     return out;
   }
 
+  int degree() const override { return E::kDegree; }
+  Eigen::MatrixXd points_to_nodes() const override { return E::points_to_nodes(); }
+
   Vector lumped_mass(const Nodes& X, double density) const override {
     return E::mass(X, density) * Eigen::Map<const Eigen::Matrix<double, E::kNodes, 1>>(E::kLumpedShares.data());
   }

@@ -28,6 +28,7 @@ void for_each_term(const FemModel::Parts& parts, F&& f) {
 }  // namespace
 
 FemModel::FemModel(Parts parts) : parts_(std::move(parts)) {
+  parts_.recovery = std::make_unique<StressRecovery>(parts_.mesh, parts_.elastic);
   const auto has_energy = [](const auto& term) { return term->has_energy(); };
   const bool pulled = supports_pull(parts_);  // which has no energy
   if (!pulled && std::all_of(parts_.elastic.begin(), parts_.elastic.end(), has_energy))

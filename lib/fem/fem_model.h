@@ -15,6 +15,7 @@
 #include "lib/fem/terms/elastic_term.h"
 #include "lib/fem/mass.h"
 #include "lib/fem/motion/moved_nodes.h"
+#include "lib/fem/stress_recovery.h"
 #include "lib/fem/support_mass.h"
 #include "lib/fem/term.h"
 #include "lib/mesh/tet_mesh.h"
@@ -44,6 +45,7 @@ class FemModel : public Model {
     std::unique_ptr<MovedNodes> moved;                  // null if none
     std::vector<Support> supports;                      // those whose reactions are wanted
     std::unique_ptr<SupportMass> support_mass;          // null without either
+    std::unique_ptr<StressRecovery> recovery;            // made by FemModel, with the first nodal stress
     Traits traits;
   };
 

@@ -1,4 +1,6 @@
 // The named fields and scalars of a FemModel.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -35,21 +37,59 @@ Values per_cell(const View& view, std::size_t components,
   return out;
 }
 
-void write_voigt(const Mat3& s, double* out) {
-  const double v[] = {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(2, 0)};
-  std::copy(std::begin(v), std::end(v), out);
-}
+// 11, 22, 33, 12, 23, 31 of a symmetric tensor that is seen at a point.
+struct Tensor {
+  const char *name, *unit, *sentence;
+  Mat3 (*pick)(const PointObservation&);
 
-using Observed = std::function<Mat3(const PointObservation&)>;
+  Vec6 operator()(const PointObservation& o) const {
+    const Mat3 s = pick(o);
+    return {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(2, 0)};
+  }
+};
 
-Output symmetric_tensor(const std::string& name, const std::string& unit, const std::string& sentence,
-                        const Observed& pick) {
-  return {{name, Location::cell, 6, unit, sentence},
-          [pick](const View& view) {
+constexpr Tensor kStrain{"strain", "1", "Strain S - I in material axes: 11, 22, 33, 12, 23, 31 (tensor shear)",
+                         [](const PointObservation& o) { return o.strain; }};
+constexpr Tensor kStress{"stress", "Pa", "Elastic Cauchy stress in space: xx, yy, zz, xy, yz, zx; NaN where inverted",
+                         [](const PointObservation& o) { return o.cauchy; }};
+constexpr Tensor kStressMaterial{
+    "stress_material", "Pa", "Elastic Cauchy stress in the rotated material axes: 11, 22, 33, 12, 23, 31",
+    [](const PointObservation& o) { return Mat3(o.axes.transpose() * o.cauchy * o.axes); }};
+
+Output mean_of_cells(const Tensor& tensor) {
+  return {{tensor.name, Location::cell, 6, tensor.unit, fmt::format("{}. Mean of an element.", tensor.sentence)},
+          [&tensor](const View& view) {
             return per_cell(view, 6, [&](const ElasticTerm& term, int k, double* out) {
-              write_voigt(pick(term.observe(k, view.state())), out);
+              const Vec6 v = tensor(term.observe(k, view.state()));
+              std::copy(v.begin(), v.end(), out);
             });
           }};
+}
+
+Output at_nodes(const Tensor& tensor) {
+  return {{fmt::format("nodal_{}", tensor.name), Location::node, 6, tensor.unit,
+           fmt::format("{}. Recovered at the nodes.", tensor.sentence)},
+          [&tensor](const View& view) { return flat(view.parts().recovery->at_nodes(view.state(), tensor)); }};
+}
+
+// Of each element the energy of the error for its volume, J/m^3.
+Values mesh_error_density(const View& view) {
+  const auto errors = view.parts().recovery->mesh_errors(view.state());
+  const auto& terms = view.parts().elastic;
+  Values out(view.parts().mesh.region_of.size());
+  for (std::size_t r = 0; r < terms.size(); ++r)
+    for (int k = 0; k < terms[r]->size(); ++k)
+      out[static_cast<std::size_t>(terms[r]->cell(k))] = errors[r].error[k] / errors[r].volume[k];
+  return out;
+}
+
+Values mesh_error(const View& view) {
+  Values out{0, 0};
+  for (const RegionMeshError& region : view.parts().recovery->mesh_errors(view.state())) {
+    out[0] += region.error.sum();
+    out[1] += region.energy;
+  }
+  return out;
 }
 
 Output material_axis(int axis) {
@@ -138,16 +178,20 @@ const std::vector<Output>& all_outputs() {
       material_axis(0),
       material_axis(1),
       material_axis(2),
-      symmetric_tensor("strain", "1", "Strain S - I in material axes: 11, 22, 33, 12, 23, 31 (tensor shear).",
-                       [](const PointObservation& o) { return o.strain; }),
-      symmetric_tensor("stress", "Pa", "Elastic Cauchy stress in space: xx, yy, zz, xy, yz, zx; NaN where inverted.",
-                       [](const PointObservation& o) { return o.cauchy; }),
-      symmetric_tensor("stress_material", "Pa",
-                       "Elastic Cauchy stress in the rotated material axes: 11, 22, 33, 12, 23, 31.",
-                       [](const PointObservation& o) { return Mat3(o.axes.transpose() * o.cauchy * o.axes); }),
+      mean_of_cells(kStrain),
+      mean_of_cells(kStress),
+      mean_of_cells(kStressMaterial),
+      at_nodes(kStrain),
+      at_nodes(kStress),
+      at_nodes(kStressMaterial),
+      {{"mesh_error", Location::cell, 1, "J/m^3", "Estimated elastic energy of the mesh's error, per volume."},
+       mesh_error_density},
       scalar("energy.kinetic", "J", "Kinetic energy.", [](const View& view) { return view.kinetic_energy(); }),
       scalar("energy.elastic", "J", "Elastic energy, that of springs and of contact included.",
              [](const View& view) { return view.energy(EnergyKind::elastic); }),
+      {{"energy.mesh_error", Location::global, 2, "J",
+        "Estimated elastic energy of the mesh's error, and the elements' elastic energy."},
+       mesh_error},
       scalar("energy.gravitational", "J", "Energy in the gravity field, zero at rest.",
              [](const View& view) { return view.energy(EnergyKind::gravitational); }),
       scalar("power.dissipated", "W", "Power taken by damping.", dissipated_power),

@@ -94,6 +94,16 @@ void require_size(const TetMesh& mesh) {
                                 Value<Vec3>::yaml(box.min), Value<Vec3>::yaml(box.max), kSmallest, kLargest));
 }
 
+// With one quadratic element through a thickness its mean is blind for bending.
+void add_note_on_means(const Scene& scene, const TetMesh& mesh, Warnings& warnings) {
+  if (mesh.order() == 1) return;
+  for (const std::string& field : scene.output.fields)
+    if (field == "strain" || field == "stress" || field == "stress_material")
+      warnings.push_back(fmt::format("output.fields: '{0}' of a quadratic element is its mean, which hides how it "
+                                     "varies within; nodal_{0} shows it",
+                                     field));
+}
+
 // What the materials had to change of the input.
 void add_notes(const Scene& scene, Warnings& warnings) {
   for (const auto& [name, material] : scene.materials)
@@ -133,6 +143,7 @@ BuiltScene build(const Scene& scene) {
   add_force_terms(scene, parts);
   BuiltScene built{std::make_unique<FemModel>(std::move(parts)), {}, std::move(loaded.warnings)};
   add_notes(scene, built.warnings);
+  add_note_on_means(scene, built.model->parts().mesh, built.warnings);
   built.initial = initial_state(scene.initial, scene.time.start, *built.model);
   return built;
 }

@@ -40,6 +40,8 @@ const Spec<Output>& Output::spec() {
                "Tell after runs of some 500 steps and more how far the errors of the steps may have added up, by "
                "integrating a "
                "few short parts again; costs some per cent.")
+          .key("mesh_error", &Output::mesh_error,
+               "Tell how far off the mesh may be, from stresses recovered at the nodes, at some of the outputs.")
           .key("energy_times", &Output::energy_times,
                "outputs: energies are computed for the rows of energy.csv; steps: after each step, too, and the drift "
                "of the summary is over all of them. It costs about one evaluation of the forces a step.")

@@ -30,7 +30,7 @@ struct Output {
   Named<Probe> probes;
   bool reactions = false, energy = true, steps = true, momentum = false;
   EnergyTimes energy_times = EnergyTimes::outputs;
-  bool accumulated_error = true;
+  bool accumulated_error = true, mesh_error = true;
   Origin origin;
   static const Spec<Output>& spec();
 };

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kMuchDrift = 0.01;  // of the largest energy
 constexpr double kMuchError = 0.05;  // of the largest displacement
+constexpr double kCoarse = 0.05;     // of the elastic energy
 
 std::string drift_sentence(const EnergySummary& energy) {
   return fmt::format(
@@ -37,6 +38,13 @@ std::string accumulation_sentence(const MotionResult& motion) {
       method_of(motion) == "arkode_dirk" ? "a smaller integrator.h_max" : "integrator.type: arkode_dirk");
 }
 
+std::string mesh_sentence(const ModelSummary& model, double error) {
+  return fmt::format(
+      "the mesh is coarse for this motion: of the elastic energy about {:.2g} is its error. Deflections are too small "
+      "and frequencies too high. {}, and compare (frames with the field mesh_error show where)",
+      error, model.order == 1 ? "Take mesh.order: 2 or finer cells" : "Take finer cells");
+}
+
 void add_doubts(const EquilibriumResult& equilibrium, std::vector<std::string>& all) {
   if (!(equilibrium.det_f.value > 0))
     all.push_back(fmt::format("element {} is inverted (det F = {:.3g}): this equilibrium has no meaning",
@@ -54,6 +62,9 @@ void add_doubts(const EquilibriumResult& equilibrium, std::vector<std::string>& 
 std::vector<std::string> doubts(const RunResult& result) {
   std::vector<std::string> all;
   if (result.equilibrium) add_doubts(*result.equilibrium, all);
+  const auto& mesh = result.motion ? result.motion->mesh_error
+                                   : result.equilibrium ? result.equilibrium->mesh_error : std::nullopt;
+  if (mesh && mesh->relative > kCoarse) all.push_back(mesh_sentence(result.model, mesh->relative));
   if (const auto& motion = result.motion) {
     if (!(motion->det_f.value > 0))
       all.push_back(fmt::format("element {} was inverted at t = {:.4g} s (det F = {:.3g})", motion->det_f.element,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "lib/config/registry.h"
 #include "lib/config/values.h"
 #include "lib/simulation/model_summary.h"
 #include "lib/simulation/checkpoint/resume.h"
@@ -110,6 +111,7 @@ class DynamicAnalysis {
     auto all = observers.all(progress.get(), checkpointer);
     if (estimator_) all.push_back(&estimator_->recorder());
     if (setup_.scene.output.accumulated_error) all.push_back(&parts_.emplace(*setup_.built.model));
+    if (setup_.scene.output.mesh_error) all.push_back(&mesh_error_.emplace(plan.output_times.size()));
     const Outcome outcome =
         orthodyn::run(*setup_.built.model, *setup_.integrator, begin.state, plan, all, context_.interrupt);
     const bool kept = keeps_last_state(setup_.scene, outcome, begin.begun) && keep(outcome.last, checkpointer);
@@ -139,6 +141,8 @@ class DynamicAnalysis {
     if (const auto& e = observers.energy)
       out.energy = {e->last(), e->time(), e->drift(), e->scale(), e->relative_drift(), e->times()};
     if (const auto& m = observers.momentum) out.momentum = {m->angular_drift(), m->angular_scale()};
+    if (mesh_error_) out.mesh_error = mesh_error_->found();
+    out.rtol = Registry<IntegratorChoice>::read(setup_.config.at("integrator"))->settings().rtol;
     if (outcome.status == Outcome::Status::failed) out.failure = failure_place(*setup_.built.model, outcome.last);
     return out;
   }
@@ -184,6 +188,7 @@ class DynamicAnalysis {
   ResultFolder& folder_;
   std::optional<ErrorEstimator> estimator_;
   std::optional<PartRecorder> parts_;
+  std::optional<MeshErrorRecorder> mesh_error_;
 };
 
 }  // namespace

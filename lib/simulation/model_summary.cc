@@ -4,7 +4,8 @@ namespace orthodyn {
 
 ModelSummary summarize(const FemModel& model) {
   const auto& parts = model.parts();
-  ModelSummary out{parts.mesh.nodes.size(), parts.mesh.tets.size(), model.num_dofs(), parts.elastic.front()->law(), {}};
+  ModelSummary out{parts.mesh.nodes.size(), parts.mesh.tets.size(),       model.num_dofs(),
+                   parts.mesh.order(),      parts.elastic.front()->law(), {}};
   for (const auto& term : parts.elastic) out.terms.push_back(term->description());
   for (const auto& term : parts.loads) out.terms.push_back(term->description());
   return out;

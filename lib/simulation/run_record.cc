@@ -1,6 +1,7 @@
 #include "lib/simulation/run_record.h"
 
 #include "lib/simulation/doubts.h"
+#include "lib/simulation/errors/error_balance.h"
 #include "lib/simulation/machine.h"
 
 namespace orthodyn {
@@ -54,6 +55,13 @@ Json error_json(const ErrorEstimate& e) {
   return out;
 }
 
+Json errors_json(const ErrorBalance& errors) {
+  Json out{{"mesh", errors.mesh}};
+  if (errors.time) out["time"] = *errors.time;
+  if (!errors.advice.empty()) out["advice"] = errors.advice;
+  return out;
+}
+
 Json failure_json(const Outcome& outcome) {
   return {{"reason", reason_name(outcome.reason)}, {"message", outcome.message}};
 }
@@ -85,6 +93,7 @@ void add_motion(Json& out, const MotionResult& motion, const Outcome& outcome) {
     out["accumulated_error"] = {{"error", e->error}, {"parts", e->parts}, {"steps_each", e->steps}, {"since", e->since},
                                 {"against", e->against}, {"wall_seconds", e->wall_seconds}};
   if (motion.error) out["estimated_error"] = error_json(*motion.error);
+  if (motion.rtol) out["rtol"] = *motion.rtol;
   if (!outcome.remark.empty()) out["remark"] = outcome.remark;
   if (outcome.status != Outcome::Status::failed) return;
   out["failure"] = failure_json(outcome);
@@ -119,6 +128,7 @@ void RunRecord::finish(const RunResult& result) const {
   out["model"] = model_json(result.model);
   if (result.motion) add_motion(out, *result.motion, result.outcome);
   if (result.equilibrium) add_equilibrium(out, *result.equilibrium, result.outcome);
+  if (const auto errors = error_balance(result)) out["errors"] = errors_json(*errors);
   if (const auto warnings = doubts(result); !warnings.empty()) out["warnings"] = warnings;
   file_.rewrite(text(out));
 }

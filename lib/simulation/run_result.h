@@ -11,6 +11,7 @@
 #include "lib/simulation/checkpoint/effort.h"
 #include "lib/simulation/errors/accumulated_error.h"
 #include "lib/simulation/errors/error_estimate.h"
+#include "lib/simulation/errors/mesh_error.h"
 #include "lib/simulation/outcome.h"
 
 namespace orthodyn {
@@ -18,6 +19,7 @@ namespace orthodyn {
 struct ModelSummary {
   std::size_t nodes = 0, elements = 0;
   int unknowns = 0;
+  int order = 1;  // of its elements
   std::string elasticity;          // the law of the first region
   std::vector<std::string> terms;  // in words
 };
@@ -58,7 +60,9 @@ struct MotionResult {
   std::optional<MomentumSummary> momentum = {};  // likewise momentum.csv
   std::optional<FailurePlace> failure = {};      // of a run that failed
   std::optional<AccumulatedError> accumulated = {};  // of a long run
-  std::optional<ErrorEstimate> error = {};       // if it was asked for
+  std::optional<ErrorEstimate> error = {};           // if it was asked for
+  std::optional<MeshError> mesh_error = {};          // of a body that is deformed
+  std::optional<double> rtol = {};                   // of the integrator
 };
 
 // Of a static analysis: the last equilibrium.
@@ -72,6 +76,7 @@ struct EquilibriumResult {
   std::string solver = {};                // its linear solver
   Statistics statistics = {};
   SmallestDetF det_f = {};
+  std::optional<MeshError> mesh_error = {};
 };
 
 struct RunResult {

@@ -67,7 +67,8 @@ void refuse_what_is_for_motion(const RunRequest& request) {
     throw ConfigError("--estimate-error: a static analysis has no error of integration; remove it");
 }
 
-EquilibriumResult equilibrium_result(const StaticProblem& problem, const State& last) {
+EquilibriumResult equilibrium_result(const StaticProblem& problem, const State& last,
+                                     const std::optional<MeshError>& mesh_error) {
   const auto det_f = problem.path->evaluate("det_f.smallest", last);
   return {.loads_at_time = problem.path->time(),
           .load_steps = problem.stepper->steps(),
@@ -79,7 +80,8 @@ EquilibriumResult equilibrium_result(const StaticProblem& problem, const State& 
           .residual_above_tolerance = problem.stepper->attempt().above_tolerance,
           .solver = problem.solver->description(),
           .statistics = problem.solver->statistics(),
-          .det_f = {det_f[0], static_cast<long>(det_f[1]), problem.path->time()}};
+          .det_f = {det_f[0], static_cast<long>(det_f[1]), problem.path->time()},
+          .mesh_error = mesh_error};
 }
 
 }  // namespace
@@ -99,7 +101,9 @@ RunResult run_static_analysis(RunContext context) {
   RunResult result{.scene = context.scene, .folder = folder};
   result.outcome = run_static(*problem.path, *problem.stepper, all, context.interrupt);
   result.model = summarize(*setup.built.model);
-  result.equilibrium = equilibrium_result(problem, result.outcome.last);
+  MeshErrorRecorder mesh_error(0);
+  if (setup.scene.output.mesh_error) mesh_error.look_at({*problem.path, result.outcome.last});
+  result.equilibrium = equilibrium_result(problem, result.outcome.last, mesh_error.found());
   record.finish(result);
   context.listener.on_result(result);
   return result;

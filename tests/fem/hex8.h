@@ -11,7 +11,7 @@ namespace orthodyn {
 
 struct Hex8 {
   static constexpr const char* kName = "trilinear hexahedron";
-  static constexpr int kNodes = 8, kPoints = 8;
+  static constexpr int kNodes = 8, kPoints = 8, kDegree = 1;
   static constexpr int kVtkCellType = 12;
   static constexpr std::array<double, kNodes> kLumpedShares{.125, .125, .125, .125, .125, .125, .125, .125};
   static constexpr double kLumpedToConsistent = 27;  // of a parallelepiped: 3 in each direction
@@ -39,6 +39,14 @@ struct Hex8 {
     Vec3 at = Vec3::Zero();
     for (int a = 0; a < kNodes; ++a) at += shape(a, gauss_point(p)) * X.col(a);
     return at;
+  }
+
+  // Trilinear in xi sqrt(3), of which the points are the corners.
+  static Eigen::Matrix<double, kNodes, kPoints> points_to_nodes() {
+    Eigen::Matrix<double, kNodes, kPoints> E;
+    for (int a = 0; a < kNodes; ++a)
+      for (int p = 0; p < kPoints; ++p) E(a, p) = shape(p, std::sqrt(3.0) * corner(a));
+    return E;
   }
 
   static double mass(const ElementNodes<kNodes>& X, double density) {

@@ -132,6 +132,7 @@ Eigen::MatrixXd slopes(int order, const Eigen::Vector4d& L) {
 
 struct SpaceError {
   double displacement, gradient;  // L2 norms
+  double energy, estimated;       // J, elastic energy of the error
 };
 
 // The error of a manufactured solution u = sin(2 x_1 + x_2) w + cos(x_2 - 2 x_3) z with its body force and boundary
@@ -183,7 +184,7 @@ SpaceError manufactured(int cells, int order) {
   q += Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(K).solve(f);
 
   const NodalVector nodal = s.nodal(q);
-  SpaceError error{0, 0};
+  SpaceError error{0, 0, 0, s.model().evaluate("energy.mesh_error", {0, q, s.zero()})[0]};
   each_point([&](auto nodes, const Vector& N, const Eigen::MatrixXd& G, const Vec3& x, double volume) {
     Vec3 value = -u(x);
     Mat3 slope = -gradient(x);
@@ -194,8 +195,11 @@ SpaceError manufactured(int cells, int order) {
     }
     error.displacement += volume * value.squaredNorm();
     error.gradient += volume * slope.squaredNorm();
+    error.energy += volume * 0.5 * law.stress(slope).cwiseProduct(slope).sum();
   });
-  return {std::sqrt(error.displacement), std::sqrt(error.gradient)};
+  error.displacement = std::sqrt(error.displacement);
+  error.gradient = std::sqrt(error.gradient);
+  return error;
 }
 
 class Space : public testing::TestWithParam<int> {};
@@ -206,6 +210,17 @@ TEST_P(Space, ErrorsFallWithTheOrderOfTheElement) {
   const SpaceError coarse = manufactured(cells, order), fine = manufactured(2 * cells, order);
   EXPECT_NEAR(std::log2(coarse.displacement / fine.displacement), order + 1, 0.2);
   EXPECT_NEAR(std::log2(coarse.gradient / fine.gradient), order, 0.1);
+}
+
+// In the energy norm, on a smooth solution of an oblique orthotropic body.
+TEST_P(Space, ErrorsAreEstimatedByRecoveredStresses) {
+  const int order = GetParam();
+  for (const int cells : {2, 4, 7}) {
+    const SpaceError error = manufactured(cells * (order == 1 ? 2 : 1), order);
+    const double effectivity = std::sqrt(error.estimated / error.energy);
+    EXPECT_GT(effectivity, 0.7) << cells;
+    EXPECT_LT(effectivity, 1.5) << cells;
+  }
 }
 
 // Without contraction a clamp does not disturb: Timoshenko's beam, with a shear factor of 5/6.

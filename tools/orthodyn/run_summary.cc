@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lib/simulation/doubts.h"
+#include "lib/simulation/errors/error_balance.h"
 
 namespace orthodyn {
 
@@ -39,6 +40,15 @@ void print_energy(const EnergySummary& energy) {
              energy.times == EnergyTimes::steps ? "over all steps" : "at the outputs");
 }
 
+// `width`: of the words before figures.
+void print_errors(const RunResult& result, int width) {
+  const auto errors = error_balance(result);
+  if (!errors) return;
+  fmt::print("  {:<{}} mesh {:.1e} of the elastic energy{}{}{}\n", "errors, about", width, errors->mesh,
+             errors->time ? fmt::format(", time {:.1e} of the motion", *errors->time) : "",
+             errors->advice.empty() ? "" : ": ", errors->advice);
+}
+
 void print_motion(const RunResult& result, const MotionResult& motion) {
   const auto& outcome = result.outcome;
   fmt::print("{} with {}: {} unknowns, {} at t = {:.6g} s after {:.2f} s ({:.2f} s CPU)\n", result.scene,
@@ -57,6 +67,7 @@ void print_motion(const RunResult& result, const MotionResult& motion) {
         "  {:<15} about {:.2g} of the largest motion since t = {:.4g} s, by {} part{} of {} steps against {} ({:.2f} "
         "s)\n",
         "error", e->error, e->since, e->parts, e->parts == 1 ? "" : "s", e->steps, e->against, e->wall_seconds);
+  print_errors(result, 15);
   fmt::print("  {:<15} {:.4g} in element {} at t = {:.4g} s{}\n", "smallest det F", motion.det_f.value,
              motion.det_f.element, motion.det_f.time, motion.det_f.value <= 0 ? ": INVERTED" : "");
   fmt::print("  {:<15} {}\n", "results", result.folder.string());
@@ -75,6 +86,7 @@ void print_equilibrium(const RunResult& result, const EquilibriumResult& equilib
   fmt::print("  {:<20} {:.6g} m\n", "largest displacement", equilibrium.largest_displacement);
   fmt::print("  {:<20} {:.2g} N, {:.2g} of the largest load on a coordinate\n", "residual", equilibrium.residual,
              equilibrium.residual / std::max(equilibrium.largest_load, 1e-300));
+  print_errors(result, 20);
   fmt::print("  {:<20} {}\n", "results", result.folder.string());
 }
 

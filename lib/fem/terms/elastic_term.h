@@ -34,11 +34,16 @@ class ElasticTerm : public Term {
   // What can be seen at the mean deformation gradient of an element.
   virtual PointObservation observe(int k, const NodalState& s) const = 0;
 
-  // At one of the points where the law is evaluated, in material axes: sym(grad u) of a small displacement u (m), and
-  // the strain of a state.
+  // At one of the points where the law is evaluated.
   virtual int num_points() const = 0;
+  virtual PointObservation observe_point(int k, int point, const NodalState& s) const = 0;
+
+  // The same point at rest: material axes (columns), and in them sym(grad u) of a small displacement u (m).
+  virtual Mat3 axes_at_rest(int k, int point) const = 0;
   virtual Mat3 small_strain(int k, int point, const NodalVector& u) const = 0;
-  virtual Mat3 strain(int k, int point, const NodalState& s) const = 0;
+
+  // Pa, in material axes, in the order of stiffness.h.
+  virtual Mat6 stiffness() const = 0;
 
   // The smallest of the element's points; not positive where it is inverted.
   virtual double det_F(int k, const NodalState& s) const = 0;

@@ -114,9 +114,12 @@ class ElasticTermOf final : public ElasticTerm {
     return orthodyn::small_strain<double>(elements_.gradient(k, p, u), axes().of(k, p));
   }
 
-  Mat3 strain(int k, int p, const NodalState& s) const override {
-    return law_.observe(elements_.gradient(k, p, s.u), axes().of(k, p)).strain;
+  PointObservation observe_point(int k, int p, const NodalState& s) const override {
+    return law_.observe(elements_.gradient(k, p, s.u), axes().of(k, p));
   }
+
+  Mat3 axes_at_rest(int k, int p) const override { return axes().of(k, p); }
+  Mat6 stiffness() const override { return voigt(region_.stiffness); }
 
   double det_F(int k, const NodalState& s) const override {
     double smallest = std::numeric_limits<double>::infinity();

@@ -1,0 +1,70 @@
+// Values at the nodes of a region from those at its integration points, where stresses are most accurate: around each
+// node a polynomial of the elements' degree is fitted by least squares (Zienkiewicz & Zhu 1992, Int. J. Numer. Meth.
+// Eng. 33, 1331), over the elements at the node and, where these are too few, their neighbours. And the error of the
+// elastic energy that the difference of recovered and computed stresses tells.
+//
+// Regions are recovered one by one, for stresses jump between them. Thread-safe: computed once, at the first use.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "lib/fem/element_mesh.h"
+#include "lib/fem/terms/elastic_term.h"
+
+namespace orthodyn {
+
+using SixColumns = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
+
+// Of one region. Points are numbered by elements: num_points() k + p.
+class RegionRecovery {
+ public:
+  RegionRecovery(const ElementMesh& mesh, const ElasticTerm& term);
+
+  // The nodes of the region, by their indices in the mesh; of each a row.
+  const std::vector<int>& nodes() const { return nodes_; }
+  SixColumns at_nodes(const SixColumns& at_points) const { return weights_ * at_points; }
+
+  // Of each element its nodes as rows of these.
+  const Cells& cells() const { return cells_; }
+
+ private:
+  std::vector<int> nodes_;
+  Cells cells_;
+  Eigen::SparseMatrix<double, Eigen::RowMajor> weights_;  // nodes x points
+};
+
+// Of the elements of a region, in their order.
+struct RegionMeshError {
+  Vector volume;  // m^3
+  Vector error;   // J, elastic energy of the error that the mesh makes
+  double energy;  // J, of the computed stresses in all of them
+};
+
+class StressRecovery {
+ public:
+  using Terms = std::vector<std::unique_ptr<ElasticTerm>>;
+
+  // Both must outlive it.
+  StressRecovery(const TetMesh& mesh, const Terms& terms) : mesh_(mesh), terms_(terms) {}
+
+  // Of what is seen at the points, six components: a column per node of the mesh; at nodes of several regions their
+  // mean.
+  using Seen = std::function<Vec6(const PointObservation&)>;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> at_nodes(const NodalState& s, const Seen& seen) const;
+
+  // One for each term.
+  std::vector<RegionMeshError> mesh_errors(const NodalState& s) const;
+
+ private:
+  const std::vector<RegionRecovery>& regions() const;
+
+  const TetMesh& mesh_;
+  const Terms& terms_;
+  mutable std::once_flag once_;
+  mutable std::vector<RegionRecovery> regions_;
+};
+
+}  // namespace orthodyn

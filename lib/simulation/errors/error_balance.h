@@ -1,0 +1,20 @@
+// Which error of a run is the larger one, that of the mesh or that of the integration, and what to change.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "lib/simulation/run_result.h"
+
+namespace orthodyn {
+
+struct ErrorBalance {
+  double mesh = 0;             // MeshError::relative
+  std::optional<double> time;  // of the motion: estimated, or as far as errors of steps have added up; else unknown
+  std::string advice;          // "the mesh dominates: use finer cells; rtol 1e-3 would do"
+};
+
+// None where the mesh's error is not known.
+std::optional<ErrorBalance> error_balance(const RunResult& result);
+
+}  // namespace orthodyn

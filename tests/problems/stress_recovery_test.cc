@@ -1,0 +1,136 @@
+// Stresses at nodes and the mesh's error, from recovered stresses.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "lib/mesh/box.h"
+#include "lib/mesh/quadratic.h"
+#include "lib/simulation/errors/error_balance.h"
+#include "tests/problems/running.h"
+
+namespace orthodyn::stress_recovery_test {
+namespace {
+
+// A box with distorted cells of one or two regions in small strain.
+BuiltTestScene box(int order, bool two_regions = false) {
+  TetMesh mesh = make_box({.cells = {3, 3, 3}, .split = BoxMesh::Split::six});
+  Random random(511);
+  for (Vec3& x : mesh.nodes)
+    if ((x.array() > 0.01).all() && (x.array() < 0.99).all()) x += 0.05 * random.vector();
+  if (two_regions) {
+    mesh.region_names = {"soft", "stiff"};
+    for (std::size_t c = 0; c < mesh.tets.size(); ++c) {
+      double middle = 0;
+      for (const int node : mesh.tets[c]) middle += mesh.nodes[static_cast<std::size_t>(node)][0] / 4;
+      mesh.region_of[c] = middle > 0.5 ? 1 : 0;
+    }
+  }
+  if (order == 2) make_quadratic(mesh);
+  given_mesh() = mesh;
+  return BuiltTestScene(fmt::format(R"(
+mesh: {{type: given}}
+materials:
+  m: {{type: orthotropic, density: 1, young: [10, 1, 0.5], nu12: 0.4, nu23: 0.4, nu31: 0.02, g12: 0.7, g23: 0.1, g13: 0.6}}
+  soft: {{type: isotropic, density: 1, young: 1, nu: 0}}
+  stiff: {{type: isotropic, density: 1, young: 3, nu: 0}}
+regions: {}
+elasticity: {{kinematics: linear}}
+mass: consistent
+time: {{end: 1}}
+)", two_regions ? "{soft: {material: soft}, stiff: {material: stiff}}"
+                                                          : fmt::format("{{all: {{material: m, axes: {}}}}}", kTurnedAxes)));
+}
+
+std::vector<double> nodal_strain(const BuiltTestScene& s, const Vector& q) {
+  return s.model().evaluate("nodal_strain", {0, q, s.zero()});
+}
+
+class Recovery : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Order, Recovery, testing::Values(1, 2));
+
+// A strain of the degree that the elements hold is met at every node, on the surface as well, and no error is seen.
+TEST_P(Recovery, IsExactForTheStrainsThatElementsHold) {
+  const int order = GetParam();
+  const BuiltTestScene s = box(order);
+  Random random(512);
+  const Mat3 A = random.matrix(), B = random.matrix() * (order - 1.0);
+  const auto u = [&](const Vec3& x) { return Vec3(A * x + x[0] * B * x); };
+  const auto gradient = [&](const Vec3& x) { return Mat3(A + x[0] * B + B * x * Vec3::UnitX().transpose()); };
+  const Vector q = s.dofs(u);
+  const auto values = nodal_strain(s, q);
+  const Mat3 Q = s.model().parts().elastic.front()->axes_at_rest(0, 0);
+  for (Eigen::Index n = 0; n < s.model().parts().rest->cols(); ++n) {
+    const Mat3 H = gradient(s.model().parts().rest->col(n)), e = Q.transpose() * 0.5 * (H + H.transpose()) * Q;
+    const double* found = values.data() + 6 * n;
+    const double expected[] = {e(0, 0), e(1, 1), e(2, 2), e(0, 1), e(1, 2), e(2, 0)};
+    for (int i = 0; i < 6; ++i) EXPECT_NEAR(found[i], expected[i], 1e-11);
+  }
+  const auto energy = s.model().evaluate("energy.mesh_error", {0, q, s.zero()});
+  EXPECT_LE(energy[0], 1e-20 * energy[1]);
+  EXPECT_NEAR(energy[1], s.model().evaluate("energy.elastic", {0, q, s.zero()})[0], 1e-12 * energy[1]);
+}
+
+// A bent bar's strain is linear: quadratic elements hold it, of linear ones most of the energy is error.
+TEST(MeshError, IsThatOfElementsThatCannotHoldTheStrain) {
+  const auto relative = [](int order) {
+    const BuiltTestScene s = box(order);
+    const auto u = [](const Vec3& x) { return Vec3(x[0] * x[2], 0, -x[0] * x[0] / 2); };
+    const auto energy = s.model().evaluate("energy.mesh_error", {0, s.dofs(u), s.zero()});
+    return energy[0] / energy[1];
+  };
+  EXPECT_GT(relative(1), 0.01);
+  EXPECT_LE(relative(2), 1e-20);
+}
+
+// A stretch is uniform while stresses jump between regions: each is recovered by itself, and no error is seen.
+TEST(MeshError, KnowsThatStressesJumpBetweenRegions) {
+  const BuiltTestScene s = box(1, true);
+  const Vector q = s.dofs([](const Vec3& x) { return Vec3(x[0], 0, 0); });
+  const State state{0, q, s.zero()};
+  const auto energy = s.model().evaluate("energy.mesh_error", state);
+  EXPECT_LE(energy[0], 1e-20 * energy[1]);
+
+  // At nodes of one region its stress, E times the strain, and the mean at nodes of both.
+  const auto& mesh = s.mesh();
+  std::vector<int> seen(mesh.nodes.size(), 0);
+  for (std::size_t c = 0; c < mesh.tets.size(); ++c)
+    for (const int node : mesh.tets[c]) seen[static_cast<std::size_t>(node)] |= 1 << mesh.region_of[c];
+  const auto stress = s.model().evaluate("nodal_stress_material", state);
+  for (std::size_t n = 0; n < seen.size(); ++n)
+    EXPECT_NEAR(stress[6 * n], seen[n] == 1 ? 1 : seen[n] == 2 ? 3 : 2, 1e-11);
+}
+
+RunResult moved(int order, double mesh, std::optional<double> accumulated, double rtol) {
+  RunResult result;
+  result.model.order = order;
+  result.motion.emplace();
+  result.motion->mesh_error = MeshError{mesh, 5};
+  result.motion->rtol = rtol;
+  if (accumulated) result.motion->accumulated.emplace().error = *accumulated;
+  return result;
+}
+
+TEST(ErrorBalance, TellsTheLargerErrorAndWhatToChange) {
+  const auto advice = [](const RunResult& result) { return error_balance(result)->advice; };
+  EXPECT_EQ(advice(moved(1, 0.3, 1e-4, 1e-4)),
+            "the mesh dominates: mesh.order: 2, or finer cells, would mend it; as it is, rtol 1e-02 would do");
+  EXPECT_EQ(advice(moved(2, 0.1, 1e-3, 1e-5)),
+            "the mesh dominates: finer cells would mend it; as it is, rtol 1e-04 would do");
+  EXPECT_EQ(advice(moved(2, 0.1, 0.02, 1e-5)), "the mesh dominates: finer cells would mend it");
+  EXPECT_EQ(advice(moved(1, 0.001, 0.02, 1e-3)),
+            "the integration dominates: a smaller integrator.rtol or step would mend it");
+  EXPECT_EQ(advice(moved(1, 0.01, 0.02, 1e-3)), "");
+  EXPECT_EQ(advice(moved(1, 0.1, std::nullopt, 1e-3)), "mesh.order: 2, or finer cells, would mend it");
+  EXPECT_EQ(advice(moved(1, 1e-3, std::nullopt, 1e-3)), "");
+}
+
+TEST(MeshError, OfARigidMotionIsNotTold) {
+  const BuiltTestScene s = box(1);
+  const Vector still = s.zero(), v = s.dofs([](const Vec3&) { return Vec3(1, 2, 3); });
+  MeshErrorRecorder recorder(1);
+  const State state{0, still, v};
+  recorder.on_output({s.model(), state});
+  EXPECT_FALSE(recorder.found());
+}
+
+}  // namespace
+}  // namespace orthodyn::stress_recovery_test
