@@ -17,7 +17,7 @@ int freedom(const Vec3& size, const std::vector<Vec3>& corners) {
   std::string clamps;
   for (const Vec3& corner : corners)
     clamps += fmt::format("  - {{nearest: {}}}\n", Value<Vec3>::yaml(corner.cwiseProduct(size)));
-  return count_rigid_freedom(*build_text(fmt::format(R"(mesh: {{type: box, size: {}, cells: [3, 2, 2]}}
+  return count_rigid_freedom(*build_text(fmt::format(R"(mesh: {{type: box, size: {}, cells: [3, 2, 2], order: 1}}
 materials: {{soft: {{type: isotropic, density: 1000, young: 1e6, nu: 0.3}}}}
 clamps:
 {}time: {{end: 0.1}}

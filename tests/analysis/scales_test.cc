@@ -20,7 +20,7 @@ Scales scales_of(const std::string& yaml) {
 
 TEST(Scales, FollowTheStaticDeflectionOfAStiffBodyAndTheSizeOfASoftOne) {
   // A bar pulled along itself: u = F L / (E A) at nu = 0, W = F u.
-  const std::string bar = R"(mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1]}
+  const std::string bar = R"(mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1], order: 1}
 materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
 clamps: [{surface: x0}]
 loads: [{surface: x1, force: [1000, 0, 0], factor: {type: ramp, end: 0.05}}]
@@ -33,7 +33,7 @@ time: {end: 0.1}
 }
 
 TEST(Scales, DoNotHangOnRoundOffInTheRestShapeOrOnWhereALoadIsSampled) {
-  const std::string bar = R"(mesh: {type: box, size: [0.7, 0.3, 0.1], cells: [3, 3, 1]}
+  const std::string bar = R"(mesh: {type: box, size: [0.7, 0.3, 0.1], cells: [3, 3, 1], order: 1}
 materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
 clamps: [{surface: x0}]
 loads: [{surface: x1, force: [3, 0, 0], factor: {type: sine, frequency: 50}}]
@@ -50,7 +50,7 @@ TEST(Scales, OfASpinningFreeBodyComeFromItsKineticEnergy) {
 // Nearly one spring k = E A/L with the mass m of the four nodes at its end, of which some have more than others: v0
 // starts an amplitude of v0 sqrt(m/k).
 TEST(Scales, OfAHeldBodyThatIsStruckComeFromTheVibration) {
-  const std::string bar = R"(mesh: {type: box, size: [2, 1, 1], cells: [1, 1, 1]}
+  const std::string bar = R"(mesh: {type: box, size: [2, 1, 1], cells: [1, 1, 1], order: 1}
 materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0}}
 clamps: [{surface: x0}, {box: {min: [0, 0, 0], max: [2, 1, 1]}, components: [y, z]}]
 initial: {velocity: [3e-3, 0, 0]}
@@ -70,7 +70,7 @@ TEST(Scales, SeeAMotionOfWholePeriods) {
 
 TEST(Scales, ShrinkWithTheStiffnessOfWhatTheBodyMayTouch) {
   const auto block = [](const char* stiffness) {
-    return scales_of(fmt::format(R"(mesh: {{type: box, size: [1, 1, 1], cells: [2, 2, 2], origin: [0, 0, 1]}}
+    return scales_of(fmt::format(R"(mesh: {{type: box, size: [1, 1, 1], cells: [2, 2, 2], origin: [0, 0, 1], order: 1}}
 materials: {{m: {{type: isotropic, density: 1000, young: 1e6, nu: 0}}}}
 terms: [{{type: ground, stiffness: {}}}]
 gravity: [0, 0, -10]

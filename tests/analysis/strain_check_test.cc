@@ -10,7 +10,7 @@ namespace orthodyn::strain_check_test {
 namespace {
 
 std::string bar(const std::string& more, const std::string& axes = "") {
-  return "mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1]}\n"
+  return "mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1], order: 1}\n"
          "materials: {wood: {type: orthotropic_stable, density: 1, young: [100, 1, 1], nu: 0.3}}\n"
          "regions: {all: {material: wood" +
          axes +
@@ -21,7 +21,7 @@ std::string bar(const std::string& more, const std::string& axes = "") {
 }
 
 const std::string kFree =
-    "mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1]}\n"
+    "mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1], order: 1}\n"
     "materials: {m: {type: orthotropic_stable, density: 1, young: [100, 1, 1], nu: 0.3}}\ntime: {end: 1}\n";
 
 // The warnings about strains.

@@ -63,7 +63,7 @@ TEST(Override, TheValueMayHoldAnEqualsSign) {
 
 TEST(Override, IsNamedAsThePlaceOfTheValueAndOfAllBelow) {
   Config config = scene();
-  config.override_with("mesh={type: box, cells: [1, x]}");
+  config.override_with("mesh={type: box, cells: [1, x], order: 1}");
   EXPECT_EQ(config.at("mesh").at("cells").at(1).where(), "a.yaml: --set mesh.cells.1");
   EXPECT_EQ(refusal([&] { config.at("mesh").at("type").number(); }),
             "a.yaml: --set mesh.type: expected a number, found 'box'");

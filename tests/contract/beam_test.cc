@@ -10,7 +10,7 @@ constexpr double kEnd = 0.5;
 
 const BuiltTestScene& beam() {
   static const BuiltTestScene scene(R"(
-mesh: {type: box, size: [1, 0.2, 0.2], cells: [3, 1, 1]}
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [3, 1, 1], order: 1}
 materials: {wood: {type: orthotropic_stable, density: 1000, young: [2e6, 2e5, 1e5], nu: 0.3}}
 regions: {all: {material: wood, axes: {first: [0.8, 0.6, 0], second: [-0.6, 0.8, 0]}}}
 gravity: [0, 0, -4]

@@ -10,7 +10,7 @@ namespace {
 // A free block, ten times stiffer along oblique fibres, that spins and is stretched a little.
 BuiltTestScene spinning_block(const std::string& more = "") {
   return BuiltTestScene(
-      "mesh: {type: box, size: [1, 1, 1], cells: [2, 2, 1]}\n"
+      "mesh: {type: box, size: [1, 1, 1], cells: [2, 2, 1], order: 1}\n"
       "materials: {m: {type: orthotropic_stable, density: 1, young: [3000, 300, 300], nu: 0.3}}\nregions: {all: "
       "{material: m, axes: " +
       kTurnedAxes + "}}\n" +

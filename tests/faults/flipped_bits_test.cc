@@ -37,7 +37,7 @@ class FlippedBit {
 };
 
 const char* const kOneStep = R"(
-mesh: {type: box, size: [1, 0.2, 0.2], cells: [2, 1, 1]}
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [2, 1, 1], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
 clamps: [{surface: x0}]
 gravity: [0, 0, -1]

@@ -81,7 +81,7 @@ class OnFaultyDisk : public testing::WithParamInterface<FaultyDisk>, public InFo
 };
 
 const char* const kShort = R"(
-mesh: {type: box, size: [1, 0.2, 0.2], cells: [2, 1, 1]}
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [2, 1, 1], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
 clamps: [{surface: x0}]
 gravity: [0, 0, -1]

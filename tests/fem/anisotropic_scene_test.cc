@@ -11,7 +11,7 @@ namespace {
 Mat3 turned_axes() { return frame({0.781639, 0.550117, -0.293958}, {-0.482929, 0.832030, 0.272956}); }
 
 BuiltTestScene scene_with(const std::string& material, const std::string& axes, const std::string& elasticity) {
-  return BuiltTestScene("mesh: {type: box, size: [1, 1, 1], cells: [2, 1, 1]}\nmaterials: {m: " + material +
+  return BuiltTestScene("mesh: {type: box, size: [1, 1, 1], cells: [2, 1, 1], order: 1}\nmaterials: {m: " + material +
                         "}\nregions: {all: {material: m" + axes + "}}\nclamps: [{surface: x0}]\ntime: {end: 1}\n" +
                         "damping: {stiffness: 0.1}\nelasticity: {" + elasticity + "}\n");
 }

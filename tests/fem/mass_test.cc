@@ -15,7 +15,7 @@ class AnyMass : public testing::TestWithParam<std::string> {
  protected:
   BuiltTestScene box(const std::string& clamps = "[]", const std::string& elasticity = "{}") const {
     return BuiltTestScene(fmt::format(R"(
-mesh: {{type: box, size: [2, 1, 0.5], cells: [3, 2, 2], split: six}}
+mesh: {{type: box, size: [2, 1, 0.5], cells: [3, 2, 2], split: six, order: 1}}
 materials: {{m: {}}}
 mass: {}
 clamps: {}
@@ -89,9 +89,10 @@ TEST_P(AnyMass, ClampedCoordinatesAreLeftOutOfIt) {
 }
 
 BuiltTestScene box_with(const std::string& mass) {
-  return BuiltTestScene(fmt::format(
-      "{{mesh: {{type: box, size: [2, 1, 0.5], cells: [3, 2, 2]}}, materials: {{m: {}}}, mass: {}, time: {{end: 1}}}}",
-      fibre_material(10, kDensity), mass));
+  return BuiltTestScene(
+      fmt::format("{{mesh: {{type: box, size: [2, 1, 0.5], cells: [3, 2, 2], order: 1}}, materials: {{m: {}}}, mass: "
+                  "{}, time: {{end: 1}}}}",
+                  fibre_material(10, kDensity), mass));
 }
 
 TEST(ConsistentMass, HasTheLumpedOneAsItsRowSums) {

@@ -8,7 +8,7 @@ namespace orthodyn::mean_force_test {
 namespace {
 
 std::string block(const std::string& material, const std::string& more = "") {
-  return "mesh: {type: box, size: [1, 0.8, 0.6], cells: [2, 2, 1]}\nmaterials: {m: " + material +
+  return "mesh: {type: box, size: [1, 0.8, 0.6], cells: [2, 2, 1], order: 1}\nmaterials: {m: " + material +
          "}\nregions: {all: {material: m, axes: " + kTurnedAxes + "}}\ntime: {end: 1}\n" + more;
 }
 

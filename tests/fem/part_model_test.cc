@@ -8,7 +8,7 @@ namespace {
 
 const BuiltTestScene& scene() {
   static const BuiltTestScene built(R"(
-mesh: {type: box, size: [1, 0.2, 0.2], cells: [3, 1, 1]}
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [3, 1, 1], order: 1}
 materials: {wood: {type: orthotropic_stable, density: 1000, young: [2e6, 2e5, 1e5], nu: 0.3}}
 regions: {all: {material: wood, axes: {first: [0.8, 0.6, 0], second: [-0.6, 0.8, 0]}}}
 gravity: [0, 0, -4]
@@ -59,7 +59,7 @@ TEST(ForceParts, AddUpToTheWholeForce) {
 // A consistent mass lets moved nodes pull on free ones.
 TEST(ForceParts, AddUpToTheWholeForceOnMovedSupports) {
   const BuiltTestScene moved(R"(
-mesh: {type: box, size: [1, 0.2, 0.2], cells: [3, 1, 1]}
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [3, 1, 1], order: 1}
 materials: {wood: {type: orthotropic_stable, density: 1000, young: [2e6, 2e5, 1e5], nu: 0.3}}
 regions: {all: {material: wood}}
 mass: consistent

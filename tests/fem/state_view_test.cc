@@ -14,7 +14,7 @@ class Views : public testing::TestWithParam<std::string> {
  protected:
   Views()
       : scene(fmt::format(R"(
-mesh: {{type: box, size: [2, 1, 0.5], cells: [3, 2, 2]}}
+mesh: {{type: box, size: [2, 1, 0.5], cells: [3, 2, 2], order: 1}}
 materials: {{m: {}}}
 mass: {}
 clamps: [{{surface: x0, components: [x, y]}}]

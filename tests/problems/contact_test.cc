@@ -33,7 +33,7 @@ class Contact : public testing::TestWithParam<Fall> {};
 TEST_P(Contact, MakesNoEnergy) {
   const Fall& fall = GetParam();
   const BuiltTestScene s(fmt::format(R"(
-mesh: {{type: box, size: [0.1, 0.1, 0.1], cells: [2, 2, 2], origin: [0, 0, 0.05]}}
+mesh: {{type: box, size: [0.1, 0.1, 0.1], cells: [2, 2, 2], origin: [0, 0, 0.05], order: 1}}
 materials: {{rubber: {{type: orthotropic_stable, density: 1000, young: [1e6, 5e5, 2e5], nu: 0.3}}}}
 terms: [{{type: ground, stiffness: {}}}]
 gravity: [0, 0, -9.81]
@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(Ground, Contact, testing::ValuesIn(falls()));
 // Linearly implicit steps leave an imbalance where a stiff body turns, which all points the same way.
 TEST(Pendulum, OnOneNodeGainsNoEnergyByRosenbrocksMethod) {
   const BuiltTestScene s(R"(
-mesh: {type: box, size: [0.1, 0.1, 0.5], cells: [2, 2, 6]}
+mesh: {type: box, size: [0.1, 0.1, 0.5], cells: [2, 2, 6], order: 1}
 materials: {m: {type: orthotropic_stable, density: 1000, young: [1e6, 5e5, 2e5], nu: 0.3}}
 gravity: [10, 0, 0]
 clamps: [{nearest: [0, 0, 0.5]}]

@@ -22,7 +22,7 @@ struct Flight {
 
 BuiltTestScene scene_of(const Flight& f) {
   return BuiltTestScene(fmt::format(R"(
-mesh: {{type: box, size: [1, 1, 1], cells: [{0}, {0}, {0}], split: six}}
+mesh: {{type: box, size: [1, 1, 1], cells: [{0}, {0}, {0}], split: six, order: 1}}
 materials: {{m: {{type: orthotropic_stable, density: 1, young: {1}, nu: 0.3}}}}
 regions: {{body: {{material: m, axes: {2}}}}}
 elasticity: {{corotation: {3}}}

@@ -46,7 +46,7 @@ TEST_P(HardStart, LosesWhatDampingTakesAndStaysFinite) {
   const auto& [start, integrator] = GetParam();
   for (const double ratio : {1.0, 10.0, 100.0}) {
     BuiltTestScene scene(fmt::format(R"(
-mesh: {{type: box, size: [2, 1, 1], cells: [2, 1, 1], split: six}}
+mesh: {{type: box, size: [2, 1, 1], cells: [2, 1, 1], split: six, order: 1}}
 materials: {{m: {}}}
 regions: {{body: {{material: m, axes: {}}}}}
 damping: {{mass: 1}}

@@ -16,7 +16,7 @@ const Vec3 kSize{2, 1, 0.2}, kYoung{100, 30, 10};
 
 BuiltTestScene box(int n, const std::string& end = "1") {
   return BuiltTestScene(fmt::format(R"(
-mesh: {{type: box, size: [2, 1, 0.2], cells: [{}, {}, {}], origin: [-1, -0.5, -0.1]}}
+mesh: {{type: box, size: [2, 1, 0.2], cells: [{}, {}, {}], origin: [-1, -0.5, -0.1], order: 1}}
 materials: {{m: {{type: orthotropic, density: 1, young: [100, 30, 10], nu12: 0, nu23: 0, nu13: 0, g12: 20, g23: 8, g13: 15}}}}
 mass: consistent
 integrator: {{type: cvode_bdf, rtol: 1e-5, max_order: 2}}

@@ -28,7 +28,7 @@ std::string error_of(const std::string& yaml) {
 TEST(StaticScene, ABarUnderTractionStretchesAsInTheClosedForm) {
   const BuiltTestScene bar(R"(
 analysis: static
-mesh: {type: box, size: [1, 0.2, 0.1], cells: [4, 2, 1]}
+mesh: {type: box, size: [1, 0.2, 0.1], cells: [4, 2, 1], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
 clamps: [{surface: x0}]
 loads: [{surface: x1, traction: [1e5, 0, 0]}]
@@ -43,7 +43,7 @@ loads: [{surface: x1, traction: [1e5, 0, 0]}]
 TEST(StaticScene, TakesFactorsOfLoadsAtTheEndOfItsTime) {
   const std::string bar = R"(
 analysis: static
-mesh: {type: box, size: [1, 0.2, 0.1], cells: [2, 1, 1]}
+mesh: {type: box, size: [1, 0.2, 0.1], cells: [2, 1, 1], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
 clamps: [{surface: x0}]
 loads: [{surface: x1, traction: [1e5, 0, 0], factor: {type: ramp, end: 4}}]
@@ -56,7 +56,7 @@ loads: [{surface: x1, traction: [1e5, 0, 0], factor: {type: ramp, end: 4}}]
 }
 
 const std::string kBlock = R"(analysis: static
-mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1]}
+mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
 gravity: [0, 0, -1]
 )";
@@ -99,7 +99,7 @@ TEST(StaticScene, ThatCannotGoOnEndsWithItsLastEquilibrium) {
   const BuiltTestScene block(R"(
 analysis: static
 statics: {max_steps: 2}
-mesh: {type: box, size: [1, 1, 1], cells: [2, 2, 2]}
+mesh: {type: box, size: [1, 1, 1], cells: [2, 2, 2], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
 clamps: [{surface: z0}]
 loads: [{surface: z1, traction: [0, 0, 1e4]}]
@@ -117,7 +117,7 @@ loads: [{surface: z1, traction: [0, 0, 1e4]}]
 TEST(EquilibriumStart, StaysWhereItIs) {
   const char* const text = R"(
 start: equilibrium
-mesh: {type: box, size: [1, 0.2, 0.2], cells: [4, 1, 1]}
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [4, 1, 1], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
 gravity: [0, 0, -1]
 clamps: [{surface: x0}]
@@ -137,7 +137,7 @@ time: {end: 1}
 TEST(EquilibriumStart, AddsTheInitialVelocityAboutTheDeformedShape) {
   const BuiltTestScene s(R"(
 start: equilibrium
-mesh: {type: box, size: [1, 0.2, 0.2], cells: [4, 1, 1]}
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [4, 1, 1], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
 gravity: [0, 0, -1]
 clamps: [{surface: x0}]
@@ -146,7 +146,7 @@ time: {end: 1}
 )");
   const auto setup = set_up(Config::from_text(R"(
 start: equilibrium
-mesh: {type: box, size: [1, 0.2, 0.2], cells: [4, 1, 1]}
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [4, 1, 1], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
 gravity: [0, 0, -1]
 clamps: [{surface: x0}]
@@ -162,7 +162,7 @@ time: {end: 1}
 
 TEST(EquilibriumStart, IsRefusedTogetherWithAnInitialDeformation) {
   const std::string message = error_of(R"(start: equilibrium
-mesh: {type: box, size: [1, 0.2, 0.2], cells: [4, 1, 1]}
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [4, 1, 1], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
 clamps: [{surface: x0}]
 initial: {noise: {amplitude: 1e-3}}

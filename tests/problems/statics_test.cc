@@ -35,7 +35,7 @@ struct OffAxis {
 OffAxis measured(double degrees) {
   const double theta = degrees * std::numbers::pi / 180, c = std::cos(theta), s = std::sin(theta), pull = 1e6;
   const BuiltTestScene block(fmt::format(R"(
-mesh: {{type: box, size: [1, 0.5, 0.4], cells: [3, 2, 2]}}
+mesh: {{type: box, size: [1, 0.5, 0.4], cells: [3, 2, 2], order: 1}}
 materials:
   spruce: {{type: orthotropic, density: 400, young: [10.8e9, 0.84e9, 0.46e9], nu12: 0.44, nu23: 0.44, nu31: 0.0225,
            g12: 0.69e9, g23: 0.032e9, g13: 0.66e9}}

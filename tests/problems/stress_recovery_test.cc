@@ -36,8 +36,9 @@ regions: {}
 elasticity: {{kinematics: linear}}
 mass: consistent
 time: {{end: 1}}
-)", two_regions ? "{soft: {material: soft}, stiff: {material: stiff}}"
-                                                          : fmt::format("{{all: {{material: m, axes: {}}}}}", kTurnedAxes)));
+)",
+                                    two_regions ? "{soft: {material: soft}, stiff: {material: stiff}}"
+                                                : fmt::format("{{all: {{material: m, axes: {}}}}}", kTurnedAxes)));
 }
 
 std::vector<double> nodal_strain(const BuiltTestScene& s, const Vector& q) {

@@ -38,7 +38,7 @@ Mode inverse_iteration(const BuiltTestScene& s, Vector x) {
 std::string spruce_box(const std::string& size, const std::string& cells, const std::string& split, double nu,
                        const std::string& rest) {
   return fmt::format(R"(
-mesh: {{type: box, size: {}, cells: {}, split: {}}}
+mesh: {{type: box, size: {}, cells: {}, split: {}, order: 1}}
 materials:
   spruce: {{type: orthotropic, density: 400, young: [10.8e9, 0.84e9, 0.46e9], nu12: {}, nu23: {}, nu31: {},
            g12: 0.69e9, g23: 0.032e9, g13: 0.66e9}}

@@ -130,7 +130,7 @@ TEST(MaterialNotes, AreWarningsOfTheScene) {
 
 TEST(Regions, HaveTheEntryOfTheirNameBeforeThatOfAll) {
   const Scene scene = read_scene(Config::from_text(R"(
-mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1], parts: {tip: {min: [1, 0, 0], max: [2, 1, 1]}}}
+mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1], parts: {tip: {min: [1, 0, 0], max: [2, 1, 1]}}, order: 1}
 materials:
   soft: {type: isotropic, density: 1, young: 1e6, nu: 0.3}
   hard: {type: isotropic, density: 2, young: 1e9, nu: 0.3}

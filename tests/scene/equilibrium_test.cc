@@ -10,7 +10,7 @@ namespace orthodyn::equilibrium_test {
 namespace {
 
 // Stretched by u = 0.02 m s(t), with s(0.3) = 10 t^3 - 15 t^4 + 6 t^5; both rates of s are large there.
-const std::string kStretched = R"(mesh: {type: box, size: [2, 1, 1], cells: [4, 2, 2]}
+const std::string kStretched = R"(mesh: {type: box, size: [2, 1, 1], cells: [4, 2, 2], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
 clamps: [{surface: x0}]
 motions: [{surface: x1, translation: [0.02, 0, 0], factor: {type: smooth_step, end: 1}}]

@@ -118,7 +118,7 @@ TEST_F(VegaScene, FileChoosesTheFormatByTheEndingAndScales) {
 }
 
 const std::string kRound =
-    R"(mesh: {type: tube, inner_radius: 0.5, radius: 1, length: 4, cells: [12, 2, 6], axis: [1, 0, 0]}
+    R"(mesh: {type: tube, inner_radius: 0.5, radius: 1, length: 4, cells: [12, 2, 6], axis: [1, 0, 0], order: 1}
 materials:
   soft: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}
 clamps:

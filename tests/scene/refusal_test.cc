@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "cells: [1000000, 1000000, 1000000]",
                  {"scene.yaml:1:43: mesh.cells: 5e+18 elements, the most is 5e+08"}},
         BadScene{"missing_file",
-                 "{type: box, size: [2, 1, 1], cells: [2, 1, 1]}",
+                 "{type: box, size: [2, 1, 1], cells: [2, 1, 1], order: 1}",
                  "{type: gmsh, file: nowhere.msh}",
                  {"nowhere.msh"}},
         BadScene{"unknown_region",
@@ -131,15 +131,15 @@ class LittleMemory {
 TEST(MeshesToBeMade, ThatDoNotFitIntoTheMemoryAreRefusedWithWhatTheyNeed) {
   const LittleMemory little;
   const auto refused = [](const std::string& mesh) {
-    return refusal(replaced(kValidScene, "{type: box, size: [2, 1, 1], cells: [2, 1, 1]}", mesh));
+    return refusal(replaced(kValidScene, "{type: box, size: [2, 1, 1], cells: [2, 1, 1], order: 1}", mesh));
   };
-  EXPECT_NE(refused("{type: box, size: [2, 1, 1], cells: [1000, 1000, 1]}")
+  EXPECT_NE(refused("{type: box, size: [2, 1, 1], cells: [1000, 1000, 1], order: 1}")
                 .find("mesh.cells: 5e+06 elements need at least 3 GB of memory, and there are 1 GB; use fewer cells"),
             std::string::npos);
-  EXPECT_NE(
-      refused("{type: cylinder, radius: 1, length: 1, cells: [400, 100, 40]}").find("mesh.cells: 1.2e+07 elements"),
-      std::string::npos);
-  EXPECT_NE(refused("{type: tube, radius: 1, inner_radius: 0.5, length: 1, cells: [400, 100, 40]}")
+  EXPECT_NE(refused("{type: cylinder, radius: 1, length: 1, cells: [400, 100, 40], order: 1}")
+                .find("mesh.cells: 1.2e+07 elements"),
+            std::string::npos);
+  EXPECT_NE(refused("{type: tube, radius: 1, inner_radius: 0.5, length: 1, cells: [400, 100, 40], order: 1}")
                 .find("mesh.cells: 9.6e+06 elements"),
             std::string::npos);
 }

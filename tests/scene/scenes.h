@@ -9,7 +9,7 @@
 
 namespace orthodyn {
 
-inline const std::string kValidScene = R"(mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1]}
+inline const std::string kValidScene = R"(mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1], order: 1}
 materials:
   soft: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}
 clamps:

@@ -48,7 +48,7 @@ def shipped(kind):
 
 
 SCENE = """
-mesh: {type: box, size: [1, 0.1, 0.1], cells: [4, 1, 1]}
+mesh: {type: box, size: [1, 0.1, 0.1], cells: [4, 1, 1], order: 1}
 materials:
   wood: {type: orthotropic_stable, density: 450, young: [10e9, 1e9, 1e9], nu: 0.3}
 clamps: [{surface: x0}]
@@ -65,7 +65,7 @@ BROKEN = {
     "a list that is too short": ("size: [1, 0.1, 0.1]", "size: [1, 0.1]", ["mesh", "size"]),
     "a fraction for a whole number": ("cells: [4, 1, 1]", "cells: [4.5, 1, 1]", ["mesh", "cells", 0]),
     "a missing key": ("time: {end: 1e-3}", "time: {start: 0}", ["time"]),
-    "a missing section": ("mesh: {type: box, size: [1, 0.1, 0.1], cells: [4, 1, 1]}", "", []),
+    "a missing section": ("mesh: {type: box, size: [1, 0.1, 0.1], cells: [4, 1, 1], order: 1}", "", []),
     "a section for a list": ("clamps: [{surface: x0}]", "clamps: {surface: x0}", ["clamps"]),
     "a word that is none of the allowed": ("time:", "mass: heavy\ntime:", ["mass"]),
     "a key of another type": ("nu: 0.3", "nu: 0.3, nu12: 0.3", ["materials", "wood"]),

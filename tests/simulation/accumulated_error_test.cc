@@ -18,7 +18,7 @@ const double kPeriod = 2 * M_PI / kOmega;
 
 std::string oscillator(int periods, const std::string& rest) {
   return fmt::format(R"(
-mesh: {{type: box, size: [0.1, 0.1, 0.1], cells: [1, 1, 1]}}
+mesh: {{type: box, size: [0.1, 0.1, 0.1], cells: [1, 1, 1], order: 1}}
 materials: {{m: {{type: isotropic, density: 1000, young: 1e6, nu: 0}}}}
 elasticity: {{kinematics: linear}}
 mass: consistent

@@ -86,7 +86,7 @@ TEST_F(FiveLines, ItTellsTheListenerAndPrintsNothing) {
 
 TEST_F(FiveLines, AStaticSceneHasAnEquilibriumInPlaceOfAMotion) {
   const auto scene = write("bar.yaml", R"(analysis: static
-mesh: {type: box, size: [1, 0.2, 0.1], cells: [4, 1, 1]}
+mesh: {type: box, size: [1, 0.2, 0.1], cells: [4, 1, 1], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
 clamps: [{surface: x0}]
 loads: [{surface: x1, traction: [1e5, 0, 0]}]

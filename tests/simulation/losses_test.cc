@@ -59,7 +59,7 @@ TEST_F(Losses, ALimitOfAddresses) {
   GTEST_SKIP() << "the sanitizer itself takes more addresses";
 #endif
   write("block.yaml", R"(
-mesh: {type: box, size: [1, 0.2, 0.2], cells: [45, 9, 9]}
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [45, 9, 9], order: 1}
 materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
 clamps: [{surface: x0}]
 gravity: [0, 0, -9.81]

@@ -20,7 +20,7 @@ Modes modes_of(const BuiltTestScene& s, int count) {
 // Fixed at x = 0, transverse coordinates held, no Poisson's effect: a bar, f1 = sqrt(E/rho)/(4 L).
 double relative_error_of_bar(int cells, const char* mass) {
   const BuiltTestScene bar(fmt::format(R"(
-mesh: {{type: box, size: [1, 0.05, 0.05], cells: [{}, 1, 1], split: six}}
+mesh: {{type: box, size: [1, 0.05, 0.05], cells: [{}, 1, 1], split: six, order: 1}}
 materials:
   spruce: {{type: orthotropic, density: 400, young: [10.8e9, 0.84e9, 0.46e9], nu12: 0, nu23: 0, nu31: 0,
            g12: 0.69e9, g23: 0.032e9, g13: 0.66e9}}
@@ -45,7 +45,7 @@ TEST(Modes, OfABarConvergeWithTheSquareOfTheElementFromEitherSide) {
 }
 
 const char* const kFreeBlock = R"(
-mesh: {type: box, size: [2, 1.5, 1], cells: [5, 4, 3]}
+mesh: {type: box, size: [2, 1.5, 1], cells: [5, 4, 3], order: 1}
 materials:
   wood: {type: orthotropic_stable, density: 500, young: [1e7, 1e6, 5e5], nu: 0.3}
 regions: {all: {material: wood, axes: {first: [1, 1, 0], second: [-1, 1, 0]}}}
@@ -92,7 +92,7 @@ TEST_P(FreeBlock, HasOrthonormalModesWhoseRigidOnesCarryAllOfItsMass) {
 // Under tension a bending frequency rises, under compression it falls.
 TEST(Modes, AboutEquilibriumKnowTheLoads) {
   const BuiltTestScene beam(R"(
-mesh: {type: box, size: [1, 0.1, 0.1], cells: [8, 1, 1]}
+mesh: {type: box, size: [1, 0.1, 0.1], cells: [8, 1, 1], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
 clamps: [{surface: x0}]
 time: {end: 1}
@@ -133,7 +133,7 @@ TEST_F(ModesCommand, RefusesMoreModesThanUnknownsAndAFreeBodyAboutEquilibrium) {
 
 // Damped, and its support sets off at 3 m/s.
 TEST_F(ModesCommand, NeedNoTime) {
-  write("bar.yaml", "mesh: {type: box, size: [1, 0.1, 0.1], cells: [4, 1, 1]}\n"
+  write("bar.yaml", "mesh: {type: box, size: [1, 0.1, 0.1], cells: [4, 1, 1], order: 1}\n"
                     "materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0}}\n"
                     "clamps: [{surface: x0}]\n");
   for (const char* command : {"modes bar.yaml -n 3 --quiet", "check bar.yaml"}) {
@@ -148,7 +148,7 @@ TEST_F(ModesCommand, NeedNoTime) {
 
 TEST_F(ModesCommand, OfABodyOnAMovingSupportAreThoseOfTheClampedOne) {
   const std::string body = R"(
-mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1]}
+mesh: {type: box, size: [2, 1, 1], cells: [2, 1, 1], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
 damping: {stiffness: 0.1, mass: 2}
 time: {end: 1}
@@ -196,7 +196,7 @@ TEST_F(ModesCommand, SaysHowManyCanBeAskedFor) {
 // A thread so thin that round-off of its longitudinal stiffness hides its bending.
 TEST_F(ModesCommand, OfAClampedThreadAreNotCalledRigid) {
   write("scene.yaml", R"(
-mesh: {type: box, size: [1, 1e-8, 1e-8], cells: [4, 1, 1]}
+mesh: {type: box, size: [1, 1e-8, 1e-8], cells: [4, 1, 1], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
 clamps: [{surface: x0}]
 time: {end: 1}

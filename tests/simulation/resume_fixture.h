@@ -11,7 +11,7 @@ namespace orthodyn {
 
 // A soft beam is shaken: it forgets, so that the cost of a restart is what one restart costs.
 inline const char* const kBeam = R"(
-mesh: {type: box, size: [1, 0.2, 0.2], cells: [6, 2, 2]}
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [6, 2, 2], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
 damping: {stiffness: 0.03}
 clamps: [{surface: x0}]

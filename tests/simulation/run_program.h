@@ -32,7 +32,7 @@ class InFolder : public testing::Test {
 };
 
 inline const char* const kSwing = R"(# A soft bar swings.
-mesh: {type: box, size: [1, 0.2, 0.2], cells: [4, 1, 1]}
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [4, 1, 1], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
 damping: {stiffness: 0.01}
 gravity: [0, 0, -1]

@@ -6,7 +6,7 @@ namespace orthodyn::static_run_test {
 namespace {
 
 const char* const kShelf = R"(analysis: static
-mesh: {type: box, size: [1, 0.2, 0.1], cells: [4, 1, 1]}
+mesh: {type: box, size: [1, 0.2, 0.1], cells: [4, 1, 1], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
 clamps: [{surface: x0}]
 loads: [{surface: x1, traction: [1e5, 0, 0]}]
@@ -70,7 +70,7 @@ TEST_F(StaticRun, SaysThatRoundOffIsAboveItsTolerance) {
 // The strip does not buckle: R K R^T is no derivative of the warped force.
 TEST_F(StaticRun, WithAnApproximateStiffnessDoesNotSpeakOfBuckling) {
   const std::string strip = R"(analysis: static
-mesh: {type: box, size: [1, 0.04, 0.01], cells: [40, 2, 2]}
+mesh: {type: box, size: [1, 0.04, 0.01], cells: [40, 2, 2], order: 1}
 materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0}}
 elasticity: {corotation: warped}
 clamps: [{surface: x0}]

@@ -295,7 +295,7 @@ TEST_F(Compare, PointsAreMeasuredAgainWhenAFileBesideTheMeshHasChanged) {
 TEST_F(Compare, AMeshThatCannotBeReadFailsThePointsOfItsSceneOnly) {
   write("bad.msh", "no mesh");
   write("bad.yaml",
-        std::string(kSwing).replace(std::string(kSwing).find("{type: box"), 50, "{type: gmsh, file: bad.msh}"));
+        std::string(kSwing).replace(std::string(kSwing).find("{type: box"), 60, "{type: gmsh, file: bad.msh}"));
   write("c.yaml", "scenes: [bad.yaml, swing.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-3]\nrepeats: 1\n"
                   "reference: {kind: none}\n");
   const auto done = compare();

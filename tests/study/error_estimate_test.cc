@@ -10,7 +10,7 @@ namespace orthodyn::error_estimate_test {
 namespace {
 
 const std::string kLinear = R"(
-mesh: {type: box, size: [1, 0.2, 0.2], cells: [3, 1, 1]}
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [3, 1, 1], order: 1}
 materials: {m: {type: orthotropic_stable, density: 1000, young: [2e6, 2e5, 1e5], nu: 0.3}}
 elasticity: {kinematics: linear}
 damping: {stiffness: 0.001, mass: 2}

@@ -15,7 +15,7 @@ namespace {
 // A free cube of mass 8 kg that moves as a whole along x by s(t).
 struct Rigid {
   Rigid()
-      : setup(set_up(Config::from_text("mesh: {type: box, size: [2, 2, 2], cells: [1, 1, 1]}\n"
+      : setup(set_up(Config::from_text("mesh: {type: box, size: [2, 2, 2], cells: [1, 1, 1], order: 1}\n"
                                        "materials: {m: {type: isotropic, density: 1, young: 1, nu: 0.3}}\n"
                                        "mass: consistent\ntime: {end: 1}\n"))) {}
   template <class F>

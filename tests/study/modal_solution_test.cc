@@ -11,7 +11,7 @@ namespace orthodyn::modal_solution_test {
 namespace {
 
 const std::string kLinear = R"(
-mesh: {type: box, size: [1, 0.2, 0.2], cells: [3, 1, 1]}
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [3, 1, 1], order: 1}
 materials: {m: {type: orthotropic_stable, density: 1000, young: [2e6, 2e5, 1e5], nu: 0.3}}
 elasticity: {kinematics: linear}
 initial: {velocity: [0.1, 0, 0.3]}

@@ -11,7 +11,7 @@ namespace {
 
 // Falls by g t^2 / 2 = 4.905 m in a second.
 const std::string kFall = R"(# A block falls.
-mesh: {type: box, size: [1, 1, 1], cells: [1, 1, 1]}
+mesh: {type: box, size: [1, 1, 1], cells: [1, 1, 1], order: 1}
 materials: {m: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
 gravity: [0, 0, -9.81]
 time: {end: 1}

@@ -9,7 +9,7 @@
 namespace orthodyn {
 
 // A corner of a cube of one cell moves along x: an oscillator with damping (see configs/cases/one_node_damped.yaml).
-inline const char* const kOscillator = R"(mesh: {type: box, size: [0.1, 0.1, 0.1], cells: [1, 1, 1]}
+inline const char* const kOscillator = R"(mesh: {type: box, size: [0.1, 0.1, 0.1], cells: [1, 1, 1], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
 elasticity: {kinematics: linear}
 damping: {mass: 0}

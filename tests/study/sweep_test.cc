@@ -133,7 +133,7 @@ TEST_F(SweepCommand, IntegratesNothingWhereOnlyFrequenciesAreAskedFor) {
 }
 
 TEST_F(SweepCommand, AnswersEachModeAloneAsAmongOthers) {
-  write("free.yaml", R"(mesh: {type: box, size: [1, 0.2, 0.2], cells: [2, 1, 1]}
+  write("free.yaml", R"(mesh: {type: box, size: [1, 0.2, 0.2], cells: [2, 1, 1], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
 time: {end: 0.1}
 integrator: {type: cvode_bdf}
@@ -178,7 +178,7 @@ limits: {seconds: 0.5}
 
 TEST_F(SweepCommand, LimitsTheTimeOfStaticPoints) {
   write("still.yaml", R"(analysis: static
-mesh: {type: box, size: [1, 0.1, 0.1], cells: [10, 1, 1]}
+mesh: {type: box, size: [1, 0.1, 0.1], cells: [10, 1, 1], order: 1}
 materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
 gravity: [0, 0, -0.1]
 clamps: [{surface: x0}]

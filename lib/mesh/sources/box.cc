@@ -73,7 +73,7 @@ class BoxSource : public MeshSource, public BoxMesh {
     return {std::move(mesh), {}};
   }
 
-  int order = 1;
+  int order = kDefaultOrder;
 
  private:
   Named<BoxRegion> parts_;

@@ -9,10 +9,11 @@
 namespace orthodyn {
 
 inline constexpr const char* kOrderSentence =
-    "1: linear tetrahedra, stiff in bending and torsion. 2: quadratic ones, with a node on each edge.";
+    "2: quadratic tetrahedra, with a node on each edge. 1: linear ones, stiff in bending and torsion.";
 inline constexpr const char* kFileOrderSentence =
-    "1: linear tetrahedra, stiff in bending and torsion. 2: quadratic ones, with a node on each edge. Default: as the "
+    "2: quadratic tetrahedra, with a node on each edge. 1: linear ones, stiff in bending and torsion. Default: as the "
     "file has.";
+inline constexpr int kDefaultOrder = 2;  // of meshes that are made; files have their own
 inline const Rule kOrderRule{.range = {1, 2}};
 
 inline void set_order(TetMesh& mesh, std::optional<int> order) {

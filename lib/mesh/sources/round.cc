@@ -33,6 +33,7 @@ RoundCells cells_of(const std::array<int, 3>& counts, double grading) {
 
 class CylinderSource : public MeshSource, public CylinderMesh {
  public:
+  CylinderSource() { order = kDefaultOrder; }
   static const Spec<CylinderSource>& spec() {
     static const auto s =
         round_spec<CylinderSource, CylinderMesh>().check([](const CylinderSource& c, const Config& config) {
@@ -55,6 +56,7 @@ class CylinderSource : public MeshSource, public CylinderMesh {
 
 class TubeSource : public MeshSource, public TubeMesh {
  public:
+  TubeSource() { order = kDefaultOrder; }
   static const Spec<TubeSource>& spec() {
     static const auto s =
         round_spec<TubeSource, TubeMesh>()

@@ -70,7 +70,7 @@ TEST(RigidMotion, PassesHalfATurnWithoutAJump) {
 
 std::string scene(const std::string& rest) {
   return fmt::format(R"(
-mesh: {{type: box, size: [2, 1, 1], cells: [3, 1, 1]}}
+mesh: {{type: box, size: [2, 1, 1], cells: [3, 1, 1], order: 1}}
 materials: {{m: {}}}
 regions: {{body: {{material: m, axes: {}}}}}
 time: {{end: 2}}

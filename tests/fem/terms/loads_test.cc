@@ -14,7 +14,7 @@ namespace {
 
 BuiltTestScene box(const std::string& rest) {
   return BuiltTestScene(fmt::format(R"(
-mesh: {{type: box, size: [2, 1, 0.5], cells: [3, 2, 2], origin: [1, 2, 3]}}
+mesh: {{type: box, size: [2, 1, 0.5], cells: [3, 2, 2], origin: [1, 2, 3], order: 1}}
 materials: {{m: {}}}
 regions: {{body: {{material: m, axes: {}}}}}
 time: {{end: 10}}

@@ -23,7 +23,7 @@ class NodalForcesOfAFile : public testing::Test {
   // A cube of 27 nodes, side 2 m.
   static BuiltTestScene cube(const std::string& content, const std::string& keys = "") {
     return BuiltTestScene(fmt::format(R"(
-mesh: {{type: box, size: [2, 2, 2], cells: [2, 2, 2]}}
+mesh: {{type: box, size: [2, 2, 2], cells: [2, 2, 2], order: 1}}
 materials: {{m: {{type: isotropic, density: 1, young: 1, nu: 0.3}}}}
 elasticity: {{kinematics: linear}}
 terms: [{{type: nodal_forces, file: "{}"{}}}]

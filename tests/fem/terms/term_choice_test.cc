@@ -9,7 +9,7 @@ namespace {
 
 BuiltTestScene with(const std::string& keys) {
   return BuiltTestScene(R"(
-mesh: {type: box, size: [1, 1, 1], cells: [1, 1, 1]}
+mesh: {type: box, size: [1, 1, 1], cells: [1, 1, 1], order: 1}
 materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
 elasticity: {kinematics: linear}
 clamps: [{surface: x0}]

@@ -37,7 +37,7 @@ const Case kDrag{"dashpots_in_place", "{type: dashpot, surface: x1, coefficient:
 
 BuiltTestScene block(const std::string& terms, const std::string& more = "") {
   return BuiltTestScene(fmt::format(R"(
-mesh: {{type: box, size: [1, 1, 1], cells: [2, 2, 1]}}
+mesh: {{type: box, size: [1, 1, 1], cells: [2, 2, 1], order: 1}}
 materials: {{m: {}}}
 regions: {{body: {{material: m, axes: {}}}}}
 terms: [{}]
@@ -236,7 +236,7 @@ TEST(Pressure, ThatGrowsWithDepthBuoysUp) {
 
 TEST(Pressure, ThatIsDeadOnAllFacesOfALinearCubeStrainsItEvenly) {
   const auto s = BuiltTestScene(R"(
-mesh: {type: box, size: [1, 1, 1], cells: [2, 2, 2]}
+mesh: {type: box, size: [1, 1, 1], cells: [2, 2, 2], order: 1}
 materials: {m: {type: isotropic, density: 1, young: 10, nu: 0.3}}
 elasticity: {kinematics: linear}
 clamps: [{surface: x0, components: [x]}, {surface: y0, components: [y]}, {surface: z0, components: [z]}]
