@@ -7,11 +7,14 @@
 #include "lib/mesh/io/mesh_format.h"
 #include "lib/mesh/io/vega.h"
 #include "lib/mesh/mesh_source.h"
+#include "lib/mesh/refine.h"
 #include "lib/mesh/sources/element_order.h"
 
 namespace orthodyn {
 namespace {
 
+constexpr const char* kRefineSentence = "How often each tetrahedron is divided into eight.";
+const Rule kRefineRule{.range = {0, 6}};
 constexpr const char* kScale = "Multiplies coordinates: 0.001 if they are in mm.";
 
 void require_file(const FilePath& file) {
@@ -25,7 +28,8 @@ class FileSource : public MeshSource {
         Spec<FileSource>()
             .key("file", &FileSource::file_, "A mesh file; relative to the scene.", {.required = true})
             .key("scale", &FileSource::scale_, kScale, {.range = kPositive})
-            .key("order", &FileSource::order_, kFileOrderSentence, kOrderRule);
+            .key("order", &FileSource::order_, kFileOrderSentence, kOrderRule)
+            .key("refine", &FileSource::refine_, kRefineSentence, kRefineRule);
     return s;
   }
   LoadedMesh load() const override {
@@ -33,6 +37,7 @@ class FileSource : public MeshSource {
     LoadedMesh loaded = read_mesh(file_.path);
     scale_mesh(loaded.mesh, scale_, file_.path);
     set_order(loaded.mesh, order_);
+    for (int i = 0; i < refine_; ++i) refine(loaded);
     return loaded;
   }
   bool may_bring_materials() const override { return mesh_format_of(file_.path).holds_materials; }
@@ -41,6 +46,7 @@ class FileSource : public MeshSource {
   FilePath file_;
   double scale_ = 1;
   std::optional<int> order_;
+  int refine_ = 0;
 };
 
 class GmshSource : public MeshSource {
@@ -51,7 +57,8 @@ class GmshSource : public MeshSource {
             .key("file", &GmshSource::file_, "A .msh file, version 2.2 or 4.1; relative to the scene.",
                  {.required = true})
             .key("scale", &GmshSource::scale_, kScale, {.range = kPositive})
-            .key("order", &GmshSource::order_, kFileOrderSentence, kOrderRule);
+            .key("order", &GmshSource::order_, kFileOrderSentence, kOrderRule)
+            .key("refine", &GmshSource::refine_, kRefineSentence, kRefineRule);
     return s;
   }
   LoadedMesh load() const override {
@@ -60,6 +67,7 @@ class GmshSource : public MeshSource {
     make_names_utf8(loaded, file_.path);
     scale_mesh(loaded.mesh, scale_, file_.path);
     set_order(loaded.mesh, order_);
+    for (int i = 0; i < refine_; ++i) refine(loaded);
     return loaded;
   }
 
@@ -67,6 +75,7 @@ class GmshSource : public MeshSource {
   FilePath file_;
   double scale_ = 1;
   std::optional<int> order_;
+  int refine_ = 0;
 };
 
 class VegaSource : public MeshSource {
@@ -77,7 +86,8 @@ class VegaSource : public MeshSource {
             .key("file", &VegaSource::file_, "A .veg file of tetrahedra; relative to the scene.", {.required = true})
             .key("fixed", &VegaSource::fixed_, "A .bou file: its vertices become the node set `fixed`.")
             .key("scale", &VegaSource::scale_, kScale, {.range = kPositive})
-            .key("order", &VegaSource::order_, kFileOrderSentence, kOrderRule);
+            .key("order", &VegaSource::order_, kFileOrderSentence, kOrderRule)
+            .key("refine", &VegaSource::refine_, kRefineSentence, kRefineRule);
     return s;
   }
   LoadedMesh load() const override {
@@ -87,6 +97,7 @@ class VegaSource : public MeshSource {
     make_names_utf8(loaded, file_.path);
     scale_mesh(loaded.mesh, scale_, file_.path);
     set_order(loaded.mesh, order_);
+    for (int i = 0; i < refine_; ++i) refine(loaded);
     return loaded;
   }
   bool may_bring_materials() const override { return true; }
@@ -96,6 +107,7 @@ class VegaSource : public MeshSource {
   std::optional<FilePath> fixed_;
   double scale_ = 1;
   std::optional<int> order_;
+  int refine_ = 0;
 };
 
 const bool file_registered[] = {

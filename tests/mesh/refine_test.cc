@@ -1,0 +1,110 @@
+// Uniform refinement.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "lib/mesh/box.h"
+#include "lib/mesh/cylinder.h"
+#include "lib/mesh/quadratic.h"
+#include "lib/mesh/refine.h"
+#include "tests/element/states.h"
+
+namespace orthodyn::refine_test {
+namespace {
+
+double volume(const TetMesh& mesh) {
+  double sum = 0;
+  for (const Tet& tet : mesh.tets) sum += signed_volume6(mesh, tet) / 6;
+  return sum;
+}
+
+double area(const TetMesh& mesh, const std::vector<Triangle>& triangles) {
+  double sum = 0;
+  for (const Triangle& t : triangles) {
+    const auto x = [&](std::size_t k) -> const Vec3& { return mesh.nodes[static_cast<std::size_t>(t[k])]; };
+    sum += (x(1) - x(0)).cross(x(2) - x(0)).norm() / 2;
+  }
+  return sum;
+}
+
+// With shifted inner nodes, two regions, a node set and values of cells.
+LoadedMesh distorted() {
+  LoadedMesh loaded{.mesh = make_box({.size = {2, 1, 1}, .cells = {3, 2, 2}, .split = BoxMesh::Split::six})};
+  TetMesh& mesh = loaded.mesh;
+  Random random(521);
+  for (Vec3& x : mesh.nodes)
+    if (x[0] > 0.1 && x[0] < 1.9) x[0] += 0.1 * random.between(-1, 1);
+  mesh.region_names = {"a", "b"};
+  CellData axis{.name = "number", .components = 2};
+  for (std::size_t k = 0; k < mesh.tets.size(); ++k) {
+    mesh.region_of[k] = k % 3 == 0;
+    axis.values.push_back(static_cast<double>(k));
+    axis.values.push_back(-static_cast<double>(k));
+  }
+  for (int n = 0; n < static_cast<int>(mesh.nodes.size()); ++n)
+    if (mesh.nodes[static_cast<std::size_t>(n)][2] == 0) mesh.node_sets["floor"].push_back(n);
+  loaded.cell_data = {axis};
+  return loaded;
+}
+
+class Refinement : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Order, Refinement, testing::Values(1, 2));
+
+TEST_P(Refinement, IsAValidMeshOfEightTimesAsManyCells) {
+  LoadedMesh loaded = distorted();
+  if (GetParam() == 2) make_quadratic(loaded.mesh);
+  const LoadedMesh before = loaded;
+  refine(loaded);
+  TetMesh& mesh = loaded.mesh;
+  EXPECT_EQ(mesh.order(), GetParam());
+  ASSERT_EQ(mesh.tets.size(), 8 * before.mesh.tets.size());
+  EXPECT_TRUE(validate(mesh, {.source = "refined"}).empty());  // conforming, positive, no node too many
+  EXPECT_NEAR(volume(mesh), volume(before.mesh), 1e-13);
+  for (std::size_t k = 0; k < before.mesh.tets.size(); ++k) {
+    double sum = 0;
+    for (std::size_t i = 8 * k; i < 8 * k + 8; ++i) {
+      EXPECT_EQ(mesh.region_of[i], before.mesh.region_of[k]);
+      EXPECT_EQ(loaded.cell_data[0].values[2 * i], static_cast<double>(k));
+      EXPECT_EQ(loaded.cell_data[0].values[2 * i + 1], -static_cast<double>(k));
+      sum += signed_volume6(mesh, mesh.tets[i]);
+      EXPECT_NEAR(signed_volume6(mesh, mesh.tets[i]), signed_volume6(before.mesh, before.mesh.tets[k]) / 8, 1e-13);
+    }
+    EXPECT_NEAR(sum, signed_volume6(before.mesh, before.mesh.tets[k]), 1e-13);
+  }
+}
+
+TEST_P(Refinement, KeepsSurfacesAndNodeSets) {
+  LoadedMesh loaded = distorted();
+  if (GetParam() == 2) make_quadratic(loaded.mesh);
+  const LoadedMesh before = loaded;
+  refine(loaded);
+  const TetMesh& mesh = loaded.mesh;
+  for (const auto& [name, triangles] : before.mesh.surfaces) {
+    EXPECT_EQ(mesh.surfaces.at(name).size(), 4 * triangles.size()) << name;
+    EXPECT_NEAR(area(mesh, mesh.surfaces.at(name)), area(before.mesh, triangles), 1e-13) << name;
+  }
+  std::vector<int> floor;
+  for (int n = 0; n < static_cast<int>(mesh.nodes.size()); ++n)
+    if (mesh.nodes[static_cast<std::size_t>(n)][2] == 0) floor.push_back(n);
+  EXPECT_EQ(mesh.node_sets.at("floor"), floor);
+}
+
+// The volume under quadratic edges is that of the cell before: a cylinder of curved cells stays as round as it was.
+TEST(Refinement, KeepsCurvedEdges) {
+  LoadedMesh loaded{.mesh = make_cylinder({.radius = 1, .length = 1, .cells = {8, 1, 1}, .order = 2})};
+  refine(loaded);
+  EXPECT_TRUE(validate(loaded.mesh, {.source = "refined"}).empty());
+  // The parabola through three points of a circle, 1/16 of a turn apart, and its nodes at the quarters of an edge.
+  const double half = std::numbers::pi / 8, sagitta = 1 - std::cos(half);
+  const double x = std::sin(half) / 2, y = std::cos(half) + 0.75 * sagitta;
+  int at_quarters = 0;
+  for (const Vec3& at : loaded.mesh.nodes) {
+    const double r = at.tail<2>().norm() > 0.9 ? at.tail<2>().norm() : at.head<2>().norm();
+    if (std::abs(r - std::hypot(x, y)) < 1e-12) ++at_quarters;
+  }
+  EXPECT_GE(at_quarters, 2 * 8 * 2);
+}
+
+}  // namespace
+}  // namespace orthodyn::refine_test
