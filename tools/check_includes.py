@@ -29,7 +29,9 @@ ALLOWED = {
     "lib/study/jobs": STUDY,
     "lib/study/quantities": STUDY | {"lib/study/inputs"},
     "lib/study/compare": STUDY | {"lib/study/inputs", "lib/study/jobs"},
-    "lib/study/sweep": STUDY | {"lib/study/inputs", "lib/study/jobs", "lib/study/quantities"},
+    "lib/study/points": STUDY | {"lib/study/inputs", "lib/study/jobs", "lib/study/quantities"},
+    "lib/study/converge": STUDY | {"lib/study/inputs", "lib/study/jobs", "lib/study/quantities", "lib/study/points"},
+    "lib/study/sweep": STUDY | {"lib/study/inputs", "lib/study/jobs", "lib/study/quantities", "lib/study/points"},
     "lib/study/stability": STUDY | {"lib/study/inputs", "lib/study/jobs", "lib/study/quantities"},
     "integrators": BASIC | {"lib/ode", "lib/linear"},
 }

@@ -51,7 +51,8 @@ void refine_surfaces(TetMesh& mesh) {
     std::vector<Triangle> parts;
     for (std::size_t k = 0; k < faces.size(); ++k) {
       const auto n = faces[k];
-      for (const auto& [a, b, c] : std::array<std::array<std::size_t, 3>, 4>{{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}})
+      for (const auto& [a, b, c] :
+           std::array<std::array<std::size_t, 3>, 4>{{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}})
         parts.push_back({n[a], n[b], n[c]});
     }
     triangles = std::move(parts);
@@ -82,7 +83,8 @@ void refine(LoadedMesh& loaded) {
     const auto nodes = cells[k];
     std::array<Vec3, 10> x;
     ElementNodes<10> X;
-    for (std::size_t a = 0; a < 10; ++a) X.col(static_cast<Eigen::Index>(a)) = x[a] = mesh.nodes[static_cast<std::size_t>(nodes[a])];
+    for (std::size_t a = 0; a < 10; ++a)
+      X.col(static_cast<Eigen::Index>(a)) = x[a] = mesh.nodes[static_cast<std::size_t>(nodes[a])];
     for (const Child& child : children_of(x)) {
       tets.push_back({nodes[child[0]], nodes[child[1]], nodes[child[2]], nodes[child[3]]});
       if (!quadratic) continue;
@@ -95,7 +97,8 @@ void refine(LoadedMesh& loaded) {
   mesh.tets = std::move(tets);
   mesh.midsides.clear();
   mesh.region_of = repeated(mesh.region_of, 1);
-  for (CellData& data : loaded.cell_data) data.values = repeated(data.values, static_cast<std::size_t>(data.components));
+  for (CellData& data : loaded.cell_data)
+    data.values = repeated(data.values, static_cast<std::size_t>(data.components));
   if (quadratic) make_quadratic(mesh, [&](int a, int b) { return middles.at(std::minmax(a, b)); });
 }
 

@@ -7,7 +7,7 @@
 #include "lib/study/compare/measurement_result.h"
 #include "lib/study/jobs/json_values.h"
 #include "lib/study/stability/stability_result.h"
-#include "lib/study/sweep/evaluation.h"
+#include "lib/study/points/evaluation.h"
 
 namespace orthodyn::study::result_json_test {
 namespace {
@@ -108,7 +108,7 @@ TEST(EvaluationResult, IsReadAsItWasWritten) {
   r.unknowns = 3, r.elements = 6;
   r.frame = "frame.vtu";
   const Json json = sent(to_json(r));
-  const auto read = sweep::evaluation_from(json);
+  const auto read = evaluation_from(json);
   EXPECT_EQ(sent(to_json(read)), json);
   EXPECT_EQ(read.figures[0], r.figures[0]);
   EXPECT_TRUE(std::isnan(read.figures[1].second));
@@ -121,13 +121,13 @@ TEST(EvaluationResult, OfModesAloneHasNoCountsOfSteps) {
   r.cost = sweep::EvaluationCost{0.5, 0.75, {}, 1e8};
   const Json json = sent(to_json(r));
   EXPECT_FALSE(json.at("cost").contains("steps"));
-  EXPECT_FALSE(sweep::evaluation_from(json).cost->statistics);
+  EXPECT_FALSE(evaluation_from(json).cost->statistics);
 }
 
 TEST(EvaluationResult, OfAFailureKeepsItsReason) {
   sweep::EvaluationResult r;
   r.failure = Failure{"time limit", "reached t = 1"};
-  const auto read = sweep::evaluation_from(sent(to_json(r)));
+  const auto read = evaluation_from(sent(to_json(r)));
   ASSERT_TRUE(read.failure);
   EXPECT_EQ(read.failure->message, "reached t = 1");
 }
@@ -139,7 +139,7 @@ TEST(EvaluationInput, IsReadAsItWasWritten) {
   mode.along = Component::y, mode.about_equilibrium = true;
   input.figures = {{"a", motion}, {"b", mode}};
   input.frame = "stress", input.frame_at = 0.25, input.code = "c0de";
-  const auto read = sweep::evaluation_input_from(sent(to_json(input)));
+  const auto read = evaluation_input_from(sent(to_json(input)));
   EXPECT_EQ(to_json(read), to_json(input));
   EXPECT_EQ(read.figures[0].second.take, Take::frequency);
   EXPECT_EQ(read.figures[1].second.along, Component::y);

@@ -29,7 +29,7 @@ class SweepDesign : public InFolder {
     return "";
   }
   static double value(const Point& point, const std::string& path) {
-    Config at = Config::from_text(point.scene);
+    Config at = Config::from_text(point.scene.scene);
     std::istringstream steps(path);
     for (std::string step; std::getline(steps, step, '.');)
       at = std::isdigit(static_cast<unsigned char>(step[0])) ? at.at(std::stoul(step)) : at.at(step);
@@ -105,7 +105,7 @@ vary:
   EXPECT_EQ(densities.count(1000), 4u);
   EXPECT_EQ(strata.size(), 8u);
   const auto again = points(text);
-  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(all[i].scene, again[i].scene);
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(all[i].scene.scene, again[i].scene.scene);
 }
 
 TEST_F(SweepDesign, TakesNamedSetsUnitsAndFormulasOfThemAll) {
@@ -186,7 +186,7 @@ TEST_F(SweepDesign, ReadsQuantitiesWithUnits) {
   const auto list = points(rest + "vary: {materials.soft.young: {values: [20 kPa, 0.1 MPa], name: E}}");
   EXPECT_EQ(list[1].title, "E 100 kPa");
   EXPECT_NEAR(list[1].closed_forms[0], 2e8, 1e-3);
-  EXPECT_THAT(list[1].scene, HasSubstr("young: 0.1 MPa"));
+  EXPECT_THAT(list[1].scene.scene, HasSubstr("young: 0.1 MPa"));
   const auto range = points(rest + "vary: {materials.soft.young: {from: 20 kPa, to: 1 MPa, count: 2, name: E}}");
   EXPECT_EQ(range[1].title, "E 1000 kPa");
   EXPECT_NEAR(range[1].closed_forms[0], 2e9, 1e-3);

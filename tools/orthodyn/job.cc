@@ -1,7 +1,7 @@
 // `orthodyn measure`, `evaluate` and `assess`: one job of a study, in a process of its own.
 #include "lib/study/compare/measurement.h"
 #include "lib/study/stability/evaluate_case.h"
-#include "lib/study/sweep/evaluate_point.h"
+#include "lib/study/points/evaluate_point.h"
 #include "tools/orthodyn/command.h"
 
 namespace orthodyn {
@@ -27,7 +27,7 @@ CommandText text(int order, const std::string& name, const std::string& sentence
 const CommandRegistration measure_command(text(41, "measure", "One point of a comparison; called by compare."), declare,
                                           do_in_folder<study::compare::measure>);
 const CommandRegistration evaluate_command(text(51, "evaluate", "One point of a sweep; called by sweep."), declare,
-                                           do_in_folder<study::sweep::evaluate_point>);
+                                           do_in_folder<study::evaluate_point>);
 const CommandRegistration assess_command(text(61, "assess", "One case of a matrix; called by stability."), declare,
                                          do_in_folder<study::stability::evaluate_case>);
 

@@ -27,7 +27,7 @@ std::string last_line(const fs::path& file) {
   return last;
 }
 
-Failure failure_of(const ProcessEnd& end, const fs::path& log) {
+Failure failure_of_process(const ProcessEnd& end, const fs::path& log) {
   if (end.kind == ProcessEnd::Kind::timed_out) return {kTimeLimit, "killed after the limit of the wall time"};
   if (end.kind == ProcessEnd::Kind::out_of_memory)
     return {reason_name(Reason::out_of_memory), "killed when it used more than the limit of memory"};
@@ -62,7 +62,7 @@ Json run_job(const std::string& program, const Job& job, const Stop& stop) {
   if (end.kind == ProcessEnd::Kind::interrupted) return nullptr;
   Json result = read_result(job.folder);
   if (!result.is_null()) return result;
-  result = to_json(failure_of(end, log));
+  result = to_json(failure_of_process(end, log));
   write_result(job.folder, result);
   return result;
 }

@@ -81,7 +81,7 @@ class Expansion {
   explicit Expansion(const Sweep& sweep) : sweep_(sweep), scene_(read_scene_text(sweep.scene.file)) {}
 
   Point point(const Values& values) {
-    Point point{values, title_of(sweep_, values), "", "", {}, "", {}};
+    Point point{values, title_of(sweep_, values), {}, "", {}};
     const FormulaScope scope = scope_of(values);
     for (const auto& [name, figure] : sweep_.quantities)
       point.closed_forms.push_back(
@@ -97,7 +97,7 @@ class Expansion {
     std::optional<Scene> scene;
     try {
       scene = read_scene(config);
-      fill(config, point);
+      point.scene = point_scene(config, point.title);
     } catch (const ConfigError& e) {
       point.impossible = e.what();
       if (sweep_.impossible == Impossible::stop)
@@ -138,12 +138,6 @@ class Expansion {
   static void set(Config& config, const Assignments& assignments, const FormulaScope& scope) {
     for (const auto& [path, value] : assignments)
       assign(config, path, {scope.resolved(parsed(value), value.origin.where), value.origin});
-  }
-
-  static void fill(const Config& config, Point& point) {
-    point.scene = config.dump_for("");
-    point.mesh = config.at("mesh").yaml();
-    point.files = config.file_paths();
   }
 
   // Of every point: its time span may be varied.

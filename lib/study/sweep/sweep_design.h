@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/study/points/point_jobs.h"
 #include "lib/study/sweep/sweep.h"
 
 namespace orthodyn::study::sweep {
@@ -11,9 +12,7 @@ namespace orthodyn::study::sweep {
 struct Point {
   std::vector<VariedValue> values;   // by variable
   std::string title;                 // "angle 30 deg, mesh fine"
-  std::string scene;                 // in YAML, for a reader anywhere
-  std::string mesh;                  // its section, with what it names
-  std::vector<std::string> files;    // that it names
+  PointScene scene;
   std::string impossible;            // why the scene cannot be; "" if it can
   std::vector<double> closed_forms;  // by quantity; NaN for none
 };

@@ -1,5 +1,4 @@
-// The work of a sweep: a job for each point, in a folder whose name tells what the result depends on: the scene, the
-// files that it names, the figures, the limits, the program. Not the machine: points may come from several.
+// The work of a sweep: a job for each point.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "lib/study/jobs/job.h"
+#include "lib/study/points/point_jobs.h"
 #include "lib/study/sweep/sweep_design.h"
 
 namespace orthodyn::study::sweep {

@@ -20,7 +20,7 @@ Json variables_json(const Sweep& sweep, const std::vector<Point>& points) {
     const bool is_plain = v.unit.empty() && v.numeric() && !v.path.empty() && first != points.end();
     all.push_back({{"name", v.name},
                    {"path", v.path},
-                   {"unit", is_plain ? unit_at(v.path, Config::from_text(first->scene)) : v.unit},
+                   {"unit", is_plain ? unit_at(v.path, Config::from_text(first->scene.scene)) : v.unit},
                    {"numeric", v.numeric()},
                    {"scale", Value<Scale>::yaml(v.scale)}});
   }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/study/sweep/evaluation.h"
+#include "lib/study/points/evaluation.h"
 #include "lib/study/sweep/sweep_jobs.h"
 
 namespace orthodyn::study::sweep {

@@ -1,10 +1,11 @@
-#include "lib/study/sweep/evaluate_point.h"
+#include "lib/study/points/evaluate_point.h"
 
 #include <algorithm>
 #include <chrono>
 
 #include "lib/scene/quantity.h"
 #include "lib/simulation/static_problem.h"
+#include "lib/simulation/errors/mesh_error.h"
 #include "lib/simulation/errors/snapshot.h"
 #include "lib/simulation/load_steps.h"
 #include "lib/simulation/machine.h"
@@ -15,11 +16,13 @@
 #include "lib/study/quantities/figure.h"
 #include "lib/study/quantities/wanted_modes.h"
 
-namespace orthodyn::study::sweep {
+namespace orthodyn::study {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr int kStatesOfMeshError = 8;
 
 // The figures of a quantity's course, side by side.
 struct WantedQuantities {
@@ -62,6 +65,10 @@ class Evaluation {
   void keep(const std::string& name, double value, const std::string& unit) {
     result_.figures.emplace_back(name, value);
     result_.units.emplace_back(name, unit);
+  }
+
+  void keep(const MeshErrorRecorder& recorder) {
+    if (const auto found = recorder.found()) result_.mesh_error = found->relative;
   }
 
   void describe(const FemModel& model) {
@@ -118,6 +125,9 @@ class Evaluation {
     const ObservedState observed(*setup.built.model, state);
     for (std::size_t q = 0; q < wanted.figures.size(); ++q)
       keep(wanted.figures[q]->first, wanted.quantities[q].values(observed)[0], wanted.quantities[q].unit);
+    MeshErrorRecorder mesh_error(0);
+    if (input_.mesh_error) mesh_error.look_at(observed);
+    keep(mesh_error);
     draw(*setup.built.model, state);
   }
 
@@ -126,10 +136,13 @@ class Evaluation {
     Deadline deadline(input_.seconds);
     Snapshot frame(input_.frame_at);
     Plan plan{setup.scene.time.end, output_times(wanted.expectations, setup.scene.time), false};
+    MeshErrorRecorder mesh_error(plan.output_times.size());
+    std::vector<Observer*> observers{&recorder, &deadline, &frame};
+    if (input_.mesh_error) observers.push_back(&mesh_error);
     EventFinder events(setup.events);
     if (!events.empty()) plan.events = &events;
     const Outcome outcome = run(*setup.built.model, *setup.integrator, setup.built.initial, plan,
-                                {&recorder, &deadline, &frame}, deadline.over);
+                                observers, deadline.over);
     if (!conclude(outcome, setup.integrator->statistics())) return;
     for (std::size_t q = 0; q < wanted.figures.size(); ++q) {
       const auto& [name, f] = *wanted.figures[q];
@@ -138,11 +151,15 @@ class Evaluation {
                             : figure(wanted.expectations[q], recorder, q),
            f.unit_of(wanted.quantities[q].unit));
     }
+    keep(mesh_error);
     draw(*setup.built.model, frame.state());
   }
 
   std::vector<double> output_times(std::vector<Expectation> wanted, const TimeSpan& time) const {
     if (input_.frame && input_.frame_at && *input_.frame_at < time.end) wanted.emplace_back().at = input_.frame_at;
+    if (input_.mesh_error)
+      for (int i = 1; i <= kStatesOfMeshError; ++i)
+        wanted.emplace_back().at = time.start + (time.end - time.start) * i / kStatesOfMeshError;
     return times_asked_for(wanted, time.start);
   }
 
@@ -182,4 +199,4 @@ void evaluate_point(const fs::path& folder) {
   });
 }
 
-}  // namespace orthodyn::study::sweep
+}  // namespace orthodyn::study

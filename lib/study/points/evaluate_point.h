@@ -1,12 +1,12 @@
-// Computes the figures of one point of a sweep. What none of them needs is not computed.
+// Computes the figures of one scene. What none of them needs is not computed.
 #pragma once
 
 #include <filesystem>
 
 #include "lib/config/config.h"
-#include "lib/study/sweep/evaluation.h"
+#include "lib/study/points/evaluation.h"
 
-namespace orthodyn::study::sweep {
+namespace orthodyn::study {
 
 // The state that the picture shows, in the point's folder.
 inline constexpr const char* kFrameFile = "frame.vtu";
@@ -18,4 +18,4 @@ EvaluationResult evaluate_point(const Config& scene, const EvaluationInput& inpu
 // Does the job of a folder. Throws as serve_job() does.
 void evaluate_point(const std::filesystem::path& folder);
 
-}  // namespace orthodyn::study::sweep
+}  // namespace orthodyn::study

@@ -1,5 +1,5 @@
-// What is computed of one point of a sweep: the border, as JSON, between the process that sweeps and the one that
-// evaluates.
+// What is computed of one point of a sweep or of a refinement: the border, as JSON, between the process that wants it
+// and the one that evaluates.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 #include "lib/study/jobs/job_result.h"
 #include "lib/study/quantities/wanted_figure.h"
 
-namespace orthodyn::study::sweep {
+namespace orthodyn::study {
 
 // What is to be done.
 struct EvaluationInput {
@@ -19,6 +19,7 @@ struct EvaluationInput {
   std::optional<double> frame_at;    // s; default the end
   double seconds = 60;               // limit of the integration
   std::string code;                  // fingerprint of the program that is to do it
+  bool mesh_error = false;           // whether to estimate it
 };
 
 // What people read (title, unit, closed form) does not change what is computed, and is left out.
@@ -41,9 +42,10 @@ struct EvaluationResult {
   std::optional<EvaluationCost> cost;
   std::optional<std::size_t> unknowns, elements;  // of the model
   std::string frame;                              // the file of the picture's state; "" for none
+  std::optional<double> mesh_error;               // MeshError::relative
 };
 
 Json to_json(const EvaluationResult& result);
 EvaluationResult evaluation_from(const Json& json);
 
-}  // namespace orthodyn::study::sweep
+}  // namespace orthodyn::study

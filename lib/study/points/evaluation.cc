@@ -1,8 +1,8 @@
-#include "lib/study/sweep/evaluation.h"
+#include "lib/study/points/evaluation.h"
 
 #include "lib/study/jobs/json_values.h"
 
-namespace orthodyn::study::sweep {
+namespace orthodyn::study {
 
 namespace {
 
@@ -52,11 +52,13 @@ EvaluationCost cost_from(const Json& json) {
 Json to_json(const EvaluationInput& input) {
   Json figures = Json::object();
   for (const auto& [name, f] : input.figures) figures[name] = figure_json(f);
-  return {{"figures", figures},
-          {"frame", optional_json(input.frame)},
-          {"frame_at", optional_json(input.frame_at)},
-          {"seconds", input.seconds},
-          {"code", input.code}};
+  Json json{{"figures", figures},
+            {"frame", optional_json(input.frame)},
+            {"frame_at", optional_json(input.frame_at)},
+            {"seconds", input.seconds},
+            {"code", input.code}};
+  if (input.mesh_error) json["mesh_error"] = true;
+  return json;
 }
 
 EvaluationInput evaluation_input_from(const Json& json) {
@@ -66,6 +68,7 @@ EvaluationInput evaluation_input_from(const Json& json) {
   input.frame_at = optional_from<double>(json.at("frame_at"));
   input.seconds = json.at("seconds");
   input.code = json.at("code");
+  input.mesh_error = json.value("mesh_error", false);
   return input;
 }
 
@@ -94,6 +97,7 @@ Json to_json(const EvaluationResult& r) {
   if (r.unknowns) json["model"] = {{"unknowns", *r.unknowns}, {"elements", r.elements.value_or(0)}};
   if (r.failure) json["reason"] = r.failure->reason, json["message"] = r.failure->message;
   if (!r.frame.empty()) json["frame"] = r.frame;
+  if (r.mesh_error) json["mesh_error"] = *r.mesh_error;
   return json;
 }
 
@@ -107,7 +111,8 @@ EvaluationResult evaluation_from(const Json& json) {
   if (cost.is_object()) r.cost = cost_from(cost);
   if (model.is_object()) r.unknowns = model.at("unknowns"), r.elements = model.at("elements");
   r.frame = json.value("frame", "");
+  if (json.contains("mesh_error")) r.mesh_error = json.at("mesh_error").get<double>();
   return r;
 }
 
-}  // namespace orthodyn::study::sweep
+}  // namespace orthodyn::study

@@ -1,0 +1,249 @@
+#include "lib/study/converge/convergence_table.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "lib/simulation/machine.h"
+#include "lib/study/converge/richardson.h"
+#include "lib/study/inputs/labels.h"
+#include "lib/study/jobs/json_values.h"
+
+namespace orthodyn::study::converge {
+
+namespace {
+
+constexpr double kTarget = 0.01;  // the error whose cost is told
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+template <class T>
+std::optional<T> entry(const Named<T>& list, const std::string& name) {
+  for (const auto& [key, value] : list)
+    if (key == name) return value;
+  return std::nullopt;
+}
+
+class Table {
+ public:
+  Table(const Convergence& wanted, const Design& design, const std::vector<Job>& jobs, const Results& results)
+      : wanted_(wanted), design_(design), jobs_(jobs), results_(results) {}
+
+  Json json() const {
+    Json figures = Json::array(), rows = Json::array();
+    for (const auto& [name, figure] : design_.figures) figures.push_back(figure_json(name));
+    for (std::size_t i = 0; i < design_.levels.size(); ++i) rows.push_back(row_json(i));
+    return {{"orthodyn_convergence", 1},
+            {"name", stem(wanted_.file)},
+            {"file", wanted_.file},
+            {"set", wanted_.set},
+            {"written", utc_now()},
+            {"machine", machine_json()},
+            {"versions", versions_json()},
+            {"ratio", kRatio},
+            {"target", kTarget},
+            {"orders", wanted_.orders},
+            {"figures", figures},
+            {"rows", rows}};
+  }
+
+ private:
+  struct Limit {
+    Extrapolation value;
+    int order;  // of the elements that it is from
+  };
+
+  const EvaluationResult* result(std::size_t level) const {
+    const auto found = results_.find(jobs_[level].folder);
+    return found == results_.end() ? nullptr : &found->second;
+  }
+
+  double value(std::size_t level, const std::string& figure) const {
+    const EvaluationResult* r = result(level);
+    return r ? entry(r->figures, figure).value_or(kNaN) : kNaN;
+  }
+
+  // Of one order, up to the first that is missing.
+  std::vector<double> values(int order, const std::string& figure) const {
+    std::vector<double> out;
+    for (std::size_t i = 0; i < design_.levels.size(); ++i) {
+      if (design_.levels[i].order != order) continue;
+      const double v = value(i, figure);
+      if (!std::isfinite(v)) break;
+      out.push_back(v);
+    }
+    return out;
+  }
+
+  static std::optional<Extrapolation> extrapolated(const std::vector<double>& values, int order) {
+    return extrapolate(values, kRatio, 1, 2 * order);
+  }
+
+  std::optional<Limit> limit(const std::string& figure) const {
+    std::optional<Limit> best;
+    for (const int order : wanted_.orders)
+      if (const auto found = extrapolated(values(order, figure), order))
+        if (!best || found->uncertainty < best->value.uncertainty) best = Limit{*found, order};
+    return best;
+  }
+
+  double error(std::size_t level, const std::string& figure) const {
+    const auto found = limit(figure);
+    return found && found->value.limit != 0 ? std::abs(value(level, figure) / found->value.limit - 1) : kNaN;
+  }
+
+  double cpu_seconds(std::size_t level) const {
+    const EvaluationResult* r = result(level);
+    return r && r->cost ? r->cost->cpu_seconds : kNaN;
+  }
+
+  // CPU time at which the error of elements of an order falls to the target, s, between the points that enclose it; NaN
+  // if none does.
+  double cost_of_target(int order, const std::string& figure) const {
+    std::optional<std::size_t> before;
+    for (std::size_t i = 0; i < design_.levels.size(); ++i) {
+      if (design_.levels[i].order != order) continue;
+      const double e = error(i, figure), t = cpu_seconds(i);
+      if (!(e >= 0) || !(t > 0)) return kNaN;
+      if (e <= kTarget) {
+        if (!before) return t;  // the coarsest already
+        const double e0 = error(*before, figure), t0 = cpu_seconds(*before);
+        const double share = std::log(e0 / kTarget) / std::log(e0 / std::max(e, 1e-300));
+        return t0 * std::pow(t / t0, share);
+      }
+      before = i;
+    }
+    return kNaN;
+  }
+
+  std::string unit(const std::string& figure) const {
+    for (std::size_t i = 0; i < design_.levels.size(); ++i)
+      if (const EvaluationResult* r = result(i))
+        if (const auto found = entry(r->units, figure)) return *found;
+    return "";
+  }
+
+  Json figure_json(const std::string& name) const {
+    Json out{{"name", name}, {"unit", unit(name)}, {"limit", nullptr}};
+    if (const auto found = limit(name)) {
+      out["limit"] = found->value.limit;
+      out["uncertainty"] = found->value.uncertainty;
+      out["from_order"] = found->order;
+    }
+    Json costs = Json::array();
+    for (const int order : wanted_.orders)
+      costs.push_back({{"order", order}, {"cpu_seconds", finite_or_null(cost_of_target(order, name))}});
+    out["cost_of_target"] = costs;
+    return out;
+  }
+
+  // On the level's own value and the two before it.
+  Json observed_order(std::size_t level, const std::string& figure) const {
+    if (design_.levels[level].level < 2) return nullptr;
+    const auto found = extrapolate({value(level - 2, figure), value(level - 1, figure), value(level, figure)}, kRatio,
+                                   1, 2 * design_.levels[level].order);
+    return found && found->order ? finite_or_null(*found->order) : Json();
+  }
+
+  Json row_json(std::size_t i) const {
+    const Level& level = design_.levels[i];
+    const EvaluationResult* r = result(i);
+    Json out{{"order", level.order},
+             {"level", level.level + 1},
+             {"title", level.scene.title},
+             {"folder", fmt::format("points/{}", jobs_[i].folder.filename().string())},
+             {"status", !r ? "missing" : r->failure ? "failed" : "completed"},
+             {"reason", r && r->failure ? r->failure->reason : ""},
+             {"message", r && r->failure ? r->failure->message : ""}};
+    out["unknowns"] = r && r->unknowns ? Json(*r->unknowns) : Json();
+    out["elements"] = r && r->elements ? Json(*r->elements) : Json();
+    out["mesh_error"] = r && r->mesh_error ? Json(*r->mesh_error) : Json();
+    out["cost"] = r && r->cost ? to_json(*r->cost) : Json();
+    Json figures = Json::object();
+    for (const auto& [name, figure] : design_.figures)
+      figures[name] = {{"value", finite_or_null(value(i, name))},
+                       {"error", finite_or_null(error(i, name))},
+                       {"order", observed_order(i, name)}};
+    out["figures"] = figures;
+    return out;
+  }
+
+  const Convergence& wanted_;
+  const Design& design_;
+  const std::vector<Job>& jobs_;
+  const Results& results_;
+};
+
+std::string number(const Json& value, const char* format) {
+  return value.is_number() ? fmt::format(fmt::runtime(format), value.get<double>()) : "-";
+}
+
+std::string heading(const Json& figure) {
+  const std::string unit = figure.at("unit");
+  return figure.at("name").get<std::string>() + (unit.empty() ? "" : " [" + unit + "]");
+}
+
+std::string answer(const Json& table, const Json& figure) {
+  std::string out;
+  for (const auto& cost : figure.at("cost_of_target"))
+    out += fmt::format("{}order {}: {}", out.empty() ? "" : ", ", cost.at("order").get<int>(),
+                       cost.at("cpu_seconds").is_number()
+                           ? fmt::format("{:.2g} s", cost.at("cpu_seconds").get<double>())
+                           : std::string("not reached"));
+  return fmt::format("CPU time for an error of {:.0f} %: {}", 100 * table.at("target").get<double>(), out);
+}
+
+}  // namespace
+
+Json convergence_json(const Convergence& wanted, const Design& design, const std::vector<Job>& jobs,
+                      const Results& results) {
+  return Table(wanted, design, jobs, results).json();
+}
+
+std::string convergence_csv(const Json& table) {
+  std::string out = "order,level,elements,unknowns,mesh_error,cpu_seconds [s],status,reason";
+  for (const auto& figure : table.at("figures")) {
+    const std::string name = figure.at("name");
+    for (const std::string& head : {heading(figure), name + ".error", name + ".observed_order"})
+      out += "," + csv_cell(head);
+  }
+  out += "\n";
+  for (const auto& row : table.at("rows")) {
+    out += csv_cell(row.at("order"));
+    for (const char* key : {"level", "elements", "unknowns", "mesh_error"}) out += "," + csv_cell(row.at(key));
+    out += "," + csv_cell(member(row.at("cost"), "cpu_seconds"));
+    for (const char* key : {"status", "reason"}) out += "," + csv_cell(row.at(key));
+    for (const auto& figure : table.at("figures")) {
+      const Json& f = row.at("figures").at(figure.at("name").get<std::string>());
+      for (const char* key : {"value", "error", "order"}) out += "," + csv_cell(f.at(key));
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+std::string convergence_text(const Json& table) {
+  std::string out;
+  for (const auto& figure : table.at("figures")) {
+    const std::string name = figure.at("name");
+    out += fmt::format("\n{}", heading(figure));
+    if (figure.at("limit").is_number())
+      out += fmt::format(": limit {:.6g}, known to {:.1g} (by elements of order {})", figure.at("limit").get<double>(),
+                         figure.at("uncertainty").get<double>(), figure.at("from_order").get<int>());
+    out += fmt::format("\n  {:>5} {:>5} {:>9} {:>13} {:>9} {:>6} {:>10} {:>9}\n", "order", "level", "unknowns", "value",
+                       "error", "order", "mesh error", "CPU [s]");
+    for (const auto& row : table.at("rows")) {
+      const Json& f = row.at("figures").at(name);
+      out += fmt::format("  {:>5} {:>5} {:>9} {:>13} {:>9} {:>6} {:>10} {:>9}{}\n", row.at("order").get<int>(),
+                         row.at("level").get<int>(), number(row.at("unknowns"), "{:.0f}"), number(f.at("value"), "{:.7g}"),
+                         number(f.at("error"), "{:.1e}"), number(f.at("order"), "{:.2f}"),
+                         number(row.at("mesh_error"), "{:.1e}"), number(member(row.at("cost"), "cpu_seconds"), "{:.3g}"),
+                         row.at("status") == "completed" ? "" : "  " + row.at("status").get<std::string>() + ": " + row.at("reason").get<std::string>());
+    }
+    out += "  " + answer(table, figure) + "\n";
+  }
+  return out;
+}
+
+}  // namespace orthodyn::study::converge

@@ -1,0 +1,27 @@
+// What came out of a refinement, as JSON and CSV: values, limits, errors, orders, costs.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lib/study/converge/convergence.h"
+#include "lib/study/jobs/job.h"
+#include "lib/study/points/evaluation.h"
+
+namespace orthodyn::study::converge {
+
+using Results = std::map<std::filesystem::path, EvaluationResult>;  // by the folder of a job
+
+// `jobs` by level. The limit of each figure is that of the order with the smallest uncertainty; errors are relative to
+// it.
+Json convergence_json(const Convergence& wanted, const Design& design, const std::vector<Job>& jobs,
+                      const Results& results);
+
+std::string convergence_csv(const Json& table);
+
+// For people: a table of each figure, and what an error of one per cent costs.
+std::string convergence_text(const Json& table);
+
+}  // namespace orthodyn::study::converge

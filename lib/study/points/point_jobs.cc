@@ -1,0 +1,45 @@
+#include "lib/study/points/point_jobs.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "lib/scene/mesh_materials.h"
+#include "lib/scene/scene.h"
+
+namespace orthodyn::study {
+
+namespace {
+
+// With what named files bring along: elements beside .node, files that a .veg includes.
+std::string mesh_hash(const PointScene& point) {
+  try {
+    return mesh_fingerprint(load_mesh(read_scene(Config::from_text(point.scene))));
+  } catch (const ConfigError& e) {
+    return e.what();  // the point itself will say so
+  }
+}
+
+}  // namespace
+
+PointScene point_scene(const Config& scene, const std::string& title) {
+  return {title, scene.dump_for(""), scene.at("mesh").yaml(), scene.file_paths()};
+}
+
+PointJobs::PointJobs(const EvaluationInput& input, const Limits& limits, std::filesystem::path folder)
+    : input_(to_json(input)), limits_(limits), folder_(std::move(folder)) {}
+
+Job PointJobs::job(const PointScene& point) {
+  Fingerprint hash;
+  hash.add(point.scene).add(input_.dump()).add(fmt::format("{}", limits_.memory));
+  for (const auto& file : point.files) hash.add(files_.of(file));
+  if (!point.files.empty()) {
+    std::string& mesh = meshes_[point.mesh];
+    if (mesh.empty()) mesh = mesh_hash(point);
+    hash.add(mesh);
+  }
+  return {point.title, "evaluate", folder_ / "points" / hash.text(), point.scene, input_,
+          {limits_.seconds + kSetUpSeconds, limits_.memory}};
+}
+
+}  // namespace orthodyn::study

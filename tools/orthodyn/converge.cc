@@ -1,0 +1,125 @@
+// `orthodyn converge`: a scene on finer and finer meshes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+#include "lib/core/words.h"
+#include "lib/simulation/files.h"
+#include "lib/study/converge/convergence_table.h"
+#include "lib/study/inputs/labels.h"
+#include "lib/study/jobs/json_values.h"
+#include "tools/orthodyn/command.h"
+#include "tools/orthodyn/failure_summary.h"
+#include "tools/orthodyn/progress_reporter.h"
+#include "tools/orthodyn/study_command.h"
+#include "tools/orthodyn/study_folder.h"
+
+namespace orthodyn::study::converge {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct ConvergeArguments : StudyArguments {
+  std::vector<std::string> set, quantities;
+  int levels = 3, modes = 0;
+  double seconds = 600;
+  std::string orders = "1,2";
+};
+
+std::vector<int> orders_of(const std::string& text) {
+  if (text == "1") return {1};
+  if (text == "2") return {2};
+  if (text == "1,2" || text == "2,1") return {1, 2};
+  throw ConfigError(fmt::format("--order: expected 1, 2 or 1,2, found '{}'", text));
+}
+
+Convergence wanted_of(const ConvergeArguments& arguments) {
+  return {.file = arguments.file,
+          .set = arguments.set,
+          .levels = arguments.levels,
+          .orders = orders_of(arguments.orders),
+          .quantities = arguments.quantities,
+          .modes = arguments.modes,
+          .limits = {.seconds = arguments.seconds}};
+}
+
+std::string outcome_of(const EvaluationResult& result) {
+  if (result.failure) return "failed: " + result.failure->reason;
+  std::vector<std::string> words;
+  for (const auto& [name, value] : result.figures) words.push_back(fmt::format("{} {:.6g}", name, value));
+  return join(words);
+}
+
+int converge(const ConvergeArguments& arguments) {
+  use_one_thread_each();
+  const Convergence wanted = wanted_of(arguments);
+  const Design design = design_of(wanted);
+  const fs::path folder = folder_for(arguments, "out/convergence", stem(arguments.file));
+  const StudyFolder place(folder, "convergence", arguments.file);
+  PointJobs factory(input_of(wanted, design), wanted.limits, folder);
+  std::vector<Job> jobs;
+  for (const Level& level : design.levels) jobs.push_back(factory.job(level.scene));
+
+  Results results;
+  const auto write_table = [&] {
+    Json table = convergence_json(wanted, design, jobs, results);
+    write_file(folder / "convergence.json", {to_text(table, 1)});
+    write_file(folder / "convergence.csv", {convergence_csv(table)});
+    return table;
+  };
+  ProgressReporter reporter(arguments.quiet);
+  FailureSummary failures;
+  const std::size_t kept = arguments.retry ? 0 : number_at_limits(jobs);
+  const JobEvents events{.ends = [&](std::size_t i, const Json& result, bool cached) {
+    const EvaluationResult& evaluated = results[jobs[i].folder] = evaluation_from(result);
+    reporter.report(jobs.size(), jobs[i].title, outcome_of(evaluated), cached);
+    write_table();
+  }};
+  const bool complete = job_queue(arguments, worker_count(arguments)).run(jobs, events);
+  for (const Job& job : jobs)
+    if (const auto found = results.find(job.folder); found != results.end())
+      failures.add(job.title, found->second.failure);
+  const Json table = write_table();
+  if (!complete) tell_of_interrupt("meshes", folder);
+  if (!arguments.quiet) fmt::print("{}\ntable   {}\n", convergence_text(table), (folder / "convergence.csv").string());
+  show_report(folder, arguments);
+  failures.print();
+  tell_of_kept_limits(kept);
+  return complete ? failures.exit_code() : 130;
+}
+
+void declare(ConvergeArguments& arguments, CommandOptions& options) {
+  declare_study(arguments, options, {"scene", "A scene in YAML.", "convergence", "convergence", "meshes"});
+  declare_jobs(arguments, options, "Meshes");
+  options.repeated("--set", arguments.set, "Change a value of the scene by its path, e.g. mesh.cells=[10,1,1].")
+      .type("PATH=VALUE");
+  options.value("--levels", arguments.levels, "Meshes: the scene's own, and each of the others twice as fine as the one before.")
+      .range(2, 8)
+      .show_default();
+  options.value("--order", arguments.orders, "Linear elements, quadratic ones or both: 1, 2 or 1,2.").show_default();
+  options
+      .repeated("--quantity", arguments.quantities,
+                "What to look at: tip.displacement.z, \"max of tip.displacement.z\", energy.elastic. Default: what the "
+                "scene expects, or how far its probes move.")
+      .type("NAME");
+  options.value("--modes", arguments.modes, "Look at so many of the lowest natural frequencies.").range(0, 100);
+  options.value("--seconds", arguments.seconds, "Wall time that one mesh may take.").show_default();
+}
+
+const CommandRegistration converge_command(
+    {.order = 55,
+     .name = "converge",
+     .sentence = "A scene on finer and finer meshes: errors in space, orders, limits, and what they cost. Run again, it "
+                 "goes on.",
+     .examples = R"(
+  orthodyn converge configs/scenes/shelf.yaml --set mesh.cells=[8,2,1] --levels 3
+  orthodyn converge configs/scenes/cantilever.yaml --quantity "max of tip.displacement.z" --order 2
+  orthodyn converge mine.yaml --modes 3        natural frequencies)"},
+    declare, converge);
+
+}  // namespace
+
+}  // namespace orthodyn::study::converge
