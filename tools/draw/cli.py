@@ -120,7 +120,7 @@ def _parser():
     command("momentum", "Linear and angular momentum over time, from momentum.csv.")
     page = "One HTML page and figures for papers of a comparison, a sweep or a matrix of hard cases."
     report = commands.add_parser("report", help=page, description=page)
-    report.add_argument("result", metavar="RESULT", help="folder that `orthodyn compare`, `sweep` or `stability` wrote")
+    report.add_argument("result", metavar="RESULT", help="folder that `orthodyn compare`, `sweep`, `converge` or `stability` wrote")
     report.add_argument("-o", "--out", type=Path, metavar="FILE", help="the page (default: RESULT/report.html)")
     axes = commands.add_parser("axes", help="Material axes on the surface and in two sections, from axes.vtu.",
                                description="Material axes on the surface and in two sections, as PNG.")
@@ -202,9 +202,10 @@ def _all(args):
 
 
 def _report(args):
-    from . import stability, sweep
+    from . import converge, stability, sweep
     from .report import write_report
-    write = {stability.FILE: stability.write_stability_report, sweep.FILE: sweep.write_sweep_report}
+    write = {stability.FILE: stability.write_stability_report, sweep.FILE: sweep.write_sweep_report,
+             converge.FILE: converge.write_convergence_report}
     found = [name for name in write if (Path(args.result) / name).is_file()]
     yield from (write[found[0]] if found else write_report)(args.result, args.out)
 

@@ -1,0 +1,115 @@
+"""The page of a convergence study: one HTML file that opens without a network."""
+import math
+import shlex
+
+from ..report import formatting
+from ..report.details import pairs
+from ..report.markup import Html, data_script, joined, scrolling, tag
+from ..report.page import SCRIPT, head
+from ..report.tables import caption, number
+from .figures import Figures, words
+
+READ = ("Marks are meshes, each twice as fine as the one before; strokes are what the estimate from recovered stresses "
+        "says of the same mesh. Lower left is better. The dashed line is an error of one per cent; hollow marks are below "
+        "what is known of the limit.")
+
+
+def _cheaper(figure, study):
+    """'order 2 by 12 x', or '' where one of the orders does not reach the target."""
+    costs = {o: c for o, c in figure.cost_of_target.items() if math.isfinite(c) and c > 0}
+    if len(costs) < 2:
+        return ""
+    best, worst = min(costs, key=costs.get), max(costs, key=costs.get)
+    return f"{words(best)} elements by {costs[worst] / costs[best]:.2g} ×"
+
+
+def _answer_row(study, figure):
+    known = math.isfinite(figure.limit)
+    limit = f"{formatting.general(figure.limit, 6)} ± {figure.uncertainty:.1g}" if known else formatting.UNKNOWN
+    cells = [tag("th", figure.heading, scope="row"), tag("td", limit, class_="word")]
+    for order in study.orders:
+        cost = figure.cost_of_target.get(order, math.nan)
+        cells.append(number(formatting.plain_seconds(cost) if math.isfinite(cost) else "not reached"))
+    return tag("tr", *cells, tag("td", _cheaper(figure, study), class_="word"))
+
+
+def _table(title, heads, rows, label, kind=None):
+    cells = [tag("th", text, scope="col", class_="num" if numeric else "word") for text, numeric in heads]
+    return scrolling(tag("table", caption(title), tag("thead", tag("tr", *cells)), tag("tbody", *rows), class_=kind),
+                     label=label)
+
+
+def _answer(study):
+    heads = [("Figure", False), ("Limit", False)]
+    heads += [(f"{words(o)} [s]", True) for o in study.orders]
+    heads.append(("Cheaper", False))
+    return _table(f"What a figure tends to, and the CPU time for an error of {100 * study.target:g} %", heads,
+                  [_answer_row(study, f) for f in study.figures], "Limits and costs")
+
+
+def _row(study, mesh):
+    cells = [tag("th", words(mesh.order), scope="row"), number(mesh.level), number(formatting.count(mesh.elements)),
+             number(formatting.count(mesh.unknowns)), number(formatting.exponent(mesh.mesh_error))]
+    for figure in study.figures:
+        order = mesh.orders.get(figure.name, math.nan)
+        cells += [number(formatting.general(mesh.values.get(figure.name, math.nan), 7)),
+                  number(formatting.exponent(mesh.errors.get(figure.name, math.nan))),
+                  number(f"{order:.2f}" if math.isfinite(order) else formatting.UNKNOWN)]
+    cells += [number(formatting.plain_seconds(mesh.cpu_seconds)),
+              tag("td", "" if mesh.status == "completed" else mesh.reason or mesh.status, class_="word")]
+    return tag("tr", *cells, class_="failed" if mesh.status != "completed" else None)
+
+
+def _meshes(study):
+    heads = [("Elements", False), ("level", True), ("number", True), ("unknowns", True), ("mesh error", True)]
+    for figure in study.figures:
+        heads += [(figure.heading, True), ("error", True), ("observed order", True)]
+    heads += [("CPU [s]", True), ("", False)]
+    return _table("All meshes; the same in convergence.csv", heads, [_row(study, m) for m in study.meshes],
+                  "All meshes", "long")
+
+
+def _failures(study):
+    if not study.failed:
+        return None
+    rows = [tag("tr", tag("th", f"{words(m.order)}, level {m.level}", scope="row"), tag("td", m.reason, class_="word"),
+                tag("td", m.message, class_="message")) for m in study.failed]
+    return _table("Meshes that failed", (("Mesh", False), ("Reason", False), ("Message", False)), rows, "Failures")
+
+
+def _details(study, folder):
+    changes = "".join(f" --set {shlex.quote(s)}" for s in study.about["set"])
+    machine = study.about["machine"]
+    command = f"orthodyn converge {shlex.quote(study.about['file'])}{changes} --out {shlex.quote(str(folder))}"
+    return pairs([("Scene", study.about["file"]), ("Command", tag("code", command)),
+                  ("Refinement", f"cells {study.about['ratio']} times as small on each level"),
+                  ("Limit", "Richardson's extrapolation of the finest meshes; its uncertainty after Roache (1998)"),
+                  ("Mesh error", "share of the elastic energy, from recovered stresses (Zienkiewicz & Zhu 1992)"),
+                  ("Machine", machine.get("processor", "")), ("Written", study.about["written"])])
+
+
+def _tip(study, mesh):
+    rows = [[f.heading, formatting.general(mesh.values.get(f.name, math.nan), 6)] for f in study.figures]
+    rows.append(["mesh error, estimated", formatting.exponent(mesh.mesh_error)])
+    return {"title": f"{words(mesh.order)} elements, level {mesh.level}", "rows": rows, "e": {}}
+
+
+def page(study, folder):
+    figures = Figures(study)
+    pictures = [joined([tag("h3", f.heading) if len(study.figures) > 1 else None,
+                        *(tag("figure", tag("div", picture, class_="stage"),
+                              tag("figcaption", READ) if f is study.figures[0] and k == 0 else None,
+                              aria_label=f.name) for k, picture in enumerate(figures.of(f)))])
+                for f in study.figures]
+    parts = [("answer", "Answer", _answer(study)), ("errors", "Errors", joined(pictures)),
+             ("meshes", "Meshes", joined([_meshes(study), _failures(study)])),
+             ("details", "Details", _details(study, folder))]
+    main = tag("main", *(tag("section", tag("h2", name), content, id=identity) for identity, name, content in parts))
+    counted = [f"{len(study.meshes)} meshes", study.about["written"].replace("T", " ").replace("Z", " UTC")]
+    title = f"Convergence of {study.name}"
+    header = tag("header", tag("button", "Dark", type="button", id="theme", class_="js"), tag("h1", title),
+                 tag("p", " · ".join(counted), class_="facts"),
+                 tag("nav", *(tag("a", name, href=f"#{identity}") for identity, name, _ in parts), aria_label="Sections"))
+    runs = data_script("run-data", {"measure": "", "labels": {}, "runs": [_tip(study, m) for m in study.meshes]})
+    body = tag("body", header, main, runs, tag("script", Html(SCRIPT.read_text(encoding="utf-8"))))
+    return "<!DOCTYPE html>\n" + tag("html", head(title, figures.styles.css()), body, lang="en") + "\n"
