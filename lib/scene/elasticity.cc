@@ -4,8 +4,9 @@ namespace orthodyn {
 
 template <>
 struct Words<Kinematics> {
-  static constexpr std::array<std::pair<Kinematics, const char*>, 2> list{
-      {{Kinematics::corotational, "corotational"}, {Kinematics::linear, "linear"}}};
+  static constexpr std::array<std::pair<Kinematics, const char*>, 3> list{{{Kinematics::corotational, "corotational"},
+                                                                           {Kinematics::linear, "linear"},
+                                                                           {Kinematics::automatic, "auto"}}};
 };
 
 template <>
@@ -23,7 +24,12 @@ struct Words<WarpedTangent> {
 const Spec<Elasticity>& Elasticity::spec() {
   static const auto s =
       Spec<Elasticity>()
-          .key("kinematics", &Elasticity::kinematics, "Large rotations, or small strain with a constant K.")
+          .key("kinematics", &Elasticity::kinematics, "corotational: large rotations. linear: small strain with a constant K. auto: linear for as long as that is "
+               "accurate enough, otherwise corotational from the start; the summary says which and why.")
+          .key("linear_error", &Elasticity::linear_error,
+               "With kinematics: auto, the error of displacements that linear kinematics may make, relative to the "
+               "largest; default ten times integrator.rtol, without one 1e-3.",
+               {.range = kPositive})
           .key("corotation", &Elasticity::corotation,
                "exact: gradient of the energy. warped: R sigma as in Mueller & Gross 2004 and Vega FEM, for "
                "comparison; it gains energy and exerts a net torque for anisotropic materials.")
@@ -33,6 +39,10 @@ const Spec<Elasticity>& Elasticity::spec() {
             const bool warped = e.corotation == Corotation::warped;
             if (warped && e.kinematics == Kinematics::linear)
               config.at("corotation").fail("has no meaning with kinematics: linear; remove one of them");
+            if (warped && e.kinematics == Kinematics::automatic)
+              config.at("kinematics").fail("auto is for the exact force; with corotation: warped choose one");
+            if (e.linear_error && e.kinematics != Kinematics::automatic)
+              config.at("linear_error").fail("has no meaning without kinematics: auto; remove it");
             if (e.warped_tangent == WarpedTangent::unsymmetric && !warped)
               config.at("warped_tangent").fail("has no meaning without corotation: warped; remove it");
           });

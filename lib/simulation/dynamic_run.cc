@@ -86,8 +86,11 @@ class DynamicAnalysis {
   }
 
   RunResult compute(const Checkpoint& begin, RunObservers& observers, const RunRecord& record) {
-    RunResult result{.scene = context_.scene, .folder = folder_.path(), .model = summarize(*setup_.built.model)};
+    RunResult result{.scene = context_.scene, .folder = folder_.path(), };
     result.outcome = integrate(begin, observers, result.resumable);
+    result.model = summarize(setup_);
+    result.outgrown = setup_.linearity && setup_.linearity->outgrown();
+    if (result.outgrown) return result;
     result.motion = motion_result(result.outcome, begin.effort, observers);
     record.finish(result);
     if (parts_ && result.outcome.status == Outcome::Status::completed) {
@@ -109,6 +112,7 @@ class DynamicAnalysis {
     if (begin.begun) plan.delivered = begin.last_output;
     const auto progress = context_.listener.on_begin(setup_);
     auto all = observers.all(progress.get(), checkpointer);
+    if (setup_.linearity) all.push_back(setup_.linearity.get());
     if (estimator_) all.push_back(&estimator_->recorder());
     if (setup_.scene.output.accumulated_error) all.push_back(&parts_.emplace(*setup_.built.model));
     if (setup_.scene.output.mesh_error) all.push_back(&mesh_error_.emplace(plan.output_times.size()));

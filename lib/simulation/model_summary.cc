@@ -2,12 +2,15 @@
 
 namespace orthodyn {
 
-ModelSummary summarize(const FemModel& model) {
+ModelSummary summarize(const Setup& setup) {
+  const FemModel& model = *setup.built.model;
   const auto& parts = model.parts();
   ModelSummary out{parts.mesh.nodes.size(), parts.mesh.tets.size(),       model.num_dofs(),
                    parts.mesh.order(),      parts.elastic.front()->law(), {}};
   for (const auto& term : parts.elastic) out.terms.push_back(term->description());
   for (const auto& term : parts.loads) out.terms.push_back(term->description());
+  if (setup.linearity) out.kinematics = outcome_of(*setup.linearity);
+  else if (setup.kinematics) out.kinematics = setup.kinematics->reason;
   return out;
 }
 

@@ -1,11 +1,11 @@
 // What a model consists of, for results.
 #pragma once
 
-#include "lib/fem/fem_model.h"
 #include "lib/simulation/run_result.h"
+#include "lib/simulation/setup.h"
 
 namespace orthodyn {
 
-ModelSummary summarize(const FemModel& model);
+ModelSummary summarize(const Setup& setup);
 
 }  // namespace orthodyn

@@ -25,7 +25,9 @@ Json begin_json(const std::string& scene, const std::vector<std::string>& set, c
 Json model_json(const ModelSummary& model) {
   Json terms = Json::array();
   for (const auto& term : model.terms) terms.push_back(term);
-  return {{"nodes", model.nodes}, {"elements", model.elements}, {"unknowns", model.unknowns}, {"terms", terms}};
+  Json out{{"nodes", model.nodes}, {"elements", model.elements}, {"unknowns", model.unknowns}, {"terms", terms}};
+  if (!model.kinematics.empty()) out["kinematics"] = model.kinematics;
+  return out;
 }
 
 Json energy_json(const EnergySummary& energy) {

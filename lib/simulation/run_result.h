@@ -22,6 +22,7 @@ struct ModelSummary {
   int order = 1;  // of its elements
   std::string elasticity;          // the law of the first region
   std::vector<std::string> terms;  // in words
+  std::string kinematics = {};     // what was taken for `auto`, and why; else ""
 };
 
 struct EnergySummary {
@@ -87,6 +88,7 @@ struct RunResult {
   std::optional<MotionResult> motion = {};            // one of the two,
   std::optional<EquilibriumResult> equilibrium = {};  // or none where nothing was to be done
   bool was_complete = false;                          // it was to be resumed, and had reached its end before
+  bool outgrown = false;                              // it grew too large for linear kinematics, and ended there
   bool resumable = false;                             // the folder holds a checkpoint of a late state
 };
 

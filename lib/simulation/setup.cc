@@ -122,7 +122,16 @@ Task task_of(const Scene& scene, const BuiltScene& built) {
 Setup set_up(const Config& input) {
   Config config = input.resolving();
   Scene scene = read_scene(config);
-  BuiltScene built = build(scene);
+  std::optional<KinematicsChoice> kinematics;
+  std::unique_ptr<LinearityWatch> linearity;
+  const auto build_it = [&] {
+    if (scene.elasticity.kinematics != Kinematics::automatic) return build(scene);
+    ChosenKinematics chosen = choose_kinematics(config, scene);
+    kinematics = std::move(chosen.choice);
+    linearity = std::move(chosen.watch);
+    return std::move(chosen.built);
+  };
+  BuiltScene built = build_it();
   if (scene.analysis == Analysis::dynamic) require_force_at_start(config, built);
   check_outputs(scene, *built.model);
   check_expectations(scene, *built.model);
@@ -150,7 +159,8 @@ Setup set_up(const Config& input) {
   if (!blas_is_openblas())
     built.warnings.push_back("the BLAS in use is not OpenBLAS; large factorisations will be several times slower "
                              "(Debian: libopenblas0-pthread)");
-  return {std::move(config), std::move(scene), std::move(built), std::move(integrator), std::move(events)};
+  return {std::move(config), std::move(scene), std::move(built), std::move(integrator), std::move(events),
+          std::move(kinematics), std::move(linearity)};
 }
 
 }  // namespace orthodyn

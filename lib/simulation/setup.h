@@ -2,11 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "lib/config/config.h"
 #include "lib/ode/event.h"
 #include "lib/ode/integrator.h"
 #include "lib/scene/build.h"
+#include "lib/simulation/kinematics.h"
 
 namespace orthodyn {
 
@@ -16,6 +19,8 @@ struct Setup {
   BuiltScene built;  // with warnings for the user
   std::unique_ptr<Integrator> integrator;  // null in statics
   std::vector<Event> events;               // of the model
+  std::optional<KinematicsChoice> kinematics;  // where the scene leaves them open
+  std::unique_ptr<LinearityWatch> linearity;   // to look on at its run; null unless linear kinematics were chosen
 };
 
 // What the scene wants of its integrator. Both must outlive the task.

@@ -36,18 +36,39 @@ RunResult Simulation::run(const RunRequest& request, const std::atomic<bool>& in
   return run(request, interrupt, nobody);
 }
 
+// Where linear kinematics are outgrown, a second time from the start.
 RunResult Simulation::run(const RunRequest& request, const std::atomic<bool>& interrupt, RunListener& listener) const {
+  std::string outgrown;
+  RunResult result = run_once(scene_.copy(), request, outgrown, interrupt, listener);
+  if (!result.outgrown) return result;
+  listener.on_notice(outgrown + ": starts again with corotational kinematics");
+  Config corotational = scene_.copy();
+  corotational.set("elasticity.kinematics", std::string("corotational"));
+  if (corotational.at("elasticity").has("linear_error")) corotational.set("elasticity.linear_error", nullptr);
+  RunRequest again = request;
+  again.force = true;
+  again.resume = false;
+  return run_once(std::move(corotational), again, outgrown, interrupt, listener);
+}
+
+// `outgrown` says why linear kinematics were given up: in the first run it is set where that happens, in the second it
+// is told.
+RunResult Simulation::run_once(Config config, const RunRequest& request, std::string& outgrown,
+                               const std::atomic<bool>& interrupt, RunListener& listener) const {
   const auto warn = [&](const std::string& text) { listener.on_warning(text); };
   ResultFolder folder(request.folder, earlier_result(request), warn);
   std::optional<Checkpoint> earlier;
   if (folder.resumes()) earlier = Checkpoint::load(folder.checkpoint());
-  Config config = scene_.copy();
-  if (earlier) keep_scales(*earlier, config);
-  const Setup setup = set_up(std::move(config));
+  if (earlier) keep_choices(*earlier, config);
+  Setup setup = set_up(std::move(config));
+  if (!outgrown.empty()) setup.kinematics = KinematicsChoice{false, "corotational: " + outgrown};
   for (const auto& warning : setup.built.warnings) listener.on_warning(warning);
   const std::string resolved = resolved_scene(setup, file_, folder.path());
   const RunAnalysis analysis = setup.scene.analysis == Analysis::statical ? run_static_analysis : run_dynamic_analysis;
-  return analysis({file_, changes_.set, request, setup, resolved, folder, std::move(earlier), interrupt, listener});
+  RunResult result =
+      analysis({file_, changes_.set, request, setup, resolved, folder, std::move(earlier), interrupt, listener});
+  if (result.outgrown) outgrown = outgrown_sentence(*setup.linearity);
+  return result;
 }
 
 }  // namespace orthodyn

@@ -33,6 +33,9 @@ class Simulation {
   RunResult run(const RunRequest& request, const std::atomic<bool>& interrupt, RunListener& listener) const;
 
  private:
+  RunResult run_once(Config scene, const RunRequest& request, std::string& outgrown,
+                     const std::atomic<bool>& interrupt, RunListener& listener) const;
+
   Simulation(std::string file, SceneChanges changes, Config scene)
       : file_(std::move(file)), changes_(std::move(changes)), scene_(std::move(scene)) {}
 

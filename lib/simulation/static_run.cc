@@ -100,7 +100,12 @@ RunResult run_static_analysis(RunContext context) {
   if (own) all.push_back(own.get());
   RunResult result{.scene = context.scene, .folder = folder};
   result.outcome = run_static(*problem.path, *problem.stepper, all, context.interrupt);
-  result.model = summarize(*setup.built.model);
+  if (setup.linearity) {
+    setup.linearity->note(problem.path->time(), result.outcome.last.q);
+    result.outgrown = setup.linearity->outgrown();
+    if (result.outgrown) return result;
+  }
+  result.model = summarize(setup);
   MeshErrorRecorder mesh_error(0);
   if (setup.scene.output.mesh_error) mesh_error.look_at({*problem.path, result.outcome.last});
   result.equilibrium = equilibrium_result(problem, result.outcome.last, mesh_error.found());

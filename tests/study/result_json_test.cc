@@ -99,12 +99,12 @@ TEST(MeasurementInput, IsReadAsItWasWritten) {
 }
 
 TEST(EvaluationResult, IsReadAsItWasWritten) {
-  sweep::EvaluationResult r;
+  EvaluationResult r;
   r.figures = {{"far", 1.0 / 3}, {"hertz", kNaN}};
   r.units = {{"far", "m"}, {"hertz", "Hz"}};
   Statistics s;  // of the work, counts alone are told
   s.steps = 11, s.force.count = 22;
-  r.cost = sweep::EvaluationCost{0.5, 0.75, s, 1e8};
+  r.cost = EvaluationCost{0.5, 0.75, s, 1e8};
   r.unknowns = 3, r.elements = 6;
   r.frame = "frame.vtu";
   const Json json = sent(to_json(r));
@@ -117,15 +117,15 @@ TEST(EvaluationResult, IsReadAsItWasWritten) {
 }
 
 TEST(EvaluationResult, OfModesAloneHasNoCountsOfSteps) {
-  sweep::EvaluationResult r;
-  r.cost = sweep::EvaluationCost{0.5, 0.75, {}, 1e8};
+  EvaluationResult r;
+  r.cost = EvaluationCost{0.5, 0.75, {}, 1e8};
   const Json json = sent(to_json(r));
   EXPECT_FALSE(json.at("cost").contains("steps"));
   EXPECT_FALSE(evaluation_from(json).cost->statistics);
 }
 
 TEST(EvaluationResult, OfAFailureKeepsItsReason) {
-  sweep::EvaluationResult r;
+  EvaluationResult r;
   r.failure = Failure{"time limit", "reached t = 1"};
   const auto read = evaluation_from(sent(to_json(r)));
   ASSERT_TRUE(read.failure);
@@ -133,7 +133,7 @@ TEST(EvaluationResult, OfAFailureKeepsItsReason) {
 }
 
 TEST(EvaluationInput, IsReadAsItWasWritten) {
-  sweep::EvaluationInput input;
+  EvaluationInput input;
   WantedFigure motion, mode;
   motion.quantity = "tip.displacement.z", motion.take = Take::frequency, motion.at = 0.5;
   mode.along = Component::y, mode.about_equilibrium = true;

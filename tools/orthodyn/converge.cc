@@ -96,7 +96,9 @@ void declare(ConvergeArguments& arguments, CommandOptions& options) {
   declare_jobs(arguments, options, "Meshes");
   options.repeated("--set", arguments.set, "Change a value of the scene by its path, e.g. mesh.cells=[10,1,1].")
       .type("PATH=VALUE");
-  options.value("--levels", arguments.levels, "Meshes: the scene's own, and each of the others twice as fine as the one before.")
+  options
+      .value("--levels", arguments.levels,
+             "Meshes: the scene's own, and each of the others twice as fine as the one before.")
       .range(2, 8)
       .show_default();
   options.value("--order", arguments.orders, "Linear elements, quadratic ones or both: 1, 2 or 1,2.").show_default();
@@ -112,8 +114,9 @@ void declare(ConvergeArguments& arguments, CommandOptions& options) {
 const CommandRegistration converge_command(
     {.order = 55,
      .name = "converge",
-     .sentence = "A scene on finer and finer meshes: errors in space, orders, limits, and what they cost. Run again, it "
-                 "goes on.",
+     .sentence =
+         "A scene on finer and finer meshes: errors in space, orders, limits, and what they cost. Run again, it "
+         "goes on.",
      .examples = R"(
   orthodyn converge configs/scenes/shelf.yaml --set mesh.cells=[8,2,1] --levels 3
   orthodyn converge configs/scenes/cantilever.yaml --quantity "max of tip.displacement.z" --order 2

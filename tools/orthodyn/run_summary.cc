@@ -56,6 +56,7 @@ void print_motion(const RunResult& result, const MotionResult& motion) {
              motion.effort.wall_seconds, motion.effort.cpu_seconds);
   if (!outcome.remark.empty()) fmt::print("  {}\n", outcome.remark);
   fmt::print("  {:<15} {}\n", "elasticity", result.model.elasticity);
+  if (!result.model.kinematics.empty()) fmt::print("  {:<15} {}\n", "kinematics", result.model.kinematics);
   for (const auto& [key, value] : motion.decisions) fmt::print("  {:<15} {}\n", key, value);
   print_costs(motion.effort.statistics);
   if (motion.energy) print_energy(*motion.energy);
@@ -83,6 +84,7 @@ void print_equilibrium(const RunResult& result, const EquilibriumResult& equilib
     fmt::print("  {:<20} {} load step{} may have led to another branch of equilibria\n", "jumps", equilibrium.jumps,
                equilibrium.jumps == 1 ? "" : "s");
   fmt::print("  {:<20} {}\n", "solver", equilibrium.solver);
+  if (!result.model.kinematics.empty()) fmt::print("  {:<20} {}\n", "kinematics", result.model.kinematics);
   fmt::print("  {:<20} {:.6g} m\n", "largest displacement", equilibrium.largest_displacement);
   fmt::print("  {:<20} {:.2g} N, {:.2g} of the largest load on a coordinate\n", "residual", equilibrium.residual,
              equilibrium.residual / std::max(equilibrium.largest_load, 1e-300));

@@ -5,7 +5,8 @@
 
 namespace orthodyn {
 
-enum class Kinematics { corotational, linear };
+// automatic: one of the others, as the simulation finds (lib/simulation/kinematics.h); by itself corotational.
+enum class Kinematics { corotational, linear, automatic };
 enum class Corotation { exact, warped };
 
 struct ElasticityOptions {
@@ -14,7 +15,7 @@ struct ElasticityOptions {
   WarpedTangent warped_tangent = WarpedTangent::rotated;
 
   // Whether the elastic force has no energy: it is neither conservative nor free of a net torque.
-  bool is_warped() const { return kinematics == Kinematics::corotational && corotation == Corotation::warped; }
+  bool is_warped() const { return kinematics != Kinematics::linear && corotation == Corotation::warped; }
   bool has_symmetric_tangent() const { return !(is_warped() && warped_tangent == WarpedTangent::unsymmetric); }
   bool has_exact_tangent() const { return !(is_warped() && warped_tangent == WarpedTangent::rotated); }
 };

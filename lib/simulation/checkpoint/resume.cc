@@ -62,8 +62,19 @@ void require_time_left(const Checkpoint& checkpoint, const Setup& setup) {
 
 }  // namespace
 
-void keep_scales(const Checkpoint& checkpoint, Config& scene) {
+namespace {
+
+std::string kinematics_of(const Config& scene) {
+  const bool given = scene.has("elasticity") && scene.at("elasticity").has("kinematics");
+  return given ? scene.at("elasticity").at("kinematics").text() : "";
+}
+
+}  // namespace
+
+void keep_choices(const Checkpoint& checkpoint, Config& scene) {
   const Config before = Config::from_text(checkpoint.scene, "checkpoint.cbor");
+  if (kinematics_of(scene) == "auto" && kinematics_of(before) == "corotational")
+    scene.set("elasticity.kinematics", std::string("corotational"));
   if (!before.has("integrator")) return;
   for (const std::string key : {"position_scale", "velocity_scale"}) {
     const bool open = !scene.has("integrator") || !scene.at("integrator").has(key);

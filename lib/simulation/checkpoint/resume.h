@@ -8,8 +8,9 @@
 
 namespace orthodyn {
 
-// Integrators estimate these from the scene where it leaves them open; a longer run must not change them.
-void keep_scales(const Checkpoint& checkpoint, Config& scene);
+// Scales that integrators estimate from the scene where it leaves them open, and corotational kinematics that were taken
+// for `auto`: a run that goes on must not change them.
+void keep_choices(const Checkpoint& checkpoint, Config& scene);
 
 // A checkpoint for a run that begins. Throws RunError if a file that the scene names is gone by now.
 Checkpoint first_checkpoint(const Setup& setup, const std::string& resolved, const ResultFolder& folder);

@@ -18,7 +18,8 @@ struct Convergence {
   std::vector<std::string> set;         // PATH=VALUE
   int levels = 3;                       // the first is the scene's own mesh
   std::vector<int> orders{1, 2};
-  std::vector<std::string> quantities;  // "tip.displacement.z" or "max of tip.displacement.z"; none: chosen by the scene
+  std::vector<std::string>
+      quantities;  // "tip.displacement.z" or "max of tip.displacement.z"; none: chosen by the scene
   int modes = 0;                        // the lowest natural frequencies as well
   Limits limits{.seconds = 600};
 };

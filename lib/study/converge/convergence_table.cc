@@ -77,7 +77,7 @@ class Table {
   }
 
   static std::optional<Extrapolation> extrapolated(const std::vector<double>& values, int order) {
-    return extrapolate(values, kRatio, 1, 2 * order);
+    return extrapolate(values, kRatio, 2 * order);
   }
 
   std::optional<Limit> limit(const std::string& figure) const {
@@ -142,7 +142,7 @@ class Table {
   Json observed_order(std::size_t level, const std::string& figure) const {
     if (design_.levels[level].level < 2) return nullptr;
     const auto found = extrapolate({value(level - 2, figure), value(level - 1, figure), value(level, figure)}, kRatio,
-                                   1, 2 * design_.levels[level].order);
+                                   2 * design_.levels[level].order);
     return found && found->order ? finite_or_null(*found->order) : Json();
   }
 
@@ -235,11 +235,14 @@ std::string convergence_text(const Json& table) {
                        "error", "order", "mesh error", "CPU [s]");
     for (const auto& row : table.at("rows")) {
       const Json& f = row.at("figures").at(name);
-      out += fmt::format("  {:>5} {:>5} {:>9} {:>13} {:>9} {:>6} {:>10} {:>9}{}\n", row.at("order").get<int>(),
-                         row.at("level").get<int>(), number(row.at("unknowns"), "{:.0f}"), number(f.at("value"), "{:.7g}"),
-                         number(f.at("error"), "{:.1e}"), number(f.at("order"), "{:.2f}"),
-                         number(row.at("mesh_error"), "{:.1e}"), number(member(row.at("cost"), "cpu_seconds"), "{:.3g}"),
-                         row.at("status") == "completed" ? "" : "  " + row.at("status").get<std::string>() + ": " + row.at("reason").get<std::string>());
+      out +=
+          fmt::format("  {:>5} {:>5} {:>9} {:>13} {:>9} {:>6} {:>10} {:>9}{}\n", row.at("order").get<int>(),
+                      row.at("level").get<int>(), number(row.at("unknowns"), "{:.0f}"), number(f.at("value"), "{:.7g}"),
+                      number(f.at("error"), "{:.1e}"), number(f.at("order"), "{:.2f}"),
+                      number(row.at("mesh_error"), "{:.1e}"), number(member(row.at("cost"), "cpu_seconds"), "{:.3g}"),
+                      row.at("status") == "completed"
+                          ? ""
+                          : "  " + row.at("status").get<std::string>() + ": " + row.at("reason").get<std::string>());
     }
     out += "  " + answer(table, figure) + "\n";
   }

@@ -13,10 +13,8 @@ struct Extrapolation {
   std::optional<double> order;  // observed on the last three values, where they approach a limit
 };
 
-// `values` from coarse to fine, each mesh `ratio` times as fine as the one before. The observed order is taken between
-// `lowest` and `highest`; where there is none, the lowest order, with the larger uncertainty. None for fewer than two
-// values.
-std::optional<Extrapolation> extrapolate(const std::vector<double>& values, double ratio, double lowest,
-                                         double highest);
+// `values` from coarse to fine, each mesh `ratio` times as fine as the one before. The observed order is taken from 1/2
+// to `highest`; where there is none, 1, with the larger uncertainty. None for fewer than two values.
+std::optional<Extrapolation> extrapolate(const std::vector<double>& values, double ratio, double highest);
 
 }  // namespace orthodyn::study::converge

@@ -121,6 +121,7 @@ class Evaluation {
     statistics.steps = problem.stepper->steps();
     statistics.rejected_steps = problem.stepper->rejected();
     if (!conclude(outcome, statistics)) return;
+    if (setup.linearity) setup.linearity->require(problem.path->time(), outcome.last.q);
     const State state{problem.path->time(), outcome.last.q, outcome.last.v};
     const ObservedState observed(*setup.built.model, state);
     for (std::size_t q = 0; q < wanted.figures.size(); ++q)
@@ -139,6 +140,7 @@ class Evaluation {
     MeshErrorRecorder mesh_error(plan.output_times.size());
     std::vector<Observer*> observers{&recorder, &deadline, &frame};
     if (input_.mesh_error) observers.push_back(&mesh_error);
+    if (setup.linearity) observers.push_back(setup.linearity.get());
     EventFinder events(setup.events);
     if (!events.empty()) plan.events = &events;
     const Outcome outcome = run(*setup.built.model, *setup.integrator, setup.built.initial, plan,

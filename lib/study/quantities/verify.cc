@@ -42,6 +42,7 @@ CaseResult verify_motion(const Setup& setup, std::vector<Observer*> observers, c
   const auto quantities = quantities_of(setup);
   SeriesRecorder recorder(*setup.built.model, *setup.integrator, quantities);
   observers.push_back(&recorder);
+  if (setup.linearity) observers.push_back(setup.linearity.get());
   Plan plan{setup.scene.time.end, times_asked_for(expectations, setup.scene.time.start), false};
   EventFinder events(setup.events);
   if (!events.empty()) plan.events = &events;

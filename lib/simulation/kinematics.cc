@@ -1,0 +1,121 @@
+#include "lib/simulation/kinematics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "lib/analysis/static_response.h"
+
+namespace orthodyn {
+
+namespace {
+
+constexpr double kOfRtol = 10;        // what errors of steps add up to, roughly
+constexpr double kUsual = 1e-3;       // allowed where there is no rtol
+constexpr double kMoreBy = 1.05;      // a displacement larger by this is looked at
+constexpr double kOvershoot = 2;      // of a load applied at once, over its static response
+constexpr double kClearly = 3;        // times what is allowed: then linear kinematics are not tried
+
+double allowed_error(const Scene& scene) {
+  if (scene.elasticity.linear_error) return *scene.elasticity.linear_error;
+  if (scene.integrator)
+    if (const auto rtol = scene.integrator->settings().rtol) return kOfRtol * *rtol;
+  return kUsual;
+}
+
+std::string how_much(double error) {
+  return std::isfinite(error) ? fmt::format("about {:.2g}", error) : std::string("a good part");
+}
+
+Scene with(Config& config, const char* kinematics) {
+  config.set("elasticity.kinematics", std::string(kinematics));
+  if (config.at("elasticity").has("linear_error")) config.set("elasticity.linear_error", nullptr);
+  return read_scene(config);
+}
+
+}  // namespace
+
+LinearityWatch::LinearityWatch(const FemModel& linear, std::unique_ptr<FemModel> exact, double span, double allowed)
+    : linear_(linear), exact_(std::move(exact)), linearity_(linear_, *exact_, span), allowed_(allowed) {}
+
+double LinearityWatch::norm(const Vector& x) const {
+  Vector Mx(x.size());
+  linear_.multiply_mass(x, Mx);
+  return std::sqrt(std::max(x.dot(Mx), 0.0));
+}
+
+void LinearityWatch::note(double t, const Vector& q) {
+  time_ = t;
+  const LinearityError found = linearity_.error(t, q);
+  local_ = std::max(local_, found.displacement);
+  stiffness_ = std::max(stiffness_, found.stiffness);
+  error_ = std::max(error_, local_);
+}
+
+void LinearityWatch::require(double t, const Vector& q) {
+  note(t, q);
+  if (outgrown()) throw RunError(outgrown_sentence(*this) + "; set elasticity.kinematics: corotational");
+}
+
+void LinearityWatch::on_start(const ObservedState& observed) {
+  start_ = observed.t();
+  look_at(observed.state());
+}
+
+// A stiffness that is off by a share of e shifts a frequency by e/2.
+void LinearityWatch::look_at(const State& state) {
+  time_ = state.t;
+  const double q = norm(state.q);
+  displacement_ = std::max(displacement_, q);
+  velocity_ = std::max(velocity_, norm(state.v));
+  if (q > kMoreBy * checked_) {
+    note(state.t, state.q);
+    checked_ = q;
+  }
+  const double turns = displacement_ > 0 ? velocity_ / displacement_ * (state.t - start_) : 0;  // rad
+  error_ = std::max(error_, local_ + stiffness_ * turns / 2);
+  if (outgrown()) throw RunError(outgrown_sentence(*this) + "; set elasticity.kinematics: corotational");
+}
+
+std::string outgrown_sentence(const LinearityWatch& watch) {
+  return fmt::format("linear kinematics are off by {} of the motion at t = {:.6g} s, where {:.2g} is allowed",
+                     how_much(watch.error()), watch.time(), watch.allowed());
+}
+
+std::string outcome_of(const LinearityWatch& watch) {
+  return fmt::format("linear: off by about {:.1e} of the motion at most, where {:.1e} is allowed", watch.error(),
+                     watch.allowed());
+}
+
+ChosenKinematics choose_kinematics(Config& config, Scene& scene) {
+  const auto corotational = [&](const std::string& reason) {
+    scene = with(config, "corotational");
+    return ChosenKinematics{{false, "corotational: " + reason}, build(scene), nullptr};
+  };
+  const double allowed = allowed_error(scene);
+  scene = with(config, "corotational");
+  BuiltScene exact = build(scene);
+  scene = with(config, "linear");
+  BuiltScene built = build(scene);
+  if (!built.model->traits().linear) return corotational("loads, contact or supports are not linear anyway");
+  const bool is_static = scene.analysis == Analysis::statical;
+  const double span = is_static ? std::numeric_limits<double>::infinity() : scene.time.end - scene.time.start;
+  try {
+    auto watch = std::make_unique<LinearityWatch>(*built.model, std::move(exact.model), span, allowed);
+    const StaticResponse response = static_response(*built.model, built.initial, scene.time.end);
+    if (response.exists()) {
+      const Vector q = built.initial.q + (is_static ? 1 : kOvershoot) * response.displacement;
+      if (const double error = watch->error_at(scene.time.end, q); error > kClearly * allowed)
+        return corotational(fmt::format("linear kinematics would be off by {}{}, where {:.2g} is allowed",
+                                        how_much(error), is_static ? "" : " at twice the static response", allowed));
+    }
+    return {{true, "linear"}, std::move(built), std::move(watch)};
+  } catch (const RunError& e) {
+    return corotational(e.what());
+  }
+}
+
+}  // namespace orthodyn

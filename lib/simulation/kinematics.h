@@ -1,0 +1,74 @@
+// `elasticity.kinematics: auto`: linear kinematics where they are accurate enough, watched for as long as they are used.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "lib/analysis/linearity.h"
+#include "lib/scene/build.h"
+#include "lib/simulation/observers/observer.h"
+
+namespace orthodyn {
+
+// Looks on at a run with linear kinematics, and ends it where they are off by more than is allowed: at the largest
+// displacement so far, and by the phase that a vibration of this size gains or loses until now.
+class LinearityWatch : public Observer {
+ public:
+  // The models must outlive it. `allowed`: of the largest displacement.
+  LinearityWatch(const FemModel& linear, std::unique_ptr<FemModel> exact, double span, double allowed);
+
+  void on_start(const ObservedState& observed) override;
+  void on_resume(const ObservedState& observed) override { on_start(observed); }
+  // Throws RunError where linear kinematics are outgrown.
+  void on_output(const ObservedState& observed) override { look_at(observed.state()); }
+  void on_step(const StepInfo&, const ObservedState& observed, const Integrator&) override {
+    look_at(observed.state());
+  }
+
+  // Of one state, without phase.
+  double error_at(double t, const Vector& q) const { return linearity_.error(t, q).displacement; }
+  // Keeps it, as that of a state of the run.
+  void note(double t, const Vector& q);
+  // The same; throws RunError where linear kinematics are outgrown.
+  void require(double t, const Vector& q);
+
+  double allowed() const { return allowed_; }
+  double error() const { return error_; }  // the largest so far, phase included
+  bool outgrown() const { return error_ > allowed_; }
+  double time() const { return time_; }  // s: of the last state that was looked at
+
+ private:
+  void look_at(const State& state);
+  double norm(const Vector& x) const;  // in the mass norm
+
+  const FemModel& linear_;
+  std::unique_ptr<FemModel> exact_;
+  Linearity linearity_;
+  double allowed_, start_ = 0, time_ = 0;
+  double checked_ = 0;                        // the displacement at which the error was computed last
+  double displacement_ = 0, velocity_ = 0;    // the largest so far
+  double local_ = 0, stiffness_ = 0, error_ = 0;
+};
+
+// What was taken for `auto`.
+struct KinematicsChoice {
+  bool linear = false;
+  std::string reason;  // in words
+};
+
+struct ChosenKinematics {
+  KinematicsChoice choice;
+  BuiltScene built;                       // with what was taken
+  std::unique_ptr<LinearityWatch> watch;  // null unless linear
+};
+
+// Builds a scene that says `auto`, whose document then says what was taken. Linear unless something of the scene is not,
+// or its linear response is clearly too large. Throws ConfigError.
+ChosenKinematics choose_kinematics(Config& config, Scene& scene);
+
+// What is told of a run with linear kinematics that has ended.
+std::string outcome_of(const LinearityWatch& watch);
+std::string outgrown_sentence(const LinearityWatch& watch);
+
+}  // namespace orthodyn

@@ -1,0 +1,88 @@
+"""The page of a convergence study: which figures it has, and what they say.
+
+Run with  /usr/bin/python3 -m unittest tests/draw/test_converge_report.py
+"""
+import json
+import sys
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path[:0] = [str(Path(__file__).resolve().parent)]
+
+from report_page import EVIL, OfAComparison, Page  # noqa: E402
+
+
+def row(order, level, error, **changes):
+    return {"order": order, "level": level, "title": "", "folder": "points/x", "status": "completed", "reason": "",
+            "message": "", "unknowns": 100 * 8 ** level, "elements": 10, "mesh_error": 0.9 * error,
+            "cost": {"cpu_seconds": 0.01 * 8 ** level},
+            "figures": {"f": {"value": 2 * (1 - error), "error": error, "order": 2.0 if level > 2 else None}}, **changes}
+
+
+def study(rows, **changes):
+    return {"orthodyn_convergence": 1, "name": "beam", "file": "beam.yaml", "set": ["mesh.cells=[1,1,1]"],
+            "written": "2026-01-31T12:00:00Z", "machine": {"processor": "x"}, "versions": {}, "ratio": 2, "target": 0.01,
+            "orders": [1, 2], "figures": [{"name": "f", "unit": "m", "limit": 2.0, "uncertainty": 1e-4, "from_order": 2,
+                                           "cost_of_target": [{"order": 1, "cpu_seconds": 40.0},
+                                                              {"order": 2, "cpu_seconds": 0.5}]}],
+            "rows": rows, **changes}
+
+
+ROWS = [row(o, level, 0.3 * 4.0 ** (-o * level)) for o in (1, 2) for level in (1, 2, 3)]
+
+
+class OfAConvergence(OfAComparison):
+    def page_of(self, content):
+        self.folder.mkdir(parents=True, exist_ok=True)
+        (self.folder / "convergence.json").write_text(json.dumps(content))
+        code, out, err = self.run_draw(self.folder)
+        self.assertEqual((code, err), (0, []))
+        self.assertEqual(out[0], str(self.folder / "report.html"))
+        text = (self.folder / "report.html").read_text(encoding="utf-8")
+        page = Page(text)
+        self.assertEqual((page.unbalanced, page.open), ([], []))
+        return text, page
+
+    def test_the_answer_names_the_cheaper_elements(self):
+        text, page = self.page_of(study(ROWS))
+        self.assertIn("quadratic elements by 80 ×", text)
+        self.assertEqual(page.tables[0][1][:2], ["f [m]", "2 ± 0.0001"])
+
+    def test_every_mesh_is_in_the_table_and_in_the_figures(self):
+        text, page = self.page_of(study(ROWS))
+        self.assertEqual(len(page.tables[1]), 7)
+        for k in range(6):
+            self.assertIn(f'data-p="{k}"', text)
+        self.assertTrue((self.folder / "pictures" / "f_over_cpu.png").is_file())
+
+    def test_meshes_that_failed_are_named_with_their_reason(self):
+        failed = row(2, 3, 0.0, status="failed", reason="time limit", message="after 600 s", mesh_error=None,
+                     figures={"f": {"value": None, "error": None, "order": None}})
+        text, _ = self.page_of(study(ROWS[:5] + [failed]))
+        self.assertIn("after 600 s", text)
+        self.assertNotIn('data-p="5"', text)
+
+    def test_without_any_result_it_says_so(self):
+        none = {"f": {"value": None, "error": None, "order": None}}
+        rows = [row(1, 1, 0.1, status="missing", cost=None, mesh_error=None, unknowns=None, figures=none)]
+        figure = dict(study([])["figures"][0], limit=None, uncertainty=None,
+                      cost_of_target=[{"order": 1, "cpu_seconds": None}, {"order": 2, "cpu_seconds": None}])
+        text, _ = self.page_of(study(rows, figures=[figure]))
+        self.assertIn("not reached", text)
+
+    def test_names_are_text(self):
+        text, _ = self.page_of(study(ROWS, name=EVIL))
+        self.assertNotIn("<script>alert", text)
+
+    def test_a_damaged_file_is_one_line(self):
+        self.folder.mkdir(parents=True, exist_ok=True)
+        for content, words in (("{", "not readable as JSON"), ('{"orthodyn_convergence": 2}', "format 1"),
+                               ('{"orthodyn_convergence": 1}', "missing or no such thing")):
+            (self.folder / "convergence.json").write_text(content)
+            code, _, err = self.run_draw(self.folder)
+            self.assertNotEqual(code, 0)
+            self.assertEqual(len(err), 1)
+            self.assertIn(words, err[0])
+
+
+del OfAComparison

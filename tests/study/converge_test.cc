@@ -1,0 +1,134 @@
+// Refinement of a scene: extrapolation, and the command.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lib/simulation/json.h"
+#include "lib/study/converge/richardson.h"
+#include "tests/simulation/run_program.h"
+
+namespace orthodyn::converge_test {
+namespace {
+
+using study::converge::extrapolate;
+
+std::vector<double> sequence(double limit, double factor, double order, int count) {
+  std::vector<double> out;
+  for (int k = 0; k < count; ++k) out.push_back(limit + factor * std::pow(2, -order * k));
+  return out;
+}
+
+TEST(Richardson, FindsLimitAndOrderOfAPower) {
+  for (const double order : {1.0, 1.5, 3.0})
+    for (const double factor : {0.3, -0.3}) {
+      const auto found = extrapolate(sequence(2, factor, order, 4), 2, 4);
+      EXPECT_NEAR(found->limit, 2, 1e-12);
+      EXPECT_NEAR(*found->order, order, 1e-9);
+      const double last = std::abs(factor) * std::pow(2, -3 * order);
+      EXPECT_NEAR(found->uncertainty, 1.25 * last, 1e-9 * last);
+    }
+}
+
+TEST(Richardson, DoesNotTrustAnOrderThatTheElementsCannotHave) {
+  EXPECT_NEAR(extrapolate(sequence(2, 1, 5, 3), 2, 2)->limit,
+              2 + std::pow(2, -10) - (std::pow(2, -5) - std::pow(2, -10)) / 3, 1e-12);
+}
+
+TEST(Richardson, TakesTheLowestOrderAndALargeUncertaintyWhereValuesApproachNothing) {
+  const auto scattered = extrapolate({1, 1.2, 1.1}, 2, 4);  // to and fro
+  EXPECT_FALSE(scattered->order);
+  EXPECT_NEAR(scattered->uncertainty, 3 * 0.1, 1e-12);
+  const auto two = extrapolate({1, 1.1}, 2, 4);
+  EXPECT_FALSE(two->order);
+  EXPECT_NEAR(two->limit, 1.2, 1e-12);
+  EXPECT_NEAR(two->uncertainty, 0.3, 1e-12);
+  EXPECT_FALSE(extrapolate({1}, 2, 4));
+}
+
+// Without contraction a clamp does not disturb; Timoshenko's beam with a shear factor of 5/6.
+const char* const kBeam = R"(
+mesh: {type: box, size: [1, 0.1, 0.1], cells: [8, 1, 1]}
+materials: {m: {type: isotropic, density: 1, young: 1e9, nu: 0}}
+elasticity: {kinematics: linear}
+clamps: [{surface: x0}]
+loads: [{surface: x1, force: [0, 0, -1]}]
+analysis: static
+output: {probes: {tip: {at: [1, 0.05, 0.05]}}}
+)";
+
+class Converge : public InFolder {
+ protected:
+  Converge() { write("beam.yaml", kBeam); }
+  CommandResult converge(const std::string& more = "") const {
+    return orthodyn("converge beam.yaml --no-report " + more);
+  }
+  Json table() const { return Json::parse(read_text(folder_ / "out/convergence/beam/convergence.json")); }
+};
+
+TEST_F(Converge, FindsTheLimitThatBeamTheoryKnows) {
+  const auto done = converge();
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  const Json all = table(), figure = all.at("figures")[0];
+  EXPECT_EQ(figure.at("name"), "tip.displacement.magnitude");
+  const double I = 1e-4 / 12, expected = 1 / (3 * 1e9 * I) + 1 / (5.0 / 6 * 0.5e9 * 0.01);
+  EXPECT_NEAR(figure.at("limit").get<double>(), expected, 2e-3 * expected);
+  ASSERT_EQ(all.at("rows").size(), 6u);
+  double coarse = 1;
+  for (const auto& row : all.at("rows")) {
+    const double error = row.at("figures").at("tip.displacement.magnitude").at("error");
+    const double value = row.at("figures").at("tip.displacement.magnitude").at("value");
+    EXPECT_NEAR(error, std::abs(value / figure.at("limit").get<double>() - 1), 1e-12);
+    if (row.at("level") != 1) EXPECT_LT(error, coarse);
+    coarse = error;
+    // The estimate of each mesh by itself, against the refined limit: deflections are energies here.
+    EXPECT_GT(row.at("mesh_error").get<double>(), 0.5 * error);
+    EXPECT_LT(row.at("mesh_error").get<double>(), 1.5 * error);
+  }
+  EXPECT_EQ(all.at("rows")[2].at("elements"), 8 * 64 * 5);
+  EXPECT_NE(done.output.find("CPU time for an error of 1 %"), std::string::npos) << done.output;
+  const std::string csv = read_text(folder_ / "out/convergence/beam/convergence.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
+  EXPECT_NE(converge().output.find("done before"), std::string::npos);
+}
+
+TEST_F(Converge, LooksAtModesAndAtWhatIsAskedFor) {
+  ASSERT_EQ(converge("--levels 2 --order 2 --modes 2 --quantity energy.elastic").exit_code, 0);
+  const Json all = table();
+  ASSERT_EQ(all.at("figures").size(), 3u);
+  EXPECT_EQ(all.at("figures")[0].at("name"), "energy.elastic");
+  EXPECT_EQ(all.at("figures")[1].at("unit"), "Hz");
+  EXPECT_EQ(all.at("rows").size(), 2u);
+}
+
+TEST_F(Converge, RefinesAMeshOfAFile) {
+  ASSERT_EQ(orthodyn("check beam.yaml --set mesh.order=1").exit_code, 0);
+  write("part.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
+                    "$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n");
+  write("file.yaml", R"(
+mesh: {type: gmsh, file: part.msh}
+materials: {m: {type: isotropic, density: 1, young: 1e9, nu: 0.2}}
+elasticity: {kinematics: linear}
+clamps: [{box: {min: [-1, -1, -1e-6], max: [1, 1, 1e-6]}}]
+gravity: [0, 0, -10]
+analysis: static
+)");
+  const auto done = orthodyn("converge file.yaml --order 1 --levels 3 --no-report");
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  const Json all = Json::parse(read_text(folder_ / "out/convergence/file/convergence.json"));
+  for (std::size_t level = 0; level < 3; ++level)
+    EXPECT_EQ(all.at("rows")[level].at("elements"), 1 << (3 * level));
+}
+
+TEST_F(Converge, RefusesWhatItCannotDo) {
+  for (const auto& [options, message] : {std::pair{"--order 3", "--order: expected 1, 2 or 1,2, found '3'"},
+                                         {"--quantity tip.nothing", "unknown quantity 'tip.nothing'"},
+                                         {"--quantity tip.displacement", "choose .x, .y, .z or .magnitude"},
+                                         {"--quantity \"max of tip.displacement.z\"", "of a static analysis only"}}) {
+    const auto done = converge(options);
+    EXPECT_EQ(done.exit_code, 2) << options;
+    EXPECT_NE(done.output.find(message), std::string::npos) << done.output;
+  }
+}
+
+}  // namespace
+}  // namespace orthodyn::converge_test
