@@ -20,8 +20,8 @@ struct LinearityError {
 
 class Linearity {
  public:
-  // Models of one scene with linear and with exact kinematics, which must outlive it. `span`, s: of the motion, in which
-  // a body that nothing holds can go so far; infinite in statics. Throws RunError if K cannot be factorised.
+  // Models of one scene with linear and with exact kinematics, which must outlive it. `span`, s: of the motion, in
+  // which a body that nothing holds can go so far; infinite in statics. Throws RunError if K cannot be factorised.
   Linearity(const FemModel& linear, const FemModel& exact, double span);
 
   // Of the displacement q at time t; 0 at rest.

@@ -24,7 +24,9 @@ struct Words<WarpedTangent> {
 const Spec<Elasticity>& Elasticity::spec() {
   static const auto s =
       Spec<Elasticity>()
-          .key("kinematics", &Elasticity::kinematics, "corotational: large rotations. linear: small strain with a constant K. auto: linear for as long as that is "
+          .key("kinematics", &Elasticity::kinematics,
+               "corotational: large rotations. linear: small strain with a constant K. auto: linear for as long as "
+               "that is "
                "accurate enough, otherwise corotational from the start; the summary says which and why.")
           .key("linear_error", &Elasticity::linear_error,
                "With kinematics: auto, the error of displacements that linear kinematics may make, relative to the "

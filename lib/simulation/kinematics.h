@@ -1,4 +1,5 @@
-// `elasticity.kinematics: auto`: linear kinematics where they are accurate enough, watched for as long as they are used.
+// `elasticity.kinematics: auto`: linear kinematics where they are accurate enough, watched for as long as they are
+// used.
 #pragma once
 
 #include <memory>
@@ -63,8 +64,8 @@ struct ChosenKinematics {
   std::unique_ptr<LinearityWatch> watch;  // null unless linear
 };
 
-// Builds a scene that says `auto`, whose document then says what was taken. Linear unless something of the scene is not,
-// or its linear response is clearly too large. Throws ConfigError.
+// Builds a scene that says `auto`, whose document then says what was taken. Linear unless something of the scene is
+// not, or its linear response is clearly too large. Throws ConfigError.
 ChosenKinematics choose_kinematics(Config& config, Scene& scene);
 
 // What is told of a run with linear kinematics that has ended.

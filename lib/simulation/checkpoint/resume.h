@@ -8,8 +8,8 @@
 
 namespace orthodyn {
 
-// Scales that integrators estimate from the scene where it leaves them open, and corotational kinematics that were taken
-// for `auto`: a run that goes on must not change them.
+// Scales that integrators estimate from the scene where it leaves them open, and corotational kinematics that were
+// taken for `auto`: a run that goes on must not change them.
 void keep_choices(const Checkpoint& checkpoint, Config& scene);
 
 // A checkpoint for a run that begins. Throws RunError if a file that the scene names is gone by now.
