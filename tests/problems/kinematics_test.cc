@@ -79,7 +79,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Choice, testing::ValuesIn(motions()), [](const 
 
 TEST_P(Choice, IsWhatRunsWithEitherKinematicsSay) {
   const orthodyn::Setup exact = set_up(GetParam(), "corotational"), linear = set_up(GetParam(), "linear");
-  const double error = ReferenceNorms(*exact.built.model, trajectory(exact), {}).errors(trajectory(linear)).displacement.max;
+  const double error =
+      ReferenceNorms(*exact.built.model, trajectory(exact), {}).errors(trajectory(linear)).displacement.max;
 
   const orthodyn::Setup chosen = set_up(GetParam(), "auto");
   ASSERT_TRUE(chosen.kinematics);
@@ -136,9 +137,10 @@ TEST_F(Kinematics, OfAStaticAnalysisAreCheckedAtItsEnd) {
 }
 
 TEST_F(Kinematics, ThatAreLeftOpenAreCorotationalWhereLoadsFollow) {
-  write("scene.yaml", std::string(kBar) +
-                          "clamps: [{surface: x0}]\nterms: [{type: pressure, surface: x1, pressure: 1}]\ntime: {end: 0.01}\n"
-                          "elasticity: {kinematics: auto}\n");
+  write("scene.yaml",
+        std::string(kBar) +
+            "clamps: [{surface: x0}]\nterms: [{type: pressure, surface: x1, pressure: 1}]\ntime: {end: 0.01}\n"
+            "elasticity: {kinematics: auto}\n");
   const auto result = orthodyn("run scene.yaml --out out");
   ASSERT_EQ(result.exit_code, 0) << result.output;
   EXPECT_NE(result.output.find("corotational: loads, contact or supports are not linear anyway"), std::string::npos)

@@ -9,6 +9,7 @@
 #include "lib/axes/axes_source.h"
 #include "lib/core/symmetric_eigen.h"
 #include "lib/simulation/axes_file.h"
+#include "lib/simulation/scene_cost.h"
 #include "lib/simulation/static_problem.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/draw.h"
@@ -103,6 +104,21 @@ void print_supports(const FemModel& model) {
   if (moved > 0) fmt::print("motions\n  {} of {} coordinates are moved\n", moved, coordinates);
 }
 
+// Measured in about a second.
+void print_cost(const Setup& setup) {
+  const auto costs = term_costs(*setup.built.model, setup.built.initial, 1);
+  TermCost all;
+  for (const TermCost& cost : costs) all = {"", all.force + cost.force, all.tangent + cost.tangent};
+  fmt::print("cost of one evaluation, measured\n");
+  for (const TermCost& cost : costs)
+    fmt::print("  {:<32} force {:9.4g} ms ({:3.0f} %), tangent {:9.4g} ms ({:3.0f} %)\n", cost.name, 1e3 * cost.force,
+               100 * cost.force / all.force, 1e3 * cost.tangent, 100 * cost.tangent / all.tangent);
+  const auto sentences = dispensable(setup, costs);
+  fmt::print("could be left out at an accuracy of {:.0e}\n", accuracy_asked_for(setup.scene));
+  if (sentences.empty()) fmt::print("  nothing that the linear response tells of\n");
+  for (const auto& sentence : sentences) fmt::print("  {}\n", sentence);
+}
+
 // "cylindrical, by place", for each region of the mesh by its name.
 void print_axes(const Setup& setup) {
   fmt::print("axes\n");
@@ -141,6 +157,7 @@ int check(const CheckArguments& arguments) {
   fmt::print("system\n  {} unknowns, {} non-zeros ({})\n", model.num_dofs(), model.pattern().non_zeros(),
              model.pattern().symmetric ? "symmetric, lower triangle" : "general");
   setup.integrator ? print_dynamics(setup) : print_statics(setup);
+  if (has_time || !setup.integrator) print_cost(setup);
   if (arguments.axes)
     write_and_draw_axes(
         setup, arguments.out ? fs::path(*arguments.out) : fs::path("out") / "axes" / fs::path(arguments.scene).stem());

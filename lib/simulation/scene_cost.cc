@@ -1,0 +1,189 @@
+#include "lib/simulation/scene_cost.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <functional>
+
+#include "lib/analysis/static_response.h"
+#include "lib/fem/part_model.h"
+
+namespace orthodyn {
+
+namespace {
+
+constexpr double kUsualAccuracy = 1e-3;  // without an rtol
+constexpr double kOfAccuracy = 0.1;      // what is smaller than this part of it does not matter
+constexpr double kSmall = 1e-6;        // of the smallest extent
+constexpr double kMuchData = 1e9;        // bytes of frames
+
+double seconds_of(double budget, const std::function<void()>& work) {
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  for (int count = 1;; ++count) {
+    work();
+    const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
+    if (spent >= budget || count == 1000) return spent / count;
+  }
+}
+
+class Judge {
+ public:
+  Judge(const Setup& setup, const std::vector<TermCost>& costs)
+      : setup_(setup), model_(*setup.built.model), costs_(costs), accuracy_(accuracy_asked_for(setup.scene)),
+        response_(static_response(model_, setup.built.initial, setup.scene.time.end)) {}
+
+  std::vector<std::string> sentences() {
+    if (response_.exists() && response_.work > 0) {
+      look_at_loads();
+      look_at_damping();
+      look_at_regions();
+      look_at_mesh();
+      look_at_kinematics();
+    }
+    look_at_frames();
+    return std::move(found_);
+  }
+
+ private:
+  const FemModel::Parts& parts() const { return model_.parts(); }
+  double threshold() const { return kOfAccuracy * accuracy_; }
+
+  // The response, so small that rotations do not matter: the linear response of a slender body may be a large one.
+  Vector small_response() const {
+    const Vector& u = response_.displacement;
+    return kSmall * bounding_box(parts().mesh).size().minCoeff() / u.lpNorm<Eigen::Infinity>() * u;
+  }
+
+  double share_of_force(const std::string& name) const {
+    double all = 0, own = 0;
+    for (const TermCost& cost : costs_) {
+      all += cost.force;
+      if (cost.name == name) own = cost.force;
+    }
+    return all > 0 ? own / all : 0;
+  }
+
+  // By the work that each does on the response to all of them.
+  void look_at_loads() {
+    const auto names = part_names(parts());
+    const NodalExpansion nodal(parts(), setup_.built.initial.t, setup_.built.initial.q, setup_.built.initial.v);
+    for (std::size_t k = 0; k < parts().loads.size(); ++k) {
+      NodalVector sum = NodalVector::Zero(3, nodal.x.cols());
+      parts().loads[k]->add_peak_force(nodal.state(), setup_.scene.time.end, sum);
+      Vector load(model_.num_dofs());
+      parts().dofs->restrict_to(sum, load);
+      if (load.isZero(0)) continue;  // springs, contact: nothing at rest
+      const double share = std::abs(load.dot(response_.displacement)) / response_.work;
+      if (!(share < threshold())) continue;
+      const std::string& name = names[parts().elastic.size() + k];
+      found_.push_back(fmt::format("{}: its work is {:.1e} of that of all loads; leaving it out saves {:.1g} % of a force",
+                                   name, share, 100 * share_of_force(name)));
+    }
+  }
+
+  // Of the slowest vibration, by Rayleigh's quotient of the response.
+  void look_at_damping() {
+    if (!setup_.scene.damping || setup_.scene.analysis == Analysis::statical) return;
+    const Vector& u = response_.displacement;
+    Vector Mu(u.size());
+    model_.multiply_mass(u, Mu);
+    const double omega2 = response_.work / u.dot(Mu), time = setup_.scene.time.end - setup_.scene.time.start;
+    const auto& damping = *setup_.scene.damping;
+    const double taken = 0.5 * (damping.mass + damping.stiffness * omega2) * time;
+    if (taken < accuracy_)
+      found_.push_back(fmt::format("damping: it takes {:.1e} of a slow vibration ({:.3g} Hz) in the time simulated; fast "
+                                   "vibrations it does take",
+                                   taken, std::sqrt(omega2) / (2 * M_PI)));
+  }
+
+  // In the response, in which a region may move and hardly be strained.
+  void look_at_regions() {
+    if (parts().elastic.size() < 2) return;
+    const Vector still = Vector::Zero(model_.num_dofs());
+    const NodalExpansion nodal(parts(), setup_.built.initial.t, small_response(), still);
+    std::vector<double> energies;
+    double all = 0;
+    for (const auto& term : parts().elastic) all += energies.emplace_back(term->energy(nodal.state()));
+    for (std::size_t k = 0; k < energies.size(); ++k)
+      if (energies[k] < threshold() * all)
+        found_.push_back(fmt::format("region {}: it bears {:.1e} of the elastic energy and moves as a rigid body: {} "
+                                     "elements of it could be fewer",
+                                     parts().elastic[k]->region(), energies[k] / all, parts().elastic[k]->size()));
+  }
+
+  void look_at_mesh() {
+    const State state{setup_.built.initial.t, small_response(), Vector::Zero(model_.num_dofs())};
+    const auto energy = model_.evaluate("energy.mesh_error", state);
+    const double error = energy[0] / (energy[0] + energy[1]);
+    if (error < threshold())
+      found_.push_back(fmt::format("mesh: its error is about {:.1e}: fewer cells, or a smaller rtol, go with it", error));
+  }
+
+  void look_at_kinematics() {
+    if (setup_.scene.elasticity.kinematics != Kinematics::corotational || setup_.scene.elasticity.is_warped() ||
+        setup_.kinematics)
+      return;
+    Config config = setup_.config.copy().resolving();
+    config.set("elasticity.kinematics", std::string("auto"));
+    Scene scene = read_scene(config);
+    if (const ChosenKinematics chosen = choose_kinematics(config, scene); chosen.choice.linear)
+      found_.push_back("large rotations: linear kinematics are accurate enough for the linear response; "
+                       "elasticity.kinematics: auto takes them, and watches");
+  }
+
+  void look_at_frames() {
+    const auto& output = setup_.scene.output;
+    const double frames = output.interval ? (setup_.scene.time.end - setup_.scene.time.start) / *output.interval
+                                          : output.frames.value_or(50);
+    double numbers = 0;
+    for (const auto& info : model_.outputs())
+      for (const auto& field : output.fields)
+        if (info.name == field)
+          numbers += info.components * static_cast<double>(info.location == Location::node ? parts().mesh.nodes.size()
+                                                                                           : parts().mesh.tets.size());
+    if (const double bytes = 4 * numbers * frames; bytes > kMuchData)
+      found_.push_back(fmt::format("frames: {:.2g} GB; fewer output.frames or output.fields", bytes / 1e9));
+  }
+
+  const Setup& setup_;
+  const FemModel& model_;
+  const std::vector<TermCost>& costs_;
+  double accuracy_;
+  StaticResponse response_;
+  std::vector<std::string> found_;
+};
+
+}  // namespace
+
+double accuracy_asked_for(const Scene& scene) {
+  if (scene.integrator)
+    if (const auto rtol = scene.integrator->settings().rtol) return *rtol;
+  return kUsualAccuracy;
+}
+
+std::vector<TermCost> term_costs(const FemModel& model, const State& initial, double seconds) {
+  const auto& parts = model.parts();
+  const NodalExpansion nodal(parts, initial.t, initial.q, initial.v);
+  std::vector<const Term*> terms;
+  for (const auto& term : parts.elastic) terms.push_back(term.get());
+  for (const auto& term : parts.loads) terms.push_back(term.get());
+  const auto names = part_names(parts);
+  std::vector<double> K(model.pattern().row.size()), D(parts.traits.damping_matrix ? K.size() : 0);
+  NodalVector f = NodalVector::Zero(3, nodal.x.cols());
+  const double each = seconds / (2 * static_cast<double>(terms.size()));
+  std::vector<TermCost> costs;
+  for (std::size_t k = 0; k < terms.size(); ++k)
+    costs.push_back({names[k], seconds_of(each, [&] { terms[k]->add_force(nodal.state(), f); }), seconds_of(each, [&] {
+                       terms[k]->add_tangent(nodal.state(), TangentKind::exact, K.data(),
+                                             D.empty() ? nullptr : D.data());
+                     })});
+  return costs;
+}
+
+std::vector<std::string> dispensable(const Setup& setup, const std::vector<TermCost>& costs) {
+  return Judge(setup, costs).sentences();
+}
+
+}  // namespace orthodyn
