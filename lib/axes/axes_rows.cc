@@ -65,11 +65,12 @@ AxesRows read_axes_vtu(const FilePath& file) {
   LoadedMesh loaded = read_vtu(file.path);
   const auto axes = axes_of(loaded, file.path);
   AxesRows out{{}, axes.size() == 3, true, file.path, {}};
-  for (std::size_t cell = 0; cell < loaded.mesh.tets.size(); ++cell) {
+  for (std::size_t tet = 0; tet < loaded.mesh.tets.size(); ++tet) {
     Mat3 m = Mat3::Zero();
-    for (std::size_t i = 0; i < axes.size(); ++i) m.col(static_cast<Eigen::Index>(i)) = axes[i].of(cell);
+    for (std::size_t i = 0; i < axes.size(); ++i) m.col(static_cast<Eigen::Index>(i)) = axes[i].of(tet);
+    const int cell = loaded.mesh.cell_of.empty() ? static_cast<int>(tet) : loaded.mesh.cell_of[tet];
     if (!m.allFinite()) throw ConfigError(file.path, fmt::format("cell {}: an axis is not a finite number", cell));
-    out.rows.push_back({static_cast<int>(cell), m, static_cast<int>(cell)});
+    out.rows.push_back({static_cast<int>(tet), m, cell});
   }
   out.mesh = std::move(loaded.mesh);
   return out;

@@ -12,9 +12,9 @@ namespace orthodyn {
 
 struct AxesRows {
   struct Row {
-    int element;  // index in the mesh, from 0
+    int element;  // from 0: of CSV as the mesh file counts them, of VTU a tetrahedron
     Mat3 columns;
-    int place;  // line of a CSV file, cell of a VTU file
+    int place;  // line of a CSV file, solid cell of a VTU file
   };
   std::vector<Row> rows;
   bool third = false;  // whether axis 3 was given too; otherwise it is 1 x 2

@@ -13,7 +13,8 @@ class AxesFile : public AxesSource {
     static const auto s =
         Spec<AxesFile>()
             .key("file", &AxesFile::file_,
-                 "CSV with the columns a1x,a1y,a1z,a2x,a2y,a2z and, if wanted, a3x,a3y,a3z and element (index from 0). "
+                 "CSV with the columns a1x,a1y,a1z,a2x,a2y,a2z and, if wanted, a3x,a3y,a3z and element (index from 0, "
+                 "as the mesh file counts its solid elements). "
                  "Without element there is one row for each element of the mesh, in its order. Or VTU of the same mesh "
                  "with the "
                  "cell data axis_1, axis_2 and, if wanted, axis_3, or axes (9 components: axis 1, axis 2, axis 3); "
@@ -25,11 +26,15 @@ class AxesFile : public AxesSource {
 
   AxesField field(const TetMesh& mesh, Warnings& notes) const override {
     const AxesRows given = read_axes_rows(file_);
-    const auto num_elements = mesh.tets.size();
+    // Rows of CSV stand for the elements of the mesh file, from which several tets may have been cut.
+    const std::vector<int> cell_of = given.mesh ? std::vector<int>{} : mesh.cell_of;
+    const auto num_elements = cell_of.empty() ? mesh.tets.size() : static_cast<std::size_t>(cell_of.back()) + 1;
     if (given.every && given.rows.size() != num_elements)
-      throw ConfigError(given.path,
-                        fmt::format("{} rows for a mesh of {} elements; give one for each, or a column 'element'",
-                                    given.rows.size(), num_elements));
+      throw ConfigError(
+          given.path,
+          fmt::format("{} rows for a mesh of {} elements{}; give one for each, or a column 'element'",
+                      given.rows.size(), num_elements,
+                      cell_of.empty() ? "" : fmt::format(" (split into {} tetrahedra)", mesh.tets.size())));
     if (given.mesh) check_same_mesh(given, mesh);
     auto axes = std::make_shared<std::vector<Mat3>>(num_elements, Mat3::Zero());
     for (const auto& row : given.rows) {
@@ -42,7 +47,8 @@ class AxesFile : public AxesSource {
       Q = rotation(given, row);
     }
     note_repairs(given, notes);
-    return [this, axes](const Vec3&, int element) {
+    return [this, axes, cell_of](const Vec3&, int tet) {
+      const int element = cell_of.empty() ? tet : cell_of[static_cast<std::size_t>(tet)];
       const Mat3& Q = (*axes)[static_cast<std::size_t>(element)];
       if (Q.isZero(0))
         throw ConfigError(file_.where, fmt::format("{} has no row for element {}", file_.path, element));
@@ -70,7 +76,7 @@ class AxesFile : public AxesSource {
       if (!((a - b).norm() < 1e-4))
         throw ConfigError(given.path,
                           fmt::format("cell {} is not where element {} of the scene's mesh is; the axes are of another "
-                                      "mesh, or its elements have another order",
+                                      "mesh, or its elements or nodes have another order",
                                       e, e));
     }
   }

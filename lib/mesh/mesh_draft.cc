@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
+#include <span>
 #include <utility>
 
 #include "lib/core/errors.h"
+#include "lib/core/words.h"
 #include "lib/mesh/node_numbers.h"
+#include "lib/mesh/split_cells.h"
 
 namespace orthodyn {
 namespace {
@@ -26,39 +30,107 @@ void sort_by_tag(MeshDraft& draft) {
                                             same->place.line));
 }
 
+// For each triangle of a surface the face of the file that it was cut from.
+using FaceOrigins = std::map<std::string, std::vector<std::size_t>>;
+
 template <std::size_t N>
-std::array<int, N> node_numbers(const MeshDraft& draft, const NodeNumbers& number, const auto& element,
-                                const std::array<std::int64_t, N>& tags) {
-  std::array<int, N> numbers{};
-  for (std::size_t i = 0; i < N; ++i) {
+void number_into(std::array<int, N>& numbers, const MeshDraft& draft, const NodeNumbers& number, const auto& element,
+                 std::span<const std::int64_t> tags) {
+  for (std::size_t i = 0; i < tags.size(); ++i) {
     numbers[i] = number(tags[i]);
     if (numbers[i] >= 0) continue;
     draft.fail(element.place, fmt::format("element {}: node {} is not defined in {}", element.tag, tags[i],
                                           draft.nodes_section));
   }
-  return numbers;
 }
 
 void check_order(const MeshDraft& draft) {
-  for (const FileTet& tet : draft.tets)
-    if (tet.midsides.has_value() != draft.tets.front().midsides.has_value())
-      draft.fail(tet.place, fmt::format("element {} is {}, earlier ones are not; all must be of one order", tet.tag,
-                                        tet.midsides ? "quadratic" : "linear"));
+  for (const FileCell& cell : draft.cells) {
+    if (cell.midsides.has_value() == draft.cells.front().midsides.has_value()) continue;
+    std::string remedy;
+    if (cell.kind != CellKind::tet || draft.cells.front().kind != CellKind::tet)
+      remedy = " (what is split into tetrahedra becomes linear): mesh in first order and take `order: 2`";
+    draft.fail(cell.place, fmt::format("element {} is {}, earlier ones are not; all must be of one order{}", cell.tag,
+                                       cell.midsides ? "quadratic" : "linear", remedy));
+  }
 }
 
-TetMesh number_nodes(const MeshDraft& draft) {
+using FaceTags = std::array<std::int64_t, 3>;  // ascending
+
+// The faces of the file's own tets, ascending, each with the index of its cell.
+std::vector<std::pair<FaceTags, std::size_t>> faces_of_tets(const MeshDraft& draft) {
+  std::vector<std::pair<FaceTags, std::size_t>> faces;
+  for (std::size_t c = 0; c < draft.cells.size(); ++c) {
+    if (draft.cells[c].kind != CellKind::tet) continue;
+    for (const Places& places : faces_of(CellKind::tet)) {
+      FaceTags face{};
+      for (std::size_t k = 0; k < 3; ++k) face[k] = draft.cells[c].nodes[places[k]];
+      std::sort(face.begin(), face.end());
+      faces.emplace_back(face, c);
+    }
+  }
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+// A tet of the file may lie on a quadrilateral, of which it must then have a half as it is cut.
+void check_diagonals(const MeshDraft& draft) {
+  const auto is_tet = [](const FileCell& cell) { return cell.kind == CellKind::tet; };
+  if (std::all_of(draft.cells.begin(), draft.cells.end(), is_tet)) return;
+  const auto faces = faces_of_tets(draft);
+  if (faces.empty()) return;
+  for (const FileCell& cell : draft.cells)
+    for (const Places& places : faces_of(cell.kind)) {
+      if (places.size() != 4) continue;
+      std::array<std::int64_t, 4> quad{};
+      for (std::size_t k = 0; k < 4; ++k) quad[k] = cell.nodes[places[k]];
+      if (std::set(quad.begin(), quad.end()).size() < 4) continue;  // of a collapsed element: no quadrilateral
+      std::rotate(quad.begin(), std::min_element(quad.begin(), quad.end()), quad.end());
+      for (const std::size_t third : {0u, 2u}) {
+        FaceTags half{quad[1], quad[3], quad[third]};  // of the diagonal that is not taken
+        std::sort(half.begin(), half.end());
+        const auto found = std::lower_bound(faces.begin(), faces.end(), std::pair(half, std::size_t{0}));
+        if (found == faces.end() || found->first != half) continue;
+        const FileCell& tet = draft.cells[found->second];
+        draft.fail(tet.place,
+                   fmt::format("element {}: a tetrahedron on a quadrilateral of element {} ({}), which is cut by the "
+                               "other diagonal, from node {} to {}; mesh with pyramids between them",
+                               tet.tag, cell.tag, draft.where(cell.place), quad[0], quad[2]));
+      }
+    }
+}
+
+void add_cells(const MeshDraft& draft, const NodeNumbers& number, TetMesh& mesh) {
+  std::array<int, 8> nodes{};
+  for (std::size_t c = 0; c < draft.cells.size(); ++c) {
+    const FileCell& cell = draft.cells[c];
+    number_into(nodes, draft, number, cell, cell.corners());
+    if (!append_tets(cell.kind, {nodes.data(), corners_of(cell.kind)}, mesh.tets))
+      draft.fail(cell.place,
+                 fmt::format("element {}: a {} that repeats nodes in a way that no tetrahedra can be cut from "
+                             "it; nodes may be repeated along edges: remesh",
+                             cell.tag, name_of(cell.kind)));
+    if (cell.midsides) number_into(mesh.midsides.emplace_back(), draft, number, cell, *cell.midsides);
+    mesh.region_of.resize(mesh.tets.size(), cell.region);
+    mesh.cell_of.resize(mesh.tets.size(), static_cast<int>(c));
+  }
+}
+
+TetMesh number_nodes(const MeshDraft& draft, FaceOrigins& face_origins) {
   const NodeNumbers number(draft.nodes);
   TetMesh mesh;
   mesh.region_names = draft.region_names;
   for (const FileNode& node : draft.nodes) mesh.nodes.push_back(node.x);
-  for (const FileTet& tet : draft.tets) {
-    mesh.tets.push_back(node_numbers(draft, number, tet, tet.nodes));
-    if (tet.midsides) mesh.midsides.push_back(node_numbers(draft, number, tet, *tet.midsides));
-    mesh.region_of.push_back(tet.region);
-  }
-  for (const auto& [name, triangles] : draft.surfaces) {
+  add_cells(draft, number, mesh);
+  for (const auto& [name, faces] : draft.surfaces) {
     auto& surface = mesh.surfaces[name];
-    for (const FileTriangle& t : triangles) surface.push_back(node_numbers(draft, number, t, t.nodes));
+    auto& face_of = face_origins[name];
+    std::array<int, 4> nodes{};
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      number_into(nodes, draft, number, faces[f], faces[f].corners());
+      append_triangles({nodes.data(), faces[f].sides}, surface);
+      face_of.resize(surface.size(), f);
+    }
   }
   for (const auto& [name, uses] : draft.node_sets) {
     auto& set = mesh.node_sets[name];
@@ -74,9 +146,9 @@ TetMesh number_nodes(const MeshDraft& draft) {
 }
 
 // True if it turned them.
-bool turn_if_all_inverted(TetMesh& mesh) {
+bool turn_if_all_inverted(TetMesh& mesh, std::size_t cells) {
   const auto inverted = [&](const Tet& tet) { return signed_volume6(mesh, tet) < 0; };
-  if (mesh.tets.size() < 2 || !std::all_of(mesh.tets.begin(), mesh.tets.end(), inverted)) return false;
+  if (cells < 2 || !std::all_of(mesh.tets.begin(), mesh.tets.end(), inverted)) return false;
   for (Tet& tet : mesh.tets) std::swap(tet[2], tet[3]);
   for (Midsides& middles : mesh.midsides) {
     std::swap(middles[1], middles[4]);
@@ -85,21 +157,55 @@ bool turn_if_all_inverted(TetMesh& mesh) {
   return true;
 }
 
-MeshOrigin origin_of(const MeshDraft& draft) {
-  const auto element_name = [&draft](const auto& element) {
-    return fmt::format("{}: element {}", draft.where(element.place), element.tag);
-  };
+// "beam.msh: 120 hexahedra and 30 wedges are split into 750 tetrahedra", or "" if all are tetrahedra.
+std::string note_of_split(const MeshDraft& draft, std::size_t tets) {
+  std::map<CellKind, std::size_t> counts;
+  bool more_nodes = false;
+  for (const FileCell& cell : draft.cells) {
+    if (cell.kind == CellKind::tet) continue;
+    ++counts[cell.kind];
+    more_nodes = more_nodes || cell.more_nodes;
+  }
+  if (counts.empty()) return "";
+  std::vector<std::string> kinds;
+  std::size_t others = draft.cells.size();  // that are tets in the file
+  for (auto it = counts.rbegin(); it != counts.rend(); ++it) {
+    kinds.push_back(fmt::format("{} {}", it->second, name_of(it->first, it->second)));
+    others -= it->second;
+  }
+  const std::string last = kinds.back();
+  kinds.pop_back();
+  return fmt::format("{}: {}{}{}{} split into {} tetrahedra{}", draft.files.front(), join(kinds),
+                     kinds.empty() ? "" : " and ", last,
+                     draft.cells.size() - others == 1 ? " is" : " are", tets - others,
+                     more_nodes ? "; only their corners are used (`order: 2` gives straight edges a node each)" : "");
+}
+
+// "element 7", or "element 7, tetrahedron 2 of 6" of one that was split.
+std::string tet_name_of(const MeshDraft& draft, const TetMesh& mesh, int tet) {
+  const auto t = static_cast<std::size_t>(tet);
+  const FileCell& cell = draft.cells[static_cast<std::size_t>(mesh.cell_of[t])];
+  const std::string name = fmt::format("{}: element {}", draft.where(cell.place), cell.tag);
+  if (cell.kind == CellKind::tet) return name;
+  const auto [begin, end] = std::equal_range(mesh.cell_of.begin(), mesh.cell_of.end(), mesh.cell_of[t]);
+  return fmt::format("{}, tetrahedron {} of {} of a {}", name, mesh.cell_of.begin() + tet - begin + 1, end - begin,
+                     name_of(cell.kind));
+}
+
+MeshOrigin origin_of(const MeshDraft& draft, const TetMesh& mesh, const FaceOrigins& face_origins) {
   return {
       .source = draft.files.front(),
-      .tet_name = [&draft, element_name](int t) { return element_name(draft.tets[static_cast<std::size_t>(t)]); },
+      .tet_name = [&](int t) { return tet_name_of(draft, mesh, t); },
       .node_name =
           [&draft](int n) {
             const FileNode& node = draft.nodes[static_cast<std::size_t>(n)];
             return fmt::format("{}: node {}", draft.where(node.place), node.tag);
           },
       .triangle_name =
-          [&draft, element_name](const std::string& surface, int k) {
-            return element_name(draft.surfaces.at(surface)[static_cast<std::size_t>(k)]);
+          [&](const std::string& surface, int k) {
+            const std::size_t f = face_origins.at(surface)[static_cast<std::size_t>(k)];
+            const FileFace& face = draft.surfaces.at(surface)[f];
+            return fmt::format("{}: element {}", draft.where(face.place), face.tag);
           },
   };
 }
@@ -124,12 +230,17 @@ void MeshDraft::fail(FilePlace place, const std::string& message) const {
 LoadedMesh build_mesh(MeshDraft draft) {
   sort_by_tag(draft);
   check_order(draft);
-  LoadedMesh loaded{.mesh = number_nodes(draft), .warnings = std::move(draft.warnings)};
-  if (turn_if_all_inverted(loaded.mesh)) {
+  check_diagonals(draft);
+  FaceOrigins face_origins;
+  LoadedMesh loaded{.mesh = number_nodes(draft, face_origins), .warnings = std::move(draft.warnings)};
+  if (turn_if_all_inverted(loaded.mesh, draft.cells.size())) {
     loaded.warnings.push_back(fmt::format("{}: all {} elements count their nodes the other way round; they were turned",
-                                          draft.files.front(), draft.tets.size()));
+                                          draft.files.front(), draft.cells.size()));
   }
-  const Warnings found = validate(loaded.mesh, origin_of(draft));
+  const std::string note = note_of_split(draft, loaded.mesh.tets.size());
+  if (!note.empty()) loaded.warnings.push_back(note);
+  const Warnings found = validate(loaded.mesh, origin_of(draft, loaded.mesh, face_origins));
+  if (note.empty()) loaded.mesh.cell_of.clear();
   loaded.warnings.insert(loaded.warnings.end(), found.begin(), found.end());
   return loaded;
 }

@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "lib/core/types.h"
+#include "lib/mesh/cell_kind.h"
 #include "lib/mesh/loaded_mesh.h"
 
 namespace orthodyn {
@@ -25,18 +27,29 @@ struct FileNode {
   Vec3 x = Vec3::Zero();
 };
 
-struct FileTet {
+// A solid element, with its corners in the order of cell_kind.h.
+struct FileCell {
   std::int64_t tag = 0;
-  std::array<std::int64_t, 4> nodes{};
-  std::optional<std::array<std::int64_t, 6>> midsides = {};  // of a quadratic one, in the order of kTetEdges
-  FilePlace place;
+  CellKind kind = CellKind::tet;
+  std::array<std::int64_t, 8> nodes{};                       // the first corners_of(kind)
+  std::optional<std::array<std::int64_t, 6>> midsides = {};  // of a quadratic tet, in the order of kTetEdges
+  bool more_nodes = false;                                   // of another one: the file has more than its corners
+  FilePlace place = {};
   int region = 0;  // index into MeshDraft::region_names
+
+  std::span<std::int64_t> corners() { return {nodes.data(), corners_of(kind)}; }
+  std::span<const std::int64_t> corners() const { return {nodes.data(), corners_of(kind)}; }
 };
 
-struct FileTriangle {
+// A triangle or a quadrilateral.
+struct FileFace {
   std::int64_t tag = 0;
-  std::array<std::int64_t, 3> nodes{};
-  FilePlace place;
+  std::array<std::int64_t, 4> nodes{};  // the first `sides`
+  std::size_t sides = 3;
+  FilePlace place = {};
+
+  std::span<std::int64_t> corners() { return {nodes.data(), sides}; }
+  std::span<const std::int64_t> corners() const { return {nodes.data(), sides}; }
 };
 
 // A node that a set names.
@@ -48,9 +61,9 @@ struct FileNodeUse {
 struct MeshDraft {
   std::vector<std::string> files;  // the first is the one that the user named
   std::vector<FileNode> nodes;     // in any order
-  std::vector<FileTet> tets;
+  std::vector<FileCell> cells;
   std::vector<std::string> region_names;
-  std::map<std::string, std::vector<FileTriangle>> surfaces;
+  std::map<std::string, std::vector<FileFace>> surfaces;
   std::map<std::string, std::vector<FileNodeUse>> node_sets;
   std::string nodes_section;  // what defines nodes, for messages: "$Nodes"
   Warnings warnings;
@@ -63,10 +76,11 @@ struct MeshDraft {
   [[noreturn]] void fail(FilePlace place, const std::string& message) const;
 };
 
-// Nodes are numbered by ascending tag; elements keep their order. Linear and quadratic elements do not mix. A mesh
-// whose elements are all inverted was written by a program that counts the nodes of a tet the other way round: they are
-// turned, with a warning. Throws ConfigError for tags that are not defined or defined twice, for a
-// mesh without elements, and for what validate() refuses.
+// Nodes are numbered by ascending tag; elements keep their order. Hexahedra, wedges and pyramids are split into
+// tetrahedra (split_cells.h), which is said; a tet on a quadrilateral must fit its diagonal. Linear and quadratic
+// elements do not mix. A mesh whose elements are all inverted was written by a program that counts the nodes of a tet
+// the other way round: they are turned, with a warning. Throws ConfigError for tags that are not defined or defined
+// twice, for a mesh without elements, and for what validate() refuses.
 LoadedMesh build_mesh(MeshDraft draft);
 
 }  // namespace orthodyn

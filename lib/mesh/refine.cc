@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "lib/element/tet10.h"
@@ -97,6 +98,11 @@ void refine(LoadedMesh& loaded) {
   mesh.tets = std::move(tets);
   mesh.midsides.clear();
   mesh.region_of = repeated(mesh.region_of, 1);
+  if (mesh.cell_of.empty()) {
+    mesh.cell_of.resize(cells.size());
+    std::iota(mesh.cell_of.begin(), mesh.cell_of.end(), 0);
+  }
+  mesh.cell_of = repeated(mesh.cell_of, 1);
   for (CellData& data : loaded.cell_data)
     data.values = repeated(data.values, static_cast<std::size_t>(data.components));
   if (quadratic) make_quadratic(mesh, [&](int a, int b) { return middles.at(std::minmax(a, b)); });

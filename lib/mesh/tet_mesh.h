@@ -28,6 +28,8 @@ struct TetMesh {
   std::vector<std::string> region_names;  // at least one
   std::map<std::string, std::vector<Triangle>> surfaces;
   std::map<std::string, std::vector<int>> node_sets;  // ascending, each node once
+  // For each tet the element of the file that it was cut from, counted from 0; ascending. Empty: none was cut.
+  std::vector<int> cell_of = {};
 
   int order() const { return midsides.empty() ? 1 : 2; }
 };

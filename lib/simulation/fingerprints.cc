@@ -31,6 +31,7 @@ std::string mesh_fingerprint(const TetMesh& mesh) {
   print.add(std::to_string(mesh.surfaces.size()));
   for (const auto& [name, triangles] : mesh.surfaces) print.add(name).add(bytes(triangles));
   for (const auto& [name, nodes] : mesh.node_sets) print.add(name).add(bytes(nodes));
+  if (!mesh.cell_of.empty()) print.add("cut from").add(bytes(mesh.cell_of));
   return print.text();
 }
 

@@ -109,14 +109,15 @@ TEST_P(RefusedAbaqus, NamesTheLineAndTheRemedy) {
 INSTANTIATE_TEST_SUITE_P(
     Abaqus, RefusedAbaqus,
     testing::Values(
-        BadDeck{"hexahedra", "C3D4", "C3D8R", "body.inp:10: elements of type C3D8R; only tetrahedra (C3D4, C3D10)"},
+        BadDeck{"cohesive", "C3D4", "COH3D6", "body.inp:10: elements of type COH3D6; only tetrahedra (C3D4, C3D10)"},
         BadDeck{"second_order", "C3D4", "C3D10", "element 1 ends early"},
         BadDeck{"two_dimensions", "40, 0., 0., 1.", "40, 0., 0.", "body.inp:8: expected a coordinate, found the end"},
         BadDeck{"unknown_node", "40, 50\n", "40, 60\n", "body.inp:12: element 2: node 60 is not defined in *NODE"},
         BadDeck{"node_of_set", "10, 50\n*", "10, 51\n*", "body.inp:15: *NSET: node 51 is not defined"},
         BadDeck{"twice", "\n2, 20", "\n1, 20", "body.inp:12: element 1 is defined twice (first in line 11)"},
         BadDeck{"node_twice", "20, 1", "10, 1", "body.inp:6: node tag 10 is defined twice"},
-        BadDeck{"face", "S1", "S5", "body.inp:21: face \"S5\"; a tetrahedron has S1, S2, S3, S4"},
+        BadDeck{"face", "S1", "S5", "body.inp:21: surface \"bottom\": S5 of element 1; a tetrahedron has S1 to S4"},
+        BadDeck{"face_of_none", "S1", "S7", "body.inp:21: face \"S7\"; expected S1 to S4 of a tetrahedron"},
         BadDeck{"no_face", "Body, S1", "Body", "body.inp:21: a surface of elements without a face"},
         BadDeck{"set", "Body, S1", "Crust, S1", "body.inp:21: no *ELSET \"CRUST\""},
         BadDeck{"range", "10, 50, 20", "50, 10, 20", "the numbers must ascend"},

@@ -98,21 +98,16 @@ TEST(GmshRefuses, ElementsOfThirdOrder) {
   expect_refused(kFile22, "4 4 2 1 1 1 2 3 4", "4 29 2 1 1 1 2 3 4", "set Mesh.ElementOrder = 1 or 2");
 }
 
-TEST(GmshRefuses, ElementsThatAreNotTetrahedra) {
-  const auto refuses = [](const std::string& type, const std::string& name) {
-    expect_refused(kFile22, "4 4 2 1 1", "4 " + type + " 2 1 1",
-                   "a " + name + " (element type " + type);
-    expect_refused(kFile41, "3 1 4 1", "3 1 " + type + " 1", "only tetrahedra are read");
-  };
-  refuses("3", "quadrangle");
-  refuses("5", "hexahedron");
-  refuses("6", "prism");
-  refuses("7", "pyramid");
+TEST(GmshRefuses, ElementsInEntitiesOfAnotherDimension) {
+  expect_refused(kFile41, "3 1 4 1", "2 1 5 1", "hexahedra in an entity of dimension 2");
+  expect_refused(kFile41, "2 1 2 1", "3 1 3 1", "quadrangles in an entity of dimension 3");
 }
 
 TEST(GmshRefuses, UnknownElementTypes) {
-  expect_refused(kFile22, "4 4 2 1 1", "4 17 2 1 1", "element type 17; only linear and quadratic tetrahedra");
-  expect_refused(kFile22, "4 4 2 1 1", "4 -4 2 1 1", "element type -4; only linear and quadratic tetrahedra");
+  expect_refused(kFile22, "4 4 2 1 1", "4 20 2 1 1",
+                 "element type 20; only tetrahedra, hexahedra, prisms and pyramids");
+  expect_refused(kFile22, "4 4 2 1 1", "4 -4 2 1 1",
+                 "element type -4; only tetrahedra, hexahedra, prisms and pyramids");
 }
 
 TEST(GmshRefuses, PartitionedMeshes) {
@@ -127,7 +122,7 @@ TEST(GmshRefuses, ParametricNodes) {
 TEST(GmshRefuses, AMeshOfTrianglesOnly) {
   const std::string file = replaced(kFile22, "4 4 2 1 1 1 2 3 4\n5 4 2 2 2 2 3 4 5\n", "");
   expect_refused(file, "$Elements\n5", "$Elements\n3",
-                 "no tetrahedra: did you mesh in 3D (gmsh -3)?");
+                 "no solid elements: did you mesh in 3D (gmsh -3)?");
 }
 
 TEST(GmshRefuses, FilesWithoutNodesOrElements) {

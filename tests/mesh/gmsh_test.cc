@@ -124,14 +124,14 @@ TEST(Gmsh, WarnsIfOnlySomeTetsHaveAPhysicalVolume) {
     EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"body", "left"}));
     EXPECT_EQ(mesh.region_of, (std::vector<int>{1, 0}));
     ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_NE(warnings[0].find("1 of 2 tetrahedra are in no physical volume"), std::string::npos);
+    EXPECT_NE(warnings[0].find("1 of 2 elements are in no physical volume"), std::string::npos);
   }
 }
 
 TEST(Gmsh, WarnsOfNamedGroupsWithoutElements) {
   const auto [mesh, warnings, materials, cell_data] = load(replaced(kFile22, "3\n2 5", "4\n2 8 \"hole\"\n2 5"));
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("physical surface \"hole\" has no triangles"), std::string::npos);
+  EXPECT_NE(warnings[0].find("physical surface \"hole\" has no faces"), std::string::npos);
 }
 
 TEST(Gmsh, WarnsOfNodesThatNoElementUses) {

@@ -77,7 +77,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Format{"two_boxes_meshio_binary.vtk", read_vtk_text}, Format{"cube.node", read_damaged_nodes},
                     Format{"cube.ele", read_damaged_elements}, Format{"octant_22.msh", read_gmsh_text},
                     Format{"octant_41.msh", read_gmsh_text}, Format{"octant_gmsh.inp", read_abaqus_text},
-                    Format{"octant_gmsh.vtk", read_vtk_text}, Format{"cube_o2.ele", read_damaged_quadratic_elements}),
+                    Format{"octant_gmsh.vtk", read_vtk_text}, Format{"bricks_22.msh", read_gmsh_text},
+                    Format{"bricks_41.msh", read_gmsh_text}, Format{"bricks_o2_22.msh", read_gmsh_text},
+                    Format{"bricks_gmsh.inp", read_abaqus_text}, Format{"bricks_gmsh.vtk", read_vtk_text},
+                    Format{"bricks_o2_gmsh.vtk", read_vtk_text},
+                    Format{"cube_o2.ele", read_damaged_quadratic_elements}),
     [](const auto& test) {
       std::string name = test.param.seed;
       for (char& c : name) c = c == '.' ? '_' : c;

@@ -63,6 +63,34 @@ TEST(OwnerFiles, EveryKindOfVtkFileGivesTheSameMeshAndCellData) {
   }
 }
 
+// Two cubes of edge 1: 8 hexahedra beside 16 wedges.
+class Bricks : public testing::TestWithParam<const char*> {};
+
+TEST_P(Bricks, AreTwoCubesSplitIntoTets) {
+  const std::string name = GetParam();
+  const LoadedMesh loaded = load(name);
+  const TetMesh& mesh = loaded.mesh;
+  EXPECT_EQ(mesh.nodes.size(), 45u);
+  EXPECT_EQ(mesh.tets.size(), 8u * 6 + 16u * 3);
+  EXPECT_NEAR(volume(mesh), 2, 1e-12);
+  EXPECT_EQ(boundary_triangles(mesh).size(), 10u * 8);
+  EXPECT_CONTAINS(loaded.warnings.at(name.ends_with(".vtk") ? 1 : 0),
+                  "8 hexahedra and 16 wedges are split into 96 tetrahedra");
+  if (name.ends_with(".vtk")) return;  // Gmsh writes no groups into it
+  EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"left", "right"}));
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
+    double x = 0;
+    for (const int n : mesh.tets[e]) x += mesh.nodes[static_cast<std::size_t>(n)][0] / 4;
+    EXPECT_EQ(mesh.region_of[e], x > 1 ? 1 : 0);
+  }
+  EXPECT_NEAR(area(mesh, mesh.surfaces.at("clamped")), 1, 1e-12);
+  EXPECT_NEAR(area(mesh, mesh.surfaces.at("top")), 2, 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Written, Bricks,
+                         testing::Values("bricks_22.msh", "bricks_41.msh", "bricks_gmsh.inp", "bricks_gmsh.vtk",
+                                         "bricks_o2_22.msh", "bricks_o2_gmsh.vtk"));
+
 TEST(OwnerFiles, PhysicalGroupsOfGmshComeThroughItsAbaqusFile) {
   const TetMesh msh = load("two_boxes_41.msh").mesh;
   const TetMesh inp = load("two_boxes_gmsh.inp").mesh;

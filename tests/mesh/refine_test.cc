@@ -65,6 +65,7 @@ TEST_P(Refinement, IsAValidMeshOfEightTimesAsManyCells) {
     double sum = 0;
     for (std::size_t i = 8 * k; i < 8 * k + 8; ++i) {
       EXPECT_EQ(mesh.region_of[i], before.mesh.region_of[k]);
+      EXPECT_EQ(mesh.cell_of[i], static_cast<int>(k));  // whose axes it has, where a file gives them
       EXPECT_EQ(loaded.cell_data[0].values[2 * i], static_cast<double>(k));
       EXPECT_EQ(loaded.cell_data[0].values[2 * i + 1], -static_cast<double>(k));
       sum += signed_volume6(mesh, mesh.tets[i]);

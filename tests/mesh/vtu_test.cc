@@ -214,8 +214,8 @@ TEST_P(RefusedVtu, SaysWhatIsWrongAndWhere) {
 INSTANTIATE_TEST_SUITE_P(
     Vtu, RefusedVtu,
     testing::Values(
-        BadVtu{"hexahedron", "10 10", "10 12",
-               "body.vtu: cell 1: a hexahedron (type 12); only linear and quadratic tetrahedra"},
+        BadVtu{"polyhedron", "10 10", "10 42",
+               "body.vtu: cell 1: a polyhedron (type 42); only tetrahedra, hexahedra, wedges and pyramids"},
         BadVtu{"second_order", "10 10", "10 24", "cell 1: a tetrahedron (type 24) of 4 points; expected 10"},
         BadVtu{"point", "2 3 4<", "2 3 5<", "body.vtu: element 1: a point is 5; expected an integer from 0 to 4"},
         BadVtu{"offset", "4 8", "4 9", "the offset of cell 1 is 9"},
@@ -245,7 +245,7 @@ TEST(Vtk, RefusesWhatIsNoLegacyFileOfTets) {
   EXPECT_CONTAINS(refused(replaced(good, "POINTS 4", "POINTS 5")),
                   "body.vtk:7: expected a number (a finite number), found \"CELLS\"");
   EXPECT_CONTAINS(refused(good.substr(0, good.find("CELL_TYPES"))), "0 types and 1 offsets");
-  EXPECT_CONTAINS(refused(replaced(good, "\n10\n", "\n12\n")), "hexahedron");
+  EXPECT_CONTAINS(refused(replaced(good, "\n10\n", "\n42\n")), "polyhedron");
 }
 
 // The table of colours may be left out; then numbers begin in the next line.

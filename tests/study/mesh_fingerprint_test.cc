@@ -72,6 +72,10 @@ const Change kOfTheMesh[] = {
        m.mesh.surfaces["right"].erase(m.mesh.surfaces["right"].begin());
      }},
     {"a_set_of_nodes", [](LoadedMesh& m) { m.mesh.node_sets["tips"] = {3}; }},
+    {"the_element_that_a_tet_was_cut_from",
+     [](LoadedMesh& m) {
+       m.mesh.cell_of = {0, 0};
+     }},
     {"a_further_set_of_nodes", [](LoadedMesh& m) { m.mesh.node_sets["none"] = {}; }}};
 INSTANTIATE_TEST_SUITE_P(Mesh, MeshFingerprint, testing::ValuesIn(kOfTheMesh),
                          [](const auto& tested) { return std::string(tested.param.name); });

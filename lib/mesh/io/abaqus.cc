@@ -7,6 +7,7 @@
 
 #include "lib/mesh/io/abaqus_file.h"
 #include "lib/mesh/io/text_tokens.h"
+#include "lib/mesh/split_cells.h"
 
 namespace orthodyn {
 namespace {
@@ -25,13 +26,13 @@ class AbaqusMesh {
  public:
   explicit AbaqusMesh(AbaqusFile file) : file_(std::move(file)), draft_(file_.draft) {
     nodes_ = numbers_of(draft_.nodes);
-    tets_ = numbers_of(draft_.tets);
-    triangles_ = numbers_of(file_.triangles);
-    budget_ = 1000 + 100 * (nodes_.size() + tets_.size() + triangles_.size());
+    cells_ = numbers_of(draft_.cells);
+    faces_ = numbers_of(file_.faces);
+    budget_ = 1000 + 100 * (nodes_.size() + cells_.size() + faces_.size());
   }
 
   MeshDraft build() {
-    if (draft_.tets.empty()) draft_.fail({}, "no elements of type C3D4 or C3D10");
+    if (draft_.cells.empty()) draft_.fail({}, "no solid elements (C3D4, C3D8, C3D6, ...)");
     check_elements_differ();
     add_regions();
     add_surfaces();
@@ -44,11 +45,11 @@ class AbaqusMesh {
 
  private:
   void check_elements_differ() const {
-    const auto same =
-        std::adjacent_find(tets_.begin(), tets_.end(), [](const auto& a, const auto& b) { return a.first == b.first; });
-    if (same == tets_.end()) return;
-    draft_.fail(draft_.tets[(same + 1)->second].place, fmt::format("element {} is defined twice (first in line {})",
-                                                                   same->first, draft_.tets[same->second].place.line));
+    const auto same = std::adjacent_find(cells_.begin(), cells_.end(),
+                                         [](const auto& a, const auto& b) { return a.first == b.first; });
+    if (same == cells_.end()) return;
+    draft_.fail(draft_.cells[(same + 1)->second].place, fmt::format("element {} is defined twice (first in line {})",
+                                                                   same->first, draft_.cells[same->second].place.line));
   }
 
   // A range of many numbers costs no more than what exists of it.
@@ -131,9 +132,9 @@ class AbaqusMesh {
 
   void add_regions() {
     const std::vector<Candidate> candidates = region_candidates();
-    std::vector<int> last(draft_.tets.size(), -1);
+    std::vector<int> last(draft_.cells.size(), -1);
     for (std::size_t c = 0; c < candidates.size(); ++c) {
-      each_element(candidates[c].members, tets_, [&](std::size_t t) { last[t] = static_cast<int>(c); });
+      each_element(candidates[c].members, cells_, [&](std::size_t t) { last[t] = static_cast<int>(c); });
     }
     std::vector<int> region(candidates.size() + 1, -1);  // of each candidate; the last is the rest
     for (const int c : last) region[c < 0 ? candidates.size() : static_cast<std::size_t>(c)] = 0;
@@ -144,35 +145,45 @@ class AbaqusMesh {
       draft_.region_names.push_back(c < candidates.size() ? candidates[c].name : count == 1 ? "body" : "unassigned");
     }
     for (std::size_t t = 0; t < last.size(); ++t) {
-      draft_.tets[t].region = region[last[t] < 0 ? candidates.size() : static_cast<std::size_t>(last[t])];
+      draft_.cells[t].region = region[last[t] < 0 ? candidates.size() : static_cast<std::size_t>(last[t])];
     }
+  }
+
+  FileFace face_of(const FileCell& cell, const AbaqusFace& face, const std::string& surface) const {
+    const std::vector<Places>& faces = faces_of(cell.kind);
+    if (face.side >= faces.size())
+      draft_.fail(face.elements.place, fmt::format("surface {}: S{} of element {}; a {} has S1 to S{}",
+                                                   TextTokens::quoted(surface), face.side + 1, cell.tag,
+                                                   name_of(cell.kind), faces.size()));
+    const Places& places = faces[face.side];
+    FileFace out{.tag = cell.tag, .sides = places.size(), .place = face.elements.place};
+    for (std::size_t k = 0; k < places.size(); ++k) out.nodes[k] = cell.nodes[places[k]];
+    return out;
   }
 
   void add_surfaces() {
     for (const auto& [key, surface] : file_.surfaces) {
-      auto& triangles = draft_.surfaces[surface.name];
+      auto& faces = draft_.surfaces[surface.name];
       for (const AbaqusFace& face : surface.faces) {
-        const std::size_t found = each_element(face.elements, tets_, [&](std::size_t t) {
-          const FileTet& tet = draft_.tets[t];
-          const auto& [a, b, c] = kAbaqusFaces[face.side];
-          triangles.push_back({tet.tag, {tet.nodes[a], tet.nodes[b], tet.nodes[c]}, face.elements.place});
+        const std::size_t found = each_element(face.elements, cells_, [&, &name = surface.name](std::size_t c) {
+          faces.push_back(face_of(draft_.cells[c], face, name));
         });
         if (found == 0)
-          draft_.fail(face.elements.place, fmt::format("surface {}: no such element of type C3D4 or C3D10",
+          draft_.fail(face.elements.place, fmt::format("surface {}: no such solid element",
                                                        TextTokens::quoted(surface.name)));
       }
     }
-    if (file_.triangles.empty()) return;
+    if (file_.faces.empty()) return;
     for (const auto& [key, set] : file_.element_sets) {
-      std::vector<FileTriangle> found;
-      each_element({.set = key}, triangles_, [&](std::size_t t) { found.push_back(file_.triangles[t]); });
+      std::vector<FileFace> found;
+      each_element({.set = key}, faces_, [&](std::size_t t) { found.push_back(file_.faces[t]); });
       if (!found.empty() && !draft_.surfaces.contains(set.name)) draft_.surfaces[set.name] = std::move(found);
     }
   }
 
   AbaqusFile file_;
   MeshDraft& draft_;
-  Numbers nodes_, tets_, triangles_;
+  Numbers nodes_, cells_, faces_;
   std::size_t budget_ = 0;
 };
 

@@ -1,7 +1,7 @@
 // The mesh of an Abaqus input file (.inp).
 //
-// Format: Abaqus keywords reference; numbering of the faces of C3D4: Abaqus elements guide,
-// "three-dimensional solid element library".
+// Format: Abaqus keywords reference; types and faces of elements: Abaqus elements guide, "three-dimensional
+// solid element library".
 #pragma once
 
 #include <string>
@@ -11,10 +11,11 @@
 
 namespace orthodyn {
 
-// Reads *NODE, *ELEMENT (C3D4, C3D4H), *NSET and *ELSET (also GENERATE), *SURFACE of type ELEMENT
-// with faces S1 to S4, and *SOLID SECTION; keywords and names in any case. The element sets of solid
+// Reads *NODE, *ELEMENT (C3D4, C3D10; C3D8, C3D20, C3D6, C3D15 and C3D5, which are split; each with letters behind it,
+// C3D8R), *NSET and *ELSET (also GENERATE), *SURFACE of type ELEMENT
+// with faces S1 to S6, and *SOLID SECTION; keywords and names in any case. The element sets of solid
 // sections are the regions; without sections every element belongs to the last set that names it.
-// Sets of three-node shells or plane elements (CPS3, S3, ...), as Gmsh writes them, become surfaces.
+// Sets of shells or plane elements (CPS3, S4, ...), as Gmsh writes them, become surfaces.
 // A single part and instance is taken as flat. Other solid elements, *INCLUDE, several parts, and
 // keywords that generate or transform nodes are refused; all other keywords are skipped, with a
 // warning that lists them. Throws ConfigError "file:line: found, remedy", as read_gmsh() does.

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -55,24 +55,36 @@ struct Keyword {
   }
 };
 
-// Elements of planes, shells, membranes and rigid bodies, of three nodes or of six.
-bool is_triangle(const std::string& type, bool quadratic) {
-  static const std::vector<const char*> linear{"CPS3",  "CPE3", "CPEG3", "CAX3",   "S3",    "STRI3",
-                                               "M3D3", "R3D3", "DS3",   "SFM3D3", "DC2D3"};
-  static const std::vector<const char*> of_six{"CPS6", "CPE6", "CPEG6",  "CAX6", "STRI65",
-                                               "M3D6", "DS6",  "SFM3D6", "DC2D6"};
-  for (const char* start : quadratic ? of_six : linear) {
-    if (type.starts_with(start) && type.find_first_of("0123456789", std::string(start).size()) == std::string::npos)
-      return true;
-  }
-  return false;
+// What elements of a type are read as.
+struct Shape {
+  std::size_t nodes = 0, corners = 0;      // in the file; the first of them
+  std::optional<CellKind> solid = {};      // else a face
+};
+
+// Whether the type is this name, alone or with letters behind it that do not change its nodes: C3D8R of C3D8, but not
+// C3D15V, which has up to 18.
+bool is_variant(const std::string& type, std::string_view name) {
+  return type.starts_with(name) && type.find_first_of("0123456789V", name.size()) == std::string::npos;
 }
 
-// C3D10 and its variants for hybrid, modified and improved stress: the same nodes.
-bool is_quadratic_tet(const std::string& type) {
-  for (const char* known : {"C3D10", "C3D10H", "C3D10M", "C3D10MH", "C3D10HS", "C3D10I", "C3D10T"})
-    if (type == known) return true;
-  return false;
+// None if it is no solid element, and none of planes, shells, membranes and rigid bodies.
+std::optional<Shape> shape_of(const std::string& type) {
+  static const std::vector<std::pair<const char*, Shape>> solids{
+      {"C3D4", {4, 4, CellKind::tet}},         {"C3D10", {10, 4, CellKind::tet}},
+      {"C3D5", {5, 5, CellKind::pyramid}},     {"C3D6", {6, 6, CellKind::wedge}},
+      {"C3D15", {15, 6, CellKind::wedge}},     {"C3D8", {8, 8, CellKind::hexahedron}},
+      {"C3D20", {20, 8, CellKind::hexahedron}}};
+  static const std::vector<std::pair<std::size_t, std::vector<const char*>>> faces{
+      {3, {"CPS3", "CPE3", "CPEG3", "CAX3", "S3", "STRI3", "M3D3", "R3D3", "DS3", "SFM3D3", "DC2D3"}},
+      {6, {"CPS6", "CPE6", "CPEG6", "CAX6", "STRI65", "M3D6", "DS6", "SFM3D6", "DC2D6"}},
+      {4, {"CPS4", "CPE4", "CPEG4", "CAX4", "S4", "M3D4", "R3D4", "DS4", "SFM3D4", "DC2D4"}},
+      {8, {"CPS8", "CPE8", "CPEG8", "CAX8", "S8", "M3D8", "DS8", "SFM3D8", "DC2D8"}}};
+  for (const auto& [name, shape] : solids)
+    if (is_variant(type, name)) return shape;
+  for (const auto& [nodes, names] : faces)
+    for (const char* name : names)
+      if (is_variant(type, name)) return Shape{nodes, nodes % 3 == 0 ? 3u : 4u};
+  return std::nullopt;
 }
 
 class AbaqusReader {
@@ -183,20 +195,16 @@ class AbaqusReader {
   void read_elements(const Keyword& keyword) {
     const std::string type = in_capitals(keyword.parameter("TYPE"));
     const std::string set = keyword.parameter("ELSET");
-    if (type == "C3D4" || type == "C3D4H") {
-      while (!at_keyword()) read_element(file_.draft.tets, set);
-    } else if (is_quadratic_tet(type)) {
-      while (!at_keyword()) read_element(file_.draft.tets, set, true);
-    } else if (is_triangle(type, false)) {
-      while (!at_keyword()) read_element(file_.triangles, set);
-    } else if (is_triangle(type, true)) {
-      while (!at_keyword()) read_element(file_.triangles, set, true);
+    if (const auto shape = shape_of(type)) {
+      while (!at_keyword()) read_element(*shape, set);
     } else if (type.empty() || type.find("3D") != std::string::npos) {
       // Trusses and beams in space have 3D in their names, too.
       if (type.starts_with("T3D") || type.starts_with("R3D") || type.starts_with("M3D")) return ignore(type);
-      file_.draft.fail(keyword.place,
-                       fmt::format("elements of type {}; only tetrahedra (C3D4, C3D10) are read: mesh again with these",
-                                   type.empty() ? "(none given)" : type));
+      file_.draft.fail(
+          keyword.place,
+          fmt::format("elements of type {}; only tetrahedra (C3D4, C3D10), hexahedra (C3D8, C3D20), wedges (C3D6, "
+                      "C3D15) and pyramids (C3D5) are read: mesh again with these",
+                      type.empty() ? "(none given)" : type));
     } else {
       ignore(type);
     }
@@ -208,7 +216,7 @@ class AbaqusReader {
   }
 
   // The nodes may go on in the next line.
-  void read_nodes_of(std::int64_t element, auto& nodes) {
+  void read_nodes_of(std::int64_t element, auto&& nodes) {
     for (std::int64_t& node : nodes) {
       if (tokens_.peek() == '\0') tokens_.skip_line();
       if (at_keyword()) tokens_.fail(fmt::format("element {} ends early; is the file truncated?", element));
@@ -216,23 +224,26 @@ class AbaqusReader {
     }
   }
 
-  template <class Element>
-  void read_element(std::vector<Element>& elements, const std::string& set, bool quadratic = false) {
-    Element element;
-    element.place.line = tokens_.line();
-    element.tag = tokens_.integer("the number of an element");
-    read_nodes_of(element.tag, element.nodes);
-    if (quadratic) {
-      if constexpr (requires { element.midsides; }) {
-        read_nodes_of(element.tag, element.midsides.emplace());
-      } else {
-        std::array<std::int64_t, 3> on_edges;  // those of the tet behind
-        read_nodes_of(element.tag, on_edges);
-      }
+  void read_element(const Shape& shape, const std::string& set) {
+    const FilePlace place{tokens_.line()};
+    const std::int64_t tag = tokens_.integer("the number of an element");
+    if (shape.solid) {
+      FileCell& cell = file_.draft.cells.emplace_back(FileCell{.tag = tag, .kind = *shape.solid, .place = place});
+      read_nodes_of(tag, cell.corners());
+      if (shape.nodes > shape.corners && cell.kind == CellKind::tet) read_nodes_of(tag, cell.midsides.emplace());
+      else if (shape.nodes > shape.corners) cell.more_nodes = true, skip_nodes_of(tag, shape);
+    } else {
+      FileFace& face = file_.faces.emplace_back(FileFace{.tag = tag, .sides = shape.corners, .place = place});
+      read_nodes_of(tag, face.corners());
+      skip_nodes_of(tag, shape);  // those of the element behind
     }
     tokens_.finish_line();
-    elements.push_back(element);
-    if (!set.empty()) add({element.tag, element.tag, 1, "", element.place}, set, file_.element_sets);
+    if (!set.empty()) add({tag, tag, 1, "", place}, set, file_.element_sets);
+  }
+
+  void skip_nodes_of(std::int64_t element, const Shape& shape) {
+    std::vector<std::int64_t> others(shape.nodes - shape.corners);
+    read_nodes_of(element, others);
   }
 
   // Names of an instance's sets carry its name: "PART-1-1.SIDE".
@@ -306,10 +317,11 @@ class AbaqusReader {
     AbaqusSurface& surface = file_.surfaces.try_emplace(in_capitals(name), AbaqusSurface{name, {}}).first->second;
     while (!at_keyword()) {
       AbaqusFace face{.elements = read_member()};
-      if (tokens_.peek() == '\0') tokens_.fail("a surface of elements without a face; give S1, S2, S3 or S4");
+      if (tokens_.peek() == '\0') tokens_.fail("a surface of elements without a face; give S1, S2, ...");
       const std::string side = in_capitals(std::string(tokens_.word("a face")));
-      if (side.size() != 2 || side[0] != 'S' || side[1] < '1' || side[1] > '4') {
-        tokens_.fail(fmt::format("face {}; a tetrahedron has S1, S2, S3, S4", TextTokens::quoted(side)));
+      if (side.size() != 2 || side[0] != 'S' || side[1] < '1' || side[1] > '6') {
+        tokens_.fail(fmt::format("face {}; expected S1 to S4 of a tetrahedron, to S5 of a wedge or pyramid, to S6 of a "
+                                 "hexahedron", TextTokens::quoted(side)));
       }
       face.side = static_cast<std::size_t>(side[1] - '1');
       tokens_.finish_line();

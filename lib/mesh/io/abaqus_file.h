@@ -1,7 +1,6 @@
 // What an Abaqus input file says of its mesh. Names are compared in capitals.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -25,12 +24,10 @@ struct AbaqusSet {
   int order = 0;  // of the last line that added to it
 };
 
-// Nodes of the faces S1 to S4 of C3D4 and C3D10, by their places in the element.
-constexpr std::array<std::array<std::size_t, 3>, 4> kAbaqusFaces{{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
 
 struct AbaqusFace {
   AbaqusMembers elements;
-  std::size_t side = 0;  // 0 to 3 for S1 to S4
+  std::size_t side = 0;  // 0 to 5 for S1 to S6
 };
 
 struct AbaqusSurface {
@@ -41,8 +38,8 @@ struct AbaqusSurface {
 using AbaqusSets = std::map<std::string, AbaqusSet>;
 
 struct AbaqusFile {
-  MeshDraft draft;                      // nodes and tets
-  std::vector<FileTriangle> triangles;  // elements of three corners
+  MeshDraft draft;              // nodes and solid elements
+  std::vector<FileFace> faces;  // elements of three or four corners, of shells and the like
   AbaqusSets node_sets, element_sets;
   std::map<std::string, AbaqusSurface> surfaces;
   std::vector<AbaqusMembers> sections;  // the element set of each *SOLID SECTION

@@ -8,6 +8,7 @@
 #include "lib/mesh/io/abaqus_file.h"
 #include "lib/mesh/io/text_lines.h"
 #include "lib/mesh/quadratic.h"
+#include "lib/mesh/split_cells.h"
 #include "lib/mesh/tet_faces.h"
 
 namespace orthodyn {
@@ -41,8 +42,8 @@ void add_set(TextLines& lines, const std::string& keyword, const std::string& na
 // S1 ... S4 if the triangle is that face of the tet, in this sense of rotation if `oriented`; else 0.
 int side_of(const Tet& tet, const Triangle& triangle, bool oriented) {
   for (std::size_t side = 0; side < 4; ++side) {
-    const auto& [i, j, k] = kAbaqusFaces[side];
-    Triangle face{tet[i], tet[j], tet[k]};
+    const Places& places = faces_of(CellKind::tet)[side];
+    Triangle face{tet[places[0]], tet[places[1]], tet[places[2]]};
     for (int turn = 0; oriented && turn < 3; ++turn) {
       if (face == triangle) return static_cast<int>(side) + 1;
       std::rotate(face.begin(), face.begin() + 1, face.end());

@@ -29,7 +29,7 @@ class MeshBuilder {
     draft_.nodes_section = "$Nodes";
     draft_.nodes = std::move(file_.nodes);
     add_regions();
-    add_tets();
+    add_cells();
     add_surfaces();
     add_node_sets();
     warn_of_empty_groups();
@@ -43,8 +43,8 @@ class MeshBuilder {
         tokens_.fail(fmt::format("the file ends without ${}; is it truncated?", name));
       }
     }
-    if (file_.tets.empty()) {
-      tokens_.fail_at(file_.section_lines.at("Elements"), "no tetrahedra: did you mesh in 3D (gmsh -3)?");
+    if (file_.cells.empty()) {
+      tokens_.fail_at(file_.section_lines.at("Elements"), "no solid elements: did you mesh in 3D (gmsh -3)?");
     }
   }
 
@@ -58,57 +58,58 @@ class MeshBuilder {
     return file_.group_sets[static_cast<std::size_t>(element.groups)];
   }
 
-  // The physical tag of a tet, 0 if it has none.
-  int region_tag(const GmshTet& tet) const {
-    const std::vector<int>& groups = groups_of(tet);
+  // The physical tag of a cell, 0 if it has none.
+  int region_tag(const Grouped<FileCell>& cell) const {
+    const std::vector<int>& groups = groups_of(cell);
     if (groups.empty()) return 0;
     for (int group : groups) {
       if (std::abs(group) == std::abs(groups[0])) continue;
-      tokens_.fail_at(tet.line,
-                      fmt::format("element {}: in two physical volumes, \"{}\" and \"{}\"; an element "
-                                  "belongs to one region: put its volume in one physical group",
-                                  tet.tag, group_name(3, std::abs(groups[0])), group_name(3, std::abs(group))));
+      tokens_.fail_at(
+          cell.element.place.line,
+          fmt::format("element {}: in two physical volumes, \"{}\" and \"{}\"; an element "
+                      "belongs to one region: put its volume in one physical group",
+                      cell.element.tag, group_name(3, std::abs(groups[0])), group_name(3, std::abs(group))));
     }
     return std::abs(groups[0]);
   }
 
   // Groups of the same name are one region.
   void add_regions() {
-    std::map<int, int> tets_with;
-    for (const GmshTet& tet : file_.tets) ++tets_with[region_tag(tet)];
-    for (const auto& [tag, tets] : tets_with) {
+    std::map<int, int> cells_with;
+    for (const Grouped<FileCell>& cell : file_.cells) ++cells_with[region_tag(cell)];
+    for (const auto& [tag, cells] : cells_with) {
       region_index_[tag] = draft_.region_index(tag == 0 ? "body" : group_name(3, tag));
     }
-    if (tets_with.contains(0) && tets_with.size() > 1) {
+    if (cells_with.contains(0) && cells_with.size() > 1) {
       draft_.warnings.push_back(
-          fmt::format("{}: {} of {} tetrahedra are in no physical volume; they are in region \"body\"", tokens_.path(),
-                      tets_with[0], file_.tets.size()));
+          fmt::format("{}: {} of {} elements are in no physical volume; they are in region \"body\"", tokens_.path(),
+                      cells_with[0], file_.cells.size()));
     }
   }
 
-  void add_tets() {
-    draft_.tets.reserve(file_.tets.size());
-    for (const GmshTet& tet : file_.tets) {
-      draft_.tets.push_back({tet.tag, tet.nodes, tet.midsides, {tet.line}, region_index_.at(region_tag(tet))});
+  void add_cells() {
+    draft_.cells.reserve(file_.cells.size());
+    for (const Grouped<FileCell>& cell : file_.cells) {
+      draft_.cells.push_back(cell.element);
+      draft_.cells.back().region = region_index_.at(region_tag(cell));
     }
   }
 
-  // A negative tag means that the group is oriented against the triangle.
+  // A negative tag means that the group is oriented against the face.
   void add_surfaces() {
-    for (const GmshElement<3>& triangle : file_.triangles) {
-      const auto& [a, b, c] = triangle.nodes;
-      for (int tag : groups_of(triangle)) {
-        FileTriangle turned{triangle.tag, triangle.nodes, {triangle.line}};
-        if (tag < 0) turned.nodes = {a, c, b};
+    for (const Grouped<FileFace>& face : file_.faces) {
+      for (int tag : groups_of(face)) {
+        FileFace turned = face.element;
+        if (tag < 0) std::reverse(turned.corners().begin() + 1, turned.corners().end());
         draft_.surfaces[group_name(2, std::abs(tag))].push_back(turned);
       }
     }
   }
 
   void add_node_sets() {
-    for (const GmshElement<1>& point : file_.points) {
+    for (const Grouped<FileNodeUse>& point : file_.points) {
       for (int tag : groups_of(point)) {
-        draft_.node_sets[group_name(0, std::abs(tag))].push_back({point.nodes[0], {point.line}});
+        draft_.node_sets[group_name(0, std::abs(tag))].push_back(point.element);
       }
     }
   }
@@ -122,7 +123,7 @@ class MeshBuilder {
                          (dim == 3 && std::count(regions.begin(), regions.end(), used) == 0);
       if (!empty) continue;
       draft_.warnings.push_back(fmt::format("{}: physical {} \"{}\" has no {}", tokens_.path(), kKinds[dim], used,
-                                            dim == 3 ? "tetrahedra" : "triangles"));
+                                            dim == 3 ? "solid elements" : "faces"));
     }
   }
 

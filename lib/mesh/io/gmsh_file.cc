@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <string_view>
 
 namespace orthodyn {
@@ -155,65 +156,62 @@ int intern_groups(GmshFile& file, std::vector<int> groups) {
   return entry->second;
 }
 
-GmshKind check_element_type(const TextTokens& tokens, std::int64_t type) {
-  switch (type) {
-    case 1:
-    case 8:
-    case 26:
-    case 27:
-    case 28:  // lines of any order
-      return GmshKind::ignored;
-    case 15:
-      return GmshKind::point;
-    case 2:
-      return GmshKind::triangle;
-    case 4:
-      return GmshKind::tet;
-    case 3:
-    case 5:
-    case 6:
-    case 7: {
-      const char* name = type == 3 ? "quadrangle" : type == 5 ? "hexahedron" : type == 6 ? "prism" : "pyramid";
-      tokens.fail(
-          fmt::format("a {} (element type {}); only tetrahedra are read: mesh again without "
-                      "\"Recombine\"",
-                      name, type));
-    }
-    case 9:
-      return GmshKind::quadratic_triangle;
-    case 11:
-      return GmshKind::quadratic_tet;
-    default:
-      tokens.fail(
-          fmt::format("element type {}; only linear and quadratic tetrahedra (4, 11) with triangles (2, 9), lines and "
-                      "points are read: set Mesh.ElementOrder = 1 or 2 and mesh again without \"Recombine\"",
-                      type));
-  }
+GmshType check_element_type(const TextTokens& tokens, std::int64_t type) {
+  using enum GmshType::Role;
+  static const std::map<std::int64_t, GmshType> types{
+      {1, {}},  {8, {}}, {26, {}}, {27, {}}, {28, {}},  // lines of any order
+      {15, {point, 1, 1}},
+      {2, {face, 3, 3}},
+      {9, {face, 6, 3}},
+      {3, {face, 4, 4}},
+      {16, {face, 8, 4}},
+      {10, {face, 9, 4}},
+      {4, {cell, 4, 4, CellKind::tet}},
+      {11, {cell, 10, 4, CellKind::tet}},
+      {5, {cell, 8, 8, CellKind::hexahedron}},
+      {17, {cell, 20, 8, CellKind::hexahedron}},
+      {12, {cell, 27, 8, CellKind::hexahedron}},
+      {6, {cell, 6, 6, CellKind::wedge}},
+      {18, {cell, 15, 6, CellKind::wedge}},
+      {13, {cell, 18, 6, CellKind::wedge}},
+      {7, {cell, 5, 5, CellKind::pyramid}},
+      {19, {cell, 13, 5, CellKind::pyramid}},
+      {14, {cell, 14, 5, CellKind::pyramid}},
+  };
+  const auto found = types.find(type);
+  if (found != types.end()) return found->second;
+  tokens.fail(
+      fmt::format("element type {}; only tetrahedra, hexahedra, prisms and pyramids of first or second order are "
+                  "read, with triangles, quadrangles, lines and points: set Mesh.ElementOrder = 1 or 2",
+                  type));
 }
 
-void read_element_nodes(TextTokens& tokens, GmshKind kind, std::int64_t tag, int groups, GmshFile& file) {
-  const int line = tokens.line();
-  const auto read = [&](auto& nodes) {
+void read_element_nodes(TextTokens& tokens, const GmshType& type, std::int64_t tag, int groups, GmshFile& file) {
+  using enum GmshType::Role;
+  const FilePlace place{tokens.line()};
+  const auto read = [&](auto&& nodes) {
     for (std::int64_t& node : nodes) node = tokens.integer("a node tag");
   };
-  const auto read_element = [&]<std::size_t N>(std::vector<GmshElement<N>>& elements) {
-    read(elements.emplace_back(GmshElement<N>{tag, {}, line, groups}).nodes);
-  };
-  // A triangle of no surface, or a point of no set, is of no use.
+  // A face of no surface, or a point of no set, is of no use.
   const bool grouped = !file.group_sets[static_cast<std::size_t>(groups)].empty();
-  const bool triangle = kind == GmshKind::triangle || kind == GmshKind::quadratic_triangle;
-  if (kind == GmshKind::tet || kind == GmshKind::quadratic_tet) {
-    GmshTet& tet = file.tets.emplace_back(GmshTet{{tag, {}, line, groups}});
-    read(tet.nodes);
-    if (kind == GmshKind::quadratic_tet) {
-      read(tet.midsides.emplace());
-      std::swap((*tet.midsides)[4], (*tet.midsides)[5]);  // Gmsh has edge 23 before 13
+  if (type.role == cell) {
+    file.cells.push_back({{.tag = tag, .kind = type.kind, .place = place}, groups});
+    FileCell& cell = file.cells.back().element;
+    read(cell.corners());
+    if (type.nodes > type.corners && type.kind == CellKind::tet) {
+      read(cell.midsides.emplace());
+      std::swap((*cell.midsides)[4], (*cell.midsides)[5]);  // Gmsh has edge 23 before 13
+    } else if (type.nodes > type.corners) {
+      cell.more_nodes = true;
+      for (std::size_t k = type.corners; k < type.nodes; ++k) tokens.integer("a node tag");
     }
-  } else if (triangle && grouped) {
-    read_element(file.triangles);
-    if (kind == GmshKind::quadratic_triangle) return tokens.skip_line();  // its middle nodes are those of the tet
-  } else if (kind == GmshKind::point && grouped) {
-    read_element(file.points);
+  } else if (type.role == face && grouped) {
+    FileFace face{.tag = tag, .sides = type.corners, .place = place};
+    read(face.corners());
+    file.faces.push_back({face, groups});
+    if (type.nodes > type.corners) return tokens.skip_line();  // its other nodes are those of the element behind it
+  } else if (type.role == point && grouped) {
+    file.points.push_back({{tokens.integer("a node tag"), place}, groups});
   } else {
     return tokens.skip_line();
   }

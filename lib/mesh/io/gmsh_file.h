@@ -2,12 +2,10 @@
 // everything. Filled by the readers of both versions, turned into a mesh by read_gmsh().
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,26 +15,32 @@
 
 namespace orthodyn {
 
-template <std::size_t N>
-struct GmshElement {
-  std::int64_t tag;
-  std::array<std::int64_t, N> nodes;
-  int line;
-  int groups;  // index into GmshFile::group_sets
+// What a type of element is read as.
+struct GmshType {
+  enum class Role { ignored, point, face, cell };
+
+  Role role = Role::ignored;
+  std::size_t nodes = 0;    // in the file
+  std::size_t corners = 0;  // the first of them
+  CellKind kind = CellKind::tet;
 };
 
-struct GmshTet : GmshElement<4> {
-  std::optional<std::array<std::int64_t, 6>> midsides = {};  // of a quadratic one, in the order of kTetEdges
+// An element of a draft with its physical groups, an index into GmshFile::group_sets.
+template <class Element>
+struct Grouped {
+  Element element;
+  int groups;
 };
+
 
 struct GmshFile {
   using DimTag = std::pair<int, int>;
 
   std::map<DimTag, std::string> names;  // of physical groups
   std::vector<FileNode> nodes;
-  std::vector<GmshElement<1>> points;     // only those in a physical point
-  std::vector<GmshElement<3>> triangles;  // only those in a physical surface
-  std::vector<GmshTet> tets;
+  std::vector<Grouped<FileNodeUse>> points;  // only those in a physical point
+  std::vector<Grouped<FileFace>> faces;      // only those in a physical surface
+  std::vector<Grouped<FileCell>> cells;
   // Sets of physical tags that elements refer to; ascending, no duplicates. The first is empty.
   // Negative where the group is oriented against the element.
   std::vector<std::vector<int>> group_sets = {{}};
@@ -78,12 +82,10 @@ void end_section(TextTokens& tokens, const GmshSection& section);
 // The index of this set of physical tags in group_sets.
 int intern_groups(GmshFile& file, std::vector<int> groups);
 
-enum class GmshKind { ignored, point, triangle, quadratic_triangle, tet, quadratic_tet };
-
-// Refuses everything but points, lines, and linear or quadratic triangles and tets.
-GmshKind check_element_type(const TextTokens& tokens, std::int64_t type);
+// Refuses everything but points, lines, and elements of first or second order.
+GmshType check_element_type(const TextTokens& tokens, std::int64_t type);
 
 // Reads the nodes of an element up to the end of the line.
-void read_element_nodes(TextTokens& tokens, GmshKind kind, std::int64_t tag, int groups, GmshFile& file);
+void read_element_nodes(TextTokens& tokens, const GmshType& type, std::int64_t tag, int groups, GmshFile& file);
 
 }  // namespace orthodyn

@@ -41,8 +41,8 @@ void read_elements(TextTokens& tokens, const GmshSection& section, GmshFile& fil
   for (std::int64_t i = 0; i < announced; ++i) {
     expect_record(tokens, section, i, announced, "elements");
     const std::int64_t tag = tokens.integer("an element tag");
-    const GmshKind kind = check_element_type(tokens, tokens.integer("an element type"));
-    read_element_nodes(tokens, kind, tag, read_groups(tokens, file), file);
+    const GmshType type = check_element_type(tokens, tokens.integer("an element type"));
+    read_element_nodes(tokens, type, tag, read_groups(tokens, file), file);
   }
   end_section(tokens, section);
 }

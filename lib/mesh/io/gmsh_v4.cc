@@ -113,10 +113,11 @@ int groups_of_entity(const TextTokens& tokens, const GmshFile& file, int dim, in
 std::int64_t read_element_block(TextTokens& tokens, const GmshSection& section, GmshFile& file) {
   const int dim = read_dimension(tokens);
   const int entity = read_tag(tokens, "the tag of an entity");
-  const GmshKind kind = check_element_type(tokens, tokens.integer("an element type"));
-  if ((kind == GmshKind::triangle && dim != 2) || (kind == GmshKind::tet && dim != 3)) {
-    tokens.fail(
-        fmt::format("{} in an entity of dimension {}", kind == GmshKind::tet ? "tetrahedra" : "triangles", dim));
+  const GmshType type = check_element_type(tokens, tokens.integer("an element type"));
+  using enum GmshType::Role;
+  if ((type.role == face && dim != 2) || (type.role == cell && dim != 3)) {
+    const char* faces = type.corners == 3 ? "triangles" : "quadrangles";
+    tokens.fail(fmt::format("{} in an entity of dimension {}", type.role == cell ? name_of(type.kind, 2) : faces, dim));
   }
   const std::int64_t count = tokens.count("the number of elements");
   const int groups = groups_of_entity(tokens, file, dim, entity);
@@ -124,7 +125,7 @@ std::int64_t read_element_block(TextTokens& tokens, const GmshSection& section, 
   for (std::int64_t i = 0; i < count; ++i) {
     expect_record(tokens, section, i, count, "elements");
     const std::int64_t tag = tokens.integer("an element tag");
-    read_element_nodes(tokens, kind, tag, groups, file);
+    read_element_nodes(tokens, type, tag, groups, file);
   }
   return count;
 }

@@ -26,14 +26,14 @@ class MiddleSorter {
  public:
   explicit MiddleSorter(std::vector<FileNode> nodes) : nodes_(std::move(nodes)), number_(sorted(nodes_)) {}
 
-  void sort(std::vector<FileTet>& tets) const {
+  void sort(std::vector<FileCell>& tets) const {
     std::map<Order, int> found;
-    for (const FileTet& tet : tets)
+    for (const FileCell& tet : tets)
       if (const auto order = order_of(tet)) ++found[*order];
     if (found.empty()) return;
     const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
     const Order order = std::max_element(found.begin(), found.end(), fewer)->first;
-    for (FileTet& tet : tets) {
+    for (FileCell& tet : tets) {
       const auto listed = *tet.midsides;
       for (std::size_t e = 0; e < order.size(); ++e) (*tet.midsides)[e] = listed[order[e]];
     }
@@ -43,8 +43,8 @@ class MiddleSorter {
   using Order = std::array<std::size_t, 6>;  // for each edge the place in the list
 
   // None where nodes are missing, which is refused later, or one is nearest to two edges.
-  std::optional<Order> order_of(const FileTet& tet) const {
-    for (const std::int64_t tag : tet.nodes)
+  std::optional<Order> order_of(const FileCell& tet) const {
+    for (const std::int64_t tag : tet.corners())
       if (number_(tag) < 0) return std::nullopt;
     for (const std::int64_t tag : *tet.midsides)
       if (number_(tag) < 0) return std::nullopt;
@@ -133,30 +133,30 @@ class TetgenReader {
     tokens.finish_line();
     if (count == 0) tokens.fail("no tetrahedra");
     read_records(tokens, count, "tetrahedra", [&] {
-      FileTet tet{.tag = 0, .nodes = {}, .place = {tokens.line(), 1}};
+      FileCell tet{.place = {tokens.line(), 1}};
       tet.tag = tokens.integer("the number of a tetrahedron");
-      for (std::int64_t& node : tet.nodes) node = tokens.integer("a node");
+      for (std::int64_t& node : tet.corners()) node = tokens.integer("a node");
       if (nodes == 10)
         for (std::int64_t& node : tet.midsides.emplace()) node = tokens.integer("a node");
       const bool named = attributes > 0;
       tet.region =
           draft_.region_index(named ? fmt::format("region{}", tokens.real("the attribute of a region")) : "body");
       for (std::int64_t k = 1; k < attributes; ++k) tokens.real("an attribute");
-      draft_.tets.push_back(tet);
+      draft_.cells.push_back(tet);
     });
-    if (nodes == 10) MiddleSorter(draft_.nodes).sort(draft_.tets);
+    if (nodes == 10) MiddleSorter(draft_.nodes).sort(draft_.cells);
   }
 
   void read_faces(std::string_view text) {
     TextTokens tokens(draft_.files[2], text, {.comment = "#"});
     const std::int64_t count = tokens.count("the number of faces");
-    const bool quadratic = !draft_.tets.empty() && draft_.tets.front().midsides.has_value();
+    const bool quadratic = !draft_.cells.empty() && draft_.cells.front().midsides.has_value();
     const bool markers = tokens.peek() && read_flag(tokens);
     tokens.finish_line();
     read_records(tokens, count, "faces", [&] {
-      FileTriangle face{.tag = 0, .nodes = {}, .place = {tokens.line(), 2}};
+      FileFace face{.place = {tokens.line(), 2}};
       face.tag = tokens.integer("the number of a face");
-      for (std::int64_t& node : face.nodes) node = tokens.integer("a node");
+      for (std::int64_t& node : face.corners()) node = tokens.integer("a node");
       if (quadratic)
         for (int k = 0; k < 3; ++k) tokens.integer("a node on an edge");
       const std::int64_t marker = markers ? tokens.integer("a marker") : 0;

@@ -31,10 +31,10 @@ std::vector<std::size_t> elements_of(const VegaFile& file, const VegaRegion& reg
   const VegaSet* set = find_set(file, region.set);
   if (!set) {
     if (region.set != kAll) file.draft.fail(region.place, fmt::format("no *SET {}", TextTokens::quoted(region.set)));
-    for (std::size_t e = 0; e < file.draft.tets.size(); ++e) elements.push_back(e);
+    for (std::size_t e = 0; e < file.draft.cells.size(); ++e) elements.push_back(e);
     return elements;
   }
-  const auto count = static_cast<std::int64_t>(file.draft.tets.size());
+  const auto count = static_cast<std::int64_t>(file.draft.cells.size());
   for (const FileNodeUse& use : set->elements) {
     const std::int64_t index = use.tag < 0 ? -1 : use.tag - file.first_element;
     if (index < 0 || index >= count) {
@@ -48,7 +48,7 @@ std::vector<std::size_t> elements_of(const VegaFile& file, const VegaRegion& reg
 
 // The region of each element, an index into `regions`; -1 for none. Later regions win.
 std::vector<int> assign_regions(VegaFile& file, const std::vector<VegaRegion>& regions) {
-  std::vector<int> region_of(file.draft.tets.size(), -1);
+  std::vector<int> region_of(file.draft.cells.size(), -1);
   for (std::size_t r = 0; r < regions.size(); ++r) {
     std::size_t taken = 0;
     for (const std::size_t e : elements_of(file, regions[r])) {
@@ -78,7 +78,7 @@ void assign_elements(VegaFile& file, const std::vector<int>& region_of, const st
   std::size_t unassigned = 0;
   for (std::size_t e = 0; e < region_of.size(); ++e) {
     const int r = region_of[e];
-    file.draft.tets[e].region = r < 0 ? file.draft.region_index(rest) : index[static_cast<std::size_t>(r)];
+    file.draft.cells[e].region = r < 0 ? file.draft.region_index(rest) : index[static_cast<std::size_t>(r)];
     unassigned += r < 0;
   }
   if (unassigned == 0 || index.empty()) return;
@@ -112,7 +112,7 @@ std::map<std::string, MeshMaterial> settle_regions(VegaFile& file) {
 }
 
 LoadedMesh build(VegaFile& file) {
-  if (file.draft.tets.empty()) file.draft.fail({}, "no tetrahedra");
+  if (file.draft.cells.empty()) file.draft.fail({}, "no elements");
   auto materials = settle_regions(file);
   LoadedMesh loaded = build_mesh(std::move(file.draft));
   loaded.materials = std::move(materials);

@@ -1,4 +1,4 @@
-// Vega FEM's tetrahedral meshes (.veg, ASCII) and its lists of fixed vertices (.bou).
+// Vega FEM's meshes of tetrahedra or cubes (.veg, ASCII) and its lists of fixed vertices (.bou).
 //
 // Format: Barbic, Sin, Schroeder, Vega FEM library, user's manual, "volumetric mesh files"; behaviour
 // of its reader, version 4.

@@ -141,12 +141,13 @@ class VegaReader {
     }
   }
 
-  // "count 3 0 0" of vertices, "count 4 0" of elements; what follows the first two does not matter.
-  void read_header(TextTokens& tokens, const char* what, std::int64_t width) {
+  // "count 3 0 0" of vertices, "count 4 0" or "count 8 0" of elements; what follows the first two does not matter.
+  void read_header(TextTokens& tokens, const char* what, std::size_t width) {
     announced_ = tokens.count(what);
     if (tokens.peek() != '\0') {
       const std::int64_t found = tokens.integer("the numbers per line");
-      if (found != width) tokens.fail(fmt::format("{} numbers per line; expected {}", found, width));
+      if (found != static_cast<std::int64_t>(width))
+        tokens.fail(fmt::format("{} numbers per line; expected {}", found, width));
     }
     tokens.skip_line();
   }
@@ -180,24 +181,20 @@ class VegaReader {
 
   void read_element_type(TextTokens& tokens) {
     const std::string type(tokens.word("TET"));
-    if (type == "CUBIC") {
-      tokens.fail(
-          "CUBIC: a mesh of cubes; only tetrahedra are read: take the TET mesh of the model, or cut each cube into "
-          "tets");
-    }
-    if (type != "TET" && type != "TETS")
-      tokens.fail(fmt::format("element type {}; expected TET", TextTokens::quoted(type)));
+    if (type != "TET" && type != "TETS" && type != "CUBIC")
+      tokens.fail(fmt::format("element type {}; expected TET or CUBIC", TextTokens::quoted(type)));
+    kind_ = type == "CUBIC" ? CellKind::hexahedron : CellKind::tet;
     tokens.finish_line();
     section_ = Section::elements;
   }
 
   void read_element(TextTokens& tokens) {
-    if (announced_ < 0) return read_header(tokens, "the number of elements", 4);
-    FileTet tet{.place = last_};
-    tet.tag = read_number(tokens, "element", file_.draft.tets.size(), file_.first_element);
-    for (std::int64_t& node : tet.nodes) node = tokens.integer("a vertex");
+    if (announced_ < 0) return read_header(tokens, "the number of elements", corners_of(kind_));
+    FileCell cell{.kind = kind_, .place = last_};
+    cell.tag = read_number(tokens, "element", file_.draft.cells.size(), file_.first_element);
+    for (std::int64_t& node : cell.corners()) node = tokens.integer("a vertex");
     tokens.finish_line();
-    file_.draft.tets.push_back(tet);
+    file_.draft.cells.push_back(cell);
   }
 
   void read_set(TextTokens& tokens) {
@@ -232,7 +229,7 @@ class VegaReader {
     };
     switch (section_) {
       case Section::vertices: expect("*VERTICES", "vertices", file_.draft.nodes.size()); break;
-      case Section::elements: expect("*ELEMENTS", "elements", file_.draft.tets.size()); break;
+      case Section::elements: expect("*ELEMENTS", "elements", file_.draft.cells.size()); break;
       case Section::element_type:
       case Section::material:
       case Section::region:
@@ -252,6 +249,7 @@ class VegaReader {
   FilePlace section_place_, last_;
   bool has_vertices_ = false, has_elements_ = false;
   std::int64_t announced_ = -1;  // -1: its line is still to come
+  CellKind kind_ = CellKind::tet;  // of all elements
   std::int64_t first_vertex_ = 1;
   std::string material_name_;
 };

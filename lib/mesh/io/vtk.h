@@ -1,4 +1,4 @@
-// Tetrahedral meshes in VTK's legacy files of unstructured grids (.vtk), ASCII or binary, with cells as up
+// Meshes of solid cells in VTK's legacy files of unstructured grids (.vtk), ASCII or binary, with cells as up
 // to version 4.2 or as from 5.0. They are only read.
 //
 // Format: Kitware, VTK file formats, "simple legacy formats".

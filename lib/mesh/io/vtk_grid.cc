@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "lib/core/parse_number.h"
 #include "lib/mesh/io/text_tokens.h"
 #include "lib/mesh/mesh_draft.h"
+#include "lib/mesh/split_cells.h"
 
 namespace orthodyn {
 namespace {
@@ -24,10 +26,7 @@ namespace {
 
 std::string name_of_type(int type) {
   static const std::map<int, const char*> names{
-      {6, "triangle strip"},       {7, "polygon"},           {8, "pixel"},         {9, "quadrangle"},
-      {11, "voxel"},               {12, "hexahedron"},       {13, "wedge"},        {14, "pyramid"},
-      {23, "quadratic quad"}, {25, "quadratic hexahedron"},
-      {42, "polyhedron"},          {71, "Lagrange tet"}};
+      {6, "triangle strip"}, {7, "polygon"}, {42, "polyhedron"}, {71, "Lagrange tet"}, {72, "Lagrange hexahedron"}};
   const auto found = names.find(type);
   return found == names.end() ? fmt::format("cell type {}", type) : fmt::format("{} (type {})", found->second, type);
 }
@@ -55,25 +54,55 @@ void check_sizes(const VtkGrid& grid) {
   check(grid.point_data, grid.points.size() / 3, "points");
 }
 
-int points_of_tet(double type) { return type == kVtkTetra ? 4 : 10; }
+// A type of solid cells, by vtkCellType.h.
+struct VtkSolid {
+  CellKind kind;
+  std::size_t points;
+  Places corners;  // in the order of cell_kind.h
+};
 
-// The cells that are tets; the others are counted or refused.
-std::vector<std::size_t> select_tets(const VtkGrid& grid, MeshDraft& draft) {
-  std::vector<std::size_t> tets;
+const VtkSolid* solid_of(double type) {
+  static const Places four{0, 1, 2, 3}, five{0, 1, 2, 3, 4}, six{0, 1, 2, 3, 4, 5}, eight{0, 1, 2, 3, 4, 5, 6, 7};
+  static const std::map<double, VtkSolid> solids{
+      {kVtkTetra, {CellKind::tet, 4, four}},
+      {kVtkQuadraticTetra, {CellKind::tet, 10, four}},
+      {11, {CellKind::hexahedron, 8, {0, 1, 3, 2, 4, 5, 7, 6}}},  // voxel
+      {12, {CellKind::hexahedron, 8, eight}},
+      {13, {CellKind::wedge, 6, six}},
+      {14, {CellKind::pyramid, 5, five}},
+      {25, {CellKind::hexahedron, 20, eight}},
+      {26, {CellKind::wedge, 15, six}},
+      {27, {CellKind::pyramid, 13, five}},
+      {29, {CellKind::hexahedron, 27, eight}},
+      {32, {CellKind::wedge, 18, six}}};
+  const auto found = solids.find(type);
+  return found == solids.end() ? nullptr : &found->second;
+}
+
+// Vertices, lines, triangles and quadrilaterals of first and second order: nothing is made of them.
+bool is_flat(int type) {
+  static const std::set<int> flat{0, 1, 2, 3, 4, 5, 8, 9, 21, 22, 23, 28};
+  return flat.contains(type);
+}
+
+// The cells that are solid; the others are counted or refused.
+std::vector<std::size_t> select_solids(const VtkGrid& grid, MeshDraft& draft) {
+  std::vector<std::size_t> solids;
   double begin = 0;
   for (std::size_t c = 0; c < grid.types.size(); ++c) {
     const auto size = static_cast<double>(grid.connectivity.size());
     const double end =
         static_cast<double>(whole(grid, grid.offsets[c], begin, size, fmt::format("the offset of cell {}", c)));
     const int type = static_cast<int>(whole(grid, grid.types[c], 0, 255, fmt::format("the type of cell {}", c)));
-    if (type == kVtkTetra || type == kVtkQuadraticTetra) {
-      if (end - begin != points_of_tet(type))
-        fail(grid, fmt::format("cell {}: a tetrahedron (type {}) of {} points; expected {}", c, type, end - begin,
-                               points_of_tet(type)));
-      tets.push_back(c);
-    } else if (type > 5 && type != 21 && type != 22) {
-      fail(grid, fmt::format("cell {}: a {}; only linear and quadratic tetrahedra (10, 24) are read, with vertices, "
-                             "lines and triangles beside them: mesh again, or cut the cells (ParaView: Tetrahedralize)",
+    if (const VtkSolid* solid = solid_of(type)) {
+      if (end - begin != static_cast<double>(solid->points))
+        fail(grid, fmt::format("cell {}: a {} (type {}) of {} points; expected {}", c, name_of(solid->kind), type,
+                               end - begin, solid->points));
+      solids.push_back(c);
+    } else if (!is_flat(type)) {
+      fail(grid, fmt::format("cell {}: a {}; only tetrahedra, hexahedra, wedges and pyramids of first or second order "
+                             "are read, with vertices, lines and faces beside them: mesh again, or cut the cells "
+                             "(ParaView: Tetrahedralize)",
                              c, name_of_type(type)));
     }
     begin = end;
@@ -81,32 +110,46 @@ std::vector<std::size_t> select_tets(const VtkGrid& grid, MeshDraft& draft) {
   if (begin != static_cast<double>(grid.connectivity.size())) {
     fail(grid, fmt::format("connectivity has {} entries, but the cells end at {}", grid.connectivity.size(), begin));
   }
-  if (tets.empty()) fail(grid, "no tetrahedra (cell type 10 or 24)");
-  if (tets.size() < grid.types.size()) {
-    draft.warnings.push_back(fmt::format("{}: {} vertices, lines and triangles are ignored", grid.path,
-                                         grid.types.size() - tets.size()));
+  if (solids.empty()) fail(grid, "no solid cells (tetrahedra are cell type 10 or 24, hexahedra 12, wedges 13)");
+  if (solids.size() < grid.types.size()) {
+    draft.warnings.push_back(fmt::format("{}: {} vertices, lines, triangles and quadrilaterals are ignored", grid.path,
+                                         grid.types.size() - solids.size()));
   }
-  return tets;
+  return solids;
 }
 
-void add_nodes_and_tets(const VtkGrid& grid, const std::vector<std::size_t>& tets, MeshDraft& draft) {
+// VTK's manual has the normal of a wedge's base point outward; in files it may point inward (Gmsh 4.8: outward in first
+// order, inward in second). The nodes tell.
+void turn_wedge(FileCell& cell, const std::vector<FileNode>& nodes) {
+  const auto x = [&](std::size_t k) -> const Vec3& { return nodes[static_cast<std::size_t>(cell.nodes[k])].x; };
+  const Vec3 normal = (x(1) - x(0)).cross(x(2) - x(0)) + (x(4) - x(3)).cross(x(5) - x(3));
+  if (normal.dot(x(3) + x(4) + x(5) - x(0) - x(1) - x(2)) >= 0) return;
+  for (std::size_t k = 0; k < 3; ++k) std::swap(cell.nodes[k], cell.nodes[k + 3]);
+}
+
+void add_nodes_and_cells(const VtkGrid& grid, const std::vector<std::size_t>& solids, MeshDraft& draft) {
   const std::size_t points = grid.points.size() / 3;
   for (std::size_t p = 0; p < points; ++p) {
     draft.nodes.push_back(
         {static_cast<std::int64_t>(p), {}, Vec3(grid.points[3 * p], grid.points[3 * p + 1], grid.points[3 * p + 2])});
   }
-  for (const std::size_t c : tets) {
-    FileTet tet;
-    tet.tag = static_cast<std::int64_t>(c);
-    auto next = static_cast<std::size_t>(grid.offsets[c]) - static_cast<std::size_t>(points_of_tet(grid.types[c]));
-    const auto read = [&](auto& nodes) {
-      for (std::int64_t& node : nodes)
-        node = whole(grid, grid.connectivity[next++], 0, static_cast<double>(points) - 1,
-                     fmt::format("element {}: a point", c));
+  for (const std::size_t c : solids) {
+    const VtkSolid& solid = *solid_of(grid.types[c]);
+    FileCell cell{.tag = static_cast<std::int64_t>(c), .kind = solid.kind};
+    const std::size_t first = static_cast<std::size_t>(grid.offsets[c]) - solid.points;
+    const auto point = [&](std::size_t k) {
+      return whole(grid, grid.connectivity[first + k], 0, static_cast<double>(points) - 1,
+                   fmt::format("element {}: a point", c));
     };
-    read(tet.nodes);
-    if (grid.types[c] == kVtkQuadraticTetra) read(tet.midsides.emplace());
-    draft.tets.push_back(tet);
+    for (std::size_t k = 0; k < solid.corners.size(); ++k) cell.nodes[k] = point(solid.corners[k]);
+    if (grid.types[c] == kVtkQuadraticTetra) {
+      cell.midsides.emplace();
+      for (std::size_t k = 0; k < 6; ++k) (*cell.midsides)[k] = point(4 + k);
+    } else {
+      cell.more_nodes = solid.points > solid.corners.size();
+    }
+    if (cell.kind == CellKind::wedge) turn_wedge(cell, draft.nodes);
+    draft.cells.push_back(cell);
   }
 }
 
@@ -119,14 +162,14 @@ const CellData* region_data(const VtkGrid& grid) {
   return nullptr;
 }
 
-void add_regions(const VtkGrid& grid, const std::vector<std::size_t>& tets, MeshDraft& draft) {
+void add_regions(const VtkGrid& grid, const std::vector<std::size_t>& solids, MeshDraft& draft) {
   const CellData* data = region_data(grid);
   if (!data) {
     draft.region_names = {"body"};
     return;
   }
   std::map<std::int64_t, int> index;
-  for (const std::size_t c : tets) {
+  for (const std::size_t c : solids) {
     index[whole(grid, data->values[c], -1e9, 1e9, fmt::format("cell data \"{}\" of cell {}", data->name, c))] = 0;
   }
   for (auto& [number, region] : index) {
@@ -134,8 +177,8 @@ void add_regions(const VtkGrid& grid, const std::vector<std::size_t>& tets, Mesh
     region = draft.region_index(named ? grid.region_names[static_cast<std::size_t>(number)]
                                       : fmt::format("region{}", number));
   }
-  for (std::size_t t = 0; t < tets.size(); ++t) {
-    draft.tets[t].region = index.at(static_cast<std::int64_t>(data->values[tets[t]]));
+  for (std::size_t k = 0; k < solids.size(); ++k) {
+    draft.cells[k].region = index.at(static_cast<std::int64_t>(data->values[solids[k]]));
   }
 }
 
@@ -150,14 +193,19 @@ void add_node_sets(const VtkGrid& grid, MeshDraft& draft) {
   }
 }
 
-std::vector<CellData> data_of_tets(std::vector<CellData> all, const std::vector<std::size_t>& tets) {
+// Each tet has the values of the cell that it was cut from.
+std::vector<CellData> data_of_tets(std::vector<CellData> all, const std::vector<std::size_t>& solids,
+                                   const TetMesh& mesh) {
   for (CellData& data : all) {
     const auto components = static_cast<std::size_t>(data.components);
-    for (std::size_t t = 0; t < tets.size(); ++t) {  // tets[t] >= t: moves towards the front
-      for (std::size_t k = 0; k < components; ++k)
-        data.values[components * t + k] = data.values[components * tets[t] + k];
+    std::vector<double> values;
+    values.reserve(components * mesh.tets.size());
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+      const std::size_t cell = mesh.cell_of.empty() ? t : static_cast<std::size_t>(mesh.cell_of[t]);
+      const auto first = data.values.begin() + static_cast<std::ptrdiff_t>(components * solids[cell]);
+      values.insert(values.end(), first, first + data.components);
     }
-    data.values.resize(components * tets.size());
+    data.values = std::move(values);
   }
   return all;
 }
@@ -219,12 +267,12 @@ LoadedMesh build_vtk_mesh(VtkGrid grid) {
   MeshDraft draft;
   draft.files = {grid.path};
   draft.nodes_section = "Points";
-  const std::vector<std::size_t> tets = select_tets(grid, draft);
-  add_nodes_and_tets(grid, tets, draft);
-  add_regions(grid, tets, draft);
+  const std::vector<std::size_t> solids = select_solids(grid, draft);
+  add_nodes_and_cells(grid, solids, draft);
+  add_regions(grid, solids, draft);
   add_node_sets(grid, draft);
   LoadedMesh loaded = build_mesh(std::move(draft));
-  loaded.cell_data = data_of_tets(std::move(grid.cell_data), tets);
+  loaded.cell_data = data_of_tets(std::move(grid.cell_data), solids, loaded.mesh);
   return loaded;
 }
 

@@ -25,11 +25,11 @@ struct VtkGrid {
   std::vector<std::string> region_names = {};  // by number, of field data "region_names"; may be empty
 };
 
-// Linear or quadratic tets become the mesh; vertices, lines and triangles are ignored with a warning; other cells are
-// refused by name. The integer cell data "region" (or "gmsh:physical", as meshio names it) makes
-// regions "region<k>", in ascending order; point data "nodes:NAME" makes the node set NAME of the
-// points where it is not zero. All cell data are kept, for the tets. Throws ConfigError "file: found,
-// remedy" with the number of the cell or point, counted from 0.
+// Linear or quadratic tets become the mesh, and hexahedra, voxels, wedges and pyramids split into tets; vertices, lines
+// and faces are ignored with a warning; other cells are refused by name. The integer cell data "region" (or
+// "gmsh:physical", as meshio names it) makes regions "region<k>", in ascending order; point data "nodes:NAME" makes the
+// node set NAME of the points where it is not zero. All cell data are kept, for the tets. Throws ConfigError "file:
+// found, remedy" with the number of the cell or point, counted from 0.
 LoadedMesh build_vtk_mesh(VtkGrid grid);
 
 // A type by its name in XML files ("Float64") or legacy ones ("double"); empty if there is none.

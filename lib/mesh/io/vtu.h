@@ -1,4 +1,4 @@
-// Tetrahedral meshes in VTK's XML files of unstructured grids (.vtu). Read: ASCII, base64, and appended data (raw
+// Meshes of solid cells in VTK's XML files of unstructured grids (.vtu). Read: ASCII, base64, and appended data (raw
 // or base64), uncompressed or by zlib, either byte order. Written: ASCII, exact to the last digit and readable by
 // every version.
 //

@@ -83,7 +83,8 @@ class VegaSource : public MeshSource {
   static const Spec<VegaSource>& spec() {
     static const auto s =
         Spec<VegaSource>()
-            .key("file", &VegaSource::file_, "A .veg file of tetrahedra; relative to the scene.", {.required = true})
+            .key("file", &VegaSource::file_, "A .veg file of tetrahedra or cubes; relative to the scene.",
+                 {.required = true})
             .key("fixed", &VegaSource::fixed_, "A .bou file: its vertices become the node set `fixed`.")
             .key("scale", &VegaSource::scale_, kScale, {.range = kPositive})
             .key("order", &VegaSource::order_, kFileOrderSentence, kOrderRule)

@@ -1,0 +1,373 @@
+// One mesh in every format: a cube as a hexahedron, beside it one of two wedges.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "lib/mesh/io/abaqus.h"
+#include "lib/mesh/io/gmsh.h"
+#include "lib/mesh/io/vega.h"
+#include "lib/mesh/io/vtk.h"
+#include "lib/mesh/io/vtu.h"
+#include "lib/mesh/tet_faces.h"
+#include "tests/mesh/refusal.h"
+
+namespace orthodyn::hexahedra_test {
+namespace {
+
+const std::string kGmsh22 = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+4
+2 1 "clamped"
+2 2 "top"
+3 3 "left"
+3 4 "right"
+$EndPhysicalNames
+$Nodes
+12
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+5 0 0 1
+6 1 0 1
+7 1 1 1
+8 0 1 1
+9 2 0 0
+10 2 1 0
+11 2 0 1
+12 2 1 1
+$EndNodes
+$Elements
+7
+1 3 2 1 1 1 5 8 4
+2 3 2 2 2 5 6 7 8
+3 2 2 2 3 6 11 12
+4 2 2 2 3 6 12 7
+5 5 2 3 1 1 2 3 4 5 6 7 8
+6 6 2 4 2 2 9 10 6 11 12
+7 6 2 4 2 2 10 3 6 12 7
+$EndElements
+)";
+
+const std::string kGmsh41 = R"($MeshFormat
+4.1 0 8
+$EndMeshFormat
+$PhysicalNames
+4
+2 1 "clamped"
+2 2 "top"
+3 3 "left"
+3 4 "right"
+$EndPhysicalNames
+$Entities
+0 0 3 2
+1 0 0 0 0 1 1 1 1 0
+2 0 0 1 1 1 1 1 2 0
+3 1 0 1 2 1 1 1 2 0
+1 0 0 0 1 1 1 1 3 0
+2 1 0 0 2 1 1 1 4 0
+$EndEntities
+$Nodes
+1 12 1 12
+3 1 0 12
+1
+2
+3
+4
+5
+6
+7
+8
+9
+10
+11
+12
+0 0 0
+1 0 0
+1 1 0
+0 1 0
+0 0 1
+1 0 1
+1 1 1
+0 1 1
+2 0 0
+2 1 0
+2 0 1
+2 1 1
+$EndNodes
+$Elements
+5 7 1 7
+2 1 3 1
+1 1 5 8 4
+2 2 3 1
+2 5 6 7 8
+2 3 2 2
+3 6 11 12
+4 6 12 7
+3 1 5 1
+5 1 2 3 4 5 6 7 8
+3 2 6 2
+6 2 9 10 6 11 12
+7 2 10 3 6 12 7
+$EndElements
+)";
+
+const std::string kAbaqus = R"(*NODE
+1, 0, 0, 0
+2, 1, 0, 0
+3, 1, 1, 0
+4, 0, 1, 0
+5, 0, 0, 1
+6, 1, 0, 1
+7, 1, 1, 1
+8, 0, 1, 1
+9, 2, 0, 0
+10, 2, 1, 0
+11, 2, 0, 1
+12, 2, 1, 1
+*ELEMENT, TYPE=C3D8R, ELSET=left
+5, 1, 2, 3, 4, 5,
+6, 7, 8
+*ELEMENT, TYPE=C3D6, ELSET=right
+6, 2, 9, 10, 6, 11, 12
+7, 2, 10, 3, 6, 12, 7
+*SURFACE, NAME=clamped
+left, S6
+*SURFACE, NAME=top
+left, S2
+right, S2
+)";
+
+const std::string kVtk = R"(# vtk DataFile Version 3.0
+three cells
+ASCII
+DATASET UNSTRUCTURED_GRID
+POINTS 12 double
+0 0 0 1 0 0 1 1 0 0 1 0
+0 0 1 1 0 1 1 1 1 0 1 1
+2 0 0 2 1 0 2 0 1 2 1 1
+CELLS 4 28
+4 0 4 7 3
+8 0 1 2 3 4 5 6 7
+6 5 10 11 1 8 9
+6 5 11 6 1 9 2
+CELL_TYPES 4
+9 12 13 13
+CELL_DATA 4
+SCALARS region int
+LOOKUP_TABLE default
+5 3 4 4
+SCALARS angle double 2
+LOOKUP_TABLE default
+9 9 10 11 20 21 30 31
+)";
+
+const std::string kVtu = R"(<VTKFile type="UnstructuredGrid" version="0.1">
+<UnstructuredGrid>
+<Piece NumberOfPoints="12" NumberOfCells="3">
+<CellData>
+<DataArray type="Int32" Name="region" format="ascii">3 4 4</DataArray>
+<DataArray type="Float64" Name="angle" NumberOfComponents="2" format="ascii">10 11 20 21 30 31</DataArray>
+</CellData>
+<Points>
+<DataArray type="Float64" NumberOfComponents="3" format="ascii">
+0 0 0 1 0 0 1 1 0 0 1 0
+0 0 1 1 0 1 1 1 1 0 1 1
+2 0 0 2 1 0 2 0 1 2 1 1
+</DataArray>
+</Points>
+<Cells>
+<DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3 4 5 6 7 5 10 11 1 8 9 5 11 6 1 9 2</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">8 14 20</DataArray>
+<DataArray type="UInt8" Name="types" format="ascii">12 13 13</DataArray>
+</Cells>
+</Piece>
+</UnstructuredGrid>
+</VTKFile>
+)";
+
+const std::string kVega = R"(*VERTICES
+12 3
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+5 0 0 1
+6 1 0 1
+7 1 1 1
+8 0 1 1
+9 2 0 0
+10 2 1 0
+11 2 0 1
+12 2 1 1
+*ELEMENTS
+CUBIC
+2 8
+1 1 2 3 4 5 6 7 8
+2 2 9 10 3 6 11 12 7
+)";
+
+struct Format {
+  const char* name;
+  const std::string* text;
+  LoadedMesh (*read)(const std::string& path, std::string_view text);
+  bool has_surfaces;
+};
+
+double volume(const TetMesh& mesh) {
+  double sum = 0;
+  for (const Tet& tet : mesh.tets) sum += signed_volume6(mesh, tet) / 6;
+  return sum;
+}
+
+std::set<std::set<int>> sets_of(const std::vector<Tet>& tets) {
+  std::set<std::set<int>> out;
+  for (const Tet& tet : tets) out.insert({tet.begin(), tet.end()});
+  return out;
+}
+
+// Area of triangles that must all lie where coordinate i is x.
+double area_in_plane(const TetMesh& mesh, const std::string& surface, Eigen::Index i, double x) {
+  double sum = 0;
+  for (const Triangle& t : mesh.surfaces.at(surface)) {
+    const auto node = [&](std::size_t k) -> const Vec3& { return mesh.nodes[static_cast<std::size_t>(t[k])]; };
+    for (const std::size_t k : {0u, 1u, 2u}) EXPECT_EQ(node(k)[i], x);
+    sum += (node(1) - node(0)).cross(node(2) - node(0)).norm() / 2;
+  }
+  return sum;
+}
+
+class InAnyFormat : public testing::TestWithParam<Format> {
+ protected:
+  static LoadedMesh load() { return GetParam().read("cells", *GetParam().text); }
+};
+
+TEST_P(InAnyFormat, TheMeshIsTheSame) {
+  const LoadedMesh loaded = load();
+  EXPECT_NEAR(volume(loaded.mesh), 2, 1e-15);
+  EXPECT_EQ(boundary_triangles(loaded.mesh).size(), 20u);
+  EXPECT_EQ(loaded.mesh.cell_of, (std::vector<int>{0, 0, 0, 0, 0, 0, 1, 1, 1, 2, 2, 2}));
+  EXPECT_EQ(loaded.mesh.region_of, (std::vector<int>{0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(sets_of(loaded.mesh.tets), sets_of(read_gmsh_text("cells", kGmsh22).mesh.tets));
+  EXPECT_EQ(loaded.warnings.back(), "cells: 1 hexahedron and 2 wedges are split into 12 tetrahedra");
+}
+
+TEST_P(InAnyFormat, QuadrilateralsOfASurfaceBecomeTriangles) {
+  const TetMesh mesh = load().mesh;
+  if (!GetParam().has_surfaces) {
+    EXPECT_TRUE(mesh.surfaces.empty());
+    return;
+  }
+  EXPECT_NEAR(area_in_plane(mesh, "clamped", 0, 0), 1, 1e-15);
+  EXPECT_NEAR(area_in_plane(mesh, "top", 2, 1), 2, 1e-15);
+}
+
+INSTANTIATE_TEST_SUITE_P(Hexahedra, InAnyFormat,
+                         testing::Values(Format{"gmsh22", &kGmsh22, read_gmsh_text, true},
+                                         Format{"gmsh41", &kGmsh41, read_gmsh_text, true},
+                                         Format{"abaqus", &kAbaqus, read_abaqus_text, true},
+                                         Format{"vtk", &kVtk, read_vtk_text, false},
+                                         Format{"vtu", &kVtu, read_vtu_text, false}),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(Hexahedra, NamesOfRegionsStay) {
+  for (const auto& text : {kGmsh22, kGmsh41})
+    EXPECT_EQ(read_gmsh_text("cells", text).mesh.region_names, (std::vector<std::string>{"left", "right"}));
+  EXPECT_EQ(read_abaqus_text("cells", kAbaqus).mesh.region_names, (std::vector<std::string>{"left", "right"}));
+}
+
+TEST(Hexahedra, CubesOfVegaAreSplit) {
+  const LoadedMesh loaded = read_vega_text("cells.veg", kVega);
+  EXPECT_NEAR(volume(loaded.mesh), 2, 1e-15);
+  EXPECT_EQ(loaded.warnings, Warnings{"cells.veg: 2 hexahedra are split into 12 tetrahedra"});
+  EXPECT_CONTAINS(refusal_of([&] { read_vega_text("cells.veg", replaced(kVega, "2 8\n", "2 4\n")); }),
+                  "cells.veg:17: 4 numbers per line; expected 8");
+}
+
+// The normal of a wedge's base is outward in VTK's manual, inward in some files.
+TEST(Hexahedra, WedgesOfVtkMayCountEitherWay) {
+  const std::string inward =
+      replaced(replaced(kVtk, "5 10 11 1 8 9", "1 8 9 5 10 11"), "5 11 6 1 9 2", "1 9 2 5 11 6");
+  EXPECT_EQ(read_vtk_text("cells", inward).mesh.tets, read_vtk_text("cells", kVtk).mesh.tets);
+}
+
+TEST(Hexahedra, VoxelsCountTheirNodesRowByRow) {
+  const std::string voxel = replaced(replaced(kVtk, "8 0 1 2 3 4 5 6 7", "8 0 1 3 2 4 5 7 6"), "9 12", "8 11");
+  EXPECT_EQ(read_vtk_text("cells", voxel).mesh.tets, read_vtk_text("cells", kVtk).mesh.tets);
+}
+
+TEST(Hexahedra, EveryTetHasTheCellDataOfItsElement) {
+  for (const LoadedMesh& loaded : {read_vtk_text("cells", kVtk), read_vtu_text("cells", kVtu)}) {
+    const CellData* angle = find_cell_data(loaded, "angle");
+    ASSERT_TRUE(angle);
+    EXPECT_EQ(angle->values, (std::vector<double>{10, 11, 10, 11, 10, 11, 10, 11, 10, 11, 10, 11,
+                                                  20, 21, 20, 21, 20, 21, 30, 31, 30, 31, 30, 31}));
+  }
+}
+
+// Five corners, whichever program they come from; the tet on it has the diagonal of no quadrilateral.
+TEST(Hexahedra, PyramidsAreRead) {
+  const std::string nodes = "1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n5, 0, 0, 3\n";
+  const LoadedMesh abaqus = read_abaqus_text(
+      "p.inp", "*NODE\n" + nodes + "*ELEMENT, TYPE=C3D5, ELSET=all\n1, 1, 2, 3, 4, 5\n*SURFACE, NAME=side\nall, S2\n");
+  EXPECT_NEAR(volume(abaqus.mesh), 1, 1e-15);
+  EXPECT_EQ(sets_of(abaqus.mesh.tets), (std::set<std::set<int>>{{0, 1, 2, 4}, {0, 2, 3, 4}}));
+  EXPECT_EQ(abaqus.mesh.surfaces.at("side"), (std::vector<Triangle>{{0, 1, 4}}));
+  const LoadedMesh vtk = read_vtk_text(
+      "p.vtk",
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n0 0 0 1 0 0 1 1 0 0 1 0 0 0 3\n"
+      "CELLS 1 6\n5 0 1 2 3 4\nCELL_TYPES 1\n14\n");
+  EXPECT_EQ(vtk.mesh.tets, abaqus.mesh.tets);
+}
+
+TEST(Hexahedra, OnesThatStandForWedgesAreSplitAsThese) {
+  const std::string collapsed =
+      replaced(replaced(kAbaqus, "C3D6", "C3D8"), "6, 2, 9, 10, 6, 11, 12\n7, 2, 10, 3, 6, 12, 7",
+               "6, 2, 9, 10, 10, 6, 11, 12, 12\n7, 2, 10, 3, 3, 6, 12, 7, 7");
+  const LoadedMesh loaded = read_abaqus_text("cells", replaced(collapsed, "right, S2\n", "6, S2\n7, S2\n"));
+  EXPECT_EQ(sets_of(loaded.mesh.tets), sets_of(read_abaqus_text("cells", kAbaqus).mesh.tets));
+  EXPECT_EQ(loaded.mesh.surfaces.at("top").size(), 4u);
+}
+
+TEST(Hexahedra, AreReadByTheirCornersIfTheyHaveMoreNodes) {
+  std::string text = replaced(kAbaqus, "C3D8R", "C3D20R");
+  text = replaced(text, "6, 7, 8\n", "6, 7, 8, 1, 2, 3, 4, 5, 6, 7, 8,\n1, 2, 3, 4\n");
+  const LoadedMesh loaded = read_abaqus_text("cells", text);
+  EXPECT_EQ(loaded.mesh.order(), 1);
+  EXPECT_EQ(loaded.mesh.tets, read_abaqus_text("cells", kAbaqus).mesh.tets);
+  EXPECT_CONTAINS(loaded.warnings.back(), "split into 12 tetrahedra; only their corners are used (`order: 2` gives");
+}
+
+TEST(Hexahedra, InvertedOnesAreRefusedWithTheirLine) {
+  EXPECT_CONTAINS(
+      refusal_of([] { read_gmsh_text("a.msh", replaced(kGmsh22, "1 2 3 4 5 6 7 8\n", "5 6 7 8 1 2 3 4\n")); }),
+      "a.msh:32: element 5, tetrahedron 1 of 6 of a hexahedron: inverted");
+  EXPECT_CONTAINS(refusal_of([] { read_gmsh_text("a.msh", replaced(kGmsh41, "2 9 10 6 11 12", "6 11 12 2 9 10")); }),
+                  "a.msh:59: element 6, tetrahedron 1 of 3 of a wedge: inverted");
+  EXPECT_CONTAINS(refusal_of([] {
+                    read_abaqus_text("a.inp", replaced(kAbaqus, "2, 9, 10, 6, 11, 12", "6, 11, 12, 2, 9, 10"));
+                  }),
+                  "a.inp:18: element 6, tetrahedron 1 of 3 of a wedge: inverted");
+  EXPECT_CONTAINS(refusal_of([] { read_vtk_text("a.vtk", replaced(kVtk, "0 1 2 3 4 5 6 7", "4 5 6 7 0 1 2 3")); }),
+                  "a.vtk: element 1, tetrahedron 1 of 6 of a hexahedron: inverted");
+}
+
+TEST(Hexahedra, AFaceThatAnElementDoesNotHaveIsRefused) {
+  EXPECT_CONTAINS(refusal_of([] { read_abaqus_text("a.inp", replaced(kAbaqus, "right, S2", "right, S6")); }),
+                  "a.inp:24: surface \"top\": S6 of element 6; a wedge has S1 to S5");
+}
+
+TEST(Hexahedra, WithTooFewNodesAreRefused) {
+  EXPECT_CONTAINS(refusal_of([] { read_gmsh_text("a.msh", replaced(kGmsh22, "5 6 7 8\n6", "5 6 7\n6")); }),
+                  "a.msh:32: expected a node tag");
+  EXPECT_CONTAINS(refusal_of([] { read_vtu_text("a.vtu", replaced(kVtu, "12 13 13", "12 12 13")); }),
+                  "a.vtu: cell 1: a hexahedron (type 12) of 6 points; expected 8");
+  EXPECT_CONTAINS(refusal_of([] { read_abaqus_text("a.inp", replaced(kAbaqus, "C3D8R", "C3D15V")); }),
+                  "a.inp:14: elements of type C3D15V; only tetrahedra");
+}
+
+}  // namespace
+}  // namespace orthodyn::hexahedra_test
