@@ -80,12 +80,12 @@ class Table {
     return extrapolate(values, kRatio, 2 * order);
   }
 
+  // By the elements of the highest order, which are nearest to it on equal cells; the orders ascend.
   std::optional<Limit> limit(const std::string& figure) const {
-    std::optional<Limit> best;
+    std::optional<Limit> found;
     for (const int order : wanted_.orders)
-      if (const auto found = extrapolated(values(order, figure), order))
-        if (!best || found->uncertainty < best->value.uncertainty) best = Limit{*found, order};
-    return best;
+      if (const auto value = extrapolated(values(order, figure), order)) found = Limit{*value, order};
+    return found;
   }
 
   double error(std::size_t level, const std::string& figure) const {

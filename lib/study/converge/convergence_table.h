@@ -14,8 +14,7 @@ namespace orthodyn::study::converge {
 
 using Results = std::map<std::filesystem::path, EvaluationResult>;  // by the folder of a job
 
-// `jobs` by level. The limit of each figure is that of the order with the smallest uncertainty; errors are relative to
-// it.
+// `jobs` by level. Errors are relative to the limit of each figure.
 Json convergence_json(const Convergence& wanted, const Design& design, const std::vector<Job>& jobs,
                       const Results& results);
 
