@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,6 +40,10 @@ class Integrator {
   // its accuracy: its steps are to end at the output times.
   virtual bool has_accurate_interpolation() const { return true; }
 
+  // A time, s, over which interpolate() is smooth where the last step is long against the motion; infinite where it is
+  // so over the whole step. Whoever looks into a step looks as often.
+  virtual double smooth_time() const { return std::numeric_limits<double>::infinity(); }
+
   // The last step's middle, (q0 + q1)/2 with the mean velocity (q1 - q0)/h, of a method in whose energy balance powers
   // are those there: its velocities of stiff modes alternate from step to step and would dissipate what was never lost.
   // None: powers are to be integrated along interpolate().
@@ -53,6 +58,9 @@ class Integrator {
 
   // What was decided that the input left open: (key, value) pairs such as ("max_order", "5").
   virtual std::vector<std::pair<std::string, std::string>> decisions() const { return {}; }
+
+  // What of the motion so far should not be taken on trust: a sentence each, with what to do.
+  virtual std::vector<std::string> doubts() const { return {}; }
 };
 
 // Sizes against which errors are measured: an error of rtol * position in every free coordinate, or
