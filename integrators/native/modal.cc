@@ -28,9 +28,10 @@ namespace {
 constexpr double kMisfit = 0.05;      // of the motion: a start that the modes do not represent
 constexpr double kShorter = 0.25;     // after a force that cannot be evaluated
 constexpr double kLoadRoundOff = 64 * std::numeric_limits<double>::epsilon();
-constexpr double kSmoothPhase = 1;    // rad, of the motion between two looks at it
+constexpr double kSmoothPhase = 0.5;  // rad, of the motion between two looks at it
 constexpr int kLooksAtLoad = 4;       // in a step in which it varies
-constexpr int kRestingIntervals = 10;  // of outputs, in a step after one in which it did not
+constexpr int kLeastSteps = 50;       // of a run whose load may vary
+constexpr int kRestingIntervals = 10;  // in a step after one in which it did not vary
 
 struct ModalOptions : ErrorControl, ModeLimit {
   std::string kept;
@@ -60,7 +61,10 @@ class Modal : public Integrator {
   Modal(const Model& model, const Task& task, const ModalOptions& options)
       : model_(model), options_(options), basis_(measured_basis(model, options, statistics_)),
         scales_(options.scales(task)), norm_(options.rtol, scales_), control_(kLoadTerms + 1), truncation_(basis_) {
-    if (model.traits().time_dependent && task.output_interval > 0) interval_ = task.output_interval;
+    if (model.traits().time_dependent) {
+      interval_ = (task.end - task.initial.t) / kLeastSteps;
+      if (task.output_interval > 0) interval_ = std::min(interval_, task.output_interval);
+    }
     check_start(task.initial);
   }
 
@@ -123,13 +127,14 @@ class Modal : public Integrator {
     const ModalState before{begin_.r - equilibrium(load_, 0), begin_.rate};
     const ModalState after{end_.r - equilibrium(load_, 1), end_.rate};
     double energy = 0, rates = 0;
-    for (Eigen::Index k = 0; k < basis_.size(); ++k) {
-      const double lambda = basis_.lambda()[k], d = basis_.damping()[k];
-      const double own = std::max(before.rate[k] * before.rate[k] + lambda * before.r[k] * before.r[k],
-                                  after.rate[k] * after.rate[k] + lambda * after.r[k] * after.r[k]);
-      energy += own;
-      rates += own * (d * d > 4 * lambda ? std::pow(lambda / std::max(d, 1e-300), 2) : lambda);
-    }
+    for (const ModalState& at : {before, after})
+      for (Eigen::Index k = 0; k < basis_.size(); ++k) {
+        const double lambda = basis_.lambda()[k], d = basis_.damping()[k];
+        const double kinetic = at.rate[k] * at.rate[k], elastic = lambda * at.r[k] * at.r[k];
+        const bool overdamped = d * d > 4 * lambda;  // velocities then die at the rate d, deformations at lambda/d
+        energy += kinetic + elastic;
+        rates += overdamped ? kinetic * d * d + elastic * std::pow(lambda / d, 2) : lambda * (kinetic + elastic);
+      }
     const double of_load = load_.varies ? load_.h / kLooksAtLoad : std::numeric_limits<double>::infinity();
     return rates > 0 ? std::min(of_load, kSmoothPhase / std::sqrt(rates / energy)) : of_load;
   }
@@ -355,7 +360,7 @@ class Modal : public Integrator {
   ScaledNorm norm_;
   StepControl control_;
   ModalTruncation truncation_;
-  double interval_ = std::numeric_limits<double>::infinity();  // of outputs, s, where the load may vary
+  double interval_ = std::numeric_limits<double>::infinity();  // between looks at a load that may vary, s
   double h_ = 0;        // proposed; 0 before the first step
   State from_;          // of the last start
   bool is_starting_ = false;

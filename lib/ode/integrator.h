@@ -2,6 +2,8 @@
 // input by `type` through Registry<IntegratorChoice>.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -62,6 +64,11 @@ class Integrator {
   // What of the motion so far should not be taken on trust: a sentence each, with what to do.
   virtual std::vector<std::string> doubts() const { return {}; }
 };
+
+// Into how many equal parts whoever looks into a span h within the last step is to divide it.
+inline double smooth_parts(const Integrator& integrator, double h) {
+  return std::ceil(h / std::min(h, integrator.smooth_time()));
+}
 
 // Sizes against which errors are measured: an error of rtol * position in every free coordinate, or
 // of rtol * velocity in every velocity, is at tolerance.

@@ -89,7 +89,7 @@ class Driver {
   const Event* deliver_events(double begin, StepInfo& info) {
     if (!plan_.events || plan_.events->empty()) return nullptr;
     const auto interpolate = [&](double t, State& out) { integrator_.interpolate(t, out); };
-    const double end = info.t, h = end - begin, parts = std::ceil(h / std::min(h, integrator_.smooth_time()));
+    const double end = info.t, h = end - begin, parts = smooth_parts(integrator_, h);
     for (double part = 0; part < parts; ++part) {
       const double to = part + 1 < parts ? begin + (part + 1) * h / parts : end;
       for (const Crossing& crossing : plan_.events->find(begin + part * h / parts, to, model_, interpolate)) {

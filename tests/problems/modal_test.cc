@@ -15,6 +15,7 @@
 #include "lib/linear/solver.h"
 #include "lib/simulation/errors/modal_solution.h"
 #include "lib/simulation/observers/balance.h"
+#include "lib/study/quantities/verify.h"
 #include "tests/problems/running.h"
 
 namespace orthodyn::modal_test {
@@ -189,6 +190,23 @@ TEST(Modal, FindsAllEventsInAStepOfManyPeriods) {
   }
   EXPECT_GT(changes, 20);
   EXPECT_EQ(count.events, changes);
+}
+
+// Cases with known figures, which look into its steps: moved supports, reactions, maxima, frequencies, energies.
+TEST(Modal, MeetsTheExpectationsOfLinearCases) {
+  for (const std::string name :
+       {"base_excited_oscillator", "base_excited_consistent", "bar_ramp_load", "bar_step_load", "bar_frequency_lumped",
+        "bar_frequency_consistent", "one_node_harmonic_load", "reaction_of_a_shelf", "point_load", "confined_creep",
+        "falling_with_drag", "hydrostatic_pressure", "spring_and_mass"}) {
+    Config config = Config::from_file(ORTHODYN_SOURCE_DIR "/configs/cases/" + name + ".yaml");
+    config.set_yaml("integrator", "{type: modal, modes: 100000, rtol: 1e-6}");
+    config.set_yaml("elasticity.kinematics", "linear");
+    const study::CaseResult result = study::verify(config);
+    EXPECT_EQ(result.outcome.message, "") << name;
+    for (const auto& check : result.checks)
+      EXPECT_TRUE(check.passed()) << name << ": " << check.expectation.title() << ": computed " << check.computed
+                                  << ", expected " << check.expectation.value;
+  }
 }
 
 std::string refusal(const std::string& more, const std::string& integrator) {
