@@ -28,6 +28,8 @@ class Automatic : public Integrator {
   StepInfo step(double t_stop) override { return integrator_->step(t_stop); }
   void interpolate(double t, State& out) const override { integrator_->interpolate(t, out); }
   bool has_accurate_interpolation() const override { return integrator_->has_accurate_interpolation(); }
+  double smooth_time() const override { return integrator_->smooth_time(); }
+  std::vector<std::string> doubts() const override { return integrator_->doubts(); }
   std::optional<State> mean_state() const override { return integrator_->mean_state(); }
   const Statistics& statistics() const override { return integrator_->statistics(); }
   std::size_t factor_bytes() const override { return integrator_->factor_bytes(); }

@@ -120,7 +120,11 @@ EigenPairs sparse(Problem& problem, double largest, int count) {
   const int zeros = zeros_among(pairs.values, largest);
   if (zeros == 0 || zeros == wanted) return pairs;
   const double lowest = pairs.values.tail(pairs.values.size() - zeros).cwiseAbs().minCoeff();
-  return lowest > shift && problem.shift(lowest) ? lanczos(problem, lowest, wanted) : pairs;
+  if (!(lowest > shift) || !problem.shift(lowest)) return pairs;
+  // Zeros no longer stand out there, and Lanczos' method may find one of several equal eigenvalues too few.
+  for (int more = wanted; more <= std::min(problem.size() - 1, wanted + 3 * kRigid); more += kRigid)
+    if (EigenPairs again = lanczos(problem, lowest, more); zeros_among(again.values, largest) >= zeros) return again;
+  return pairs;
 }
 
 }  // namespace

@@ -2,7 +2,10 @@
 // input by `type` through Registry<IntegratorChoice>.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,6 +42,10 @@ class Integrator {
   // its accuracy: its steps are to end at the output times.
   virtual bool has_accurate_interpolation() const { return true; }
 
+  // A time, s, over which interpolate() is smooth where the last step is long against the motion; infinite where it is
+  // so over the whole step. Whoever looks into a step looks as often.
+  virtual double smooth_time() const { return std::numeric_limits<double>::infinity(); }
+
   // The last step's middle, (q0 + q1)/2 with the mean velocity (q1 - q0)/h, of a method in whose energy balance powers
   // are those there: its velocities of stiff modes alternate from step to step and would dissipate what was never lost.
   // None: powers are to be integrated along interpolate().
@@ -53,7 +60,15 @@ class Integrator {
 
   // What was decided that the input left open: (key, value) pairs such as ("max_order", "5").
   virtual std::vector<std::pair<std::string, std::string>> decisions() const { return {}; }
+
+  // What of the motion so far should not be taken on trust: a sentence each, with what to do.
+  virtual std::vector<std::string> doubts() const { return {}; }
 };
+
+// Into how many equal parts whoever looks into a span h within the last step is to divide it.
+inline double smooth_parts(const Integrator& integrator, double h) {
+  return std::ceil(h / std::min(h, integrator.smooth_time()));
+}
 
 // Sizes against which errors are measured: an error of rtol * position in every free coordinate, or
 // of rtol * velocity in every velocity, is at tolerance.

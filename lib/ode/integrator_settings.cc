@@ -14,6 +14,8 @@ std::vector<std::pair<const char*, double>> numbers(const IntegratorSettings& s)
   add("step", s.step);
   add("safety", s.safety);
   add("rtol", s.rtol);
+  add("modes", s.modes);
+  add("below", s.below);
   add("h_max", s.h_max);
   add("h_min", s.h_min);
   add("h0", s.h0);

@@ -16,6 +16,8 @@ struct IntegratorSettings {
   std::optional<double> h0 = {}, h_min = {}, h_max = {};           // s: the first, smallest and largest step
   std::optional<double> position_scale = {}, velocity_scale = {};  // m, m/s
   std::optional<double> safety = {};                               // share of the critical step of an explicit method
+  std::optional<int> modes = {};     // how many are kept
+  std::optional<double> below = {};  // Hz: the modes that are kept
   std::optional<long> max_steps = {};
   std::optional<std::string> linear_solver = {};
 };

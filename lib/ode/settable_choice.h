@@ -24,6 +24,8 @@ void for_each_setting(Options& options, Settings& settings, Visit visit) {
   if constexpr (requires { options.position_scale; }) visit(options.position_scale, settings.position_scale);
   if constexpr (requires { options.velocity_scale; }) visit(options.velocity_scale, settings.velocity_scale);
   if constexpr (requires { options.safety; }) visit(options.safety, settings.safety);
+  if constexpr (requires { options.modes; }) visit(options.modes, settings.modes);
+  if constexpr (requires { options.below; }) visit(options.below, settings.below);
   if constexpr (requires { options.max_steps; }) visit(options.max_steps, settings.max_steps);
   if constexpr (requires { options.linear_solver; }) visit(options.linear_solver, settings.linear_solver);
 }

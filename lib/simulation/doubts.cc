@@ -69,6 +69,7 @@ std::vector<std::string> doubts(const RunResult& result) {
     if (!(motion->det_f.value > 0))
       all.push_back(fmt::format("element {} was inverted at t = {:.4g} s (det F = {:.3g})", motion->det_f.element,
                                 motion->det_f.time, motion->det_f.value));
+    all.insert(all.end(), motion->doubts.begin(), motion->doubts.end());
     if (motion->energy && !(motion->energy->relative_drift <= kMuchDrift))
       all.push_back(drift_sentence(*motion->energy));
     if (motion->accumulated && !(motion->accumulated->error <= kMuchError))

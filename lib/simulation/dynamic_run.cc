@@ -139,6 +139,7 @@ class DynamicAnalysis {
     const InversionWatch& inversion = observers.inversion;
     MotionResult out{.integrator = setup_.config.at("integrator").at("type").text(),
                      .decisions = integrator.decisions(),
+                     .doubts = integrator.doubts(),
                      .effort = before + Effort{integrator.statistics(), outcome.wall_seconds, outcome.cpu_seconds},
                      .factor_bytes = integrator.factor_bytes(),
                      .det_f = {inversion.smallest(), inversion.element(), inversion.time()}};

@@ -89,13 +89,17 @@ class Driver {
   const Event* deliver_events(double begin, StepInfo& info) {
     if (!plan_.events || plan_.events->empty()) return nullptr;
     const auto interpolate = [&](double t, State& out) { integrator_.interpolate(t, out); };
-    for (const Crossing& crossing : plan_.events->find(begin, info.t, model_, interpolate)) {
-      deliver_outputs(crossing.state.t);
-      for (auto* o : observers_) o->on_event(crossing);
-      if (!crossing.event->stops) continue;
-      info.t = crossing.state.t;
-      info.h = info.t - begin;
-      return crossing.event;
+    const double end = info.t, h = end - begin, parts = smooth_parts(integrator_, h);
+    for (double part = 0; part < parts; ++part) {
+      const double to = part + 1 < parts ? begin + (part + 1) * h / parts : end;
+      for (const Crossing& crossing : plan_.events->find(begin + part * h / parts, to, model_, interpolate)) {
+        deliver_outputs(crossing.state.t);
+        for (auto* o : observers_) o->on_event(crossing);
+        if (!crossing.event->stops) continue;
+        info.t = crossing.state.t;
+        info.h = info.t - begin;
+        return crossing.event;
+      }
     }
     return nullptr;
   }

@@ -20,6 +20,7 @@ const std::map<std::string, TestedMethod>& tested_methods() {
       {"generalized_alpha", {{{2}}, true, false, false, "", true}},
       {"hht_alpha", {{{2}}, true, false, false, "", true}},
       {"ida_bdf", {{{2, ", max_order: 2"}, {5, ", max_order: 5"}}, true, true}},
+      {"modal", {.variants = {{5}}, .exact_if_linear = true, .needs = ", modes: 1000", .linear_only = true}},
       {"newmark", {{{2}, {1, ", beta: 0.5, gamma: 0.7"}}, true, false, false, "", true}},
       {"rosenbrock", {{{3}}}},
       {"sdirk", {{{2, ", order: 2"}, {3, ", order: 3"}, {4, ", order: 4"}}}},

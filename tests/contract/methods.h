@@ -22,11 +22,12 @@ struct TestedMethod {
   std::vector<Variant> variants;  // at least one
   bool stiff = true;              // steps may be far longer than a stiff time scale
   bool full_path = false;         // takes linear_solver: klu_full
-  bool exact_if_linear = false;   // the error is that of Krylov spaces, and has no order
+  bool exact_if_linear = false;   // the error is that of Krylov spaces or of the load's interpolation, and has no order
   std::string needs = "";         // options without which there is no such method
   bool has_one_estimator = false;  // of the local error of its one order
   bool chooses = false;           // is one of the others, and has tests of its own
   bool keeps_energy = false;      // to round-off
+  bool linear_only = false;       // refuses all other models
 };
 
 const std::map<std::string, TestedMethod>& tested_methods();

@@ -85,7 +85,8 @@ void PartRecorder::start(const ObservedState& observed) {
   measure(observed);
 }
 
-void PartRecorder::on_step(const StepInfo&, const ObservedState& observed, const Integrator&) {
+void PartRecorder::on_step(const StepInfo& info, const ObservedState& observed, const Integrator& integrator) {
+  if (info.h > integrator.smooth_time()) return;  // exact in time: parts of many periods would cost a whole run
   ++step_;
   if (open_ && step_ == opened_at_ + kSteps) {
     add_powers(observed);

@@ -33,6 +33,8 @@ IntegratorSettings refined(const IntegratorSettings& own) {
   if (own.step) more.step = rounded(*own.step / 2);
   if (own.safety && !own.step) more.safety = rounded(*own.safety / 2);  // of a step that follows the critical one
   if (own.rtol) more.rtol = rounded(*own.rtol / kRefinement);
+  if (own.modes) more.modes = 2 * *own.modes;
+  if (own.below) more.below = rounded(2 * *own.below);
   if (own.h_max) more.h_max = rounded(*own.h_max / 2);
   if (own.h_min && *own.h_min > 0) more.h_min = 0;
   if (own.h0 && own.h_max) more.h0 = rounded(*own.h0 / 2);

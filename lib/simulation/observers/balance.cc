@@ -63,10 +63,12 @@ void EnergyMeter::advance_powers(double t) {
   if (const auto mean = integrator_.mean_state()) return add_powers(*mean, h);
   // Never at the ends of a step, where velocities of supports may jump.
   State state;
-  for (const double share : {0.5 - std::sqrt(1.0 / 12), 0.5 + std::sqrt(1.0 / 12)}) {
-    integrator_.interpolate(begin + share * h, state);
-    add_powers(state, h / 2);
-  }
+  const double parts = smooth_parts(integrator_, h);
+  for (double part = 0; part < parts; ++part)
+    for (const double share : {0.5 - std::sqrt(1.0 / 12), 0.5 + std::sqrt(1.0 / 12)}) {
+      integrator_.interpolate(begin + (part + share) * h / parts, state);
+      add_powers(state, h / (2 * parts));
+    }
 }
 
 void EnergyMeter::add_powers(const State& at, double duration) {

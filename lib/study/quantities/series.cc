@@ -160,7 +160,8 @@ void SeriesRecorder::on_output(const ObservedState& observed) { pending_.push_ba
 
 void SeriesRecorder::on_step(const StepInfo& info, const ObservedState& observed, const Integrator& integrator) {
   std::vector<double> samples = pending_;
-  for (int k = 1; k < kSamplesPerStep; ++k) samples.push_back(last_t_ + (info.t - last_t_) * k / kSamplesPerStep);
+  const double h = info.t - last_t_, count = kSamplesPerStep * smooth_parts(integrator, h);
+  for (double k = 1; k < count; ++k) samples.push_back(last_t_ + h * k / count);
   std::sort(samples.begin(), samples.end());
   for (const double t : samples) {
     if (t <= last_t_ || t >= info.t) continue;
