@@ -78,8 +78,9 @@ class Judge {
       const double share = std::abs(load.dot(response_.displacement)) / response_.work;
       if (!(share < threshold())) continue;
       const std::string& name = names[parts().elastic.size() + k];
-      found_.push_back(fmt::format("{}: its work is {:.1e} of that of all loads; leaving it out saves {:.1g} % of a force",
-                                   name, share, 100 * share_of_force(name)));
+      found_.push_back(
+          fmt::format("{}: its work is {:.1e} of that of all loads; leaving it out saves {:.1g} % of a force", name,
+                      share, 100 * share_of_force(name)));
     }
   }
 
@@ -93,9 +94,10 @@ class Judge {
     const auto& damping = *setup_.scene.damping;
     const double taken = 0.5 * (damping.mass + damping.stiffness * omega2) * time;
     if (taken < accuracy_)
-      found_.push_back(fmt::format("damping: it takes {:.1e} of a slow vibration ({:.3g} Hz) in the time simulated; fast "
-                                   "vibrations it does take",
-                                   taken, std::sqrt(omega2) / (2 * M_PI)));
+      found_.push_back(
+          fmt::format("damping: it takes {:.1e} of a slow vibration ({:.3g} Hz) in the time simulated; fast "
+                      "vibrations it does take",
+                      taken, std::sqrt(omega2) / (2 * M_PI)));
   }
 
   // In the response, in which a region may move and hardly be strained.
@@ -118,7 +120,8 @@ class Judge {
     const auto energy = model_.evaluate("energy.mesh_error", state);
     const double error = energy[0] / (energy[0] + energy[1]);
     if (error < threshold())
-      found_.push_back(fmt::format("mesh: its error is about {:.1e}: fewer cells, or a smaller rtol, go with it", error));
+      found_.push_back(
+          fmt::format("mesh: its error is about {:.1e}: fewer cells, or a smaller rtol, go with it", error));
   }
 
   void look_at_kinematics() {

@@ -34,6 +34,17 @@ class Quantities(InAFolder):
         np.testing.assert_allclose(von_mises(np.array([[3.0, 0, 0, 0, 0, 0], [0, 0, 0, 2, 0, 0], [5, 5, 5, 0, 0, 0]])),
                                    [3, 2 * np.sqrt(3), 0])
 
+    def test_fields_at_nodes_are_named_and_preferred(self):
+        frame = self.frame
+        self.assertEqual(find_quantity(None, frame).field, "stress")
+        frame.node_fields["nodal_stress"] = np.tile([3e6, 0, 0, 0, 0, 0], (5, 1))
+        quantity = find_quantity(None, frame)
+        self.assertEqual((quantity.field, quantity.kind, quantity.on_nodes), ("nodal_stress", "von_mises", True))
+        self.assertEqual((quantity.label, quantity.unit), ("stress, von Mises", "Pa"))
+        np.testing.assert_allclose(quantity.values(frame), 3e6)
+        frame.node_fields["nodal_stress_material"] = frame.node_fields["nodal_stress"]
+        self.assertEqual(find_quantity("nodal_stress_material.11", frame).kind, 0)
+
     def test_a_name_finds_its_component(self):
         for text, wanted in (("displacement.y", POINTS[:, 1]), ("displacement", np.linalg.norm(POINTS, axis=1)),
                              ("stress.xy", [0, 4e6]), ("stress", [6e6, 4e6 * np.sqrt(3)]), ("det_f", [8, 8]),

@@ -247,8 +247,8 @@ time: {{end: 1}}
   EXPECT_LT(bending(1), 0.7 * expected);
 }
 
-// A clamped spruce beam, grain along it, against Timoshenko's beam (kappa = 5/6; roots of its determinant), whose section
-// the clamp does not keep from contracting, and against the limit of three meshes.
+// A clamped spruce beam, grain along it, against Timoshenko's beam (kappa = 5/6; roots of its determinant), whose
+// section the clamp does not keep from contracting, and against the limit of three meshes.
 TEST(QuadraticBeam, OfSpruceVibratesAsItsRefinedLimit) {
   const auto frequencies = [](int cells) {
     const BuiltTestScene s(fmt::format(R"(
@@ -258,7 +258,8 @@ materials:
 elasticity: {{kinematics: linear}}
 clamps: [{{surface: x0}}]
 time: {{end: 1}}
-)", 10 * cells, cells, cells));
+)",
+                                       10 * cells, cells, cells));
     const Modes found = natural_modes(s.model(), {0, s.zero(), s.zero()}, 2);
     return std::array{found.modes[0].frequency(), found.modes[1].frequency()};
   };

@@ -12,7 +12,7 @@ HELP = """Draws what `orthodyn run` has written into a result folder.
 examples:
   draw all out/beam                                    everything, into out/beam/pictures
   draw frame out/beam --time 0.5 --grain               one picture, the grain as short strokes
-  draw frame out/beam --color stress_material.11       stress along the grain, at the last frame
+  draw frame out/beam --color nodal_stress_material.11 stress along the grain, at the last frame
   draw frame out/beam --color velocity.z --view 0,0    seen along x
   draw strip out/beam --count 6 --ghost                six frames with the rest shape's outline
   draw strip out/beam --times 0,0.1,0.4 --scale 20     deformation enlarged twenty times
@@ -26,8 +26,9 @@ COLORS = """colours (--color FIELD[.COMPONENT]):
   stress                      .xx .yy .zz .xy .yz .zx .magnitude .von_mises (default)
   stress_material             .11 .22 .33 .12 .23 .31 .magnitude .von_mises (default)
   strain                      .11 .22 .33 .12 .23 .31 .magnitude (default); 1 is along the grain
+  nodal_stress, ...           likewise, recovered at the nodes: for quadratic elements
   det_f, region               volume ratio; one colour per region
-  Without --color: stress.von_mises where frames carry stress, else displacement.
+  Without --color: nodal_stress.von_mises or stress.von_mises where frames carry it, else displacement.
   The range of cell fields leaves out the outermost 0.4 % at either end, where the colour bar
   then has a tip; --range gives it exactly. It is one range for all frames of a picture."""
 MOST_FRAMES = 60

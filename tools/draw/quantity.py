@@ -7,7 +7,8 @@ from .errors import unknown
 
 SPACE = ("xx", "yy", "zz", "xy", "yz", "zx")
 MATERIAL = ("11", "22", "33", "12", "23", "31")
-UNITS = {"displacement": "m", "velocity": "m/s", "stress": "Pa", "stress_material": "Pa"}
+UNITS = {"displacement": "m", "velocity": "m/s", "stress": "Pa", "stress_material": "Pa", "mesh_error": "J/m^3"}
+AT_NODES = "nodal_"  # the same field, recovered at the nodes
 NEUTRAL = {"det_f": 1.0}  # the value of the undeformed body; every other signed field has 0
 
 
@@ -25,6 +26,7 @@ def magnitude(v):
 
 def component_names(field, count):
     if count == 6:
+        field = field.removeprefix(AT_NODES)
         return MATERIAL if field in ("stress_material", "strain") else SPACE
     return {1: (), 3: ("x", "y", "z")}.get(count, tuple(str(i) for i in range(count)))
 
@@ -39,7 +41,7 @@ class Quantity:
 
     @property
     def unit(self):
-        return UNITS.get(self.field, "")
+        return UNITS.get(self.field.removeprefix(AT_NODES), "")
 
     @property
     def categorical(self):
@@ -65,7 +67,9 @@ class Quantity:
 
 
 def default_quantity(frame):
-    """The von Mises stress where frames carry stress, otherwise the displacement."""
+    """The von Mises stress where frames carry stress, that at the nodes first; otherwise the displacement."""
+    if AT_NODES + "stress" in frame.node_fields:
+        return AT_NODES + "stress.von_mises"
     return "stress.von_mises" if "stress" in frame.cell_fields else "displacement"
 
 
@@ -82,11 +86,11 @@ def find_quantity(text, frame):
     fields = {**frame.cell_fields, **frame.node_fields}
     field, part = _split(text or default_quantity(frame), fields)
     on_nodes, count = field in frame.node_fields, fields[field].shape[1]
-    title = field.replace("_", " ").replace("det f", "volume ratio det F")
+    title = field.removeprefix(AT_NODES).replace("_", " ").replace("det f", "volume ratio det F")
     if count == 1 and not part:
         return Quantity(field, "value", title, on_nodes)
     components = component_names(field, count)
-    derived = ["magnitude"] * (count > 1) + ["von_mises"] * (count == 6 and field.startswith("stress"))
+    derived = ["magnitude"] * (count > 1) + ["von_mises"] * (count == 6 and field.removeprefix(AT_NODES).startswith("stress"))
     part = part or derived[-1]
     if part in derived:
         return Quantity(field, part, f"{title}, {part.replace('von_mises', 'von Mises')}", on_nodes)

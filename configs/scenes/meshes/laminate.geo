@@ -14,8 +14,8 @@ tip() = Surface In BoundingBox{0.3 - e, -e, -e, 0.3 + e, 0.04 + e, 0.008 + e};
 Physical Surface("root") = {root()};
 Physical Surface("tip") = {tip()};
 
-Mesh.CharacteristicLengthMin = 0.005;
-Mesh.CharacteristicLengthMax = 0.005;
+Mesh.CharacteristicLengthMin = 0.012;
+Mesh.CharacteristicLengthMax = 0.012;
 Mesh.Optimize = 1;
 Mesh.OptimizeNetgen = 1;
 Mesh.SaveAll = 0;

@@ -19,6 +19,6 @@ caps() = Surface In BoundingBox {-0.01, -0.01, -0.01, 0.01, 0.01, 0.01};
 Physical Surface("origin") = {caps()};
 ends() = Surface In BoundingBox {L - 0.01, -0.01, -0.01, L + 0.01, 0.01, 0.01};
 Physical Surface("insertion") = {ends()};
-Mesh.MeshSizeMin = 0.004; Mesh.MeshSizeMax = 0.0078;
-Mesh.MeshSizeFromCurvature = 18;
+Mesh.MeshSizeMin = 0.005; Mesh.MeshSizeMax = 0.02;
+Mesh.MeshSizeFromCurvature = 14;
 Mesh.Optimize = 1;

@@ -21,5 +21,5 @@ BooleanUnion(2) = { Volume{21}; Delete; }{ Volume{22:24}; Delete; };
 Physical Volume("along") = {1};
 Physical Volume("across") = {2};
 Physical Surface("grip") = Surface In BoundingBox{-1, -1, -t - shaft - 1e-6, 1, 1, -t - shaft + 1e-6};
-Mesh.MeshSizeMin = t/2.4;
-Mesh.MeshSizeMax = t/2.4;
+Mesh.MeshSizeMin = t;
+Mesh.MeshSizeMax = t;
