@@ -24,7 +24,7 @@ namespace {
 // A linear cantilever of 360 unknowns, its grain oblique: 51 Hz.
 BuiltTestScene beam(const std::string& rest) {
   return BuiltTestScene(R"(
-mesh: {type: box, size: [1, 0.1, 0.1], cells: [13, 2, 2]}
+mesh: {type: box, size: [1, 0.1, 0.1], cells: [13, 2, 2], order: 1}
 materials: {m: {type: orthotropic_stable, density: 500, young: [1e9, 1e8, 5e7], nu: 0.3}}
 regions: {all: {material: m, axes: )" + kTurnedAxes + "}}\nelasticity: {kinematics: linear}\n" + rest);
 }
@@ -221,7 +221,7 @@ std::string refusal(const std::string& more, const std::string& integrator) {
 
 TEST(Modal, RefusesDampingThatDiffersAmongRegionsAndTellsTheRemedy) {
   const BuiltTestScene scene(R"(
-mesh: {type: box, size: [1, 0.1, 0.1], cells: [4, 1, 1], parts: {tip: {min: [0.5, 0, 0], max: [1, 1, 1]}}}
+mesh: {type: box, size: [1, 0.1, 0.1], cells: [4, 1, 1], parts: {tip: {min: [0.5, 0, 0], max: [1, 1, 1]}}, order: 1}
 materials: {m: {type: orthotropic_stable, density: 500, young: [1e9, 1e8, 5e7], nu: 0.3}}
 regions: {tip: {material: m, stiffness_damping: 1e-3}, body: {material: m}}
 elasticity: {kinematics: linear}
