@@ -16,6 +16,7 @@ namespace {
 constexpr double kUsualAccuracy = 1e-3;  // without an rtol
 constexpr double kOfAccuracy = 0.1;      // what is smaller than this part of it does not matter
 constexpr double kSmall = 1e-6;        // of the smallest extent
+constexpr int kLargestSystem = 30'000;  // unknowns of which two more models and a factor are made
 constexpr double kMuchData = 1e9;        // bytes of frames
 
 double seconds_of(double budget, const std::function<void()>& work) {
@@ -126,7 +127,7 @@ class Judge {
 
   void look_at_kinematics() {
     if (setup_.scene.elasticity.kinematics != Kinematics::corotational || setup_.scene.elasticity.is_warped() ||
-        setup_.kinematics)
+        setup_.kinematics || model_.num_dofs() > kLargestSystem)
       return;
     Config config = setup_.config.copy().resolving();
     config.set("elasticity.kinematics", std::string("auto"));
