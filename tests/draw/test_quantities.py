@@ -65,6 +65,14 @@ class Quantities(InAFolder):
         norm = Colouring(ratio, [np.array([0.5, 1.2])]).norm
         self.assertAlmostEqual(norm.vmin + norm.vmax, 2)
 
+    def test_a_colour_range_leaves_out_peaks_of_stresses_alone(self):
+        self.frame.node_fields["nodal_stress"] = np.zeros((5, 6))
+        values = np.append(np.linspace(0, 1, 1000), 50)
+        for name, high in (("stress", 1), ("nodal_stress", 1), ("displacement", 50)):
+            with self.subTest(name=name):
+                colouring = Colouring(find_quantity(name, self.frame), [values])
+                self.assertAlmostEqual(colouring.norm.vmax * colouring.factor, high, delta=0.01)
+
     def test_cells_that_are_not_a_number_keep_their_own_colour(self):
         colouring = Colouring(find_quantity("stress", self.frame), [np.array([np.nan, 1e6, 2e6])])
         self.assertTrue(colouring.has_nan)

@@ -29,8 +29,8 @@ COLORS = """colours (--color FIELD[.COMPONENT]):
   nodal_stress, ...           likewise, recovered at the nodes: for quadratic elements
   det_f, region               volume ratio; one colour per region
   Without --color: nodal_stress.von_mises or stress.von_mises where frames carry it, else displacement.
-  The range of cell fields leaves out the outermost 0.4 % at either end, where the colour bar
-  then has a tip; --range gives it exactly. It is one range for all frames of a picture."""
+  The range of stresses, strains and other cell fields leaves out the outermost 0.4 % at either
+  end, where the colour bar then has a tip; --range gives it exactly. It is one range for all frames of a picture."""
 MOST_FRAMES = 60
 
 

@@ -8,7 +8,7 @@ from .units import prefix
 # Paul Tol, "bright" and "muted" qualitative schemes (personal.sron.nl/~pault), lightest last.
 CATEGORIES = ("#4477AA", "#EE8866", "#228833", "#CCBB44", "#AA3377", "#66CCEE", "#BBBBBB", "#882255", "#44AA99")
 NOT_A_NUMBER = "#E6007E"
-FEW_BEYOND = 0.4  # per cent of the cells at either end that a colour range may leave out
+FEW_BEYOND = 0.4  # per cent of the values of a peaked field, at either end, that its colour range leaves out
 
 
 def _cut(name, low, high):
@@ -33,7 +33,7 @@ class Colouring:
     def _range(self, finite):
         if finite.size == 0:
             return 0.0, 1.0
-        ends = (0, 100) if self.quantity.on_nodes else (FEW_BEYOND, 100 - FEW_BEYOND)
+        ends = (FEW_BEYOND, 100 - FEW_BEYOND) if self.quantity.peaked else (0, 100)
         low, high = np.percentile(finite, ends)
         neutral = self.quantity.neutral
         if neutral is not None:

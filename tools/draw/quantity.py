@@ -44,6 +44,11 @@ class Quantity:
         return UNITS.get(self.field.removeprefix(AT_NODES), "")
 
     @property
+    def peaked(self):
+        """Whether a few values, at corners and clamped edges, may dwarf the others."""
+        return not self.on_nodes or self.field.startswith(AT_NODES)
+
+    @property
     def categorical(self):
         return self.field == "region"
 
@@ -90,7 +95,8 @@ def find_quantity(text, frame):
     if count == 1 and not part:
         return Quantity(field, "value", title, on_nodes)
     components = component_names(field, count)
-    derived = ["magnitude"] * (count > 1) + ["von_mises"] * (count == 6 and field.removeprefix(AT_NODES).startswith("stress"))
+    stress = count == 6 and field.removeprefix(AT_NODES).startswith("stress")
+    derived = ["magnitude"] * (count > 1) + ["von_mises"] * stress
     part = part or derived[-1]
     if part in derived:
         return Quantity(field, part, f"{title}, {part.replace('von_mises', 'von Mises')}", on_nodes)
