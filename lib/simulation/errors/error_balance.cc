@@ -17,7 +17,7 @@ constexpr double kMargin = 30;          // how much smaller than the mesh's erro
 std::optional<double> time_error(const MotionResult& motion) {
   if (motion.error && motion.error->completed && std::isfinite(motion.error->displacement.l2))
     return motion.error->displacement.l2;
-  if (motion.accumulated) return motion.accumulated->error;
+  if (motion.accumulated && std::isfinite(motion.accumulated->error)) return motion.accumulated->error;
   return std::nullopt;
 }
 
@@ -47,6 +47,7 @@ std::string advice(const RunResult& result, double mesh, const std::optional<dou
 }  // namespace
 
 std::optional<ErrorBalance> error_balance(const RunResult& result) {
+  if (!result.motion && !result.equilibrium) return std::nullopt;
   const auto& mesh = result.motion ? result.motion->mesh_error : result.equilibrium->mesh_error;
   if (!mesh) return std::nullopt;
   const std::optional<double> time = result.motion ? time_error(*result.motion) : std::nullopt;
