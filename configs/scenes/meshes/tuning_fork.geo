@@ -1,6 +1,6 @@
 // Two tuning forks side by side, in metres: a shaft, a yoke and two prongs each, of square section, drawn in the plane
-// y = 0 and extruded. Cells are small at the inner corners, where the stress is singular and the prongs turn: with cells
-// of t there, too, the pitch of the first fork is 9 % too high. Make tuning_fork.msh with
+// y = 0 and extruded. Cells are small at the inner corners, where the stress is singular and the prongs turn: with
+// cells of t there, too, the pitch of the first fork is 9 % too high. Make tuning_fork.msh with
 //   gmsh -3 -format msh22 tuning_fork.geo
 SetFactory("OpenCASCADE");
 t = 0.006;      // thickness of prongs, shaft and yoke
