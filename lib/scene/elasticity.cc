@@ -31,7 +31,7 @@ const Spec<Elasticity>& Elasticity::spec() {
           .key("linear_error", &Elasticity::linear_error,
                "With kinematics: auto, the error of displacements that linear kinematics may make, relative to the "
                "largest; default ten times integrator.rtol, without one 1e-3.",
-               {.range = kPositive})
+               {.range = {0, 1, true}})
           .key("corotation", &Elasticity::corotation,
                "exact: gradient of the energy. warped: R sigma as in Mueller & Gross 2004 and Vega FEM, for "
                "comparison; it gains energy and exerts a net torque for anisotropic materials.")

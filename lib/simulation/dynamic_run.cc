@@ -37,6 +37,11 @@ void require_whole_run(const Setup& setup) {
                       event.name));
 }
 
+std::size_t outputs_left(const Plan& plan) {
+  const auto is_left = [&](double t) { return !plan.delivered || t > *plan.delivered; };
+  return static_cast<std::size_t>(std::count_if(plan.output_times.begin(), plan.output_times.end(), is_left));
+}
+
 FailurePlace failure_place(const FemModel& model, const State& last) {
   const auto speed = model.evaluate("speed.largest", last);
   const auto det_f = model.evaluate("det_f.smallest", last);
@@ -112,10 +117,9 @@ class DynamicAnalysis {
     if (begin.begun) plan.delivered = begin.last_output;
     const auto progress = context_.listener.on_begin(setup_);
     auto all = observers.all(progress.get(), checkpointer);
-    if (setup_.linearity) all.push_back(setup_.linearity.get());
     if (estimator_) all.push_back(&estimator_->recorder());
     if (setup_.scene.output.accumulated_error) all.push_back(&parts_.emplace(*setup_.built.model));
-    if (setup_.scene.output.mesh_error) all.push_back(&mesh_error_.emplace(plan.output_times.size()));
+    if (setup_.scene.output.mesh_error) all.push_back(&mesh_error_.emplace(outputs_left(plan)));
     const Outcome outcome =
         orthodyn::run(*setup_.built.model, *setup_.integrator, begin.state, plan, all, context_.interrupt);
     const bool kept = keeps_last_state(setup_.scene, outcome, begin.begun) && keep(outcome.last, checkpointer);

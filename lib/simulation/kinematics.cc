@@ -27,19 +27,25 @@ double allowed_error(const Scene& scene) {
 }
 
 std::string how_much(double error) {
-  return std::isfinite(error) ? fmt::format("about {:.2g}", error) : std::string("a good part");
+  return std::isfinite(error) ? fmt::format("about {:.3g}", error) : std::string("a good part");
 }
 
 Scene with(Config& config, const char* kinematics) {
-  config.set("elasticity.kinematics", std::string(kinematics));
-  if (config.at("elasticity").has("linear_error")) config.set("elasticity.linear_error", nullptr);
+  set_kinematics(config, kinematics);
   return read_scene(config);
 }
 
 }  // namespace
 
-LinearityWatch::LinearityWatch(const FemModel& linear, std::unique_ptr<FemModel> exact, double span, double allowed)
-    : linear_(linear), exact_(std::move(exact)), linearity_(linear_, *exact_, span), allowed_(allowed) {}
+void set_kinematics(Config& config, const std::string& kinematics) {
+  config.set("elasticity.kinematics", kinematics);
+  if (config.at("elasticity").has("linear_error")) config.set("elasticity.linear_error", nullptr);
+}
+
+LinearityWatch::LinearityWatch(const FemModel& linear, std::unique_ptr<FemModel> exact, double start, double end,
+                               double allowed)
+    : linear_(linear), exact_(std::move(exact)), linearity_(linear_, *exact_, end - start), allowed_(allowed),
+      start_(start) {}
 
 double LinearityWatch::norm(const Vector& x) const {
   Vector Mx(x.size());
@@ -60,9 +66,14 @@ void LinearityWatch::require(double t, const Vector& q) {
   if (outgrown()) throw RunError(outgrown_sentence(*this) + "; set elasticity.kinematics: corotational");
 }
 
-void LinearityWatch::on_start(const ObservedState& observed) {
-  start_ = observed.t();
-  look_at(observed.state());
+void LinearityWatch::save(Archive& archive) {
+  archive.put("largest", {checked_, displacement_, velocity_, local_, stiffness_, error_});
+}
+
+void LinearityWatch::restore(const Archive& archive) {
+  const auto& largest = archive.numbers("largest", 6);
+  checked_ = largest[0], displacement_ = largest[1], velocity_ = largest[2];
+  local_ = largest[3], stiffness_ = largest[4], error_ = largest[5];
 }
 
 // A stiffness that is off by a share of e shifts a frequency by e/2.
@@ -81,7 +92,7 @@ void LinearityWatch::look_at(const State& state) {
 }
 
 std::string outgrown_sentence(const LinearityWatch& watch) {
-  return fmt::format("linear kinematics are off by {} of the motion at t = {:.6g} s, where {:.2g} is allowed",
+  return fmt::format("linear kinematics are off by {} of the motion at t = {:.6g} s, where {:.3g} is allowed",
                      how_much(watch.error()), watch.time(), watch.allowed());
 }
 
@@ -90,7 +101,7 @@ std::string outcome_of(const LinearityWatch& watch) {
                      watch.allowed());
 }
 
-ChosenKinematics choose_kinematics(Config& config, Scene& scene) {
+ChosenKinematics choose_kinematics(Config& config, Scene& scene, bool linear_so_far) {
   const auto corotational = [&](const std::string& reason) {
     scene = with(config, "corotational");
     return ChosenKinematics{{false, "corotational: " + reason}, build(scene), nullptr};
@@ -102,16 +113,20 @@ ChosenKinematics choose_kinematics(Config& config, Scene& scene) {
   BuiltScene built = build(scene);
   if (!built.model->traits().linear) return corotational("loads, contact or supports are not linear anyway");
   const bool is_static = scene.analysis == Analysis::statical;
-  const double span = is_static ? std::numeric_limits<double>::infinity() : scene.time.end - scene.time.start;
+  const double end = is_static ? std::numeric_limits<double>::infinity() : scene.time.end;
   try {
-    auto watch = std::make_unique<LinearityWatch>(*built.model, std::move(exact.model), span, allowed);
-    const StaticResponse response = static_response(*built.model, built.initial, scene.time.end);
+    auto watch = std::make_unique<LinearityWatch>(*built.model, std::move(exact.model), scene.time.start, end, allowed);
+    const StaticResponse response = linear_so_far
+                                        ? StaticResponse{}
+                                        : static_response(*built.model, built.initial, scene.time.end);
     if (response.exists()) {
       const Vector q = built.initial.q + (is_static ? 1 : kOvershoot) * response.displacement;
       if (const double error = watch->error_at(scene.time.end, q); error > kClearly * allowed)
         return corotational(fmt::format("linear kinematics would be off by {}{}, where {:.2g} is allowed",
                                         how_much(error), is_static ? "" : " at twice the static response", allowed));
     }
+    config.set("elasticity.kinematics", std::string("auto"));
+    config.set("elasticity.linear_error", allowed);
     return {{true, "linear"}, std::move(built), std::move(watch)};
   } catch (const RunError& e) {
     return corotational(e.what());

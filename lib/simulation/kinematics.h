@@ -16,16 +16,20 @@ namespace orthodyn {
 // displacement so far, and by the phase that a vibration of this size gains or loses until now.
 class LinearityWatch : public Observer {
  public:
-  // The models must outlive it. `allowed`: of the largest displacement.
-  LinearityWatch(const FemModel& linear, std::unique_ptr<FemModel> exact, double span, double allowed);
+  // `linear` must outlive it. The motion is from `start` to `end`, s; in statics `end` is infinite. `allowed`: of the
+  // largest displacement.
+  LinearityWatch(const FemModel& linear, std::unique_ptr<FemModel> exact, double start, double end, double allowed);
 
-  void on_start(const ObservedState& observed) override;
-  void on_resume(const ObservedState& observed) override { on_start(observed); }
+  void on_start(const ObservedState& observed) override { look_at(observed.state()); }
+  void on_resume(const ObservedState& observed) override { look_at(observed.state()); }
   // Throws RunError where linear kinematics are outgrown.
   void on_output(const ObservedState& observed) override { look_at(observed.state()); }
   void on_step(const StepInfo&, const ObservedState& observed, const Integrator&) override {
     look_at(observed.state());
   }
+
+  void save(Archive& archive) override;
+  void restore(const Archive& archive) override;
 
   // Of one state, without phase.
   double error_at(double t, const Vector& q) const { return linearity_.error(t, q).displacement; }
@@ -64,9 +68,14 @@ struct ChosenKinematics {
   std::unique_ptr<LinearityWatch> watch;  // null unless linear
 };
 
-// Builds a scene that says `auto`, whose document then says what was taken. Linear unless something of the scene is
-// not, or its linear response is clearly too large. Throws ConfigError.
-ChosenKinematics choose_kinematics(Config& config, Scene& scene);
+// Sets `elasticity.kinematics` in a scene's document, without the `linear_error` that means nothing beside it.
+void set_kinematics(Config& config, const std::string& kinematics);
+
+// Builds a scene that says `auto`. Linear unless something of the scene is not, or its linear response is clearly too
+// large. The document then says corotational, or `auto` still, with the error that is allowed: whoever goes on from it
+// is to watch as well. `linear_so_far`: of a run that goes on with linear kinematics, nothing is predicted. Throws
+// ConfigError.
+ChosenKinematics choose_kinematics(Config& config, Scene& scene, bool linear_so_far = false);
 
 // What is told of a run with linear kinematics that has ended.
 std::string outcome_of(const LinearityWatch& watch);

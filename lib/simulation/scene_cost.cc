@@ -17,6 +17,7 @@ constexpr double kUsualAccuracy = 1e-3;  // without an rtol
 constexpr double kOfAccuracy = 0.1;      // what is smaller than this part of it does not matter
 constexpr double kSmall = 1e-6;        // of the smallest extent
 constexpr int kLargestSystem = 30'000;  // unknowns of which two more models and a factor are made
+constexpr double kCoarse = 0.05;       // mesh error
 constexpr double kMuchData = 1e9;        // bytes of frames
 
 double seconds_of(double budget, const std::function<void()>& work) {
@@ -123,6 +124,11 @@ class Judge {
     if (error < threshold())
       found_.push_back(
           fmt::format("mesh: its error is about {:.1e}: fewer cells, or a smaller rtol, go with it", error));
+    if (error > kCoarse)
+      found_.push_back(
+          fmt::format("nothing of the mesh, whose error is about {:.1e} of the elastic energy: finer cells or "
+                      "mesh.order: 2 would mend it",
+                      error));
   }
 
   void look_at_kinematics() {
@@ -133,8 +139,9 @@ class Judge {
     config.set("elasticity.kinematics", std::string("auto"));
     Scene scene = read_scene(config);
     if (const ChosenKinematics chosen = choose_kinematics(config, scene); chosen.choice.linear)
-      found_.push_back("large rotations: linear kinematics are accurate enough for the linear response; "
-                       "elasticity.kinematics: auto takes them, and watches");
+      found_.push_back(fmt::format("large rotations: by the linear response linear kinematics are off by less than "
+                                   "{:.1g} of the motion; elasticity.kinematics: auto takes them, and watches",
+                                   3 * chosen.watch->allowed()));
   }
 
   void look_at_frames() {

@@ -119,14 +119,14 @@ Task task_of(const Scene& scene, const BuiltScene& built) {
   return {scales, built.initial, end, interval};
 }
 
-Setup set_up(const Config& input) {
+Setup set_up(const Config& input, bool linear_so_far) {
   Config config = input.resolving();
   Scene scene = read_scene(config);
   std::optional<KinematicsChoice> kinematics;
   std::unique_ptr<LinearityWatch> linearity;
   const auto build_it = [&] {
     if (scene.elasticity.kinematics != Kinematics::automatic) return build(scene);
-    ChosenKinematics chosen = choose_kinematics(config, scene);
+    ChosenKinematics chosen = choose_kinematics(config, scene, linear_so_far);
     kinematics = std::move(chosen.choice);
     linearity = std::move(chosen.watch);
     return std::move(chosen.built);

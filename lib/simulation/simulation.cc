@@ -40,11 +40,10 @@ RunResult Simulation::run(const RunRequest& request, const std::atomic<bool>& in
 RunResult Simulation::run(const RunRequest& request, const std::atomic<bool>& interrupt, RunListener& listener) const {
   std::string outgrown;
   RunResult result = run_once(scene_.copy(), request, outgrown, interrupt, listener);
-  if (!result.outgrown) return result;
+  if (!result.outgrown || interrupt) return result;
   listener.on_notice(outgrown + ": starts again with corotational kinematics");
   Config corotational = scene_.copy();
-  corotational.set("elasticity.kinematics", std::string("corotational"));
-  if (corotational.at("elasticity").has("linear_error")) corotational.set("elasticity.linear_error", nullptr);
+  set_kinematics(corotational, "corotational");
   RunRequest again = request;
   again.force = true;
   again.resume = false;
@@ -60,7 +59,7 @@ RunResult Simulation::run_once(Config config, const RunRequest& request, std::st
   std::optional<Checkpoint> earlier;
   if (folder.resumes()) earlier = Checkpoint::load(folder.checkpoint());
   if (earlier) keep_choices(*earlier, config);
-  Setup setup = set_up(std::move(config));
+  Setup setup = set_up(std::move(config), earlier && was_linear_so_far(*earlier));
   if (!outgrown.empty()) setup.kinematics = KinematicsChoice{false, "corotational: " + outgrown};
   for (const auto& warning : setup.built.warnings) listener.on_warning(warning);
   const std::string resolved = resolved_scene(setup, file_, folder.path());

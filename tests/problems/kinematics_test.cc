@@ -127,6 +127,50 @@ TEST_F(Kinematics, OutgrownMeansARunFromTheStartThatLosesNothing) {
   EXPECT_EQ(read_text(folder_ / "again/energy.csv"), read_text(folder_ / "exact/energy.csv"));
 }
 
+// A driven beam whose motion grows after the first end: whoever goes on from it is to watch, too, by either form.
+TEST_F(Kinematics, AreWatchedWhereARunGoesOn) {
+  write("scene.yaml",
+        std::string(kBar) +
+            "clamps: [{surface: x0}]\nloads: [{surface: x1, force: [0, 0, -10], factor: {type: expression, "
+            "formula: \"t < 0.02 ? 50*t : 1 + 1e4*(t - 0.02)\", kinks: [0.02]}}]\ntime: {end: 0.02}\ncheckpoint: {}\n"
+            "integrator: {type: cvode_bdf}\nelasticity: {kinematics: auto, linear_error: 0.01}\n");
+  const auto first = orthodyn("run scene.yaml --out a");
+  ASSERT_EQ(first.exit_code, 0) << first.output;
+  ASSERT_NE(first.output.find("kinematics      linear: off by"), std::string::npos) << first.output;
+  fs::copy(folder_ / "a", folder_ / "b", fs::copy_options::recursive);
+  for (const char* form : {"run scene.yaml --out a", "run b"}) {
+    const auto again = orthodyn(std::string(form) + " --resume --set time.end=0.022");
+    ASSERT_EQ(again.exit_code, 0) << again.output;
+    EXPECT_NE(again.output.find("kinematics      linear: off by"), std::string::npos) << again.output;
+  }
+  const auto grown = orthodyn("run b --resume --set time.end=0.05");
+  EXPECT_NE(grown.output.find("kinematics      corotational"), std::string::npos) << grown.output;
+}
+
+// What it knew before a restart counts: the largest error is kept, and so is the start of the phase.
+TEST_F(Kinematics, AreRememberedOverARestart) {
+  write("scene.yaml", kBar + across(100) + "checkpoint: {}\nintegrator: {type: cvode_bdf}\n"
+                                           "elasticity: {kinematics: auto, linear_error: 0.05}\n");
+  const auto error = [&](const std::string& folder) {
+    const std::string record = read_text(folder_ / folder / "run.json");
+    const auto at = record.find("off by about ");
+    return at == std::string::npos ? -1.0 : std::stod(record.substr(at + 13));
+  };
+  ASSERT_EQ(orthodyn("run scene.yaml --out whole").exit_code, 0);
+  ASSERT_EQ(orthodyn("run scene.yaml --out parts --set time.end=0.07").exit_code, 0);
+  ASSERT_EQ(orthodyn("run scene.yaml --out parts --resume").exit_code, 0);
+  EXPECT_GT(error("whole"), 0);
+  EXPECT_NEAR(error("parts"), error("whole"), 0.1 * error("whole"));
+}
+
+TEST_F(Kinematics, ThatWereChosenCorotationalStaySoWhereARunGoesOn) {
+  write("scene.yaml", kBar + across(3e3) + "checkpoint: {}\nintegrator: {type: cvode_bdf}\n"
+                                           "elasticity: {kinematics: auto, linear_error: 0.01}\n");
+  ASSERT_EQ(orthodyn("run scene.yaml --out a --set time.end=0.05").exit_code, 0);
+  const auto again = orthodyn("run scene.yaml --out a --resume");
+  EXPECT_EQ(again.exit_code, 0) << again.output;
+}
+
 TEST_F(Kinematics, OfAStaticAnalysisAreCheckedAtItsEnd) {
   for (const auto& [force, word] : {std::pair{1.0, "linear: off by"}, {1e4, "corotational: linear"}}) {
     write("static.yaml", kBar + across(force) + "analysis: static\nelasticity: {kinematics: auto}\n");

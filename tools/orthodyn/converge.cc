@@ -37,6 +37,10 @@ std::vector<int> orders_of(const std::string& text) {
 }
 
 Convergence wanted_of(const ConvergeArguments& arguments) {
+  if (!(arguments.seconds > 0)) throw ConfigError("--seconds: must be positive");
+  for (const auto& assignment : arguments.set)
+    if (assignment.starts_with("mesh.order="))
+      throw ConfigError("--set " + assignment + ": is what this command varies; use --order");
   return {.file = arguments.file,
           .set = arguments.set,
           .levels = arguments.levels,

@@ -71,7 +71,7 @@ integrator:                # all kinds: orthodyn list integrators
 
 output:
   frames: 50
-  fields: [displacement, velocity, stress]
+  fields: [displacement, velocity, nodal_stress]
   probes:
     tip: {at: [1, 0.025, 0.01]}
 
@@ -103,7 +103,7 @@ statics:
   min_step: 1e-4           # how closely the end of a branch (snap-through, buckling) is found
 
 output:                    # a frame and a row for each load step
-  fields: [displacement, stress]
+  fields: [displacement, nodal_stress]
   probes:
     tip: {at: [1, 0.025, 0.01]}
 )";

@@ -71,12 +71,13 @@ std::string kinematics_of(const Config& scene) {
 
 }  // namespace
 
+bool was_linear_so_far(const Checkpoint& checkpoint) {
+  return kinematics_of(Config::from_text(checkpoint.scene, "checkpoint.cbor")) == "auto";
+}
+
 void keep_choices(const Checkpoint& checkpoint, Config& scene) {
   const Config before = Config::from_text(checkpoint.scene, "checkpoint.cbor");
-  if (kinematics_of(scene) == "auto" && kinematics_of(before) == "corotational") {
-    scene.set("elasticity.kinematics", std::string("corotational"));
-    if (scene.at("elasticity").has("linear_error")) scene.set("elasticity.linear_error", nullptr);
-  }
+  if (kinematics_of(scene) == "auto" && kinematics_of(before) == "corotational") set_kinematics(scene, "corotational");
   if (!before.has("integrator")) return;
   for (const std::string key : {"position_scale", "velocity_scale"}) {
     const bool open = !scene.has("integrator") || !scene.at("integrator").has(key);

@@ -12,6 +12,9 @@ namespace orthodyn {
 // taken for `auto`: a run that goes on must not change them.
 void keep_choices(const Checkpoint& checkpoint, Config& scene);
 
+// Whether linear kinematics were taken for `auto`.
+bool was_linear_so_far(const Checkpoint& checkpoint);
+
 // A checkpoint for a run that begins. Throws RunError if a file that the scene names is gone by now.
 Checkpoint first_checkpoint(const Setup& setup, const std::string& resolved, const ResultFolder& folder);
 

@@ -15,7 +15,7 @@ std::vector<ProbeColumn> probe_columns(const Scene& scene, const FemModel& model
 }
 
 RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& folder)
-    : finder_(setup.events) {
+    : linearity_(setup.linearity.get()), finder_(setup.events) {
   const auto& model = *setup.built.model;
   const auto& scene = setup.scene;
   if (!scene.output.fields.empty()) frames_.emplace(folder, model, scene.output.fields);
@@ -38,6 +38,7 @@ NamedObservers RunObservers::kept() {
   add("steps", steps_);
   add("probes", probes_);
   add("events", events_);
+  add("linearity", linearity_);
   return out;
 }
 

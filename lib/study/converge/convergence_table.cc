@@ -130,6 +130,7 @@ class Table {
       out["limit"] = found->value.limit;
       out["uncertainty"] = found->value.uncertainty;
       out["from_order"] = found->order;
+      out["observed"] = found->value.order.has_value();
     }
     Json costs = Json::array();
     for (const int order : wanted_.orders)
@@ -229,8 +230,12 @@ std::string convergence_text(const Json& table) {
     const std::string name = figure.at("name");
     out += fmt::format("\n{}", heading(figure));
     if (figure.at("limit").is_number())
-      out += fmt::format(": limit {:.6g}, known to {:.1g} (by elements of order {})", figure.at("limit").get<double>(),
-                         figure.at("uncertainty").get<double>(), figure.at("from_order").get<int>());
+      out +=
+          fmt::format(": limit {:.6g}, known to {:.1g} (by elements of order {}{})", figure.at("limit").get<double>(),
+                      figure.at("uncertainty").get<double>(), figure.at("from_order").get<int>(),
+                      figure.at("observed").get<bool>()
+                          ? ""
+                          : "; no order of convergence was observed: errors are rough, take more levels");
     out += fmt::format("\n  {:>5} {:>5} {:>9} {:>13} {:>9} {:>6} {:>10} {:>9}\n", "order", "level", "unknowns", "value",
                        "error", "order", "mesh error", "CPU [s]");
     for (const auto& row : table.at("rows")) {
