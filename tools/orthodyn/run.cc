@@ -82,7 +82,7 @@ int run_scene(const RunArguments& given) {
                                           interrupted(), terminal);
   if (result.was_complete && !arguments.quiet)
     fmt::print("{} is complete at t = {:.6g} s: nothing to do\n", result.folder.string(), result.outcome.last.t);
-  if (result.motion && result.motion->error) print_error(*result.motion->error);
+  if (result.motion && result.motion->error) print_estimate(result);
   return exit_code(result);
 }
 

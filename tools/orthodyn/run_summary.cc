@@ -45,7 +45,9 @@ void print_errors(const RunResult& result, int width) {
   const auto errors = error_balance(result);
   if (!errors) return;
   fmt::print("  {:<{}} mesh {:.1e} of the elastic energy{}{}{}\n", "errors, about", width, errors->mesh,
-             errors->time ? fmt::format(", time {:.1e} of the motion", *errors->time) : "",
+             errors->time     ? fmt::format(", time {:.1e} of the motion", *errors->time)
+             : result.motion  ? ", time not estimated (--estimate-error)"
+                              : "",
              errors->advice.empty() ? "" : ": ", errors->advice);
 }
 
@@ -110,7 +112,8 @@ void print_result(const RunResult& result, bool quiet) {
   if (result.motion) print_what_remains(result);
 }
 
-void print_error(const ErrorEstimate& error) {
+void print_estimate(const RunResult& result) {
+  const ErrorEstimate& error = *result.motion->error;
   if (!error.completed) {
     fmt::print(stderr, "warning: no estimate of the error: the run with {} did not complete: {}\n", error.against,
                error.failure_reason);
@@ -126,9 +129,10 @@ void print_error(const ErrorEstimate& error) {
   else
     fmt::print(
         "  the integration puts displacements off by about {:.2g} % of the largest, {:.2g} % at worst; velocities "
-        "by {:.2g} %, {:.2g} % at worst; the mesh's error comes on top{}\n",
+        "by {:.2g} %, {:.2g} % at worst{}\n",
         100 * u.l2, 100 * u.max, 100 * error.velocity.l2, 100 * error.velocity.max,
         u.max > kUnresolved ? ". The motion is NOT resolved: lower integrator.rtol or step" : "");
+  print_errors(result, 15);
 }
 
 }  // namespace orthodyn

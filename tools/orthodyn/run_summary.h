@@ -8,7 +8,7 @@ namespace orthodyn {
 // `quiet`: only what went wrong and what remains.
 void print_result(const RunResult& result, bool quiet);
 
-// The estimate of the run's error, as a table and in a sentence.
-void print_error(const ErrorEstimate& error);
+// The estimate of the run's error, as a table, in a sentence, and beside the mesh's. Precondition: there is one.
+void print_estimate(const RunResult& result);
 
 }  // namespace orthodyn
