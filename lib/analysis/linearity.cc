@@ -2,55 +2,91 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "lib/fem/element_mesh.h"
 
 namespace orthodyn {
 
 namespace {
+
 constexpr double kNegligible = 1e-6;  // an error of nobody's interest, and above round-off
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
+
 double norm(const Vector& x, const Vector& Mx) { return std::sqrt(std::max(x.dot(Mx), 0.0)); }
+
+std::unique_ptr<ElasticTerm> with_exact_force(const ElasticTerm& term, const ElementMesh& elements,
+                                              const BlockPattern& pattern) {
+  ElasticRegion region = term.definition();
+  region.options = {};
+  return elements.type.elastic_term(elements, std::move(region), pattern);
+}
+
 }  // namespace
 
-Linearity::Linearity(const FemModel& linear, const FemModel& exact, double span) : linear_(linear), exact_(exact) {
-  const Vector zero = Vector::Zero(linear.num_dofs());
-  Linearization at;
-  linear.linearize(0, zero, zero, TangentKind::exact, at);
-  values_.resize(at.stiffness.size());
-  linear.combine({std::isfinite(span) ? 1 / (span * span) : 0, 0, 1}, at, values_.data());
-  solver_ = solver_registry().at(linear.pattern().symmetric ? "cholmod" : "klu").make();
-  solver_->analyze(linear.pattern());
-  if (solver_->factor(values_.data()) != FactorStatus::ok)
+Linearity::Linearity(const FemModel& model, Terms terms, double span)
+    : model_(model), terms_(std::move(terms)), exact_(model.parts().elastic.size()),
+      mass_(std::isfinite(span) ? 1 / (span * span) : 0) {
+  const FemModel::Parts& parts = model_.parts();
+  const ElementMesh elements(parts.mesh);
+  for (const std::size_t k : terms_) exact_[k] = with_exact_force(*parts.elastic[k], elements, *parts.pattern);
+  solver_ = solver_registry().at(model_.pattern().symmetric ? "cholmod" : "klu").make();
+  solver_->analyze(model_.pattern());
+  if (!factor(0, Vector::Zero(model_.num_dofs()), TangentKind::exact))
     throw RunError("the stiffness at rest is singular: the body is not held");
 }
 
-LinearityError Linearity::error(double t, const Vector& q) const {
+bool Linearity::factor(double t, const Vector& q, TangentKind kind) {
+  model_.linearize(t, q, Vector::Zero(q.size()), kind, tangent_);
+  values_.resize(tangent_.stiffness.size());
+  model_.combine({mass_, 0, 1}, tangent_, values_.data());
+  return solver_->factor(values_.data()) == FactorStatus::ok;
+}
+
+void Linearity::add_correction(double t, const Vector& q, const Terms& terms, Vector& f) const {
+  const FemModel::Parts& parts = model_.parts();
+  const NodalExpansion nodal(parts, t, q, Vector::Zero(q.size()));
+  NodalVector exact = NodalVector::Zero(3, nodal.x.cols()), linear = exact;
+  for (const std::size_t k : terms) {
+    exact_[k]->add_force(nodal.state(), exact);
+    parts.elastic[k]->add_force(nodal.state(), linear);
+  }
+  Vector correction(q.size());
+  parts.dofs->restrict_to(exact - linear, correction);
+  f += correction;
+}
+
+LinearityError Linearity::error(double t, const Vector& q, const Terms& terms) {
   constexpr double kAccuracy = 0.02;  // of the error itself
   constexpr double kSlowest = 0.7;    // contraction of the energy of steps
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const Vector still = Vector::Zero(q.size());
-  Vector of_linear(q.size()), of_exact(q.size()), step(q.size()), Mq(q.size()), Mx(q.size());
-  linear_.multiply_mass(q, Mq);
+  Vector at_q(q.size()), there(q.size()), step(q.size()), Mq(q.size()), Mx(q.size());
+  model_.multiply_mass(q, Mq);
   const double square = q.dot(Mq);
   if (!(square > 0)) return {};
-  linear_.force(t, q, still, of_linear);
   Vector x = still;
-  for (double before = kInfinity;;) {
-    try {
-      exact_.force(t, q + x, still, of_exact);
-    } catch (const RecoverableError&) {
-      return {kInfinity, kInfinity};
+  try {
+    if (!model_.traits().linear && !factor(t, q, TangentKind::exact) && !factor(t, q, TangentKind::gauss_newton))
+      return {kUnknown, kUnknown};
+    model_.force(t, q, still, at_q);
+    for (double before = kUnknown;;) {
+      model_.force(t, q + x, still, there);
+      add_correction(t, q + x, terms, there);
+      const Vector residual = there - at_q;
+      solver_->solve(residual, step);
+      x += step;
+      const double energy = step.dot(residual);
+      model_.multiply_mass(step, Mx);
+      const double last = norm(step, Mx);
+      model_.multiply_mass(x, Mx);
+      const double all = norm(x, Mx);
+      if (last <= kAccuracy * all || std::max(last, all) <= kNegligible * std::sqrt(square))
+        return {all / std::sqrt(square), std::abs(x.dot(Mq)) / square};
+      if (!(energy < kSlowest * before)) return {kUnknown, kUnknown};  // would take long, or has no end
+      before = energy;
     }
-    const Vector residual = of_exact - of_linear;
-    solver_->solve(residual, step);
-    x += step;
-    const double energy = step.dot(residual);
-    linear_.multiply_mass(step, Mx);
-    const double last = norm(step, Mx);
-    linear_.multiply_mass(x, Mx);
-    const double all = norm(x, Mx);
-    if (last <= kAccuracy * all || std::max(last, all) <= kNegligible * std::sqrt(square))
-      return {all / std::sqrt(square), std::abs(x.dot(Mq)) / square};
-    if (!(energy < kSlowest * before)) return {kInfinity, kInfinity};  // would take long, or has no end
-    before = energy;
+  } catch (const RecoverableError&) {
+    return {kUnknown, kUnknown};
   }
 }
 

@@ -1,8 +1,9 @@
 // How far linear kinematics are off at a displacement: the body with the exact force is brought to the equilibrium
-// under what the linear one carries there, by Newton's method with the factorised K of the linear model. It knows
+// under what the linear one carries there, by Newton's method with the factorised tangent of the model. It knows
 // rotations, strains and stretched midlines alike, and costs a few forces and solutions.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -20,16 +21,28 @@ struct LinearityError {
 
 class Linearity {
  public:
-  // Models of one scene with linear and with exact kinematics, which must outlive it. `span`, s: of the motion, in
-  // which a body that nothing holds can go so far; infinite in statics. Throws RunError if K cannot be factorised.
-  Linearity(const FemModel& linear, const FemModel& exact, double span);
+  using Terms = std::vector<std::size_t>;  // indices of FemModel::Parts::elastic
 
-  // Of the displacement q at time t; 0 at rest.
-  LinearityError error(double t, const Vector& q) const;
+  // Of these terms of a model, which must outlive it; they have linear kinematics. `span`, s: of the motion, in which a
+  // body that nothing holds can go so far; infinite in statics. Throws RunError if the tangent at rest cannot be
+  // factorised.
+  Linearity(const FemModel& model, Terms terms, double span);
+
+  // Of the displacement q at time t, by all terms or by some of them; 0 at rest.
+  LinearityError error(double t, const Vector& q) { return error(t, q, terms_); }
+  LinearityError error(double t, const Vector& q, const Terms& terms);
 
  private:
-  const FemModel &linear_, &exact_;
-  std::vector<double> values_;  // of K + M/span^2
+  bool factor(double t, const Vector& q, TangentKind kind);
+  // What the exact force adds to that of the model, on the free coordinates.
+  void add_correction(double t, const Vector& q, const Terms& terms, Vector& f) const;
+
+  const FemModel& model_;
+  Terms terms_;
+  std::vector<std::unique_ptr<ElasticTerm>> exact_;  // of each of the model's elastic terms; null where not asked for
+  double mass_;                                      // weight of the mass beside the stiffness, 1/s^2
+  Linearization tangent_;
+  std::vector<double> values_;
   std::unique_ptr<LinearSolver> solver_;
 };
 

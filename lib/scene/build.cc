@@ -41,7 +41,7 @@ void add_elasticity(const Scene& scene, const std::vector<const Region*>& region
     const ElementAxes axes = element_axes(*region.axes, field, elements, cells);
     parts.elastic.push_back(elements.type.elastic_term(
         elements, {mesh.region_names[r], std::move(cells), material_of(scene, region).stiffness(), axes,
-                   stiffness_damping(scene, region), scene.elasticity}, *parts.pattern));
+                   stiffness_damping(scene, region), elasticity_of(scene, region)}, *parts.pattern));
     parts.densities.push_back(material_of(scene, region).density());
   }
 }
@@ -61,14 +61,17 @@ void add_supports(Supports supports, const ElementMesh& elements, const std::vec
 
 Traits traits_of(const Scene& scene, const std::vector<const Region*>& regions) {
   const auto is_damped = [&](const Region* r) { return stiffness_damping(scene, *r) > 0; };
+  const auto all = [&](auto&& is) {
+    return std::all_of(regions.begin(), regions.end(), [&](const Region* r) { return is(elasticity_of(scene, *r)); });
+  };
   Traits traits;
-  traits.linear = scene.elasticity.kinematics == Kinematics::linear;
+  traits.linear = all([](const ElasticityOptions& e) { return e.kinematics == Kinematics::linear; });
   traits.damped = std::all_of(regions.begin(), regions.end(), is_damped);
   traits.damping_matrix = std::any_of(regions.begin(), regions.end(), is_damped);
   traits.lumped_mass = scene.mass == MassKind::lumped;
-  traits.exact_stiffness = scene.elasticity.has_exact_tangent();
+  traits.exact_stiffness = all([](const ElasticityOptions& e) { return e.has_exact_tangent(); });
   traits.dissipative = traits.damping_matrix || (scene.damping && scene.damping->mass > 0);
-  traits.conservative = !scene.elasticity.is_warped() && !traits.dissipative;
+  traits.conservative = !traits.dissipative && all([](const ElasticityOptions& e) { return !e.is_warped(); });
   for (const SupportMotion& motion : scene.motions) motion.declare(traits);
   for (const TermChoice* term : scene.force_terms()) term->declare(traits);
   return traits;
@@ -124,7 +127,9 @@ BuiltScene build(const Scene& scene) {
   if (parts.dofs->num_dofs() == 0)
     (scene.clamps.empty() ? scene.motions.front().origin : scene.clamps.front().origin)
         .fail("all nodes are clamped or moved: nothing is left to compute");
-  const bool symmetric = scene.elasticity.has_symmetric_tangent();
+  const bool symmetric = std::all_of(regions.begin(), regions.end(), [&](const Region* r) {
+    return elasticity_of(scene, *r).has_symmetric_tangent();
+  });
   const ElementMesh elements(parts.mesh);
   parts.pattern = std::make_unique<BlockPattern>(elements.cells, *parts.dofs, symmetric, couplings(scene, parts.mesh));
   const auto density = densities(scene, parts.mesh, regions);

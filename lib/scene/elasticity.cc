@@ -3,13 +3,6 @@
 namespace orthodyn {
 
 template <>
-struct Words<Kinematics> {
-  static constexpr std::array<std::pair<Kinematics, const char*>, 3> list{{{Kinematics::corotational, "corotational"},
-                                                                           {Kinematics::linear, "linear"},
-                                                                           {Kinematics::automatic, "auto"}}};
-};
-
-template <>
 struct Words<Corotation> {
   static constexpr std::array<std::pair<Corotation, const char*>, 2> list{
       {{Corotation::exact, "exact"}, {Corotation::warped, "warped"}}};
@@ -26,8 +19,8 @@ const Spec<Elasticity>& Elasticity::spec() {
       Spec<Elasticity>()
           .key("kinematics", &Elasticity::kinematics,
                "corotational: large rotations. linear: small strain with a constant K. auto: linear for as long as "
-               "that is "
-               "accurate enough, otherwise corotational from the start; the summary says which and why.")
+               "that is accurate enough, otherwise corotational from the start, region by region; the summary says "
+               "which and why.")
           .key("linear_error", &Elasticity::linear_error,
                "With kinematics: auto, the error of displacements that linear kinematics may make, relative to the "
                "largest; default ten times integrator.rtol, without one 1e-3.",
@@ -43,8 +36,6 @@ const Spec<Elasticity>& Elasticity::spec() {
               config.at("corotation").fail("has no meaning with kinematics: linear; remove one of them");
             if (warped && e.kinematics == Kinematics::automatic)
               config.at("kinematics").fail("auto is for the exact force; with corotation: warped choose one");
-            if (e.linear_error && e.kinematics != Kinematics::automatic)
-              config.at("linear_error").fail("has no meaning without kinematics: auto; remove it");
             if (e.warped_tangent == WarpedTangent::unsymmetric && !warped)
               config.at("warped_tangent").fail("has no meaning without corotation: warped; remove it");
           });

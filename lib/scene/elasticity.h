@@ -1,12 +1,21 @@
 // The elastic law of all elements, the section `elasticity`.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <utility>
 
 #include "lib/config/spec.h"
 #include "lib/fem/terms/elasticity_options.h"
 
 namespace orthodyn {
+
+template <>
+struct Words<Kinematics> {
+  static constexpr std::array<std::pair<Kinematics, const char*>, 3> list{{{Kinematics::corotational, "corotational"},
+                                                                           {Kinematics::linear, "linear"},
+                                                                           {Kinematics::automatic, "auto"}}};
+};
 
 struct Elasticity : ElasticityOptions {
   std::optional<double> linear_error;  // allowed with kinematics: auto

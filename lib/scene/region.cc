@@ -17,7 +17,8 @@ const Spec<Region>& Region::spec() {
           .key("axes", &Region::axes, "Directions of the material axes, the same everywhere or following the shape.",
                {.fallback = "{type: directions}"})
           .key("stiffness_damping", &Region::stiffness_damping, "Overrides damping.stiffness here.",
-               {.unit = "s", .range = kNonNegative});
+               {.unit = "s", .range = kNonNegative})
+          .key("kinematics", &Region::kinematics, "Overrides elasticity.kinematics here.");
   return s;
 }
 
@@ -41,11 +42,31 @@ void check_materials_exist(const Scene& scene) {
       region.origin.fail("material '" + region.material + "' is not among the materials: " + join(names));
 }
 
+void check_kinematics(const Config& config, const Scene& scene) {
+  const auto is_automatic = [&](const auto& named) {
+    return elasticity_of(scene, named.second).kinematics == Kinematics::automatic;
+  };
+  const auto first = std::find_if(scene.regions.begin(), scene.regions.end(), is_automatic);
+  if (first == scene.regions.end()) {
+    if (scene.elasticity.linear_error)
+      config.at("elasticity").at("linear_error").fail("has no meaning without kinematics: auto; remove it");
+  } else if (scene.elasticity.corotation == Corotation::warped) {
+    first->second.origin.fail("kinematics: auto is for the exact force; with corotation: warped choose one");
+  }
+}
+
 }  // namespace
 
 void complete_regions(const Config& config, Scene& scene) {
   fill_regions(config, scene);
   check_materials_exist(scene);
+  check_kinematics(config, scene);
+}
+
+ElasticityOptions elasticity_of(const Scene& scene, const Region& region) {
+  ElasticityOptions options = scene.elasticity;
+  options.kinematics = region.kinematics.value_or(options.kinematics);
+  return options;
 }
 
 std::vector<const Region*> assign_regions(const Scene& scene, const TetMesh& mesh) {
@@ -73,11 +94,15 @@ const Material& material_of(const Scene& scene, const Region& region) {
   region.origin.fail("unknown material");  // read_scene() has seen to this
 }
 
+const std::pair<std::string, Region>& entry_of(const Scene& scene, const std::string& mesh_region) {
+  const std::pair<std::string, Region>* found = nullptr;
+  for (const auto& entry : scene.regions)
+    if (entry.first == mesh_region || (entry.first == "all" && !found)) found = &entry;
+  return *found;
+}
+
 const Material& material_in(const Scene& scene, const std::string& mesh_region) {
-  const Region* found = nullptr;
-  for (const auto& [name, region] : scene.regions)
-    if (name == mesh_region || (name == "all" && !found)) found = &region;
-  return material_of(scene, *found);
+  return material_of(scene, entry_of(scene, mesh_region).second);
 }
 
 }  // namespace orthodyn

@@ -4,9 +4,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lib/config/spec.h"
+#include "lib/fem/terms/elasticity_options.h"
 #include "lib/material/material.h"
 #include "lib/mesh/tet_mesh.h"
 
@@ -19,6 +21,7 @@ struct Region {
   std::string material;
   std::shared_ptr<const AxesSource> axes;
   std::optional<double> stiffness_damping;  // s; overrides damping.stiffness
+  std::optional<Kinematics> kinematics;     // overrides elasticity.kinematics
   Origin origin;
   static const Spec<Region>& spec();
 };
@@ -32,6 +35,12 @@ void complete_regions(const Config& config, Scene& scene);
 std::vector<const Region*> assign_regions(const Scene& scene, const TetMesh& mesh);
 
 const Material& material_of(const Scene& scene, const Region& region);
+
+// The scene's, with the region's own kinematics.
+ElasticityOptions elasticity_of(const Scene& scene, const Region& region);
+
+// The entry that describes a region of the mesh.
+const std::pair<std::string, Region>& entry_of(const Scene& scene, const std::string& mesh_region);
 
 // The material of a region of the mesh.
 const Material& material_in(const Scene& scene, const std::string& mesh_region);

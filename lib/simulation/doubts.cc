@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace orthodyn {
 
@@ -45,6 +46,13 @@ std::string mesh_sentence(const ModelSummary& model, double error) {
       error, model.order == 1 ? "Take mesh.order: 2 or finer cells" : "Take finer cells");
 }
 
+std::string linearity_sentence(double error) {
+  return fmt::format(
+      "linear kinematics are off by {} of the motion: rotations or stretches are too large for them. Take "
+      "elasticity.kinematics: auto, or corotational",
+      std::isfinite(error) ? fmt::format("about {:.2g}", error) : "a good part");
+}
+
 void add_doubts(const EquilibriumResult& equilibrium, std::vector<std::string>& all) {
   if (!(equilibrium.det_f.value > 0))
     all.push_back(fmt::format("element {} is inverted (det F = {:.3g}): this equilibrium has no meaning",
@@ -65,6 +73,8 @@ std::vector<std::string> doubts(const RunResult& result) {
   const auto& mesh = result.motion ? result.motion->mesh_error
                                    : result.equilibrium ? result.equilibrium->mesh_error : std::nullopt;
   if (mesh && mesh->relative > kCoarse) all.push_back(mesh_sentence(result.model, mesh->relative));
+  if (const auto& error = result.model.linear_error; error && *error > kMuchError)
+    all.push_back(linearity_sentence(*error));
   if (const auto& motion = result.motion) {
     if (!(motion->det_f.value > 0))
       all.push_back(fmt::format("element {} was inverted at t = {:.4g} s (det F = {:.3g})", motion->det_f.element,

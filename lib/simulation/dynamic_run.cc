@@ -93,6 +93,7 @@ class DynamicAnalysis {
   RunResult compute(const Checkpoint& begin, RunObservers& observers, const RunRecord& record) {
     RunResult result{.scene = context_.scene, .folder = folder_.path(), };
     result.outcome = integrate(begin, observers, result.resumable);
+    if (setup_.linearity) setup_.linearity->finish();
     result.model = summarize(setup_);
     result.outgrown = setup_.linearity && setup_.linearity->outgrown();
     if (result.outgrown) return result;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lib/analysis/static_response.h"
+#include "lib/core/words.h"
 
 namespace orthodyn {
 
@@ -15,7 +16,10 @@ namespace {
 
 constexpr double kOfRtol = 10;        // what errors of steps add up to, roughly
 constexpr double kUsual = 1e-3;       // allowed where there is no rtol
-constexpr double kMoreBy = 1.05;      // a displacement larger by this is looked at
+constexpr double kShareOfAllowed = 0.5;               // up to which the error may grow before it is looked at again
+constexpr double kLeastGrowth = 1.05, kLargestGrowth = 2;  // of the displacement between two looks
+constexpr double kTiny = 1e-300;
+constexpr int kLargestToldOf = 200000;  // unknowns: beyond, a factorisation at the end is not to everybody's liking
 constexpr double kOvershoot = 2;      // of a load applied at once, over its static response
 constexpr double kClearly = 3;        // times what is allowed: then linear kinematics are not tried
 
@@ -26,69 +30,169 @@ double allowed_error(const Scene& scene) {
   return kUsual;
 }
 
-std::string how_much(double error) {
-  return std::isfinite(error) ? fmt::format("about {:.3g}", error) : std::string("a good part");
+std::string how_much(double error, const char* format = "{:.3g}") {
+  return std::isfinite(error) ? "about " + fmt::format(fmt::runtime(format), error) : std::string("a good part");
 }
 
-Scene with(Config& config, const char* kinematics) {
-  set_kinematics(config, kinematics);
-  return read_scene(config);
+bool is_open(const Scene& scene, const Region& region) {
+  return elasticity_of(scene, region).kinematics == Kinematics::automatic;
+}
+
+std::vector<std::string> open_regions(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const auto& [name, region] : scene.regions)
+    if (is_open(scene, region)) names.push_back(name);
+  return names;
+}
+
+double end_of_motion(const Scene& scene) {
+  return scene.analysis == Analysis::statical ? std::numeric_limits<double>::infinity() : scene.time.end;
+}
+
+Scene with_linear_regions(Scene scene) {
+  for (auto& [name, region] : scene.regions)
+    if (is_open(scene, region)) region.kinematics = Kinematics::linear;
+  return scene;
+}
+
+// Of the scene's entries `names`, those that describe elements.
+std::vector<LinearRegion> linear_regions(const Scene& scene, const std::vector<std::string>& names,
+                                         const FemModel& model) {
+  std::vector<LinearRegion> regions;
+  for (const auto& name : names) {
+    Linearity::Terms terms;
+    for (std::size_t k = 0; k < model.parts().elastic.size(); ++k)
+      if (entry_of(scene, model.parts().elastic[k]->region()).first == name) terms.push_back(k);
+    if (!terms.empty()) regions.push_back({name, std::move(terms)});
+  }
+  return regions;
+}
+
+Linearity::Terms terms_of(const std::vector<LinearRegion>& regions) {
+  Linearity::Terms all;
+  for (const auto& region : regions) all.insert(all.end(), region.terms.begin(), region.terms.end());
+  return all;
+}
+
+std::vector<std::string> names_of(const std::vector<LinearRegion>& regions) {
+  std::vector<std::string> names;
+  for (const auto& region : regions) names.push_back(region.name);
+  return names;
+}
+
+bool says_auto(const Config& section) {
+  return section.has("kinematics") && !section.at("kinematics").is_null() && section.at("kinematics").text() == "auto";
 }
 
 }  // namespace
 
-void set_kinematics(Config& config, const std::string& kinematics) {
-  config.set("elasticity.kinematics", kinematics);
-  if (config.at("elasticity").has("linear_error")) config.set("elasticity.linear_error", nullptr);
+bool leaves_kinematics_open(const Scene& scene) { return !open_regions(scene).empty(); }
+
+void make_corotational(Config& config) {
+  const std::string corotational = "corotational";
+  if (config.has("elasticity")) {
+    Config elasticity = config.at("elasticity");
+    if (says_auto(elasticity)) elasticity.set("kinematics", corotational);
+    if (elasticity.has("linear_error")) elasticity.set("linear_error", nullptr);
+  }
+  if (!config.has("regions")) return;
+  for (const auto& name : config.at("regions").keys())
+    if (Config region = config.at("regions").at(name); says_auto(region)) region.set("kinematics", corotational);
 }
 
-LinearityWatch::LinearityWatch(const FemModel& linear, std::unique_ptr<FemModel> exact, double start, double end,
+LinearityWatch::LinearityWatch(const FemModel& model, std::vector<LinearRegion> regions, double start, double end,
                                double allowed)
-    : linear_(linear), exact_(std::move(exact)), linearity_(linear_, *exact_, end - start), allowed_(allowed),
-      start_(start) {}
+    : model_(model), regions_(std::move(regions)), allowed_(allowed), start_(start), span_(end - start), time_(start),
+      largest_{start, 0, Vector::Zero(model.num_dofs())} {}
+
+Linearity& LinearityWatch::linearity() {
+  if (!linearity_) linearity_.emplace(model_, terms_of(regions_), span_);
+  return *linearity_;
+}
 
 double LinearityWatch::norm(const Vector& x) const {
   Vector Mx(x.size());
-  linear_.multiply_mass(x, Mx);
+  model_.multiply_mass(x, Mx);
   return std::sqrt(std::max(x.dot(Mx), 0.0));
 }
 
 void LinearityWatch::note(double t, const Vector& q) {
-  time_ = t;
-  const LinearityError found = linearity_.error(t, q);
+  checked_ = norm(q);
+  const LinearityError found = linearity().error(t, q);
   local_ = std::max(local_, found.displacement);
   stiffness_ = std::max(stiffness_, found.stiffness);
   error_ = std::max(error_, local_);
 }
 
+void LinearityWatch::finish_at(double t, const Vector& q) {
+  time_ = t;
+  largest_ = {t, norm(q), q};
+  finish();
+}
+
 void LinearityWatch::require(double t, const Vector& q) {
-  note(t, q);
+  if (!std::isfinite(allowed_)) return;
+  finish_at(t, q);
   if (outgrown()) throw RunError(outgrown_sentence(*this) + "; set elasticity.kinematics: corotational");
 }
 
+void LinearityWatch::finish() {
+  try {
+    if (largest_.norm > checked_) note(largest_.t, largest_.q);
+    error_ = std::max(error_, local_ + stiffness_ * turns() / 2);
+  } catch (const RunError&) {
+    error_ = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
 void LinearityWatch::save(Archive& archive) {
-  archive.put("largest", {checked_, displacement_, velocity_, local_, stiffness_, error_});
+  archive.put("found", {checked_, velocity_, local_, stiffness_, error_, largest_.t});
+  archive.put("largest", std::vector<double>(largest_.q.begin(), largest_.q.end()));
 }
 
 void LinearityWatch::restore(const Archive& archive) {
-  const auto& largest = archive.numbers("largest", 6);
-  checked_ = largest[0], displacement_ = largest[1], velocity_ = largest[2];
-  local_ = largest[3], stiffness_ = largest[4], error_ = largest[5];
+  const auto& found = archive.numbers("found", 6);
+  checked_ = found[0], velocity_ = found[1], local_ = found[2], stiffness_ = found[3], error_ = found[4];
+  const auto& q = archive.numbers("largest", static_cast<std::size_t>(model_.num_dofs()));
+  largest_.t = found[5];
+  largest_.q = Eigen::Map<const Vector>(q.data(), model_.num_dofs());
+  largest_.norm = norm(largest_.q);
+}
+
+// The error grows no faster than the square of the displacement.
+double LinearityWatch::next_look() const {
+  if (!std::isfinite(allowed_)) return allowed_;
+  const double growth = std::sqrt(kShareOfAllowed * allowed_ / std::max(local_, kTiny));
+  return std::clamp(growth, kLeastGrowth, kLargestGrowth) * checked_;
 }
 
 // A stiffness that is off by a share of e shifts a frequency by e/2.
 void LinearityWatch::look_at(const State& state) {
   time_ = state.t;
-  const double q = norm(state.q);
-  displacement_ = std::max(displacement_, q);
   velocity_ = std::max(velocity_, norm(state.v));
-  if (q > kMoreBy * checked_) {
-    note(state.t, state.q);
-    checked_ = q;
-  }
-  const double turns = displacement_ > 0 ? velocity_ / displacement_ * (state.t - start_) : 0;  // rad
-  error_ = std::max(error_, local_ + stiffness_ * turns / 2);
+  if (const double q = norm(state.q); q > largest_.norm) largest_ = {state.t, q, state.q};
+  if (largest_.norm > next_look()) note(state.t, state.q);
+  error_ = std::max(error_, local_ + stiffness_ * turns() / 2);
   if (outgrown()) throw RunError(outgrown_sentence(*this) + "; set elasticity.kinematics: corotational");
+}
+
+double LinearityWatch::turns() const {
+  return largest_.norm > 0 ? velocity_ / largest_.norm * (time_ - start_) : 0;
+}
+
+std::vector<std::string> LinearityWatch::to_give_up(double t, const Vector& q) {
+  std::vector<std::pair<double, std::string>> errors;
+  for (const auto& [name, terms] : regions_) {
+    const LinearityError found = linearity().error(t, q, terms);
+    errors.emplace_back(found.displacement + found.stiffness * turns() / 2, name);
+  }
+  std::sort(errors.begin(), errors.end());
+  std::vector<std::string> names{errors.back().second};
+  errors.pop_back();
+  double sum = 0;
+  for (const auto& [error, name] : errors)
+    if ((sum += error) > allowed_ / 2) names.push_back(name);
+  return names;
 }
 
 std::string outgrown_sentence(const LinearityWatch& watch) {
@@ -97,40 +201,100 @@ std::string outgrown_sentence(const LinearityWatch& watch) {
 }
 
 std::string outcome_of(const LinearityWatch& watch) {
-  return fmt::format("linear: off by about {:.1e} of the motion at most, where {:.1e} is allowed", watch.error(),
-                     watch.allowed());
+  const bool is_whole = terms_of(watch.regions()).size() == watch.num_regions();
+  const std::string where = is_whole ? "" : " in " + join(names_of(watch.regions()));
+  if (std::isnan(watch.error())) return fmt::format("linear{}: how far off is not known", where);
+  const bool is_watched = std::isfinite(watch.allowed());
+  return fmt::format("linear{}: off by {} of the motion{}{}", where, how_much(watch.error(), "{:.1e}"),
+                     std::isfinite(watch.error()) ? " at most" : "",
+                     is_watched ? fmt::format(", where {:.1e} is allowed", watch.allowed()) : "");
+}
+
+namespace {
+
+// The same of some of those that are left open, and says so: "corotational in arm: why".
+std::string make_corotational(Config& config, const std::vector<std::string>& regions, const std::string& why) {
+  const auto is_written = [&](const std::string& name) {
+    return config.has("regions") && config.at("regions").has(name);
+  };
+  if (regions.size() == open_regions(read_scene(config)).size() ||
+      !std::all_of(regions.begin(), regions.end(), is_written)) {
+    make_corotational(config);
+    return "corotational: " + why;
+  }
+  for (const auto& name : regions) {
+    Config region = config.at("regions").at(name);
+    region.set("kinematics", std::string("corotational"));
+  }
+  return fmt::format("corotational in {}: {}", join(regions), why);
+}
+
+}  // namespace
+
+std::string give_up_outgrown(Config& config, LinearityWatch& watch) {
+  return make_corotational(config, watch.to_give_up(), outgrown_sentence(watch));
+}
+
+namespace {
+
+// Accepts linear kinematics where they are open, or says which regions they are not for, and why.
+struct Trial {
+  std::vector<std::string> given_up = {};
+  std::string why = {};
+  std::unique_ptr<LinearityWatch> watch = {};
+};
+
+Trial try_linear(const Scene& scene, const std::vector<std::string>& open, const BuiltScene& built, double allowed,
+                 bool predict) {
+  const bool is_static = scene.analysis == Analysis::statical;
+  try {
+    auto watch = std::make_unique<LinearityWatch>(*built.model, linear_regions(scene, open, *built.model),
+                                                  scene.time.start, end_of_motion(scene), allowed);
+    watch->error_at(scene.time.start, Vector::Zero(built.model->num_dofs()));  // throws where it cannot be computed
+    if (!predict) return {.watch = std::move(watch)};
+    const StaticResponse response = static_response(*built.model, built.initial, scene.time.end);
+    if (!response.exists()) return {.watch = std::move(watch)};
+    const Vector q = built.initial.q + (is_static ? 1 : kOvershoot) * response.displacement;
+    const double error = watch->error_at(scene.time.end, q);
+    if (error <= kClearly * allowed) return {.watch = std::move(watch)};
+    return {.given_up = watch->to_give_up(scene.time.end, q),
+            .why = fmt::format("linear kinematics would be off by {}{}, where {:.2g} is allowed", how_much(error),
+                               is_static ? "" : " at twice the static response", allowed)};
+  } catch (const RunError& e) {
+    return {.given_up = open, .why = e.what()};
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<LinearityWatch> watch_for_the_end(const Scene& scene, const FemModel& model) {
+  if (model.num_dofs() > kLargestToldOf) return nullptr;
+  std::vector<std::string> names;
+  for (const auto& [name, region] : scene.regions)
+    if (elasticity_of(scene, region).kinematics == Kinematics::linear) names.push_back(name);
+  auto regions = linear_regions(scene, names, model);
+  if (regions.empty()) return nullptr;
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  return std::make_unique<LinearityWatch>(model, std::move(regions), scene.time.start, end_of_motion(scene), kAny);
 }
 
 ChosenKinematics choose_kinematics(Config& config, Scene& scene, bool linear_so_far) {
-  const auto corotational = [&](const std::string& reason) {
-    scene = with(config, "corotational");
-    return ChosenKinematics{{false, "corotational: " + reason}, build(scene), nullptr};
-  };
   const double allowed = allowed_error(scene);
-  scene = with(config, "corotational");
-  BuiltScene exact = build(scene);
-  scene = with(config, "linear");
-  BuiltScene built = build(scene);
-  if (!built.model->traits().linear) return corotational("loads, contact or supports are not linear anyway");
-  const bool is_static = scene.analysis == Analysis::statical;
-  const double end = is_static ? std::numeric_limits<double>::infinity() : scene.time.end;
-  try {
-    auto watch = std::make_unique<LinearityWatch>(*built.model, std::move(exact.model), scene.time.start, end, allowed);
-    const StaticResponse response = linear_so_far
-                                        ? StaticResponse{}
-                                        : static_response(*built.model, built.initial, scene.time.end);
-    if (response.exists()) {
-      const Vector q = built.initial.q + (is_static ? 1 : kOvershoot) * response.displacement;
-      if (const double error = watch->error_at(scene.time.end, q); error > kClearly * allowed)
-        return corotational(fmt::format("linear kinematics would be off by {}{}, where {:.2g} is allowed",
-                                        how_much(error), is_static ? "" : " at twice the static response", allowed));
+  KinematicsChoice choice;
+  for (auto open = open_regions(scene); !open.empty(); open = open_regions(scene)) {
+    const Scene linear = with_linear_regions(scene);
+    BuiltScene built = build(linear);
+    Trial trial = try_linear(linear, open, built, allowed, !linear_so_far);
+    if (trial.watch) {
+      config.set("elasticity.linear_error", allowed);
+      scene = linear;
+      choice.linear = choice.reason.empty();
+      return {std::move(choice), std::move(built), std::move(trial.watch)};
     }
-    config.set("elasticity.kinematics", std::string("auto"));
-    config.set("elasticity.linear_error", allowed);
-    return {{true, "linear"}, std::move(built), std::move(watch)};
-  } catch (const RunError& e) {
-    return corotational(e.what());
+    choice.add_reason(make_corotational(config, trial.given_up, trial.why));
+    scene = read_scene(config);
   }
+  return {std::move(choice), build(scene), nullptr};
 }
 
 }  // namespace orthodyn

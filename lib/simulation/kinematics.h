@@ -1,10 +1,11 @@
-// `elasticity.kinematics: auto`: linear kinematics where they are accurate enough, watched for as long as they are
-// used.
+// `kinematics: auto`: linear kinematics where they are accurate enough, region by region, watched for as long as they
+// are used.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lib/analysis/linearity.h"
 #include "lib/scene/build.h"
@@ -12,13 +13,19 @@
 
 namespace orthodyn {
 
+// An entry of the scene's `regions` with linear kinematics, and the elastic terms that it describes.
+struct LinearRegion {
+  std::string name;
+  Linearity::Terms terms;
+};
+
 // Looks on at a run with linear kinematics, and ends it where they are off by more than is allowed: at the largest
 // displacement so far, and by the phase that a vibration of this size gains or loses until now.
 class LinearityWatch : public Observer {
  public:
-  // `linear` must outlive it. The motion is from `start` to `end`, s; in statics `end` is infinite. `allowed`: of the
-  // largest displacement.
-  LinearityWatch(const FemModel& linear, std::unique_ptr<FemModel> exact, double start, double end, double allowed);
+  // `model` must outlive it. The motion is from `start` to `end`, s; in statics `end` is infinite. `allowed`: of the
+  // largest displacement; infinite to be told at the end only.
+  LinearityWatch(const FemModel& model, std::vector<LinearRegion> regions, double start, double end, double allowed);
 
   void on_start(const ObservedState& observed) override { look_at(observed.state()); }
   void on_resume(const ObservedState& observed) override { look_at(observed.state()); }
@@ -31,54 +38,84 @@ class LinearityWatch : public Observer {
   void save(Archive& archive) override;
   void restore(const Archive& archive) override;
 
-  // Of one state, without phase.
-  double error_at(double t, const Vector& q) const { return linearity_.error(t, q).displacement; }
-  // Keeps it, as that of a state of the run.
-  void note(double t, const Vector& q);
-  // The same; throws RunError where linear kinematics are outgrown.
+  // The error of one state, without phase. Throws RunError if the tangent at rest cannot be factorised.
+  double error_at(double t, const Vector& q) { return linearity().error(t, q).displacement; }
+  // At the end, for error(), which is NaN where it cannot be computed: the displacement may have grown since the last
+  // look. In statics it is the last one.
+  void finish();
+  void finish_at(double t, const Vector& q);
+  // The latter; throws RunError where linear kinematics are outgrown.
   void require(double t, const Vector& q);
 
+  const std::vector<LinearRegion>& regions() const { return regions_; }
+  std::size_t num_regions() const { return model_.parts().elastic.size(); }  // of the mesh, linear or not
   double allowed() const { return allowed_; }
   double error() const { return error_; }  // the largest so far, phase included
   bool outgrown() const { return error_ > allowed_; }
   double time() const { return time_; }  // s: of the last state that was looked at
 
- private:
-  void look_at(const State& state);
-  double norm(const Vector& x) const;  // in the mass norm
+  // The regions that are to be corotational for what was found at a state: all but those which together are off by less
+  // than half of what is allowed.
+  std::vector<std::string> to_give_up(double t, const Vector& q);
+  // The same at the largest displacement.
+  std::vector<std::string> to_give_up() { return to_give_up(largest_.t, largest_.q); }
 
-  const FemModel& linear_;
-  std::unique_ptr<FemModel> exact_;
-  Linearity linearity_;
-  double allowed_, start_ = 0, time_ = 0;
-  double checked_ = 0;                        // the displacement at which the error was computed last
-  double displacement_ = 0, velocity_ = 0;    // the largest so far
+ private:
+  struct Largest {
+    double t = 0, norm = 0;  // s; in the mass norm
+    Vector q = {};
+  };
+
+  void look_at(const State& state);
+  void note(double t, const Vector& q);  // the error there
+  double next_look() const;            // the displacement from which on the error has to be computed anew
+  double norm(const Vector& x) const;  // in the mass norm
+  double turns() const;                // rad, of a vibration since the start
+  Linearity& linearity();
+
+  const FemModel& model_;
+  std::vector<LinearRegion> regions_;
+  std::optional<Linearity> linearity_;  // made when it is needed first
+  double allowed_, start_, span_, time_;
+  Largest largest_;
+  double checked_ = 0;   // the displacement at which the error was computed last
+  double velocity_ = 0;  // the largest so far
   double local_ = 0, stiffness_ = 0, error_ = 0;
 };
 
 // What was taken for `auto`.
 struct KinematicsChoice {
-  bool linear = false;
-  std::string reason;  // in words
+  bool linear = false;  // in every region that leaves it open
+  std::string reason;   // of what is not, in words
+  void add_reason(const std::string& more) { reason += (reason.empty() ? "" : "; ") + more; }
 };
 
 struct ChosenKinematics {
   KinematicsChoice choice;
   BuiltScene built;                       // with what was taken
-  std::unique_ptr<LinearityWatch> watch;  // null unless linear
+  std::unique_ptr<LinearityWatch> watch;  // null unless some region is linear by this choice
 };
 
-// Sets `elasticity.kinematics` in a scene's document, without the `linear_error` that means nothing beside it.
-void set_kinematics(Config& config, const std::string& kinematics);
+// Whether a scene leaves the kinematics of a region open.
+bool leaves_kinematics_open(const Scene& scene);
 
-// Builds a scene that says `auto`. Linear unless something of the scene is not, or its linear response is clearly too
-// large. The document then says corotational, or `auto` still, with the error that is allowed: whoever goes on from it
-// is to watch as well. `linear_so_far`: of a run that goes on with linear kinematics, nothing is predicted. Throws
-// ConfigError.
+// Makes all regions corotational whose kinematics a scene's document leaves open.
+void make_corotational(Config& config);
+
+// Builds a scene that leaves kinematics open. Linear in all regions unless the linear response is clearly too large in
+// some. The document then says corotational of these, and auto still of the others, with the error that is allowed:
+// whoever goes on from it is to watch as well. `linear_so_far`: of a run that goes on with linear kinematics, nothing
+// is predicted. Throws ConfigError.
 ChosenKinematics choose_kinematics(Config& config, Scene& scene, bool linear_so_far = false);
+
+// Of a scene whose user has chosen linear kinematics, for some region or all: to tell at the end what they cost. Null
+// without, and for very large models.
+std::unique_ptr<LinearityWatch> watch_for_the_end(const Scene& scene, const FemModel& model);
 
 // What is told of a run with linear kinematics that has ended.
 std::string outcome_of(const LinearityWatch& watch);
 std::string outgrown_sentence(const LinearityWatch& watch);
+// Makes the regions corotational in the scene's document that have outgrown linear kinematics, and says so.
+std::string give_up_outgrown(Config& config, LinearityWatch& watch);
 
 }  // namespace orthodyn

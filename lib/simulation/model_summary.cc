@@ -1,16 +1,36 @@
 #include "lib/simulation/model_summary.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/words.h"
+
 namespace orthodyn {
+
+namespace {
+
+std::string laws_of(const FemModel& model) {
+  std::vector<std::string> laws;
+  for (const auto& term : model.parts().elastic)
+    if (std::find(laws.begin(), laws.end(), term->law()) == laws.end()) laws.push_back(term->law());
+  return join(laws, "; ");
+}
+
+}  // namespace
 
 ModelSummary summarize(const Setup& setup) {
   const FemModel& model = *setup.built.model;
   const auto& parts = model.parts();
   ModelSummary out{parts.mesh.nodes.size(), parts.mesh.tets.size(),       model.num_dofs(),
-                   parts.mesh.order(),      parts.elastic.front()->law(), {}};
+                   parts.mesh.order(),      laws_of(model), {}};
   for (const auto& term : parts.elastic) out.terms.push_back(term->description());
   for (const auto& term : parts.loads) out.terms.push_back(term->description());
-  if (setup.linearity) out.kinematics = outcome_of(*setup.linearity);
-  else if (setup.kinematics) out.kinematics = setup.kinematics->reason;
+  if (setup.linearity) {
+    out.kinematics = outcome_of(*setup.linearity);
+    if (!std::isnan(setup.linearity->error())) out.linear_error = setup.linearity->error();
+  }
+  if (setup.kinematics && !setup.kinematics->reason.empty())
+    out.kinematics += (out.kinematics.empty() ? "" : "; ") + setup.kinematics->reason;
   return out;
 }
 

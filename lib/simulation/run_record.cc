@@ -1,5 +1,7 @@
 #include "lib/simulation/run_record.h"
 
+#include <cmath>
+
 #include "lib/simulation/doubts.h"
 #include "lib/simulation/errors/error_balance.h"
 #include "lib/simulation/machine.h"
@@ -27,6 +29,7 @@ Json model_json(const ModelSummary& model) {
   for (const auto& term : model.terms) terms.push_back(term);
   Json out{{"nodes", model.nodes}, {"elements", model.elements}, {"unknowns", model.unknowns}, {"terms", terms}};
   if (!model.kinematics.empty()) out["kinematics"] = model.kinematics;
+  if (model.linear_error && std::isfinite(*model.linear_error)) out["linear_error"] = *model.linear_error;
   return out;
 }
 

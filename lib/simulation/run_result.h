@@ -20,9 +20,10 @@ struct ModelSummary {
   std::size_t nodes = 0, elements = 0;
   int unknowns = 0;
   int order = 1;  // of its elements
-  std::string elasticity;          // the law of the first region
+  std::string elasticity;          // the laws of its regions
   std::vector<std::string> terms;  // in words
-  std::string kinematics = {};     // what was taken for `auto`, and why; else ""
+  std::string kinematics = {};     // what was taken for `auto`, and why, and how far linear kinematics are off; or ""
+  std::optional<double> linear_error = {};  // of these, of the motion; infinite where it is a good part
 };
 
 struct EnergySummary {

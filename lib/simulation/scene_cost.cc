@@ -132,12 +132,13 @@ class Judge {
   }
 
   void look_at_kinematics() {
-    if (setup_.scene.elasticity.kinematics != Kinematics::corotational || setup_.scene.elasticity.is_warped() ||
-        setup_.kinematics || model_.num_dofs() > kLargestSystem)
+    if (model_.traits().linear || setup_.scene.elasticity.is_warped() || setup_.kinematics ||
+        model_.num_dofs() > kLargestSystem)
       return;
     Config config = setup_.config.copy().resolving();
     config.set("elasticity.kinematics", std::string("auto"));
     Scene scene = read_scene(config);
+    if (!leaves_kinematics_open(scene)) return;
     if (const ChosenKinematics chosen = choose_kinematics(config, scene); chosen.choice.linear)
       found_.push_back(fmt::format("large rotations: by the linear response linear kinematics are off by less than "
                                    "{:.1g} of the motion; elasticity.kinematics: auto takes them, and watches",

@@ -125,13 +125,14 @@ Setup set_up(const Config& input, bool linear_so_far) {
   std::optional<KinematicsChoice> kinematics;
   std::unique_ptr<LinearityWatch> linearity;
   const auto build_it = [&] {
-    if (scene.elasticity.kinematics != Kinematics::automatic) return build(scene);
+    if (!leaves_kinematics_open(scene)) return build(scene);
     ChosenKinematics chosen = choose_kinematics(config, scene, linear_so_far);
     kinematics = std::move(chosen.choice);
     linearity = std::move(chosen.watch);
     return std::move(chosen.built);
   };
   BuiltScene built = build_it();
+  if (!linearity) linearity = watch_for_the_end(scene, *built.model);
   if (scene.analysis == Analysis::dynamic) require_force_at_start(config, built);
   check_outputs(scene, *built.model);
   check_expectations(scene, *built.model);
@@ -142,7 +143,7 @@ Setup set_up(const Config& input, bool linear_so_far) {
     return *statics;
   };
   const auto stiffness = elastic_stiffness(scene, *built.model);
-  if (scene.elasticity.kinematics == Kinematics::corotational && needs_strain_check(*built.model, stiffness))
+  if (!built.model->traits().linear && needs_strain_check(*built.model, stiffness))
     for (auto& warning : strain_warnings(*built.model, stiffness, built.initial, response()))
       built.warnings.push_back(std::move(warning));
   std::vector<Event> events = make_events(scene, *built.model);

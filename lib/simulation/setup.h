@@ -20,7 +20,7 @@ struct Setup {
   std::unique_ptr<Integrator> integrator;  // null in statics
   std::vector<Event> events;               // of the model
   std::optional<KinematicsChoice> kinematics;  // where the scene leaves them open
-  std::unique_ptr<LinearityWatch> linearity;   // to look on at its run; null unless linear kinematics were chosen
+  std::unique_ptr<LinearityWatch> linearity;   // to look on at its run; null without linear kinematics
 };
 
 // What the scene wants of its integrator. Both must outlive the task.

@@ -36,37 +36,41 @@ RunResult Simulation::run(const RunRequest& request, const std::atomic<bool>& in
   return run(request, interrupt, nobody);
 }
 
-// Where linear kinematics are outgrown, a second time from the start.
+// Where linear kinematics are outgrown, again from the start.
 RunResult Simulation::run(const RunRequest& request, const std::atomic<bool>& interrupt, RunListener& listener) const {
-  std::string outgrown;
-  RunResult result = run_once(scene_.copy(), request, outgrown, interrupt, listener);
-  if (!result.outgrown || interrupt) return result;
-  listener.on_notice(outgrown + ": starts again with corotational kinematics");
-  Config corotational = scene_.copy();
-  set_kinematics(corotational, "corotational");
+  Config scene = scene_.copy();
   RunRequest again = request;
-  again.force = true;
-  again.resume = false;
-  return run_once(std::move(corotational), again, outgrown, interrupt, listener);
+  std::string given_up;
+  for (;;) {
+    RunResult result = run_once(scene, again, given_up, interrupt, listener);
+    if (!result.outgrown || interrupt) return result;
+    again.force = true;
+    again.resume = false;
+  }
 }
 
-// `outgrown` says why linear kinematics were given up: in the first run it is set where that happens, in the second it
-// is told.
-RunResult Simulation::run_once(Config config, const RunRequest& request, std::string& outgrown,
+// Where linear kinematics are outgrown, `scene` gives them up, and `given_up` says why, for the next run to tell.
+RunResult Simulation::run_once(Config& scene, const RunRequest& request, std::string& given_up,
                                const std::atomic<bool>& interrupt, RunListener& listener) const {
   const auto warn = [&](const std::string& text) { listener.on_warning(text); };
   ResultFolder folder(request.folder, earlier_result(request), warn);
   std::optional<Checkpoint> earlier;
   if (folder.resumes()) earlier = Checkpoint::load(folder.checkpoint());
-  if (earlier) keep_choices(*earlier, config);
-  Setup setup = set_up(std::move(config), earlier && was_linear_so_far(*earlier));
-  if (!outgrown.empty()) setup.kinematics = KinematicsChoice{false, "corotational: " + outgrown};
+  if (earlier) keep_choices(*earlier, scene);
+  Setup setup = set_up(scene, earlier && was_linear_so_far(*earlier));
+  if (!given_up.empty()) {
+    if (!setup.kinematics) setup.kinematics.emplace();
+    setup.kinematics->add_reason(given_up);
+  }
   for (const auto& warning : setup.built.warnings) listener.on_warning(warning);
   const std::string resolved = resolved_scene(setup, file_, folder.path());
   const RunAnalysis analysis = setup.scene.analysis == Analysis::statical ? run_static_analysis : run_dynamic_analysis;
   RunResult result =
       analysis({file_, changes_.set, request, setup, resolved, folder, std::move(earlier), interrupt, listener});
-  if (result.outgrown) outgrown = outgrown_sentence(*setup.linearity);
+  if (result.outgrown && !interrupt) {
+    given_up = give_up_outgrown(scene, *setup.linearity);
+    listener.on_notice(outgrown_sentence(*setup.linearity) + ": starts again with corotational kinematics");
+  }
   return result;
 }
 

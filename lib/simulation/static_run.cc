@@ -101,7 +101,7 @@ RunResult run_static_analysis(RunContext context) {
   RunResult result{.scene = context.scene, .folder = folder};
   result.outcome = run_static(*problem.path, *problem.stepper, all, context.interrupt);
   if (setup.linearity) {
-    setup.linearity->note(problem.path->time(), result.outcome.last.q);
+    setup.linearity->finish_at(problem.path->time(), result.outcome.last.q);
     result.outgrown = setup.linearity->outgrown();
     if (result.outgrown) return result;
   }

@@ -43,13 +43,13 @@ void print_strain_limits(const Stiffness& stiffness) {
   }
 }
 
-void print_materials(const Scene& scene) {
+void print_materials(const Scene& scene, bool is_linear) {
   for (const auto& [name, material] : scene.materials) {
     const Mat6 C = voigt(material->stiffness());
     const Vec6 lambda = symmetric_eigenvalues(C);
     fmt::print("  {}: density {} kg/m^3, eigenvalues of C {:.4g} Pa\n", name, material->density(),
                fmt::join(lambda, ", "));
-    if (scene.elasticity.kinematics == Kinematics::corotational) print_strain_limits(material->stiffness());
+    if (!is_linear) print_strain_limits(material->stiffness());
   }
 }
 
@@ -147,7 +147,7 @@ int check(const CheckArguments& arguments) {
   fmt::print("  extent {} to {} m, mass {:.6g} kg ({})\n", Value<Vec3>::yaml(box.min), Value<Vec3>::yaml(box.max),
              parts.mass->total(), parts.mass->lumped() ? "lumped" : "consistent");
   fmt::print("materials\n");
-  print_materials(setup.scene);
+  print_materials(setup.scene, setup.built.model->traits().linear);
   print_axes(setup);
   print_supports(model);
   fmt::print("terms\n");

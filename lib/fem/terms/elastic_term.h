@@ -10,6 +10,7 @@
 #include <string>
 
 #include "lib/element/observation.h"
+#include "lib/fem/elastic_region.h"
 #include "lib/fem/term.h"
 
 namespace orthodyn {
@@ -18,8 +19,9 @@ class ElasticTerm : public Term {
  public:
   EnergyKind energy_kind() const override { return EnergyKind::elastic; }
 
-  // The region of the mesh that its elements are.
-  virtual const std::string& region() const = 0;
+  // What it was made from.
+  virtual const ElasticRegion& definition() const = 0;
+  const std::string& region() const { return definition().name; }
 
   // The law in words, e.g. "corotational, exact gradient".
   virtual std::string law() const = 0;

@@ -37,7 +37,7 @@ class ElasticTermOf final : public ElasticTerm {
                        damped() ? ", stiffness-proportional damping" : "");
   }
 
-  const std::string& region() const override { return region_.name; }
+  const ElasticRegion& definition() const override { return region_; }
   std::string law() const override { return Law::kName; }
 
   std::size_t bytes() const override {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -64,20 +65,44 @@ void require_time_left(const Checkpoint& checkpoint, const Setup& setup) {
 
 namespace {
 
-std::string kinematics_of(const Config& scene) {
-  const bool given = scene.has("elasticity") && scene.at("elasticity").has("kinematics");
-  return given ? scene.at("elasticity").at("kinematics").text() : "";
+// Of the section `elasticity` or an entry of `regions`; empty where nothing is given.
+std::string kinematics_of(const Config& sections, const std::string& name) {
+  const bool given = sections.has(name) && sections.at(name).is_map() && sections.at(name).has("kinematics");
+  const Config section = given ? sections.at(name).at("kinematics") : sections;
+  return given && !section.is_null() ? section.text() : "";
+}
+
+std::vector<std::string> regions_of(const Config& scene) {
+  return scene.has("regions") && scene.at("regions").is_map() ? scene.at("regions").keys() : std::vector<std::string>{};
+}
+
+// What was found too large for linear kinematics stays corotational.
+void keep_kinematics(const Config& before, Config& scene) {
+  const std::string corotational = "corotational", open = "auto";
+  const bool is_open = kinematics_of(scene, "elasticity") == open;
+  if (is_open && kinematics_of(before, "elasticity") == corotational) return make_corotational(scene);
+  for (const auto& name : regions_of(scene)) {
+    const std::string now = kinematics_of(scene.at("regions"), name);
+    if (now != open && !(now.empty() && is_open)) continue;
+    if (before.has("regions") && kinematics_of(before.at("regions"), name) == corotational)
+      scene.set("regions." + name + ".kinematics", corotational);
+  }
 }
 
 }  // namespace
 
 bool was_linear_so_far(const Checkpoint& checkpoint) {
-  return kinematics_of(Config::from_text(checkpoint.scene, "checkpoint.cbor")) == "auto";
+  const Config before = Config::from_text(checkpoint.scene, "checkpoint.cbor");
+  if (kinematics_of(before, "elasticity") == "auto") return true;
+  const auto regions = regions_of(before);
+  return std::any_of(regions.begin(), regions.end(), [&](const std::string& name) {
+    return kinematics_of(before.at("regions"), name) == "auto";
+  });
 }
 
 void keep_choices(const Checkpoint& checkpoint, Config& scene) {
   const Config before = Config::from_text(checkpoint.scene, "checkpoint.cbor");
-  if (kinematics_of(scene) == "auto" && kinematics_of(before) == "corotational") set_kinematics(scene, "corotational");
+  keep_kinematics(before, scene);
   if (!before.has("integrator")) return;
   for (const std::string key : {"position_scale", "velocity_scale"}) {
     const bool open = !scene.has("integrator") || !scene.at("integrator").has(key);

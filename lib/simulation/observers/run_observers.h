@@ -37,7 +37,7 @@ class RunObservers {
   std::optional<MomentumWriter> momentum;
 
  private:
-  LinearityWatch* linearity_;  // null unless linear kinematics were chosen
+  LinearityWatch* linearity_;  // null without linear kinematics
   std::optional<FrameWriter> frames_;
   std::optional<StepWriter> steps_;
   std::optional<ProbeWriter> probes_;
