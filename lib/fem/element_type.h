@@ -2,7 +2,9 @@
 // ElementTypeOf<E> (element_type_of.h) for an element E of lib/element, in a file of its own.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <span>
 
 #include "lib/core/types.h"
 
@@ -25,6 +27,10 @@ class ElementType {
 
   // Where the law is evaluated: a column per integration point, m, at rest.
   virtual Nodes points(const Nodes& X) const = 0;
+
+  // The first nodes of a cell are its corners; the others lie between two of these each, in this order.
+  virtual int num_corners() const = 0;
+  virtual std::span<const std::array<int, 2>> edges_with_middles() const = 0;
 
   // Element::kDegree and points_to_nodes().
   virtual int degree() const = 0;

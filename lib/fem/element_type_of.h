@@ -22,6 +22,12 @@ class ElementTypeOf final : public ElementType {
     return out;
   }
 
+  int num_corners() const override { return E::kNodes - static_cast<int>(edges_with_middles().size()); }
+  std::span<const std::array<int, 2>> edges_with_middles() const override {
+    if constexpr (requires { E::kEdges; }) return E::kEdges;
+    else return {};
+  }
+
   int degree() const override { return E::kDegree; }
   Eigen::MatrixXd points_to_nodes() const override { return E::points_to_nodes(); }
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <tuple>
+#include <utility>
 
 #include "lib/core/symmetric_eigen.h"
 #include "lib/material/stiffness.h"
@@ -26,15 +29,16 @@ Vector monomials(const Vec3& x, int degree) {
   return m;
 }
 
-// The elements at each node.
+// The elements at each corner.
 class Neighbours {
  public:
-  Neighbours(const Cells& cells, std::size_t nodes) : cells_(cells), at_(nodes), mark_(cells.size(), -1) {
+  Neighbours(const Cells& cells, int corners, std::size_t nodes)
+      : cells_(cells), corners_(static_cast<std::size_t>(corners)), at_(nodes), mark_(cells.size(), -1) {
     for (std::size_t k = 0; k < cells.size(); ++k)
-      for (const int node : cells[k]) at_[static_cast<std::size_t>(node)].push_back(static_cast<int>(k));
+      for (const int node : corners_of(k)) at_[static_cast<std::size_t>(node)].push_back(static_cast<int>(k));
   }
 
-  // Those around a node.
+  // Those around a corner; none of a node that is no corner.
   std::vector<int> patch(int node) {
     std::vector<int> all;
     add(node, node, all);
@@ -44,11 +48,13 @@ class Neighbours {
   bool grow(int node, std::vector<int>& patch) {
     const std::size_t size = patch.size();
     for (std::size_t i = 0; i < size; ++i)
-      for (const int other : cells_[static_cast<std::size_t>(patch[i])]) add(node, other, patch);
+      for (const int other : corners_of(static_cast<std::size_t>(patch[i]))) add(node, other, patch);
     return patch.size() > size;
   }
 
  private:
+  std::span<const int> corners_of(std::size_t cell) const { return cells_[cell].first(corners_); }
+
   void add(int centre, int node, std::vector<int>& patch) {
     for (const int k : at_[static_cast<std::size_t>(node)]) {
       int& mark = mark_[static_cast<std::size_t>(k)];
@@ -59,33 +65,33 @@ class Neighbours {
   }
 
   const Cells& cells_;
+  std::size_t corners_;
   std::vector<std::vector<int>> at_;
   std::vector<int> mark_;  // of each element the last patch that it is in
 };
 
-struct Fit {
-  Vector weights;    // with which the values at the points give the fitted polynomial's at the centre
-  bool determined;   // by enough points, which tell all polynomials apart
-};
-
-// Around the mean of the values, so that constants are met where the points are too few for more.
-Fit fit(const std::vector<Vec3>& points, const Vec3& centre, int degree) {
-  const auto count = static_cast<Eigen::Index>(points.size());
-  double radius = 0;
-  for (const Vec3& x : points) radius = std::max(radius, (x - centre).norm());
-  Eigen::MatrixXd A(count, coefficients(degree));
+// Places as the monomials take them, a row each.
+Eigen::MatrixXd monomials_at(const Eigen::Matrix3Xd& places, const Vec3& centre, double radius, int degree) {
+  Eigen::MatrixXd A(places.cols(), coefficients(degree));
   for (Eigen::Index i = 0; i < A.rows(); ++i)
-    A.row(i) = monomials((points[static_cast<std::size_t>(i)] - centre) / radius, degree).transpose();
-  const Vector mean = A.colwise().mean();
-  A.rowwise() -= mean.transpose();
+    A.row(i) = monomials((places.col(i) - centre) / radius, degree).transpose();
+  return A;
+}
+
+// Fits, and says whether the points are enough, and tell all polynomials apart.
+std::pair<PatchFit, bool> fit(const Eigen::Matrix3Xd& places, const Vec3& centre, int degree) {
+  const double radius = (places.colwise() - centre).colwise().norm().maxCoeff();
+  Eigen::MatrixXd A = monomials_at(places, centre, radius, degree);
+  const Vector means = A.colwise().mean();
+  A.rowwise() -= means.transpose();
   const auto pairs = symmetric_eigenpairs<Eigen::Dynamic>(Eigen::MatrixXd(A.transpose() * A));
   const double smallest = kSmallest * pairs.values[A.cols() - 1];
-  Vector to_centre = Vector::Zero(A.cols());  // of the pseudo-inverse of A^T A, times what the monomials are there
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(A.cols(), A.cols());
   for (Eigen::Index i = 0; i < A.cols(); ++i)
     if (pairs.values[i] > smallest)
-      to_centre -= pairs.vectors.col(i).dot(mean) / pairs.values[i] * pairs.vectors.col(i);
-  return {(A * to_centre).array() + 1.0 / static_cast<double>(count),
-          pairs.values[0] > smallest && count >= kPointsPerCoefficient * (A.cols() + 1)};
+      inverse += pairs.vectors.col(i) / pairs.values[i] * pairs.vectors.col(i).transpose();
+  const bool determined = pairs.values[0] > smallest && A.rows() >= kPointsPerCoefficient * (A.cols() + 1);
+  return {{centre, radius, means, std::move(inverse)}, determined};
 }
 
 // Stress in the axes of space at rest, Pa, from the strain in material axes.
@@ -112,7 +118,7 @@ RegionMeshError mesh_error(const ElementMesh& mesh, const ElasticTerm& term, con
   const SixColumns computed = at_points(term, [&](int k, int p) {
     return stress_at_rest(C, term.observe_point(k, p, s).strain, term.axes_at_rest(k, p));
   });
-  const SixColumns recovered = recovery.at_nodes(computed);
+  const SixColumns recovered = recovery.at_nodes(mesh, computed);
   const Eigen::MatrixXd extrapolation = mesh.type.points_to_nodes();
   RegionMeshError out{Vector(term.size()), Vector(term.size()), 0};
   // As shares of the volume it is the same for all elements with straight edges.
@@ -139,7 +145,7 @@ RegionMeshError mesh_error(const ElementMesh& mesh, const ElasticTerm& term, con
 
 }  // namespace
 
-RegionRecovery::RegionRecovery(const ElementMesh& mesh, const ElasticTerm& term) {
+RegionRecovery::RegionRecovery(const ElementMesh& mesh, const ElasticTerm& term) : per_element_(term.num_points()) {
   std::vector<int> row_of(mesh.nodes.size(), -1), all;
   for (int k = 0; k < term.size(); ++k)
     for (const int node : mesh.cells[static_cast<std::size_t>(term.cell(k))]) {
@@ -151,37 +157,70 @@ RegionRecovery::RegionRecovery(const ElementMesh& mesh, const ElasticTerm& term)
       all.push_back(row);
     }
   cells_ = Cells(mesh.cells.nodes_per_cell(), std::move(all));
+  places_.resize(3, per_element_ * term.size());
+  for (int k = 0; k < term.size(); ++k)
+    places_.middleCols(per_element_ * k, per_element_) =
+        mesh.type.points(mesh.positions(static_cast<std::size_t>(term.cell(k))));
 
-  const int per_element = term.num_points();
-  std::vector<Vec3> places;
-  for (int k = 0; k < term.size(); ++k) {
-    const auto points = mesh.type.points(mesh.positions(static_cast<std::size_t>(term.cell(k))));
-    for (int p = 0; p < per_element; ++p) places.emplace_back(points.col(p));
-  }
   const int degree = mesh.type.degree();
-  Neighbours neighbours(cells_, nodes_.size());
-  std::vector<Eigen::Triplet<double>> entries;
+  Neighbours neighbours(cells_, mesh.type.num_corners(), nodes_.size());
+  std::vector<int> patch_of(nodes_.size(), -1);
   for (int row = 0; row < static_cast<int>(nodes_.size()); ++row) {
+    std::vector<int> elements = neighbours.patch(row);
+    if (elements.empty()) continue;
     const Vec3& centre = mesh.nodes[static_cast<std::size_t>(nodes_[static_cast<std::size_t>(row)])];
-    std::vector<int> patch = neighbours.patch(row), points;
-    Vector weights;
-    for (int ring = 0;; ++ring) {
-      std::vector<Vec3> at;
-      points.clear();
-      for (const int k : patch)
-        for (int p = 0; p < per_element; ++p) {
-          points.push_back(k * per_element + p);
-          at.push_back(places[static_cast<std::size_t>(points.back())]);
-        }
-      Fit found = fit(at, centre, degree);
-      weights = std::move(found.weights);
-      if (found.determined || ring == kMostRings || !neighbours.grow(row, patch)) break;
-    }
-    for (std::size_t i = 0; i < points.size(); ++i)
-      entries.emplace_back(row, points[i], weights[static_cast<Eigen::Index>(i)]);
+    auto [found, determined] = fit(places_of(elements), centre, degree);
+    for (int ring = 0; !determined && ring < kMostRings && neighbours.grow(row, elements); ++ring)
+      std::tie(found, determined) = fit(places_of(elements), centre, degree);
+    patch_of[static_cast<std::size_t>(row)] = static_cast<int>(patches_.size());
+    patches_.push_back({row, std::move(elements), std::move(found), {}});
   }
-  weights_.resize(static_cast<Eigen::Index>(nodes_.size()), static_cast<Eigen::Index>(places.size()));
-  weights_.setFromTriplets(entries.begin(), entries.end());
+  add_middles(mesh.type, patch_of);
+}
+
+void RegionRecovery::add_middles(const ElementType& type, const std::vector<int>& patch_of) {
+  std::vector<bool> is_known(nodes_.size(), false);
+  for (std::size_t k = 0; k < cells_.size(); ++k)
+    for (std::size_t e = 0; e < type.edges_with_middles().size(); ++e) {
+      const int middle = cells_[k][static_cast<std::size_t>(type.num_corners()) + e];
+      if (is_known[static_cast<std::size_t>(middle)]) continue;
+      is_known[static_cast<std::size_t>(middle)] = true;
+      for (const int corner : type.edges_with_middles()[e]) {
+        const int row = cells_[k][static_cast<std::size_t>(corner)];
+        patches_[static_cast<std::size_t>(patch_of[static_cast<std::size_t>(row)])].middles.push_back(middle);
+      }
+    }
+}
+
+Eigen::Matrix3Xd RegionRecovery::places_of(const std::vector<int>& elements) const {
+  Eigen::Matrix3Xd all(3, per_element_ * static_cast<Eigen::Index>(elements.size()));
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    all.middleCols(per_element_ * static_cast<Eigen::Index>(i), per_element_) =
+        places_.middleCols(per_element_ * elements[i], per_element_);
+  return all;
+}
+
+SixColumns RegionRecovery::at_nodes(const ElementMesh& mesh, const SixColumns& at_points) const {
+  const int degree = mesh.type.degree();
+  SixColumns out = SixColumns::Zero(static_cast<Eigen::Index>(nodes_.size()), 6);
+  SixColumns values;
+  for (const auto& [row, elements, fit, middles] : patches_) {
+    values.resize(per_element_ * static_cast<Eigen::Index>(elements.size()), 6);
+    for (std::size_t i = 0; i < elements.size(); ++i)
+      values.middleRows(per_element_ * static_cast<Eigen::Index>(i), per_element_) =
+          at_points.middleRows(per_element_ * elements[i], per_element_);
+    const Eigen::RowVectorXd mean = values.colwise().mean();
+    values.rowwise() -= mean;
+    const Eigen::MatrixXd A = monomials_at(places_of(elements), fit.centre, fit.radius, degree);
+    const Eigen::MatrixXd slopes = fit.inverse * (A.transpose() * values - fit.means * values.colwise().sum());
+    const auto value_at = [&](int node) -> Eigen::RowVectorXd {
+      const Vec3& place = mesh.nodes[static_cast<std::size_t>(nodes_[static_cast<std::size_t>(node)])];
+      return mean + (monomials((place - fit.centre) / fit.radius, degree) - fit.means).transpose() * slopes;
+    };
+    out.row(row) = value_at(row);
+    for (const int middle : middles) out.row(middle) += 0.5 * value_at(middle);
+  }
+  return out;
 }
 
 const std::vector<RegionRecovery>& StressRecovery::regions() const {
@@ -193,13 +232,14 @@ const std::vector<RegionRecovery>& StressRecovery::regions() const {
 }
 
 Eigen::Matrix<double, 6, Eigen::Dynamic> StressRecovery::at_nodes(const NodalState& s, const Seen& seen) const {
+  const ElementMesh mesh(mesh_);
   Eigen::Matrix<double, 6, Eigen::Dynamic> sum = Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, s.x.cols());
   std::vector<int> count(static_cast<std::size_t>(s.x.cols()), 0);
   for (std::size_t r = 0; r < terms_.size(); ++r) {
     const ElasticTerm& term = *terms_[r];
     const RegionRecovery& recovery = regions()[r];
     const SixColumns values = recovery.at_nodes(
-        at_points(term, [&](int k, int p) { return seen(term.observe_point(k, p, s)); }));
+        mesh, at_points(term, [&](int k, int p) { return seen(term.observe_point(k, p, s)); }));
     for (std::size_t i = 0; i < recovery.nodes().size(); ++i) {
       const int node = recovery.nodes()[i];
       sum.col(node) += values.row(static_cast<Eigen::Index>(i)).transpose();
