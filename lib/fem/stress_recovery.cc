@@ -17,6 +17,7 @@ namespace {
 constexpr double kSmallest = 1e-4;
 constexpr int kPointsPerCoefficient = 4;
 constexpr int kMostRings = 3;
+constexpr double kSmallStep = 1e-6;  // of the body's extent
 
 // Beside the constant.
 int coefficients(int degree) { return degree == 1 ? 3 : 9; }
@@ -107,38 +108,67 @@ SixColumns at_points(const ElasticTerm& term, const std::function<Vec6(int k, in
   return out;
 }
 
-// Mean over an element of d : C^-1 : d / 2 for d with the values `rows` at its nodes, J/m^3.
-double energy_of_stress(const Eigen::MatrixXd& shares, const Mat6& compliance, const SixColumns& rows) {
-  return 0.5 * (rows.transpose() * shares * rows * compliance).trace();
+SixColumns stresses(const ElasticTerm& term, const NodalState& s) {
+  const Mat6 C = term.stiffness();
+  return at_points(term, [&](int k, int p) {
+    return stress_at_rest(C, term.observe_point(k, p, s).strain, term.axes_at_rest(k, p));
+  });
+}
+
+// Integrals over the elements of a term of products of stresses that are given at their nodes.
+class EnergyOfStress {
+ public:
+  EnergyOfStress(const ElementMesh& mesh, const ElasticTerm& term)
+      : mesh_(mesh), term_(term), compliance_(Mat6(term.stiffness().inverse())),
+        shares_(mesh.type.consistent_mass(positions(0), 1) / volume(0)) {}
+
+  double volume(int k) const { return mesh_.type.lumped_mass(positions(k), 1).sum(); }
+
+  // a : C^-1 : b / 2, J. As shares of the volume the integrals are the same for all elements with straight edges.
+  double operator()(int k, const SixColumns& a, const SixColumns& b) const {
+    // C^-1 in space: with sigma' = K sigma it is K C^-1' K^T for K that of the inverse rotation.
+    const Mat6 to_material = stress_rotation(term_.axes_at_rest(k, 0).transpose());
+    const Mat6 compliance = to_material.transpose() * compliance_ * to_material;
+    return 0.5 * volume(k) * (a.transpose() * shares_ * b * compliance).trace();
+  }
+
+ private:
+  ElementType::Nodes positions(int k) const { return mesh_.positions(static_cast<std::size_t>(term_.cell(k))); }
+
+  const ElementMesh& mesh_;
+  const ElasticTerm& term_;
+  Mat6 compliance_;
+  Eigen::MatrixXd shares_;
+};
+
+// Recovered less computed, at the nodes of each element.
+SixColumns misfit_of_region(const ElementMesh& mesh, const RegionRecovery& recovery, const SixColumns& computed) {
+  const SixColumns recovered = recovery.at_nodes(mesh, computed);
+  const Eigen::MatrixXd extrapolation = mesh.type.points_to_nodes();
+  const Eigen::Index points = extrapolation.cols(), nodes = extrapolation.rows();
+  SixColumns out(nodes * static_cast<Eigen::Index>(recovery.cells().size()), 6);
+  for (Eigen::Index k = 0; k < out.rows() / nodes; ++k) {
+    auto own = out.middleRows(nodes * k, nodes);
+    own = -extrapolation * computed.middleRows(points * k, points);
+    const auto rows = recovery.cells()[static_cast<std::size_t>(k)];
+    for (std::size_t a = 0; a < rows.size(); ++a) own.row(static_cast<Eigen::Index>(a)) += recovered.row(rows[a]);
+  }
+  return out;
 }
 
 RegionMeshError mesh_error(const ElementMesh& mesh, const ElasticTerm& term, const RegionRecovery& recovery,
                            const NodalState& s) {
-  const Mat6 C = term.stiffness(), material_compliance = C.inverse();
-  const SixColumns computed = at_points(term, [&](int k, int p) {
-    return stress_at_rest(C, term.observe_point(k, p, s).strain, term.axes_at_rest(k, p));
-  });
-  const SixColumns recovered = recovery.at_nodes(mesh, computed);
+  const SixColumns computed = stresses(term, s), misfit = misfit_of_region(mesh, recovery, computed);
   const Eigen::MatrixXd extrapolation = mesh.type.points_to_nodes();
+  const Eigen::Index points = extrapolation.cols(), nodes = extrapolation.rows();
+  const EnergyOfStress energy(mesh, term);
   RegionMeshError out{Vector(term.size()), Vector(term.size()), 0};
-  // As shares of the volume it is the same for all elements with straight edges.
-  const auto volume = [&](int k) {
-    return mesh.type.lumped_mass(mesh.positions(static_cast<std::size_t>(term.cell(k))), 1).sum();
-  };
-  const Eigen::MatrixXd shares =
-      mesh.type.consistent_mass(mesh.positions(static_cast<std::size_t>(term.cell(0))), 1) / volume(0);
   for (int k = 0; k < term.size(); ++k) {
-    // C^-1 in space: with sigma' = K sigma it is K C^-1' K^T for K that of the inverse rotation.
-    const Mat6 to_material = stress_rotation(term.axes_at_rest(k, 0).transpose());
-    const Mat6 compliance = to_material.transpose() * material_compliance * to_material;
-    const SixColumns own = extrapolation * computed.middleRows(k * term.num_points(), term.num_points());
-    const auto nodes = recovery.cells()[static_cast<std::size_t>(k)];
-    SixColumns difference = -own;
-    for (std::size_t a = 0; a < nodes.size(); ++a)
-      difference.row(static_cast<Eigen::Index>(a)) += recovered.row(nodes[a]);
-    out.volume[k] = volume(k);
-    out.error[k] = out.volume[k] * energy_of_stress(shares, compliance, difference);
-    out.energy += out.volume[k] * energy_of_stress(shares, compliance, own);
+    const SixColumns own = extrapolation * computed.middleRows(points * k, points);
+    const SixColumns difference = misfit.middleRows(nodes * k, nodes);
+    out.volume[k] = energy.volume(k);
+    out.error[k] = energy(k, difference, difference);
+    out.energy += energy(k, own, own);
   }
   return out;
 }
@@ -255,6 +285,44 @@ std::vector<RegionMeshError> StressRecovery::mesh_errors(const NodalState& s) co
   std::vector<RegionMeshError> all;
   for (std::size_t r = 0; r < terms_.size(); ++r) all.push_back(mesh_error(mesh, *terms_[r], regions()[r], s));
   return all;
+}
+
+StressMisfit StressRecovery::misfit_of(const std::vector<SixColumns>& at_points) const {
+  const ElementMesh mesh(mesh_);
+  StressMisfit all;
+  for (std::size_t r = 0; r < terms_.size(); ++r) all.push_back(misfit_of_region(mesh, regions()[r], at_points[r]));
+  return all;
+}
+
+StressMisfit StressRecovery::misfit(const NodalState& s) const {
+  std::vector<SixColumns> computed;
+  for (const auto& term : terms_) computed.push_back(stresses(*term, s));
+  return misfit_of(computed);
+}
+
+// By the difference over a displacement that is small beside the body.
+StressMisfit StressRecovery::misfit_along(const NodalVector& direction, const NodalState& s) const {
+  const double extent = (s.x.rowwise().maxCoeff() - s.x.rowwise().minCoeff()).maxCoeff();
+  const double step = kSmallStep * extent / direction.lpNorm<Eigen::Infinity>();
+  const NodalVector more_x = s.x + step * direction, less_x = s.x - step * direction;
+  const NodalVector more_u = s.u + step * direction, less_u = s.u - step * direction;
+  std::vector<SixColumns> derivatives;
+  for (const auto& term : terms_)
+    derivatives.emplace_back((stresses(*term, {s.t, more_x, more_u, s.v}) -
+                              stresses(*term, {s.t, less_x, less_u, s.v})) / (2 * step));
+  return misfit_of(derivatives);
+}
+
+double StressRecovery::product(const StressMisfit& a, const StressMisfit& b) const {
+  const ElementMesh mesh(mesh_);
+  double sum = 0;
+  for (std::size_t r = 0; r < terms_.size(); ++r) {
+    const EnergyOfStress energy(mesh, *terms_[r]);
+    const Eigen::Index nodes = a[r].rows() / terms_[r]->size();
+    for (int k = 0; k < terms_[r]->size(); ++k)
+      sum += 2 * energy(k, a[r].middleRows(nodes * k, nodes), b[r].middleRows(nodes * k, nodes));
+  }
+  return sum;
 }
 
 }  // namespace orthodyn

@@ -65,6 +65,10 @@ struct RegionMeshError {
   double energy;  // J, of the computed stresses in all of them
 };
 
+// Recovered less computed stress in the axes of space at rest, Pa: of each term a row for each node of each of its
+// elements. Of a derivative along a displacement, Pa/m.
+using StressMisfit = std::vector<SixColumns>;
+
 class StressRecovery {
  public:
   using Terms = std::vector<std::unique_ptr<ElasticTerm>>;
@@ -80,7 +84,14 @@ class StressRecovery {
   // One for each term.
   std::vector<RegionMeshError> mesh_errors(const NodalState& s) const;
 
+  // Of the stress in a state, and of its derivative along a displacement from there.
+  StressMisfit misfit(const NodalState& s) const;
+  StressMisfit misfit_along(const NodalVector& direction, const NodalState& s) const;
+  // The integral of a : C^-1 : b over the body: what the energy of a and b together is above that of each, J.
+  double product(const StressMisfit& a, const StressMisfit& b) const;
+
  private:
+  StressMisfit misfit_of(const std::vector<SixColumns>& at_points) const;
   const std::vector<RegionRecovery>& regions() const;
 
   const TetMesh& mesh_;

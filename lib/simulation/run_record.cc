@@ -114,6 +114,9 @@ void add_equilibrium(Json& out, const EquilibriumResult& equilibrium, const Outc
   out["largest_displacement"] = equilibrium.largest_displacement;
   out["residual"] = equilibrium.residual;
   out["solver"] = equilibrium.solver;
+  for (const auto& [probe, value, error] : equilibrium.probes)
+    out["probes"][probe] = {{"displacement", {value[0], value[1], value[2]}},
+                            {"mesh_error", {error[0], error[1], error[2]}}};
   out["statistics"] = to_json(equilibrium.statistics);
   out["wall_seconds"] = outcome.wall_seconds;
   out["cpu_seconds"] = outcome.cpu_seconds;

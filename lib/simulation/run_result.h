@@ -68,6 +68,12 @@ struct MotionResult {
   std::optional<double> rtol = {};                   // of the integrator
 };
 
+// Where a probe's node has gone, m, and how far the mesh puts that off: true less computed.
+struct ProbedDisplacement {
+  std::string probe;
+  Vec3 value, mesh_error;
+};
+
 // Of a static analysis: the last equilibrium.
 struct EquilibriumResult {
   double loads_at_time = 0;  // s
@@ -80,6 +86,7 @@ struct EquilibriumResult {
   Statistics statistics = {};
   SmallestDetF det_f = {};
   std::optional<MeshError> mesh_error = {};
+  std::vector<ProbedDisplacement> probes = {};  // where the error of the mesh is asked for
 };
 
 struct RunResult {

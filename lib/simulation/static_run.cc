@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "lib/analysis/displacement_error.h"
 #include "lib/simulation/static_problem.h"
 #include "lib/simulation/files.h"
 #include "lib/simulation/load_steps.h"
@@ -67,6 +68,25 @@ void refuse_what_is_for_motion(const RunRequest& request) {
     throw ConfigError("--estimate-error: a static analysis has no error of integration; remove it");
 }
 
+// Empty where there is no equilibrium, or an unstable one.
+std::vector<ProbedDisplacement> probed_displacements(const Setup& setup, const State& equilibrium) {
+  const FemModel& model = *setup.built.model;
+  std::vector<int> nodes;
+  for (const auto& [name, probe] : setup.scene.output.probes)
+    nodes.push_back(nearest_node(model.parts().mesh, probe.at));
+  if (nodes.empty()) return {};
+  std::vector<ProbedDisplacement> out;
+  try {
+    const auto errors = displacement_errors(model, equilibrium, nodes);
+    const NodalExpansion nodal(model.parts(), equilibrium.t, equilibrium.q, equilibrium.v);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      out.push_back({setup.scene.output.probes[i].first, nodal.u.col(nodes[i]), errors[i]});
+  } catch (const RunError&) {
+    out.clear();
+  }
+  return out;
+}
+
 EquilibriumResult equilibrium_result(const StaticProblem& problem, const State& last,
                                      const std::optional<MeshError>& mesh_error) {
   const auto det_f = problem.path->evaluate("det_f.smallest", last);
@@ -109,6 +129,9 @@ RunResult run_static_analysis(RunContext context) {
   MeshErrorRecorder mesh_error(0);
   if (setup.scene.output.mesh_error) mesh_error.look_at({*problem.path, result.outcome.last});
   result.equilibrium = equilibrium_result(problem, result.outcome.last, mesh_error.found());
+  if (setup.scene.output.mesh_error && result.outcome.status == Outcome::Status::completed)
+    result.equilibrium->probes = probed_displacements(
+        setup, {problem.path->time(), result.outcome.last.q, Vector::Zero(result.outcome.last.q.size())});
   record.finish(result);
   context.listener.on_result(result);
   return result;

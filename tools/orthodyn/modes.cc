@@ -35,20 +35,29 @@ void print_zeros(const Modes& modes, int rigid) {
                rigid > 0 ? "" : "; the body is held, none of them is rigid");
 }
 
-void print_table(const FemModel& model, const Modes& modes, int rigid, bool equilibrium) {
+// The share by which a frequency is too high.
+std::string by_the_mesh(const ModalAnalysis& analysis, std::size_t mode) {
+  const double error = analysis.mesh_errors()[mode];
+  return error == 0 ? "" : fmt::format("{:+.2g} %", 100 * error);
+}
+
+void print_table(const ModalAnalysis& analysis, bool equilibrium) {
+  const FemModel& model = analysis.model();
+  const Modes& modes = analysis.modes();
   const double mass = model.parts().mass->total();
   fmt::print("natural modes about {}, {} mass, without damping: {} of {}\n", equilibrium ? "equilibrium" : "rest",
              model.parts().mass->lumped() ? "lumped" : "consistent", modes.modes.size(), model.num_dofs());
-  print_zeros(modes, rigid);
-  fmt::print("  mode  frequency [Hz]   effective mass along x, y, z [% of {:.4g} kg]   residual\n", mass);
+  print_zeros(modes, analysis.rigid());
+  fmt::print("  mode  frequency [Hz]  by the mesh   effective mass along x, y, z [% of {:.4g} kg]   residual\n", mass);
   Vec3 sum = Vec3::Zero();
   for (std::size_t k = 0; k < modes.modes.size(); ++k) {
     const Vec3 share = 100 * modes.modes[k].effective_mass() / mass;
     sum += share;
-    fmt::print("  {:4}  {:14.7g}   {:12.3f} {:12.3f} {:12.3f}   {:18.1e}\n", k + 1, modes.modes[k].frequency(),
+    fmt::print("  {:4}  {:14.7g}  {:>11}   {:12.3f} {:12.3f} {:12.3f}   {:18.1e}\n", k + 1,
+               modes.modes[k].frequency(), by_the_mesh(analysis, k),
                share[0], share[1], share[2], modes.modes[k].residual);
   }
-  fmt::print("  {:4}  {:>14}   {:12.3f} {:12.3f} {:12.3f}\n", "", "sum", sum[0], sum[1], sum[2]);
+  fmt::print("  {:4}  {:>14}  {:11}   {:12.3f} {:12.3f} {:12.3f}\n", "", "sum", "", sum[0], sum[1], sum[2]);
   if (modes.modes.front().lambda < 0)
     fmt::print("negative frequencies: the state is unstable, motion grows at that rate (rad/s: angular_frequency)\n");
 }
@@ -62,7 +71,7 @@ int compute_modes(const ModesArguments& arguments) {
   write_modes(folder, analysis);
   if (arguments.quiet) return 0;
   const Modes& modes = analysis.modes();
-  print_table(analysis.model(), modes, analysis.rigid(), arguments.equilibrium);
+  print_table(analysis, arguments.equilibrium);
   fmt::print("results {}\n", folder.string());
   if (modes.zeros < arguments.count) draw_modes(folder);
   else fmt::print("no picture: all {} modes {}; ask for more with -n\n", modes.zeros,

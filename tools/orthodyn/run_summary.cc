@@ -76,6 +76,11 @@ void print_motion(const RunResult& result, const MotionResult& motion) {
   fmt::print("  {:<15} {}\n", "results", result.folder.string());
 }
 
+std::string three(const Vec3& v, const char* format) {
+  const auto number = [&](double x) { return fmt::format(fmt::runtime(format), x); };
+  return fmt::format("({}, {}, {})", number(v[0]), number(v[1]), number(v[2]));
+}
+
 void print_equilibrium(const RunResult& result, const EquilibriumResult& equilibrium) {
   const auto& outcome = result.outcome;
   fmt::print("{}, static: {} unknowns, {} at load factor {:.6g} after {:.2f} s\n", result.scene, result.model.unknowns,
@@ -91,6 +96,9 @@ void print_equilibrium(const RunResult& result, const EquilibriumResult& equilib
   fmt::print("  {:<20} {:.2g} N, {:.2g} of the largest load on a coordinate\n", "residual", equilibrium.residual,
              equilibrium.residual / std::max(equilibrium.largest_load, 1e-300));
   print_errors(result, 20);
+  for (const auto& [probe, value, error] : equilibrium.probes)
+    fmt::print("  {:<20} moved by {} m; the mesh puts this off by about {} m\n", probe, three(value, "{:.6g}"),
+               three(error, "{:.1e}"));
   fmt::print("  {:<20} {}\n", "results", result.folder.string());
 }
 

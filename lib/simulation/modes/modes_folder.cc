@@ -21,15 +21,16 @@ void remove_earlier(const fs::path& folder) {
   if (ec) throw RunError(fmt::format("cannot prepare the folder {}: {}", folder.string(), ec.message()));
 }
 
-void write_csv(const fs::path& path, const Modes& modes) {
+void write_csv(const fs::path& path, const ModalAnalysis& analysis) {
   CsvFile file(path, {"mode", "frequency [Hz]", "angular_frequency [rad/s]", "participation.x [sqrt(kg)]",
                       "participation.y [sqrt(kg)]", "participation.z [sqrt(kg)]", "effective_mass.x [kg]",
-                      "effective_mass.y [kg]", "effective_mass.z [kg]", "residual"});
+                      "effective_mass.y [kg]", "effective_mass.z [kg]", "residual", "mesh_error"});
   file.begin();
-  double number = 0;
-  for (const auto& mode : modes.modes) {
+  for (std::size_t k = 0; k < analysis.modes().modes.size(); ++k) {
+    const Mode& mode = analysis.modes().modes[k];
     const Vec3 &p = mode.participation, m = mode.effective_mass();
-    file.row({++number, mode.frequency(), mode.angular_frequency(), p[0], p[1], p[2], m[0], m[1], m[2], mode.residual});
+    file.row({static_cast<double>(k + 1), mode.frequency(), mode.angular_frequency(), p[0], p[1], p[2], m[0], m[1],
+              m[2], mode.residual, analysis.mesh_errors()[k]});
   }
 }
 
@@ -79,7 +80,7 @@ void check_modes_folder(const fs::path& folder, bool replace) {
 
 void write_modes(const fs::path& folder, const ModalAnalysis& analysis) {
   remove_earlier(folder);
-  write_csv(folder / "modes.csv", analysis.modes());
+  write_csv(folder / "modes.csv", analysis);
   write_shapes(folder, analysis.model(), analysis.about(), analysis.modes());
 }
 
