@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <set>
 
 #include "lib/config/registry.h"
 #include "lib/ode/integrator.h"
