@@ -94,7 +94,7 @@ TEST(MeasurementResult, OfAFailureTellsWhatWasKnown) {
 }
 
 TEST(MeasurementInput, IsReadAsItWasWritten) {
-  const compare::MeasurementInput input{3, 40, 1.5, "/somewhere/else", true, false, "c0de"};
+  const compare::MeasurementInput input{3, 40, 1.5, "/somewhere/else", true, false, true, "c0de"};
   EXPECT_EQ(to_json(compare::measurement_input_from(sent(to_json(input)))), to_json(input));
 }
 

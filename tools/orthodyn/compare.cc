@@ -54,15 +54,18 @@ void print_answers(const Json& table) {
     }
     fmt::print("\n");
   }
+  for (const auto& front : table.at("fronts"))
+    for (const auto& answer : front.at("answers"))
+      fmt::print("{} {}\n", front.at("label").get<std::string>(), answer.at("words").get<std::string>());
 }
 
 // What failed beside the points, on which all errors hang.
 void print_failed_references(const ComparisonRun& run) {
-  for (const auto& [problem, reference] : run.references()) {
+  for (const auto& [group, reference] : run.references()) {
     const auto& failure = reference.check ? reference.check->failure : reference.result.failure;
     if (!failure) continue;
     fmt::print(stderr, "{} of {} failed: {}: {}\n", reference.check ? "the check of the reference" : "the reference",
-               run.design().problems[problem].label, failure->reason, failure->message);
+               run.design().groups[group].label, failure->reason, failure->message);
   }
 }
 
@@ -106,6 +109,7 @@ const CommandRegistration compare_command(
      .sentence = "Compare integrators on scenes: error against time, as a report, CSV and JSON. Run again, it goes on.",
      .examples = R"(
   orthodyn compare configs/comparisons/damped_beam.yaml
+  orthodyn compare configs/comparisons/space_and_time.yaml   meshes and methods: total error, and its front
   orthodyn compare mine.yaml --retry           once more, with what failed)"},
     declare_comparison, compare);
 

@@ -45,15 +45,6 @@ Eigen::MatrixXd times_mass(const Model& model, const Eigen::MatrixXd& x) {
   return out;
 }
 
-// M times the shape that takes the largest part of the motion about its mean (proper orthogonal
-// decomposition by the method of snapshots; Sirovich 1987).
-Vector leading_mode(const Model& model, const Eigen::MatrixXd& q) {
-  const Eigen::MatrixXd motion = q.colwise() - q.rowwise().mean();
-  const Eigen::MatrixXd weighted = times_mass(model, motion);
-  const auto modes = symmetric_eigenpairs(Eigen::MatrixXd(motion.transpose() * weighted));
-  return weighted * modes.vectors.rightCols<1>();
-}
-
 double interval(const Trajectory& t) {
   return (t.times.back() - t.times.front()) / static_cast<double>(t.times.size() - 1);
 }
@@ -61,20 +52,33 @@ double interval(const Trajectory& t) {
 }  // namespace
 
 ReferenceNorms::ReferenceNorms(const Model& model, Trajectory reference, std::vector<ProbePoint> probes)
-    : model_(model), reference_(std::move(reference)), probes_(std::move(probes)) {
-  scales_.displacement = largest(mass_norms(reference_.q));
-  scales_.velocity = largest(mass_norms(reference_.v));
+    : ReferenceNorms([&model](const Eigen::MatrixXd& x) { return times_mass(model, x); }, std::move(reference),
+                     std::move(probes)) {}
+
+ReferenceNorms::ReferenceNorms(Metric metric, Trajectory reference, std::vector<ProbePoint> probes)
+    : metric_(std::move(metric)), reference_(std::move(reference)), probes_(std::move(probes)) {
+  scales_.displacement = largest(norms(reference_.q));
+  scales_.velocity = largest(norms(reference_.v));
   for (const auto& probe : probes_) scales_.probes.emplace_back(probe.name, largest(lengths(probe, reference_.q)));
   scales_.dominant_frequency = std::numeric_limits<double>::quiet_NaN();
-  const Vector mode = leading_mode(model, reference_.q);
+  const Vector mode = leading_mode();
   if (const auto omega = dominant_frequency(reference_.q.transpose() * mode, interval(reference_))) {
     scales_.dominant_frequency = *omega / (2 * std::numbers::pi);
     mode_ = mode;
   }
 }
 
-std::vector<double> ReferenceNorms::mass_norms(const Eigen::MatrixXd& x) const {
-  const Eigen::MatrixXd weighted = times_mass(model_, x);
+// M times the shape that takes the largest part of the reference's motion about its mean (proper orthogonal
+// decomposition by the method of snapshots; Sirovich 1987).
+Vector ReferenceNorms::leading_mode() const {
+  const Eigen::MatrixXd motion = reference_.q.colwise() - reference_.q.rowwise().mean();
+  const Eigen::MatrixXd weighted = metric_(motion);
+  const auto modes = symmetric_eigenpairs(Eigen::MatrixXd(motion.transpose() * weighted));
+  return weighted * modes.vectors.rightCols<1>();
+}
+
+std::vector<double> ReferenceNorms::norms(const Eigen::MatrixXd& x) const {
+  const Eigen::MatrixXd weighted = metric_(x);
   std::vector<double> out;
   for (Eigen::Index k = 0; k < x.cols(); ++k) out.push_back(std::sqrt(std::max(x.col(k).dot(weighted.col(k)), 0.0)));
   return out;
@@ -85,8 +89,8 @@ TrajectoryErrors ReferenceNorms::errors(const Trajectory& trajectory) const {
     throw std::logic_error("trajectory and reference do not belong together");
   const Eigen::MatrixXd dq = trajectory.q - reference_.q;
   TrajectoryErrors errors;
-  errors.displacement = summarise(mass_norms(dq), scales_.displacement);
-  errors.velocity = summarise(mass_norms(trajectory.v - reference_.v), scales_.velocity);
+  errors.displacement = summarise(norms(dq), scales_.displacement);
+  errors.velocity = summarise(norms(trajectory.v - reference_.v), scales_.velocity);
   for (std::size_t p = 0; p < probes_.size(); ++p)
     errors.probes.emplace_back(probes_[p].name, summarise(lengths(probes_[p], dq), scales_.probes[p].second));
   errors.phase = std::numeric_limits<double>::quiet_NaN();

@@ -2,9 +2,10 @@
 //
 // Displacements u and velocities v are measured in the mass norm |u|_M = sqrt(u' M u), as the model's
 // kinetic energy weighs them, relative to the largest |u_ref|_M and |v_ref|_M over the samples;
-// probes by the length of their displacement relative to its largest length.
+// probes by the length of their displacement relative to its largest length. Other norms may take the place of it.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,21 +42,27 @@ struct TrajectoryScales {
 // A reference, prepared for comparison with trajectories at the same times.
 class ReferenceNorms {
  public:
-  // `model` must outlive it.
+  // Columns x as M x: |x| is the root of x' M x.
+  using Metric = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& x)>;
+
+  // In the mass norm. `model` must outlive it.
   ReferenceNorms(const Model& model, Trajectory reference, std::vector<ProbePoint> probes);
+  // In another one.
+  ReferenceNorms(Metric metric, Trajectory reference, std::vector<ProbePoint> probes);
 
   const TrajectoryScales& scales() const { return scales_; }
   TrajectoryErrors errors(const Trajectory& trajectory) const;
 
  private:
-  // |x|_M of each column.
-  std::vector<double> mass_norms(const Eigen::MatrixXd& x) const;
+  // |x| of each column.
+  std::vector<double> norms(const Eigen::MatrixXd& x) const;
+  Vector leading_mode() const;
 
-  const Model& model_;
+  Metric metric_;
   Trajectory reference_;
   std::vector<ProbePoint> probes_;
   TrajectoryScales scales_;
-  Vector mode_;  // M times the leading mode, empty where nothing swings
+  Vector mode_;  // M times the leading mode; empty where nothing swings
 };
 
 }  // namespace orthodyn

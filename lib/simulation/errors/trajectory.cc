@@ -74,14 +74,14 @@ Trajectory Trajectory::load(const std::filesystem::path& path) {
 }
 
 void TrajectoryRecorder::on_start(const ObservedState& observed) {
-  const State& state = observed.state();
+  const State state = state_of(observed);
   const auto columns = static_cast<Eigen::Index>(outputs_) + 1;
   trajectory_ = {{}, Eigen::MatrixXd::Zero(state.q.size(), columns), Eigen::MatrixXd::Zero(state.v.size(), columns)};
   on_output(observed);
 }
 
 void TrajectoryRecorder::on_output(const ObservedState& observed) {
-  const State& state = observed.state();
+  const State state = state_of(observed);
   const auto k = static_cast<Eigen::Index>(trajectory_.times.size());
   trajectory_.times.push_back(state.t);
   trajectory_.q.col(k) = state.q;

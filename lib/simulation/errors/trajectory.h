@@ -30,6 +30,9 @@ class TrajectoryRecorder : public Observer {
   const Trajectory& trajectory() const { return trajectory_; }
 
  private:
+  // What is kept of a state.
+  virtual State state_of(const ObservedState& observed) const { return observed.state(); }
+
   std::size_t outputs_;
   Trajectory trajectory_;
 };

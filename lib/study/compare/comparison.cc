@@ -1,6 +1,7 @@
 #include "lib/study/compare/comparison.h"
 
 #include <algorithm>
+#include <set>
 
 #include "lib/config/registry.h"
 #include "lib/core/words.h"
@@ -62,7 +63,27 @@ void check_comparison(const Comparison& c, const Config& config) {
   for (const auto& [path, values] : c.vary) check_varied(path, values, config.at("vary").at(path));
 }
 
+// The reference must be of the same body, under the same loads.
+void check_reference_set(const ReferenceOptions& reference, const Config& config) {
+  for (const auto& [path, value] : reference.set)
+    if (!is_of_mesh(path))
+      config.at("set").at(path).fail(
+          "is no key of the mesh, or one of the body's shape; a reference of another motion measures nothing. Only "
+          "keys "
+          "below 'mesh' that leave the body as it is can be set here, such as mesh.cells, mesh.order, mesh.refine; "
+          "what "
+          "is to be compared belongs into 'scenes' or 'vary'");
+  if (!reference.set.empty() && reference.kind == ReferenceKind::none)
+    config.at("set").fail("has no reference to hold for: remove 'kind: none', or 'set'");
+}
+
 }  // namespace
+
+bool is_of_mesh(const std::string& path) {
+  static const std::set<std::string> of_the_body{"mesh.size",         "mesh.origin", "mesh.axis", "mesh.radius",
+                                                 "mesh.inner_radius", "mesh.length", "mesh.scale"};
+  return path == "mesh" || (path.starts_with("mesh.") && !of_the_body.contains(path));
+}
 
 const Spec<ReferenceOptions>& ReferenceOptions::spec() {
   static const auto s =
@@ -75,8 +96,12 @@ const Spec<ReferenceOptions>& ReferenceOptions::spec() {
           .key("check", &ReferenceOptions::check,
                "A second one, of another family, whose difference bounds the error of the reference; default "
                "cvode_bdf of order 5 at a thousandth of the smallest tolerance.")
+          .key("set", &ReferenceOptions::set,
+               "Keys of the mesh that hold for the reference only, a finer one: {mesh.cells: [80, 4, 2]}. Scenes that "
+               "differ in their meshes then share one reference, and errors are those of space and time, at probes.")
           .key("seconds", &ReferenceOptions::seconds, "Limit of the wall time of either.",
-               {.unit = "s", .range = kLimitSeconds});
+               {.unit = "s", .range = kLimitSeconds})
+          .check(check_reference_set);
   return s;
 }
 

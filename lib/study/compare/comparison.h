@@ -17,6 +17,7 @@ enum class ReferenceKind { automatic, computed, none };
 struct ReferenceOptions {
   ReferenceKind kind = ReferenceKind::automatic;
   std::optional<CompleteIntegratorEntry> integrator, check;
+  Assignments set;        // keys of the mesh that hold for the reference only: errors are then those of the mesh, too
   double seconds = 1800;  // limit
   static const Spec<ReferenceOptions>& spec();
 };
@@ -35,6 +36,9 @@ struct Comparison {
 
   static const Spec<Comparison>& spec();
 };
+
+// Whether a path in a scene names what a mesh of the same body may differ in.
+bool is_of_mesh(const std::string& path);
 
 // Throws ConfigError.
 Comparison read_comparison(const Config& config);

@@ -5,27 +5,17 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <set>
 
 #include "lib/config/registry.h"
 #include "lib/ode/integrator.h"
+#include "lib/study/compare/identifiers.h"
+#include "lib/study/compare/problem_groups.h"
 
 namespace orthodyn::study::compare {
 
 namespace {
 
 constexpr const char* kIntegratorPrefix = "integrator.";
-
-// "mesh.cells" -> "cells": enough to tell labels apart.
-std::string last_step(const std::string& path) {
-  const auto dot = path.rfind('.');
-  return dot == std::string::npos ? path : path.substr(dot + 1);
-}
-
-struct Variant {
-  Assignments set;
-  std::string words;  // ", cells [45, 9, 9]"
-};
 
 // All combinations of the values of `vary` whose paths `concerns` accepts.
 std::vector<Variant> combinations(const Comparison& comparison,
@@ -38,7 +28,7 @@ std::vector<Variant> combinations(const Comparison& comparison,
       for (const auto& value : values) {
         longer.push_back(variant);
         longer.back().set.emplace_back(path, value);
-        longer.back().words += ", " + last_step(path) + " " + value.text;
+        longer.back().words += words_of(path, value);
       }
     }
     all = std::move(longer);
@@ -47,43 +37,6 @@ std::vector<Variant> combinations(const Comparison& comparison,
 }
 
 bool is_of_integrator(const std::string& path) { return path.starts_with(kIntegratorPrefix); }
-
-// Letters, digits, '_', '.' and '-' of a label.
-std::string identifier(const std::string& label) {
-  std::string id;
-  for (const char c : label) {
-    if (std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.') id += c;
-    else if (!id.empty() && id.back() != '-') id += '-';
-  }
-  while (id.ends_with('-')) id.pop_back();
-  return id.empty() ? "unnamed" : id;
-}
-
-// Sets the ids of problems or methods, counting those that would be equal.
-template <class Item>
-void identify(std::vector<Item>& items) {
-  std::set<std::string> taken;
-  for (auto& item : items) {
-    const std::string id = identifier(item.label);
-    item.id = id;
-    for (int n = 2; !taken.insert(item.id).second; ++n) item.id = id + "-" + std::to_string(n);
-  }
-}
-
-std::vector<Problem> problems_of(const Comparison& comparison) {
-  const auto variants = combinations(comparison, [](const std::string& path) { return !is_of_integrator(path); });
-  std::vector<Problem> problems;
-  for (const auto& scene : comparison.scenes) {
-    const std::string text = read_scene_text(scene.file);
-    for (const auto& variant : variants) {
-      SceneVariant changed{scene.file.path, text, scene.set};
-      changed.set.insert(changed.set.end(), variant.set.begin(), variant.set.end());
-      problems.push_back({"", scene.label + variant.words, std::move(changed)});
-    }
-  }
-  identify(problems);
-  return problems;
-}
 
 // With a fixed step rtol is of Newton's method alone, which must not limit what the step can reach.
 std::string newton_tolerance(const std::vector<double>& tolerances) {
@@ -162,11 +115,11 @@ void check_point(const Design& design, const Point& point) {
   }
 }
 
-void check_reference(const Problem& problem, const Method& method) {
+void check_reference(const Group& group, const Method& method) {
   try {
-    reference_scene(problem, method);
+    reference_scene(group, method);
   } catch (const ConfigError& e) {
-    throw ConfigError(e.place(), fmt::format("{} (in the reference of {})", e.message(), problem.label));
+    throw ConfigError(e.place(), fmt::format("{} (in the reference of {})", e.message(), group.label));
   }
 }
 
@@ -179,9 +132,9 @@ void choose_references(const Comparison& comparison, Design& design) {
       reference_method(comparison.reference.check,
                        usual_reference("cvode_bdf", std::max(1e-3 * tightest, 1e-10), {{"max_order", YamlText{"5"}}}));
   if (comparison.reference.kind == ReferenceKind::none) return;
-  for (const auto& problem : design.problems) {
-    check_reference(problem, design.reference);
-    check_reference(problem, design.check);
+  for (const auto& group : design.groups) {
+    check_reference(group, design.reference);
+    check_reference(group, design.check);
   }
 }
 
@@ -203,7 +156,9 @@ std::string title(const Design& design, const Point& point) {
 }
 
 Design expand(const Comparison& comparison) {
-  Design design{problems_of(comparison), methods_of(comparison), {}, {}, {}};
+  Design design;
+  add_problems(comparison, combinations(comparison, [](const auto& path) { return !is_of_integrator(path); }), design);
+  design.methods = methods_of(comparison);
   std::map<Method::Control, std::vector<double>> controls{{Method::Control::rtol, comparison.tolerances},
                                                           {Method::Control::step, comparison.steps},
                                                           {Method::Control::safety, {0.9, 0.45, 0.225}}};

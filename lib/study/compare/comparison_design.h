@@ -9,10 +9,18 @@
 
 namespace orthodyn::study::compare {
 
-// What errors are measured on.
+// A scene as points run it.
 struct Problem {
   std::string id, label;  // ids are unique
   SceneVariant scene;
+  std::size_t group = 0;
+  std::string mesh;  // of a group with several: what tells it from the others, "order 1, cells [20, 2, 1]"
+};
+
+// Problems that are measured against the same reference: one, or all that differ only in their meshes.
+struct Group {
+  std::string id, label;   // ids are unique
+  SceneVariant reference;  // its scene
 };
 
 // An integrator with its options fixed, but for what controls its error.
@@ -33,7 +41,9 @@ struct Point {
 };
 
 struct Design {
+  std::vector<Group> groups;
   std::vector<Problem> problems;
+  bool across_meshes = false;     // errors are those of space and time, measured at probes
   std::vector<Method> methods;
   std::vector<Point> points;  // by problem, then method, from loose to tight
   Method reference, check;    // with all that controls their errors among `set`
@@ -50,6 +60,6 @@ std::string title(const Design& design, const Point& point);
 Config point_scene(const Design& design, const Point& point);
 
 // The same for the reference or its check: of the scene's own options, scales and linear solver are kept.
-Config reference_scene(const Problem& problem, const Method& method);
+Config reference_scene(const Group& group, const Method& method);
 
 }  // namespace orthodyn::study::compare

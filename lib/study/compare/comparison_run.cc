@@ -18,22 +18,24 @@ ComparisonRun::ComparisonRun(const Comparison& comparison, Design design, fs::pa
       tell_(std::move(tell)),
       code_(code_fingerprint()),
       count_(design_.points.size()) {
-  if (comparison_.reference.kind != ReferenceKind::none) count_ += 2 * design_.problems.size();
+  if (comparison_.reference.kind != ReferenceKind::none) count_ += 2 * design_.groups.size();
 }
 
 bool ComparisonRun::run(const JobQueue& queue, const std::function<void()>& after_each) {
-  for (std::size_t p = 0; p < design_.problems.size(); ++p) {
-    if (comparison_.reference.kind != ReferenceKind::none && !find_reference(queue, p)) return false;
+  for (std::size_t g = 0; g < design_.groups.size(); ++g) {
+    if (comparison_.reference.kind != ReferenceKind::none && !find_reference(queue, g)) return false;
     after_each();
-    if (!measure_points(queue, p, after_each)) return false;
+    for (std::size_t p = 0; p < design_.problems.size(); ++p)
+      if (design_.problems[p].group == g && !measure_points(queue, p, after_each)) return false;
   }
   return true;
 }
 
-bool ComparisonRun::find_reference(const JobQueue& queue, std::size_t problem) {
-  const Problem& p = design_.problems[problem];
+bool ComparisonRun::find_reference(const JobQueue& queue, std::size_t group) {
+  const Group& g = design_.groups[group];
+  const std::string mesh = design_.across_meshes ? "reference of " + g.id : g.id;
   MeasurementInput input = reference_input();
-  const Job job = job_for(p.label + ", reference", "references", reference_scene(p, design_.reference), problem, input);
+  const Job job = job_for(g.label + ", reference", "references", reference_scene(g, design_.reference), mesh, input);
   const auto result = measure_one(queue, job);
   if (!result) return false;
   Reference reference{"", design_.reference.label, design_.check.label, *result, std::nullopt};
@@ -41,26 +43,27 @@ bool ComparisonRun::find_reference(const JobQueue& queue, std::size_t problem) {
   if (!result->failure && result->kind == MeasurementResult::Kind::computed) {
     input.keep_trajectory = input.exact_if_possible = false;
     input.reference = fs::absolute(job.folder).string();
-    reference.check = measure_one(queue, job_for(p.label + ", check of the reference", "references",
-                                                 reference_scene(p, design_.check), problem, input));
+    reference.check = measure_one(queue, job_for(g.label + ", check of the reference", "references",
+                                                 reference_scene(g, design_.check), mesh, input));
     if (!reference.check) return false;
   } else {
     --count_;  // nothing to check
   }
-  references_[problem] = std::move(reference);
+  references_[group] = std::move(reference);
   return true;
 }
 
 bool ComparisonRun::measure_points(const JobQueue& queue, std::size_t problem,
                                    const std::function<void()>& after_each) {
-  const MeasurementInput input = point_input(problem);
+  const MeasurementInput input = point_input(design_.problems[problem].group);
   std::vector<std::size_t> points;
   std::vector<Job> jobs;
   for (std::size_t i = 0; i < design_.points.size(); ++i) {
     const Point& point = design_.points[i];
     if (point.problem != problem) continue;
     points.push_back(i);
-    jobs.push_back(job_for(title(design_, point), "points", point_scene(design_, point), problem, input));
+    jobs.push_back(
+        job_for(title(design_, point), "points", point_scene(design_, point), design_.problems[problem].id, input));
     point_folders_[i] = relative_folder(jobs.back());
   }
   JobEvents events;
@@ -85,9 +88,9 @@ MeasurementResult ComparisonRun::finish(const Job& job, const Json& result, bool
   return measured;
 }
 
-Job ComparisonRun::job_for(const std::string& title, const std::string& kind, const Config& scene, std::size_t problem,
-                           const MeasurementInput& input) {
-  const fs::path folder = folder_ / kind / fingerprint(scene, problem, input);
+Job ComparisonRun::job_for(const std::string& title, const std::string& kind, const Config& scene,
+                           const std::string& mesh, const MeasurementInput& input) {
+  const fs::path folder = folder_ / kind / fingerprint(scene, mesh, input);
   const ProcessLimits limits{input.seconds * (input.repeats + 3) + kSetUpSeconds, comparison_.limits.memory};
   Job job{title, "measure", folder, scene.dump_for(""), to_json(input), limits};
   if (input.keep_trajectory)
@@ -98,20 +101,21 @@ Job ComparisonRun::job_for(const std::string& title, const std::string& kind, co
 }
 
 // Of what a measurement depends on.
-std::string ComparisonRun::fingerprint(const Config& scene, std::size_t problem, const MeasurementInput& input) {
+std::string ComparisonRun::fingerprint(const Config& scene, const std::string& mesh,
+                                       const MeasurementInput& input) {
   Json job = to_json(input);
   job["reference"] = fs::path(input.reference).filename().string();  // a fingerprint itself
   Fingerprint hash;
   hash.add(machine_fingerprint()).add(scene.dump()).add(job.dump());
   hash.add(fmt::format("{}", comparison_.limits.memory));
   for (const auto& file : scene.file_paths()) hash.add(files_.of(file));
-  return hash.add(mesh_of(scene, problem)).text();
+  return hash.add(mesh_of(scene, mesh)).text();
 }
 
 // With what the named files bring along: elements beside .node, files that a .veg includes. Not loaded twice for a
 // problem, whose points differ in their integrators only.
-const std::string& ComparisonRun::mesh_of(const Config& scene, std::size_t problem) {
-  std::string& hash = meshes_[problem];
+const std::string& ComparisonRun::mesh_of(const Config& scene, const std::string& mesh) {
+  std::string& hash = meshes_[mesh];
   if (!hash.empty()) return hash;
   try {
     hash = mesh_fingerprint(load_mesh(read_scene(scene)));
@@ -121,8 +125,8 @@ const std::string& ComparisonRun::mesh_of(const Config& scene, std::size_t probl
   return hash;
 }
 
-MeasurementInput ComparisonRun::point_input(std::size_t problem) const {
-  const auto found = references_.find(problem);
+MeasurementInput ComparisonRun::point_input(std::size_t group) const {
+  const auto found = references_.find(group);
   const bool is_usable = found != references_.end() && !found->second.folder.empty();
   return {comparison_.repeats,
           comparison_.samples,
@@ -130,12 +134,13 @@ MeasurementInput ComparisonRun::point_input(std::size_t problem) const {
           is_usable ? fs::absolute(folder_ / found->second.folder).string() : "",
           false,
           false,
+          design_.across_meshes,
           code_};
 }
 
 MeasurementInput ComparisonRun::reference_input() const {
   const bool exact = comparison_.reference.kind == ReferenceKind::automatic;
-  return {0, comparison_.samples, comparison_.reference.seconds, "", true, exact, code_};
+  return {0, comparison_.samples, comparison_.reference.seconds, "", true, exact, design_.across_meshes, code_};
 }
 
 std::string ComparisonRun::relative_folder(const Job& job) const {

@@ -1,5 +1,5 @@
-// Runs a comparison: of each problem the reference first, then what checks it, then point after point, each in a
-// process of its own and one at a time, since times are measured.
+// Runs a comparison: of each group of problems the reference first, then what checks it, then point after point, each
+// in a process of its own and one at a time, since times are measured.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace orthodyn::study::compare {
 
-// The reference of a problem and what bounds its error.
+// The reference of a group and what bounds its error.
 struct Reference {
   std::string folder;  // relative to the comparison's; "" if nothing can be measured against it
   std::string method, check_method;
@@ -44,25 +44,25 @@ class ComparisonRun {
 
   const Comparison& comparison() const { return comparison_; }
   const Design& design() const { return design_; }
-  // By problem, and by index in design().points; absent while not done.
+  // By group, and by index in design().points; absent while not done.
   const std::map<std::size_t, Reference>& references() const { return references_; }
   const std::map<std::size_t, MeasurementResult>& results() const { return results_; }
   // Where a point's files are, relative to the folder.
   const std::string& point_folder(std::size_t point) const { return point_folders_.at(point); }
 
  private:
-  bool find_reference(const JobQueue& queue, std::size_t problem);
+  bool find_reference(const JobQueue& queue, std::size_t group);
   bool measure_points(const JobQueue& queue, std::size_t problem, const std::function<void()>& after_each);
   // Nothing if interrupted.
   std::optional<MeasurementResult> measure_one(const JobQueue& queue, const Job& job);
   MeasurementResult finish(const Job& job, const Json& result, bool cached);
 
-  // `kind`: "points" or "references", the folder that the job's is in.
-  Job job_for(const std::string& title, const std::string& kind, const Config& scene, std::size_t problem,
+  // `kind`: "points" or "references", the folder that the job's is in. `mesh`: the name of the scene's.
+  Job job_for(const std::string& title, const std::string& kind, const Config& scene, const std::string& mesh,
               const MeasurementInput& input);
-  std::string fingerprint(const Config& scene, std::size_t problem, const MeasurementInput& input);
-  const std::string& mesh_of(const Config& scene, std::size_t problem);
-  MeasurementInput point_input(std::size_t problem) const;
+  std::string fingerprint(const Config& scene, const std::string& mesh, const MeasurementInput& input);
+  const std::string& mesh_of(const Config& scene, const std::string& mesh);
+  MeasurementInput point_input(std::size_t group) const;
   MeasurementInput reference_input() const;
   std::string relative_folder(const Job& job) const;
 
@@ -74,7 +74,7 @@ class ComparisonRun {
   std::map<std::size_t, Reference> references_;
   std::map<std::size_t, MeasurementResult> results_;
   std::map<std::size_t, std::string> point_folders_;
-  std::map<std::size_t, std::string> meshes_;  // fingerprints by problem
+  std::map<std::string, std::string> meshes_;  // fingerprints by name
   FileFingerprints files_;
   std::size_t count_ = 0;
 };

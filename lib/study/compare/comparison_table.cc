@@ -5,15 +5,14 @@
 #include <limits>
 
 #include "lib/simulation/machine.h"
+#include "lib/study/compare/front_table.h"
+#include "lib/study/compare/reference_error.h"
 #include "lib/study/compare/work_precision.h"
 #include "lib/study/jobs/json_values.h"
 
 namespace orthodyn::study::compare {
 
 namespace {
-
-// A point this close to the reference's own error cannot be told from it.
-constexpr double kResolution = 10;
 
 Json set_json(const Assignments& set, const std::string& prefix = "") {
   Json out = Json::object();
@@ -32,22 +31,13 @@ Json no_reference(const std::string& method, const Json& message) {
   return {{"kind", "none"}, {"method", method}, {"message", message}, {"checked", false}};
 }
 
-bool is_exact(const Reference& reference) { return reference.result.kind == MeasurementResult::Kind::exact; }
-
-// The errors of the reference itself, as far as they are known.
-std::optional<TrajectoryErrors> errors_of(const Reference* reference) {
-  if (!reference || reference->folder.empty()) return std::nullopt;
-  if (is_exact(*reference)) return reference->result.own_errors;
-  return reference->check ? reference->check->errors : std::nullopt;
-}
-
 // `wanted`: the comparison asks for references.
 Json reference_json(const Reference* reference, bool wanted) {
   if (!reference) return no_reference("", wanted ? "not computed yet" : "no reference was asked for");
   const MeasurementResult& result = reference->result;
   if (reference->folder.empty()) return no_reference(reference->method, message_of(result.failure));
   const bool exact = is_exact(*reference);
-  const auto errors = errors_of(reference);
+  const auto errors = time_errors_of(reference);
   return {{"kind", exact ? "exact" : "computed"},
           {"method", exact ? "exact solution by modes" : reference->method},
           {"check", exact ? Json() : Json(reference->check_method)},
@@ -55,30 +45,36 @@ Json reference_json(const Reference* reference, bool wanted) {
           {"seconds", optional_json(result.seconds)},
           {"message", reference->check ? message_of(reference->check->failure) : Json()},
           {"errors", json_or_null(errors)},
+          {"mesh_error", optional_json(result.mesh_error)},
+          {"unknowns", member(to_json(result).at("model"), "unknowns")},
           {"folder", reference->folder}};
 }
 
-Json scales_json(const Json& scales) {
+Json scales_json(const Json& scales, bool at_probes) {
   if (!scales.is_object()) return nullptr;
   return {{"displacement", scales.at("displacement")},
           {"velocity", scales.at("velocity")},
-          {"words",
-           "largest displacement from the rest shape, and largest velocity, of the reference over time, in the mass "
-           "norm"}};
+          {"words", std::string("largest displacement from the rest shape, and largest velocity, of the reference over "
+                                "time, ") +
+                        (at_probes ? "root mean square over the probes" : "in the mass norm")}};
 }
 
-Json problem_json(const Problem& problem, const Reference* reference, bool wanted, const Json& model) {
+Json problem_json(const Design& design, const Problem& problem, const Reference* reference, bool wanted,
+                  const Json& model) {
   const Json scales = reference ? json_or_null(reference->result.scales) : Json();
   return {{"id", problem.id},
           {"label", problem.label},
+          {"group", design.groups[problem.group].id},
+          {"mesh", problem.mesh},
           {"scene", problem.scene.file},
           {"set", set_json(problem.scene.set)},
           {"sentence", head_comment(problem.scene.text)},
           {"unknowns", member(model, "unknowns")},
           {"elements", member(model, "elements")},
           {"nodes", member(model, "nodes")},
+          {"order", member(model, "order")},
           {"time", {{"start", member(model, "start")}, {"end", member(model, "end")}}},
-          {"scales", scales_json(scales)},
+          {"scales", scales_json(scales, design.across_meshes)},
           {"probe_scales", member(scales, "probes")},
           {"dominant_frequency", member(scales, "dominant_frequency")},
           {"reference", reference_json(reference, wanted)}};
@@ -93,21 +89,16 @@ Json method_json(const Method& method) {
           {"control", control_word(method.control)}};
 }
 
-// Whether an error cannot be told from the reference's own, which may be unknown (NaN).
-bool is_near(double error, double of_reference) {
-  return std::isfinite(error) && !(error >= kResolution * of_reference);
-}
-
-// The names of the errors that are within a factor of ten of the reference's own; all, if that is not known.
-Json near_reference(const std::optional<TrajectoryErrors>& errors,
-                    const std::optional<TrajectoryErrors>& of_reference) {
+// The names of the errors that cannot be told from the reference's own; all, if that is not known.
+Json near_reference(const std::optional<TrajectoryErrors>& errors, const std::optional<TrajectoryErrors>& of_reference,
+                    const Reach& reach) {
   Json out = Json::array();
   if (!errors) return out;
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   const auto look = [&](const ErrorNorms& a, const ErrorNorms* b, const std::string& prefix) {
-    if (is_near(a.final, b ? b->final : kUnknown)) out.push_back(prefix + ".final");
-    if (is_near(a.l2, b ? b->l2 : kUnknown)) out.push_back(prefix + ".l2");
-    if (is_near(a.max, b ? b->max : kUnknown)) out.push_back(prefix + ".max");
+    if (reach.contains(a.final, b ? b->final : kUnknown)) out.push_back(prefix + ".final");
+    if (reach.contains(a.l2, b ? b->l2 : kUnknown)) out.push_back(prefix + ".l2");
+    if (reach.contains(a.max, b ? b->max : kUnknown)) out.push_back(prefix + ".max");
   };
   look(errors->displacement, of_reference ? &of_reference->displacement : nullptr, "displacement");
   look(errors->velocity, of_reference ? &of_reference->velocity : nullptr, "velocity");
@@ -134,31 +125,34 @@ Json point_json(const ComparisonRun& run, std::size_t index, const MeasurementRe
        {"reason", "message", "time_reached", "repeats", "wall", "cpu", "statistics", "peak_memory_bytes",
         "factor_bytes", "errors", "drift", "drift_over_time", "smallest_det_f", "decisions"})
     out[key] = member(measured, key);
-  out["near_reference"] = near_reference(result.errors, errors_of(reference));
+  out["near_reference"] = near_reference(
+      result.errors, time_errors_of(reference), Reach(reference, run.design().across_meshes));
   out["scene"] = run.point_folder(index) + "/scene.yaml";
   return out;
 }
 
 const Reference* reference_of(const ComparisonRun& run, std::size_t problem) {
-  const auto found = run.references().find(problem);
+  const auto found = run.references().find(run.design().problems[problem].group);
   return found == run.references().end() ? nullptr : &found->second;
 }
 
 // NaN where the reference's own error is not known.
 double reference_error(const ComparisonRun& run, std::size_t problem) {
-  const auto errors = errors_of(reference_of(run, problem));
+  const auto errors = time_errors_of(reference_of(run, problem));
   return errors ? errors->displacement.l2 : std::numeric_limits<double>::quiet_NaN();
 }
 
 // The finished points of a method on a problem, from loose to tight.
 std::vector<WorkPoint> work_points(const ComparisonRun& run, std::size_t problem, std::size_t method) {
   std::vector<WorkPoint> out;
+  const Reach reach(reference_of(run, problem), false);
   for (const auto& [index, result] : run.results()) {
     const Point& point = run.design().points[index];
     if (point.problem != problem || point.method != method || result.failure) continue;
     if (!result.errors || !result.timing || !std::isfinite(result.errors->displacement.l2)) continue;
     const double error = result.errors->displacement.l2;
-    out.push_back({point.control, error, result.timing->wall.median, !is_near(error, reference_error(run, problem))});
+    out.push_back({point.control, error, result.timing->wall.median,
+                   !reach.contains(error, reference_error(run, problem))});
   }
   return out;
 }
@@ -187,6 +181,8 @@ void add_conclusions(const ComparisonRun& run, Json& out) {
   const Design& design = run.design();
   out["answers"] = Json::array();
   out["orders"] = Json::array();
+  out["fronts"] = fronts_json(run, out);
+  if (design.across_meshes) return;  // where the mesh's error remains a method has no order
   for (std::size_t p = 0; p < design.problems.size(); ++p) {
     std::vector<WorkPoint> all;
     for (std::size_t m = 0; m < design.methods.size(); ++m) {
@@ -203,7 +199,8 @@ void add_conclusions(const ComparisonRun& run, Json& out) {
     }
     const double bound = reference_error(run, p);
     if (std::isnan(bound)) continue;  // there is nothing to conclude
-    for (const double target : targets(all, kResolution * bound)) out["answers"].push_back(answer_json(run, p, target));
+    for (const double target : targets(all, Reach(reference_of(run, p), false).of(bound)))
+      out["answers"].push_back(answer_json(run, p, target));
   }
 }
 
@@ -242,13 +239,13 @@ Json comparison_json(const ComparisonRun& run, const std::string& file) {
   for (const auto& method : design.methods) out["methods"].push_back(method_json(method));
   for (std::size_t p = 0; p < design.problems.size(); ++p) {
     const Reference* reference = reference_of(run, p);
-    Json model = reference ? member(to_json(reference->result), "model") : Json();
+    Json model = reference && !design.across_meshes ? member(to_json(reference->result), "model") : Json();
     for (const auto& [index, result] : run.results()) {
       if (design.points[index].problem != p) continue;
       if (model.is_null()) model = member(to_json(result), "model");
       out["points"].push_back(point_json(run, index, result, reference));
     }
-    out["problems"].push_back(problem_json(design.problems[p], reference, wanted, model));
+    out["problems"].push_back(problem_json(design, design.problems[p], reference, wanted, model));
   }
   add_conclusions(run, out);
   return out;

@@ -6,9 +6,11 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "lib/simulation/observers/balance.h"
+#include "lib/simulation/errors/mesh_error.h"
 #include "lib/simulation/errors/modal_solution.h"
+#include "lib/simulation/errors/probe_recorder.h"
 #include "lib/simulation/machine.h"
+#include "lib/simulation/observers/balance.h"
 #include "lib/simulation/run.h"
 #include "lib/study/jobs/deadline.h"
 #include "lib/study/jobs/json_values.h"
@@ -23,6 +25,8 @@ namespace {
 constexpr double kPatience = 3;
 // More of the motion than there is: the trajectory has nothing to do with the reference.
 constexpr double kDiverged = 1;
+// On another mesh the same motion may be of opposite phase (2), and larger.
+constexpr double kDivergedFromAnotherMesh = 3;
 
 // The energy's change at each output, relative to nothing yet.
 class EnergyCourse : public EnergyMeter {
@@ -96,7 +100,7 @@ class Measurement {
     const auto& mesh = model.parts().mesh;
     const auto& time = setup_.scene.time;
     result_.model = ModelSize{static_cast<std::size_t>(model.num_dofs()), mesh.tets.size(), mesh.nodes.size(),
-                              time.start, time.end};
+                              time.start, time.end, mesh.order()};
     result_.decisions = setup_.integrator->decisions();
   }
 
@@ -106,16 +110,33 @@ class Measurement {
   }
 
   void take(const ModalSolution& exact) {
-    TrajectoryRecorder recorder(times_.size());
+    const auto recorder = new_recorder();
+    MeshErrorRecorder mesh_error(times_.size());
     const auto& model = *setup_.built.model;
-    recorder.on_start({model, setup_.built.initial});
+    recorder->on_start({model, setup_.built.initial});
     for (const double t : times_) {
       const State state = exact.at(t);
-      recorder.on_output({model, state});
+      recorder->on_output({model, state});
+      if (input_.at_probes) mesh_error.on_output({model, state});
     }
     result_.kind = MeasurementResult::Kind::exact;
     result_.own_errors = uniform_errors(exact.round_off(times_.back()), probe_points(setup_));
-    compare(recorder.trajectory());
+    keep(mesh_error);
+    compare(recorder->trajectory());
+  }
+
+  std::unique_ptr<TrajectoryRecorder> new_recorder() const {
+    if (!input_.at_probes) return std::make_unique<TrajectoryRecorder>(times_.size());
+    return std::make_unique<ProbeRecorder>(setup_.scene.output.probes, setup_.built.model->parts().mesh, times_.size());
+  }
+
+  ReferenceNorms norms_of(Trajectory reference) const {
+    if (input_.at_probes) return probe_norms(std::move(reference), setup_.scene.output.probes);
+    return {*setup_.built.model, std::move(reference), probe_points(setup_)};
+  }
+
+  void keep(const MeshErrorRecorder& recorder) {
+    if (const auto found = recorder.found()) result_.mesh_error = found->relative;
   }
 
   bool time_runs() {
@@ -139,12 +160,14 @@ class Measurement {
   void watch_run() {
     const auto& model = *setup_.built.model;
     const auto integrator = fresh_integrator();
-    TrajectoryRecorder trajectory(times_.size());
+    const auto trajectory = new_recorder();
+    MeshErrorRecorder mesh_error(times_.size());
     EnergyCourse energy(model, *integrator);
     MomentumMeter momentum;
     InversionWatch inversion;
-    std::vector<Observer*> observers{&trajectory, &energy, &inversion};
+    std::vector<Observer*> observers{trajectory.get(), &energy, &inversion};
     if (is_free(model)) observers.push_back(&momentum);
+    if (input_.at_probes && input_.keep_trajectory) observers.push_back(&mesh_error);
     const Plan plan{setup_.scene.time.end, times_, false};
     const auto outcome = run_once(observers, plan, *integrator, kPatience * input_.seconds);
     if (!outcome) return;
@@ -155,7 +178,8 @@ class Measurement {
     for (const double change : energy.changes)
       result_.drift_over_time->changes.push_back(energy.scale() > 0 ? change / energy.scale() : 0);
     result_.smallest_det_f = inversion.smallest();
-    compare(trajectory.trajectory());
+    keep(mesh_error);
+    compare(trajectory->trajectory());
   }
 
   // Nothing if the run did not complete, which is then in the result.
@@ -193,17 +217,17 @@ class Measurement {
   }
 
   void compare(const Trajectory& trajectory) {
-    const auto& model = *setup_.built.model;
     if (input_.keep_trajectory) {
       trajectory.save(folder_ / kTrajectoryFile);
-      result_.scales = ReferenceNorms(model, trajectory, probe_points(setup_)).scales();
+      result_.scales = norms_of(trajectory).scales();
     }
     if (input_.reference.empty()) return;
     const fs::path folder = input_.reference;
-    const ReferenceNorms reference(model, Trajectory::load(folder / kTrajectoryFile), probe_points(setup_));
+    const ReferenceNorms reference = norms_of(Trajectory::load(folder / kTrajectoryFile));
     result_.errors = reference.errors(trajectory);
     const bool nothing_moves = reference.scales().displacement == 0;
-    if (!(result_.errors->displacement.max <= kDiverged) && !nothing_moves)
+    const double most = input_.at_probes ? kDivergedFromAnotherMesh : kDiverged;
+    if (!(result_.errors->displacement.max <= most) && !nothing_moves)
       result_.failure = Failure{"diverged", "the error is larger than the motion"};
     else if (was_inverted(result_) && !was_inverted(result_in(folder)))
       result_.failure = Failure{"inverted", "an element was inverted, which does not happen in the reference"};

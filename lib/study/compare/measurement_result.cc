@@ -18,11 +18,13 @@ ErrorNorms norms_from(const Json& json) {
 }
 
 Json to_json(const ModelSize& m) {
-  return {{"unknowns", m.unknowns}, {"elements", m.elements}, {"nodes", m.nodes}, {"start", m.start}, {"end", m.end}};
+  return {{"unknowns", m.unknowns}, {"elements", m.elements}, {"nodes", m.nodes}, {"start", m.start}, {"end", m.end},
+          {"order", m.order}};
 }
 
 ModelSize model_from(const Json& json) {
-  return {json.at("unknowns"), json.at("elements"), json.at("nodes"), json.at("start"), json.at("end")};
+  return {json.at("unknowns"), json.at("elements"), json.at("nodes"), json.at("start"), json.at("end"),
+          json.at("order")};
 }
 
 Json to_json(const Spread& s) { return {{"median", s.median}, {"min", s.min}, {"max", s.max}}; }
@@ -107,12 +109,13 @@ Json to_json(const MeasurementInput& i) {
           {"reference", i.reference},
           {"keep_trajectory", i.keep_trajectory},
           {"exact_if_possible", i.exact_if_possible},
+          {"at_probes", i.at_probes},
           {"code", i.code}};
 }
 
 MeasurementInput measurement_input_from(const Json& json) {
-  return {json.at("repeats"),         json.at("samples"),           json.at("seconds"), json.at("reference"),
-          json.at("keep_trajectory"), json.at("exact_if_possible"), json.at("code")};
+  return {json.at("repeats"),         json.at("samples"),           json.at("seconds"),   json.at("reference"),
+          json.at("keep_trajectory"), json.at("exact_if_possible"), json.at("at_probes"), json.at("code")};
 }
 
 Spread spread(std::vector<double> values) {
@@ -135,6 +138,7 @@ Json to_json(const MeasurementResult& r) {
   if (r.kind) json["kind"] = kind_word(*r.kind);
   if (r.own_errors) json["own_errors"] = to_json(*r.own_errors);
   if (r.kind && r.statistics) json["statistics"] = to_json(*r.statistics);
+  if (r.mesh_error) json["mesh_error"] = *r.mesh_error;
   if (r.seconds) json["seconds"] = *r.seconds;
   if (r.drift) json["drift"] = to_json(*r.drift);
   if (r.drift_over_time) json["drift_over_time"] = to_json(*r.drift_over_time);
@@ -161,6 +165,7 @@ MeasurementResult measurement_from(const Json& json) {
   take(json, "statistics", r.statistics, statistics_from);
   take(json, "kind", r.kind, [](const Json& word) { return word == "exact" ? Kind::exact : Kind::computed; });
   take(json, "own_errors", r.own_errors, errors_from);
+  take(json, "mesh_error", r.mesh_error, number_or_nan);
   take(json, "seconds", r.seconds, number_or_nan);
   take(json, "drift", r.drift, drift_from);
   take(json, "drift_over_time", r.drift_over_time, energy_change_from);

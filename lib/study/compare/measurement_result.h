@@ -28,6 +28,7 @@ struct MeasurementInput {
   std::string reference;           // folder of a reference's result; "" for none
   bool keep_trajectory = false;    // for others to be measured against
   bool exact_if_possible = false;  // the exact solution in place of an integration, where there is one
+  bool at_probes = false;          // errors of the probes alone: the reference has another mesh
   std::string code;                // fingerprint of the program that is to do it
 };
 
@@ -37,6 +38,7 @@ MeasurementInput measurement_input_from(const Json& json);
 struct ModelSize {
   std::size_t unknowns = 0, elements = 0, nodes = 0;
   double start = 0, end = 0;  // of time, s
+  int order = 1;              // of the elements
 };
 
 struct Spread {
@@ -75,6 +77,7 @@ struct MeasurementResult {
   std::optional<Statistics> statistics;  // of the run with the median time
   std::optional<Kind> kind;
   std::optional<TrajectoryErrors> own_errors;  // what round-off may do to an exact solution
+  std::optional<double> mesh_error;            // MeshError::relative, of a reference for other meshes
   std::optional<double> seconds;               // wall time of a run that was not timed
   std::optional<Drift> drift;
   std::optional<EnergyChange> drift_over_time;

@@ -1,4 +1,4 @@
-// The scene of a point or of a reference: a problem's, with another integrator.
+// The scene of a point or of a reference: that of a problem or a group, with another integrator.
 #include <functional>
 #include <set>
 
@@ -21,9 +21,9 @@ bool is_kept_by_references(const std::string& key) {
   return kept.contains(key);
 }
 
-Config scene_of(const Problem& problem, const std::string& integrator,
+Config scene_of(const SceneVariant& variant, const std::string& integrator,
                 const std::function<bool(const std::string&)>& kept, const Assignments& options) {
-  Config config = with_integrator(problem.scene, integrator, options, kept);
+  Config config = with_integrator(variant, integrator, options, kept);
   config.set("output.fields", std::vector<std::string>());
   for (const char* key : {"output.energy", "output.steps", "output.momentum"}) config.set(key, false);
   config.set("expect", nullptr);
@@ -33,8 +33,8 @@ Config scene_of(const Problem& problem, const std::string& integrator,
 
 }  // namespace
 
-Config reference_scene(const Problem& problem, const Method& method) {
-  return scene_of(problem, method.integrator, is_kept_by_references, method.set);
+Config reference_scene(const Group& group, const Method& method) {
+  return scene_of(group.reference, method.integrator, is_kept_by_references, method.set);
 }
 
 Config point_scene(const Design& design, const Point& point) {
@@ -42,7 +42,7 @@ Config point_scene(const Design& design, const Point& point) {
   Assignments options = method.set;
   options.emplace_back(control_word(method.control), YamlText{number_text(point.control)});
   const auto kept = [&](const std::string& key) { return is_kept_by_methods(key, method.control); };
-  return scene_of(design.problems[point.problem], method.integrator, kept, options);
+  return scene_of(design.problems[point.problem].scene, method.integrator, kept, options);
 }
 
 }  // namespace orthodyn::study::compare

@@ -3,6 +3,7 @@ import math
 
 from . import measures, formatting
 from .comparable import main_target
+from .front_answer import front_answer
 from .markup import Html, joined, scrolling, tag
 from .method_name import method_name
 from .tables import caption
@@ -202,6 +203,8 @@ def _scene(problem):
 
 
 def answer_section(comparison):
+    if comparison.fronts:
+        return front_answer(comparison)
     parts = [headline(comparison), tag("p", MEANING, class_="scene"), overview(comparison)]
     for problem in comparison.problems:
         size = f"{formatting.count(problem.unknowns)} unknowns" if formatting.known(problem.unknowns) else ""

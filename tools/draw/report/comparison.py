@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-NEAR_REFERENCE = 10.0  # an error below this multiple of the reference's own is not resolved
+# An error below these multiples of the reference's own, in time and by its mesh, is not resolved.
+NEAR_REFERENCE, NEAR_ITS_MESH = 10.0, 2.0
 PARTS = ("force", "tangent", "factorization", "solve")
 
 
@@ -77,6 +78,17 @@ class Reference:
     seconds: float = math.nan
     message: str = ""
     errors: dict = field(default_factory=dict)
+    mesh_error: float = math.nan  # an estimate; of a reference with a mesh of its own
+    unknowns: float = math.nan
+
+    @property
+    def has_own_mesh(self):
+        return math.isfinite(self.mesh_error)
+
+    def reach(self, measure):
+        """Errors below it are not resolved; nan where it is not known."""
+        own_mesh = NEAR_ITS_MESH * self.mesh_error if self.has_own_mesh else 0.0
+        return NEAR_REFERENCE * self.errors.get(measure, math.nan) + own_mesh
 
 
 @dataclass
@@ -96,6 +108,7 @@ class Problem:
     probe_scales: dict
     dominant_frequency: float
     reference: Reference
+    mesh: str = ""  # what tells it from others that share its reference
 
 
 @dataclass
@@ -127,6 +140,16 @@ class Order:
 
 
 @dataclass
+class Front:
+    """Problems that differ in their meshes only, measured against one reference."""
+    id: str
+    label: str
+    problems: list  # ids
+    points: list  # indices of those that no other beats in both error and CPU time, from fast to accurate
+    answers: list  # (target, index of the fastest point that reaches it, in words)
+
+
+@dataclass
 class Comparison:
     name: str
     title: str
@@ -143,6 +166,15 @@ class Comparison:
     points: list
     answers: list
     orders: list
+    fronts: list = field(default_factory=list)
+
+    @property
+    def clock(self):
+        """The one that is shown first."""
+        return "cpu" if self.fronts else "wall"
+
+    def problem(self, name):
+        return next(p for p in self.problems if p.id == name)
 
     def points_of(self, problem, method=None):
         """Points of a problem (and a method), methods in their order, loose control first."""
@@ -164,6 +196,5 @@ class Comparison:
                      if (o.problem, o.method, o.error) == (problem.id, method, measure)), math.nan)
 
     def is_near_reference(self, point, measure):
-        problem = next(p for p in self.problems if p.id == point.problem)
-        bound = NEAR_REFERENCE * problem.reference.errors.get(measure, math.nan)
-        return measure in point.near_reference or point.error(measure) < bound
+        return (measure in point.near_reference
+                or point.error(measure) < self.problem(point.problem).reference.reach(measure))

@@ -21,6 +21,10 @@ def _reference_words(problem):
                      "concluded from it")
     elif reference.check:
         parts.append(f". Its own error is its difference to a second solution by {reference.check}")
+    if reference.has_own_mesh:
+        parts.append(f". It has a mesh of its own, of {formatting.count(reference.unknowns)} unknowns, whose error is "
+                     f"about {formatting.exponent(reference.mesh_error)}, by the share of the elastic energy that "
+                     "recovered stresses tell")
     return "".join(parts) + "." + (f" {reference.message}" if reference.message else "")
 
 
@@ -76,7 +80,12 @@ def problem_details(problem):
         ("Reference", _reference_words(problem)))), _own_errors(problem))
 
 
-def definitions():
+ACROSS_MESHES = ("Here the reference has a mesh of its own. Probes are followed at their places within the elements; "
+                 "displacement and velocity are the root mean square over the probes. An error below ten times the "
+                 "reference's own in time and twice the estimate of its mesh's is not resolved.")
+
+
+def definitions(comparison):
     kinds = [joined([tag("dt", kind), tag("dd", f"{text}.")]) for kind, text in
              ((measures.KINDS[k], measures.DEFINITIONS[k]) for k in measures.KINDS)]
     return joined([
@@ -90,7 +99,8 @@ def definitions():
                  "of or behind the reference over the whole span. A drift is the largest change of a quantity "
                  "that is conserved or balanced, relative (energy: to the largest energy)."),
         tag("p", "No reference is exact to the last digit. An error below ten times the reference's own error says "
-                 "little about the method: its marker is hollow and the diagrams are shaded there.")])
+                 "little about the method: its marker is hollow and the diagrams are shaded there."),
+        tag("p", ACROSS_MESHES) if comparison.fronts else None])
 
 
 def methods_table(comparison):

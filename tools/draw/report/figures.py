@@ -6,6 +6,7 @@ import matplotlib
 from . import measures
 from .cost import draw_cost_breakdown
 from .drift import draw_energy_drift
+from .front import draw_front
 from .layout import NARROW, WIDE
 from .markup import Html, tag
 from .scale import positive
@@ -42,6 +43,10 @@ class Figures:
         self._drawn += 1
         return both_widths(draw, self.styles, f"f{self._drawn}")
 
+    def front(self, front, measure=None, clock="cpu"):
+        measure = measure or self.primary
+        return self.both_widths(lambda w: draw_front(self.comparison, front, measure, clock, w))
+
     def work_precision(self, problem, measure=None, clock="wall"):
         measure = measure or self.primary
         return self.both_widths(lambda w: draw_work_precision(self.comparison, problem, measure, clock, w))
@@ -61,7 +66,8 @@ class Figures:
         found = measures.present(self.comparison.points) or [self.primary]
         found.sort(key=lambda m: m != self.primary)
         clocks = [c for c in CLOCKS if c == "wall" or positive(p.seconds(c) for p in self.comparison.points).size]
-        pairs = [(m, "wall") for m in found] + [(m, c) for m in found for c in clocks[1:]]
+        clocks.sort(key=lambda c: c != self.comparison.clock)
+        pairs = [(m, clocks[0]) for m in found] + [(m, c) for m in found for c in clocks[1:]]
         return sorted(pairs, key=lambda pair: pair[0] != self.primary)
 
     def variants(self, room):
@@ -82,10 +88,14 @@ class Figures:
     def _group(self, measure, clock):
         """The templates of one choice for all problems; tolerances do not depend on the clock."""
         group = {}
+        for front in self.comparison.fronts:
+            group["front", front.id] = tag("template", self.front(front, measure, clock), data_measure=measure,
+                                           data_clock=clock)
         for problem in self.comparison.problems:
-            group["wp", problem.id] = tag("template", self.work_precision(problem, measure, clock),
-                                          data_measure=measure, data_clock=clock)
-            if clock == "wall":
+            if not self.comparison.fronts:
+                group["wp", problem.id] = tag("template", self.work_precision(problem, measure, clock),
+                                              data_measure=measure, data_clock=clock)
+            if clock == self.comparison.clock:
                 group["tol", problem.id] = tag("template", self.tolerance(problem, measure), data_measure=measure)
         return group
 
@@ -93,7 +103,8 @@ class Figures:
 def _paper_figures(comparison, problem):
     """(name, function that draws it)."""
     measure = measures.primary(comparison)
-    return (("work_precision", lambda: draw_work_precision(comparison, problem, measure, "wall", WIDE)),
+    return (*((("work_precision", lambda: draw_work_precision(comparison, problem, measure, "wall", WIDE)),)
+              if not comparison.fronts else ()),
             ("error_against_control", lambda: draw_error_against_control(comparison, problem, measure, WIDE)),
             ("drift_against_control",
              lambda: draw_error_against_control(comparison, problem, measures.DRIFT + "energy", WIDE)),
@@ -101,29 +112,35 @@ def _paper_figures(comparison, problem):
             ("energy_drift", lambda: draw_energy_drift(comparison, problem, WIDE)))
 
 
-def _unique_names(problems):
-    """Problem ids as parts of file names."""
-    names = {}
-    for problem in problems:
-        name = re.sub(r"[^\w.-]+", "_", problem.id).strip("._") or "problem"
-        while name in names.values():
+def _named(items):
+    """Problems or fronts, with their ids as parts of file names."""
+    taken = set()
+    for item in items:
+        name = re.sub(r"[^\w.-]+", "_", item.id).strip("._") or "problem"
+        while name in taken:
             name += "_"
-        names[problem.id] = name
-    return names
+        taken.add(name)
+        yield item, name
 
 
 def write_paper_figures(comparison, folder):
     """Writes FIGURE_PROBLEM.svg and .png; yields their paths."""
     folder.mkdir(parents=True, exist_ok=True)
-    names = _unique_names(comparison.problems)
-    for problem in comparison.problems:
+    for front, name in _named(comparison.fronts):
+        yield from _written(draw_front(comparison, front, measures.primary(comparison), "cpu", WIDE),
+                            folder / f"front_{name}")
+    for problem, name in _named(comparison.problems):
         for figure, draw in _paper_figures(comparison, problem):
-            layout = draw()
-            if layout is None:
-                continue
-            svg, png = (folder / f"{figure}_{names[problem.id]}.{kind}" for kind in ("svg", "png"))
-            with matplotlib.rc_context({"svg.fonttype": "path", "svg.hashsalt": svg.stem}):
-                layout.figure.savefig(svg, metadata={"Date": None}, **PAPER)
-            layout.figure.savefig(png, dpi=PAPER_DPI, **PAPER)
-            yield svg
-            yield png
+            yield from _written(draw(), folder / f"{figure}_{name}")
+
+
+def _written(layout, stem):
+    """Writes STEM.svg and STEM.png, of a figure that there is."""
+    if layout is None:
+        return
+    svg, png = (stem.with_name(f"{stem.name}.{kind}") for kind in ("svg", "png"))
+    with matplotlib.rc_context({"svg.fonttype": "path", "svg.hashsalt": svg.stem}):
+        layout.figure.savefig(svg, metadata={"Date": None}, **PAPER)
+    layout.figure.savefig(png, dpi=PAPER_DPI, **PAPER)
+    yield svg
+    yield png

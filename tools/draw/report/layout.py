@@ -60,22 +60,24 @@ class PixelLayout:
                       transform=self.figure.transFigure, **options)
         self.figure.add_artist(line)
 
-    def method_label(self, x, y, index, words, failed=False):
-        """Line, marker and name of a method; a cross and the pale name of one that only failed."""
+    def method_label(self, x, y, index, words, failed=False, plain=False):
+        """Line, marker (unless `plain`) and name of a method; a cross and the pale name of one that only failed."""
         colour, gid = theme.colour(index), f"me-{index}"
         if failed:
             self.line([x + 9], [y], color=colour, gid=gid, **theme.FAILURE)
         else:
             self.line([x, x + 18], [y, y], color=colour, lw=1.6, ls=theme.dashes(index), gid=gid)
-            self.line([x + 9], [y], color=colour, marker=theme.marker(index), gid=gid,
-                      ms=theme.marker_size(index, 8), mec=LIGHT["paper"], mew=0.8, ls="none")
+            if not plain:
+                self.line([x + 9], [y], color=colour, marker=theme.marker(index), gid=gid,
+                          ms=theme.marker_size(index, 8), mec=LIGHT["paper"], mew=0.8, ls="none")
         self.text(x + 25, y, words, gid=gid, color=LIGHT["muted" if failed else "ink"])
 
-    def legend(self, top, entries, columns=1, left=2):
+    def legend(self, top, entries, columns=1, left=2, plain=False):
         """Labels of methods (index, words, failed) in rows below `top`."""
         step = (self.width - 2 * left) / columns
         for k, (index, words, failed) in enumerate(entries):
-            self.method_label(left + step * (k % columns), top + 10 + 20 * (k // columns), index, words, failed)
+            self.method_label(left + step * (k % columns), top + 10 + 20 * (k // columns), index, words, failed,
+                              plain)
 
 
 def shortened(words, letters):

@@ -3,7 +3,7 @@
   "use strict";
   const root = document.documentElement;
   const data = JSON.parse(document.getElementById("run-data").textContent);
-  const chosen = {measure: data.measure, clock: "wall"};
+  const chosen = {measure: data.measure, clock: data.clock};
   const reach = 22; // px around a mark where it can be picked
   root.classList.add("scripted");
 

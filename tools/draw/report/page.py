@@ -38,6 +38,12 @@ def _style(figures):
     return tag("style", Html(themes + (HERE / "page.css").read_text(encoding="utf-8") + figures))
 
 
+READ_FRONT = ("One marker is one run, one line one method on one mesh from loose to tight control; lower left is "
+              "better. A colour is a mesh, a marker a method. The broad grey line is the front: what no other run "
+              "beats in both error and time. Where a line runs level the error of its mesh remains. Hollow markers are "
+              "within reach of the reference's own error.")
+
+
 def _counted(comparison):
     finished = sum(p.completed for p in comparison.points)
     failed = len(comparison.points) - finished
@@ -80,9 +86,23 @@ def _choosers(offered, group, with_clock=True):
         parts.append(tag("label", "Error measured as ", select))
     if len(clocks) > 1:
         radios = (tag("label", void("input", type="radio", name=f"clock-{group}", value=c, data_pick="clock",
-                                    checked=c == "wall", autocomplete="off"), tag("span", CLOCKS[c])) for c in clocks)
+                                    checked=c == clocks[0], autocomplete="off"), tag("span", CLOCKS[c]))
+                  for c in clocks)
         parts.append(tag("fieldset", tag("legend", "Time", class_="unseen"), *radios))
     return tag("div", *parts, class_="choosers js") if parts else None
+
+
+def _fronts(comparison, figures, variants, first):
+    """A figure for each front."""
+    parts = []
+    for k, front in enumerate(comparison.fronts):
+        stage = tag("div", figures.front(front, *first), class_="stage")
+        title = tag("h3", front.label) if len(comparison.fronts) > 1 else None
+        figure = tag("figure", stage, *variants.get(("front", front.id), ()),
+                     tag("figcaption", READ_FRONT) if not k else None, data_kind="wp", data_measure=first[0],
+                     data_clock=first[1], aria_label=front.label)
+        parts.append(tag("div", title, figure, class_="problem"))
+    return joined(parts)
 
 
 def _figure(comparison, problem, kind, picture, variants=(), first=None):
@@ -129,7 +149,7 @@ def _after(comparison, figures, folder):
         _section("drift", "Energy drift", _each(comparison, lambda p: _drift(comparison, figures, p))),
         _section("runs", "All runs", _each(comparison, lambda p: tables.runs_table(comparison, p)),
                  tag("h3", "Failures"), tables.failures_table(comparison)),
-        _section("details", "How this was measured", tag("h3", "What an error is"), details.definitions(),
+        _section("details", "How this was measured", tag("h3", "What an error is"), details.definitions(comparison),
                  tag("h3", "Methods"), details.methods_table(comparison),
                  *(details.problem_details(p) for p in comparison.problems), details.provenance(comparison, folder))])
 
@@ -145,13 +165,15 @@ def page(comparison, folder):
     """The whole page as text; `folder` is named in the command that reproduces it."""
     figures = Figures(comparison)
     first = figures.choices()[0]
-    shown = {p.id: (figures.work_precision(p), figures.tolerance(p)) for p in comparison.problems}
+    shown = {p.id: (None if comparison.fronts else figures.work_precision(p), figures.tolerance(p))
+             for p in comparison.problems}
     after = _after(comparison, figures, folder)
     runs = data_script("run-data", {
-        "measure": first[0], "labels": {m: measures.label(m) for m in measures.present(comparison.points)},
+        "measure": first[0], "clock": first[1],
+        "labels": {m: measures.label(m) for m in measures.present(comparison.points)},
         "runs": [tooltip(comparison, p) for p in comparison.points]})
     script = tag("script", Html(SCRIPT.read_text(encoding="utf-8")))
-    base = len(after) + len(runs) + sum(len(a) + len(b) for a, b in shown.values()) + 100_000
+    base = len(after) + len(runs) + sum(len(a or "") + len(b) for a, b in shown.values()) + 100_000
     variants, offered = figures.variants(BUDGET - base)
 
     def pictures(kind, which):
@@ -159,7 +181,8 @@ def page(comparison, folder):
                                                    variants.get((kind, p.id), ()), first))
 
     main = tag("main", _section("answer", "The answer", answer.answer_section(comparison)),
-               _section("precision", "Work and precision", _choosers(offered, "wp"), pictures("wp", 0)),
+               _section("precision", "Work and precision", _choosers(offered, "wp"),
+                        _fronts(comparison, figures, variants, first) if comparison.fronts else pictures("wp", 0)),
                _section("tolerance", "Error against tolerance and step", _choosers(offered, "tol", False),
                         pictures("tol", 1)), after)
     body = tag("body", glyphs(comparison), _header(comparison), main, runs, script)

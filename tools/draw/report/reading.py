@@ -7,8 +7,8 @@ import numpy as np
 from ..errors import DrawError, unknown
 from ..series import result_folder
 from . import measures
-from .comparison import (PARTS, Answer, Comparison, Control, Method, Order, Point, Problem, Reference, Spread,
-                         Work)
+from .comparison import (PARTS, Answer, Comparison, Control, Front, Method, Order, Point, Problem, Reference,
+                         Spread, Work)
 
 FORMAT = 1
 FILE = "compare.json"
@@ -102,7 +102,8 @@ def _drifts(node):
 
 def _reference(node):
     return Reference(node.text("kind", "none"), node.text("method"), node.text("check"), node.number("seconds"),
-                     node.text("message"), _errors(node.child("errors")))
+                     node.text("message"), _errors(node.child("errors")), node.number("mesh_error"),
+                     node.number("unknowns"))
 
 
 def _problem(node):
@@ -111,7 +112,7 @@ def _problem(node):
     return Problem(name, node.text("label", name), node.text("scene"), node.child("set").texts(),
                    node.text("sentence"), *map(node.number, ("unknowns", "elements", "nodes")), time.number("start"),
                    time.number("end"), scales.numbers(), scales.text("words"), node.child("probe_scales").numbers(),
-                   node.number("dominant_frequency"), _reference(node.child("reference")))
+                   node.number("dominant_frequency"), _reference(node.child("reference")), node.text("mesh", name))
 
 
 def _method(node):
@@ -149,6 +150,21 @@ def _answer(node, problems, methods):
                   {name: e.number("best_error") for name, e in entries})
 
 
+def _front(node, problems, points):
+    def indices(values, key):
+        for value in values:
+            if not isinstance(value, int) or not 0 <= value < points:
+                raise node.wrong(key, value, f"the index of one of {points} points")
+        return values
+    members = node.list("problems")
+    for name in members:
+        if name not in problems:
+            raise node.wrong("problems", name, "the id of a problem")
+    answers = [(n.number("target"), n.value.get("point"), n.text("words")) for n in node.children("answers")]
+    indices([point for _, point, _ in answers], "answers")
+    return Front(node.text("id"), node.text("label"), members, indices(node.list("points"), "points"), answers)
+
+
 def _parsed(path):
     """The file's JSON, checked to be a comparison that this program can read."""
     if not path.is_file():
@@ -181,4 +197,5 @@ def read_comparison(folder):
         [_point(k, n, ids, names) for k, n in enumerate(node.children("points"))],
         [_answer(n, ids, names) for n in node.children("answers")],
         [Order(n.text("problem"), n.text("method"), n.text("error"), n.number("slope"))
-         for n in node.children("orders")])
+         for n in node.children("orders")],
+        [_front(n, ids, len(node.list("points"))) for n in node.children("fronts")])

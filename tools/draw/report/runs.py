@@ -15,14 +15,15 @@ def lane_height(failing):
     return max(20, LANE_ROW * len(failing) + 6) if failing else 0
 
 
-def draw_runs(axes, index, runs, hollow):
-    """A method's runs (x, y, point) as a line with one mark each; `hollow` is a set of point indices."""
-    colour = theme.colour(index)
+def draw_runs(axes, index, runs, hollow, mark=None):
+    """A method's runs (x, y, point) as a line with one mark each; `hollow` is a set of point indices, `mark` the index
+    of the marker where it is not that of the colour."""
+    colour, mark = theme.colour(index), index if mark is None else mark
     axes.plot([x for x, _, _ in runs], [y for _, y, _ in runs], color=colour, lw=1.7, ls=theme.dashes(index),
               gid=f"me-{index}", zorder=3)
     for x, y, point in runs:
         open_ = point.index in hollow
-        axes.plot([x], [y], marker=theme.marker(index), ms=theme.marker_size(index, 8.5), ls="none",
+        axes.plot([x], [y], marker=theme.marker(mark), ms=theme.marker_size(mark, 8.5), ls="none",
                   mfc=LIGHT["paper"] if open_ else colour, mec=colour if open_ else LIGHT["paper"],
                   mew=1.3 if open_ else 0.9, clip_on=False, gid=f"pt-{point.index}-{index}", zorder=4)
 
@@ -43,8 +44,9 @@ def draw_lane(lane, failing, place):
                       clip_on=False, gid=f"pt-{point.index}-{index}", **theme.FAILURE)
 
 
-def label_right(layout, box, entries, ends):
-    """Names right of the axes near their lines' ends (0 top to 1 bottom); `box` is left, top, width, height."""
+def label_right(layout, box, entries, ends, plain=False):
+    """Names right of the axes near their lines' ends (0 top to 1 bottom); `box` is left, top, width, height; `plain`:
+    without markers."""
     if not entries:
         return
     left, top, width, height = box
@@ -54,7 +56,7 @@ def label_right(layout, box, entries, ends):
     placed = placed + min(0.0, top + height - placed.max())
     placed = placed + max(0.0, top + 4 - placed.min())
     for (index, words, failed), y in zip(entries, placed):
-        layout.method_label(left + width + 14, y, index, words, failed)
+        layout.method_label(left + width + 14, y, index, words, failed, plain)
 
 
 def say_nothing_finished(layout, axes, box):

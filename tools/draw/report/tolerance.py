@@ -2,7 +2,6 @@
 import numpy as np
 
 from . import measures, formatting
-from .comparison import NEAR_REFERENCE
 from .runs import (LANE_GAP, draw_lane, draw_runs, draw_unresolved, end_fraction, label_right, lane_height,
                    say_nothing_finished)
 from .layout import WIDE, PixelLayout, legend_columns, legend_height, shortened, side_margin, styled
@@ -80,7 +79,7 @@ def _panel(layout, box, rows, comparison, problem, measure, kind, first):
     left, top, width, height = box
     runs, failing = _runs(comparison, problem, kind, measure), _failing(comparison, problem, kind)
     axes = layout.axes(*box)
-    bound = NEAR_REFERENCE * problem.reference.errors.get(measure, np.nan)
+    bound = problem.reference.reach(measure)
     controls = [p.control.value for p in comparison.points_of(problem) if p.control.kind == kind]
     label, tick = KINDS.get(kind, (kind, error_tick))
     set_log(axes, "x", *limits(controls), tick, max(3, int(width / 50)))

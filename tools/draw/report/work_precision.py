@@ -2,7 +2,6 @@
 import numpy as np
 
 from . import measures, formatting
-from .comparison import NEAR_REFERENCE
 from .runs import (LANE_GAP, draw_lane, draw_runs, draw_unresolved, end_fraction, label_right, lane_height,
                    say_nothing_finished)
 from .layout import WIDE, PixelLayout, legend_columns, legend_height, shortened, side_margin, styled
@@ -34,6 +33,8 @@ def error_limits(errors, bound):
 
 
 def unresolved_words(problem, measure, narrow):
+    if problem.reference.has_own_mesh:
+        return "not resolved: below " + formatting.exponent(problem.reference.reach(measure))
     own = formatting.exponent(problem.reference.errors.get(measure, np.nan))
     return "not resolved: below 10 × " + (own if narrow else f"the reference's own error ({own})")
 
@@ -84,7 +85,7 @@ def draw_work_precision(comparison, problem, measure, clock, width):
     failing, entries = failing_methods(comparison, problem), _entries(comparison, problem, runs)
     layout, box, lane_box, columns = _layout(width, entries, failing)
     layout.description = _description(problem, measure, runs, comparison)
-    bound = NEAR_REFERENCE * problem.reference.errors.get(measure, np.nan)
+    bound = problem.reference.reach(measure)
     axes = layout.axes(*box)
     times = [t for r in runs.values() for t, _, _ in r] + [p.seconds(clock) for f in failing.values() for p in f]
     set_log(axes, "x", *limits(times), seconds_tick, 4 if layout.narrow else 8)
@@ -95,7 +96,7 @@ def draw_work_precision(comparison, problem, measure, clock, width):
             hollow = {p.index for _, _, p in found if comparison.is_near_reference(p, measure)}
             _whiskers(axes, k, found, clock)
             draw_runs(axes, k, found, hollow)
-    _annotate(layout, axes, box, measure, clock)
+    annotate(layout, axes, box, measure, clock)
     if failing:
         lane = layout.axes(*lane_box, sharex=axes)
         draw_lane(lane, failing, lambda p: p.seconds(clock))
@@ -108,7 +109,7 @@ def draw_work_precision(comparison, problem, measure, clock, width):
     return layout
 
 
-def _annotate(layout, axes, box, measure, clock):
+def annotate(layout, axes, box, measure, clock):
     """Words at the axes; without any finished run they say so."""
     left, top, width, height = box
     layout.text(0, 16, title_of(measure), weight="bold")

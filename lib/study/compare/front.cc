@@ -1,0 +1,31 @@
+#include "lib/study/compare/front.h"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace orthodyn::study::compare {
+
+std::vector<CostPoint> front(std::vector<CostPoint> points, double floor) {
+  std::sort(points.begin(), points.end(), [](const CostPoint& a, const CostPoint& b) {
+    return std::tie(a.seconds, a.error) < std::tie(b.seconds, b.error);
+  });
+  std::vector<CostPoint> out;
+  double best = std::numeric_limits<double>::infinity();
+  for (const auto& point : points) {
+    const double error = std::max(point.error, floor);
+    if (!(error < best)) continue;
+    best = error;
+    out.push_back(point);
+  }
+  return out;
+}
+
+std::optional<CostPoint> fastest(const std::vector<CostPoint>& points, double target) {
+  std::optional<CostPoint> best;
+  for (const auto& point : points)
+    if (point.error <= target && (!best || point.seconds < best->seconds)) best = point;
+  return best;
+}
+
+}  // namespace orthodyn::study::compare
