@@ -36,9 +36,8 @@ struct ModalOptions : ErrorControl, ModeLimit {
   std::string kept;
 };
 
-// What the modes take is told as a factorisation.
 ModalBasis measured_basis(const Model& model, const ModeLimit& limit, Statistics& statistics) {
-  const Measure measure(statistics.factorization);
+  const Measure measure(statistics.modes);
   return ModalBasis(model, limit);
 }
 

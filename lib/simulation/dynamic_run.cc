@@ -58,6 +58,7 @@ class DynamicAnalysis {
     const bool resumes = context_.earlier && context_.earlier->begun;
     Checkpoint begin = resumes ? continued(std::move(*context_.earlier), setup_, context_.resolved, folder_)
                                : first_checkpoint(setup_, context_.resolved, folder_);
+    begin.effort = begin.effort + Effort{{}, setup_.wall_seconds, setup_.cpu_seconds};
     // One that was killed after its last step still lacks its record.
     if (resumes && is_complete(begin, setup_.scene) && begin.restarts.back().after == "completed")
       return nothing_to_do(begin.state.t);

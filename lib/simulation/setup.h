@@ -21,6 +21,7 @@ struct Setup {
   std::vector<Event> events;               // of the model
   std::optional<KinematicsChoice> kinematics;  // where the scene leaves them open
   std::unique_ptr<LinearityWatch> linearity;   // to look on at its run; null unless linear kinematics were chosen
+  double wall_seconds = 0, cpu_seconds = 0;    // that the integrator took to be made: its modes, scales and the like
 };
 
 // What the scene wants of its integrator. Both must outlive the task.

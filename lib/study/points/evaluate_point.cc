@@ -145,7 +145,10 @@ class Evaluation {
     if (!events.empty()) plan.events = &events;
     const Outcome outcome = run(*setup.built.model, *setup.integrator, setup.built.initial, plan,
                                 observers, deadline.over);
-    if (!conclude(outcome, setup.integrator->statistics())) return;
+    const bool completed = conclude(outcome, setup.integrator->statistics());
+    result_.cost->wall_seconds += setup.wall_seconds;
+    result_.cost->cpu_seconds += setup.cpu_seconds;
+    if (!completed) return;
     for (std::size_t q = 0; q < wanted.figures.size(); ++q) {
       const auto& [name, f] = *wanted.figures[q];
       keep(name,
