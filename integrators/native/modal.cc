@@ -269,6 +269,7 @@ class ModalChoice : public SettableChoice<ModalChoice>, public ModalOptions {
                         "Hughes 1987, 7.2 (modes); Cornwell, Craig & Johnson, Earthquake Eng. Struct. Dyn. 11, 1983 "
                         "(static correction)");
   }
+  bool needs_linear_model() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     if (!modes && !below)
       throw ConfigError("modal needs to know which modes to keep: give `modes`, such as 40, or `below`, such as 2 kHz "

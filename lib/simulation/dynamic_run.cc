@@ -95,8 +95,8 @@ class DynamicAnalysis {
     RunResult result{.scene = context_.scene, .folder = folder_.path(), };
     result.outcome = integrate(begin, observers, result.resumable);
     result.model = summarize(setup_);
-    result.outgrown = setup_.linearity && setup_.linearity->outgrown();
-    if (result.outgrown) return result;
+    if (setup_.linearity) result.outgrown = setup_.linearity->why_to_start_again();
+    if (!result.outgrown.empty()) return result;
     result.motion = motion_result(result.outcome, begin.effort, observers);
     record.finish(result);
     if (parts_ && result.outcome.status == Outcome::Status::completed) {

@@ -30,6 +30,17 @@ std::string how_much(double error) {
   return std::isfinite(error) ? fmt::format("about {:.3g}", error) : std::string("a good part");
 }
 
+// "" where the integrator serves corotational kinematics, too.
+std::string only_linear_integrator(const Config& config, const Scene& scene) {
+  const bool is_only =
+      scene.analysis == Analysis::dynamic && scene.integrator && scene.integrator->needs_linear_model();
+  return is_only ? config.at("integrator").at("type").text() : "";
+}
+
+std::string other_integrator(const std::string& only_linear) {
+  return only_linear + " is for linear kinematics only: take another integrator, such as cvode_bdf";
+}
+
 Scene with(Config& config, const char* kinematics) {
   set_kinematics(config, kinematics);
   return read_scene(config);
@@ -43,9 +54,9 @@ void set_kinematics(Config& config, const std::string& kinematics) {
 }
 
 LinearityWatch::LinearityWatch(const FemModel& linear, std::unique_ptr<FemModel> exact, double start, double end,
-                               double allowed)
+                               double allowed, std::string only_linear)
     : linear_(linear), exact_(std::move(exact)), linearity_(linear_, *exact_, end - start), allowed_(allowed),
-      start_(start) {}
+      start_(start), only_linear_(std::move(only_linear)) {}
 
 double LinearityWatch::norm(const Vector& x) const {
   Vector Mx(x.size());
@@ -63,7 +74,17 @@ void LinearityWatch::note(double t, const Vector& q) {
 
 void LinearityWatch::require(double t, const Vector& q) {
   note(t, q);
-  if (outgrown()) throw RunError(outgrown_sentence(*this) + "; set elasticity.kinematics: corotational");
+  if (outgrown()) refuse_outgrown();
+}
+
+void LinearityWatch::refuse_outgrown() const {
+  throw RunError(outgrown_sentence(*this) + "; " +
+                 (only_linear_.empty() ? "set elasticity.kinematics: corotational"
+                                       : other_integrator(only_linear_) + ", or raise elasticity.linear_error"));
+}
+
+std::string LinearityWatch::why_to_start_again() const {
+  return outgrown() && only_linear_.empty() ? outgrown_sentence(*this) : "";
 }
 
 void LinearityWatch::save(Archive& archive) {
@@ -88,7 +109,15 @@ void LinearityWatch::look_at(const State& state) {
   }
   const double turns = displacement_ > 0 ? velocity_ / displacement_ * (state.t - start_) : 0;  // rad
   error_ = std::max(error_, local_ + stiffness_ * turns / 2);
-  if (outgrown()) throw RunError(outgrown_sentence(*this) + "; set elasticity.kinematics: corotational");
+  if (outgrown()) refuse_outgrown();
+}
+
+void start_again_if_outgrown(const Config& scene, const KinematicsAttempt& attempt) {
+  const std::string outgrown = attempt(scene.copy(), "");
+  if (outgrown.empty()) return;
+  Config corotational = scene.copy();
+  set_kinematics(corotational, "corotational");
+  attempt(std::move(corotational), outgrown);
 }
 
 std::string outgrown_sentence(const LinearityWatch& watch) {
@@ -97,12 +126,16 @@ std::string outgrown_sentence(const LinearityWatch& watch) {
 }
 
 std::string outcome_of(const LinearityWatch& watch) {
-  return fmt::format("linear: off by about {:.1e} of the motion at most, where {:.1e} is allowed", watch.error(),
-                     watch.allowed());
+  const double error = watch.error();
+  return fmt::format("linear: off by {} of the motion at most, where {:.1e} is allowed",
+                     std::isfinite(error) ? fmt::format("about {:.1e}", error) : how_much(error), watch.allowed());
 }
 
 ChosenKinematics choose_kinematics(Config& config, Scene& scene, bool linear_so_far) {
-  const auto corotational = [&](const std::string& reason) {
+  const std::string only_linear = only_linear_integrator(config, scene);
+  const std::string place = config.at("elasticity").at("kinematics").where();
+  const auto corotational = [&](const std::string& reason, const std::string& remedy = "") {
+    if (!only_linear.empty()) throw ConfigError(place, reason + ", and " + other_integrator(only_linear) + remedy);
     scene = with(config, "corotational");
     return ChosenKinematics{{false, "corotational: " + reason}, build(scene), nullptr};
   };
@@ -115,7 +148,8 @@ ChosenKinematics choose_kinematics(Config& config, Scene& scene, bool linear_so_
   const bool is_static = scene.analysis == Analysis::statical;
   const double end = is_static ? std::numeric_limits<double>::infinity() : scene.time.end;
   try {
-    auto watch = std::make_unique<LinearityWatch>(*built.model, std::move(exact.model), scene.time.start, end, allowed);
+    auto watch = std::make_unique<LinearityWatch>(*built.model, std::move(exact.model), scene.time.start, end, allowed,
+                                                  only_linear);
     const StaticResponse response = linear_so_far
                                         ? StaticResponse{}
                                         : static_response(*built.model, built.initial, scene.time.end);
@@ -123,7 +157,8 @@ ChosenKinematics choose_kinematics(Config& config, Scene& scene, bool linear_so_
       const Vector q = built.initial.q + (is_static ? 1 : kOvershoot) * response.displacement;
       if (const double error = watch->error_at(scene.time.end, q); error > kClearly * allowed)
         return corotational(fmt::format("linear kinematics would be off by {}{}, where {:.2g} is allowed",
-                                        how_much(error), is_static ? "" : " at twice the static response", allowed));
+                                        how_much(error), is_static ? "" : " at twice the static response", allowed),
+                            ", or raise elasticity.linear_error");
     }
     config.set("elasticity.kinematics", std::string("auto"));
     config.set("elasticity.linear_error", allowed);

@@ -89,7 +89,7 @@ struct RunResult {
   std::optional<MotionResult> motion = {};            // one of the two,
   std::optional<EquilibriumResult> equilibrium = {};  // or none where nothing was to be done
   bool was_complete = false;                          // it was to be resumed, and had reached its end before
-  bool outgrown = false;                              // it grew too large for linear kinematics, and ended there
+  std::string outgrown = {};                          // why it is to start again with corotational kinematics; else ""
   bool resumable = false;                             // the folder holds a checkpoint of a late state
 };
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <utility>
+
 #include "lib/core/versions.h"
 #include "lib/simulation/checkpoint/resume.h"
 
@@ -36,23 +39,23 @@ RunResult Simulation::run(const RunRequest& request, const std::atomic<bool>& in
   return run(request, interrupt, nobody);
 }
 
-// Where linear kinematics are outgrown, a second time from the start.
 RunResult Simulation::run(const RunRequest& request, const std::atomic<bool>& interrupt, RunListener& listener) const {
-  std::string outgrown;
-  RunResult result = run_once(scene_.copy(), request, outgrown, interrupt, listener);
-  if (!result.outgrown || interrupt) return result;
-  listener.on_notice(outgrown + ": starts again with corotational kinematics");
-  Config corotational = scene_.copy();
-  set_kinematics(corotational, "corotational");
-  RunRequest again = request;
-  again.force = true;
-  again.resume = false;
-  return run_once(std::move(corotational), again, outgrown, interrupt, listener);
+  RunRequest how = request;
+  std::optional<RunResult> result;
+  start_again_if_outgrown(scene_, [&](Config config, const std::string& outgrown) {
+    if (!outgrown.empty()) {
+      listener.on_notice(outgrown + ": starts again with corotational kinematics");
+      how.force = true;
+      how.resume = false;
+    }
+    result = run_once(std::move(config), how, outgrown, interrupt, listener);
+    return interrupt ? std::string() : result->outgrown;
+  });
+  return std::move(*result);
 }
 
-// `outgrown` says why linear kinematics were given up: in the first run it is set where that happens, in the second it
-// is told.
-RunResult Simulation::run_once(Config config, const RunRequest& request, std::string& outgrown,
+// `outgrown`: why linear kinematics were given up before; else "".
+RunResult Simulation::run_once(Config config, const RunRequest& request, const std::string& outgrown,
                                const std::atomic<bool>& interrupt, RunListener& listener) const {
   const auto warn = [&](const std::string& text) { listener.on_warning(text); };
   ResultFolder folder(request.folder, earlier_result(request), warn);
@@ -64,10 +67,7 @@ RunResult Simulation::run_once(Config config, const RunRequest& request, std::st
   for (const auto& warning : setup.built.warnings) listener.on_warning(warning);
   const std::string resolved = resolved_scene(setup, file_, folder.path());
   const RunAnalysis analysis = setup.scene.analysis == Analysis::statical ? run_static_analysis : run_dynamic_analysis;
-  RunResult result =
-      analysis({file_, changes_.set, request, setup, resolved, folder, std::move(earlier), interrupt, listener});
-  if (result.outgrown) outgrown = outgrown_sentence(*setup.linearity);
-  return result;
+  return analysis({file_, changes_.set, request, setup, resolved, folder, std::move(earlier), interrupt, listener});
 }
 
 }  // namespace orthodyn

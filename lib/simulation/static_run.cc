@@ -102,8 +102,8 @@ RunResult run_static_analysis(RunContext context) {
   result.outcome = run_static(*problem.path, *problem.stepper, all, context.interrupt);
   if (setup.linearity) {
     setup.linearity->note(problem.path->time(), result.outcome.last.q);
-    result.outgrown = setup.linearity->outgrown();
-    if (result.outgrown) return result;
+    result.outgrown = setup.linearity->why_to_start_again();
+    if (!result.outgrown.empty()) return result;
   }
   result.model = summarize(setup);
   MeshErrorRecorder mesh_error(0);
