@@ -9,9 +9,13 @@ ModelSummary summarize(const Setup& setup) {
                    parts.mesh.order(),      parts.elastic.front()->law(), {}};
   for (const auto& term : parts.elastic) out.terms.push_back(term->description());
   for (const auto& term : parts.loads) out.terms.push_back(term->description());
-  if (setup.linearity) out.kinematics = outcome_of(*setup.linearity);
-  else if (setup.kinematics) out.kinematics = setup.kinematics->reason;
+  out.kinematics = told_kinematics(setup);
   return out;
+}
+
+std::string told_kinematics(const Setup& setup) {
+  if (setup.linearity) return outcome_of(*setup.linearity);
+  return setup.kinematics ? setup.kinematics->reason : "";
 }
 
 }  // namespace orthodyn

@@ -9,6 +9,7 @@
 #include "lib/simulation/errors/snapshot.h"
 #include "lib/simulation/load_steps.h"
 #include "lib/simulation/machine.h"
+#include "lib/simulation/model_summary.h"
 #include "lib/simulation/run.h"
 #include "lib/simulation/setup.h"
 #include "lib/simulation/observers/frames.h"
@@ -102,26 +103,43 @@ class Evaluation {
   }
 
   void follow_motion() {
-    const Setup setup = set_up(config_);
+    start_again_if_outgrown(config_, [&](const Config& config, const std::string& outgrown) {
+      result_.failure.reset();
+      Setup setup = set_up(config);
+      if (!outgrown.empty()) {
+        setup.kinematics = KinematicsChoice{false, "corotational: " + outgrown};
+        given_up_ = *result_.cost;
+      }
+      follow_motion(setup);
+      const std::string why = setup.linearity ? setup.linearity->why_to_start_again() : "";
+      if (why.empty()) result_.kinematics = told_kinematics(setup);
+      return why;
+    });
+  }
+
+  void follow_motion(const Setup& setup) {
     describe(*setup.built.model);
     const WantedQuantities wanted = wanted_quantities(input_, setup);
     if (setup.scene.analysis == Analysis::statical) find_equilibrium(setup, wanted);
     else integrate(setup, wanted);
-    if (result_.failure) return;
+    if (result_.failure || is_outgrown(setup)) return;
     const Json costs = to_json(*result_.cost);
     for (const auto& [name, f] : input_.figures)
       if (!f.cost.empty()) keep(name, costs.at(f.cost).get<double>(), f.unit_of(""));
   }
 
+  static bool is_outgrown(const Setup& setup) { return setup.linearity && setup.linearity->outgrown(); }
+
   void find_equilibrium(const Setup& setup, const WantedQuantities& wanted) {
     const StaticProblem problem = static_problem(setup.scene, setup.built);
-    Deadline deadline(input_.seconds);
+    Deadline deadline(input_.seconds - given_up_.wall_seconds);
     const Outcome outcome = run_static(*problem.path, *problem.stepper, {&deadline}, deadline.over);
     Statistics statistics = problem.solver->statistics();
     statistics.steps = problem.stepper->steps();
     statistics.rejected_steps = problem.stepper->rejected();
     if (!conclude(outcome, statistics)) return;
-    if (setup.linearity) setup.linearity->require(problem.path->time(), outcome.last.q);
+    if (setup.linearity) setup.linearity->note(problem.path->time(), outcome.last.q);
+    if (is_outgrown(setup)) return;
     const State state{problem.path->time(), outcome.last.q, outcome.last.v};
     const ObservedState observed(*setup.built.model, state);
     for (std::size_t q = 0; q < wanted.figures.size(); ++q)
@@ -134,7 +152,7 @@ class Evaluation {
 
   void integrate(const Setup& setup, const WantedQuantities& wanted) {
     SeriesRecorder recorder(*setup.built.model, *setup.integrator, wanted.quantities);
-    Deadline deadline(input_.seconds);
+    Deadline deadline(input_.seconds - given_up_.wall_seconds);
     Snapshot frame(input_.frame_at);
     Plan plan{setup.scene.time.end, output_times(wanted.expectations, setup.scene.time), false};
     MeshErrorRecorder mesh_error(plan.output_times.size());
@@ -170,7 +188,8 @@ class Evaluation {
 
   // False if it did not get to its end, which is then the result.
   bool conclude(const Outcome& outcome, const Statistics& statistics) {
-    result_.cost = EvaluationCost{outcome.cpu_seconds, outcome.wall_seconds, statistics, peak_memory()};
+    result_.cost = EvaluationCost{given_up_.cpu_seconds + outcome.cpu_seconds,
+                                  given_up_.wall_seconds + outcome.wall_seconds, statistics, peak_memory()};
     if (outcome.status != Outcome::Status::completed) result_.failure = failure_of(outcome, input_.seconds);
     return !result_.failure;
   }
@@ -189,6 +208,7 @@ class Evaluation {
   const EvaluationInput& input_;
   const fs::path& folder_;
   EvaluationResult result_;
+  EvaluationCost given_up_;  // of a first attempt, with linear kinematics that were outgrown
 };
 
 }  // namespace

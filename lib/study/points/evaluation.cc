@@ -98,6 +98,7 @@ Json to_json(const EvaluationResult& r) {
   if (r.failure) json["reason"] = r.failure->reason, json["message"] = r.failure->message;
   if (!r.frame.empty()) json["frame"] = r.frame;
   if (r.mesh_error) json["mesh_error"] = *r.mesh_error;
+  if (!r.kinematics.empty()) json["kinematics"] = r.kinematics;
   return json;
 }
 
@@ -111,6 +112,7 @@ EvaluationResult evaluation_from(const Json& json) {
   if (cost.is_object()) r.cost = cost_from(cost);
   if (model.is_object()) r.unknowns = model.at("unknowns"), r.elements = model.at("elements");
   r.frame = json.value("frame", "");
+  r.kinematics = json.value("kinematics", "");
   if (json.contains("mesh_error")) r.mesh_error = json.at("mesh_error").get<double>();
   return r;
 }

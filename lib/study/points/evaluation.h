@@ -43,6 +43,7 @@ struct EvaluationResult {
   std::optional<std::size_t> unknowns, elements;  // of the model
   std::string frame;                              // the file of the picture's state; "" for none
   std::optional<double> mesh_error;               // MeshError::relative
+  std::string kinematics;                         // what was taken for `auto`, and why; "" where the scene says which
 };
 
 Json to_json(const EvaluationResult& result);
