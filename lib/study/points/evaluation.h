@@ -39,7 +39,8 @@ struct EvaluationResult {
   std::optional<Failure> failure;  // else it was completed
   Named<double> figures;           // SI; NaN for one that the point does not have
   Named<std::string> units;        // of the figures
-  std::optional<EvaluationCost> cost;
+  std::optional<EvaluationCost> cost;        // of the motion or the equilibrium, or else of modes alone
+  std::optional<EvaluationCost> modes_cost;  // of natural frequencies, where some are wanted
   std::optional<std::size_t> unknowns, elements;  // of the model
   std::string frame;                              // the file of the picture's state; "" for none
   std::optional<double> mesh_error;               // MeshError::relative
