@@ -73,7 +73,8 @@ std::vector<std::string> make_linear(TetMesh& mesh) {
     for (const int n : middles) is_middle[static_cast<std::size_t>(n)] = 1;
   std::vector<std::string> emptied;
   for (const auto& [name, set] : mesh.node_sets)
-    if (!set.empty() && std::all_of(set.begin(), set.end(), [&](int n) { return is_middle[static_cast<std::size_t>(n)]; }))
+    if (!set.empty() &&
+        std::all_of(set.begin(), set.end(), [&](int n) { return is_middle[static_cast<std::size_t>(n)]; }))
       emptied.push_back(name);
   mesh.midsides.clear();
   remove_nodes(mesh, is_middle);

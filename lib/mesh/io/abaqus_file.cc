@@ -170,8 +170,9 @@ class AbaqusReader {
       if (type.starts_with("T3D") || type.starts_with("R3D") || type.starts_with("M3D")) return ignore(type);
       file_.draft.fail(
           keyword.place,
-          fmt::format("elements of type {}; solid elements that are read: {}. Correct the type, or mesh again with these",
-                      type.empty() ? "(none given)" : type, abaqus_solids()));
+          fmt::format(
+              "elements of type {}; solid elements that are read: {}. Correct the type, or mesh again with these",
+              type.empty() ? "(none given)" : type, abaqus_solids()));
     } else {
       ignore(type);
     }

@@ -33,9 +33,10 @@ struct FileOptions {
   LoadedMesh as_wanted(LoadedMesh loaded) const {
     scale_mesh(loaded.mesh, scale, file.path);
     for (const std::string& name : set_order(loaded.mesh, order))
-      loaded.warnings.push_back(fmt::format("{}: node set \"{}\" holds nodes within edges only and is empty with `order: "
-                                            "1`; leave out `order`, or put corners into the set",
-                                            file.path, name));
+      loaded.warnings.push_back(
+          fmt::format("{}: node set \"{}\" holds nodes within edges only and is empty with `order: "
+                      "1`; leave out `order`, or put corners into the set",
+                      file.path, name));
     for (int i = 0; i < refinements; ++i) refine(loaded);
     return loaded;
   }
