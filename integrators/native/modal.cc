@@ -2,8 +2,8 @@
 //
 //   q = Phi r + u,   r'' + d r' + lambda r = phi' f(t, 0, 0),   u = S (f - M Phi Phi' f),
 //
-// with the static response u of the modes left out (modal_basis.h, oscillator.h). The load is interpolated over a step
-// by a polynomial of degree 5, whose error at two more points controls the step; a load that is one is integrated
+// with the static response u of the modes left out (modal_basis.h, modal_motion.h). The load is interpolated over a
+// step by a polynomial of degree 5, whose error at two more points controls the step; a load that is one is integrated
 // exactly over steps of any length.
 #include <fmt/format.h>
 
@@ -14,53 +14,39 @@
 
 #include "integrators/error_control.h"
 #include "integrators/fixed_step.h"
-#include "integrators/native/load_polynomial.h"
 #include "integrators/native/modal_basis.h"
+#include "integrators/native/modal_load.h"
+#include "integrators/native/modal_motion.h"
 #include "integrators/native/modal_truncation.h"
 #include "integrators/native/scaled_norm.h"
 #include "integrators/native/step_control.h"
 #include "lib/core/errors.h"
-#include "lib/core/golden.h"
 
 namespace orthodyn {
 namespace {
 
-constexpr double kMisfit = 0.05;      // of the motion: a start that the modes do not represent
-constexpr double kShorter = 0.25;     // after a force that cannot be evaluated
-constexpr double kLoadRoundOff = 64 * std::numeric_limits<double>::epsilon();
-constexpr double kSmoothPhase = 0.5;  // rad, of the motion between two looks at it
-constexpr int kLooksAtLoad = 4;       // in a step in which it varies
-constexpr int kLeastSteps = 50;       // of a run whose load may vary
+constexpr double kMisfit = 0.05;       // of the motion: a start that the modes do not represent
+constexpr double kShorter = 0.25;      // after a force that cannot be evaluated
+constexpr double kSmoothPhase = 0.5;   // rad, of the motion between two looks at it
+constexpr int kLooksAtLoad = 4;        // in a step in which it varies
+constexpr int kLeastSteps = 50;        // of a run whose load may vary
 constexpr int kRestingIntervals = 10;  // in a step after one in which it did not vary
 
 struct ModalOptions : ErrorControl, ModeLimit {
   std::string kept;
 };
 
-// The load over a step, interpolated.
-struct StepLoad {
-  double t = 0, h = 0;
-  bool varies = false;
-  Vector first;           // f at the first point
-  Eigen::MatrixXd modal;  // phi' f, by coefficients
-  Eigen::MatrixXd rest;   // u, likewise; a single column where the load does not vary
-};
-
-// What the modes take is told as a factorisation.
 ModalBasis measured_basis(const Model& model, const ModeLimit& limit, Statistics& statistics) {
-  const Measure measure(statistics.factorization);
+  const Measure measure(statistics.modes);
   return ModalBasis(model, limit);
 }
-
-struct ModalState {
-  Vector r, rate;
-};
 
 class Modal : public Integrator {
  public:
   Modal(const Model& model, const Task& task, const ModalOptions& options)
       : model_(model), options_(options), basis_(measured_basis(model, options, statistics_)),
-        scales_(options.scales(task)), norm_(options.rtol, scales_), control_(kLoadTerms + 1), truncation_(basis_) {
+        loads_(model, basis_, statistics_), scales_(options.scales(task)), norm_(options.rtol, scales_),
+        control_(kLoadTerms + 1), truncation_(basis_) {
     if (model.traits().time_dependent) {
       interval_ = (task.end - task.initial.t) / kLeastSteps;
       if (task.output_interval > 0) interval_ = std::min(interval_, task.output_interval);
@@ -70,7 +56,7 @@ class Modal : public Integrator {
 
   void start(const State& state) override {
     from_ = state;
-    begin_ = end_ = {basis_.coordinates(state.q), basis_.coordinates(state.v)};
+    begin_ = end_ = modal_state(basis_, state);
     load_ = {};
     is_starting_ = true;
     h_ = 0;
@@ -112,20 +98,20 @@ class Modal : public Integrator {
       return;
     }
     const double tau = t - load_.t;
-    const ModalState now = t == end_time_ ? end_ : advanced(tau);
+    const ModalState now = t == end_time_ ? end_ : modal_state_after(basis_, begin_, load_, tau);
     out.t = t;
     out.q = basis_.shapes() * now.r;
     out.v = basis_.shapes() * now.rate;
     if (basis_.is_complete()) return;
-    out.q += rest(load_, tau / load_.h);
-    if (load_.varies) out.v += load_slope(load_.rest, tau / load_.h) / load_.h;
+    out.q += load_.rest_at(tau / load_.h);
+    if (load_.varies) out.v += load_.rest_rate(tau / load_.h);
   }
 
   // The polynomials of others are to follow the modes that hold the energy.
   double smooth_time() const override {
     if (load_.h == 0) return std::numeric_limits<double>::infinity();
-    const ModalState before{begin_.r - equilibrium(load_, 0), begin_.rate};
-    const ModalState after{end_.r - equilibrium(load_, 1), end_.rate};
+    const ModalState before{begin_.r - modal_equilibrium(basis_, load_.modal_at(0)), begin_.rate};
+    const ModalState after{end_.r - modal_equilibrium(basis_, load_.modal_at(1)), end_.rate};
     double energy = 0, rates = 0;
     for (const ModalState& at : {before, after})
       for (Eigen::Index k = 0; k < basis_.size(); ++k) {
@@ -184,18 +170,17 @@ class Modal : public Integrator {
 
   // What of the initial state the modes do not represent starts vibrations that are lost.
   void check_start(const State& initial) {
-    Vector f;
+    StepLoad load;
     try {
-      f = load(initial.t);
+      load = loads_.at(initial.t);
     } catch (const RecoverableError&) {
       return;  // the first step will tell, with the time
     }
     from_ = initial;
-    begin_ = {basis_.coordinates(initial.q), basis_.coordinates(initial.v)};
-    const Vector modal = basis_.shapes().transpose() * f, u = basis_.static_rest(f, modal);
+    begin_ = modal_state(basis_, initial);
     ModalTruncation at_start(basis_);
-    at_start.start(initial.q - basis_.shapes() * begin_.r - u, initial.v - basis_.shapes() * begin_.rate);
-    reach(begin_, modal, u, at_start);
+    at_start.start(initial, begin_, load);
+    at_start.reach(begin_, load, 0);
     if (const double share = at_start.displacement_share(); share > kMisfit)
       throw ConfigError(fmt::format(
           "the modes that are kept ({}) do not hold the motion that the initial state and the loads start: about "
@@ -204,139 +189,27 @@ class Modal : public Integrator {
     share_at_start_ = at_start.displacement_share();
   }
 
-  Vector load(double t) {
-    const Measure measure(statistics_.force);
-    const Vector zero = Vector::Zero(model_.num_dofs());
-    Vector f(zero.size());
-    model_.force(t, zero, zero, f);
-    if (!f.allFinite()) throw RecoverableError("the force is not finite");
-    return f;
-  }
-
   // The error of a step in units of the tolerance; none if a force cannot be evaluated.
   std::optional<double> try_step(double t, double h, StepLoad& load) {
     cause_.clear();
     try {
-      sample(t, h, load);
-      return load_error(load);
+      load = loads_.over(t, h);
+      return loads_.error(load, norm_);
     } catch (const RecoverableError& e) {
       cause_ = e.what();
       return std::nullopt;
     }
   }
 
-  void sample(double t, double h, StepLoad& out) {
-    out = {t, h, false, {}, Eigen::MatrixXd(basis_.size(), kLoadTerms),
-           Eigen::MatrixXd(model_.num_dofs(), kLoadTerms)};
-    for (Eigen::Index j = 0; j < kLoadTerms; ++j) {
-      const Vector f = load(t + load_points()[static_cast<std::size_t>(j)] * h);
-      if (j == 0) out.first = f;
-      else if (f != out.first) out.varies = true;
-      out.modal.col(j) = basis_.shapes().transpose() * f;
-      out.rest.col(j) = j > 0 && f == out.first ? Vector(out.rest.col(0)) : solved_rest(f, out.modal.col(j));
-    }
-    out.modal = load_coefficients(out.modal);
-    if (out.varies) out.rest = load_coefficients(out.rest);
-    else out.rest = Vector(out.rest.col(0));
-  }
-
-  Vector solved_rest(const Vector& f, const Vector& modal) {
-    const Measure measure(statistics_.solve);
-    return basis_.static_rest(f, modal);
-  }
-
-  // By what the interpolated load is off at two other points, as if it were so throughout the step; resonant modes
-  // respond most.
-  double load_error(const StepLoad& load) {
-    double largest = 0;
-    for (const double theta : {golden_share(2), 1 - golden_share(5)}) {  // 0.236 and 0.910: between the points
-      const Vector f = this->load(load.t + theta * load.h);
-      if (!load.varies && f == load.first) continue;
-      const Vector modal = basis_.shapes().transpose() * f;
-      Vector off = modal - load_value(load.modal, theta);
-      const double round_off = kLoadRoundOff * modal.lpNorm<Eigen::Infinity>();
-      if (off.lpNorm<Eigen::Infinity>() <= round_off) off.setZero();
-      Vector u_off = Vector::Zero(f.size());
-      if (!basis_.is_complete()) {
-        const Vector u = solved_rest(f, modal);
-        u_off = u - rest(load, theta);
-        if (u_off.lpNorm<Eigen::Infinity>() <= 1e3 * kLoadRoundOff * u.lpNorm<Eigen::Infinity>()) u_off.setZero();
-      }
-      const Vector phase = (0.5 * load.h * basis_.lambda().cwiseSqrt()).cwiseMax(1);
-      const Vector e_q = basis_.shapes() * (0.5 * load.h * load.h * off.cwiseQuotient(phase)) + u_off;
-      const Vector e_v = basis_.shapes() * (load.h * off) + u_off / load.h;
-      largest = std::max(largest, norm_(e_q, e_v));
-    }
-    if (!std::isfinite(largest)) throw RecoverableError("the response is not finite");
-    return largest;
-  }
-
-  static Vector rest(const StepLoad& load, double theta) {
-    return load.varies ? load_value(load.rest, theta) : Vector(load.rest.col(0));
-  }
-
-  // Of the modes under the load; zero for those without stiffness.
-  Vector equilibrium(const StepLoad& load, double theta) const { return equilibrium(load_value(load.modal, theta)); }
-  Vector equilibrium(const Vector& modal) const {
-    Vector at_rest = modal;
-    for (Eigen::Index k = 0; k < at_rest.size(); ++k)
-      at_rest[k] = basis_.lambda()[k] > 0 ? modal[k] / basis_.lambda()[k] : 0;
-    return at_rest;
-  }
-
   void take(StepLoad&& load, double t_stop) {
     load_ = std::move(load);
     begin_ = end_;
     end_time_ = load_.h == t_stop - load_.t ? t_stop : load_.t + load_.h;
-    if (is_starting_) judge_start();
-    end_ = advanced(load_.h);
-    ++statistics_.steps;
-    judge_step();
-  }
-
-  ModalState advanced(double tau) const {
-    ModalState now{Vector(basis_.size()), Vector(basis_.size())};
-    for (Eigen::Index k = 0; k < basis_.size(); ++k) {
-      const Oscillation o = oscillate(basis_.damping()[k], basis_.lambda()[k], {begin_.r[k], begin_.rate[k]},
-                                      load_.modal.row(k).transpose(), load_.h, tau);
-      now.r[k] = o.r;
-      now.rate[k] = o.rate;
-    }
-    return now;
-  }
-
-  void judge_start() {
+    if (is_starting_) truncation_.start(from_, begin_, load_);
     is_starting_ = false;
-    if (basis_.is_complete()) return;
-    Vector e_q = from_.q - basis_.shapes() * begin_.r - rest(load_, 0);
-    Vector e_v = from_.v - basis_.shapes() * begin_.rate;
-    if (load_.varies) e_v -= load_slope(load_.rest, 0) / load_.h;
-    truncation_.start(e_q, e_v);
-  }
-
-  void judge_step() {
-    if (basis_.is_complete()) return;
-    if (load_.varies) {
-      const double h = load_.h, theta = 0.5;
-      truncation_.step(h, load_slope(load_.rest, theta) / h, load_curvature(load_.rest, theta) / (h * h));
-    } else {
-      const Vector still = Vector::Zero(model_.num_dofs());
-      truncation_.step(load_.h, still, still);
-    }
-    reach(begin_, load_value(load_.modal, 0), rest(load_, 0), truncation_);
-    reach(end_, load_value(load_.modal, 1), rest(load_, 1), truncation_);
-  }
-
-  // The amplitudes of a motion that goes on from a state under a load.
-  void reach(const ModalState& state, const Vector& modal, const Vector& u, ModalTruncation& truncation) const {
-    const Vector middle = equilibrium(modal);
-    double displacement = u.dot(basis_.times_mass(u)), velocity = 0;
-    for (Eigen::Index k = 0; k < basis_.size(); ++k) {
-      const double lambda = basis_.lambda()[k], away = state.r[k] - middle[k], rate = state.rate[k];
-      displacement += lambda > 0 ? middle[k] * middle[k] + away * away + rate * rate / lambda : state.r[k] * state.r[k];
-      velocity += rate * rate + lambda * away * away;
-    }
-    truncation.reach(std::sqrt(displacement), std::sqrt(velocity));
+    end_ = modal_state_after(basis_, begin_, load_, load_.h);
+    ++statistics_.steps;
+    truncation_.step(begin_, end_, load_);
   }
 
   void refuse_tiny_steps(bool by_error) const {
@@ -356,6 +229,7 @@ class Modal : public Integrator {
   ModalOptions options_;
   Statistics statistics_;
   ModalBasis basis_;
+  ModalLoad loads_;
   Scales scales_;
   ScaledNorm norm_;
   StepControl control_;
@@ -395,6 +269,7 @@ class ModalChoice : public SettableChoice<ModalChoice>, public ModalOptions {
                         "Hughes 1987, 7.2 (modes); Cornwell, Craig & Johnson, Earthquake Eng. Struct. Dyn. 11, 1983 "
                         "(static correction)");
   }
+  bool needs_linear_model() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     if (!modes && !below)
       throw ConfigError("modal needs to know which modes to keep: give `modes`, such as 40, or `below`, such as 2 kHz "

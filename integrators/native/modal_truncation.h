@@ -11,7 +11,7 @@
 // as large as u itself or larger, and no bound.
 #pragma once
 
-#include "integrators/native/modal_basis.h"
+#include "integrators/native/modal_motion.h"
 
 namespace orthodyn {
 
@@ -20,20 +20,23 @@ class ModalTruncation {
   // `basis` must outlive this.
   explicit ModalTruncation(const ModalBasis& basis) : basis_(basis) {}
 
-  // A start from a state that differs by these from what is represented.
-  void start(const Vector& e_q, const Vector& e_v);
+  // A start from a state, of which the modes take up `begin`, under the load of the first step.
+  void start(const State& from, const ModalState& begin, const StepLoad& load);
 
-  // A step of length h: derivatives of u in it.
-  void step(double h, const Vector& u_rate, const Vector& u_acceleration);
+  // A step.
+  void step(const ModalState& begin, const ModalState& end, const StepLoad& load);
 
-  // The motion has reached this, in the mass norm.
-  void reach(double displacement, double velocity);
+  // The motion that goes on from a state under the load at `theta` of the step.
+  void reach(const ModalState& state, const StepLoad& load, double theta);
 
   // Of the largest displacement and the largest velocity; 0 where nothing has moved.
   double displacement_share() const { return motion_ > 0 ? displacement_ / motion_ : 0; }
   double velocity_share() const { return speed_ > 0 ? velocity_ / speed_ : 0; }
 
  private:
+  void ring(const Vector& e_q, const Vector& e_v);
+  void lag(double h, const Vector& u_rate, const Vector& u_acceleration);
+
   const ModalBasis& basis_;
   double ringing_ = 0, ringing_speed_ = 0;  // present amplitudes, squared
   double displacement_ = 0, velocity_ = 0;  // the largest amplitudes so far

@@ -1,6 +1,6 @@
 // The error that the mesh makes in displacements of an equilibrium, by the dual problem (Becker & Rannacher 2001, Acta
-// Numerica 10, 1): with z the response to a unit force at the node, the error of its displacement is a(u - u_h, z - z_h),
-// and both factors are told by recovered stresses (lib/fem/stress_recovery.h).
+// Numerica 10, 1): with z the response to a unit force at the node, the error of its displacement is a(u - u_h, z -
+// z_h), and both factors are told by recovered stresses (lib/fem/stress_recovery.h).
 #pragma once
 
 #include <vector>

@@ -11,11 +11,13 @@ namespace {
 
 constexpr int kLargestForVelocities = 30'000;  // unknowns
 
-Vector peak_load(const FemModel& model, const State& initial, double end) {
+// Of `count` terms of load from the given one.
+Vector peak_load(const FemModel& model, const State& initial, double end, std::size_t first, std::size_t count) {
   const Vector still = Vector::Zero(model.num_dofs());
   const NodalExpansion nodal(model.parts(), initial.t, initial.q, still);
   NodalVector sum = NodalVector::Zero(3, nodal.x.cols());
-  for (const auto& load : model.parts().loads) load->add_peak_force(nodal.state(), end, sum);
+  for (std::size_t k = first; k < first + count; ++k)
+    model.parts().loads[k]->add_peak_force(nodal.state(), end, sum);
   Vector free(model.num_dofs());
   model.parts().dofs->restrict_to(sum, free);
   return free;
@@ -33,10 +35,34 @@ std::unique_ptr<LinearSolver> factored_stiffness(const FemModel& model, std::vec
   return solver->factor(values.data()) == FactorStatus::ok ? std::move(solver) : nullptr;
 }
 
+// Empty where round-off decides.
+Vector solution(LinearSolver& solver, const Pattern& pattern, const std::vector<double>& values, const Vector& b) {
+  Vector x(b.size()), Kx(b.size());
+  solver.solve(b, x);
+  pattern.multiply(values.data(), x, Kx);
+  return x.allFinite() && (Kx - b).norm() <= 1e-3 * b.norm() ? x : Vector();
+}
+
 }  // namespace
 
+std::vector<Vector> peak_loads(const FemModel& model, const State& initial, double end) {
+  const auto& loads = model.parts().loads;
+  std::vector<Vector> out;
+  for (std::size_t k = 0; k < loads.size(); ++k) out.push_back(peak_load(model, initial, end, k, 1));
+  return out;
+}
+
+std::vector<Vector> static_displacements(const FemModel& model, const std::vector<Vector>& loads) {
+  std::vector<double> values;
+  const auto solver = factored_stiffness(model, values);
+  std::vector<Vector> out;
+  for (const Vector& load : loads)
+    out.push_back(solver ? solution(*solver, model.pattern(), values, load) : Vector());
+  return out;
+}
+
 StaticResponse static_response(const FemModel& model, const State& initial, double end) {
-  StaticResponse response{peak_load(model, initial, end), {}};
+  StaticResponse response{peak_load(model, initial, end, 0, model.parts().loads.size()), {}};
   const Vector& load = response.load;
   Vector momentum(load.size());
   model.multiply_mass(initial.v, momentum);
@@ -46,12 +72,7 @@ StaticResponse static_response(const FemModel& model, const State& initial, doub
   std::vector<double> values;
   const auto solver = factored_stiffness(model, values);
   if (!solver) return response;
-  const auto solve = [&](const Vector& b) {  // empty where round-off decides
-    Vector x(b.size()), Kx(b.size());
-    solver->solve(b, x);
-    model.pattern().multiply(values.data(), x, Kx);
-    return x.allFinite() && (Kx - b).norm() <= 1e-3 * b.norm() ? x : Vector();
-  };
+  const auto solve = [&](const Vector& b) { return solution(*solver, model.pattern(), values, b); };
   Vector u = solve(load), w = solve(momentum);
   if (u.size() == 0 || w.size() == 0) return response;
   response.work = u.dot(load);

@@ -2,6 +2,8 @@
 // How far the body will move, roughly, before anything is integrated.
 #pragma once
 
+#include <vector>
+
 #include "lib/fem/fem_model.h"
 
 namespace orthodyn {
@@ -17,5 +19,11 @@ struct StaticResponse {
 
 // From the initial state to the time `end`, s.
 StaticResponse static_response(const FemModel& model, const State& initial, double end);
+
+// The load of each of the model's terms of load alone, N, at its peak; zero for those that do nothing at rest.
+std::vector<Vector> peak_loads(const FemModel& model, const State& initial, double end);
+
+// The displacement under each load, m, by one factorisation; all empty if the body is not held.
+std::vector<Vector> static_displacements(const FemModel& model, const std::vector<Vector>& loads);
 
 }  // namespace orthodyn

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace orthodyn {
 
@@ -41,6 +42,17 @@ std::string did_you_mean(const std::string& found, const std::vector<std::string
                          const std::string& otherwise) {
   const auto name = nearest(found, known);
   return name && !name->empty() ? "; did you mean '" + *name + "'?" : otherwise;
+}
+
+std::vector<std::string> nearest_names(const std::string& found, std::vector<std::string> known, std::size_t count) {
+  std::vector<std::pair<std::size_t, std::string>> by_distance;
+  for (std::string& name : known) by_distance.emplace_back(edit_distance(found, name), std::move(name));
+  std::stable_sort(by_distance.begin(), by_distance.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string> names;
+  for (auto& [distance, name] : by_distance)
+    if (names.size() < count) names.push_back(std::move(name));
+  return names;
 }
 
 std::string expected_one_of(const std::vector<std::string>& known, const std::string& found) {

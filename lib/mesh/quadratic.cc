@@ -67,12 +67,18 @@ void make_quadratic(TetMesh& mesh, const MiddlePlace& place) {
   for (auto& [name, set] : mesh.node_sets) add_middles(all, surface, set);
 }
 
-void make_linear(TetMesh& mesh) {
+std::vector<std::string> make_linear(TetMesh& mesh) {
   std::vector<char> is_middle(mesh.nodes.size(), 0);
   for (const Midsides& middles : mesh.midsides)
     for (const int n : middles) is_middle[static_cast<std::size_t>(n)] = 1;
+  std::vector<std::string> emptied;
+  for (const auto& [name, set] : mesh.node_sets)
+    if (!set.empty() &&
+        std::all_of(set.begin(), set.end(), [&](int n) { return is_middle[static_cast<std::size_t>(n)]; }))
+      emptied.push_back(name);
   mesh.midsides.clear();
   remove_nodes(mesh, is_middle);
+  return emptied;
 }
 
 Cells tet_cells(const TetMesh& mesh) {

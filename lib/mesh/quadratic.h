@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "lib/core/cells.h"
 #include "lib/mesh/tet_mesh.h"
@@ -30,8 +32,9 @@ using MiddlePlace = std::function<Vec3(int a, int b)>;
 // Node sets get those between two of their nodes on the surface. Precondition: valid, and linear.
 void make_quadratic(TetMesh& mesh, const MiddlePlace& place = {});
 
-// Leaves out the nodes on edges, which come after all corners or between them.
-void make_linear(TetMesh& mesh);
+// Leaves out the nodes on edges, which come after all corners or between them. Returns the node sets that are empty
+// without them.
+std::vector<std::string> make_linear(TetMesh& mesh);
 
 // The cells with all their nodes: of 4, or of 10 as in VTK_QUADRATIC_TETRA.
 Cells tet_cells(const TetMesh& mesh);

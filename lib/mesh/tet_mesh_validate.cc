@@ -42,7 +42,7 @@ std::string triangle_name(const MeshOrigin& origin, const std::string& surface, 
 
 void check_sizes(const TetMesh& mesh, const MeshOrigin& origin) {
   if (mesh.tets.empty()) {
-    throw ConfigError(origin.source, "the mesh has no tetrahedra");
+    throw ConfigError(origin.source, "the mesh has no solid elements");
   }
   constexpr auto kMax = static_cast<std::size_t>(std::numeric_limits<int>::max());
   if (mesh.nodes.size() > kMax || mesh.tets.size() > kMax) {

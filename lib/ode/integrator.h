@@ -105,6 +105,9 @@ class IntegratorChoice {
   // a place, for a number outside of the range of its key. Conditions that join several keys are not checked.
   virtual std::unique_ptr<IntegratorChoice> with(const IntegratorSettings& settings) const = 0;
 
+  // True for a method that serves models whose traits are `linear` alone.
+  virtual bool needs_linear_model() const { return false; }
+
   // Throws ConfigError if the integrator cannot serve the model, which must outlive it.
   virtual std::unique_ptr<Integrator> make(const Model& model, const Task& task) const = 0;
 };

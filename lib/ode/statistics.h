@@ -16,6 +16,7 @@ struct Statistics {
   long newton_iterations = 0;
   long gauss_newton_fallbacks = 0;  // matrices rebuilt because a pivot was not positive
   Cost force, tangent, factorization, solve;
+  Cost modes = {};  // the search for the modes of a reduced model, all that it solves included
 };
 
 // Adds one call and its duration to a Cost.

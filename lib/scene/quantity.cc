@@ -11,6 +11,7 @@ namespace orthodyn {
 
 namespace {
 
+constexpr std::size_t kNearest = 5;  // names in a message
 constexpr std::array kComponents{"x", "y", "z", "magnitude"};
 
 // Where a name starts with `prefix` and a dot: what follows, else "".
@@ -76,9 +77,10 @@ Quantity find_quantity(const std::string& name, const Scene& scene, const FemMod
     if (source.components != 3) continue;
     for (const char* component : kComponents) known.push_back(source_name + "." + component);
   }
-  origin.fail(fmt::format("unknown quantity '{}'{}; a probe of the scene with a field and a component "
-                          "(tip.displacement.z), or one of {}",
-                          name, did_you_mean(name, known), join(known)));
+  origin.fail(fmt::format("unknown quantity '{}'{} The nearest are {}. Take a probe of the scene with a field and a "
+                          "component (tip.displacement.z, see `orthodyn list fields`), or a quantity of the whole body "
+                          "(`orthodyn list quantities`)",
+                          name, did_you_mean(name, known, "."), join(nearest_names(name, known, kNearest))));
 }
 
 }  // namespace orthodyn

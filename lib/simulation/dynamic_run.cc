@@ -58,6 +58,7 @@ class DynamicAnalysis {
     const bool resumes = context_.earlier && context_.earlier->begun;
     Checkpoint begin = resumes ? continued(std::move(*context_.earlier), setup_, context_.resolved, folder_)
                                : first_checkpoint(setup_, context_.resolved, folder_);
+    begin.effort = begin.effort + Effort{{}, setup_.wall_seconds, setup_.cpu_seconds};
     // One that was killed after its last step still lacks its record.
     if (resumes && is_complete(begin, setup_.scene) && begin.restarts.back().after == "completed")
       return nothing_to_do(begin.state.t);
@@ -95,7 +96,7 @@ class DynamicAnalysis {
     result.outcome = integrate(begin, observers, result.resumable);
     if (setup_.linearity) setup_.linearity->finish();
     result.model = summarize(setup_);
-    result.outgrown = setup_.linearity && setup_.linearity->outgrown();
+    if (setup_.linearity) result.outgrown = setup_.linearity->why_to_start_again();
     if (result.outgrown) return result;
     result.motion = motion_result(result.outcome, begin.effort, observers);
     record.finish(result);

@@ -20,7 +20,8 @@ Json to_json(const Statistics& s) {
           {"force", to_json(s.force)},
           {"tangent", to_json(s.tangent)},
           {"factorization", to_json(s.factorization)},
-          {"solve", to_json(s.solve)}};
+          {"solve", to_json(s.solve)},
+          {"modes", to_json(s.modes)}};
 }
 
 Statistics statistics_from(const Json& json) {
@@ -35,6 +36,7 @@ Statistics statistics_from(const Json& json) {
   s.tangent = cost_from(json.at("tangent"));
   s.factorization = cost_from(json.at("factorization"));
   s.solve = cost_from(json.at("solve"));
+  s.modes = cost_from(json.at("modes"));
   return s;
 }
 

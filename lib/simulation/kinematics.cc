@@ -84,6 +84,23 @@ bool says_auto(const Config& section) {
   return section.has("kinematics") && !section.at("kinematics").is_null() && section.at("kinematics").text() == "auto";
 }
 
+// Where a scene leaves kinematics open: for all, or for a region.
+Config place_of_auto(const Config& scene) {
+  const Config elasticity = scene.at("elasticity");
+  return says_auto(elasticity) ? elasticity.at("kinematics") : scene.at("regions");
+}
+
+// "" where the integrator serves corotational kinematics, too.
+std::string only_linear_integrator(const Config& config, const Scene& scene) {
+  const bool is_only =
+      scene.analysis == Analysis::dynamic && scene.integrator && scene.integrator->needs_linear_model();
+  return is_only ? config.at("integrator").at("type").text() : "";
+}
+
+std::string other_integrator(const std::string& only_linear) {
+  return only_linear + " is for linear kinematics only: take another integrator, such as cvode_bdf";
+}
+
 }  // namespace
 
 bool leaves_kinematics_open(const Scene& scene) { return !open_regions(scene).empty(); }
@@ -101,9 +118,9 @@ void make_corotational(Config& config) {
 }
 
 LinearityWatch::LinearityWatch(const FemModel& model, std::vector<LinearRegion> regions, double start, double end,
-                               double allowed)
+                               double allowed, std::string only_linear)
     : model_(model), regions_(std::move(regions)), allowed_(allowed), start_(start), span_(end - start), time_(start),
-      largest_{start, 0, Vector::Zero(model.num_dofs())} {}
+      largest_{start, 0, Vector::Zero(model.num_dofs())}, only_linear_(std::move(only_linear)) {}
 
 Linearity& LinearityWatch::linearity() {
   if (!linearity_) linearity_.emplace(model_, terms_of(regions_), span_);
@@ -133,7 +150,18 @@ void LinearityWatch::finish_at(double t, const Vector& q) {
 void LinearityWatch::require(double t, const Vector& q) {
   if (!std::isfinite(allowed_)) return;
   finish_at(t, q);
-  if (outgrown()) throw RunError(outgrown_sentence(*this) + "; set elasticity.kinematics: corotational");
+  if (outgrown()) refuse_outgrown();
+}
+
+void LinearityWatch::refuse_outgrown() const {
+  throw RunError(outgrown_sentence(*this) + "; " +
+                 (only_linear_.empty() ? "set elasticity.kinematics: corotational"
+                                       : other_integrator(only_linear_) + ", or raise elasticity.linear_error"));
+}
+
+std::optional<Outgrown> LinearityWatch::why_to_start_again() {
+  if (!outgrown() || !only_linear_.empty()) return std::nullopt;
+  return Outgrown{to_give_up(largest_.t, largest_.q), outgrown_sentence(*this)};
 }
 
 void LinearityWatch::finish() {
@@ -173,7 +201,7 @@ void LinearityWatch::look_at(const State& state) {
   if (const double q = norm(state.q); q > largest_.norm) largest_ = {state.t, q, state.q};
   if (largest_.norm > next_look()) note(state.t, state.q);
   error_ = std::max(error_, local_ + stiffness_ * turns() / 2);
-  if (outgrown()) throw RunError(outgrown_sentence(*this) + "; set elasticity.kinematics: corotational");
+  if (outgrown()) refuse_outgrown();
 }
 
 double LinearityWatch::turns() const {
@@ -231,8 +259,11 @@ std::string make_corotational(Config& config, const std::vector<std::string>& re
 
 }  // namespace
 
-std::string give_up_outgrown(Config& config, LinearityWatch& watch) {
-  return make_corotational(config, watch.to_give_up(), outgrown_sentence(watch));
+void start_again_if_outgrown(const Config& scene, const KinematicsAttempt& attempt) {
+  Config now = scene.copy();
+  KinematicsChoice choice;
+  while (const auto outgrown = attempt(now.copy(), choice.reason))
+    choice.add_reason(make_corotational(now, outgrown->regions, outgrown->why));
 }
 
 namespace {
@@ -245,11 +276,11 @@ struct Trial {
 };
 
 Trial try_linear(const Scene& scene, const std::vector<std::string>& open, const BuiltScene& built, double allowed,
-                 bool predict) {
+                 bool predict, const std::string& only_linear) {
   const bool is_static = scene.analysis == Analysis::statical;
   try {
     auto watch = std::make_unique<LinearityWatch>(*built.model, linear_regions(scene, open, *built.model),
-                                                  scene.time.start, end_of_motion(scene), allowed);
+                                                  scene.time.start, end_of_motion(scene), allowed, only_linear);
     watch->error_at(scene.time.start, Vector::Zero(built.model->num_dofs()));  // throws where it cannot be computed
     if (!predict) return {.watch = std::move(watch)};
     const StaticResponse response = static_response(*built.model, built.initial, scene.time.end);
@@ -280,17 +311,21 @@ std::unique_ptr<LinearityWatch> watch_for_the_end(const Scene& scene, const FemM
 
 ChosenKinematics choose_kinematics(Config& config, Scene& scene, bool linear_so_far) {
   const double allowed = allowed_error(scene);
+  const std::string only_linear = only_linear_integrator(config, scene);
   KinematicsChoice choice;
   for (auto open = open_regions(scene); !open.empty(); open = open_regions(scene)) {
     const Scene linear = with_linear_regions(scene);
     BuiltScene built = build(linear);
-    Trial trial = try_linear(linear, open, built, allowed, !linear_so_far);
+    Trial trial = try_linear(linear, open, built, allowed, !linear_so_far, only_linear);
     if (trial.watch) {
       config.set("elasticity.linear_error", allowed);
       scene = linear;
       choice.linear = choice.reason.empty();
       return {std::move(choice), std::move(built), std::move(trial.watch)};
     }
+    if (!only_linear.empty())
+      place_of_auto(config).fail(trial.why + ", and " + other_integrator(only_linear) +
+                                 ", or raise elasticity.linear_error");
     choice.add_reason(make_corotational(config, trial.given_up, trial.why));
     scene = read_scene(config);
   }

@@ -2,6 +2,7 @@
 // are used.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,13 +20,21 @@ struct LinearRegion {
   Linearity::Terms terms;
 };
 
+// Why a run with linear kinematics is to start again, and in which entries of `regions` with corotational ones.
+struct Outgrown {
+  std::vector<std::string> regions;
+  std::string why;  // a sentence
+};
+
 // Looks on at a run with linear kinematics, and ends it where they are off by more than is allowed: at the largest
 // displacement so far, and by the phase that a vibration of this size gains or loses until now.
 class LinearityWatch : public Observer {
  public:
   // `model` must outlive it. The motion is from `start` to `end`, s; in statics `end` is infinite. `allowed`: of the
-  // largest displacement; infinite to be told at the end only.
-  LinearityWatch(const FemModel& model, std::vector<LinearRegion> regions, double start, double end, double allowed);
+  // largest displacement; infinite to be told at the end only. `only_linear`: the integrator, if it serves linear
+  // kinematics only; else "".
+  LinearityWatch(const FemModel& model, std::vector<LinearRegion> regions, double start, double end, double allowed,
+                 std::string only_linear = "");
 
   void on_start(const ObservedState& observed) override { look_at(observed.state()); }
   void on_resume(const ObservedState& observed) override { look_at(observed.state()); }
@@ -57,8 +66,8 @@ class LinearityWatch : public Observer {
   // The regions that are to be corotational for what was found at a state: all but those which together are off by less
   // than half of what is allowed.
   std::vector<std::string> to_give_up(double t, const Vector& q);
-  // The same at the largest displacement.
-  std::vector<std::string> to_give_up() { return to_give_up(largest_.t, largest_.q); }
+  // None if linear kinematics are not outgrown, or if the integrator serves no others.
+  std::optional<Outgrown> why_to_start_again();
 
  private:
   struct Largest {
@@ -67,6 +76,7 @@ class LinearityWatch : public Observer {
   };
 
   void look_at(const State& state);
+  void refuse_outgrown() const;
   void note(double t, const Vector& q);  // the error there
   double next_look() const;            // the displacement from which on the error has to be computed anew
   double norm(const Vector& x) const;  // in the mass norm
@@ -81,6 +91,7 @@ class LinearityWatch : public Observer {
   double checked_ = 0;   // the displacement at which the error was computed last
   double velocity_ = 0;  // the largest so far
   double local_ = 0, stiffness_ = 0, error_ = 0;
+  std::string only_linear_;
 };
 
 // What was taken for `auto`.
@@ -105,8 +116,13 @@ void make_corotational(Config& config);
 // Builds a scene that leaves kinematics open. Linear in all regions unless the linear response is clearly too large in
 // some. The document then says corotational of these, and auto still of the others, with the error that is allowed:
 // whoever goes on from it is to watch as well. `linear_so_far`: of a run that goes on with linear kinematics, nothing
-// is predicted. Throws ConfigError.
+// is predicted. Throws ConfigError, also where corotational ones are needed and the integrator serves linear ones only.
 ChosenKinematics choose_kinematics(Config& config, Scene& scene, bool linear_so_far = false);
+
+// Calls `attempt` with the scene, and again for as long as it returns why linear kinematics were outgrown: with
+// corotational ones where they were, and what has been given up in words; the first time that is "".
+using KinematicsAttempt = std::function<std::optional<Outgrown>(Config scene, const std::string& given_up)>;
+void start_again_if_outgrown(const Config& scene, const KinematicsAttempt& attempt);
 
 // Of a scene whose user has chosen linear kinematics, for some region or all: to tell at the end what they cost. Null
 // without, and for very large models.
@@ -115,7 +131,5 @@ std::unique_ptr<LinearityWatch> watch_for_the_end(const Scene& scene, const FemM
 // What is told of a run with linear kinematics that has ended.
 std::string outcome_of(const LinearityWatch& watch);
 std::string outgrown_sentence(const LinearityWatch& watch);
-// Makes the regions corotational in the scene's document that have outgrown linear kinematics, and says so.
-std::string give_up_outgrown(Config& config, LinearityWatch& watch);
 
 }  // namespace orthodyn

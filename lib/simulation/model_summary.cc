@@ -25,13 +25,16 @@ ModelSummary summarize(const Setup& setup) {
                    parts.mesh.order(),      laws_of(model), {}};
   for (const auto& term : parts.elastic) out.terms.push_back(term->description());
   for (const auto& term : parts.loads) out.terms.push_back(term->description());
-  if (setup.linearity) {
-    out.kinematics = outcome_of(*setup.linearity);
-    if (!std::isnan(setup.linearity->error())) out.linear_error = setup.linearity->error();
-  }
-  if (setup.kinematics && !setup.kinematics->reason.empty())
-    out.kinematics += (out.kinematics.empty() ? "" : "; ") + setup.kinematics->reason;
+  out.kinematics = told_kinematics(setup);
+  if (setup.linearity && !std::isnan(setup.linearity->error())) out.linear_error = setup.linearity->error();
   return out;
+}
+
+std::string told_kinematics(const Setup& setup) {
+  std::string told = setup.linearity ? outcome_of(*setup.linearity) : "";
+  if (setup.kinematics && !setup.kinematics->reason.empty())
+    told += (told.empty() ? "" : "; ") + setup.kinematics->reason;
+  return told;
 }
 
 }  // namespace orthodyn

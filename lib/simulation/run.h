@@ -11,9 +11,9 @@
 namespace orthodyn {
 
 struct Plan {
-  double end = 0;                    // s
-  std::vector<double> output_times;  // ascending, after the start
-  bool exact_times = false;          // steps end on output times
+  double end = 0;                         // s
+  std::vector<double> output_times = {};  // ascending, after the start
+  bool exact_times = false;               // steps end on output times
   // The run goes on from a checkpoint: outputs up to this time have been delivered.
   std::optional<double> delivered = std::nullopt;
   EventFinder* events = nullptr;  // what to look for in each step, if anything

@@ -12,6 +12,7 @@
 #include "lib/simulation/errors/accumulated_error.h"
 #include "lib/simulation/errors/error_estimate.h"
 #include "lib/simulation/errors/mesh_error.h"
+#include "lib/simulation/kinematics.h"
 #include "lib/simulation/outcome.h"
 
 namespace orthodyn {
@@ -97,7 +98,7 @@ struct RunResult {
   std::optional<MotionResult> motion = {};            // one of the two,
   std::optional<EquilibriumResult> equilibrium = {};  // or none where nothing was to be done
   bool was_complete = false;                          // it was to be resumed, and had reached its end before
-  bool outgrown = false;                              // it grew too large for linear kinematics, and ended there
+  std::optional<Outgrown> outgrown = {};              // why it ended, and is to start again
   bool resumable = false;                             // the folder holds a checkpoint of a late state
 };
 

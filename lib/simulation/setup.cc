@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 
 #include "lib/analysis/scales.h"
 #include "lib/analysis/strain_check.h"
 #include "lib/core/words.h"
 #include "lib/linear/blas.h"
+#include "lib/simulation/outcome.h"
 #include "lib/simulation/static_problem.h"
 #include "lib/scene/events.h"
 #include "lib/scene/quantity.h"
@@ -109,6 +111,11 @@ void require_force_at_start(const Config& config, const BuiltScene& built) {
 
 }  // namespace
 
+void Setup::note_given_up(const std::string& reason) {
+  if (!kinematics) kinematics.emplace();
+  kinematics->add_reason(reason);
+}
+
 Task task_of(const Scene& scene, const BuiltScene& built) {
   const auto& [start, end] = scene.time;
   const double frames = scene.output.frames.value_or(50);
@@ -148,6 +155,7 @@ Setup set_up(const Config& input, bool linear_so_far) {
       built.warnings.push_back(std::move(warning));
   std::vector<Event> events = make_events(scene, *built.model);
   std::unique_ptr<Integrator> integrator;
+  double wall = 0, cpu = 0;
   if (scene.analysis == Analysis::dynamic) {
     if (scene.start == Start::equilibrium) {
       start_from_equilibrium(scene, built);
@@ -155,13 +163,17 @@ Setup set_up(const Config& input, bool linear_so_far) {
     }
     Task task = task_of(scene, built);
     task.scales = [&] { return estimate_scales(*built.model, built.initial, scene.time.end, response()); };
+    const auto begin = std::chrono::steady_clock::now();
+    const double begin_cpu = cpu_seconds_now();
     integrator = make_integrator(config, scene, task, *built.model);
+    wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    cpu = cpu_seconds_now() - begin_cpu;
   }
   if (!blas_is_openblas())
     built.warnings.push_back("the BLAS in use is not OpenBLAS; large factorisations will be several times slower "
                              "(Debian: libopenblas0-pthread)");
   return {std::move(config), std::move(scene), std::move(built), std::move(integrator), std::move(events),
-          std::move(kinematics), std::move(linearity)};
+          std::move(kinematics), std::move(linearity), wall, cpu};
 }
 
 }  // namespace orthodyn

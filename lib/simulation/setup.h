@@ -21,6 +21,10 @@ struct Setup {
   std::vector<Event> events;               // of the model
   std::optional<KinematicsChoice> kinematics;  // where the scene leaves them open
   std::unique_ptr<LinearityWatch> linearity;   // to look on at its run; null without linear kinematics
+  double wall_seconds = 0, cpu_seconds = 0;    // that the integrator took to be made: its modes, scales and the like
+
+  // That linear kinematics were given up by an earlier attempt, in words.
+  void note_given_up(const std::string& reason);
 };
 
 // What the scene wants of its integrator. Both must outlive the task.

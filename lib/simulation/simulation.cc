@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <utility>
+
 #include "lib/core/versions.h"
 #include "lib/simulation/checkpoint/resume.h"
 
@@ -36,42 +39,33 @@ RunResult Simulation::run(const RunRequest& request, const std::atomic<bool>& in
   return run(request, interrupt, nobody);
 }
 
-// Where linear kinematics are outgrown, again from the start.
 RunResult Simulation::run(const RunRequest& request, const std::atomic<bool>& interrupt, RunListener& listener) const {
-  Config scene = scene_.copy();
-  RunRequest again = request;
-  std::string given_up;
-  for (;;) {
-    RunResult result = run_once(scene, again, given_up, interrupt, listener);
-    if (!result.outgrown || interrupt) return result;
-    again.force = true;
-    again.resume = false;
-  }
+  RunRequest how = request;
+  std::optional<RunResult> result;
+  start_again_if_outgrown(scene_, [&](Config config, const std::string& given_up) {
+    if (!given_up.empty()) how.force = true, how.resume = false;
+    result = run_once(std::move(config), how, given_up, interrupt, listener);
+    if (result->outgrown && !interrupt)
+      listener.on_notice(result->outgrown->why + ": starts again with corotational kinematics");
+    return interrupt ? std::nullopt : result->outgrown;
+  });
+  return std::move(*result);
 }
 
-// Where linear kinematics are outgrown, `scene` gives them up, and `given_up` says why, for the next run to tell.
-RunResult Simulation::run_once(Config& scene, const RunRequest& request, std::string& given_up,
+// `given_up`: where linear kinematics were before, and why; else "".
+RunResult Simulation::run_once(Config config, const RunRequest& request, const std::string& given_up,
                                const std::atomic<bool>& interrupt, RunListener& listener) const {
   const auto warn = [&](const std::string& text) { listener.on_warning(text); };
   ResultFolder folder(request.folder, earlier_result(request), warn);
   std::optional<Checkpoint> earlier;
   if (folder.resumes()) earlier = Checkpoint::load(folder.checkpoint());
-  if (earlier) keep_choices(*earlier, scene);
-  Setup setup = set_up(scene, earlier && was_linear_so_far(*earlier));
-  if (!given_up.empty()) {
-    if (!setup.kinematics) setup.kinematics.emplace();
-    setup.kinematics->add_reason(given_up);
-  }
+  if (earlier) keep_choices(*earlier, config);
+  Setup setup = set_up(std::move(config), earlier && was_linear_so_far(*earlier));
+  if (!given_up.empty()) setup.note_given_up(given_up);
   for (const auto& warning : setup.built.warnings) listener.on_warning(warning);
   const std::string resolved = resolved_scene(setup, file_, folder.path());
   const RunAnalysis analysis = setup.scene.analysis == Analysis::statical ? run_static_analysis : run_dynamic_analysis;
-  RunResult result =
-      analysis({file_, changes_.set, request, setup, resolved, folder, std::move(earlier), interrupt, listener});
-  if (result.outgrown && !interrupt) {
-    given_up = give_up_outgrown(scene, *setup.linearity);
-    listener.on_notice(outgrown_sentence(*setup.linearity) + ": starts again with corotational kinematics");
-  }
-  return result;
+  return analysis({file_, changes_.set, request, setup, resolved, folder, std::move(earlier), interrupt, listener});
 }
 
 }  // namespace orthodyn

@@ -33,7 +33,7 @@ class Simulation {
   RunResult run(const RunRequest& request, const std::atomic<bool>& interrupt, RunListener& listener) const;
 
  private:
-  RunResult run_once(Config& scene, const RunRequest& request, std::string& given_up,
+  RunResult run_once(Config scene, const RunRequest& request, const std::string& given_up,
                      const std::atomic<bool>& interrupt, RunListener& listener) const;
 
   Simulation(std::string file, SceneChanges changes, Config scene)

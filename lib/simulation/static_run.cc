@@ -122,7 +122,7 @@ RunResult run_static_analysis(RunContext context) {
   result.outcome = run_static(*problem.path, *problem.stepper, all, context.interrupt);
   if (setup.linearity) {
     setup.linearity->finish_at(problem.path->time(), result.outcome.last.q);
-    result.outgrown = setup.linearity->outgrown();
+    result.outgrown = setup.linearity->why_to_start_again();
     if (result.outgrown) return result;
   }
   result.model = summarize(setup);

@@ -38,6 +38,12 @@ TEST(DidYouMean, AllowsMoreSlipsInALongerName) {
   EXPECT_EQ(did_you_mean("abcdefghi", {"xyzwefghi"}), "");
 }
 
+TEST(NearestNames, AreSoManyInTheOrderOfTheirDistance) {
+  const std::vector<std::string> known{"abcd", "abxx", "xyzw", "abcx"};
+  EXPECT_EQ(nearest_names("abcd", known, 3), (std::vector<std::string>{"abcd", "abcx", "abxx"}));
+  EXPECT_EQ(nearest_names("abcd", {"b"}, 3), std::vector<std::string>{"b"});
+}
+
 TEST(ExpectedOneOf, ListsWhatIsKnown) {
   EXPECT_EQ(expected_one_of({"klu", "cholmod"}, "klo"),
             "expected one of klu, cholmod, found 'klo'; did you mean 'klu'?");

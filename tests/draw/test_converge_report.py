@@ -14,20 +14,24 @@ from report_page import EVIL, OfAComparison, Page  # noqa: E402
 
 def row(order, level, error, **changes):
     return {"order": order, "level": level, "title": "", "folder": "points/x", "status": "completed", "reason": "",
-            "message": "", "unknowns": 100 * 8 ** level, "elements": 10, "mesh_error": 0.9 * error,
-            "cost": {"cpu_seconds": 0.01 * 8 ** level},
-            "figures": {"f": {"value": 2 * (1 - error), "error": error, "order": 2.0 if level > 2 else None}}, **changes}
+            "message": "", "unknowns": 100 * 8 ** level, "elements": 10,
+            "figures": {"f": {"value": 2 * (1 - error), "error": error, "order": 2.0 if level > 2 else None,
+                              "mesh_error": 0.9 * error, "cpu_seconds": 1e-5 * 8 ** level}}, **changes}
+
+
+def costs(linear, quadratic, at_most=()):
+    return [{"order": o, "cpu_seconds": c, "at_most": o in at_most} for o, c in ((1, linear), (2, quadratic))]
 
 
 def study(rows, **changes):
     return {"orthodyn_convergence": 1, "name": "beam", "file": "beam.yaml", "set": ["mesh.cells=[1,1,1]"],
             "written": "2026-01-31T12:00:00Z", "machine": {"processor": "x"}, "versions": {}, "ratio": 2, "target": 0.01,
             "orders": [1, 2], "figures": [{"name": "f", "unit": "m", "limit": 2.0, "uncertainty": 1e-4, "from_order": 2,
-                                           "cost_of_target": [{"order": 1, "cpu_seconds": 40.0},
-                                                              {"order": 2, "cpu_seconds": 0.5}]}],
+                                           "cost_of_target": costs(40.0, 0.5)}],
             "rows": rows, **changes}
 
 
+NONE = {"f": dict.fromkeys(("value", "error", "order", "mesh_error", "cpu_seconds"))}
 ROWS = [row(o, level, 0.3 * 4.0 ** (-o * level)) for o in (1, 2) for level in (1, 2, 3)]
 
 
@@ -48,6 +52,23 @@ class OfAConvergence(OfAComparison):
         self.assertIn("quadratic elements by 80 ×", text)
         self.assertEqual(page.tables[0][1][:2], ["f [m]", "2 ± 0.0001"])
 
+    def answer_of(self, cost_of_target):
+        figure = dict(study([])["figures"][0], cost_of_target=cost_of_target)
+        return self.page_of(study(ROWS, figures=[figure]))[1].tables[0][1]
+
+    def test_elements_that_alone_reach_the_target_are_named(self):
+        self.assertEqual(self.answer_of(costs(None, 0.5))[2:],
+                         ["not reached", "0.5", "quadratic elements; linear ones do not reach 1 %"])
+        self.assertEqual(self.answer_of(costs(None, None))[-1], "none reaches 1 %")
+
+    def test_a_coarsest_mesh_that_is_good_enough_gives_a_bound(self):
+        self.assertEqual(self.answer_of(costs(40.0, 0.0004, at_most=(2,)))[3:],
+                         ["≤ 0.0004", "quadratic elements by at least 1e+05 ×"])
+
+    def test_short_times_are_told(self):
+        _, page = self.page_of(study(ROWS))
+        self.assertIn("8e-05", page.tables[1][1])
+
     def test_every_mesh_is_in_the_table_and_in_the_figures(self):
         text, page = self.page_of(study(ROWS))
         self.assertEqual(len(page.tables[1]), 7)
@@ -56,17 +77,15 @@ class OfAConvergence(OfAComparison):
         self.assertTrue((self.folder / "pictures" / "f_over_cpu.png").is_file())
 
     def test_meshes_that_failed_are_named_with_their_reason(self):
-        failed = row(2, 3, 0.0, status="failed", reason="time limit", message="after 600 s", mesh_error=None,
-                     figures={"f": {"value": None, "error": None, "order": None}})
+        failed = row(2, 3, 0.0, status="failed", reason="time limit", message="after 600 s", figures=NONE)
         text, _ = self.page_of(study(ROWS[:5] + [failed]))
         self.assertIn("after 600 s", text)
         self.assertNotIn('data-p="5"', text)
 
     def test_without_any_result_it_says_so(self):
-        none = {"f": {"value": None, "error": None, "order": None}}
-        rows = [row(1, 1, 0.1, status="missing", cost=None, mesh_error=None, unknowns=None, figures=none)]
+        rows = [row(1, 1, 0.1, status="missing", unknowns=None, figures=NONE)]
         figure = dict(study([])["figures"][0], limit=None, uncertainty=None,
-                      cost_of_target=[{"order": 1, "cpu_seconds": None}, {"order": 2, "cpu_seconds": None}])
+                      cost_of_target=costs(None, None))
         text, _ = self.page_of(study(rows, figures=[figure]))
         self.assertIn("not reached", text)
 

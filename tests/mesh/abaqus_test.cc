@@ -109,7 +109,9 @@ TEST_P(RefusedAbaqus, NamesTheLineAndTheRemedy) {
 INSTANTIATE_TEST_SUITE_P(
     Abaqus, RefusedAbaqus,
     testing::Values(
-        BadDeck{"cohesive", "C3D4", "COH3D6", "body.inp:10: elements of type COH3D6; only tetrahedra (C3D4, C3D10)"},
+        BadDeck{"cohesive", "C3D4", "COH3D6",
+                "body.inp:10: elements of type COH3D6; solid elements that are read: tetrahedra (C3D4, C3D4H, "},
+        BadDeck{"unknown_variant", "C3D4", "C3D4X", "body.inp:10: elements of type C3D4X; solid elements"},
         BadDeck{"second_order", "C3D4", "C3D10", "element 1 ends early"},
         BadDeck{"two_dimensions", "40, 0., 0., 1.", "40, 0., 0.", "body.inp:8: expected a coordinate, found the end"},
         BadDeck{"unknown_node", "40, 50\n", "40, 60\n", "body.inp:12: element 2: node 60 is not defined in *NODE"},

@@ -366,7 +366,12 @@ TEST(Hexahedra, WithTooFewNodesAreRefused) {
   EXPECT_CONTAINS(refusal_of([] { read_vtu_text("a.vtu", replaced(kVtu, "12 13 13", "12 12 13")); }),
                   "a.vtu: cell 1: a hexahedron (type 12) of 6 points; expected 8");
   EXPECT_CONTAINS(refusal_of([] { read_abaqus_text("a.inp", replaced(kAbaqus, "C3D8R", "C3D15V")); }),
-                  "a.inp:14: elements of type C3D15V; only tetrahedra");
+                  "a.inp:14: elements of type C3D15V; solid elements that are read: tetrahedra");
+  for (const char* unknown : {"C3D8X", "C3D8RR", "C3D8HR", "C3D9"}) {
+    const std::string message = refusal_of([&] { read_abaqus_text("a.inp", replaced(kAbaqus, "C3D8R", unknown)); });
+    EXPECT_CONTAINS(message, "elements of type " + std::string(unknown));
+    EXPECT_CONTAINS(message, "hexahedra (C3D8, C3D8H, C3D8I, C3D8IH, C3D8R, C3D8RH,");
+  }
 }
 
 }  // namespace

@@ -7,11 +7,13 @@
 #include <numbers>
 #include <set>
 
+#include "lib/config/registry.h"
 #include "lib/element/tet10.h"
 #include "lib/mesh/box.h"
 #include "lib/mesh/cylinder.h"
 #include "lib/mesh/io/mesh_file.h"
 #include "lib/mesh/io/tetgen.h"
+#include "lib/mesh/mesh_source.h"
 #include "tests/mesh/refusal.h"
 
 namespace orthodyn::quadratic_test {
@@ -87,6 +89,30 @@ TEST(Quadratic, MadeLinearAgainIsTheMeshOfBefore) {
   EXPECT_EQ(mesh.node_sets.at("left").size(), 4u);
 }
 
+TEST(Quadratic, MadeLinearTellsTheNodeSetsThatItEmpties) {
+  TetMesh mesh = quadratic_box();
+  mesh.node_sets["middle"] = {mesh.midsides[0][0], mesh.midsides[0][1]};
+  mesh.node_sets["both"] = {mesh.midsides[0][0], mesh.tets[0][0]};
+  mesh.node_sets["empty before"] = {};
+  EXPECT_EQ(make_linear(mesh), std::vector<std::string>{"middle"});
+  EXPECT_TRUE(mesh.node_sets.at("middle").empty());
+  EXPECT_EQ(mesh.node_sets.at("both").size(), 1u);
+}
+
+TEST(QuadraticFiles, WarnOfNodeSetsThatAreEmptyWithOrderOne) {
+  const TemporaryFolder folder;
+  TetMesh mesh = quadratic_box();
+  mesh.node_sets["middle"] = {mesh.midsides[0][0]};
+  write_mesh({.mesh = mesh}, folder.path("box.inp"), false);
+  const auto warnings = [&](const std::string& more) {
+    const Config config = Config::from_text("{type: file, file: " + folder.path("box.inp") + more + "}");
+    return Registry<MeshSource>::read(config)->load().warnings;
+  };
+  EXPECT_TRUE(warnings("").empty());
+  ASSERT_EQ(warnings(", order: 1").size(), 1u);
+  EXPECT_NE(warnings(", order: 1")[0].find("node set \"middle\" holds nodes within edges only"), std::string::npos);
+}
+
 // A curved one: nodes on edges are far from half way.
 TEST(QuadraticFiles, OfTetgenKeepACurvedMesh) {
   const TemporaryFolder folder;
@@ -136,7 +162,9 @@ TEST_P(QuadraticFiles, KeepNodesElementsAndFaces) {
   EXPECT_EQ(read.nodes, mesh.nodes);
   EXPECT_EQ(read.tets, mesh.tets);
   EXPECT_EQ(read.midsides, mesh.midsides);
-  if (!read.surfaces.empty()) EXPECT_EQ(read.surfaces.size(), mesh.surfaces.size());
+  if (!read.surfaces.empty()) {
+    EXPECT_EQ(read.surfaces.size(), mesh.surfaces.size());
+  }
 }
 
 std::string data(const std::string& name) { return ORTHODYN_SOURCE_DIR "/tests/mesh/data/" + name; }

@@ -235,7 +235,7 @@ TEST(Validate, RefusesATriangleOffTheMesh) {
                      "beam: triangle 0: surface \"load\": not a face of any element");
 }
 
-TEST(Validate, RefusesAnEmptyMesh) { EXPECT_EQ(refusal({}), "beam: the mesh has no tetrahedra"); }
+TEST(Validate, RefusesAnEmptyMesh) { EXPECT_EQ(refusal({}), "beam: the mesh has no solid elements"); }
 
 TEST(Validate, RefusesIndicesOutOfRange) {
   TetMesh mesh = one_tet();

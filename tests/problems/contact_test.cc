@@ -57,7 +57,9 @@ integrator: {{type: {}, rtol: {}}}
   EXPECT_GT(energy.scale(), 0.9 * fallen);  // it has fallen; soft ground lets it fall further
   const double rtols = std::string(fall.integrator) == "arkode_dirk" ? 50 : 10;
   EXPECT_LE(energy.largest, rtols * fall.rtol * fallen);
-  if (fall.rtol < 1e-2) EXPECT_GT(energy.change(), -0.5 * fallen);  // it bounces
+  if (fall.rtol < 1e-2) {
+    EXPECT_GT(energy.change(), -0.5 * fallen);  // it bounces
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Ground, Contact, testing::ValuesIn(falls()));

@@ -71,8 +71,8 @@ Trajectory trajectory(const Setup& setup) {
 }
 
 class Choice : public testing::TestWithParam<Motion> {};
-INSTANTIATE_TEST_SUITE_P(Scenes, Choice, testing::ValuesIn(motions()), [](const auto& info) {
-  std::string name = info.param.name;
+INSTANTIATE_TEST_SUITE_P(Scenes, Choice, testing::ValuesIn(motions()), [](const auto& motion) {
+  std::string name = motion.param.name;
   std::replace_if(name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
   return name;
 });
@@ -92,9 +92,15 @@ TEST_P(Choice, IsWhatRunsWithEitherKinematicsSay) {
     EXPECT_NE(keeps_linear, chosen.linearity->outgrown());
     estimate = chosen.linearity->error();
   }
-  if (error > kAllowed) EXPECT_FALSE(keeps_linear) << error;
-  if (error < kAllowed / 5) EXPECT_TRUE(keeps_linear) << error << " estimated " << estimate;
-  if (keeps_linear) EXPECT_GE(estimate, 0.5 * error);
+  if (error > kAllowed) {
+    EXPECT_FALSE(keeps_linear) << error;
+  }
+  if (error < kAllowed / 5) {
+    EXPECT_TRUE(keeps_linear) << error << " estimated " << estimate;
+  }
+  if (keeps_linear) {
+    EXPECT_GE(estimate, 0.5 * error);
+  }
 }
 
 class Kinematics : public InFolder {};

@@ -116,7 +116,9 @@ TEST(PatchTest, OfALinearDisplacementIsPassedByBoth) {
     const BuiltTestScene s = box(3, order, true);
     const NodalVector f = s.nodal(s.force(s.dofs([&](const Vec3& x) { return Vec3(A * x); })));
     for (Eigen::Index n = 0; n < f.cols(); ++n)
-      if (is_inner(s.model().parts().rest->col(n))) EXPECT_LE(f.col(n).norm(), 1e-14);
+      if (is_inner(s.model().parts().rest->col(n))) {
+        EXPECT_LE(f.col(n).norm(), 1e-14);
+      }
   }
 }
 
@@ -334,7 +336,9 @@ TEST(QuadraticFaces, OfContactShareTheAreaAmongAllTheirNodes) {
   const NodalVector f = s.nodal(s.force(s.zero()));
   EXPECT_NEAR(resultant(f)[2], 10 * (0.1 - 0.5e-3) * std::numbers::pi / 4, 2e-3);
   for (Eigen::Index n = 0; n < f.cols(); ++n)
-    if (s.model().parts().rest->col(n)[2] == 0) EXPECT_GT(f(2, n), 0);
+    if (s.model().parts().rest->col(n)[2] == 0) {
+      EXPECT_GT(f(2, n), 0);
+    }
 }
 
 TEST(QuadraticElements, FallFreelyWithoutStrainWithEitherMass) {

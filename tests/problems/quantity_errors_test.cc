@@ -35,8 +35,9 @@ class Displacements : public testing::TestWithParam<const char*> {
 
   Found find(const Mesh& mesh) const {
     const orthodyn::Setup setup = set_up(
-        mesh, fmt::format("loads: [{{surface: x1, force: [0, 0, {}]}}]\nanalysis: static\nelasticity: {{kinematics: {}}}\n",
-                          GetParam() == std::string("linear") ? -10 : -1000, GetParam()));
+        mesh,
+        fmt::format("loads: [{{surface: x1, force: [0, 0, {}]}}]\nanalysis: static\nelasticity: {{kinematics: {}}}\n",
+                    GetParam() == std::string("linear") ? -10 : -1000, GetParam()));
     const FemModel& model = *setup.built.model;
     const State state{0, equilibrium(setup.scene, setup.built), Vector::Zero(model.num_dofs())};
     const std::vector<int> nodes{nearest_node(model.parts().mesh, kTip), nearest_node(model.parts().mesh, kMiddle)};
@@ -46,7 +47,7 @@ class Displacements : public testing::TestWithParam<const char*> {
   }
 };
 INSTANTIATE_TEST_SUITE_P(Kinematics, Displacements, testing::Values("linear", "corotational"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& kinematics) { return std::string(kinematics.param); });
 
 TEST_P(Displacements, AreOffByWhatTheDualProblemSays) {
   const Found fine = find({2, 3});
@@ -81,7 +82,8 @@ TEST(Frequencies, AreOffByWhatStressesAndMassSay) {
     return found;
   };
   const auto fine = lowest({2, 3}, "consistent");
-  for (const auto& [mesh, mass] : {std::pair{Mesh{1, 3}, "lumped"}, {Mesh{2, 1}, "lumped"}, {Mesh{2, 1}, "consistent"}}) {
+  for (const auto& [mesh, mass] :
+       {std::pair{Mesh{1, 3}, "lumped"}, {Mesh{2, 1}, "lumped"}, {Mesh{2, 1}, "consistent"}}) {
     SCOPED_TRACE(fmt::format("order {}, {}", mesh.order, mass));
     const auto coarse = lowest(mesh, mass);
     for (std::size_t k = 0; k < 2; ++k) {

@@ -45,6 +45,17 @@ TEST(SceneChanges, AKeyThatComesOrGoesIsAChange) {
   EXPECT_EQ(changes("a: {b: 1}", "a: 1"), Paths{"a"});
 }
 
+// Round-off makes another text of them, such as that of another number of threads.
+TEST(SceneChanges, WordsOfTheProgramAreNone) {
+  EXPECT_EQ(changes("integrator: {type: modal, modes: 4, kept: 4 modes up to 1 Hz; what is left out is about 3e-16}",
+                    "integrator: {type: modal, modes: 4, kept: 4 modes up to 1 Hz; what is left out is about 4e-16}"),
+            Paths{});
+  EXPECT_EQ(changes("integrator: {type: auto, because: it is light}", "integrator: {type: auto, because: it is dear}"),
+            Paths{});
+  EXPECT_EQ(changes("integrator: {type: modal, modes: 4, kept: a}", "integrator: {type: modal, modes: 5, kept: b}"),
+            Paths{"integrator.modes"});
+}
+
 TEST(SceneChanges, AKeyWithoutAValueCountsAsAbsent) {
   EXPECT_EQ(changes("a: 1", "a: 1\nb:"), Paths{});
   EXPECT_EQ(changes("a: 1\nb:", "a: 1"), Paths{});

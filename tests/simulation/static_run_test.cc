@@ -56,7 +56,9 @@ TEST_F(StaticRun, OfALinearModelMeetsItsToleranceInOneCorrectionAStep) {
                                "'loads.0.traction=[1e-9, 0, 0]'");
   ASSERT_EQ(result.exit_code, 0) << result.output;
   for (const auto& row : read_rows(folder_ / "out/load_steps.csv"))
-    if (row[0] > 0) EXPECT_LE(row[2], 1e-8 * 2e-11 / 4) << row[0];  // N: a corner's share of the load
+    if (row[0] > 0) {
+      EXPECT_LE(row[2], 1e-8 * 2e-11 / 4) << row[0];  // N: a corner's share of the load
+    }
 }
 
 TEST_F(StaticRun, SaysThatRoundOffIsAboveItsTolerance) {

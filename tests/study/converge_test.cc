@@ -78,11 +78,14 @@ TEST_F(Converge, FindsTheLimitThatBeamTheoryKnows) {
     const double error = row.at("figures").at("tip.displacement.magnitude").at("error");
     const double value = row.at("figures").at("tip.displacement.magnitude").at("value");
     EXPECT_NEAR(error, std::abs(value / figure.at("limit").get<double>() - 1), 1e-12);
-    if (row.at("level") != 1) EXPECT_LT(error, coarse);
+    if (row.at("level") != 1) {
+      EXPECT_LT(error, coarse);
+    }
     coarse = error;
     // The estimate of each mesh by itself, against the refined limit: deflections are energies here.
-    EXPECT_GT(row.at("mesh_error").get<double>(), 0.5 * error);
-    EXPECT_LT(row.at("mesh_error").get<double>(), 1.5 * error);
+    const double estimate = row.at("figures").at("tip.displacement.magnitude").at("mesh_error");
+    EXPECT_GT(estimate, 0.5 * error);
+    EXPECT_LT(estimate, 1.5 * error);
   }
   EXPECT_EQ(all.at("rows")[2].at("elements"), 8 * 64 * 5);
   EXPECT_NE(done.output.find("CPU time for an error of 1 %"), std::string::npos) << done.output;
@@ -98,6 +101,32 @@ TEST_F(Converge, LooksAtModesAndAtWhatIsAskedFor) {
   EXPECT_EQ(all.at("figures")[0].at("name"), "energy.elastic");
   EXPECT_EQ(all.at("figures")[1].at("unit"), "Hz");
   EXPECT_EQ(all.at("rows").size(), 2u);
+}
+
+TEST_F(Converge, ModesHaveTheirOwnCostAndNoEstimate) {
+  ASSERT_EQ(converge("--levels 2 --order 2 --modes 1 --quantity energy.elastic").exit_code, 0);
+  for (const auto& row : table().at("rows")) {
+    const Json& of_mode = row.at("figures").at("frequency of mode 1");
+    const Json& of_statics = row.at("figures").at("energy.elastic");
+    EXPECT_TRUE(of_mode.at("mesh_error").is_null());
+    EXPECT_TRUE(of_statics.at("mesh_error").is_number());
+    EXPECT_NE(of_mode.at("cpu_seconds"), of_statics.at("cpu_seconds"));
+  }
+}
+
+// Bending of quadratic elements with 16 cells along the beam: well below 1 %.
+TEST_F(Converge, TellsThatTheCoarsestMeshIsGoodEnough) {
+  const auto done = converge("--levels 2 --order 2 --set mesh.cells=[16,2,2]");
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  EXPECT_NE(done.output.find("CPU time for an error of 1 %: order 2: at most "), std::string::npos) << done.output;
+}
+
+TEST_F(Converge, NamesTheNearestQuantities) {
+  const auto done = converge("--quantity tip.displcement.z");
+  EXPECT_NE(done.output.find("The nearest are tip.displacement.z, "), std::string::npos) << done.output;
+  EXPECT_NE(done.output.find("orthodyn list quantities"), std::string::npos) << done.output;
+  EXPECT_EQ(done.output.find("momentum"), std::string::npos) << done.output;
+  EXPECT_NE(orthodyn("list quantities").output.find("energy.elastic"), std::string::npos);
 }
 
 TEST_F(Converge, RefinesAMeshOfAFile) {

@@ -107,12 +107,14 @@ TEST(EvaluationResult, IsReadAsItWasWritten) {
   r.cost = EvaluationCost{0.5, 0.75, s, 1e8};
   r.unknowns = 3, r.elements = 6;
   r.frame = "frame.vtu";
+  r.kinematics = "linear";
   const Json json = sent(to_json(r));
   const auto read = evaluation_from(json);
   EXPECT_EQ(sent(to_json(read)), json);
   EXPECT_EQ(read.figures[0], r.figures[0]);
   EXPECT_TRUE(std::isnan(read.figures[1].second));
   EXPECT_EQ(read.units, r.units);
+  EXPECT_EQ(read.kinematics, r.kinematics);
   EXPECT_EQ(read.cost->statistics->force.count, 22);
 }
 

@@ -8,6 +8,7 @@
 #include "lib/core/words.h"
 #include "lib/simulation/files.h"
 #include "lib/study/converge/convergence_table.h"
+#include "lib/study/converge/convergence_text.h"
 #include "lib/study/inputs/labels.h"
 #include "lib/study/jobs/json_values.h"
 #include "tools/orthodyn/command.h"

@@ -9,6 +9,7 @@
 #include "lib/material/presets.h"
 #include "lib/mesh/io/mesh_format.h"
 #include "lib/fem/fem_model.h"
+#include "lib/scene/quantity.h"
 #include "lib/scene/scene.h"
 #include "lib/study/compare/comparison.h"
 #include "lib/study/stability/stability.h"
@@ -142,6 +143,17 @@ void list_fields() {
   }
 }
 
+// Those of probes are the fields per node.
+void list_quantities() {
+  const FemModel model{FemModel::Parts{}};
+  for (const auto& info : model.outputs())
+    if (info.location == Location::global)
+      fmt::print("  {:<22} {} ({} component{}, {})\n", info.name, info.sentence, info.components,
+                 info.components == 1 ? "" : "s", info.unit);
+  fmt::print("  {:<22} Drift of the energy balance (1 component, J)\n", kEnergyBalance);
+  fmt::print("  PROBE.FIELD            A field per node (`orthodyn list fields`) at a probe of the scene.\n");
+}
+
 const std::vector<std::pair<std::string, std::function<void()>>>& chapters() {
   static const std::vector<std::pair<std::string, std::function<void()>>> all = {
       {"scene", list_scene},
@@ -160,6 +172,7 @@ const std::vector<std::pair<std::string, std::function<void()>>>& chapters() {
       {"sweep", list_sweep},
       {"stability", list_stability},
       {"fields", list_fields},
+      {"quantities", list_quantities},
   };
   return all;
 }
@@ -190,7 +203,7 @@ void declare(ListArguments& arguments, CommandOptions& options) {
   options.value(
       "what", arguments.what,
       "scene, materials, presets, meshes, axes, integrators, solvers, terms, factors, statics, events, expect, "
-      "comparison, sweep, stability, fields; all if left out.");
+      "comparison, sweep, stability, fields, quantities; all if left out.");
   options.flag("--markdown", arguments.markdown, "Every key of the input as one page in Markdown.");
 }
 

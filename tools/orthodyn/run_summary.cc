@@ -29,6 +29,7 @@ void print_costs(const Statistics& s) {
   print_cost("tangent", s.tangent);
   print_cost("factorisation", s.factorization);
   print_cost("solve", s.solve);
+  if (s.modes.count > 0) print_cost("modes", s.modes);
 }
 
 void print_energy(const EnergySummary& energy) {

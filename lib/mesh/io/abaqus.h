@@ -11,9 +11,9 @@
 
 namespace orthodyn {
 
-// Reads *NODE, *ELEMENT (C3D4, C3D10; C3D8, C3D20, C3D6, C3D15 and C3D5, which are split; each with letters behind it,
-// C3D8R), *NSET and *ELSET (also GENERATE), *SURFACE of type ELEMENT
-// with faces S1 to S6, and *SOLID SECTION; keywords and names in any case. The element sets of solid
+// Reads *NODE, *ELEMENT (C3D4, C3D10; C3D8, C3D20, C3D6, C3D15 and C3D5, which are split; each with its variants, such
+// as C3D8R: abaqus_types.h), *NSET and *ELSET (also GENERATE), *SURFACE of type ELEMENT with faces S1 to S6, and *SOLID
+// SECTION; keywords and names in any case. The element sets of solid
 // sections are the regions; without sections every element belongs to the last set that names it.
 // Sets of shells or plane elements (CPS3, S4, ...), as Gmsh writes them, become surfaces.
 // A single part and instance is taken as flat. Other solid elements, *INCLUDE, several parts, and

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "lib/mesh/io/abaqus_types.h"
 #include "lib/mesh/io/text_tokens.h"
 
 namespace orthodyn {
@@ -54,38 +54,6 @@ struct Keyword {
     return found == parameters.end() ? "" : found->second;
   }
 };
-
-// What elements of a type are read as.
-struct Shape {
-  std::size_t nodes = 0, corners = 0;      // in the file; the first of them
-  std::optional<CellKind> solid = {};      // else a face
-};
-
-// Whether the type is this name, alone or with letters behind it that do not change its nodes: C3D8R of C3D8, but not
-// C3D15V, which has up to 18.
-bool is_variant(const std::string& type, std::string_view name) {
-  return type.starts_with(name) && type.find_first_of("0123456789V", name.size()) == std::string::npos;
-}
-
-// None if it is no solid element, and none of planes, shells, membranes and rigid bodies.
-std::optional<Shape> shape_of(const std::string& type) {
-  static const std::vector<std::pair<const char*, Shape>> solids{
-      {"C3D4", {4, 4, CellKind::tet}},         {"C3D10", {10, 4, CellKind::tet}},
-      {"C3D5", {5, 5, CellKind::pyramid}},     {"C3D6", {6, 6, CellKind::wedge}},
-      {"C3D15", {15, 6, CellKind::wedge}},     {"C3D8", {8, 8, CellKind::hexahedron}},
-      {"C3D20", {20, 8, CellKind::hexahedron}}};
-  static const std::vector<std::pair<std::size_t, std::vector<const char*>>> faces{
-      {3, {"CPS3", "CPE3", "CPEG3", "CAX3", "S3", "STRI3", "M3D3", "R3D3", "DS3", "SFM3D3", "DC2D3"}},
-      {6, {"CPS6", "CPE6", "CPEG6", "CAX6", "STRI65", "M3D6", "DS6", "SFM3D6", "DC2D6"}},
-      {4, {"CPS4", "CPE4", "CPEG4", "CAX4", "S4", "M3D4", "R3D4", "DS4", "SFM3D4", "DC2D4"}},
-      {8, {"CPS8", "CPE8", "CPEG8", "CAX8", "S8", "M3D8", "DS8", "SFM3D8", "DC2D8"}}};
-  for (const auto& [name, shape] : solids)
-    if (is_variant(type, name)) return shape;
-  for (const auto& [nodes, names] : faces)
-    for (const char* name : names)
-      if (is_variant(type, name)) return Shape{nodes, nodes % 3 == 0 ? 3u : 4u};
-  return std::nullopt;
-}
 
 class AbaqusReader {
  public:
@@ -195,16 +163,16 @@ class AbaqusReader {
   void read_elements(const Keyword& keyword) {
     const std::string type = in_capitals(keyword.parameter("TYPE"));
     const std::string set = keyword.parameter("ELSET");
-    if (const auto shape = shape_of(type)) {
+    if (const auto shape = abaqus_shape(type)) {
       while (!at_keyword()) read_element(*shape, set);
     } else if (type.empty() || type.find("3D") != std::string::npos) {
       // Trusses and beams in space have 3D in their names, too.
       if (type.starts_with("T3D") || type.starts_with("R3D") || type.starts_with("M3D")) return ignore(type);
       file_.draft.fail(
           keyword.place,
-          fmt::format("elements of type {}; only tetrahedra (C3D4, C3D10), hexahedra (C3D8, C3D20), wedges (C3D6, "
-                      "C3D15) and pyramids (C3D5) are read: mesh again with these",
-                      type.empty() ? "(none given)" : type));
+          fmt::format(
+              "elements of type {}; solid elements that are read: {}. Correct the type, or mesh again with these",
+              type.empty() ? "(none given)" : type, abaqus_solids()));
     } else {
       ignore(type);
     }
@@ -224,7 +192,7 @@ class AbaqusReader {
     }
   }
 
-  void read_element(const Shape& shape, const std::string& set) {
+  void read_element(const AbaqusShape& shape, const std::string& set) {
     const FilePlace place{tokens_.line()};
     const std::int64_t tag = tokens_.integer("the number of an element");
     if (shape.solid) {
@@ -241,7 +209,7 @@ class AbaqusReader {
     if (!set.empty()) add({tag, tag, 1, "", place}, set, file_.element_sets);
   }
 
-  void skip_nodes_of(std::int64_t element, const Shape& shape) {
+  void skip_nodes_of(std::int64_t element, const AbaqusShape& shape) {
     std::vector<std::int64_t> others(shape.nodes - shape.corners);
     read_nodes_of(element, others);
   }

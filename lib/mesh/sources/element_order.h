@@ -16,10 +16,12 @@ inline constexpr const char* kFileOrderSentence =
 inline constexpr int kDefaultOrder = 2;  // of meshes that are made; files have their own
 inline const Rule kOrderRule{.range = {1, 2}};
 
-inline void set_order(TetMesh& mesh, std::optional<int> order) {
-  if (!order || *order == mesh.order()) return;
-  if (*order == 2) make_quadratic(mesh);
-  else make_linear(mesh);
+// Returns the node sets that are empty then: those of nodes on edges only.
+inline std::vector<std::string> set_order(TetMesh& mesh, std::optional<int> order) {
+  if (!order || *order == mesh.order()) return {};
+  if (*order == 1) return make_linear(mesh);
+  make_quadratic(mesh);
+  return {};
 }
 
 }  // namespace orthodyn

@@ -1,4 +1,6 @@
 // The mesh sources that read files: file (any format, by its ending), gmsh, vega.
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <optional>
 
@@ -21,94 +23,87 @@ void require_file(const FilePath& file) {
   if (!std::filesystem::is_regular_file(file.path)) throw ConfigError(file.where, "no such file: " + file.path);
 }
 
-class FileSource : public MeshSource {
+// What is made of the mesh of any file.
+struct FileOptions {
+  FilePath file;
+  double scale = 1;
+  std::optional<int> order;
+  int refinements = 0;
+
+  LoadedMesh as_wanted(LoadedMesh loaded) const {
+    scale_mesh(loaded.mesh, scale, file.path);
+    for (const std::string& name : set_order(loaded.mesh, order))
+      loaded.warnings.push_back(
+          fmt::format("{}: node set \"{}\" holds nodes within edges only and is empty with `order: "
+                      "1`; leave out `order`, or put corners into the set",
+                      file.path, name));
+    for (int i = 0; i < refinements; ++i) refine(loaded);
+    return loaded;
+  }
+};
+
+class FileSource : public MeshSource, public FileOptions {
  public:
   static const Spec<FileSource>& spec() {
     static const auto s =
         Spec<FileSource>()
-            .key("file", &FileSource::file_, "A mesh file; relative to the scene.", {.required = true})
-            .key("scale", &FileSource::scale_, kScale, {.range = kPositive})
-            .key("order", &FileSource::order_, kFileOrderSentence, kOrderRule)
-            .key("refine", &FileSource::refine_, kRefineSentence, kRefineRule);
+            .key("file", &FileSource::file, "A mesh file; relative to the scene.", {.required = true})
+            .key("scale", &FileSource::scale, kScale, {.range = kPositive})
+            .key("order", &FileSource::order, kFileOrderSentence, kOrderRule)
+            .key("refine", &FileSource::refinements, kRefineSentence, kRefineRule);
     return s;
   }
   LoadedMesh load() const override {
-    require_file(file_);
-    LoadedMesh loaded = read_mesh(file_.path);
-    scale_mesh(loaded.mesh, scale_, file_.path);
-    set_order(loaded.mesh, order_);
-    for (int i = 0; i < refine_; ++i) refine(loaded);
-    return loaded;
+    require_file(file);
+    return as_wanted(read_mesh(file.path));
   }
-  bool may_bring_materials() const override { return mesh_format_of(file_.path).holds_materials; }
-
- private:
-  FilePath file_;
-  double scale_ = 1;
-  std::optional<int> order_;
-  int refine_ = 0;
+  bool may_bring_materials() const override { return mesh_format_of(file.path).holds_materials; }
 };
 
-class GmshSource : public MeshSource {
+class GmshSource : public MeshSource, public FileOptions {
  public:
   static const Spec<GmshSource>& spec() {
     static const auto s =
         Spec<GmshSource>()
-            .key("file", &GmshSource::file_, "A .msh file, version 2.2 or 4.1; relative to the scene.",
+            .key("file", &GmshSource::file, "A .msh file, version 2.2 or 4.1; relative to the scene.",
                  {.required = true})
-            .key("scale", &GmshSource::scale_, kScale, {.range = kPositive})
-            .key("order", &GmshSource::order_, kFileOrderSentence, kOrderRule)
-            .key("refine", &GmshSource::refine_, kRefineSentence, kRefineRule);
+            .key("scale", &GmshSource::scale, kScale, {.range = kPositive})
+            .key("order", &GmshSource::order, kFileOrderSentence, kOrderRule)
+            .key("refine", &GmshSource::refinements, kRefineSentence, kRefineRule);
     return s;
   }
   LoadedMesh load() const override {
-    require_file(file_);
-    LoadedMesh loaded = read_gmsh(file_.path);
-    make_names_utf8(loaded, file_.path);
-    scale_mesh(loaded.mesh, scale_, file_.path);
-    set_order(loaded.mesh, order_);
-    for (int i = 0; i < refine_; ++i) refine(loaded);
-    return loaded;
+    require_file(file);
+    LoadedMesh loaded = read_gmsh(file.path);
+    make_names_utf8(loaded, file.path);
+    return as_wanted(std::move(loaded));
   }
-
- private:
-  FilePath file_;
-  double scale_ = 1;
-  std::optional<int> order_;
-  int refine_ = 0;
 };
 
-class VegaSource : public MeshSource {
+class VegaSource : public MeshSource, public FileOptions {
  public:
   static const Spec<VegaSource>& spec() {
     static const auto s =
         Spec<VegaSource>()
-            .key("file", &VegaSource::file_, "A .veg file of tetrahedra or cubes; relative to the scene.",
+            .key("file", &VegaSource::file, "A .veg file of tetrahedra or cubes; relative to the scene.",
                  {.required = true})
             .key("fixed", &VegaSource::fixed_, "A .bou file: its vertices become the node set `fixed`.")
-            .key("scale", &VegaSource::scale_, kScale, {.range = kPositive})
-            .key("order", &VegaSource::order_, kFileOrderSentence, kOrderRule)
-            .key("refine", &VegaSource::refine_, kRefineSentence, kRefineRule);
+            .key("scale", &VegaSource::scale, kScale, {.range = kPositive})
+            .key("order", &VegaSource::order, kFileOrderSentence, kOrderRule)
+            .key("refine", &VegaSource::refinements, kRefineSentence, kRefineRule);
     return s;
   }
   LoadedMesh load() const override {
-    require_file(file_);
+    require_file(file);
     if (fixed_) require_file(*fixed_);
-    LoadedMesh loaded = fixed_ ? read_vega(file_.path, {fixed_->path}) : read_vega(file_.path);
-    make_names_utf8(loaded, file_.path);
-    scale_mesh(loaded.mesh, scale_, file_.path);
-    set_order(loaded.mesh, order_);
-    for (int i = 0; i < refine_; ++i) refine(loaded);
-    return loaded;
+    LoadedMesh loaded = fixed_ ? read_vega(file.path, {fixed_->path}) : read_vega(file.path);
+    make_names_utf8(loaded, file.path);
+    return as_wanted(std::move(loaded));
   }
   bool may_bring_materials() const override { return true; }
 
  private:
-  FilePath file_;
   std::optional<FilePath> fixed_;
-  double scale_ = 1;
-  std::optional<int> order_;
-  int refine_ = 0;
 };
 
 const bool file_registered[] = {

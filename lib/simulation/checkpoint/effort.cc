@@ -17,7 +17,8 @@ constexpr std::pair<const char*, long Statistics::*> kCounts[] = {
 constexpr std::pair<const char*, Cost Statistics::*> kCosts[] = {{"force", &Statistics::force},
                                                                  {"tangent", &Statistics::tangent},
                                                                  {"factorization", &Statistics::factorization},
-                                                                 {"solve", &Statistics::solve}};
+                                                                 {"solve", &Statistics::solve},
+                                                                 {"modes", &Statistics::modes}};
 
 }  // namespace
 
@@ -34,6 +35,7 @@ Effort Effort::from(const Archive& archive) {
   Effort out;
   for (const auto& [name, count] : kCounts) out.statistics.*count = static_cast<long>(archive.count(name));
   for (const auto& [name, cost] : kCosts) {
+    if (cost == &Statistics::modes && !archive.has(name)) continue;  // older checkpoints have none
     const auto& values = archive.numbers(name, 2);
     out.statistics.*cost = {static_cast<long>(values[0]), values[1]};
   }

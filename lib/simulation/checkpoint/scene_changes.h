@@ -12,7 +12,7 @@ namespace orthodyn {
 Config with_defaults(const Config& scene);
 
 // Paths of values that differ, in the order of `now`. Numbers are compared as numbers, with their units; a key without
-// a value counts as absent.
+// a value counts as absent. What the program says of its choices in words (`integrator.kept`) is none.
 std::vector<std::string> changed_keys(const Config& before, const Config& now);
 
 // Of `changed`, those that make it another simulation: all but the end of the time span, checkpoints,

@@ -32,7 +32,7 @@ class Table {
 
   Json json() const {
     Json figures = Json::array(), rows = Json::array();
-    for (const auto& [name, figure] : design_.figures) figures.push_back(figure_json(name));
+    for (const auto& [name, figure] : design_.figures) figures.push_back(figure_json(name, figure));
     for (std::size_t i = 0; i < design_.levels.size(); ++i) rows.push_back(row_json(i));
     return {{"orthodyn_convergence", 1},
             {"name", stem(wanted_.file)},
@@ -93,28 +93,35 @@ class Table {
     return found && found->value.limit != 0 ? std::abs(value(level, figure) / found->value.limit - 1) : kNaN;
   }
 
-  double cpu_seconds(std::size_t level) const {
+  double cpu_seconds(std::size_t level, const WantedFigure& figure) const {
     const EvaluationResult* r = result(level);
-    return r && r->cost ? r->cost->cpu_seconds : kNaN;
+    const auto cost = figure.is_of_motion() ? &EvaluationResult::cost : &EvaluationResult::modes_cost;
+    return r && r->*cost ? (r->*cost)->cpu_seconds : kNaN;
   }
 
-  // CPU time at which the error of elements of an order falls to the target, s, between the points that enclose it; NaN
-  // if none does.
-  double cost_of_target(int order, const std::string& figure) const {
+  // Of natural frequencies there is none.
+  double mesh_error(std::size_t level, const WantedFigure& figure) const {
+    const EvaluationResult* r = result(level);
+    return r && figure.is_of_motion() ? r->mesh_error.value_or(kNaN) : kNaN;
+  }
+
+  // CPU time at which the error of elements of an order falls to the target, s, between the points that enclose it; at
+  // most that of the coarsest mesh where it is below already; null if there is none.
+  Json cost_of_target(int order, const std::string& name, const WantedFigure& figure) const {
     std::optional<std::size_t> before;
     for (std::size_t i = 0; i < design_.levels.size(); ++i) {
       if (design_.levels[i].order != order) continue;
-      const double e = error(i, figure), t = cpu_seconds(i);
-      if (!(e >= 0) || !(t > 0)) return kNaN;
+      const double e = error(i, name), t = cpu_seconds(i, figure);
+      if (!(e >= 0) || !(t > 0)) break;
       if (e <= kTarget) {
-        if (!before) return t;  // the coarsest already
-        const double e0 = error(*before, figure), t0 = cpu_seconds(*before);
+        if (!before) return {{"order", order}, {"cpu_seconds", t}, {"at_most", true}};
+        const double e0 = error(*before, name), t0 = cpu_seconds(*before, figure);
         const double share = std::log(e0 / kTarget) / std::log(e0 / std::max(e, 1e-300));
-        return t0 * std::pow(t / t0, share);
+        return {{"order", order}, {"cpu_seconds", t0 * std::pow(t / t0, share)}, {"at_most", false}};
       }
       before = i;
     }
-    return kNaN;
+    return {{"order", order}, {"cpu_seconds", nullptr}, {"at_most", false}};
   }
 
   std::string unit(const std::string& figure) const {
@@ -124,7 +131,7 @@ class Table {
     return "";
   }
 
-  Json figure_json(const std::string& name) const {
+  Json figure_json(const std::string& name, const WantedFigure& figure) const {
     Json out{{"name", name}, {"unit", unit(name)}, {"limit", nullptr}};
     if (const auto found = limit(name)) {
       out["limit"] = found->value.limit;
@@ -133,8 +140,7 @@ class Table {
       out["observed"] = found->value.order.has_value();
     }
     Json costs = Json::array();
-    for (const int order : wanted_.orders)
-      costs.push_back({{"order", order}, {"cpu_seconds", finite_or_null(cost_of_target(order, name))}});
+    for (const int order : wanted_.orders) costs.push_back(cost_of_target(order, name, figure));
     out["cost_of_target"] = costs;
     return out;
   }
@@ -159,13 +165,13 @@ class Table {
              {"message", r && r->failure ? r->failure->message : ""}};
     out["unknowns"] = r && r->unknowns ? Json(*r->unknowns) : Json();
     out["elements"] = r && r->elements ? Json(*r->elements) : Json();
-    out["mesh_error"] = r && r->mesh_error ? Json(*r->mesh_error) : Json();
-    out["cost"] = r && r->cost ? to_json(*r->cost) : Json();
     Json figures = Json::object();
     for (const auto& [name, figure] : design_.figures)
       figures[name] = {{"value", finite_or_null(value(i, name))},
                        {"error", finite_or_null(error(i, name))},
-                       {"order", observed_order(i, name)}};
+                       {"order", observed_order(i, name)},
+                       {"mesh_error", finite_or_null(mesh_error(i, figure))},
+                       {"cpu_seconds", finite_or_null(cpu_seconds(i, figure))}};
     out["figures"] = figures;
     return out;
   }
@@ -176,82 +182,11 @@ class Table {
   const Results& results_;
 };
 
-std::string number(const Json& value, const char* format) {
-  return value.is_number() ? fmt::format(fmt::runtime(format), value.get<double>()) : "-";
-}
-
-std::string heading(const Json& figure) {
-  const std::string unit = figure.at("unit");
-  return figure.at("name").get<std::string>() + (unit.empty() ? "" : " [" + unit + "]");
-}
-
-std::string answer(const Json& table, const Json& figure) {
-  std::string out;
-  for (const auto& cost : figure.at("cost_of_target"))
-    out += fmt::format("{}order {}: {}", out.empty() ? "" : ", ", cost.at("order").get<int>(),
-                       cost.at("cpu_seconds").is_number()
-                           ? fmt::format("{:.2g} s", cost.at("cpu_seconds").get<double>())
-                           : std::string("not reached"));
-  return fmt::format("CPU time for an error of {:.0f} %: {}", 100 * table.at("target").get<double>(), out);
-}
-
 }  // namespace
 
 Json convergence_json(const Convergence& wanted, const Design& design, const std::vector<Job>& jobs,
                       const Results& results) {
   return Table(wanted, design, jobs, results).json();
-}
-
-std::string convergence_csv(const Json& table) {
-  std::string out = "order,level,elements,unknowns,mesh_error,cpu_seconds [s],status,reason";
-  for (const auto& figure : table.at("figures")) {
-    const std::string name = figure.at("name");
-    for (const std::string& head : {heading(figure), name + ".error", name + ".observed_order"})
-      out += "," + csv_cell(head);
-  }
-  out += "\n";
-  for (const auto& row : table.at("rows")) {
-    out += csv_cell(row.at("order"));
-    for (const char* key : {"level", "elements", "unknowns", "mesh_error"}) out += "," + csv_cell(row.at(key));
-    out += "," + csv_cell(member(row.at("cost"), "cpu_seconds"));
-    for (const char* key : {"status", "reason"}) out += "," + csv_cell(row.at(key));
-    for (const auto& figure : table.at("figures")) {
-      const Json& f = row.at("figures").at(figure.at("name").get<std::string>());
-      for (const char* key : {"value", "error", "order"}) out += "," + csv_cell(f.at(key));
-    }
-    out += "\n";
-  }
-  return out;
-}
-
-std::string convergence_text(const Json& table) {
-  std::string out;
-  for (const auto& figure : table.at("figures")) {
-    const std::string name = figure.at("name");
-    out += fmt::format("\n{}", heading(figure));
-    if (figure.at("limit").is_number())
-      out +=
-          fmt::format(": limit {:.6g}, known to {:.1g} (by elements of order {}{})", figure.at("limit").get<double>(),
-                      figure.at("uncertainty").get<double>(), figure.at("from_order").get<int>(),
-                      figure.at("observed").get<bool>()
-                          ? ""
-                          : "; no order of convergence was observed: errors are rough, take more levels");
-    out += fmt::format("\n  {:>5} {:>5} {:>9} {:>13} {:>9} {:>6} {:>10} {:>9}\n", "order", "level", "unknowns", "value",
-                       "error", "order", "mesh error", "CPU [s]");
-    for (const auto& row : table.at("rows")) {
-      const Json& f = row.at("figures").at(name);
-      out +=
-          fmt::format("  {:>5} {:>5} {:>9} {:>13} {:>9} {:>6} {:>10} {:>9}{}\n", row.at("order").get<int>(),
-                      row.at("level").get<int>(), number(row.at("unknowns"), "{:.0f}"), number(f.at("value"), "{:.7g}"),
-                      number(f.at("error"), "{:.1e}"), number(f.at("order"), "{:.2f}"),
-                      number(row.at("mesh_error"), "{:.1e}"), number(member(row.at("cost"), "cpu_seconds"), "{:.3g}"),
-                      row.at("status") == "completed"
-                          ? ""
-                          : "  " + row.at("status").get<std::string>() + ": " + row.at("reason").get<std::string>());
-    }
-    out += "  " + answer(table, figure) + "\n";
-  }
-  return out;
 }
 
 }  // namespace orthodyn::study::converge

@@ -1,9 +1,8 @@
-// What came out of a refinement, as JSON and CSV: values, limits, errors, orders, costs.
+// What came out of a refinement, as JSON: values, limits, errors, orders, costs.
 #pragma once
 
 #include <filesystem>
 #include <map>
-#include <string>
 #include <vector>
 
 #include "lib/study/converge/convergence.h"
@@ -17,10 +16,5 @@ using Results = std::map<std::filesystem::path, EvaluationResult>;  // by the fo
 // `jobs` by level. Errors are relative to the limit of each figure.
 Json convergence_json(const Convergence& wanted, const Design& design, const std::vector<Job>& jobs,
                       const Results& results);
-
-std::string convergence_csv(const Json& table);
-
-// For people: a table of each figure, and what an error of one per cent costs.
-std::string convergence_text(const Json& table);
 
 }  // namespace orthodyn::study::converge

@@ -9,6 +9,7 @@
 #include "lib/simulation/errors/snapshot.h"
 #include "lib/simulation/load_steps.h"
 #include "lib/simulation/machine.h"
+#include "lib/simulation/model_summary.h"
 #include "lib/simulation/run.h"
 #include "lib/simulation/setup.h"
 #include "lib/simulation/observers/frames.h"
@@ -43,6 +44,20 @@ WantedQuantities wanted_quantities(const EvaluationInput& input, const Setup& se
   }
   return wanted;
 }
+
+// The mesh's error is a diagnostic: what it takes is no cost of the motion.
+class TimedMeshError : public MeshErrorRecorder {
+ public:
+  using MeshErrorRecorder::MeshErrorRecorder;
+  void on_output(const ObservedState& observed) override {
+    const auto begin = std::chrono::steady_clock::now();
+    const double cpu = cpu_seconds_now();
+    MeshErrorRecorder::on_output(observed);
+    cpu_seconds += cpu_seconds_now() - cpu;
+    wall_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+  double cpu_seconds = 0, wall_seconds = 0;
+};
 
 class Evaluation {
  public:
@@ -86,7 +101,7 @@ class Evaluation {
     describe(*built.model);
     for (const bool about_equilibrium : {false, true}) find_modes(still, built, about_equilibrium);
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
-    result_.cost = EvaluationCost{cpu_seconds_now() - cpu, wall.count(), {}, peak_memory()};
+    result_.cost = result_.modes_cost = EvaluationCost{cpu_seconds_now() - cpu, wall.count(), {}, peak_memory()};
   }
 
   void find_modes(const Scene& scene, const BuiltScene& built, bool about_equilibrium) {
@@ -102,26 +117,45 @@ class Evaluation {
   }
 
   void follow_motion() {
-    const Setup setup = set_up(config_);
+    start_again_if_outgrown(config_, [&](const Config& config, const std::string& given_up) {
+      result_.failure.reset();
+      Setup setup = set_up(config);
+      if (!given_up.empty()) {
+        setup.note_given_up(given_up);
+        given_up_ = *result_.cost;
+      }
+      follow_motion(setup);
+      if (!setup.kinematics) return std::optional<Outgrown>();
+      if (setup.linearity) setup.linearity->finish();
+      const auto outgrown = setup.linearity ? setup.linearity->why_to_start_again() : std::nullopt;
+      if (!outgrown) result_.kinematics = told_kinematics(setup);
+      return outgrown;
+    });
+  }
+
+  void follow_motion(const Setup& setup) {
     describe(*setup.built.model);
     const WantedQuantities wanted = wanted_quantities(input_, setup);
     if (setup.scene.analysis == Analysis::statical) find_equilibrium(setup, wanted);
     else integrate(setup, wanted);
-    if (result_.failure) return;
+    if (result_.failure || is_outgrown(setup)) return;
     const Json costs = to_json(*result_.cost);
     for (const auto& [name, f] : input_.figures)
       if (!f.cost.empty()) keep(name, costs.at(f.cost).get<double>(), f.unit_of(""));
   }
 
+  static bool is_outgrown(const Setup& setup) { return setup.linearity && setup.linearity->outgrown(); }
+
   void find_equilibrium(const Setup& setup, const WantedQuantities& wanted) {
     const StaticProblem problem = static_problem(setup.scene, setup.built);
-    Deadline deadline(input_.seconds);
+    Deadline deadline(input_.seconds - given_up_.wall_seconds);
     const Outcome outcome = run_static(*problem.path, *problem.stepper, {&deadline}, deadline.over);
     Statistics statistics = problem.solver->statistics();
     statistics.steps = problem.stepper->steps();
     statistics.rejected_steps = problem.stepper->rejected();
     if (!conclude(outcome, statistics)) return;
-    if (setup.linearity) setup.linearity->require(problem.path->time(), outcome.last.q);
+    if (setup.kinematics && setup.linearity) setup.linearity->finish_at(problem.path->time(), outcome.last.q);
+    if (is_outgrown(setup)) return;
     const State state{problem.path->time(), outcome.last.q, outcome.last.v};
     const ObservedState observed(*setup.built.model, state);
     for (std::size_t q = 0; q < wanted.figures.size(); ++q)
@@ -134,18 +168,21 @@ class Evaluation {
 
   void integrate(const Setup& setup, const WantedQuantities& wanted) {
     SeriesRecorder recorder(*setup.built.model, *setup.integrator, wanted.quantities);
-    Deadline deadline(input_.seconds);
+    Deadline deadline(input_.seconds - given_up_.wall_seconds);
     Snapshot frame(input_.frame_at);
     Plan plan{setup.scene.time.end, output_times(wanted.expectations, setup.scene.time), false};
-    MeshErrorRecorder mesh_error(plan.output_times.size());
+    TimedMeshError mesh_error(plan.output_times.size());
     std::vector<Observer*> observers{&recorder, &deadline, &frame};
     if (input_.mesh_error) observers.push_back(&mesh_error);
-    if (setup.linearity) observers.push_back(setup.linearity.get());
+    if (setup.kinematics && setup.linearity) observers.push_back(setup.linearity.get());
     EventFinder events(setup.events);
     if (!events.empty()) plan.events = &events;
     const Outcome outcome = run(*setup.built.model, *setup.integrator, setup.built.initial, plan,
                                 observers, deadline.over);
-    if (!conclude(outcome, setup.integrator->statistics())) return;
+    const bool completed = conclude(outcome, setup.integrator->statistics());
+    result_.cost->wall_seconds += setup.wall_seconds - mesh_error.wall_seconds;
+    result_.cost->cpu_seconds += setup.cpu_seconds - mesh_error.cpu_seconds;
+    if (!completed) return;
     for (std::size_t q = 0; q < wanted.figures.size(); ++q) {
       const auto& [name, f] = *wanted.figures[q];
       keep(name,
@@ -167,7 +204,8 @@ class Evaluation {
 
   // False if it did not get to its end, which is then the result.
   bool conclude(const Outcome& outcome, const Statistics& statistics) {
-    result_.cost = EvaluationCost{outcome.cpu_seconds, outcome.wall_seconds, statistics, peak_memory()};
+    result_.cost = EvaluationCost{given_up_.cpu_seconds + outcome.cpu_seconds,
+                                  given_up_.wall_seconds + outcome.wall_seconds, statistics, peak_memory()};
     if (outcome.status != Outcome::Status::completed) result_.failure = failure_of(outcome, input_.seconds);
     return !result_.failure;
   }
@@ -186,6 +224,7 @@ class Evaluation {
   const EvaluationInput& input_;
   const fs::path& folder_;
   EvaluationResult result_;
+  EvaluationCost given_up_;  // of earlier attempts, with linear kinematics that were outgrown
 };
 
 }  // namespace

@@ -94,10 +94,12 @@ Json to_json(const EvaluationResult& r) {
   for (const auto& [name, value] : r.figures) json["figures"][name] = finite_or_null(value);
   for (const auto& [name, unit] : r.units) json["units"][name] = unit;
   json["cost"] = r.cost ? to_json(*r.cost) : Json();
+  if (r.modes_cost) json["modes_cost"] = to_json(*r.modes_cost);
   if (r.unknowns) json["model"] = {{"unknowns", *r.unknowns}, {"elements", r.elements.value_or(0)}};
   if (r.failure) json["reason"] = r.failure->reason, json["message"] = r.failure->message;
   if (!r.frame.empty()) json["frame"] = r.frame;
   if (r.mesh_error) json["mesh_error"] = *r.mesh_error;
+  if (!r.kinematics.empty()) json["kinematics"] = r.kinematics;
   return json;
 }
 
@@ -105,12 +107,14 @@ EvaluationResult evaluation_from(const Json& json) {
   EvaluationResult r;
   r.failure = failure_from(json);
   const Json figures = member(json, "figures"), units = member(json, "units"), cost = member(json, "cost"),
-             model = member(json, "model");
+             modes_cost = member(json, "modes_cost"), model = member(json, "model");
   for (const auto& [name, value] : figures.items()) r.figures.emplace_back(name, number_or_nan(value));
   for (const auto& [name, unit] : units.items()) r.units.emplace_back(name, unit);
   if (cost.is_object()) r.cost = cost_from(cost);
+  if (modes_cost.is_object()) r.modes_cost = cost_from(modes_cost);
   if (model.is_object()) r.unknowns = model.at("unknowns"), r.elements = model.at("elements");
   r.frame = json.value("frame", "");
+  r.kinematics = json.value("kinematics", "");
   if (json.contains("mesh_error")) r.mesh_error = json.at("mesh_error").get<double>();
   return r;
 }

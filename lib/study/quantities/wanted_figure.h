@@ -21,16 +21,16 @@ struct Words<Scale> {
 
 // Exactly one of: quantity, mode (or along), cost.
 struct WantedFigure {
-  std::string quantity;
+  std::string quantity = {};
   Take take = Take::end;
-  std::optional<double> at, of, settled_within;
-  std::optional<int> mode;
-  std::optional<Component> along;  // in place of the mode's number: that with the largest effective mass along it
+  std::optional<double> at = {}, of = {}, settled_within = {};
+  std::optional<int> mode = {};
+  std::optional<Component> along = {};  // in place of the mode's number: that with the largest effective mass along it
   bool about_equilibrium = false;
-  std::string cost;
-  std::string title, unit, closed_form;
+  std::string cost = {};
+  std::string title = {}, unit = {}, closed_form = {};
   Scale scale = Scale::linear;
-  Origin origin;
+  Origin origin = {};
   static const Spec<WantedFigure>& spec();
 
   bool is_of_motion() const { return !quantity.empty() || !cost.empty(); }

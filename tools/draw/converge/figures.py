@@ -20,19 +20,20 @@ def _count(x):
     return f"{x:g}" if x < 1e4 else error_tick(x)
 
 
-AXES = {"cpu": ("CPU time", seconds_tick, lambda m: m.cpu_seconds), "unknowns": ("Unknowns", _count, lambda m: m.unknowns)}
+AXES = {"cpu": ("CPU time", seconds_tick, lambda m, f: m.cpu_seconds.get(f.name, math.nan)),
+        "unknowns": ("Unknowns", _count, lambda m, f: m.unknowns)}
 
 
 def runs_of(study, figure, order, place):
     """(x, error, mesh) of the meshes that a logarithmic diagram can show."""
-    found = [(place(m), m.errors.get(figure.name, math.nan), m) for m in study.of_order(order)]
+    found = [(place(m, figure), m.errors.get(figure.name, math.nan), m) for m in study.of_order(order)]
     return [run for run in found if positive(run[:2]).size == 2]
 
 
-def _estimates(axes, study, place):
+def _estimates(axes, study, figure, place):
     """Short strokes at what the recovered stresses say of each mesh."""
     for k, order in enumerate(study.orders):
-        rows = [(place(m), m.mesh_error) for m in study.of_order(order)]
+        rows = [(place(m, figure), m.mesh_errors.get(figure.name, math.nan)) for m in study.of_order(order)]
         rows = [r for r in rows if positive(r).size == 2]
         axes.plot([x for x, _ in rows], [y for _, y in rows], ls="none", marker="_", ms=13, mew=1.6,
                   color=theme.colour(k), alpha=0.75, gid=f"me-{k}")
@@ -49,13 +50,13 @@ def draw_errors(study, figure, against, width):
     layout = PixelLayout(width, 40 + height + 58 + (legend_height(entries, 2) if narrow else 0))
     box = (left, 40, width - left - right, height)
     axes = layout.axes(*box)
-    estimates = [m.mesh_error for m in study.meshes]
+    estimates = [m.mesh_errors.get(figure.name, math.nan) for m in study.meshes]
     set_log(axes, "x", *limits([x for r in runs.values() for x, _, _ in r]), tick, 4 if narrow else 8)
     low, high = limits([e for r in runs.values() for _, e, _ in r] + estimates)
     set_log(axes, "y", low, high, error_tick)
     if math.isfinite(figure.resolution):
         draw_unresolved(axes, figure.resolution, "the limit itself is not known better")
-    _estimates(axes, study, place)
+    _estimates(axes, study, figure, place)
     for k, found in runs.items():
         if found:
             draw_runs(axes, k, found, {m.index for _, e, m in found if e < figure.resolution})

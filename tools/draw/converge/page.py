@@ -15,12 +15,32 @@ READ = ("Marks are meshes, each twice as fine as the one before; strokes are wha
 
 
 def _cheaper(figure, study):
-    """'order 2 by 12 x', or '' where one of the orders does not reach the target."""
+    """'quadratic elements by 12 ×', or which elements alone reach the target."""
     costs = {o: c for o, c in figure.cost_of_target.items() if math.isfinite(c) and c > 0}
-    if len(costs) < 2:
-        return ""
+    if not costs:
+        return f"none reaches {100 * study.target:g} %"
     best, worst = min(costs, key=costs.get), max(costs, key=costs.get)
-    return f"{words(best)} elements by {costs[worst] / costs[best]:.2g} ×"
+    others = [words(o) for o in study.orders if o not in costs]
+    if others:
+        return f"{words(best)} elements; {others[0]} ones do not reach {100 * study.target:g} %"
+    if len(costs) < 2:
+        return formatting.UNKNOWN
+    bound = "at least " if best in figure.at_most else "at most " if worst in figure.at_most else ""
+    if {best, worst} <= figure.at_most:
+        bound = "about "
+    return f"{words(best)} elements by {bound}{costs[worst] / costs[best]:.2g} ×"
+
+
+def _seconds(seconds):
+    """Three digits: small meshes take less than a millisecond."""
+    return formatting.general(seconds, 3) if math.isfinite(seconds) else formatting.UNKNOWN
+
+
+def _cost(figure, order):
+    cost = figure.cost_of_target.get(order, math.nan)
+    if not math.isfinite(cost):
+        return "not reached"
+    return f"{'≤ ' if order in figure.at_most else ''}{_seconds(cost)}"
 
 
 def _answer_row(study, figure):
@@ -28,8 +48,7 @@ def _answer_row(study, figure):
     limit = f"{formatting.general(figure.limit, 6)} ± {figure.uncertainty:.1g}" if known else formatting.UNKNOWN
     cells = [tag("th", figure.heading, scope="row"), tag("td", limit, class_="word")]
     for order in study.orders:
-        cost = figure.cost_of_target.get(order, math.nan)
-        cells.append(number(formatting.plain_seconds(cost) if math.isfinite(cost) else "not reached"))
+        cells.append(number(_cost(figure, order)))
     return tag("tr", *cells, tag("td", _cheaper(figure, study), class_="word"))
 
 
@@ -49,22 +68,23 @@ def _answer(study):
 
 def _row(study, mesh):
     cells = [tag("th", words(mesh.order), scope="row"), number(mesh.level), number(formatting.count(mesh.elements)),
-             number(formatting.count(mesh.unknowns)), number(formatting.exponent(mesh.mesh_error))]
+             number(formatting.count(mesh.unknowns))]
     for figure in study.figures:
         order = mesh.orders.get(figure.name, math.nan)
         cells += [number(formatting.general(mesh.values.get(figure.name, math.nan), 7)),
                   number(formatting.exponent(mesh.errors.get(figure.name, math.nan))),
-                  number(f"{order:.2f}" if math.isfinite(order) else formatting.UNKNOWN)]
-    cells += [number(formatting.plain_seconds(mesh.cpu_seconds)),
-              tag("td", "" if mesh.status == "completed" else mesh.reason or mesh.status, class_="word")]
+                  number(f"{order:.2f}" if math.isfinite(order) else formatting.UNKNOWN),
+                  number(formatting.exponent(mesh.mesh_errors.get(figure.name, math.nan))),
+                  number(_seconds(mesh.cpu_seconds.get(figure.name, math.nan)))]
+    cells += [tag("td", "" if mesh.status == "completed" else mesh.reason or mesh.status, class_="word")]
     return tag("tr", *cells, class_="failed" if mesh.status != "completed" else None)
 
 
 def _meshes(study):
-    heads = [("Elements", False), ("level", True), ("number", True), ("unknowns", True), ("mesh error", True)]
+    heads = [("Elements", False), ("level", True), ("number", True), ("unknowns", True)]
     for figure in study.figures:
-        heads += [(figure.heading, True), ("error", True), ("observed order", True)]
-    heads += [("CPU [s]", True), ("", False)]
+        heads += [(text, True) for text in (figure.heading, "error", "observed order", "mesh error", "CPU [s]")]
+    heads.append(("", False))
     return _table("All meshes; the same in convergence.csv", heads, [_row(study, m) for m in study.meshes],
                   "All meshes", "long")
 
@@ -90,7 +110,8 @@ def _details(study, folder):
 
 def _tip(study, mesh):
     rows = [[f.heading, formatting.general(mesh.values.get(f.name, math.nan), 6)] for f in study.figures]
-    rows.append(["mesh error, estimated", formatting.exponent(mesh.mesh_error)])
+    known = [e for e in mesh.mesh_errors.values() if math.isfinite(e)]
+    rows += [["mesh error, estimated", formatting.exponent(e)] for e in known[:1]]
     return {"title": f"{words(mesh.order)} elements, level {mesh.level}", "rows": rows, "e": {}}
 
 

@@ -16,20 +16,20 @@ def _number(x):
 
 @dataclass(frozen=True)
 class Mesh:
-    """A row: one mesh. Values, errors and observed orders by figure."""
+    """A row: one mesh. Values, errors, observed orders, estimates of the error and CPU seconds by figure."""
     index: int
     order: int
     level: int
     unknowns: float
     elements: float
-    mesh_error: float
-    cpu_seconds: float
     status: str
     reason: str
     message: str
     values: dict
     errors: dict
     orders: dict
+    mesh_errors: dict
+    cpu_seconds: dict
 
 
 @dataclass(frozen=True)
@@ -40,6 +40,7 @@ class Figure:
     uncertainty: float
     from_order: int
     cost_of_target: dict  # CPU seconds by order of the elements
+    at_most: frozenset    # of these the orders whose coarsest mesh is good enough already
 
     @property
     def heading(self):
@@ -85,15 +86,16 @@ def read_convergence(result):
 
 
 def _mesh(index, row):
-    of = {key: {name: _number(f[key]) for name, f in row["figures"].items()} for key in ("value", "error", "order")}
-    return Mesh(index, row["order"], row["level"], _number(row["unknowns"]), _number(row["elements"]),
-                _number(row["mesh_error"]), _number((row["cost"] or {}).get("cpu_seconds")), row["status"],
-                row["reason"], row["message"], of["value"], of["error"], of["order"])
+    of = {key: {name: _number(f[key]) for name, f in row["figures"].items()} 
+          for key in ("value", "error", "order", "mesh_error", "cpu_seconds")}
+    return Mesh(index, row["order"], row["level"], _number(row["unknowns"]), _number(row["elements"]), row["status"],
+                row["reason"], row["message"], *of.values())
 
 
 def _figure(f):
     return Figure(f["name"], f["unit"], _number(f["limit"]), _number(f.get("uncertainty")), f.get("from_order", 0),
-                  {c["order"]: _number(c["cpu_seconds"]) for c in f["cost_of_target"]})
+                  {c["order"]: _number(c["cpu_seconds"]) for c in f["cost_of_target"]},
+                  frozenset(c["order"] for c in f["cost_of_target"] if c["at_most"]))
 
 
 def _study(found):

@@ -1,0 +1,84 @@
+#include "lib/study/converge/convergence_text.h"
+
+#include <fmt/format.h>
+
+#include "lib/study/jobs/json_values.h"
+
+namespace orthodyn::study::converge {
+
+namespace {
+
+std::string number(const Json& value, const char* format) {
+  return value.is_number() ? fmt::format(fmt::runtime(format), value.get<double>()) : "-";
+}
+
+std::string heading(const Json& figure) {
+  const std::string unit = figure.at("unit");
+  return figure.at("name").get<std::string>() + (unit.empty() ? "" : " [" + unit + "]");
+}
+
+std::string answer(const Json& table, const Json& figure) {
+  std::string out;
+  for (const auto& cost : figure.at("cost_of_target"))
+    out += fmt::format("{}order {}: {}", out.empty() ? "" : ", ", cost.at("order").get<int>(),
+                       cost.at("cpu_seconds").is_number()
+                           ? fmt::format("{}{:.2g} s", cost.at("at_most").get<bool>() ? "at most " : "",
+                                         cost.at("cpu_seconds").get<double>())
+                           : std::string("not reached"));
+  return fmt::format("CPU time for an error of {:.0f} %: {}", 100 * table.at("target").get<double>(), out);
+}
+
+}  // namespace
+
+std::string convergence_csv(const Json& table) {
+  std::string out = "order,level,elements,unknowns,status,reason";
+  for (const auto& figure : table.at("figures")) {
+    const std::string name = figure.at("name");
+    for (const std::string& head : {heading(figure), name + ".error", name + ".observed_order", name + ".mesh_error",
+                                    name + ".cpu_seconds [s]"})
+      out += "," + csv_cell(head);
+  }
+  out += "\n";
+  for (const auto& row : table.at("rows")) {
+    out += csv_cell(row.at("order"));
+    for (const char* key : {"level", "elements", "unknowns", "status", "reason"}) out += "," + csv_cell(row.at(key));
+    for (const auto& figure : table.at("figures")) {
+      const Json& f = row.at("figures").at(figure.at("name").get<std::string>());
+      for (const char* key : {"value", "error", "order", "mesh_error", "cpu_seconds"}) out += "," + csv_cell(f.at(key));
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+std::string convergence_text(const Json& table) {
+  std::string out;
+  for (const auto& figure : table.at("figures")) {
+    const std::string name = figure.at("name");
+    out += fmt::format("\n{}", heading(figure));
+    if (figure.at("limit").is_number())
+      out +=
+          fmt::format(": limit {:.6g}, known to {:.1g} (by elements of order {}{})", figure.at("limit").get<double>(),
+                      figure.at("uncertainty").get<double>(), figure.at("from_order").get<int>(),
+                      figure.at("observed").get<bool>()
+                          ? ""
+                          : "; no order of convergence was observed: errors are rough, take more levels");
+    out += fmt::format("\n  {:>5} {:>5} {:>9} {:>13} {:>9} {:>6} {:>10} {:>9}\n", "order", "level", "unknowns", "value",
+                       "error", "order", "mesh error", "CPU [s]");
+    for (const auto& row : table.at("rows")) {
+      const Json& f = row.at("figures").at(name);
+      out +=
+          fmt::format("  {:>5} {:>5} {:>9} {:>13} {:>9} {:>6} {:>10} {:>9}{}\n", row.at("order").get<int>(),
+                      row.at("level").get<int>(), number(row.at("unknowns"), "{:.0f}"), number(f.at("value"), "{:.7g}"),
+                      number(f.at("error"), "{:.1e}"), number(f.at("order"), "{:.2f}"),
+                      number(f.at("mesh_error"), "{:.1e}"), number(f.at("cpu_seconds"), "{:.3g}"),
+                      row.at("status") == "completed"
+                          ? ""
+                          : "  " + row.at("status").get<std::string>() + ": " + row.at("reason").get<std::string>());
+    }
+    out += "  " + answer(table, figure) + "\n";
+  }
+  return out;
+}
+
+}  // namespace orthodyn::study::converge
