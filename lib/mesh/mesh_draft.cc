@@ -12,6 +12,7 @@
 #include "lib/core/words.h"
 #include "lib/mesh/node_numbers.h"
 #include "lib/mesh/split_cells.h"
+#include "lib/mesh/split_middles.h"
 
 namespace orthodyn {
 namespace {
@@ -46,12 +47,9 @@ void number_into(std::array<int, N>& numbers, const MeshDraft& draft, const Node
 
 void check_order(const MeshDraft& draft) {
   for (const FileCell& cell : draft.cells) {
-    if (cell.midsides.has_value() == draft.cells.front().midsides.has_value()) continue;
-    std::string remedy;
-    if (cell.kind != CellKind::tet || draft.cells.front().kind != CellKind::tet)
-      remedy = " (what is split into tetrahedra becomes linear): mesh in first order and take `order: 2`";
-    draft.fail(cell.place, fmt::format("element {} is {}, earlier ones are not; all must be of one order{}", cell.tag,
-                                       cell.midsides ? "quadratic" : "linear", remedy));
+    if (cell.is_quadratic() == draft.cells.front().is_quadratic()) continue;
+    draft.fail(cell.place, fmt::format("element {} is {}, earlier ones are not; all must be of one order", cell.tag,
+                                       cell.is_quadratic() ? "quadratic" : "linear"));
   }
 }
 
@@ -110,10 +108,44 @@ void add_cells(const MeshDraft& draft, const NodeNumbers& number, TetMesh& mesh)
                  fmt::format("element {}: a {} that repeats nodes in a way that no tetrahedra can be cut from "
                              "it; nodes may be repeated along edges: remesh",
                              cell.tag, name_of(cell.kind)));
-    if (cell.midsides) number_into(mesh.midsides.emplace_back(), draft, number, cell, *cell.midsides);
     mesh.region_of.resize(mesh.tets.size(), cell.region);
     mesh.cell_of.resize(mesh.tets.size(), static_cast<int>(c));
   }
+}
+
+std::vector<EdgeMiddle> edges_of(const MeshDraft& draft, const NodeNumbers& number, const FileCell& cell) {
+  std::vector<FileEdge> edges = cell.edges;
+  if (cell.midsides)
+    for (std::size_t e = 0; e < kTetEdges.size(); ++e)
+      edges.push_back({cell.nodes[kTetEdges[e][0]], cell.nodes[kTetEdges[e][1]], (*cell.midsides)[e]});
+  std::vector<EdgeMiddle> out;
+  for (const auto& [a, b, middle] : edges) {
+    std::array<int, 3> nodes{};
+    number_into(nodes, draft, number, cell, std::array{a, b, middle});
+    out.push_back({nodes[0], nodes[1], nodes[2]});
+  }
+  return out;
+}
+
+// Tets of the file first: on a face of theirs no node is new.
+void add_midsides(const MeshDraft& draft, const NodeNumbers& number, TetMesh& mesh) {
+  const bool all_tets = std::all_of(draft.cells.begin(), draft.cells.end(),
+                                    [](const FileCell& cell) { return cell.kind == CellKind::tet; });
+  if (all_tets) {
+    for (const FileCell& cell : draft.cells)
+      if (cell.midsides) number_into(mesh.midsides.emplace_back(), draft, number, cell, *cell.midsides);
+    return;
+  }
+  if (!draft.cells.front().is_quadratic()) return;
+  SplitMiddles middles(mesh);
+  for (const FileCell& cell : draft.cells) middles.add_edges(edges_of(draft, number, cell));
+  std::array<int, 8> nodes{};
+  for (const FileCell& cell : draft.cells) {
+    number_into(nodes, draft, number, cell, cell.corners());
+    middles.add_diagonals(cell.kind, {nodes.data(), corners_of(cell.kind)});
+  }
+  for (const Tet& tet : mesh.tets) mesh.midsides.push_back(middles.of(tet));
+  middles.complete_node_sets();
 }
 
 TetMesh number_nodes(const MeshDraft& draft, FaceOrigins& face_origins) {
@@ -142,6 +174,7 @@ TetMesh number_nodes(const MeshDraft& draft, FaceOrigins& face_origins) {
       }
     }
   }
+  add_midsides(draft, number, mesh);
   return mesh;
 }
 
@@ -160,12 +193,8 @@ bool turn_if_all_inverted(TetMesh& mesh, std::size_t cells) {
 // "beam.msh: 120 hexahedra and 30 wedges are split into 750 tetrahedra", or "" if all are tetrahedra.
 std::string note_of_split(const MeshDraft& draft, std::size_t tets) {
   std::map<CellKind, std::size_t> counts;
-  bool more_nodes = false;
-  for (const FileCell& cell : draft.cells) {
-    if (cell.kind == CellKind::tet) continue;
-    ++counts[cell.kind];
-    more_nodes = more_nodes || cell.more_nodes;
-  }
+  for (const FileCell& cell : draft.cells)
+    if (cell.kind != CellKind::tet) ++counts[cell.kind];
   if (counts.empty()) return "";
   std::vector<std::string> kinds;
   std::size_t others = draft.cells.size();  // that are tets in the file
@@ -175,10 +204,10 @@ std::string note_of_split(const MeshDraft& draft, std::size_t tets) {
   }
   const std::string last = kinds.back();
   kinds.pop_back();
-  return fmt::format("{}: {}{}{}{} split into {} tetrahedra{}", draft.files.front(), join(kinds),
+  return fmt::format("{}: {}{}{}{} split into {} {}tetrahedra", draft.files.front(), join(kinds),
                      kinds.empty() ? "" : " and ", last,
                      draft.cells.size() - others == 1 ? " is" : " are", tets - others,
-                     more_nodes ? "; only their corners are used (`order: 2` gives straight edges a node each)" : "");
+                     draft.cells.front().is_quadratic() ? "quadratic " : "");
 }
 
 // "element 7", or "element 7, tetrahedron 2 of 6" of one that was split.
@@ -197,7 +226,9 @@ MeshOrigin origin_of(const MeshDraft& draft, const TetMesh& mesh, const FaceOrig
       .source = draft.files.front(),
       .tet_name = [&](int t) { return tet_name_of(draft, mesh, t); },
       .node_name =
-          [&draft](int n) {
+          [&draft](int n) -> std::string {
+            if (static_cast<std::size_t>(n) >= draft.nodes.size())
+              return draft.files.front() + ": a node within an element that is split";
             const FileNode& node = draft.nodes[static_cast<std::size_t>(n)];
             return fmt::format("{}: node {}", draft.where(node.place), node.tag);
           },

@@ -27,18 +27,24 @@ struct FileNode {
   Vec3 x = Vec3::Zero();
 };
 
+// The node in the middle of the edge between two corners.
+struct FileEdge {
+  std::int64_t a = 0, b = 0, middle = 0;
+};
+
 // A solid element, with its corners in the order of cell_kind.h.
 struct FileCell {
   std::int64_t tag = 0;
   CellKind kind = CellKind::tet;
   std::array<std::int64_t, 8> nodes{};                       // the first corners_of(kind)
   std::optional<std::array<std::int64_t, 6>> midsides = {};  // of a quadratic tet, in the order of kTetEdges
-  bool more_nodes = false;                                   // of another one: the file has more than its corners
+  std::vector<FileEdge> edges = {};                          // of another one of second order: with their middle nodes
   FilePlace place = {};
   int region = 0;  // index into MeshDraft::region_names
 
   std::span<std::int64_t> corners() { return {nodes.data(), corners_of(kind)}; }
   std::span<const std::int64_t> corners() const { return {nodes.data(), corners_of(kind)}; }
+  bool is_quadratic() const { return midsides.has_value() || !edges.empty(); }
 };
 
 // A triangle or a quadrilateral.
@@ -77,10 +83,11 @@ struct MeshDraft {
 };
 
 // Nodes are numbered by ascending tag; elements keep their order. Hexahedra, wedges and pyramids are split into
-// tetrahedra (split_cells.h), which is said; a tet on a quadrilateral must fit its diagonal. Linear and quadratic
-// elements do not mix. A mesh whose elements are all inverted was written by a program that counts the nodes of a tet
-// the other way round: they are turned, with a warning. Throws ConfigError for tags that are not defined or defined
-// twice, for a mesh without elements, and for what validate() refuses.
+// tetrahedra (split_cells.h), which is said; a tet on a quadrilateral must fit its diagonal. Those of second
+// order become quadratic tetrahedra of the same curved shape (split_middles.h). Linear and quadratic elements do not
+// mix. A mesh whose elements are all inverted was written by a program that counts the nodes of a tet the other way
+// round: they are turned, with a warning. Throws ConfigError for tags that are not defined or defined twice, for a mesh
+// without elements, and for what validate() refuses.
 LoadedMesh build_mesh(MeshDraft draft);
 
 }  // namespace orthodyn

@@ -86,6 +86,21 @@ const std::vector<Places>& faces_of(CellKind kind) {
   return tet;
 }
 
+const std::vector<std::array<std::size_t, 2>>& edges_of(CellKind kind) {
+  using Edges = std::vector<std::array<std::size_t, 2>>;
+  static const Edges none, pyramid{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}};
+  static const Edges wedge{{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}};
+  static const Edges hexahedron{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                                {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+  switch (kind) {
+    case CellKind::tet: return none;
+    case CellKind::pyramid: return pyramid;
+    case CellKind::wedge: return wedge;
+    case CellKind::hexahedron: return hexahedron;
+  }
+  return none;
+}
+
 void append_triangles(std::span<const int> face, std::vector<Triangle>& triangles) {
   for (const Places& t : cut(face)) {
     const Triangle triangle{face[t[0]], face[t[1]], face[t[2]]};

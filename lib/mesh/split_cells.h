@@ -5,6 +5,7 @@
 // tetrahedra", 8th International Meshing Roundtable, 1999.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,10 @@ using Places = std::vector<std::size_t>;  // of corners in an element
 // The faces of an element, clockwise from outside, as Abaqus lists S1, S2, ...: Abaqus elements guide,
 // "three-dimensional solid element library".
 const std::vector<Places>& faces_of(CellKind kind);
+
+// The corners of the edges, as Abaqus and VTK list the nodes in their middles; empty of a tet, whose edges are
+// kTetEdges.
+const std::vector<std::array<std::size_t, 2>>& edges_of(CellKind kind);
 
 // Appends the triangles of a face of three or four nodes. Nodes may be repeated: what has no area is left out.
 void append_triangles(std::span<const int> face, std::vector<Triangle>& triangles);

@@ -332,15 +332,6 @@ TEST(Hexahedra, OnesThatStandForWedgesAreSplitAsThese) {
   EXPECT_EQ(loaded.mesh.surfaces.at("top").size(), 4u);
 }
 
-TEST(Hexahedra, AreReadByTheirCornersIfTheyHaveMoreNodes) {
-  std::string text = replaced(kAbaqus, "C3D8R", "C3D20R");
-  text = replaced(text, "6, 7, 8\n", "6, 7, 8, 1, 2, 3, 4, 5, 6, 7, 8,\n1, 2, 3, 4\n");
-  const LoadedMesh loaded = read_abaqus_text("cells", text);
-  EXPECT_EQ(loaded.mesh.order(), 1);
-  EXPECT_EQ(loaded.mesh.tets, read_abaqus_text("cells", kAbaqus).mesh.tets);
-  EXPECT_CONTAINS(loaded.warnings.back(), "split into 12 tetrahedra; only their corners are used (`order: 2` gives");
-}
-
 TEST(Hexahedra, InvertedOnesAreRefusedWithTheirLine) {
   EXPECT_CONTAINS(
       refusal_of([] { read_gmsh_text("a.msh", replaced(kGmsh22, "1 2 3 4 5 6 7 8\n", "5 6 7 8 1 2 3 4\n")); }),

@@ -1,7 +1,9 @@
 // Files as Gmsh, TetGen and meshio write them: see data/README.md.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "lib/mesh/io/mesh_file.h"
@@ -70,12 +72,17 @@ TEST_P(Bricks, AreTwoCubesSplitIntoTets) {
   const std::string name = GetParam();
   const LoadedMesh loaded = load(name);
   const TetMesh& mesh = loaded.mesh;
-  EXPECT_EQ(mesh.nodes.size(), 45u);
+  const bool is_quadratic = name.find("_o2") != std::string::npos;
+  EXPECT_EQ(mesh.order(), is_quadratic ? 2 : 1);
+  std::set<int> corners;
+  for (const Tet& tet : mesh.tets) corners.insert(tet.begin(), tet.end());
+  EXPECT_EQ(corners.size(), 45u);
   EXPECT_EQ(mesh.tets.size(), 8u * 6 + 16u * 3);
   EXPECT_NEAR(volume(mesh), 2, 1e-12);
   EXPECT_EQ(boundary_triangles(mesh).size(), 10u * 8);
   EXPECT_CONTAINS(loaded.warnings.at(name.ends_with(".vtk") ? 1 : 0),
-                  "8 hexahedra and 16 wedges are split into 96 tetrahedra");
+                  fmt::format("8 hexahedra and 16 wedges are split into 96 {}tetrahedra",
+                              is_quadratic ? "quadratic " : ""));
   if (name.ends_with(".vtk")) return;  // Gmsh writes no groups into it
   EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"left", "right"}));
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) {

@@ -290,13 +290,47 @@ TEST(SplitCells, RepeatedAndMissingNodesAreRefusedWithTheLine) {
   EXPECT_CONTAINS(refusal_of([&] { build_mesh(draft); }), "mixed.msh:12: element 70: node 99 is not defined in $Nodes");
 }
 
-TEST(SplitCells, HexahedraBesideQuadraticTetsAreRefusedWithARemedy) {
+TEST(SplitCells, LinearOnesBesideQuadraticTetsAreRefused) {
   MeshDraft draft = three_kinds();
   draft.cells[1].midsides = {0, 1, 2, 3, 4, 5};
-  EXPECT_CONTAINS(
-      refusal_of([&] { build_mesh(draft); }),
-      "mixed.msh:13: element 71 is quadratic, earlier ones are not; all must be of one order (what is split "
-      "into tetrahedra becomes linear): mesh in first order and take `order: 2`");
+  EXPECT_CONTAINS(refusal_of([&] { build_mesh(draft); }),
+                  "mixed.msh:13: element 71 is quadratic, earlier ones are not; all must be of one order");
+}
+
+// A map of degree 2 is met by elements of second order, and by the tets that they are split into.
+TEST(SplitCells, NodesWithinFacesAndHexahedraAreWhereTheElementHasThem) {
+  const auto place = [](const Vec3& x) -> Vec3 {
+    return {x[0] + 0.1 * x[1] * x[1] + 0.05 * x[0] * x[2], x[1] - 0.1 * x[0] * x[2], x[2] + 0.08 * x[0] * x[1]};
+  };
+  MeshDraft draft;
+  draft.files = {"one.msh"};
+  draft.region_names = {"body"};
+  std::vector<Vec3> rest;
+  const auto add = [&](const Vec3& x) {
+    rest.push_back(x);
+    draft.nodes.push_back({static_cast<std::int64_t>(rest.size() - 1), {}, place(x)});
+    return static_cast<std::int64_t>(rest.size() - 1);
+  };
+  FileCell cell{.tag = 1, .kind = CellKind::hexahedron};
+  const std::array<int, 4> around_x{0, 1, 1, 0}, around_y{0, 0, 1, 1};
+  for (std::size_t k = 0; k < 8; ++k) cell.nodes[k] = add(Vec3(around_x[k % 4], around_y[k % 4], k < 4 ? 0 : 1));
+  for (const auto& [a, b] : edges_of(CellKind::hexahedron))
+    cell.edges.push_back({cell.nodes[a], cell.nodes[b], add((rest[a] + rest[b]) / 2)});
+  draft.cells.push_back(cell);
+  for (std::size_t n = 0; n < rest.size(); ++n)  // one whole face, and three edges of another
+    if (rest[n][2] == 0) draft.node_sets["bottom"].push_back({static_cast<std::int64_t>(n), {}});
+  for (const std::int64_t n : {0, 1, 5, 8}) draft.node_sets["some"].push_back({n, {}});
+  const TetMesh mesh = build_mesh(draft).mesh;
+  ASSERT_EQ(mesh.order(), 2);
+  ASSERT_EQ(mesh.nodes.size(), 20u + 6 + (mesh.tets.size() == 6 ? 1 : 0));
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    for (std::size_t e = 0; e < 6; ++e) {
+      const auto at = [&](std::size_t k) { return rest[static_cast<std::size_t>(mesh.tets[t][kTetEdges[e][k]])]; };
+      const Vec3 expected = place((at(0) + at(1)) / 2);
+      EXPECT_LT((mesh.nodes[static_cast<std::size_t>(mesh.midsides[t][e])] - expected).norm(), 1e-14);
+    }
+  EXPECT_EQ(mesh.node_sets.at("bottom").size(), 9u);
+  EXPECT_EQ(mesh.node_sets.at("some").size(), 4u);
 }
 
 // The face 4 5 6 7 is cut from 4 to 6.

@@ -199,7 +199,7 @@ class AbaqusReader {
       FileCell& cell = file_.draft.cells.emplace_back(FileCell{.tag = tag, .kind = *shape.solid, .place = place});
       read_nodes_of(tag, cell.corners());
       if (shape.nodes > shape.corners && cell.kind == CellKind::tet) read_nodes_of(tag, cell.midsides.emplace());
-      else if (shape.nodes > shape.corners) cell.more_nodes = true, skip_nodes_of(tag, shape);
+      else if (shape.nodes > shape.corners) read_edges_of(cell, shape);
     } else {
       FileFace& face = file_.faces.emplace_back(FileFace{.tag = tag, .sides = shape.corners, .place = place});
       read_nodes_of(tag, face.corners());
@@ -207,6 +207,15 @@ class AbaqusReader {
     }
     tokens_.finish_line();
     if (!set.empty()) add({tag, tag, 1, "", place}, set, file_.element_sets);
+  }
+
+  // Nodes beyond those of the edges lie within faces, or within the element.
+  void read_edges_of(FileCell& cell, const AbaqusShape& shape) {
+    std::vector<std::int64_t> middles(shape.nodes - shape.corners);
+    read_nodes_of(cell.tag, middles);
+    const auto& edges = edges_of(cell.kind);
+    for (std::size_t e = 0; e < edges.size(); ++e)
+      cell.edges.push_back({cell.nodes[edges[e][0]], cell.nodes[edges[e][1]], middles[e]});
   }
 
   void skip_nodes_of(std::int64_t element, const AbaqusShape& shape) {

@@ -186,6 +186,16 @@ GmshType check_element_type(const TextTokens& tokens, std::int64_t type) {
                   type));
 }
 
+// In the order of Gmsh's manual, "node ordering".
+const std::vector<std::array<std::size_t, 2>>& gmsh_edges_of(CellKind kind) {
+  using Edges = std::vector<std::array<std::size_t, 2>>;
+  static const Edges pyramid{{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 4}, {2, 3}, {2, 4}, {3, 4}};
+  static const Edges wedge{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}, {2, 5}, {3, 4}, {3, 5}, {4, 5}};
+  static const Edges hexahedron{{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3},
+                                {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}};
+  return kind == CellKind::pyramid ? pyramid : kind == CellKind::wedge ? wedge : hexahedron;
+}
+
 void read_element_nodes(TextTokens& tokens, const GmshType& type, std::int64_t tag, int groups, GmshFile& file) {
   using enum GmshType::Role;
   const FilePlace place{tokens.line()};
@@ -202,8 +212,11 @@ void read_element_nodes(TextTokens& tokens, const GmshType& type, std::int64_t t
       read(cell.midsides.emplace());
       std::swap((*cell.midsides)[4], (*cell.midsides)[5]);  // Gmsh has edge 23 before 13
     } else if (type.nodes > type.corners) {
-      cell.more_nodes = true;
-      for (std::size_t k = type.corners; k < type.nodes; ++k) tokens.integer("a node tag");
+      std::vector<std::int64_t> middles(type.nodes - type.corners);
+      read(middles);
+      const auto& edges = gmsh_edges_of(type.kind);
+      for (std::size_t e = 0; e < edges.size(); ++e)
+        cell.edges.push_back({cell.nodes[edges[e][0]], cell.nodes[edges[e][1]], middles[e]});
     }
   } else if (type.role == face && grouped) {
     FileFace face{.tag = tag, .sides = type.corners, .place = place};

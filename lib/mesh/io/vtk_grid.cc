@@ -145,8 +145,10 @@ void add_nodes_and_cells(const VtkGrid& grid, const std::vector<std::size_t>& so
     if (grid.types[c] == kVtkQuadraticTetra) {
       cell.midsides.emplace();
       for (std::size_t k = 0; k < 6; ++k) (*cell.midsides)[k] = point(4 + k);
-    } else {
-      cell.more_nodes = solid.points > solid.corners.size();
+    } else if (solid.points > solid.corners.size()) {
+      const auto& edges = edges_of(cell.kind);
+      for (std::size_t e = 0; e < edges.size(); ++e)
+        cell.edges.push_back({cell.nodes[edges[e][0]], cell.nodes[edges[e][1]], point(solid.corners.size() + e)});
     }
     if (cell.kind == CellKind::wedge) turn_wedge(cell, draft.nodes);
     draft.cells.push_back(cell);

@@ -1,0 +1,93 @@
+#include "lib/mesh/split_middles.h"
+
+#include <algorithm>
+
+#include "lib/mesh/split_cells.h"
+
+namespace orthodyn {
+
+namespace {
+
+std::uint64_t key_of_edge(int a, int b) {
+  const auto [low, high] = std::minmax(a, b);
+  return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint64_t>(high);
+}
+
+Vec3 sum_of(const TetMesh& mesh, const std::vector<int>& nodes) {
+  Vec3 sum = Vec3::Zero();
+  for (const int n : nodes) sum += mesh.nodes[static_cast<std::size_t>(n)];
+  return sum;
+}
+
+}  // namespace
+
+void SplitMiddles::add_edges(std::span<const EdgeMiddle> edges) {
+  for (const auto& [a, b, middle] : edges)
+    if (a != b) middles_.emplace(key_of_edge(a, b), middle);
+}
+
+void SplitMiddles::add_diagonal(int a, int b, const Diagonal& diagonal) {
+  if (!middles_.contains(key_of_edge(a, b))) diagonals_.emplace(key_of_edge(a, b), diagonal);
+}
+
+// Elements with repeated corners have triangles there, or an edge with a node of its own.
+void SplitMiddles::add_diagonals(CellKind kind, std::span<const int> corners) {
+  const auto middles_around = [&](const std::vector<int>& loop, std::vector<int>& all) {
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const auto found = middles_.find(key_of_edge(loop[k], loop[(k + 1) % loop.size()]));
+      if (found != middles_.end()) all.push_back(found->second);
+    }
+  };
+  Diagonal whole{{corners.begin(), corners.end()}, {}, false};
+  for (const Places& places : faces_of(kind)) {
+    std::vector<int> face;
+    for (const std::size_t k : places) face.push_back(corners[k]);
+    middles_around(face, whole.middles);
+    if (face.size() != 4) continue;
+    Diagonal of_face{face, {}, true};
+    middles_around(face, of_face.middles);
+    if (of_face.middles.size() != 4) continue;
+    add_diagonal(face[0], face[2], of_face);
+    add_diagonal(face[1], face[3], of_face);
+  }
+  std::sort(whole.middles.begin(), whole.middles.end());
+  whole.middles.erase(std::unique(whole.middles.begin(), whole.middles.end()), whole.middles.end());
+  if (kind != CellKind::hexahedron || whole.middles.size() != 12) return;
+  for (std::size_t k = 0; k < 4; ++k) add_diagonal(corners[k], corners[4 + (k + 2) % 4], whole);
+}
+
+// Shape functions of the 8 and 20 nodes at the centre: -1/4 at corners, 1/2 and 1/4 at the others.
+int SplitMiddles::middle(int a, int b) {
+  const auto [entry, is_new] = middles_.try_emplace(key_of_edge(a, b), static_cast<int>(mesh_.nodes.size()));
+  if (!is_new) return entry->second;
+  const auto found = diagonals_.find(key_of_edge(a, b));
+  if (found == diagonals_.end()) {
+    mesh_.nodes.push_back(0.5 * sum_of(mesh_, {a, b}));
+    return entry->second;
+  }
+  const Diagonal& diagonal = found->second;
+  mesh_.nodes.push_back(-0.25 * sum_of(mesh_, diagonal.corners) +
+                        (diagonal.is_face ? 0.5 : 0.25) * sum_of(mesh_, diagonal.middles));
+  if (diagonal.is_face) new_on_faces_.emplace_back(entry->second, diagonal);
+  return entry->second;
+}
+
+Midsides SplitMiddles::of(const Tet& tet) {
+  Midsides out{};
+  for (std::size_t e = 0; e < kTetEdges.size(); ++e) out[e] = middle(tet[kTetEdges[e][0]], tet[kTetEdges[e][1]]);
+  return out;
+}
+
+void SplitMiddles::complete_node_sets() {
+  for (auto& [name, set] : mesh_.node_sets) {
+    std::vector<char> is_in(mesh_.nodes.size(), 0);
+    for (const int node : set) is_in[static_cast<std::size_t>(node)] = 1;
+    const auto has = [&](int node) { return is_in[static_cast<std::size_t>(node)] != 0; };
+    for (const auto& [node, face] : new_on_faces_)
+      if (std::all_of(face.corners.begin(), face.corners.end(), has) &&
+          std::all_of(face.middles.begin(), face.middles.end(), has))
+        set.push_back(node);
+  }
+}
+
+}  // namespace orthodyn
