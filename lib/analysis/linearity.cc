@@ -75,7 +75,7 @@ LinearityError Linearity::error(double t, const Vector& q, const Terms& terms) {
       const Vector residual = there - at_q;
       solver_->solve(residual, step);
       x += step;
-      const double energy = step.dot(residual);
+      const double energy = std::abs(step.dot(residual));
       model_.multiply_mass(step, Mx);
       const double last = norm(step, Mx);
       model_.multiply_mass(x, Mx);

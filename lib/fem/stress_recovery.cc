@@ -17,7 +17,8 @@ namespace {
 constexpr double kSmallest = 1e-4;
 constexpr int kPointsPerCoefficient = 4;
 constexpr int kMostRings = 3;
-constexpr double kSmallStep = 1e-6;  // of the body's extent
+constexpr double kFlat = 1e-6;       // thickness of a flat patch, of its width
+constexpr double kSmallStep = 1e-6;  // of the body's smallest extent
 
 // Beside the constant.
 int coefficients(int degree) { return degree == 1 ? 3 : 9; }
@@ -72,17 +73,27 @@ class Neighbours {
 };
 
 // Places as the monomials take them, a row each.
-Eigen::MatrixXd monomials_at(const Eigen::Matrix3Xd& places, const Vec3& centre, double radius, int degree) {
+Eigen::MatrixXd monomials_at(const Eigen::Matrix3Xd& places, const Vec3& centre, const Mat3& to_patch, int degree) {
   Eigen::MatrixXd A(places.cols(), coefficients(degree));
   for (Eigen::Index i = 0; i < A.rows(); ++i)
-    A.row(i) = monomials((places.col(i) - centre) / radius, degree).transpose();
+    A.row(i) = monomials(to_patch * (places.col(i) - centre), degree).transpose();
   return A;
+}
+
+Mat3 principal_axes(const Eigen::Matrix3Xd& places) {
+  const Eigen::Matrix3Xd relative = places.colwise() - Vec3(places.rowwise().mean());
+  const auto pairs =
+      symmetric_eigenpairs<3>(Mat3(relative * relative.transpose() / static_cast<double>(places.cols())));
+  const double largest = pairs.values[2];
+  Vec3 spread;
+  for (int i = 0; i < 3; ++i) spread[i] = std::sqrt(std::max(pairs.values[i], kFlat * kFlat * largest));
+  return spread.cwiseInverse().asDiagonal() * pairs.vectors.transpose();
 }
 
 // Fits, and says whether the points are enough, and tell all polynomials apart.
 std::pair<PatchFit, bool> fit(const Eigen::Matrix3Xd& places, const Vec3& centre, int degree) {
-  const double radius = (places.colwise() - centre).colwise().norm().maxCoeff();
-  Eigen::MatrixXd A = monomials_at(places, centre, radius, degree);
+  const Mat3 to_patch = principal_axes(places);
+  Eigen::MatrixXd A = monomials_at(places, centre, to_patch, degree);
   const Vector means = A.colwise().mean();
   A.rowwise() -= means.transpose();
   const auto pairs = symmetric_eigenpairs<Eigen::Dynamic>(Eigen::MatrixXd(A.transpose() * A));
@@ -92,7 +103,7 @@ std::pair<PatchFit, bool> fit(const Eigen::Matrix3Xd& places, const Vec3& centre
     if (pairs.values[i] > smallest)
       inverse += pairs.vectors.col(i) / pairs.values[i] * pairs.vectors.col(i).transpose();
   const bool determined = pairs.values[0] > smallest && A.rows() >= kPointsPerCoefficient * (A.cols() + 1);
-  return {{centre, radius, means, std::move(inverse)}, determined};
+  return {{centre, to_patch, means, std::move(inverse)}, determined};
 }
 
 // Stress in the axes of space at rest, Pa, from the strain in material axes.
@@ -241,11 +252,11 @@ SixColumns RegionRecovery::at_nodes(const ElementMesh& mesh, const SixColumns& a
           at_points.middleRows(per_element_ * elements[i], per_element_);
     const Eigen::RowVectorXd mean = values.colwise().mean();
     values.rowwise() -= mean;
-    const Eigen::MatrixXd A = monomials_at(places_of(elements), fit.centre, fit.radius, degree);
+    const Eigen::MatrixXd A = monomials_at(places_of(elements), fit.centre, fit.to_patch, degree);
     const Eigen::MatrixXd slopes = fit.inverse * (A.transpose() * values - fit.means * values.colwise().sum());
     const auto value_at = [&](int node) -> Eigen::RowVectorXd {
       const Vec3& place = mesh.nodes[static_cast<std::size_t>(nodes_[static_cast<std::size_t>(node)])];
-      return mean + (monomials((place - fit.centre) / fit.radius, degree) - fit.means).transpose() * slopes;
+      return mean + (monomials(fit.to_patch * (place - fit.centre), degree) - fit.means).transpose() * slopes;
     };
     out.row(row) = value_at(row);
     for (const int middle : middles) out.row(middle) += 0.5 * value_at(middle);
@@ -302,8 +313,9 @@ StressMisfit StressRecovery::misfit(const NodalState& s) const {
 
 // By the difference over a displacement that is small beside the body.
 StressMisfit StressRecovery::misfit_along(const NodalVector& direction, const NodalState& s) const {
-  const double extent = (s.x.rowwise().maxCoeff() - s.x.rowwise().minCoeff()).maxCoeff();
-  const double step = kSmallStep * extent / direction.lpNorm<Eigen::Infinity>();
+  const double extent = (s.x.rowwise().maxCoeff() - s.x.rowwise().minCoeff()).minCoeff();
+  const double largest = direction.lpNorm<Eigen::Infinity>();
+  const double step = kSmallStep * extent / (largest > 0 ? largest : 1);
   const NodalVector more_x = s.x + step * direction, less_x = s.x - step * direction;
   const NodalVector more_u = s.u + step * direction, less_u = s.u - step * direction;
   std::vector<SixColumns> derivatives;

@@ -20,10 +20,12 @@ namespace orthodyn {
 using SixColumns = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 
 // The polynomial that fits values at some points around a centre: x, y, z and for degree 2 their products, around the
-// means of monomials and values, so that constants are met where the points are too few for more.
+// means of monomials and values, so that constants are met where the points are too few for more. Coordinates are those
+// of the points' principal axes, each in their spread along it: patches of thin bodies are as well told apart as
+// others.
 struct PatchFit {
   Vec3 centre;              // m
-  double radius;            // m, of the points
+  Mat3 to_patch;            // from places relative to the centre, 1/m
   Vector means;             // of the monomials
   Eigen::MatrixXd inverse;  // of their normal equations; a pseudo-inverse where the points do not tell them apart
 };

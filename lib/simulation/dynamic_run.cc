@@ -96,7 +96,8 @@ class DynamicAnalysis {
     result.outcome = integrate(begin, observers, result.resumable);
     if (setup_.linearity) setup_.linearity->finish();
     result.model = summarize(setup_);
-    if (setup_.linearity) result.outgrown = setup_.linearity->why_to_start_again();
+    if (setup_.linearity && result.outcome.status != Outcome::Status::interrupted)
+      result.outgrown = setup_.linearity->why_to_start_again();
     if (result.outgrown) return result;
     result.motion = motion_result(result.outcome, begin.effort, observers);
     record.finish(result);

@@ -167,7 +167,7 @@ std::optional<Outgrown> LinearityWatch::why_to_start_again() {
 void LinearityWatch::finish() {
   try {
     if (largest_.norm > checked_) note(largest_.t, largest_.q);
-    error_ = std::max(error_, local_ + stiffness_ * turns() / 2);
+    error_ = std::max(error_, local_ + phase_of(stiffness_));
   } catch (const RunError&) {
     error_ = std::numeric_limits<double>::quiet_NaN();
   }
@@ -194,25 +194,26 @@ double LinearityWatch::next_look() const {
   return std::clamp(growth, kLeastGrowth, kLargestGrowth) * checked_;
 }
 
-// A stiffness that is off by a share of e shifts a frequency by e/2.
 void LinearityWatch::look_at(const State& state) {
   time_ = state.t;
   velocity_ = std::max(velocity_, norm(state.v));
   if (const double q = norm(state.q); q > largest_.norm) largest_ = {state.t, q, state.q};
   if (largest_.norm > next_look()) note(state.t, state.q);
-  error_ = std::max(error_, local_ + stiffness_ * turns() / 2);
+  error_ = std::max(error_, local_ + phase_of(stiffness_));
   if (outgrown()) refuse_outgrown();
 }
 
-double LinearityWatch::turns() const {
-  return largest_.norm > 0 ? velocity_ / largest_.norm * (time_ - start_) : 0;
+// A stiffness that is off by a share of e shifts a frequency by e/2.
+double LinearityWatch::phase_of(double stiffness) const {
+  const double turns = largest_.norm > 0 ? velocity_ / largest_.norm * (time_ - start_) : 0;  // rad
+  return turns > 0 ? stiffness * turns / 2 : 0;
 }
 
 std::vector<std::string> LinearityWatch::to_give_up(double t, const Vector& q) {
   std::vector<std::pair<double, std::string>> errors;
   for (const auto& [name, terms] : regions_) {
     const LinearityError found = linearity().error(t, q, terms);
-    errors.emplace_back(found.displacement + found.stiffness * turns() / 2, name);
+    errors.emplace_back(found.displacement + phase_of(found.stiffness), name);
   }
   std::sort(errors.begin(), errors.end());
   std::vector<std::string> names{errors.back().second};
@@ -316,6 +317,7 @@ ChosenKinematics choose_kinematics(Config& config, Scene& scene, bool linear_so_
   for (auto open = open_regions(scene); !open.empty(); open = open_regions(scene)) {
     const Scene linear = with_linear_regions(scene);
     BuiltScene built = build(linear);
+    if (linear_regions(linear, open, *built.model).empty()) break;  // entries that describe no element
     Trial trial = try_linear(linear, open, built, allowed, !linear_so_far, only_linear);
     if (trial.watch) {
       config.set("elasticity.linear_error", allowed);

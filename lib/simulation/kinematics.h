@@ -80,7 +80,7 @@ class LinearityWatch : public Observer {
   void note(double t, const Vector& q);  // the error there
   double next_look() const;            // the displacement from which on the error has to be computed anew
   double norm(const Vector& x) const;  // in the mass norm
-  double turns() const;                // rad, of a vibration since the start
+  double phase_of(double stiffness) const;  // rad, that a vibration has gained or lost by such an error
   Linearity& linearity();
 
   const FemModel& model_;

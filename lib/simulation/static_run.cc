@@ -120,7 +120,7 @@ RunResult run_static_analysis(RunContext context) {
   if (own) all.push_back(own.get());
   RunResult result{.scene = context.scene, .folder = folder};
   result.outcome = run_static(*problem.path, *problem.stepper, all, context.interrupt);
-  if (setup.linearity) {
+  if (setup.linearity && result.outcome.status != Outcome::Status::interrupted) {
     setup.linearity->finish_at(problem.path->time(), result.outcome.last.q);
     result.outgrown = setup.linearity->why_to_start_again();
     if (result.outgrown) return result;

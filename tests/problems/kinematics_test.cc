@@ -255,6 +255,38 @@ TEST_F(Kinematics, AreChosenRegionByRegion) {
   EXPECT_EQ(read_text(folder_ / "mixed/probes.csv"), read_text(folder_ / "again/probes.csv"));
 }
 
+// Without a phase, whatever the order in which they are written.
+TEST_F(Kinematics, OfAStaticAnalysisAreChosenRegionByRegion) {
+  const std::string scene = std::string(kFootAndArm) + "gravity: [0, 0, -98.1]\nanalysis: static\n"
+                                                       "elasticity: {kinematics: auto, linear_error: 1e-3}\n";
+  const std::string before = "{body: {material: stiff}, arm: {material: soft}}";
+  const std::string after = "{arm: {material: soft}, body: {material: stiff}}";
+  const auto at = scene.find(before);
+  ASSERT_NE(at, std::string::npos);
+  for (const std::string& regions : {before, after}) {
+    std::string text = scene;
+    write("scene.yaml", text.replace(at, before.size(), regions));
+    const auto result = orthodyn("run scene.yaml --force --out out");
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_NE(result.output.find("linear in body: off by about"), std::string::npos) << result.output;
+    EXPECT_NE(result.output.find("; corotational in arm: "), std::string::npos) << result.output;
+  }
+}
+
+TEST_F(Kinematics, OfRegionsWithADotInTheirNameAreKeptWhereARunGoesOn) {
+  std::string text = std::string(kFootAndArm) + "gravity: [0, 0, -9.81]\ntime: {end: 0.1}\ncheckpoint: {}\n"
+                                                "integrator: {type: cvode_bdf}\n"
+                                                "elasticity: {kinematics: auto, linear_error: 1e-3}\n";
+  for (auto at = text.find("arm: {"); at != std::string::npos; at = text.find("arm: {", at + 8))
+    text.replace(at, 4, "arm.1:");
+  write("scene.yaml", text);
+  const auto first = orthodyn("run scene.yaml --out out --set time.end=0.05");
+  ASSERT_EQ(first.exit_code, 0) << first.output;
+  EXPECT_NE(first.output.find("; corotational in arm.1: "), std::string::npos) << first.output;
+  const auto later = orthodyn("run scene.yaml --out out --resume");
+  EXPECT_EQ(later.exit_code, 0) << later.output;
+}
+
 // Nothing tells beforehand how far the arm will go.
 TEST_F(Kinematics, OutgrownInOneRegionStayLinearInTheOther) {
   write("scene.yaml", std::string(kFootAndArm) +

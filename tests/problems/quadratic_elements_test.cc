@@ -20,8 +20,10 @@ const std::string kWood =
     "{type: orthotropic, density: 1, young: [10, 1, 0.5], nu12: 0.4, nu23: 0.4, nu31: 0.02, g12: 0.7, g23: 0.1, "
     "g13: 0.6}";
 
+const std::string kIsotropic = "{type: isotropic, density: 1, young: 1, nu: 0.3}";
+
 // A free box with oblique axes in small strain; inner nodes are shifted where it is `distorted`.
-BuiltTestScene box(int cells, int order, bool distorted = false) {
+BuiltTestScene box(int cells, int order, bool distorted = false, const std::string& material = kWood) {
   TetMesh mesh = make_box({.cells = {cells, cells, cells}, .split = BoxMesh::Split::six});
   Random random(501);
   if (distorted)
@@ -36,7 +38,7 @@ regions: {{body: {{material: m, axes: {}}}}}
 elasticity: {{kinematics: linear}}
 mass: consistent
 time: {{end: 1}}
-)", kWood, kTurnedAxes));
+)", material, kTurnedAxes));
 }
 
 bool is_inner(const Vec3& x) { return (x.array() > 1e-9).all() && (x.array() < 1 - 1e-9).all(); }
@@ -44,7 +46,7 @@ bool is_inner(const Vec3& x) { return (x.array() > 1e-9).all() && (x.array() < 1
 // The stress of a displacement gradient, Pa: the law of the scene itself, by the force of one free tetrahedron.
 class Law {
  public:
-  Law() : one_(one_tet()) {}
+  explicit Law(const std::string& material = kWood) : one_(one_tet(material)) {}
   Mat3 stress(const Mat3& gradient) const {
     NodalVector u(3, 4);
     for (Eigen::Index a = 0; a < 4; ++a) u.col(a) = gradient * Vec3(one_.model().parts().rest->col(a));
@@ -55,7 +57,7 @@ class Law {
   }
 
  private:
-  static BuiltTestScene one_tet() {
+  static BuiltTestScene one_tet(const std::string& material) {
     TetMesh mesh;
     mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     mesh.tets = {{0, 1, 2, 3}};
@@ -68,7 +70,7 @@ materials: {{m: {}}}
 regions: {{body: {{material: m, axes: {}}}}}
 elasticity: {{kinematics: linear}}
 time: {{end: 1}}
-)", kWood, kTurnedAxes));
+)", material, kTurnedAxes));
   }
   BuiltTestScene one_;
 };
@@ -141,19 +143,19 @@ struct SpaceError {
 
 // The error of a manufactured solution u = sin(2 x_1 + x_2) w + cos(x_2 - 2 x_3) z with its body force and boundary
 // values.
-SpaceError manufactured(int cells, int order) {
+SpaceError manufactured(int cells, int order, const std::string& material) {
   const Vec3 w(1, -0.5, 0.3), z(0.2, 0.7, -1), k(2, 1, 0), l(0, 1, -2);
   const auto u = [&](const Vec3& x) { return Vec3(std::sin(k.dot(x)) * w + std::cos(l.dot(x)) * z); };
   const auto gradient = [&](const Vec3& x) {
     return Mat3(std::cos(k.dot(x)) * w * k.transpose() - std::sin(l.dot(x)) * z * l.transpose());
   };
-  const Law law;
+  const Law law(material);
   const Vec3 along_k = law.stress(w * k.transpose()) * k, along_l = law.stress(z * l.transpose()) * l;
   const auto body_force = [&](const Vec3& x) {
     return Vec3(std::sin(k.dot(x)) * along_k + std::cos(l.dot(x)) * along_l);
   };
 
-  const BuiltTestScene s = box(cells, order);
+  const BuiltTestScene s = box(cells, order, false, material);
   const ElementMesh elements(s.mesh());
   const auto each_point = [&](const auto& visit) {
     for (std::size_t c = 0; c < elements.cells.size(); ++c) {
@@ -206,21 +208,35 @@ SpaceError manufactured(int cells, int order) {
   return error;
 }
 
-class Space : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Order, Space, testing::Values(1, 2));
+struct SpaceCase {
+  int order;
+  std::string material;
+};
 
+class Space : public testing::TestWithParam<SpaceCase> {};
+INSTANTIATE_TEST_SUITE_P(Order, Space,
+                         testing::Values(SpaceCase{1, kWood}, SpaceCase{2, kWood}, SpaceCase{1, kIsotropic},
+                                         SpaceCase{2, kIsotropic}),
+                         [](const auto& one) {
+                           return fmt::format("{}_{}", one.param.order,
+                                              one.param.material == kWood ? "wood" : "isotropic");
+                         });
+
+// The stress by its energy norm.
 TEST_P(Space, ErrorsFallWithTheOrderOfTheElement) {
-  const int order = GetParam(), cells = order == 1 ? 6 : 3;
-  const SpaceError coarse = manufactured(cells, order), fine = manufactured(2 * cells, order);
+  const auto& [order, material] = GetParam();
+  const int cells = order == 1 ? 6 : 3;
+  const SpaceError coarse = manufactured(cells, order, material), fine = manufactured(2 * cells, order, material);
   EXPECT_NEAR(std::log2(coarse.displacement / fine.displacement), order + 1, 0.2);
   EXPECT_NEAR(std::log2(coarse.gradient / fine.gradient), order, 0.1);
+  EXPECT_NEAR(std::log2(coarse.energy / fine.energy) / 2, order, 0.1);
 }
 
-// In the energy norm, on a smooth solution of an oblique orthotropic body.
+// In the energy norm, on a smooth solution.
 TEST_P(Space, ErrorsAreEstimatedByRecoveredStresses) {
-  const int order = GetParam();
+  const auto& [order, material] = GetParam();
   for (const int cells : {2, 4, 7}) {
-    const SpaceError error = manufactured(cells * (order == 1 ? 2 : 1), order);
+    const SpaceError error = manufactured(cells * (order == 1 ? 2 : 1), order, material);
     const double effectivity = std::sqrt(error.estimated / error.energy);
     EXPECT_GT(effectivity, 0.7) << cells;
     EXPECT_LT(effectivity, 1.5) << cells;

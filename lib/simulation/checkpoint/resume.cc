@@ -84,8 +84,9 @@ void keep_kinematics(const Config& before, Config& scene) {
   for (const auto& name : regions_of(scene)) {
     const std::string now = kinematics_of(scene.at("regions"), name);
     if (now != open && !(now.empty() && is_open)) continue;
-    if (before.has("regions") && kinematics_of(before.at("regions"), name) == corotational)
-      scene.set("regions." + name + ".kinematics", corotational);
+    if (!before.has("regions") || kinematics_of(before.at("regions"), name) != corotational) continue;
+    Config region = scene.at("regions").at(name);
+    region.set("kinematics", corotational);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 
 #include "lib/config/registry.h"
 #include "lib/core/words.h"
@@ -68,11 +69,10 @@ void check_reference_set(const ReferenceOptions& reference, const Config& config
   for (const auto& [path, value] : reference.set)
     if (!is_of_mesh(path))
       config.at("set").at(path).fail(
-          "is no key of the mesh, or one of the body's shape; a reference of another motion measures nothing. Only "
-          "keys "
-          "below 'mesh' that leave the body as it is can be set here, such as mesh.cells, mesh.order, mesh.refine; "
-          "what "
-          "is to be compared belongs into 'scenes' or 'vary'");
+          "is no key of the mesh, or one of the body's shape; a reference of another motion measures nothing. Here can "
+          "be "
+          "set mesh.cells, order, refine, split, grading and file, which leave the body as it is; what is to be "
+          "compared belongs into 'scenes' or 'vary'");
   if (!reference.set.empty() && reference.kind == ReferenceKind::none)
     config.at("set").fail("has no reference to hold for: remove 'kind: none', or 'set'");
 }
@@ -80,9 +80,11 @@ void check_reference_set(const ReferenceOptions& reference, const Config& config
 }  // namespace
 
 bool is_of_mesh(const std::string& path) {
-  static const std::set<std::string> of_the_body{"mesh.size",         "mesh.origin", "mesh.axis", "mesh.radius",
-                                                 "mesh.inner_radius", "mesh.length", "mesh.scale"};
-  return path == "mesh" || (path.starts_with("mesh.") && !of_the_body.contains(path));
+  static const std::set<std::string> of_its_elements{"cells", "order", "refine", "split", "grading", "file"};
+  constexpr std::string_view kMesh = "mesh.";
+  if (!path.starts_with(kMesh)) return false;
+  const std::string key = path.substr(kMesh.size());
+  return of_its_elements.contains(key.substr(0, key.find('.')));
 }
 
 const Spec<ReferenceOptions>& ReferenceOptions::spec() {

@@ -187,7 +187,6 @@ class Measurement {
                                   double seconds) {
     Deadline deadline(seconds);
     observers.push_back(&deadline);
-    if (setup_.linearity) observers.push_back(setup_.linearity.get());
     Outcome outcome = run(*setup_.built.model, integrator, setup_.built.initial, plan, observers, deadline.over);
     result_.time_reached = outcome.last.t;
     if (outcome.status == Outcome::Status::completed) return outcome;

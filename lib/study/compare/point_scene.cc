@@ -3,6 +3,7 @@
 #include <set>
 
 #include "lib/scene/scene.h"
+#include "lib/simulation/kinematics.h"
 #include "lib/study/compare/comparison_design.h"
 
 namespace orthodyn::study::compare {
@@ -27,7 +28,10 @@ Config scene_of(const SceneVariant& variant, const std::string& integrator,
   config.set("output.fields", std::vector<std::string>());
   for (const char* key : {"output.energy", "output.steps", "output.momentum"}) config.set(key, false);
   config.set("expect", nullptr);
-  read_scene(config);
+  if (leaves_kinematics_open(read_scene(config)))
+    config.at("elasticity").fail(
+        "kinematics: auto would choose another model for each tolerance, and a comparison is of one: set linear or "
+        "corotational, in the scene or by its `set`");
   return config;
 }
 

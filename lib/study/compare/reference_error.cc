@@ -1,7 +1,9 @@
 #include "lib/study/compare/reference_error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace orthodyn::study::compare {
 
@@ -13,9 +15,21 @@ std::optional<TrajectoryErrors> time_errors_of(const Reference* reference) {
   return reference->check ? reference->check->errors : std::nullopt;
 }
 
+namespace {
+
+// Of the dominant frequency, over the whole time; 0 where there is none.
+double periods_of(const MeasurementResult& result) {
+  if (!result.model || !result.scales || !std::isfinite(result.scales->dominant_frequency)) return 0;
+  return result.scales->dominant_frequency * (result.model->end - result.model->start);
+}
+
+}  // namespace
+
 Reach::Reach(const Reference* reference, bool across_meshes) {
-  if (across_meshes)
-    mesh_error_ = reference ? reference->result.mesh_error.value_or(std::numeric_limits<double>::quiet_NaN()) : 0;
+  if (!across_meshes || !reference) return;
+  const MeasurementResult& result = reference->result;
+  mesh_error_ = result.mesh_error.value_or(std::numeric_limits<double>::quiet_NaN()) *
+                std::max(1.0, std::numbers::pi * periods_of(result));
 }
 
 bool Reach::contains(double error, double time_error) const {

@@ -13,7 +13,9 @@ bool is_exact(const Reference& reference);
 std::optional<TrajectoryErrors> time_errors_of(const Reference* reference);
 
 // Below it an error says little of the point: ten times the reference's own in time, and where it has a mesh of its own
-// (`across_meshes`) twice the estimate of that mesh's. NaN where either is not known.
+// (`across_meshes`) twice the estimate of that mesh's: half
+// of which the frequencies of its vibrations are off, so that over n periods the phase is by pi n times it. NaN where
+// either is not known.
 class Reach {
  public:
   Reach(const Reference* reference, bool across_meshes);

@@ -126,7 +126,6 @@ class Evaluation {
       }
       follow_motion(setup);
       if (!setup.kinematics) return std::optional<Outgrown>();
-      if (setup.linearity) setup.linearity->finish();
       const auto outgrown = setup.linearity ? setup.linearity->why_to_start_again() : std::nullopt;
       if (!outgrown) result_.kinematics = told_kinematics(setup);
       return outgrown;
@@ -182,7 +181,8 @@ class Evaluation {
     const bool completed = conclude(outcome, setup.integrator->statistics());
     result_.cost->wall_seconds += setup.wall_seconds - mesh_error.wall_seconds;
     result_.cost->cpu_seconds += setup.cpu_seconds - mesh_error.cpu_seconds;
-    if (!completed) return;
+    if (setup.kinematics && setup.linearity) setup.linearity->finish();
+    if (!completed || is_outgrown(setup)) return;
     for (std::size_t q = 0; q < wanted.figures.size(); ++q) {
       const auto& [name, f] = *wanted.figures[q];
       keep(name,
