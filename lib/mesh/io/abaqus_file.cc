@@ -10,6 +10,7 @@
 
 #include "lib/mesh/io/abaqus_types.h"
 #include "lib/mesh/io/text_tokens.h"
+#include "lib/mesh/split_cells.h"
 
 namespace orthodyn {
 namespace {
