@@ -14,14 +14,14 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kOfRtol = 10;        // what errors of steps add up to, roughly
-constexpr double kUsual = 1e-3;       // allowed where there is no rtol
-constexpr double kShareOfAllowed = 0.5;               // up to which the error may grow before it is looked at again
-constexpr double kLeastGrowth = 1.05, kLargestGrowth = 2;  // of the displacement between two looks
-constexpr double kTiny = 1e-300;
-constexpr int kLargestToldOf = 200000;  // unknowns: beyond, a factorisation at the end is not to everybody's liking
-constexpr double kOvershoot = 2;      // of a load applied at once, over its static response
-constexpr double kClearly = 3;        // times what is allowed: then linear kinematics are not tried
+constexpr double kOfRtol = 10;           // allowed: what errors of steps add up to, roughly
+constexpr double kUsual = 1e-3;          // allowed where there is no rtol
+constexpr double kShareOfAllowed = 0.5;  // up to which the error may grow before it is computed again
+constexpr double kLeastGrowth = 1.05, kLargestGrowth = 2;  // of the displacement in between
+constexpr double kTiny = 1e-300;         // in place of zero
+constexpr int kLargestToldOf = 200000;   // unknowns: a factorisation of more is not done unasked
+constexpr double kOvershoot = 2;         // of a load applied at once, over its static response
+constexpr double kClearly = 3;           // times what is allowed: then linear kinematics are not tried
 
 double allowed_error(const Scene& scene) {
   if (scene.elasticity.linear_error) return *scene.elasticity.linear_error;
