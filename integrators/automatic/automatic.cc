@@ -27,6 +27,7 @@ class Automatic : public Integrator {
   void start(const State& state) override { integrator_->start(state); }
   StepInfo step(double t_stop) override { return integrator_->step(t_stop); }
   void interpolate(double t, State& out) const override { integrator_->interpolate(t, out); }
+  bool adaptive() const override { return integrator_->adaptive(); }
   bool has_accurate_interpolation() const override { return integrator_->has_accurate_interpolation(); }
   double smooth_time() const override { return integrator_->smooth_time(); }
   std::vector<std::string> doubts() const override { return integrator_->doubts(); }

@@ -54,6 +54,8 @@ class CentralDifferences : public ExplicitStep {
     return (10 * n + 3 * model_.pattern().row.size()) * sizeof(double);
   }
 
+  bool adaptive() const override { return false; }
+
   Decisions decisions() const override {
     return {{"step", fmt::format("{}{:.6g} s ({}{})", options_.step.value ? "" : "auto, at first ", first_step_,
                                  critical_text(first_critical_), element_text())}};

@@ -49,6 +49,7 @@ class ExponentialRosenbrock : public ExplicitStep {
 
   Decisions decisions() const override { return scale_decisions(scales_); }
 
+  bool adaptive() const override { return !options_.step; }
   bool has_accurate_interpolation() const override { return false; }
   std::optional<State> mean_state() const override { return mean_of_step(); }
 

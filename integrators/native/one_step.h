@@ -22,6 +22,7 @@ class OneStep : public Integrator {
   StepInfo step(double t_stop) override;
   void interpolate(double t, State& out) const override;
   std::optional<State> mean_state() const override;
+  bool adaptive() const override { return !options_.step; }
   const Statistics& statistics() const override { return statistics_; }
   std::size_t bytes() const override;
   Decisions decisions() const override;

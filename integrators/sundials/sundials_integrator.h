@@ -46,7 +46,6 @@ class SundialsIntegrator : public Integrator {
   virtual Counters counters() const = 0;
   virtual Reason classify(int flag) const = 0;  // of a negative flag
   virtual std::size_t workspace_bytes() const = 0;
-  virtual bool adaptive() const { return true; }  // error control decides on the steps
   // What to say when the iteration of a step does not converge, and the remedy.
   virtual std::string iteration_failure() const;
   std::string cause() const;  // why the model refused the last state, if it did

@@ -24,9 +24,12 @@ Reach reach_of_supports(const FemModel& model, double start, double end) {
   const auto& parts = model.parts();
   Reach reach;
   if (!parts.moved) return reach;
-  for (int k = 0; k <= kSamples; ++k) {
+  std::vector<double> times = parts.moved->step_limits(start, end).ends();
+  for (int k = 0; k < kSamples; ++k) times.push_back(start + (end - start) * golden_share(k));
+  times.push_back(end);
+  for (const double t : times) {
     NodalVector u = NodalVector::Zero(3, parts.rest->cols()), v = u;
-    parts.moved->place(k < kSamples ? start + (end - start) * golden_share(k) : end, u, v);
+    parts.moved->place(t, u, v);
     reach.distance = std::max(reach.distance, u.colwise().norm().maxCoeff());
     reach.speed = std::max(reach.speed, v.colwise().norm().maxCoeff());
   }

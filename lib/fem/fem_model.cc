@@ -130,6 +130,13 @@ std::vector<double> FemModel::breakpoints(double start, double end) const {
   return times;
 }
 
+StepLimits FemModel::step_limits(double start, double end) const {
+  StepLimits limits;
+  for_each_term(parts_, [&](const Term& term) { limits.add(term.step_limits(start, end)); });
+  if (parts_.moved) limits.add(parts_.moved->step_limits(start, end));
+  return limits;
+}
+
 Geometry FemModel::geometry() const {
   ElementMesh mesh(parts_.mesh);
   return {mesh.nodes, std::move(mesh.cells), mesh.type.vtk_cell_type()};

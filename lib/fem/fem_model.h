@@ -65,6 +65,7 @@ class FemModel : public Model {
   std::unique_ptr<Model> only(const std::vector<std::string>& parts) const override;
   const DiscreteGradient* discrete_gradient() const override { return mean_force_.get(); }
   std::vector<double> breakpoints(double start, double end) const override;
+  StepLimits step_limits(double start, double end) const override;
 
   std::vector<OutputInfo> outputs() const override;
   std::unique_ptr<StateView> view(const State& state) const override;

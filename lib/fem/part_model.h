@@ -28,6 +28,7 @@ class PartModel : public Model {
   // Of terms that bound their own stiffness (Term::add_stiffness_bound); with elasticity among them none is at hand.
   double frequency_bound() const override;
   std::vector<double> breakpoints(double start, double end) const override;
+  StepLimits step_limits(double start, double end) const override { return whole_.step_limits(start, end); }
 
  private:
   void assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,

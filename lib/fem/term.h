@@ -7,6 +7,7 @@
 
 #include "lib/core/types.h"
 #include "lib/fem/dof_map.h"
+#include "lib/ode/step_limits.h"
 
 namespace orthodyn {
 
@@ -59,6 +60,7 @@ class Term {
   virtual double load_power(const NodalState&) const { return 0; }   // W
 
   virtual std::vector<double> breakpoints(double /*start*/, double /*end*/) const { return {}; }
+  virtual StepLimits step_limits(double /*start*/, double /*end*/) const { return {}; }
 };
 
 }  // namespace orthodyn

@@ -38,6 +38,10 @@ class Integrator {
   // The solution at a time within the last step.
   virtual void interpolate(double t, State& out) const = 0;
 
+  // True where error control decides on the lengths of steps. They then are to end in time to see what the model does
+  // in time alone (Model::step_limits()).
+  virtual bool adaptive() const { return true; }
+
   // False for a method whose steps may be long against the periods of the motion, between whose ends no polynomial has
   // its accuracy: its steps are to end at the output times.
   virtual bool has_accurate_interpolation() const { return true; }

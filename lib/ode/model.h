@@ -18,6 +18,7 @@
 #include "lib/core/pattern.h"
 #include "lib/core/types.h"
 #include "lib/ode/output.h"
+#include "lib/ode/step_limits.h"
 
 namespace orthodyn {
 
@@ -104,6 +105,9 @@ class Model : public OutputSource {
 
   // Times in (start, end), s, where f is not smooth: multistep methods restart there. Ascending.
   virtual std::vector<double> breakpoints(double start, double end) const;
+
+  // Of methods with error control, between two times, s: what f does in time alone may fall between two of their looks.
+  virtual StepLimits step_limits(double /*start*/, double /*end*/) const { return {}; }
 
  private:
   // A number that no other model has or had: a copy has its own.

@@ -53,6 +53,20 @@ std::string linearity_sentence(double error) {
       std::isfinite(error) ? fmt::format("about {:.2g}", error) : "a good part");
 }
 
+// What steps may have missed of loads and of the motion of supports.
+void add_doubts(const Outcome& outcome, std::vector<std::string>& all) {
+  if (outcome.stepped_over)
+    all.push_back(
+        fmt::format("the step after t = {:.4g} s is long against what a load or a support does in it, and fixed: much "
+                    "of that is missed. Lower integrator.step, or leave it to error control (integrator.rtol)",
+                    *outcome.stepped_over));
+  if (outcome.unresolved)
+    all.push_back(
+        fmt::format("a formula of a load or a support jumps, or changes within less than a {}th of the run, at t = "
+                    "{:.4g} s: steps may miss it. Name the times of jumps by `kinks`, or set integrator.h_max",
+                    StepLimits::kMostParts, *outcome.unresolved));
+}
+
 void add_doubts(const EquilibriumResult& equilibrium, std::vector<std::string>& all) {
   if (!(equilibrium.det_f.value > 0))
     all.push_back(fmt::format("element {} is inverted (det F = {:.3g}): this equilibrium has no meaning",
@@ -69,6 +83,7 @@ void add_doubts(const EquilibriumResult& equilibrium, std::vector<std::string>& 
 
 std::vector<std::string> doubts(const RunResult& result) {
   std::vector<std::string> all;
+  add_doubts(result.outcome, all);
   if (result.equilibrium) add_doubts(*result.equilibrium, all);
   const auto& mesh = result.motion ? result.motion->mesh_error
                                    : result.equilibrium ? result.equilibrium->mesh_error : std::nullopt;

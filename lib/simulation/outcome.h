@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct Outcome {
   std::string message;            // of a failure: what, where, what to try
   std::string remark;             // of a run that was completed before its end: which event it was
   Reason reason = Reason::other;  // of a failure, for tables
+  std::optional<double> stepped_over;  // s: the start of a step that is too long for what a load does in it
+  std::optional<double> unresolved;    // s: where a load or a motion changes too fast to be looked at beforehand
   State last;                     // the last state reached
   bool between_steps = true;      // false: an observer failed, and not all have seen the last state
   double wall_seconds = 0, cpu_seconds = 0;

@@ -21,7 +21,9 @@ class Driver {
         interrupt_(interrupt),
         outcome_(outcome),
         tiny_(1e-12 * std::max(std::abs(outcome.last.t), std::abs(plan.end))),
+        limits_(model.step_limits(outcome.last.t, plan.end)),
         outputs_(plan.output_times) {
+    outcome.unresolved = limits_.unresolved();
     const double round_off =
         1000 * std::numeric_limits<double>::epsilon() * std::max(std::abs(outcome.last.t), std::abs(plan.end));
     for (const double t : model.breakpoints(outcome.last.t, plan.end))
@@ -66,9 +68,12 @@ class Driver {
         return false;
       }
       const bool exact = plan_.exact_times || !integrator_.has_accurate_interpolation();
-      const double limit = exact && next_ < outputs_.size() ? std::min(stop, outputs_[next_]) : stop;
-      const double begin = outcome_.last.t;
+      const double begin = outcome_.last.t, seen_until = limits_.latest_end(begin);
+      double limit = exact && next_ < outputs_.size() ? std::min(stop, outputs_[next_]) : stop;
+      if (integrator_.adaptive()) limit = std::min(limit, seen_until);
       StepInfo info = integrator_.step(limit);
+      if (!outcome_.stepped_over && info.t > seen_until + kMuchLonger * (seen_until - begin))
+        outcome_.stepped_over = begin;
       outcome_.between_steps = false;
       const Event* stopper = deliver_events(begin, info);
       deliver_outputs(info.t);
@@ -127,7 +132,10 @@ class Driver {
   const std::vector<Observer*>& observers_;
   const std::atomic<bool>& interrupt_;
   Outcome& outcome_;
+  static constexpr double kMuchLonger = 3;
+
   double tiny_;                          // outputs that are closer to a stop than this are meant to be there
+  StepLimits limits_;
   std::vector<double> outputs_, stops_;
   std::optional<double> last_output_;
   std::size_t next_ = 0;

@@ -23,4 +23,15 @@ Moved FormulaMotion::at(double t, const NodalVector& X) const {
   return out;
 }
 
+StepLimits FormulaMotion::step_limits(double start, double end, const NodalVector& X) const {
+  StepLimits limits;
+  if (X.cols() == 0) return limits;
+  for (const TimePointFormula& u : u_) {
+    if (!u.uses("t")) continue;
+    for (const Vec3& point : {Vec3(X.leftCols<1>()), Vec3(X.rightCols<1>())})
+      limits.add(StepLimits::of([&](double t) { return u.at(t, point); }, start, end, kinks_));
+  }
+  return limits;
+}
+
 }  // namespace orthodyn

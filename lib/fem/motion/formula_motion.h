@@ -19,6 +19,8 @@ class FormulaMotion : public Motion {
   Moved at(double t, const NodalVector& X) const override;
   std::vector<double> kinks() const override { return kinks_; }
   bool has_continuous_velocity() const override { return kinks_.empty(); }
+  // From the motion of two of the points.
+  StepLimits step_limits(double start, double end, const NodalVector& X) const override;
 
  private:
   std::array<TimePointFormula, 3> u_;

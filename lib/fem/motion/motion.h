@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lib/fem/dof_map.h"
+#include "lib/ode/step_limits.h"
 
 namespace orthodyn {
 
@@ -20,6 +21,8 @@ class Motion {
   virtual Moved at(double t, const NodalVector& X) const = 0;
   virtual std::vector<double> kinks() const = 0;  // where it is not smooth
   virtual bool has_continuous_velocity() const = 0;
+  // What it does between the kinks, s.
+  virtual StepLimits step_limits(double /*start*/, double /*end*/, const NodalVector& /*X*/) const { return {}; }
 };
 
 }  // namespace orthodyn

@@ -49,6 +49,12 @@ std::vector<double> MovedNodes::breakpoints(double start, double end) const {
   return times;
 }
 
+StepLimits MovedNodes::step_limits(double start, double end) const {
+  StepLimits limits;
+  for (std::size_t k = 0; k < parts_.size(); ++k) limits.add(parts_[k].motion->step_limits(start, end, rest_[k]));
+  return limits;
+}
+
 std::size_t MovedNodes::bytes() const {
   std::size_t sum = 0;
   for (const Part& part : parts_) sum += part.nodes.size() * (sizeof(int) + sizeof(Vec3));

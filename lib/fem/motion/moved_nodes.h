@@ -26,6 +26,7 @@ class MovedNodes {
   NodalVector accelerations(double t) const;
   std::size_t num_coordinates() const;
   std::vector<double> breakpoints(double start, double end) const;
+  StepLimits step_limits(double start, double end) const;
   std::size_t bytes() const;
 
  private:

@@ -20,6 +20,9 @@ class RigidMotion : public Motion {
   Moved at(double t, const NodalVector& X) const override;
   std::vector<double> kinks() const override { return factor_->kinks(); }
   bool has_continuous_velocity() const override { return factor_->has_continuous_rate(); }
+  StepLimits step_limits(double start, double end, const NodalVector&) const override {
+    return factor_->step_limits(start, end);
+  }
 
  private:
   Vec3 translation_, point_, axis_;

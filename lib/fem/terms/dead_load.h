@@ -23,6 +23,7 @@ class DeadLoad : public Term {
   void add_peak_force(const NodalState& s, double end, NodalVector& f) const override;
   double load_power(const NodalState& s) const override;
   std::vector<double> breakpoints(double start, double end) const override;
+  StepLimits step_limits(double start, double end) const override { return factor_->step_limits(start, end); }
 
  private:
   std::string name_, amount_;

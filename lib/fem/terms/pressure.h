@@ -50,6 +50,7 @@ class Pressure : public Term {
   void add_tangent(const NodalState& s, TangentKind kind, double* stiffness, double* damping) const override;
   double load_power(const NodalState& s) const override;
   std::vector<double> breakpoints(double start, double end) const override;
+  StepLimits step_limits(double start, double end) const override { return factor_->step_limits(start, end); }
 
  private:
   void add_force_of(double factor, const NodalVector& x, NodalVector& f) const;

@@ -20,8 +20,8 @@ class Expression : public TimeFunction {
             .key("kinks", &Expression::kinks_, "Times where it is not smooth; integrators restart there.",
                  {.unit = "s"})
             .key("peak", &Expression::peak_,
-                 "The largest magnitude it reaches, for default scales of errors; default that found at 1000 times of "
-                 "the span.",
+                 "The largest magnitude it reaches, for default scales of errors; default that found at 100,000 times "
+                 "of the span.",
                  {.range = kNonNegative})
             .key("resolution", &Expression::resolution_,
                  "Step of the differences that give rate and curvature: a sixtieth of its shortest period, or less.",
@@ -32,9 +32,12 @@ class Expression : public TimeFunction {
   double rate(double t) const override { return differences(t).first; }
   double curvature(double t) const override { return differences(t).second; }
   std::vector<double> kinks() const override { return kinks_; }
+  StepLimits step_limits(double start, double end) const override {
+    return StepLimits::of([this](double t) { return formula_.at(t); }, start, end, kinks_);
+  }
   double peak(double start, double end) const override {
     if (peak_) return *peak_;
-    constexpr int kSamples = 1000;
+    constexpr int kSamples = 100'000;
     double largest = 0;
     for (int k = 0; k <= kSamples; ++k) {
       try {

@@ -19,6 +19,7 @@ class Sine : public TimeFunction {
   double value(double t) const override { return amplitude_ * std::sin(omega() * t + phase_); }
   double rate(double t) const override { return amplitude_ * omega() * std::cos(omega() * t + phase_); }
   double curvature(double t) const override { return -omega() * omega() * value(t); }
+  StepLimits step_limits(double, double) const override { return StepLimits(0.25 / frequency_); }
   double peak(double, double) const override { return std::abs(amplitude_); }
 
  private:

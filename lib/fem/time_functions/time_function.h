@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lib/config/registry.h"
+#include "lib/ode/step_limits.h"
 
 namespace orthodyn {
 
@@ -17,6 +18,8 @@ class TimeFunction {
   virtual bool constant() const { return false; }
   virtual std::vector<double> kinks() const { return {}; }                 // where it is not smooth
   virtual bool has_continuous_rate() const { return kinks().empty(); }
+  // What it does between the kinks.
+  virtual StepLimits step_limits(double /*start*/, double /*end*/) const { return {}; }
   // The largest magnitude it reaches between two times, or ever: for default scales of errors.
   virtual double peak(double start, double end) const = 0;
 };
