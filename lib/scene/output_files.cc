@@ -23,12 +23,25 @@ const Spec<Probe>& Probe::spec() {
   return s;
 }
 
+const Spec<History>& History::spec() {
+  static const auto s =
+      Spec<History>()
+          .key("interval", &History::interval, "Time between rows.", {.unit = "s", .range = kPositive})
+          .key("steps", &History::steps, "A row after each step.")
+          .check([](const History& history, const Config& config) {
+            if (history.interval.has_value() == history.steps) config.fail("give one of interval, steps: true");
+          });
+  return s;
+}
+
 const Spec<Output>& Output::spec() {
   static const auto s =
       Spec<Output>()
           .key("interval", &Output::interval, "Time between frames.", {.unit = "s", .range = kPositive})
           .key("frames", &Output::frames, "Frames after the initial one, evenly spaced; default 50.",
                {.range = {0, 1e6}})
+          .key("history", &Output::history,
+               "When probes.csv, energy.csv and momentum.csv get their rows; default with the frames.")
           .key("times", &Output::times,
                "interpolated: frames from the integrator's own polynomial; exact: steps end on them.")
           .key("fields", &Output::fields, "Node and cell fields of the frames (see `orthodyn list fields`).")

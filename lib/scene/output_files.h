@@ -22,9 +22,17 @@ struct Probe {
   static const Spec<Probe>& spec();
 };
 
+// When probes, reactions, energies and momenta are recorded, apart from the frames.
+struct History {
+  std::optional<double> interval;  // s
+  bool steps = false;              // after each step
+  static const Spec<History>& spec();
+};
+
 struct Output {
   std::optional<double> interval;  // s
   std::optional<int> frames;
+  std::optional<History> history;  // absent: with the frames
   OutputTimes times = OutputTimes::interpolated;
   std::vector<std::string> fields{"displacement", "velocity"};
   Named<Probe> probes;

@@ -10,6 +10,37 @@ namespace orthodyn {
 
 namespace {
 
+// Times at which something is due, ascending.
+class Agenda {
+ public:
+  explicit Agenda(std::vector<double> times) : times_(std::move(times)) {}
+
+  // Times that differ from one of these (ascending) by round-off are meant to be there.
+  void meet(const std::vector<double>& others, double tiny) {
+    for (double& t : times_) {
+      const auto near = std::lower_bound(others.begin(), others.end(), t - tiny);
+      if (near != others.end() && *near <= t + tiny) t = *near;
+    }
+  }
+  void skip_until(double last, double tiny) {
+    while (next_ < times_.size() && times_[next_] <= last + tiny) ++next_;
+  }
+  // A plan that differs by round-off from the earlier one must not ask for what lies behind.
+  void begin_at(double t) {
+    for (double& time : times_) time = std::max(time, t);
+  }
+
+  bool empty() const { return times_.empty(); }
+  const std::vector<double>& times() const { return times_; }
+  double next() const { return next_ < times_.size() ? times_[next_] : std::numeric_limits<double>::infinity(); }
+  // True, and done, if it is due at t.
+  bool take(double t) { return next() == t && ++next_; }
+
+ private:
+  std::vector<double> times_;
+  std::size_t next_ = 0;
+};
+
 class Driver {
  public:
   Driver(const Model& model, Integrator& integrator, const Plan& plan, const std::vector<Observer*>& observers,
@@ -22,7 +53,8 @@ class Driver {
         outcome_(outcome),
         tiny_(1e-12 * std::max(std::abs(outcome.last.t), std::abs(plan.end))),
         limits_(model.step_limits(outcome.last.t, plan.end)),
-        outputs_(plan.output_times) {
+        outputs_(plan.output_times),
+        history_(plan.history_times) {
     outcome.unresolved = limits_.unresolved();
     const double round_off =
         1000 * std::numeric_limits<double>::epsilon() * std::max(std::abs(outcome.last.t), std::abs(plan.end));
@@ -30,11 +62,14 @@ class Driver {
       if (t - (stops_.empty() ? outcome.last.t : stops_.back()) > round_off && plan.end - t > round_off)
         stops_.push_back(t);
     stops_.push_back(plan.end);
-    // An output that differs from a stop by round-off is meant to be there.
-    for (double& t : outputs_)
-      for (const double stop : stops_)
-        if (std::abs(t - stop) <= tiny_) t = stop;
-    if (plan.delivered) skip_delivered(*plan.delivered);
+    outputs_.meet(stops_, tiny_);
+    history_.meet(stops_, tiny_);
+    history_.meet(outputs_.times(), tiny_);
+    if (plan.delivered) {
+      outputs_.skip_until(*plan.delivered, tiny_);
+      history_.skip_until(outcome.last.t, tiny_);
+      outputs_.begin_at(outcome.last.t);
+    }
   }
 
   void advance() {
@@ -54,12 +89,6 @@ class Driver {
     if (plan_.events && !plan_.delivered) plan_.events->start(start);
   }
 
-  void skip_delivered(double last) {
-    while (next_ < outputs_.size() && outputs_[next_] <= last + tiny_) ++next_;
-    // A plan that differs by round-off from the earlier one must not ask for what lies behind.
-    for (double& t : outputs_) t = std::max(t, outcome_.last.t);
-  }
-
   // False if interrupted or stopped by an event.
   bool advance_to(double stop) {
     while (outcome_.last.t < stop) {
@@ -67,9 +96,10 @@ class Driver {
         outcome_.status = Outcome::Status::interrupted;
         return false;
       }
-      const bool exact = plan_.exact_times || !integrator_.has_accurate_interpolation();
       const double begin = outcome_.last.t, seen_until = limits_.latest_end(begin);
-      double limit = exact && next_ < outputs_.size() ? std::min(stop, outputs_[next_]) : stop;
+      double limit = stop;
+      if (plan_.exact_times || !integrator_.has_accurate_interpolation()) limit = std::min(limit, outputs_.next());
+      if (!integrator_.has_accurate_interpolation()) limit = std::min(limit, history_.next());
       if (integrator_.adaptive()) limit = std::min(limit, seen_until);
       StepInfo info = integrator_.step(limit);
       if (!outcome_.stepped_over && info.t > seen_until + kMuchLonger * (seen_until - begin))
@@ -80,6 +110,7 @@ class Driver {
       if (stopper) deliver_last_output(info.t);
       integrator_.interpolate(info.t, outcome_.last);
       const ObservedState end(model_, outcome_.last);
+      if (plan_.history_at_steps) tell_history(end);
       for (auto* o : observers_) o->on_step(info, end, integrator_);
       outcome_.between_steps = true;
       if (stopper) {
@@ -110,20 +141,37 @@ class Driver {
   }
 
   void deliver_outputs(double until) {
-    while (next_ < outputs_.size() && outputs_[next_] <= until) deliver_output(outputs_[next_++]);
+    for (;;) {
+      const double t = std::min(outputs_.next(), history_.next());
+      if (t > until) return;
+      const bool is_output = outputs_.take(t), is_history = history_.take(t);
+      deliver(t, is_output, is_history || (is_output && history_follows_outputs()));
+    }
   }
 
-  void deliver_output(double t) {
+  bool history_follows_outputs() const { return history_.empty() && !plan_.history_at_steps; }
+
+  void deliver(double t, bool is_output, bool is_history) {
     State state;
     integrator_.interpolate(t, state);
-    const ObservedState output(model_, state);
-    for (auto* o : observers_) o->on_output(output);
-    last_output_ = t;
+    const ObservedState observed(model_, state);
+    if (is_output) {
+      for (auto* o : observers_) o->on_output(observed);
+      last_output_ = t;
+    }
+    if (is_history) tell_history(observed);
+  }
+
+  void tell_history(const ObservedState& observed) {
+    for (auto* o : observers_) o->on_history(observed);
+    last_history_ = observed.t();
   }
 
   // Where outputs are wanted at all, there is one at the end.
   void deliver_last_output(double t) {
-    if (!outputs_.empty() && last_output_ != t) deliver_output(t);
+    const bool is_output = !outputs_.empty() && last_output_ != t;
+    const bool is_history = history_follows_outputs() ? is_output : !history_.empty() && last_history_ != t;
+    if (is_output || is_history) deliver(t, is_output, is_history);
   }
 
   const Model& model_;
@@ -136,9 +184,9 @@ class Driver {
 
   double tiny_;                          // outputs that are closer to a stop than this are meant to be there
   StepLimits limits_;
-  std::vector<double> outputs_, stops_;
-  std::optional<double> last_output_;
-  std::size_t next_ = 0;
+  std::vector<double> stops_;
+  Agenda outputs_, history_;
+  std::optional<double> last_output_, last_history_;
 };
 
 }  // namespace

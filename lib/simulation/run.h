@@ -17,6 +17,8 @@ struct Plan {
   // The run goes on from a checkpoint: outputs up to this time have been delivered.
   std::optional<double> delivered = std::nullopt;
   EventFinder* events = nullptr;  // what to look for in each step, if anything
+  std::vector<double> history_times = {};  // ascending, after the start; the output times where it is empty
+  bool history_at_steps = false;           // in place of history_times: after each step
 };
 
 // `frames` evenly spaced times; the last is the end, the start is left out.

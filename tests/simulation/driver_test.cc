@@ -19,9 +19,10 @@ namespace {
 struct Recorder : Observer {
   void on_start(const ObservedState& observed) override { outputs.push_back(observed.t()); }
   void on_output(const ObservedState& observed) override { outputs.push_back(observed.t()); }
+  void on_history(const ObservedState& observed) override { history.push_back(observed.t()); }
   void on_step(const StepInfo& info, const ObservedState&, const Integrator&) override { steps.push_back(info.t); }
   void on_end() noexcept override { ++ends; }
-  std::vector<double> outputs, steps;
+  std::vector<double> outputs, history, steps;
   int ends = 0;
 };
 
@@ -62,6 +63,19 @@ TEST(Driver, DeliversEveryOutputOnceAndInOrder) {
     for (const double t : plan.output_times)
       EXPECT_TRUE(!exact || std::find(seen.steps.begin(), seen.steps.end(), t) != seen.steps.end()) << t;
   }
+}
+
+TEST(Driver, DeliversTheHistoryApartFromTheOutputs) {
+  Case swing(kSwing);
+  Recorder with_outputs, apart, at_steps;
+  swing.run_with({.output_times = evenly_spaced(0, 0.5, 5)}, {&with_outputs});
+  EXPECT_EQ(with_outputs.history, std::vector(with_outputs.outputs.begin() + 1, with_outputs.outputs.end()));
+  swing.run_with({.output_times = evenly_spaced(0, 0.5, 5), .history_times = by_interval(0, 0.5, 0.03)}, {&apart});
+  EXPECT_EQ(apart.outputs.size(), 6u);
+  EXPECT_EQ(apart.history, by_interval(0, 0.5, 0.03));
+  swing.run_with({.output_times = evenly_spaced(0, 0.5, 5), .history_at_steps = true}, {&at_steps});
+  EXPECT_EQ(at_steps.history, at_steps.steps);
+  EXPECT_EQ(at_steps.outputs.size(), 6u);
 }
 
 TEST(Driver, NeverStepsAcrossAKinkOfTheLoads) {

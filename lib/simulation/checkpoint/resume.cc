@@ -148,10 +148,14 @@ bool is_complete(const Checkpoint& checkpoint, const Scene& scene) {
 
 Plan plan_of(const Scene& scene, const OutputSchedule& schedule) {
   const double start = scene.time.start, end = scene.time.end;
-  Plan plan{end, {}, scene.output.times == OutputTimes::exact};
+  Plan plan{.end = end, .exact_times = scene.output.times == OutputTimes::exact};
   if (scene.output.interval) plan.output_times = by_interval(start, end, *scene.output.interval);
   else if (end == schedule.end) plan.output_times = evenly_spaced(start, end, scene.output.frames.value_or(50));
   else if (schedule.interval > 0) plan.output_times = by_interval(start, end, schedule.interval);
+  if (const auto& history = scene.output.history) {
+    plan.history_at_steps = history->steps;
+    if (history->interval) plan.history_times = by_interval(start, end, *history->interval);
+  }
   return plan;
 }
 

@@ -19,7 +19,7 @@ void EnergyWriter::on_start(const ObservedState& observed) {
   write(observed.t());
 }
 
-void EnergyWriter::on_output(const ObservedState& observed) {
+void EnergyWriter::on_history(const ObservedState& observed) {
   EnergyMeter::on_output(observed);
   write(observed.t());
 }
@@ -49,7 +49,7 @@ void MomentumWriter::on_start(const ObservedState& observed) {
   write(observed.t());
 }
 
-void MomentumWriter::on_output(const ObservedState& observed) {
+void MomentumWriter::on_history(const ObservedState& observed) {
   MomentumMeter::on_output(observed);
   write(observed.t());
 }

@@ -1,4 +1,4 @@
-// Curves over time as CSV: energies, momenta, probes, steps. Headers name the units. Files are made
+// Curves over time as CSV: energies, momenta and probes by the history, steps. Headers name the units. Files are made
 // when a run starts.
 #pragma once
 
@@ -17,7 +17,8 @@ class EnergyWriter : public EnergyMeter {
   EnergyWriter(const std::filesystem::path& path, const Model& model, const Integrator& integrator, EnergyTimes times);
   void on_start(const ObservedState& observed) override;
   void on_resume(const ObservedState&) override { file_.go_on(); }
-  void on_output(const ObservedState& observed) override;
+  void on_output(const ObservedState&) override {}
+  void on_history(const ObservedState& observed) override;
   void save(Archive& archive) override;
   void restore(const Archive& archive) override;
 
@@ -32,7 +33,8 @@ class MomentumWriter : public MomentumMeter {
   explicit MomentumWriter(const std::filesystem::path& path);
   void on_start(const ObservedState& observed) override;
   void on_resume(const ObservedState&) override { file_.go_on(); }
-  void on_output(const ObservedState& observed) override;
+  void on_output(const ObservedState&) override {}
+  void on_history(const ObservedState& observed) override;
   void save(Archive& archive) override;
   void restore(const Archive& archive) override;
 
@@ -71,7 +73,7 @@ class ProbeWriter : public Observer {
               const std::string& axis = "t [s]");
   void on_start(const ObservedState& observed) override;
   void on_resume(const ObservedState&) override { file_.go_on(); }
-  void on_output(const ObservedState& observed) override { record(observed); }
+  void on_history(const ObservedState& observed) override { record(observed); }
   void save(Archive& archive) override { file_.save(archive); }
   void restore(const Archive& archive) override { file_.restore(archive); }
 

@@ -21,6 +21,9 @@ class Observer {
   // At each output time, within the last step.
   virtual void on_output(const ObservedState&) {}
 
+  // At each time of the history (output.history; the output times where none is given), within the last step.
+  virtual void on_history(const ObservedState&) {}
+
   // At each event, within the last step, in the order of time with the outputs.
   virtual void on_event(const Crossing&) {}
 

@@ -21,7 +21,7 @@ RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& fold
   if (!scene.output.fields.empty()) frames_.emplace(folder, model, scene.output.fields);
   if (const auto& output = scene.output; output.energy)  // without outputs there would be no drift
     energy.emplace(folder / "energy.csv", model, *setup.integrator,
-                   output.frames == 0 ? EnergyTimes::steps : output.energy_times);
+                   output.frames == 0 && !output.history ? EnergyTimes::steps : output.energy_times);
   if (scene.output.momentum) momentum.emplace(folder / "momentum.csv");
   if (scene.output.steps) steps_.emplace(folder / "steps.csv");
   if (const auto columns = probe_columns(scene, model); !columns.empty())
