@@ -11,7 +11,15 @@ namespace orthodyn {
 
 namespace {
 
+// Degrees and radians are both usual; neither is meant by all.
+double angle_without_unit(const Config& config) {
+  const double x = config.number();
+  if (x == 0) return x;
+  config.fail(fmt::format("an angle needs a unit: give '{0} deg' or '{0} rad'", config.text()), InputFault::form);
+}
+
 double quantity(const Config& config, std::string_view unit) {
+  if (unit == "rad" && config.reads_as_number()) return angle_without_unit(config);
   if (!config.is_scalar() || config.reads_as_number() || config.text().find_first_of("0123456789") == std::string::npos)
     return config.number();
   try {

@@ -38,6 +38,14 @@ TEST(Units, AnglesTurnDegreesIntoRadians) {
   EXPECT_DOUBLE_EQ(read("180 deg/s", {.unit = "rad/s"}), std::numbers::pi);
 }
 
+TEST(Units, AnAngleWithoutOneIsRefusedWithBothReadings) {
+  EXPECT_EQ(refusal_of("30", {.unit = "rad"}), "a.yaml:1:1: an angle needs a unit: give '30 deg' or '30 rad'");
+  EXPECT_EQ(refusal_of("-1e-3", {.unit = "rad"}), "a.yaml:1:1: an angle needs a unit: give '-1e-3 deg' or '-1e-3 rad'");
+  EXPECT_EQ(read("0", {.unit = "rad"}), 0);
+  EXPECT_EQ(read("-0.0", {.unit = "rad"}), 0);
+  EXPECT_EQ(read("30", {.unit = "rad/s"}), 30);
+}
+
 TEST(Units, AFrequencyIsNoAngularVelocity) {
   EXPECT_EQ(refusal_of("5 Hz", {.unit = "rad/s"}),
             "a.yaml:1:1: expected an angular velocity (rad/s), found '5 Hz', a rate (1/s)");
