@@ -56,6 +56,7 @@ void check_expectations(const Scene& scene, const FemModel& model) {
     const Quantity quantity = find_quantity(e.quantity, scene, model, e.origin);
     if (quantity.components == 3 && (e.at || e.take != Take::drift))
       e.origin.fail(fmt::format("'{}' is a vector: choose .x, .y, .z or .magnitude", e.quantity));
+    e.require_units(quantity.unit);
     if (scene.analysis == Analysis::statical && (e.at || e.take != Take::end || !quantity.values))
       e.origin.fail("of a static analysis only values in equilibrium are known: remove 'take' and 'at'" +
                     std::string(quantity.values ? "" : ", choose another quantity than energy.balance"));

@@ -135,8 +135,8 @@ TEST(MatrixAxes, TypedWithThreeDigitsBecomeARotation) {
 }
 
 std::string euler(const Vec3& angles, const std::string& convention) {
-  return fmt::format("{{type: euler, angles: [{} rad, {} rad, {} rad], convention: {}}}", angles[0], angles[1], angles[2],
-                     convention);
+  return fmt::format("{{type: euler, angles: [{} rad, {} rad, {} rad], convention: {}}}", angles[0], angles[1],
+                     angles[2], convention);
 }
 
 Mat3 turn(int axis, double angle) { return Eigen::AngleAxisd(angle, Vec3::Unit(axis)).toRotationMatrix(); }
@@ -160,7 +160,8 @@ TEST(EulerAxes, ZyxIsYawPitchRoll) {
 
 TEST(EulerAxes, NeedAConventionByName) {
   EXPECT_TRUE(holds(axes_refusal("{type: euler, angles: [1 rad, 2 rad, 3 rad]}"), "'convention' is missing"));
-  EXPECT_TRUE(holds(axes_refusal("{type: euler, angles: [1 rad, 2 rad, 3 rad], convention: zxx}"), "did you mean 'zxy'"));
+  EXPECT_TRUE(
+      holds(axes_refusal("{type: euler, angles: [1 rad, 2 rad, 3 rad], convention: zxx}"), "did you mean 'zxy'"));
 }
 
 TEST(AxisAngleAxes, TurnRightHandedAboutTheAxis) {

@@ -27,6 +27,10 @@ TEST(Units, AreConvertedToSi) {
   EXPECT_DOUBLE_EQ(read("2 kN", {.unit = "N"}), 2000);
   EXPECT_DOUBLE_EQ(read("3 N/mm^2", {.unit = "Pa"}), 3e6);
   EXPECT_DOUBLE_EQ(read("-5e-1 ms", {.unit = "s"}), -5e-4);
+  EXPECT_DOUBLE_EQ(read("+5 ms", {.unit = "s"}), 5e-3);
+  EXPECT_DOUBLE_EQ(read("3 1/s", {.unit = "1/s"}), 3);
+  for (const char* text : {"'+ 5 ms'", "+-5 ms", "++5 ms"})
+    EXPECT_TRUE(holds(refusal_of(text, {.unit = "s"}), "expected a time (s)")) << text;
 }
 
 TEST(Units, ANumberWithoutOneIsInSi) { EXPECT_EQ(read("11.9e9", {.unit = "Pa"}), 11.9e9); }

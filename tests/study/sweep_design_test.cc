@@ -220,7 +220,8 @@ TEST_F(SweepOfAngles, TakesTheValuesOfFormulasForRadians) {
     const auto all = expanded(text);
     return Config::from_text(all.back().scene.scene).at("regions").at("body").at("axes").at("angle").text();
   };
-  EXPECT_EQ(angle_of(with_grain("tilt: {values: [90], unit: deg}", "=tilt/2")), number_text(std::numbers::pi / 4) + " rad");
+  EXPECT_EQ(angle_of(with_grain("tilt: {values: [90], unit: deg}", "=tilt/2")),
+            number_text(std::numbers::pi / 4) + " rad");
   EXPECT_EQ(angle_of(with_grain("turns: [3]", "=2*pi*turns")), number_text(6 * std::numbers::pi) + " rad");
   EXPECT_THAT(complaint_about(with_grain("tilt: [90]", "=tilt/2")),
               AllOf(HasSubstr("'tilt/2' gives 45 rad"), HasSubstr("give its variables the unit deg")));

@@ -21,7 +21,7 @@ struct SchemaArguments {
 using Schema = nlohmann::ordered_json;
 
 // A number and the name of a unit, which may begin with 1 ("3 1/s"). Whether the unit fits is left to orthodyn.
-constexpr const char* kQuantity = R"(^ *[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)? *(1/)?[^\s\d]( ?[^\s\d]\d*)* *$)";
+constexpr const char* kQuantity = R"(^ *[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)? *(1/)?[^\s\d/*.^()+-]( ?[^\s\d]\d*)* *$)";
 
 Schema reference_to(const std::string& title) { return {{"$ref", "#/definitions/" + title}}; }
 

@@ -40,8 +40,8 @@ void print_head(const Widths& widths) {
 void print_result(const CaseResult& result, const Widths& widths) {
   for (const auto& check : result.checks)
     fmt::print("{:<{}}  {:<{}}  {:>12.6g}  {:>12.6g}  {:>10.2e}  {:>8.1e}  {}\n", case_name(result), widths.name,
-               check.expectation.title(), widths.quantity, check.expectation.value, check.computed, check.difference(),
-               check.expectation.limit(), check.passed() ? "pass" : "MISS");
+               check.expectation.title(), widths.quantity, check.expectation.value.si(), check.computed,
+               check.difference(), check.expectation.limit(), check.passed() ? "pass" : "MISS");
   if (!result.completed()) fmt::print("{:<{}}  {}\n", "", widths.name, result.outcome.message);
   for (const auto& check : result.checks)
     if (result.completed() && !check.passed())

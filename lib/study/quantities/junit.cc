@@ -31,7 +31,7 @@ std::string test_case(const CaseResult& result, const Check& check) {
   if (check.passed()) return out + "/>\n";
   return out + fmt::format(">\n    <failure message=\"computed {:.9g}, expected {:.9g}, difference {:.3g}, limit "
                            "{:.3g}\">{}</failure>\n  </testcase>\n",
-                           check.computed, e.value, check.difference(), e.limit(),
+                           check.computed, e.value.si(), check.difference(), e.limit(),
                            escaped("Expected: " + e.source + ". Tolerance: " + e.reason));
 }
 
