@@ -84,10 +84,11 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"one_unit_for_three", kYoung, "[10.8 GPa, 0.84, 0.46], nu: 0.3", kRefused, "unit missing: '0.84'"},
         Slip{"isotropic_modulus_in_gpa", kWood, "{type: isotropic, density: 450, young: 11, nu: 0.3}", kRefused,
              "the stiffness is at most"},
-        Slip{"a_shear_modulus_without_its_unit", kWood,
-             "{type: orthotropic, density: 450, young: [10.8 GPa, 0.84 GPa, 0.46 GPa], nu12: 0.3, nu23: 0.3, nu13: 0.3, "
-             "g12: 0.69, g23: 0.03 GPa, g13: 0.6 GPa}",
-             kWarned, "does one of them lack its unit"},
+        Slip{
+            "a_shear_modulus_without_its_unit", kWood,
+            "{type: orthotropic, density: 450, young: [10.8 GPa, 0.84 GPa, 0.46 GPa], nu12: 0.3, nu23: 0.3, nu13: 0.3, "
+            "g12: 0.69, g23: 0.03 GPa, g13: 0.6 GPa}",
+            kWarned, "does one of them lack its unit"},
         Slip{"density_in_g_per_cm3", "450", "0.45", kWarned, "Is it in g/cm^3?"},
         Slip{"density_in_t_per_m3_as_0_4", "450", "0.4", kWarned, "faster than in any solid"},
         Slip{"density_in_t_per_mm3", "450", "4.5e-10", kWarned, "Is it in t/mm^3"},
@@ -95,8 +96,9 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"density_in_kg_per_cm3", "450", "450 g/cm^3", kWarned, "beyond that of any metal"},
         Slip{"poisson_in_per_cent", "nu: 0.3", "nu: 30", kRefused, "found 30"},
         Slip{"poisson_of_a_half", "nu: 0.3", "nu: 0.5", kRefused, "0.5"},
-        Slip{"angle_in_degrees", "{material: wood}", "{material: wood, axes: {type: axis_angle, axis: [0, 0, 1], angle: 30}}",
-             kRefused, "'30 deg' or '30 rad'"},
+        Slip{"angle_in_degrees", "{material: wood}",
+             "{material: wood, axes: {type: axis_angle, axis: [0, 0, 1], angle: 30}}", kRefused,
+             "'30 deg' or '30 rad'"},
         Slip{"unit_of_another_dimension", "450", "450 kg", kRefused, "a mass (kg)"}),
     [](const auto& slip) { return slip.param.name; });
 
@@ -217,7 +219,8 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"more_digits_than_there_are", kRtol, "rtol: 1e-16", kRefused, "must be in [1e-14, 1)"},
         Slip{"nearly_more_digits", kRtol, "rtol: 2e-14", kWarned, "below what round-off allows"},
         Slip{"a_scale_in_mm", kRtol, "rtol: 1e-4, position_scale: 1e6", kWarned, "errors are not seen"},
-        Slip{"a_scale_of_nothing", kRtol, "rtol: 1e-4, position_scale: 1e-15", kWarned, "round-off is taken for errors"},
+        Slip{"a_scale_of_nothing", kRtol, "rtol: 1e-4, position_scale: 1e-15", kWarned,
+             "round-off is taken for errors"},
         Slip{"a_speed_beyond_all", kRtol, "rtol: 1e-4, velocity_scale: 1e9", kWarned, "errors are not seen"},
         Slip{"a_step_longer_than_the_run", kRtol, "step: 5", kWarned, "is longer than the run"},
         Slip{"a_step_in_nanoseconds", kRtol, "step: 1e-12", kWarned, "such steps"},

@@ -35,9 +35,10 @@ void add_damping_slips(const Subject& subject, Warnings& out) {
     if (damping->stiffness > 0) add_stiffness_slip(subject, section.at("stiffness"), damping->stiffness, out);
     const double omega = std::numbers::pi / 2 / subject.crossing();
     if (damping->mass > 2 * kMostRatio * omega)
-      out.push_back(fmt::format("{}: {:.4g} 1/s stops every motion within {:.2g} s: is it a damping ratio, or of another "
-                                "unit? For a ratio xi at the frequency f take 4 pi f xi",
-                                section.at("mass").where(), damping->mass, 1 / damping->mass));
+      out.push_back(
+          fmt::format("{}: {:.4g} 1/s stops every motion within {:.2g} s: is it a damping ratio, or of another "
+                      "unit? For a ratio xi at the frequency f take 4 pi f xi",
+                      section.at("mass").where(), damping->mass, 1 / damping->mass));
   }
   for (const auto& [name, region] : subject.scene.regions)
     if (region.stiffness_damping)

@@ -24,7 +24,8 @@ double largest_within(const TimeFunction& factor, const Subject& subject) {
   double largest = 0;
   for (std::size_t piece = 0; piece + 1 < times.size(); ++piece)
     for (int k = 0; k <= kSamples; ++k) {
-      const double t = k < kSamples ? times[piece] + (times[piece + 1] - times[piece]) * golden_share(k) : times[piece + 1];
+      const double t =
+          k < kSamples ? times[piece] + (times[piece + 1] - times[piece]) * golden_share(k) : times[piece + 1];
       largest = std::max(largest, std::abs(factor.value(t)));
     }
   return largest;
@@ -93,8 +94,8 @@ void add_gravity_slips(const Subject& subject, Warnings& out) {
   const auto near = [&](double x) { return std::abs(size / x - 1) < 0.01; };
   const std::string place = subject.config.at("gravity").where();
   if (near(9810) || near(981))
-    out.push_back(fmt::format("{}: {:.5g} m/s^2 is that of the earth in {}/s^2: orthodyn computes in m/s^2, 9.81", place,
-                              size, near(981) ? "cm" : "mm"));
+    out.push_back(fmt::format("{}: {:.5g} m/s^2 is that of the earth in {}/s^2: orthodyn computes in m/s^2, 9.81",
+                              place, size, near(981) ? "cm" : "mm"));
   else if (size > 1000)
     out.push_back(fmt::format("{}: {:.4g} m/s^2 is {:.0f} times that of the earth: is its unit another one?", place,
                               size, size / 9.81));

@@ -28,10 +28,11 @@ void add_velocity_slips(const Subject& subject, Warnings& out) {
     out.push_back(fmt::format("{}: nodes start with {:.4g} m/s, faster than a bullet: is the velocity in m/s, the spin "
                               "in rad/s?", place, fastest));
   else if (relative > subject.wave)
-    out.push_back(fmt::format("{}: parts of the body start with {:.4g} m/s against each other or their supports, faster "
-                              "than the waves in it ({:.3g} m/s): it will be crushed or torn. Are velocity and spin in "
-                              "m/s and rad/s, the moduli in Pa?",
-                              place, relative, subject.wave));
+    out.push_back(
+        fmt::format("{}: parts of the body start with {:.4g} m/s against each other or their supports, faster "
+                    "than the waves in it ({:.3g} m/s): it will be crushed or torn. Are velocity and spin in "
+                    "m/s and rad/s, the moduli in Pa?",
+                    place, relative, subject.wave));
 }
 
 // Some between each two times where loads and motions are not smooth.

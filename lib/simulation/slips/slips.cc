@@ -42,7 +42,9 @@ double fastest_wave(const Material& material) {
   return std::sqrt(voigt(material.stiffness()).diagonal().maxCoeff() / material.density());
 }
 
-double distance(const Vec3& point, const Box& box) { return (point - point.cwiseMax(box.min).cwiseMin(box.max)).norm(); }
+double distance(const Vec3& point, const Box& box) {
+  return (point - point.cwiseMax(box.min).cwiseMin(box.max)).norm();
+}
 
 }  // namespace slip
 
