@@ -120,7 +120,7 @@ Task task_of(const Scene& scene, const BuiltScene& built) {
   return {scales, built.initial, end, interval};
 }
 
-Setup set_up(const Config& input, bool linear_so_far) {
+Setup set_up(const Config& input, bool linear_so_far, bool is_timed) {
   Config config = input.resolving();
   Scene scene = read_scene(config);
   std::optional<KinematicsChoice> kinematics;
@@ -137,7 +137,7 @@ Setup set_up(const Config& input, bool linear_so_far) {
   if (scene.analysis == Analysis::dynamic) require_force_at_start(config, built);
   check_outputs(scene, *built.model);
   check_expectations(scene, *built.model);
-  append(slips(config, scene, built), built.warnings);
+  append(slips(config, scene, built, is_timed), built.warnings);
   std::optional<StaticResponse> statics;  // made once, for whoever asks first
   const auto response = [&]() -> const StaticResponse& {
     if (!statics) statics = static_response(*built.model, built.initial, scene.time.end);

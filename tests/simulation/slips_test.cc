@@ -230,6 +230,14 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Slips, AreNoneInASoundScene) { EXPECT_EQ(said_of(kCantilever).words, ""); }
 
+// `check` and `modes` take a second where the scene has no time span.
+TEST(Slips, OfTimesAreNoneWithoutATimeSpan) {
+  const std::string scene = replaced(replaced(kCantilever, kLoad, load_with("{type: ramp, start: 5, end: 6}")), kTime,
+                                     "time: {end: 1}");
+  EXPECT_THAT(said_of(scene).words, HasSubstr("begins at 5 s"));
+  EXPECT_TRUE(set_up(Config::from_text(scene), false, false).built.warnings.empty());
+}
+
 // Scenes that are meant to be extreme, and the words that they may cause.
 const std::map<std::string, std::string> kMeant{
     {"block_1e6", "faster than in any solid"},   {"density_1e6", "faster than in any solid"},

@@ -16,7 +16,7 @@ namespace {
 
 // The largest size of a factor within the run: sampled between the times where it is not smooth.
 double largest_within(const TimeFunction& factor, const Subject& subject) {
-  if (!subject.moves()) return std::abs(factor.value(subject.end()));
+  if (subject.is_static()) return std::abs(factor.value(subject.end()));
   constexpr int kSamples = 50;
   std::vector<double> times = times_between(factor.kinks(), subject.start(), subject.end());
   times.insert(times.begin(), subject.start());
@@ -42,12 +42,12 @@ bool acts_within(const TimeFunction& factor, const Subject& subject) {
 
 void add_factor_slips(const Subject& subject, const Config& section, Warnings& out) {
   visit_keys(section, "factor", [&](const Config& given) {
-    if (!given.is_map() || !given.has("type")) return;
+    if (!names_a_factor(given)) return;
     const auto factor = Registry<TimeFunction>::read(given);
     if (acts_within(*factor, subject)) return;
     const auto kinks = factor->kinks();
     const auto later = std::find_if(kinks.begin(), kinks.end(), [&](double t) { return t >= subject.end(); });
-    if (!subject.moves()) {
+    if (subject.is_static()) {
       out.push_back(fmt::format("{}: it is 0 at the time of the statics, {:.4g} s (time.end): nothing of what it "
                                 "multiplies acts", given.where(), subject.end()));
     } else if (later != kinks.end()) {
@@ -108,7 +108,8 @@ void add_gravity_slips(const Subject& subject, Warnings& out) {
 
 void add_load_slips(const Subject& subject, Warnings& out) {
   for (const char* section : {"loads", "terms", "motions"})
-    if (subject.config.has(section)) add_factor_slips(subject, subject.config.at(section), out);
+    if (subject.config.has(section) && (subject.is_static() || subject.is_timed))
+      add_factor_slips(subject, subject.config.at(section), out);
   add_idle_loads(subject, out);
   add_gravity_slips(subject, out);
 }

@@ -70,8 +70,8 @@ void add_support_slips(const Subject& subject, Warnings& out) {
 }  // namespace
 
 void add_motion_slips(const Subject& subject, Warnings& out) {
-  if (subject.moves()) add_velocity_slips(subject, out);
-  add_support_slips(subject, out);
+  if (!subject.is_static()) add_velocity_slips(subject, out);
+  if (subject.is_static() || subject.is_timed) add_support_slips(subject, out);
   if (const auto& initial = subject.scene.initial; initial && initial->noise)
     if (initial->noise->amplitude > subject.extent)
       out.push_back(fmt::format("{}: {:.4g} m is more than the length of the body, {:.4g} m: is that in mm?",

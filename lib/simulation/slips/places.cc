@@ -40,6 +40,7 @@ void add_place_slips(const Subject& subject, Warnings& out) {
   for (const char* section : {"clamps", "motions", "loads", "terms"}) {
     if (!subject.config.has(section)) continue;
     visit_keys(subject.config.at(section), "nearest", [&](const Config& point) {
+      if (!point.is_sequence() || point.size() != 3) return;  // a plugin's own
       check(point, "the point", Value<Vec3>::read(point, {.unit = "m"}));
     });
   }

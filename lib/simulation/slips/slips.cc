@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/fem/time_functions/time_function.h"
 #include "lib/scene/region.h"
 #include "lib/simulation/slips/subject.h"
 
@@ -10,8 +11,8 @@ namespace orthodyn {
 
 namespace slip {
 
-Subject::Subject(const Config& input, const Scene& given, const BuiltScene& made)
-    : config(input), scene(given), built(made), box(bounding_box(made.model->parts().mesh)),
+Subject::Subject(const Config& input, const Scene& given, const BuiltScene& made, bool timed)
+    : config(input), scene(given), built(made), is_timed(timed), box(bounding_box(made.model->parts().mesh)),
       extent(box.size().maxCoeff()) {
   for (const auto& term : built.model->parts().elastic)
     wave = std::max(wave, fastest_wave(material_in(scene, term->region())));
@@ -38,6 +39,11 @@ void visit_keys(const Config& config, const std::string& key, const std::functio
   }
 }
 
+bool names_a_factor(const Config& section) {
+  return section.is_map() && section.has("type") && section.at("type").is_scalar() &&
+         Registry<TimeFunction>::entries().contains(section.at("type").text());
+}
+
 double fastest_wave(const Material& material) {
   return std::sqrt(voigt(material.stiffness()).diagonal().maxCoeff() / material.density());
 }
@@ -48,8 +54,8 @@ double distance(const Vec3& point, const Box& box) {
 
 }  // namespace slip
 
-Warnings slips(const Config& config, const Scene& scene, const BuiltScene& built) {
-  const slip::Subject subject(config, scene, built);
+Warnings slips(const Config& config, const Scene& scene, const BuiltScene& built, bool is_timed) {
+  const slip::Subject subject(config, scene, built, is_timed);
   Warnings out;
   for (const auto add :
        {slip::add_material_slips, slip::add_place_slips, slip::add_load_slips, slip::add_time_slips,

@@ -11,8 +11,8 @@
 
 namespace orthodyn {
 
-// `config` is the resolved input of the scene.
-Warnings slips(const Config& config, const Scene& scene, const BuiltScene& built);
+// `config` is the resolved input of the scene. `is_timed`: whether the user gave its time span.
+Warnings slips(const Config& config, const Scene& scene, const BuiltScene& built, bool is_timed = true);
 
 // Of the linear static response to the scene's loads. Throws ConfigError where no solid could be so soft.
 Warnings response_slips(const Config& config, const Scene& scene, const BuiltScene& built,

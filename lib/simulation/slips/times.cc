@@ -25,7 +25,7 @@ void add_span_slip(const Subject& subject, Warnings& out) {
 
 void add_factor_times(const Subject& subject, const Config& section, Warnings& out) {
   visit_keys(section, "factor", [&](const Config& given) {
-    if (!given.is_map() || !given.has("type")) return;
+    if (!names_a_factor(given)) return;
     const std::string type = given.at("type").text();
     if (type == "ramp" || type == "smooth_step") {
       const double end = read_number(given.at("end"), {.unit = "s"});
