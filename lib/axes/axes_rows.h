@@ -1,6 +1,8 @@
 // Axes of elements as a file has them: one row for each element it names.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <string>
 #include <vector>

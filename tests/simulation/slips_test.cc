@@ -230,6 +230,14 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Slips, AreNoneInASoundScene) { EXPECT_EQ(said_of(kCantilever).words, ""); }
 
+TEST(Slips, OfModuliAreNamedWithoutLoads) {
+  std::string scene = replaced(kCantilever, kYoung, "[10.8, 0.84, 0.46], nu: 0.3");
+  scene = replaced(replaced(scene, "gravity: [0, 0, -9.81]\n", ""), kLoad + "\n", "");
+  const Said said = said_of(replaced(scene, kTime, kTime + "\ninitial: {velocity: [0, 0, 0.01]}"));
+  EXPECT_FALSE(said.refused);
+  EXPECT_THAT(said.words, HasSubstr("softer than any gel: is their unit missing, such as GPa or MPa?"));
+}
+
 // `check` and `modes` take a second where the scene has no time span.
 TEST(Slips, OfTimesAreNoneWithoutATimeSpan) {
   const std::string scene = replaced(replaced(kCantilever, kLoad, load_with("{type: ramp, start: 5, end: 6}")), kTime,
