@@ -70,5 +70,7 @@ function(orthodyn_library)
     target_compile_options(orthodyn PUBLIC -fsanitize=address,undefined)
     target_link_options(orthodyn PUBLIC -fsanitize=address,undefined)
   endif()
-  set_target_properties(orthodyn PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+  # A plugin holds inlined code of the headers: it is of one minor version.
+  set_target_properties(orthodyn PROPERTIES VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 endfunction()

@@ -4,7 +4,7 @@
 
 #include "lib/config/csv_table.h"
 #include "lib/core/errors.h"
-#include "lib/mesh/io/vtu.h"
+#include "lib/mesh/io/mesh_file.h"
 
 namespace orthodyn {
 
@@ -61,8 +61,9 @@ std::vector<Components> axes_of(const LoadedMesh& loaded, const std::string& pat
                                       names.empty() ? "none" : join(names)));
 }
 
-AxesRows read_axes_vtu(const FilePath& file) {
-  LoadedMesh loaded = read_vtu(file.path);
+// Of the cell data of a mesh file.
+AxesRows read_axes_mesh(const FilePath& file) {
+  LoadedMesh loaded = read_mesh(file.path);
   const auto axes = axes_of(loaded, file.path);
   AxesRows out{{}, axes.size() == 3, true, file.path, {}};
   for (std::size_t tet = 0; tet < loaded.mesh.tets.size(); ++tet) {
@@ -82,9 +83,10 @@ AxesRows read_axes_rows(const FilePath& file) {
   const std::string extension = std::filesystem::path(file.path).extension().string();
   if (!std::filesystem::is_regular_file(file.path)) throw ConfigError(file.where, "no such file: " + file.path);
   if (extension == ".csv") return read_axes_csv(file);
-  if (extension == ".vtu") return read_axes_vtu(file);
-  throw ConfigError(file.where,
-                    fmt::format("'{}' is not a kind of file that axes are read from; known: .csv, .vtu", extension));
+  if (extension == ".vtu" || extension == ".inp") return read_axes_mesh(file);
+  throw ConfigError(
+      file.where,
+      fmt::format("'{}' is not a kind of file that axes are read from; known: .csv, .vtu, .inp", extension));
 }
 
 }  // namespace orthodyn

@@ -1,6 +1,8 @@
 // Axes of elements as a file has them: one row for each element it names.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,7 +31,8 @@ struct AxesRows {
 
 // Reads CSV with the columns a1x,a1y,a1z,a2x,a2y,a2z and, if wanted, element and a3x,a3y,a3z; or VTU with
 // cell data of three components axis_1, axis_2 and, if wanted, axis_3, or of nine axes: those of axis 1, then
-// 2, then 3. Vectors have any length but zero. Throws ConfigError (see read_csv(), read_vtu()).
+// 2, then 3; or an Abaqus file whose sections have orientations. Vectors have any length but zero. Throws ConfigError
+// (see read_csv(), read_vtu()).
 AxesRows read_axes_rows(const FilePath& file);
 
 }  // namespace orthodyn

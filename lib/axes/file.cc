@@ -17,8 +17,9 @@ class AxesFile : public AxesSource {
                  "as the mesh file counts its solid elements). "
                  "Without element there is one row for each element of the mesh, in its order. Or VTU of the same mesh "
                  "with the "
-                 "cell data axis_1, axis_2 and, if wanted, axis_3, or axes (9 components: axis 1, axis 2, axis 3); "
-                 "relative to the scene.",
+                 "cell data axis_1, axis_2 and, if wanted, axis_3, or axes (9 components: axis 1, axis 2, axis 3). "
+                 "Or an Abaqus file (.inp) of the same mesh, for the orientations of its sections; relative to the "
+                 "scene.",
                  {.required = true})
             .key("repair", &AxesFile::repair_, kRepairSentence);
     return s;

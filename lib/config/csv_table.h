@@ -1,6 +1,8 @@
 // A table of numbers from a CSV file: a line of column names, then rows with a number for each.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 #include <vector>
 

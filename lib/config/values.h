@@ -49,7 +49,8 @@ struct Words;
 template <class V>
 struct Value;
 
-// A plain number in the key's SI unit, or a text with a unit of the same dimension ("11.9 GPa").
+// A plain number in the key's SI unit, or a text with a unit of the same dimension ("11.9 GPa"). An angle other than 0
+// must have a unit.
 double read_number(const Config& config, const Rule& rule);
 std::string number_text(double x);
 std::vector<double> read_numbers(const Config& config, const Rule& rule, std::size_t count);

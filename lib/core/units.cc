@@ -106,7 +106,8 @@ std::string expected(const std::string& unit) {
 std::optional<NumberWithUnit> split_quantity(const std::string& text) {
   double number = 0;
   const char *begin = text.data(), *end = begin + text.size();
-  while (begin != end && (*begin == ' ' || *begin == '+')) ++begin;
+  while (begin != end && *begin == ' ') ++begin;
+  if (end - begin > 1 && begin[0] == '+' && begin[1] != '-') ++begin;  // from_chars knows no plus sign
   const auto [rest, error] = std::from_chars(begin, end, number);
   std::string name(rest, end);
   name.erase(0, name.find_first_not_of(' '));

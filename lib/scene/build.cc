@@ -97,6 +97,21 @@ void require_size(const TetMesh& mesh) {
                                 Value<Vec3>::yaml(box.min), Value<Vec3>::yaml(box.max), kSmallest, kLargest));
 }
 
+// Axes that the mesh file has for its elements, of a material that has directions.
+void warn_of_unused_axes(const Scene& scene, const std::vector<const Region*>& regions,
+                         const std::vector<CellData>& data, Warnings& warnings) {
+  const auto is_first_axis = [](const CellData& d) { return d.name == "axis_1" && d.components == 3; };
+  if (std::none_of(data.begin(), data.end(), is_first_axis)) return;
+  for (const Region* region : regions)
+    if (!region->axes->uniform()) return;
+  for (const Region* region : regions) {
+    if (std::holds_alternative<IsotropicStiffness>(material_of(scene, *region).stiffness())) continue;
+    warnings.push_back(region->origin.where + ": the mesh file has axes of its elements, which the scene does not use; "
+                       "if they are those of the material, give regions axes: {type: file, file: the mesh file}");
+    return;
+  }
+}
+
 // With one quadratic element through a thickness its mean is blind for bending.
 void add_note_on_means(const Scene& scene, const TetMesh& mesh, Warnings& warnings) {
   if (mesh.order() == 1) return;
@@ -121,6 +136,7 @@ BuiltScene build(const Scene& scene) {
   parts.mesh = std::move(loaded.mesh);
   require_size(parts.mesh);
   const auto regions = assign_regions(scene, parts.mesh);
+  warn_of_unused_axes(scene, regions, loaded.cell_data, loaded.warnings);
   Supports supports = make_supports(scene, parts.mesh);
   const int num_nodes = static_cast<int>(parts.mesh.nodes.size());
   parts.dofs = std::make_unique<DofMap>(num_nodes, supports.held);

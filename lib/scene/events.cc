@@ -25,7 +25,8 @@ const Spec<EventSpec>& EventSpec::spec() {
                "A probe's field and component (tip.displacement.z, or .magnitude) or a scalar of the whole body "
                "(energy.kinetic, det_f.smallest).",
                {.required = true})
-          .key("crosses", &EventSpec::crosses, "The value that it passes, in SI units.", {.required = true})
+          .key("crosses", &EventSpec::crosses, "The value that it passes, in SI units or with a unit.",
+               {.required = true, .unit = kUnitOfQuantity})
           .key("direction", &EventSpec::direction, "Which passings count.")
           .key("action", &EventSpec::action, "log: a row in events.csv; stop: the run ends there, too.")
           .key("name", &EventSpec::name, "Its name in events.csv; default the quantity.")
@@ -44,6 +45,7 @@ std::vector<Event> make_events(const Scene& scene, const FemModel& model) {
       spec.origin.fail(fmt::format("'{}' is known at output times only; choose another quantity", spec.quantity));
     if (quantity.components != 1)
       spec.origin.fail(fmt::format("'{}' is a vector: choose .x, .y, .z or .magnitude", spec.quantity));
+    spec.crosses.require(quantity.unit, spec.origin);
     events.push_back({spec.name.value_or(spec.quantity),
                       [values = quantity.values](const ObservedState& observed) { return values(observed)[0]; },
                       spec.crosses, spec.direction, spec.action == EventAction::stop});

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/config/measured.h"
 #include "lib/config/spec.h"
 #include "lib/ode/event.h"
 
@@ -17,7 +18,7 @@ enum class EventAction { log, stop };
 
 struct EventSpec {
   std::string quantity;  // "tip.displacement.z", "det_f.smallest"
-  double crosses = 0;    // in the quantity's unit, SI
+  Measured crosses;      // in the quantity's unit
   Direction direction = Direction::both;
   EventAction action = EventAction::log;
   std::optional<std::string> name;  // default the quantity

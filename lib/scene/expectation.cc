@@ -50,11 +50,13 @@ const Spec<Expectation>& Expectation::spec() {
                {.required = true})
           .key("take", &Expectation::take, kTakeSentence)
           .key("at", &Expectation::at, "The value at this time, in place of `take`.", {.unit = "s"})
-          .key("value", &Expectation::value, "The expected figure, in SI units.", {.required = true})
+          .key("value", &Expectation::value, "The expected figure, in SI units or with a unit.",
+               {.required = true, .unit = kUnitOfQuantity})
           .key("source", &Expectation::source, "Where the value is known from.", {.required = true})
           .key("relative", &Expectation::relative, "Tolerance relative to the value.", {.range = kPositive})
-          .key("absolute", &Expectation::absolute, "Tolerance in the quantity's unit.", {.range = kPositive})
-          .key("of", &Expectation::of, kOfSentence, {.range = kPositive})
+          .key("absolute", &Expectation::absolute, "Tolerance in the unit of the value.",
+               {.unit = kUnitOfQuantity, .range = kPositive})
+          .key("of", &Expectation::of, kOfSentence, {.unit = kUnitOfQuantity, .range = kPositive})
           .key("reason", &Expectation::reason, "Why the tolerance is what it is.", {.required = true})
           .key("degraded", &Expectation::degraded,
                "Times the tolerance: what misses by less is called degraded, not failed, by `orthodyn stability`.",
@@ -63,7 +65,14 @@ const Spec<Expectation>& Expectation::spec() {
   return s;
 }
 
-double Expectation::limit() const { return relative ? *relative * std::abs(value) : absolute.value_or(0); }
+void Expectation::require_units(const std::string& quantity_unit) const {
+  const std::string unit = figure_unit(take, quantity_unit);
+  value.require(unit, {origin.where + ".value"});
+  if (absolute) absolute->require(unit, {origin.where + ".absolute"});
+  if (of) of->require(quantity_unit, {origin.where + ".of"});
+}
+
+double Expectation::limit() const { return relative ? *relative * std::abs(value) : absolute.value_or(0.0).si(); }
 
 std::string Expectation::title() const {
   if (at) return fmt::format("{} at {:.6g} s", quantity, *at);

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "lib/config/measured.h"
 #include "lib/config/spec.h"
 
 namespace orthodyn {
@@ -45,14 +46,18 @@ struct Expectation {
   std::string quantity;      // "tip.displacement.z", "energy.balance", "momentum.angular.magnitude"
   Take take = Take::end;
   std::optional<double> at;  // s, in place of `take`
-  double value = 0;          // in the quantity's unit, SI
+  Measured value;            // in the quantity's unit
   std::string source;        // where the value is known from
-  std::optional<double> relative, absolute;  // the tolerance: one of the two
-  std::optional<double> of;  // of a drift or gain: what it is relative to; of an onset: the size that is passed
+  std::optional<double> relative;    // the tolerance: this
+  std::optional<Measured> absolute;  // or this
+  std::optional<Measured> of;  // of a drift or gain: what it is relative to; of an onset: the size that is passed
   std::string reason;        // why the tolerance is what it is
   double degraded = 10;      // times the tolerance: up to there `orthodyn stability` calls it degraded, not failed
   Origin origin;
   static const Spec<Expectation>& spec();
+
+  // Throws ConfigError for a unit that is none of the quantity's; its own is SI.
+  void require_units(const std::string& quantity_unit) const;
 
   // The largest |computed - value| that passes.
   double limit() const;

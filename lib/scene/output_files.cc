@@ -1,5 +1,10 @@
 #include "lib/scene/output_files.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "lib/fem/fem_model.h"
+
 namespace orthodyn {
 
 template <>
@@ -13,6 +18,32 @@ struct Words<EnergyTimes> {
   static constexpr std::array<std::pair<EnergyTimes, const char*>, 2> list{
       {{EnergyTimes::outputs, "outputs"}, {EnergyTimes::steps, "steps"}}};
 };
+
+namespace {
+
+// Their names are checked against the model's when it is built, which tells more.
+template <class Names>
+Names read_names(const Config& c, const Rule& r) {
+  Names out;
+  for (auto& name : Value<std::vector<std::string>>::read(c, r)) out.push_back(std::move(name));
+  return out;
+}
+
+Shape shape_of_names(const std::vector<Location>& locations) {
+  Shape name{.kind = Shape::Kind::word};
+  for (const auto& info : FemModel(FemModel::Parts{}).outputs())
+    if (std::find(locations.begin(), locations.end(), info.location) != locations.end())
+      name.names.push_back(info.name);
+  return list_shape(std::move(name), 0, "list of fields");
+}
+
+}  // namespace
+
+Shape Value<NodeFields>::shape() { return shape_of_names({Location::node}); }
+NodeFields Value<NodeFields>::read(const Config& c, const Rule& r) { return read_names<NodeFields>(c, r); }
+
+Shape Value<FrameFields>::shape() { return shape_of_names({Location::node, Location::cell}); }
+FrameFields Value<FrameFields>::read(const Config& c, const Rule& r) { return read_names<FrameFields>(c, r); }
 
 const Spec<Probe>& Probe::spec() {
   static const auto s =

@@ -14,10 +14,31 @@ enum class OutputTimes { interpolated, exact };
 // When energies are computed.
 enum class EnergyTimes { outputs, steps };
 
+// Names of fields per node, and of those that frames may have: per node and per cell.
+struct NodeFields : std::vector<std::string> {
+  using vector::vector;
+};
+struct FrameFields : std::vector<std::string> {
+  using vector::vector;
+};
+
+template <>
+struct Value<NodeFields> {
+  static Shape shape();
+  static NodeFields read(const Config& c, const Rule& r);
+  static std::string yaml(const NodeFields& x) { return Value<std::vector<std::string>>::yaml(x); }
+};
+template <>
+struct Value<FrameFields> {
+  static Shape shape();
+  static FrameFields read(const Config& c, const Rule& r);
+  static std::string yaml(const FrameFields& x) { return Value<std::vector<std::string>>::yaml(x); }
+};
+
 // A point whose fields go to probes.csv.
 struct Probe {
   Vec3 at = Vec3::Zero();  // m, in the rest shape
-  std::vector<std::string> fields{"displacement"};
+  NodeFields fields{"displacement"};
   Origin origin;
   static const Spec<Probe>& spec();
 };
@@ -34,7 +55,7 @@ struct Output {
   std::optional<int> frames;
   std::optional<History> history;  // absent: with the frames
   OutputTimes times = OutputTimes::interpolated;
-  std::vector<std::string> fields{"displacement", "velocity"};
+  FrameFields fields{"displacement", "velocity"};
   Named<Probe> probes;
   bool reactions = false, energy = true, steps = true, momentum = false;
   EnergyTimes energy_times = EnergyTimes::outputs;

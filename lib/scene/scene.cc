@@ -1,5 +1,6 @@
 #include "lib/scene/scene.h"
 
+#include "lib/material/admissible.h"
 #include "lib/scene/mesh_materials.h"
 
 namespace orthodyn {
@@ -131,6 +132,15 @@ void complete_terms(const Config& config, Scene& scene) {
   }
 }
 
+// Those of plugins too, whose authors may not have looked.
+void require_admissible_materials(const Config& config, const Scene& scene) {
+  for (const auto& [name, material] : scene.materials)
+    if (const std::string why = why_inadmissible(*material); !why.empty()) {
+      const Config given = config.at("materials");
+      (given.is_map() && given.has(name) ? given.at(name) : given).fail("cannot be computed with: " + why);
+    }
+}
+
 }  // namespace
 
 Scene read_scene(const Config& input) {
@@ -143,6 +153,7 @@ Scene read_scene(const Config& input) {
   scene.analysis == Analysis::statical ? check_static(config, scene, is_timed) : check_dynamic(config, scene, is_timed);
   if (!config.has("materials")) fill_mesh_materials(config, scene);
   if (scene.materials.empty()) config.at("materials").fail("is empty; give at least one material");
+  require_admissible_materials(config, scene);
   complete_regions(config, scene);
   const auto& interval = scene.output.interval;
   if (interval && (scene.time.end - scene.time.start) / *interval > 1e6)

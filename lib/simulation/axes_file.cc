@@ -14,7 +14,7 @@ void write_axes(const std::filesystem::path& file, const FemModel& model) {
     fields.push_back(
         {fmt::format("axis_{}", axis), Location::cell, 3, model.evaluate(fmt::format("material_axis_{}", axis), rest)});
   fields.push_back({"region", Location::cell, 1, model.evaluate("region", rest)});
-  write_vtu(file, model.geometry(), fields);
+  write_vtu(file, model.geometry(), fields, &model.parts().mesh);
 }
 
 }  // namespace orthodyn

@@ -11,6 +11,7 @@
 #include "lib/core/words.h"
 #include "lib/linear/blas.h"
 #include "lib/simulation/outcome.h"
+#include "lib/simulation/slips/slips.h"
 #include "lib/simulation/static_problem.h"
 #include "lib/scene/events.h"
 #include "lib/scene/quantity.h"
@@ -18,6 +19,12 @@
 namespace orthodyn {
 
 namespace {
+
+constexpr int kLargestForSlips = 30'000;  // unknowns that are factorised for a warning's sake
+
+void append(Warnings more, Warnings& all) {
+  for (auto& warning : more) all.push_back(std::move(warning));
+}
 
 // Every name in `fields` must be an output of the model at one of the given places.
 void check_fields(const Model& model, const std::vector<std::string>& fields, std::vector<Location> allowed,
@@ -37,25 +44,12 @@ void check_outputs(const Scene& scene, const Model& model) {
     check_fields(model, probe.fields, {Location::node}, probe.origin);
 }
 
-// A probe far from the body is a slip of units, most often.
-void warn_of_distant_probes(const Scene& scene, BuiltScene& built) {
-  const TetMesh& mesh = built.model->parts().mesh;
-  const Box box = bounding_box(mesh);
-  for (const auto& [name, probe] : scene.output.probes) {
-    const double outside = (probe.at - probe.at.cwiseMax(box.min).cwiseMin(box.max)).norm();
-    if (outside <= 0.01 * box.diagonal()) continue;
-    const Vec3& node = mesh.nodes[static_cast<std::size_t>(nearest_node(mesh, probe.at))];
-    built.warnings.push_back(
-        fmt::format("{}: probe '{}' is {:.3g} m outside of the body; it records the nearest node, at {}",
-                    probe.origin.where, name, outside, Value<Vec3>::yaml(node)));
-  }
-}
-
 void check_expectations(const Scene& scene, const FemModel& model) {
   for (const auto& e : scene.expect) {
     const Quantity quantity = find_quantity(e.quantity, scene, model, e.origin);
     if (quantity.components == 3 && (e.at || e.take != Take::drift))
       e.origin.fail(fmt::format("'{}' is a vector: choose .x, .y, .z or .magnitude", e.quantity));
+    e.require_units(quantity.unit);
     if (scene.analysis == Analysis::statical && (e.at || e.take != Take::end || !quantity.values))
       e.origin.fail("of a static analysis only values in equilibrium are known: remove 'take' and 'at'" +
                     std::string(quantity.values ? "" : ", choose another quantity than energy.balance"));
@@ -126,7 +120,7 @@ Task task_of(const Scene& scene, const BuiltScene& built) {
   return {scales, built.initial, end, interval};
 }
 
-Setup set_up(const Config& input, bool linear_so_far) {
+Setup set_up(const Config& input, bool linear_so_far, bool is_timed) {
   Config config = input.resolving();
   Scene scene = read_scene(config);
   std::optional<KinematicsChoice> kinematics;
@@ -143,16 +137,17 @@ Setup set_up(const Config& input, bool linear_so_far) {
   if (scene.analysis == Analysis::dynamic) require_force_at_start(config, built);
   check_outputs(scene, *built.model);
   check_expectations(scene, *built.model);
-  warn_of_distant_probes(scene, built);
+  append(slips(config, scene, built, is_timed), built.warnings);
   std::optional<StaticResponse> statics;  // made once, for whoever asks first
   const auto response = [&]() -> const StaticResponse& {
     if (!statics) statics = static_response(*built.model, built.initial, scene.time.end);
     return *statics;
   };
+  if (built.model->num_dofs() <= kLargestForSlips)
+    append(response_slips(config, scene, built, response()), built.warnings);
   const auto stiffness = elastic_stiffness(scene, *built.model);
   if (!built.model->traits().linear && needs_strain_check(*built.model, stiffness))
-    for (auto& warning : strain_warnings(*built.model, stiffness, built.initial, response()))
-      built.warnings.push_back(std::move(warning));
+    append(strain_warnings(*built.model, stiffness, built.initial, response()), built.warnings);
   std::vector<Event> events = make_events(scene, *built.model);
   std::unique_ptr<Integrator> integrator;
   double wall = 0, cpu = 0;

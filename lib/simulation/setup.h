@@ -30,8 +30,8 @@ struct Setup {
 // What the scene wants of its integrator. Both must outlive the task.
 Task task_of(const Scene& scene, const BuiltScene& built);
 
-// Reads, validates and builds; the input stays as it is. `linear_so_far`: as choose_kinematics() has it. Throws
-// ConfigError.
-Setup set_up(const Config& input, bool linear_so_far = false);
+// Reads, validates and builds; the input stays as it is. `linear_so_far`: as choose_kinematics() has it. `is_timed`:
+// false where the user gave no time span, and the one of the input means nothing. Throws ConfigError.
+Setup set_up(const Config& input, bool linear_so_far = false, bool is_timed = true);
 
 }  // namespace orthodyn

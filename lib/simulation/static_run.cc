@@ -37,7 +37,8 @@ class StaticObservers {
                   RunListener& listener)
       : progress_(*problem.stepper, listener) {
     const auto& output = setup.scene.output;
-    if (!output.fields.empty()) frames_.emplace(folder, *problem.path, output.fields);
+    if (!output.fields.empty()) 
+      frames_.emplace(folder, *problem.path, output.fields, &setup.built.model->parts().mesh);
     if (output.steps) steps_.emplace(folder / "load_steps.csv", *problem.path, *problem.stepper);
     if (const auto columns = probe_columns(setup.scene, *setup.built.model); !columns.empty())
       probes_.emplace(folder / "probes.csv", *problem.path, columns, "load_factor");

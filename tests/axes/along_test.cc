@@ -101,9 +101,9 @@ TEST(Curve, CarriesItsNormalWithoutATwist) {
 TEST(AxesAlong, AStraightLineAreThoseOfACylinder) {
   Random random(44);
   const Vec3 a(0.1, -0.2, 0), b(0.4, 0.1, 2);
-  const auto cylinder = fmt::format("{{type: cylindrical, point: {}, axis: {}, order: TRL, spiral: 0.2}}", yaml_of(a),
-                                    yaml_of(Vec3(b - a)));
-  const auto line = along({a, 0.3 * b + 0.7 * a, b}, ", order: TRL, spiral: 0.2");
+  const auto cylinder = fmt::format("{{type: cylindrical, point: {}, axis: {}, order: TRL, spiral: 0.2 rad}}",
+                                    yaml_of(a), yaml_of(Vec3(b - a)));
+  const auto line = along({a, 0.3 * b + 0.7 * a, b}, ", order: TRL, spiral: 0.2 rad");
   for (int sample = 0; sample < 50; ++sample) {
     const Vec3 x = a + random.between(0.1, 0.9) * (b - a) + 0.2 * random.vector();
     EXPECT_LE((axes_at(line, x) - axes_at(cylinder, x)).norm(), 1e-9);

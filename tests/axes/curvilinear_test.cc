@@ -20,7 +20,7 @@ std::string sphere(const Vec3& center, const Vec3& pole, const std::string& more
 TEST(CylindricalAxes, AreRotationsThatDifferFromPlaceToPlace) {
   Random random(31);
   for (int sample = 0; sample < 100; ++sample) {
-    const auto yaml = cylinder(random.vector(), random.vector(), ", spiral: 0.3, order: TRL");
+    const auto yaml = cylinder(random.vector(), random.vector(), ", spiral: 0.3 rad, order: TRL");
     EXPECT_LE(improper(axes_at(yaml, random.vector())), 1e-14);
     EXPECT_FALSE(axes_source(yaml)->uniform());
   }
@@ -61,7 +61,7 @@ TEST(CylindricalAxes, OfSpiralGrainFollowAHelix) {
   for (const double a : {0.0, 1.0, 4.0}) {
     const Vec3 x(radius * std::cos(a), radius * std::sin(a), pitch * a / (2 * kPi));
     const Vec3 tangent = Vec3(-radius * std::sin(a), radius * std::cos(a), pitch / (2 * kPi)).normalized();
-    const Mat3 Q = axes_at(cylinder({0, 0, 0}, {0, 0, 1}, fmt::format(", spiral: {}", spiral)), x);
+    const Mat3 Q = axes_at(cylinder({0, 0, 0}, {0, 0, 1}, fmt::format(", spiral: {} rad", spiral)), x);
     EXPECT_LE((Q.col(0) - tangent).norm(), 1e-14);
     EXPECT_LE((Q.col(1) - Vec3(std::cos(a), std::sin(a), 0)).norm(), 1e-14);
   }

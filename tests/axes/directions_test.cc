@@ -135,7 +135,8 @@ TEST(MatrixAxes, TypedWithThreeDigitsBecomeARotation) {
 }
 
 std::string euler(const Vec3& angles, const std::string& convention) {
-  return fmt::format("{{type: euler, angles: {}, convention: {}}}", yaml_of(angles), convention);
+  return fmt::format("{{type: euler, angles: [{} rad, {} rad, {} rad], convention: {}}}", angles[0], angles[1],
+                     angles[2], convention);
 }
 
 Mat3 turn(int axis, double angle) { return Eigen::AngleAxisd(angle, Vec3::Unit(axis)).toRotationMatrix(); }
@@ -158,18 +159,19 @@ TEST(EulerAxes, ZyxIsYawPitchRoll) {
 }
 
 TEST(EulerAxes, NeedAConventionByName) {
-  EXPECT_TRUE(holds(axes_refusal("{type: euler, angles: [1, 2, 3]}"), "'convention' is missing"));
-  EXPECT_TRUE(holds(axes_refusal("{type: euler, angles: [1, 2, 3], convention: zxx}"), "did you mean 'zxy'"));
+  EXPECT_TRUE(holds(axes_refusal("{type: euler, angles: [1 rad, 2 rad, 3 rad]}"), "'convention' is missing"));
+  EXPECT_TRUE(
+      holds(axes_refusal("{type: euler, angles: [1 rad, 2 rad, 3 rad], convention: zxx}"), "did you mean 'zxy'"));
 }
 
 TEST(AxisAngleAxes, TurnRightHandedAboutTheAxis) {
-  const Mat3 Q = axes_at(fmt::format("{{type: axis_angle, axis: [0, 0, 5], angle: {}}}", kPi / 2));
+  const Mat3 Q = axes_at(fmt::format("{{type: axis_angle, axis: [0, 0, 5], angle: {} rad}}", kPi / 2));
   EXPECT_LE((Q.col(0) - Vec3(0, 1, 0)).norm(), 4 * kEps);
   EXPECT_LE((Q.col(1) - Vec3(-1, 0, 0)).norm(), 4 * kEps);
 }
 
 TEST(AxisAngleAxes, OfNoDirectionAreRefused) {
-  EXPECT_TRUE(holds(axes_refusal("{type: axis_angle, axis: [0, 0, 0], angle: 1}"), "axes.axis: is zero"));
+  EXPECT_TRUE(holds(axes_refusal("{type: axis_angle, axis: [0, 0, 0], angle: 1 rad}"), "axes.axis: is zero"));
 }
 
 TEST(AxesSource, OfAnUnknownKindIsRefusedWithTheKnownOnes) {

@@ -27,6 +27,10 @@ TEST(Units, AreConvertedToSi) {
   EXPECT_DOUBLE_EQ(read("2 kN", {.unit = "N"}), 2000);
   EXPECT_DOUBLE_EQ(read("3 N/mm^2", {.unit = "Pa"}), 3e6);
   EXPECT_DOUBLE_EQ(read("-5e-1 ms", {.unit = "s"}), -5e-4);
+  EXPECT_DOUBLE_EQ(read("+5 ms", {.unit = "s"}), 5e-3);
+  EXPECT_DOUBLE_EQ(read("3 1/s", {.unit = "1/s"}), 3);
+  for (const char* text : {"'+ 5 ms'", "+-5 ms", "++5 ms"})
+    EXPECT_TRUE(holds(refusal_of(text, {.unit = "s"}), "expected a time (s)")) << text;
 }
 
 TEST(Units, ANumberWithoutOneIsInSi) { EXPECT_EQ(read("11.9e9", {.unit = "Pa"}), 11.9e9); }
@@ -36,6 +40,14 @@ TEST(Units, AnglesTurnDegreesIntoRadians) {
   EXPECT_DOUBLE_EQ(read("30 degrees", {.unit = "rad"}), std::numbers::pi / 6);
   EXPECT_DOUBLE_EQ(read("0.5 rad", {.unit = "rad"}), 0.5);
   EXPECT_DOUBLE_EQ(read("180 deg/s", {.unit = "rad/s"}), std::numbers::pi);
+}
+
+TEST(Units, AnAngleWithoutOneIsRefusedWithBothReadings) {
+  EXPECT_EQ(refusal_of("30", {.unit = "rad"}), "a.yaml:1:1: an angle needs a unit: give '30 deg' or '30 rad'");
+  EXPECT_EQ(refusal_of("-1e-3", {.unit = "rad"}), "a.yaml:1:1: an angle needs a unit: give '-1e-3 deg' or '-1e-3 rad'");
+  EXPECT_EQ(read("0", {.unit = "rad"}), 0);
+  EXPECT_EQ(read("-0.0", {.unit = "rad"}), 0);
+  EXPECT_EQ(read("30", {.unit = "rad/s"}), 30);
 }
 
 TEST(Units, AFrequencyIsNoAngularVelocity) {

@@ -153,7 +153,7 @@ TEST_P(TurningGrain, TurnsAndMovesWithTheWholeProblem) {
   TetMesh turned = kBlock;
   for (Vec3& X : turned.nodes) X = R * X + shift;
   const auto text = [](const Vec3& p, const Vec3& a) {
-    return fmt::format("{{type: cylindrical, point: {}, axis: {}, spiral: 0.3}}", Value<Vec3>::yaml(p),
+    return fmt::format("{{type: cylindrical, point: {}, axis: {}, spiral: 0.3 rad}}", Value<Vec3>::yaml(p),
                        Value<Vec3>::yaml(a));
   };
   const auto here = body(kBlock, text(point, axis), GetParam());

@@ -26,7 +26,7 @@ const Case kWarped{"warped_unsymmetric", fibre_material(10),
 const Case kLinear{"linear", fibre_material(10), "elasticity: {kinematics: linear}"};
 const Case kAnisotropic{"anisotropic", turned_fibre_material(10, Random(109).rotation()), ""};
 const Case kTwoRegions{"two_regions", fibre_material(10), ""};
-const std::string kCylinder = "{type: cylindrical, point: [0.3, 0.4, 0], axis: [0.2, 0.1, 1], spiral: 0.2}";
+const std::string kCylinder = "{type: cylindrical, point: [0.3, 0.4, 0], axis: [0.2, 0.1, 1], spiral: 0.2 rad}";
 const Case kGrain{"grain", fibre_material(10), "", kCylinder};
 const Case kLinearGrain{"linear_grain", fibre_material(10), "elasticity: {kinematics: linear}", kCylinder};
 const Case kWarpedGrain{"warped_grain", fibre_material(10),

@@ -18,7 +18,7 @@ mesh: {{type: box, size: [2, 1, 0.5], cells: [3, 2, 2], order: 1}}
 materials: {{m: {}}}
 mass: {}
 clamps: [{{surface: x0, components: [x, y]}}]
-motions: [{{surface: x1, rotation: {{point: [1, 0.5, 0], axis: [1, 2, 2], angle: 0.3}}, factor: {{type: smooth_step, end: 2}}}}]
+motions: [{{surface: x1, rotation: {{point: [1, 0.5, 0], axis: [1, 2, 2], angle: 0.3 rad}}, factor: {{type: smooth_step, end: 2}}}}]
 damping: {{mass: 0.2, stiffness: 0.05}}
 gravity: [0, 0, -9.81]
 output: {{reactions: true}}

@@ -34,7 +34,7 @@ TEST(TimeFunction, RampRisesBetweenItsKinks) {
 }
 
 TEST(TimeFunction, SineHasFrequencyAmplitudeAndPhase) {
-  const auto f = factor("{type: sine, frequency: 2, amplitude: 3, phase: 0.5}");
+  const auto f = factor("{type: sine, frequency: 2, amplitude: 3, phase: 0.5 rad}");
   EXPECT_NEAR(f->value(0.3), 3 * std::sin(2 * std::numbers::pi * 2 * 0.3 + 0.5), 1e-14);
   EXPECT_TRUE(f->kinks().empty());
   EXPECT_EQ(f->peak(0, 1), 3);
@@ -102,7 +102,7 @@ class SmoothFactor : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Kinds, SmoothFactor,
                          testing::Values("{type: constant, value: 3}", "{type: ramp, end: 2, value: 3}",
                                          "{type: smooth_step, start: -1, end: 2, value: 3}",
-                                         "{type: sine, frequency: 0.3, amplitude: 2, phase: 0.4}",
+                                         "{type: sine, frequency: 0.3, amplitude: 2, phase: 0.4 rad}",
                                          "{type: table, points: [[0, 1], [1, 4], [3, -2]]}",
                                          "{type: expression, formula: exp(-t)*t^3}"));
 

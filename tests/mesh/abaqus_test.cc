@@ -82,8 +82,73 @@ TEST(Abaqus, SetsMayNameSets) {
 
 TEST(Abaqus, WarnsOfWhatItSkips) {
   const LoadedMesh loaded = load(kDeck);
-  ASSERT_EQ(loaded.warnings.size(), 1u);
+  ASSERT_EQ(loaded.warnings.size(), 2u);
   EXPECT_CONTAINS(loaded.warnings[0], "only the mesh is read; skipped: *ELASTIC, *MATERIAL");
+}
+
+TEST(Abaqus, SaysWhichElementsALaterSetTakes) {
+  EXPECT_CONTAINS(load(kDeck).warnings[1],
+                  "body.inp: 1 elements of element set \"Body\" are in \"far\", too, which comes later");
+  EXPECT_EQ(load(replaced(kDeck, "*Elset, elset=far, generate\n2, 2, 1\n", "")).warnings.size(), 1u);
+  EXPECT_CONTAINS(load(kDeck + "*Solid Section, elset=far\n*Solid Section, elset=Body\n").warnings[1],
+                  "1 elements of element set \"far\" are in \"Body\", too");
+}
+
+TEST(Abaqus, TwoNamesOfTheSameElementsAreNoLoss) {
+  const LoadedMesh loaded =
+      load(replaced(kDeck, "*Elset, elset=far, generate\n2, 2, 1\n", "*Elset, elset=all\n1, 2\n"));
+  EXPECT_EQ(loaded.mesh.region_names, std::vector<std::string>{"all"});
+  EXPECT_EQ(loaded.warnings.size(), 1u);
+}
+
+TEST(Abaqus, SaysWhichSetsAreNoRegionsBesideSections) {
+  const auto warnings = load(kDeck + "*Elset, elset=_internal\n1\n*Solid Section, elset=Body\n").warnings;
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_CONTAINS(warnings[1], "element sets without a *SOLID SECTION are no regions: far (1 elements)");
+}
+
+const std::string kSections = "*Solid Section, elset=Body\n*Solid Section, elset=far, orientation=Grain\n";
+
+// Columns: axes 1, 2 and 3 of an element.
+Mat3 axes_of(const LoadedMesh& loaded, Eigen::Index element) {
+  const CellData &first = *find_cell_data(loaded, "axis_1"), &second = *find_cell_data(loaded, "axis_2");
+  Mat3 Q;
+  Q.col(0) = Eigen::Map<const Vec3>(&first.values[static_cast<std::size_t>(3 * element)]);
+  Q.col(1) = Eigen::Map<const Vec3>(&second.values[static_cast<std::size_t>(3 * element)]);
+  Q.col(2) = Q.col(0).cross(Q.col(1));
+  return Q;
+}
+
+TEST(Abaqus, OrientationsOfSectionsAreAxesOfTheirElements) {
+  // Axis 1 along y; the second point makes 1-2 the plane y-z.
+  const LoadedMesh loaded = load(kDeck + "*Orientation, name=GRAIN\n0, 2, 0, 0, 1, 3\n" + kSections);
+  EXPECT_LT((axes_of(loaded, 0) - Mat3::Identity()).norm(), 1e-15);
+  Mat3 expected;
+  expected << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  EXPECT_LT((axes_of(loaded, 1) - expected).norm(), 1e-15);
+}
+
+TEST(Abaqus, OrientationsHaveAnOriginAndAnAngle) {
+  const LoadedMesh shifted = load(kDeck + "*Orientation, name=grain\n5, 7, 5, 5, 6, 8, 5, 5, 5\n" + kSections);
+  const LoadedMesh plain = load(kDeck + "*Orientation, name=grain\n0, 2, 0, 0, 1, 3\n" + kSections);
+  EXPECT_LT((axes_of(shifted, 1) - axes_of(plain, 1)).norm(), 1e-15);
+  // By 90 degrees about axis 3: the new axis 1 is the old axis 2, the new axis 2 the old -1.
+  const LoadedMesh turned = load(kDeck + "*Orientation, name=grain\n0, 2, 0, 0, 1, 3\n3, 90.\n" + kSections);
+  EXPECT_LT((axes_of(turned, 1).col(0) - axes_of(plain, 1).col(1)).norm(), 1e-15);
+  EXPECT_LT((axes_of(turned, 1).col(1) + axes_of(plain, 1).col(0)).norm(), 1e-15);
+  EXPECT_LT((axes_of(turned, 1).col(2) - axes_of(plain, 1).col(2)).norm(), 1e-15);
+}
+
+TEST(Abaqus, OrientationsThatAreNotReadAreNamed) {
+  const LoadedMesh loaded =
+      load(kDeck + "*Orientation, name=Grain, system=cylindrical\n0, 0, 0, 0, 0, 1\n" + kSections);
+  EXPECT_TRUE(loaded.cell_data.empty());
+  EXPECT_CONTAINS(loaded.warnings.back(), "body.inp:25: orientation \"Grain\" is not read");
+  EXPECT_CONTAINS(refusal(kDeck + kSections), "body.inp:26: *SOLID SECTION: no *ORIENTATION \"GRAIN\"");
+  EXPECT_CONTAINS(refusal(kDeck + "*Orientation, name=Grain\n0, 1, 0, 0, 2, 0\n" + kSections), "points are on a line");
+  EXPECT_CONTAINS(refusal(kDeck + "*Orientation, name=Grain\n0, 1, 0, 0\n" + kSections), "with 4 coordinates");
+  EXPECT_CONTAINS(refusal(kDeck + "*Orientation, name=Grain\n0, 1, 0, 0, 0, 1\n4, 30\n" + kSections),
+                  "axis 4 of *ORIENTATION; expected 1, 2 or 3");
 }
 
 TEST(Abaqus, TakesASinglePartAsFlat) {

@@ -134,6 +134,22 @@ TEST(Gmsh, WarnsOfNamedGroupsWithoutElements) {
   EXPECT_NE(warnings[0].find("physical surface \"hole\" has no faces"), std::string::npos);
 }
 
+TEST(Gmsh, PhysicalCurvesAndPointsAreNodeSets) {
+  std::string old = replaced(kFile22, "3\n2 5", "5\n0 9 \"tip\"\n1 8 \"edge\"\n2 5");
+  old = replaced(replaced(old, "1 15 2 0 1 1", "1 15 2 9 1 1"), "2 1 2 0 1 1 2", "2 1 2 8 1 1 2");
+  std::string file41 = replaced(kFile41, "3\n2 5", "5\n0 9 \"tip\"\n1 8 \"edge\"\n2 5");
+  file41 = replaced(replaced(file41, "1 0 0 0 0\n", "1 0 0 0 1 9\n"), "1 0 0 0 1 0 0 0 2", "1 0 0 0 1 0 0 1 8 2");
+  for (const std::string& file : {old, file41}) {
+    const LoadedMesh loaded = load(file);
+    EXPECT_EQ(loaded.mesh.node_sets.at("edge"), (std::vector<int>{0, 1}));
+    EXPECT_EQ(loaded.mesh.node_sets.at("tip"), std::vector<int>{0});
+    EXPECT_TRUE(loaded.warnings.empty());
+  }
+  const auto empty = load(replaced(kFile22, "3\n2 5", "4\n1 8 \"edge\"\n2 5")).warnings;
+  ASSERT_EQ(empty.size(), 1u);
+  EXPECT_NE(empty[0].find("physical curve \"edge\" has no lines of first or second order"), std::string::npos);
+}
+
 TEST(Gmsh, WarnsOfNodesThatNoElementUses) {
   const auto [mesh, warnings, materials, cell_data] = load(replaced(kFile22, "5\n1 0 0 0\n", "6\n77 9 9 9\n1 0 0 0\n"));
   EXPECT_EQ(mesh.nodes.size(), 5u);

@@ -89,6 +89,22 @@ TEST(Vega, SetsAreTheRegionsOfAFileWithoutRegions) {
   EXPECT_TRUE(loaded.materials.empty());
 }
 
+TEST(Vega, ASecondSetOfANameGoesOnWithTheFirst) {
+  const LoadedMesh loaded = load(kTwoTets + "*SET all\n1\n*SET all\n2\n");
+  EXPECT_EQ(loaded.mesh.region_names, std::vector<std::string>{"all"});
+  EXPECT_EQ(loaded.mesh.region_of, (std::vector<int>{0, 0}));
+  ASSERT_EQ(loaded.warnings.size(), 1u);
+  EXPECT_CONTAINS(loaded.warnings[0], "body.veg:17: a second *SET \"all\": its elements are added to those of line 15");
+}
+
+TEST(Vega, ASetOfNoRegionIsNamed) {
+  const LoadedMesh loaded =
+      load(kTwoTets + "*SET a\n1\n*SET b\n1, 2\n*MATERIAL m\nENU, 1, 1, 0\n*REGION\nallElements, m\n");
+  ASSERT_EQ(loaded.warnings.size(), 2u);
+  EXPECT_CONTAINS(loaded.warnings[0], "body.veg:15: *SET \"a\" of 1 elements is in no *REGION, and is left out");
+  EXPECT_CONTAINS(loaded.warnings[1], "body.veg:17: *SET \"b\" of 2 elements is in no *REGION, and is left out");
+}
+
 TEST(Vega, ElementsInNoRegionAreNamedAndHaveNoMaterial) {
   const LoadedMesh loaded = load(kTwoTets + "*SET a\n1\n*MATERIAL m\nENU, 1, 1, 0\n*REGION\na, m\n");
   EXPECT_EQ(loaded.mesh.region_names, (std::vector<std::string>{"a", "unassigned"}));

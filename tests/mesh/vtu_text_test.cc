@@ -28,6 +28,14 @@ std::string whole(const std::vector<std::string>& parts) {
   return text;
 }
 
+// As VTK's vtkStringArray is stored, which ParaView shows as names.
+TEST(VtuText, HoldsNamesOfRegionsAsStrings) {
+  for (const auto storage : {VtuStorage::ascii, VtuStorage::raw})
+    EXPECT_CONTAINS(whole(vtu_text(two_tets(), storage)),
+                    "<FieldData>\n<Array type=\"String\" Name=\"region_names\" NumberOfTuples=\"2\" format=\"ascii\">\n"
+                    "115 111 102 116 32 60 119 111 111 100 62 0\n34 104 97 114 100 34 0\n</Array>\n</FieldData>");
+}
+
 class AnyStorage : public testing::TestWithParam<VtuStorage> {};
 
 TEST_P(AnyStorage, KeepsTheGridAndItsFields) {

@@ -44,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "motions: [{surface: x1, components: [x], translation: [0, 0, 0.01], " + kStep + "}]",
                 {"motions.0.translation", "moves nothing", "'components'"}},
         Refused{"no_axis",
-                "motions: [{surface: x1, rotation: {axis: [0, 0, 0], angle: 1}, " + kStep + "}]",
+                "motions: [{surface: x1, rotation: {axis: [0, 0, 0], angle: 1 rad}, " + kStep + "}]",
                 {"rotation.axis", "is zero"}},
         Refused{"a_length_for_an_angle",
                 "motions: [{surface: x1, rotation: {axis: [0, 0, 1], angle: 3 m}, " + kStep + "}]", {"angle", "rad"}},

@@ -71,6 +71,52 @@ BROKEN = {
     "a key of another type": ("nu: 0.3", "nu: 0.3, nu12: 0.3", ["materials", "wood"]),
 }
 
+# Values at keys of each kind, and whether they are allowed: by the schema and by orthodyn alike.
+GRAIN = "regions: {body: {material: wood, axes: {type: axis_angle, axis: [0, 0, 1], angle: VALUE}}}\ntime:"
+VALUES = {
+    "a length": ("size: [1,", "size: [VALUE,",
+                 {"1": True, "1 m": True, "1m": True, "+1 m": True, "100 cm": True, "1e3 mm": True, "1.e0 m": True,
+                  ".001 km": True, "-1": False, "0": False, "m": False, "1 1": False, "'1 m 2'": False,
+                  "1 m, 2 m, 3": False, "''": False, "true": False, "'+-1 m'": False, "'+ 1 m'": False}),
+    "a density": ("450", "VALUE", {"0.45 g/cm^3": True, "450 kg/m3": True, "450 kg m-3": True, "450 kg/m^3": True,
+                                   "450 kg.m-3": True, "heavy": False, "0": False}),
+    "a rate": ("time:", "damping: {mass: VALUE}\ntime:",
+               {"1": True, "1 1/s": True, "1 s-1": True, "1 s^-1": True, "1 Hz": True, "1 1 s": False, "1/s": False,
+                "-1": False}),
+    "a time": ("1e-3", "VALUE", {"1 ms": True, "1 us": True, "1e-3 s": True, "2 1": False}),
+    "a direction with a unit": ("-9.81]", "VALUE]", {"-9.81 m/s^2": True, "-9.81 m/s2": True, "-1 cm s-2": True,
+                                                     "g": False}),
+    "an angle": ("time:", GRAIN, {"0": True, "0.0": True, "30 deg": True, "0.5 rad": True, "30": False, "-1e-3": False,
+                                  "deg": False}),
+    "a number without a unit": ("nu: 0.3", "nu: VALUE", {"0": True, ".1": True, "1e-1": True, "0.3 1": False,
+                                                         "0.5": False, "30 %": False}),
+    "a whole number": ("cells: [4,", "cells: [VALUE,", {"4": True, "4.0": True, "4e0": True, "4.5": False,
+                                                        "0": False, "4 m": False}),
+    "a truth": ("time:", "output: {energy: VALUE}\ntime:", {"true": True, "false": True, "1": False, "maybe": False}),
+    "a word": ("time:", "mass: VALUE\ntime:", {"lumped": True, "Lumped": False, "[lumped]": False}),
+    "fields of frames": ("time:", "output: {fields: VALUE}\ntime:",
+                         {"[]": True, "[displacement, stress]": True, "[displacment]": False, "displacement": False,
+                          "[energy.kinetic]": False}),
+    "fields of a probe": ("time:", "output: {probes: {tip: {at: [1, 0, 0], fields: VALUE}}}\ntime:",
+                          {"[velocity]": True, "[det_f]": False, "[speed]": False}),
+    "the value of an event": (
+        "time:", "events: [{quantity: energy.kinetic, crosses: VALUE}]\ntime:",
+        {"1": True, "1 mJ": True, "1e-3 N m": True, "much": False, "[1]": False}),
+    "an expected value": (
+        "time:", "expect: [{quantity: energy.kinetic, value: VALUE, absolute: 1, source: s, reason: r}]\ntime:",
+        {"1": True, "1 mJ": True, "none": False}),
+    "a tolerance": (
+        "time:", "expect: [{quantity: energy.kinetic, value: 1, absolute: VALUE, source: s, reason: r}]\ntime:",
+        {"1": True, "1 mJ": True, "-1": False, "0": False}),
+    "a factor": ("time:", "loads: [{surface: x1, force: [1, 0, 0], factor: VALUE}]\ntime:",
+                 {"{type: ramp, end: 1e-4}": True, "{type: ramp, end: 0.1 ms}": True, "{type: sine}": False,
+                  "{type: sine, frequency: 1 kHz, phase: 90 deg}": True, "{type: sine, frequency: 1, phase: 90}": False,
+                  "{type: table, points: [[0, 0], [1 ms, 1]]}": True}),
+    "a traction": ("time:", "loads: [{surface: x1, traction: [VALUE, 0, 0]}]\ntime:",
+                   {"1": True, "12 kPa": True, "9810*(2 - z)": True, "-z": True, "[1]": False}),
+    "an accuracy": ("time:", "integrator: {rtol: VALUE}\ntime:", {"1e-4": True, "1": False, "1 m": False}),
+}
+
 
 class Schema(unittest.TestCase):
     def test_is_a_schema(self):
@@ -125,6 +171,20 @@ class Schema(unittest.TestCase):
                 with self.subTest(name):
                     scene.write_text(SCENE.replace(old, new))
                     self.assertEqual(subprocess.run([EXECUTABLE, "check", scene], capture_output=True).returncode, 2)
+
+    def test_takes_the_same_values_as_orthodyn(self):
+        schema = schema_of("scene")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "scene.yaml"
+            for name, (old, new, values) in VALUES.items():
+                for value, allowed in values.items():
+                    text = SCENE.replace(old, new.replace("VALUE", value))
+                    path.write_text(text)
+                    with self.subTest(name, value=value):
+                        self.assertIn(old, SCENE)
+                        self.assertEqual(errors(text, schema) == [], allowed, "schema")
+                        done = subprocess.run([EXECUTABLE, "check", path], capture_output=True, text=True)
+                        self.assertEqual(done.returncode, 0 if allowed else 2, done.stderr)
 
 
 class Committed(unittest.TestCase):

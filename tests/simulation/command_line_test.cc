@@ -1,3 +1,8 @@
+#include <dlfcn.h>
+
+#include <cstdio>
+
+#include "lib/core/versions.h"
 #include "lib/mesh/box.h"
 #include "lib/mesh/io/mesh_file.h"
 #include "lib/simulation/json.h"
@@ -8,6 +13,39 @@ namespace orthodyn::command_line_test {
 namespace {
 
 using CommandLine = InFolder;
+
+TEST_F(CommandLine, AMistypedCommandIsNamedWithTheNearestOne) {
+  const auto result = orthodyn("rnu swing.yaml");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.output.find("there is no command 'rnu'; did you mean 'run'?"), std::string::npos) << result.output;
+  EXPECT_NE(orthodyn("--plugin").exit_code, 0);
+  EXPECT_NE(orthodyn("").output.find("subcommand is required"), std::string::npos);
+}
+
+// The shared library that a function is of.
+template <class Function>
+std::string library_of(Function* function) {
+  Dl_info info{};
+  dladdr(reinterpret_cast<const void*>(function), &info);
+  return fs::absolute(info.dli_fname).string();
+}
+
+TEST_F(CommandLine, APluginIsRefusedBeforeAndAfterTheCommandUnlessItAddsSomething) {
+  write("text.so", "no library");
+  const std::pair<std::string, std::string> files[] = {
+      {"nowhere.so", "--plugin nowhere.so: no such file"},
+      {"text.so", "text.so cannot be loaded"},
+      {library_of(&std::fflush), "adds nothing: no material, term"},
+      {library_of(&orthodyn_version), "adds nothing: no material, term"}};
+  for (const auto& [file, says] : files) {
+    for (const auto& arguments : {"--plugin " + file + " list axes", "list axes --plugin " + file}) {
+      const auto refused = orthodyn(arguments);
+      EXPECT_EQ(refused.exit_code, 2) << arguments;
+      EXPECT_NE(refused.output.find(says), std::string::npos) << arguments << "\n" << refused.output;
+      EXPECT_EQ(refused.output.find("axis_angle"), std::string::npos) << "it went on";
+    }
+  }
+}
 
 TEST_F(CommandLine, RunWritesEverythingThatItPromises) {
   write("swing.yaml", kSwing);

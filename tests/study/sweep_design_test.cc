@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "tests/simulation/run_program.h"
@@ -179,6 +180,51 @@ TEST_F(SweepDesign, RefusesANameForTwoThings) {
 TEST_F(SweepDesign, NamesAnEntryOfAListByItsListToo) {
   const auto all = points(kFigure + std::string("vary: {gravity.2: [-1, -2], output.probes.tip.at.0: [1]}"));
   EXPECT_EQ(all[0].title, "gravity.2 -1, at.0 1");
+}
+
+// A sweep of a scene with grain at an angle.
+std::string with_grain(const std::string& vary, const std::string& angle = "0") {
+  return std::string(kFigure) + "scene: {file: swing.yaml, set: {regions: {body: {material: soft, axes: {type: " +
+         "axis_angle, axis: [0, 0, 1], angle: " + angle + "}}}}}\nvary: {" + vary + "}\n";
+}
+
+class SweepOfAngles : public SweepDesign {
+ protected:
+  std::vector<Point> expanded(const std::string& text) const {
+    return expand(read_sweep(Config::from_file(write("a.yaml", text).string())));
+  }
+  std::string complaint_about(const std::string& text) const {
+    try {
+      expanded(text);
+    } catch (const ConfigError& e) {
+      return e.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(SweepOfAngles, AsksForTheirUnit) {
+  constexpr const char* kAngle = "regions.body.axes.angle";
+  const auto angle = [&](const std::string& values) { return with_grain(kAngle + (": " + values)); };
+  EXPECT_THAT(complaint_about(angle("{from: 0, to: 90, count: 3}")),
+              AllOf(HasSubstr("a.yaml:3:"), HasSubstr("an angle needs a unit: give {..., unit: deg}")));
+  EXPECT_THAT(complaint_about(angle("[0, 30]")), HasSubstr("an angle needs a unit"));
+  EXPECT_EQ(complaint_about(angle("{from: 0, to: 90, count: 3, unit: deg}")), "");
+  EXPECT_EQ(complaint_about(angle("[0 deg, 0.3 rad]")), "");
+  const std::string whole = "grain: {a: {regions: {body: {material: soft, axes: {type: euler, convention: zyx, ";
+  EXPECT_THAT(complaint_about(with_grain(whole + "angles: [30, 0, 0]}}}}}")), HasSubstr("'30 deg' or '30 rad'"));
+}
+
+TEST_F(SweepOfAngles, TakesTheValuesOfFormulasForRadians) {
+  const auto angle_of = [&](const std::string& text) {
+    const auto all = expanded(text);
+    return Config::from_text(all.back().scene.scene).at("regions").at("body").at("axes").at("angle").text();
+  };
+  EXPECT_EQ(angle_of(with_grain("tilt: {values: [90], unit: deg}", "=tilt/2")),
+            number_text(std::numbers::pi / 4) + " rad");
+  EXPECT_EQ(angle_of(with_grain("turns: [3]", "=2*pi*turns")), number_text(6 * std::numbers::pi) + " rad");
+  EXPECT_THAT(complaint_about(with_grain("tilt: [90]", "=tilt/2")),
+              AllOf(HasSubstr("'tilt/2' gives 45 rad"), HasSubstr("give its variables the unit deg")));
 }
 
 TEST_F(SweepDesign, ReadsQuantitiesWithUnits) {

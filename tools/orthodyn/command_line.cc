@@ -1,10 +1,14 @@
 // Joins commands and their options to CLI11; the only file that includes it, since that takes seconds to compile.
 #include "tools/orthodyn/command_line.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "lib/core/errors.h"
 #include "lib/core/versions.h"
+#include "lib/core/words.h"
 #include "tools/orthodyn/command.h"
 
 namespace orthodyn {
@@ -29,11 +33,26 @@ Exit codes: 0 done, 1 an expectation was missed, 2 the input is at fault (nothin
 was computed is kept), or no point of a comparison or sweep could be computed, 130 interrupted (likewise).)";
 
 std::function<int()> add_command(CLI::App& program, const Command& command) {
-  auto* app = program.add_subcommand(command.text.name, command.text.sentence);
+  auto* app = program.add_subcommand(command.text.name, command.text.sentence)->fallthrough();  // for --plugin
   if (command.text.hidden) app->group("");
   if (!command.text.examples.empty()) app->footer("\nExamples:" + command.text.examples);
   CommandOptions options(*app);
   return command.declare(options);
+}
+
+std::vector<std::string> command_names() {
+  std::vector<std::string> names;
+  for (const Command& command : commands())
+    if (!command.text.hidden) names.push_back(command.text.name);
+  return names;
+}
+
+// The first word that stands where a command should.
+std::optional<std::string> unknown_command(const CLI::App& program) {
+  if (!program.get_subcommands().empty()) return {};
+  for (const std::string& word : program.remaining())
+    if (!word.starts_with("-")) return word;
+  return {};
 }
 
 }  // namespace
@@ -99,6 +118,9 @@ CommandLine parse_command_line(int argc, char** argv) {
     program.parse(argc, argv);
     out.run = runs.at(program.get_subcommands().front()->get_name());
   } catch (const CLI::ParseError& e) {
+    if (const auto word = unknown_command(program))
+      throw ConfigError(fmt::format("there is no command '{}'{} Known: {}.", *word,
+                                    did_you_mean(*word, command_names(), "."), join(command_names())));
     out.exit_code = program.exit(e) == 0 ? 0 : 2;
   }
   return out;

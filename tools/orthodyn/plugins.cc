@@ -1,13 +1,25 @@
 #include "tools/orthodyn/plugins.h"
 
 #include <dlfcn.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
-#include "lib/core/errors.h"
+#include "lib/axes/axes_source.h"
 #include "lib/config/registry.h"
+#include "lib/core/errors.h"
+#include "lib/core/versions.h"
+#include "lib/core/words.h"
+#include "lib/fem/term_choice.h"
+#include "lib/fem/time_functions/time_function.h"
+#include "lib/linear/solver.h"
+#include "lib/material/material.h"
+#include "lib/mesh/io/mesh_format.h"
+#include "lib/mesh/mesh_source.h"
+#include "lib/ode/integrator.h"
 
 namespace orthodyn {
 
@@ -24,9 +36,30 @@ std::vector<std::string> from_environment() {
   return files;
 }
 
+// How many things a scene can name by now.
+std::size_t registered() {
+  return Registry<Material>::entries().size() + Registry<TermChoice>::entries().size() +
+         Registry<IntegratorChoice>::entries().size() + Registry<MeshSource>::entries().size() +
+         Registry<AxesSource>::entries().size() + Registry<TimeFunction>::entries().size() + mesh_formats().size() +
+         solver_registry().size();
+}
+
+// Throws ConfigError for what is no plugin of this version.
 void load(const std::string& file) {
+  const std::size_t before = registered();
   if (!dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL))
-    throw ConfigError("plugin " + file + " cannot be loaded: " + dlerror());
+    throw ConfigError(
+        fmt::format("plugin {} cannot be loaded: {}. Is it a shared library, built against this orthodyn ({}) with the "
+                    "same options? See docs/extend.md",
+                    file, dlerror(), orthodyn_version()));
+  if (!registry_conflicts().empty())
+    throw ConfigError("plugin " + file + ": the name '" + registry_conflicts().front() + "' is taken; choose another");
+  if (registered() == before)
+    throw ConfigError(
+        fmt::format("plugin {} adds nothing: no material, term, integrator, mesh, axes, factor or solver registers "
+                    "itself when it is loaded. Is it the file that was meant, built against this orthodyn ({})? See "
+                    "docs/extend.md",
+                    file, orthodyn_version()));
 }
 
 }  // namespace
@@ -35,14 +68,10 @@ void load_plugins(const std::vector<std::string>& files) {
   auto all = from_environment();
   for (const auto& file : files) {
     if (!std::filesystem::exists(file)) throw ConfigError("--plugin " + file + ": no such file");
-    all.push_back(std::filesystem::absolute(file).string());
+    const std::string path = std::filesystem::absolute(file).lexically_normal().string();
+    if (std::find(all.begin(), all.end(), path) == all.end()) all.push_back(path);
   }
-  for (const auto& file : all) {
-    load(file);
-    if (!registry_conflicts().empty())
-      throw ConfigError("plugin " + file + ": the name '" + registry_conflicts().front() +
-                        "' is taken; choose another");
-  }
+  for (const auto& file : all) load(file);
   if (!all.empty()) setenv(kVariable, join(all, ":").c_str(), 1);
 }
 

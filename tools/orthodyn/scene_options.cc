@@ -13,8 +13,8 @@ void declare_scene(SceneArguments& arguments, CommandOptions& options) {
 
 namespace {
 
-Setup set_up_and_warn(Config scene) {
-  Setup setup = set_up(std::move(scene));
+Setup set_up_and_warn(const Config& scene, bool is_timed) {
+  Setup setup = set_up(scene, false, is_timed);
   for (const auto& warning : setup.built.warnings) fmt::print(stderr, "warning: {}\n", warning);
   return setup;
 }
@@ -22,7 +22,7 @@ Setup set_up_and_warn(Config scene) {
 }  // namespace
 
 Setup set_up_and_warn(const std::string& scene, const SceneChanges& changes) {
-  return set_up_and_warn(read_scene_file(scene, changes));
+  return set_up_and_warn(read_scene_file(scene, changes), true);
 }
 
 SetupOfAnyTime set_up_without_time(const std::string& file, const SceneChanges& changes) {
@@ -32,7 +32,7 @@ SetupOfAnyTime set_up_without_time(const std::string& file, const SceneChanges& 
     fmt::print(stderr, "notice: the scene has no 'time', which a run needs; 1 s is taken here\n");
     scene.set("time.end", 1.0);
   }
-  return {set_up_and_warn(std::move(scene)), timed};
+  return {set_up_and_warn(scene, timed), timed};
 }
 
 }  // namespace orthodyn

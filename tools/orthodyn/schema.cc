@@ -20,8 +20,8 @@ struct SchemaArguments {
 
 using Schema = nlohmann::ordered_json;
 
-// A number and the name of a unit. Whether the unit fits is left to orthodyn.
-constexpr const char* kQuantity = R"(^\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*[^\s\d].*$)";
+// A number and the name of a unit, which may begin with 1 ("3 1/s"). Whether the unit fits is left to orthodyn.
+constexpr const char* kQuantity = R"(^ *[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)? *(1/)?[^\s\d/*.^()+-]( ?[^\s\d]\d*)* *$)";
 
 Schema reference_to(const std::string& title) { return {{"$ref", "#/definitions/" + title}}; }
 
@@ -101,6 +101,7 @@ class SchemaWriter {
   static Schema quantity(const Key& key) {
     Schema plain = number("number", key.range);
     if (key.unit.empty()) return plain;
+    if (key.unit == "rad") plain = {{"const", 0}};
     return {{"anyOf", {plain, {{"type", "string"}, {"pattern", kQuantity}}}}};
   }
 

@@ -9,7 +9,9 @@
 
 #include "lib/simulation/files.h"
 #include "lib/simulation/scene_file.h"
+#include "lib/simulation/setup.h"
 #include "tools/orthodyn/command.h"
+#include "tools/orthodyn/notice.h"
 
 namespace orthodyn::study {
 
@@ -38,8 +40,8 @@ void print_head(const Widths& widths) {
 void print_result(const CaseResult& result, const Widths& widths) {
   for (const auto& check : result.checks)
     fmt::print("{:<{}}  {:<{}}  {:>12.6g}  {:>12.6g}  {:>10.2e}  {:>8.1e}  {}\n", case_name(result), widths.name,
-               check.expectation.title(), widths.quantity, check.expectation.value, check.computed, check.difference(),
-               check.expectation.limit(), check.passed() ? "pass" : "MISS");
+               check.expectation.title(), widths.quantity, check.expectation.value.si(), check.computed,
+               check.difference(), check.expectation.limit(), check.passed() ? "pass" : "MISS");
   if (!result.completed()) fmt::print("{:<{}}  {}\n", "", widths.name, result.outcome.message);
   for (const auto& check : result.checks)
     if (result.completed() && !check.passed())
@@ -51,26 +53,51 @@ void print_result(const CaseResult& result, const Widths& widths) {
 struct Cases {
   std::vector<Config> configs;
   Widths widths;
+  std::vector<CaseResult> unreadable;
 };
+
+// The result of a case that is at fault; what is wrong is said at once.
+CaseResult unreadable(const std::string& file, const ConfigError& error) {
+  print_notice(fmt::format("error: {}\n", error.what()));
+  CaseResult result{file, {}, {}};
+  result.outcome.status = Outcome::Status::failed;
+  result.outcome.message = error.what();
+  return result;
+}
+
+void read_case(const std::string& file, const SceneChanges& changes, Cases& cases) {
+  Config config = read_scene_file(file, changes);
+  const Scene scene = set_up(config).scene;
+  require_expectations(scene, config);
+  cases.widths.name = std::max(cases.widths.name, fs::path(file).stem().string().size());
+  for (const auto& e : scene.expect) cases.widths.quantity = std::max(cases.widths.quantity, e.title().size());
+  cases.configs.push_back(std::move(config));
+}
 
 // Read and built before anything runs: a typing error in the last file must not wait for the others.
 Cases read_cases(const VerifyArguments& arguments) {
   Cases cases;
-  for (const auto& file : find_cases(arguments.places)) {
-    Config config = read_scene_file(file, arguments.changes);
-    cases.widths.name = std::max(cases.widths.name, fs::path(file).stem().string().size());
-    for (const auto& e : set_up(config).scene.expect)
-      cases.widths.quantity = std::max(cases.widths.quantity, e.title().size());
-    cases.configs.push_back(std::move(config));
+  for (const auto& place : arguments.places) {
+    try {
+      for (const auto& file : find_cases({place})) {
+        try {
+          read_case(file, arguments.changes, cases);
+        } catch (const ConfigError& e) {
+          cases.unreadable.push_back(unreadable(file, e));
+        }
+      }
+    } catch (const ConfigError& e) {
+      cases.unreadable.push_back(unreadable(place, e));
+    }
   }
   return cases;
 }
 
 int verify_cases(const VerifyArguments& arguments) {
-  const auto [configs, widths] = read_cases(arguments);
+  const auto [configs, widths, faulty] = read_cases(arguments);
   if (arguments.junit) write_file(*arguments.junit, {junit_xml({})});  // if it cannot be written, say so now
-  print_head(widths);
-  std::vector<CaseResult> results;
+  if (!configs.empty()) print_head(widths);
+  std::vector<CaseResult> results = faulty;
   std::size_t missed = 0;
   double seconds = 0;
   for (const auto& config : configs) {
@@ -80,7 +107,10 @@ int verify_cases(const VerifyArguments& arguments) {
     seconds += results.back().outcome.wall_seconds;
   }
   if (arguments.junit) write_file(*arguments.junit, {junit_xml(results)});
-  fmt::print("{} of {} cases pass ({:.1f} s)\n", results.size() - missed, results.size(), seconds);
+  fmt::print("{} of {} cases pass ({:.1f} s)", configs.size() - missed, configs.size(), seconds);
+  if (!faulty.empty()) fmt::print("; {} could not be read", faulty.size());
+  fmt::print("\n");
+  if (!faulty.empty()) return 2;
   return missed == 0 ? 0 : 1;
 }
 
@@ -96,7 +126,7 @@ void declare(VerifyArguments& arguments, CommandOptions& options) {
 const CommandRegistration verify_command(
     {.order = 70,
      .name = "verify",
-     .sentence = "Run scenes that expect known figures, and compare: exit code 1 on a miss.",
+     .sentence = "Run scenes that expect known figures, and compare: exit code 1 on a miss, 2 if a file is at fault.",
      .examples = R"(
   orthodyn verify configs/cases
   orthodyn verify mine.yaml --integrator tr_bdf2)"},

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <utility>
 
+#include "lib/core/words.h"
 #include "lib/mesh/io/abaqus_file.h"
 #include "lib/mesh/io/text_tokens.h"
 #include "lib/mesh/split_cells.h"
@@ -31,7 +34,19 @@ class AbaqusMesh {
     budget_ = 1000 + 100 * (nodes_.size() + cells_.size() + faces_.size());
   }
 
-  MeshDraft build() {
+  LoadedMesh build() {
+    make_draft();
+    Warnings warnings;
+    std::vector<const Mat3*> axes;
+    for (const AbaqusSection& section : file_.sections) axes.push_back(axes_of(section, warnings));
+    LoadedMesh loaded = build_mesh(std::move(draft_));
+    loaded.warnings.insert(loaded.warnings.end(), warnings.begin(), warnings.end());
+    if (std::any_of(axes.begin(), axes.end(), [](const Mat3* Q) { return Q; })) add_axes(axes, loaded);
+    return loaded;
+  }
+
+ private:
+  void make_draft() {
     if (draft_.cells.empty()) draft_.fail({}, "no solid elements (C3D4, C3D8, C3D6, ...)");
     check_elements_differ();
     add_regions();
@@ -40,10 +55,23 @@ class AbaqusMesh {
       auto& uses = draft_.node_sets[set.name];
       for (const AbaqusMembers& m : set.members) append_node_uses(m, uses);
     }
-    return std::move(draft_);
   }
 
- private:
+  // Axes 1 and 2 of each tet as cell data; those of space where its section has no orientation.
+  void add_axes(const std::vector<const Mat3*>& axes, LoadedMesh& loaded) const {
+    const TetMesh& mesh = loaded.mesh;
+    CellData first{.name = "axis_1", .components = 3}, second{.name = "axis_2", .components = 3};
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+      const std::size_t cell = mesh.cell_of.empty() ? t : static_cast<std::size_t>(mesh.cell_of[t]);
+      const int section = section_of_[cell];
+      const Mat3* given = section < 0 ? nullptr : axes[static_cast<std::size_t>(section)];
+      const Mat3 Q = given ? *given : Mat3::Identity();
+      first.values.insert(first.values.end(), Q.col(0).begin(), Q.col(0).end());
+      second.values.insert(second.values.end(), Q.col(1).begin(), Q.col(1).end());
+    }
+    loaded.cell_data = {std::move(first), std::move(second)};
+  }
+
   void check_elements_differ() const {
     const auto same = std::adjacent_find(cells_.begin(), cells_.end(),
                                          [](const auto& a, const auto& b) { return a.first == b.first; });
@@ -119,8 +147,8 @@ class AbaqusMesh {
 
   std::vector<Candidate> region_candidates() const {
     std::vector<Candidate> candidates;
-    for (const AbaqusMembers& section : file_.sections) {
-      candidates.push_back({find(file_.element_sets, section, "ELSET").name, section});
+    for (const AbaqusSection& section : file_.sections) {
+      candidates.push_back({find(file_.element_sets, section.elements, "ELSET").name, section.elements});
     }
     if (!candidates.empty()) return candidates;
     std::vector<const AbaqusSets::value_type*> sets;
@@ -133,9 +161,10 @@ class AbaqusMesh {
   void add_regions() {
     const std::vector<Candidate> candidates = region_candidates();
     std::vector<int> last(draft_.cells.size(), -1);
-    for (std::size_t c = 0; c < candidates.size(); ++c) {
-      each_element(candidates[c].members, cells_, [&](std::size_t t) { last[t] = static_cast<int>(c); });
-    }
+    std::vector<std::size_t> sizes(candidates.size());
+    for (std::size_t c = 0; c < candidates.size(); ++c) take_elements(candidates, c, last, sizes);
+    section_of_ = file_.sections.empty() ? std::vector<int>(last.size(), -1) : last;
+    warn_of_other_sets();
     std::vector<int> region(candidates.size() + 1, -1);  // of each candidate; the last is the rest
     for (const int c : last) region[c < 0 ? candidates.size() : static_cast<std::size_t>(c)] = 0;
     int count = 0;
@@ -147,6 +176,59 @@ class AbaqusMesh {
     for (std::size_t t = 0; t < last.size(); ++t) {
       draft_.cells[t].region = region[last[t] < 0 ? candidates.size() : static_cast<std::size_t>(last[t])];
     }
+  }
+
+  // Gives a candidate its elements; earlier ones lose theirs to it, which is said unless both are the same elements
+  // by two names, as Gmsh writes them. `sizes`: elements of each.
+  void take_elements(const std::vector<Candidate>& candidates, std::size_t c, std::vector<int>& last,
+                     std::vector<std::size_t>& sizes) {
+    std::map<std::size_t, std::size_t> taken;  // by earlier candidate
+    each_element(candidates[c].members, cells_, [&](std::size_t t) {
+      if (last[t] == static_cast<int>(c)) return;
+      if (last[t] >= 0) ++taken[static_cast<std::size_t>(last[t])];
+      last[t] = static_cast<int>(c);
+      ++sizes[c];
+    });
+    for (const auto& [earlier, count] : taken) {
+      const std::string& name = candidates[earlier].name;
+      if (in_capitals(name) == in_capitals(candidates[c].name) || (count == sizes[earlier] && count == sizes[c]))
+        continue;
+      draft_.warnings.push_back(fmt::format("{}: {} elements of element set \"{}\" are in \"{}\", too, which comes "
+                                            "later: that is their region",
+                                            draft_.files.front(), count, name, candidates[c].name));
+    }
+  }
+
+  // Where sections make regions, other sets do not, but those that surfaces are made of, and internal ones ("_Top_S1").
+  void warn_of_other_sets() {
+    if (file_.sections.empty()) return;
+    std::set<std::string> used;
+    for (const AbaqusSection& section : file_.sections) used.insert(section.elements.set);
+    for (const auto& [key, surface] : file_.surfaces)
+      for (const AbaqusFace& face : surface.faces) used.insert(face.elements.set);
+    std::vector<std::string> others;
+    for (const auto& [key, set] : file_.element_sets) {
+      if (used.contains(key) || set.name.starts_with("_")) continue;
+      const std::size_t count = each_element({.set = key}, cells_, [](std::size_t) {});
+      if (count > 0) others.push_back(fmt::format("{} ({} elements)", set.name, count));
+    }
+    if (!others.empty())
+      draft_.warnings.push_back(fmt::format("{}: element sets without a *SOLID SECTION are no regions: {}",
+                                            draft_.files.front(), join(others)));
+  }
+
+  // Of a section that names one; null where it has none, or one of a system that is not read, which is said.
+  const Mat3* axes_of(const AbaqusSection& section, Warnings& warnings) const {
+    if (section.orientation.empty()) return nullptr;
+    const auto found = file_.orientations.find(section.orientation);
+    if (found == file_.orientations.end())
+      draft_.fail(section.elements.place,
+                  fmt::format("*SOLID SECTION: no *ORIENTATION {}", TextTokens::quoted(section.orientation)));
+    if (found->second.axes) return &*found->second.axes;
+    warnings.push_back(fmt::format("{}: orientation \"{}\" is not read, for it is not of SYSTEM=RECTANGULAR by "
+                                   "coordinates: its elements have the axes of space; give them `axes` in the scene",
+                                   draft_.where(found->second.place), found->second.name));
+    return nullptr;
   }
 
   FileFace face_of(const FileCell& cell, const AbaqusFace& face, const std::string& surface) const {
@@ -185,6 +267,7 @@ class AbaqusMesh {
   MeshDraft& draft_;
   Numbers nodes_, cells_, faces_;
   std::size_t budget_ = 0;
+  std::vector<int> section_of_;  // of each cell, an index into file_.sections; -1 for none
 };
 
 const bool abaqus_registered = register_mesh_format(
@@ -195,7 +278,7 @@ const bool abaqus_registered = register_mesh_format(
 LoadedMesh read_abaqus(const std::string& path) { return read_abaqus_text(path, read_text_file(path)); }
 
 LoadedMesh read_abaqus_text(const std::string& path, std::string_view text) {
-  return build_mesh(AbaqusMesh(read_abaqus_keywords(path, text)).build());
+  return AbaqusMesh(read_abaqus_keywords(path, text)).build();
 }
 
 }  // namespace orthodyn

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <numbers>
 #include <set>
 #include <utility>
 #include <vector>
@@ -105,9 +106,11 @@ class AbaqusReader {
     if (name == "ELSET") return read_set(keyword, "ELSET", file_.element_sets);
     if (name == "SURFACE") return read_surface(keyword);
     if (name == "SOLID SECTION") {
-      file_.sections.push_back({.set = set_name(keyword.parameter("ELSET")), .place = keyword.place});
+      file_.sections.push_back({{.set = set_name(keyword.parameter("ELSET")), .place = keyword.place},
+                                set_name(keyword.parameter("ORIENTATION"))});
       return skip_data();
     }
+    if (name == "ORIENTATION") return read_orientation(keyword);
     if (name == "PART" || name == "INSTANCE") return read_part(keyword);
     if (name == "END PART" || name == "END INSTANCE" || name == "ASSEMBLY" || name == "END ASSEMBLY" ||
         name == "HEADING" || name == "PREPRINT") {
@@ -305,6 +308,47 @@ class AbaqusReader {
       tokens_.finish_line();
       surface.faces.push_back(std::move(face));
     }
+  }
+
+  // Two points, and if wanted the origin: axis 1 points to the first one, the second is in the plane of axes 1 and 2.
+  // The next line may turn them about one of them, in degrees.
+  void read_orientation(const Keyword& keyword) {
+    const std::string name = keyword.parameter("NAME");
+    if (name.empty()) file_.draft.fail(keyword.place, "*ORIENTATION without NAME=name");
+    AbaqusOrientation orientation{name, {}, keyword.place};
+    const auto is = [&](const char* key, const char* value) {
+      const std::string given = in_capitals(keyword.parameter(key));
+      return given.empty() || given == value;
+    };
+    if (is("SYSTEM", "RECTANGULAR") && is("DEFINITION", "COORDINATES") && !at_keyword())
+      orientation.axes = turned(axes_through_points(keyword));
+    skip_data();
+    file_.orientations[in_capitals(name)] = std::move(orientation);
+  }
+
+  Mat3 axes_through_points(const Keyword& keyword) {
+    std::vector<double> numbers;
+    while (tokens_.peek() != '\0') numbers.push_back(tokens_.real("a coordinate"));
+    tokens_.skip_line();
+    if (numbers.size() != 6 && numbers.size() != 9)
+      file_.draft.fail(keyword.place, fmt::format("*ORIENTATION with {} coordinates; expected two points, or three",
+                                                  numbers.size()));
+    numbers.resize(9, 0);
+    const Eigen::Map<const Mat3> points(numbers.data());
+    const Vec3 first = points.col(0) - points.col(2), third = first.cross(points.col(1) - points.col(2));
+    if (!(third.norm() > 1e-12 * points.squaredNorm()))
+      file_.draft.fail(keyword.place, "*ORIENTATION whose points are on a line; give two different directions");
+    Mat3 Q;
+    Q << first.normalized(), third.cross(first).normalized(), third.normalized();
+    return Q;
+  }
+
+  Mat3 turned(const Mat3& Q) {
+    if (at_keyword()) return Q;
+    const std::int64_t axis = tokens_.integer("the axis to turn about");
+    const double degrees = tokens_.peek() == '\0' ? 0 : tokens_.real("an angle in degrees");
+    if (axis < 1 || axis > 3) tokens_.fail(fmt::format("axis {} of *ORIENTATION; expected 1, 2 or 3", axis));
+    return Q * Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Vec3::Unit(axis - 1)).toRotationMatrix();
   }
 
   void warn_of_skipped() {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,7 +25,6 @@ struct AbaqusSet {
   int order = 0;  // of the last line that added to it
 };
 
-
 struct AbaqusFace {
   AbaqusMembers elements;
   std::size_t side = 0;  // 0 to 5 for S1 to S6
@@ -35,6 +35,19 @@ struct AbaqusSurface {
   std::vector<AbaqusFace> faces;
 };
 
+// *SOLID SECTION: an element set, and the name of the orientation of its material in capitals ("" for none).
+struct AbaqusSection {
+  AbaqusMembers elements;
+  std::string orientation = {};
+};
+
+// *ORIENTATION: the columns are local axes 1, 2, 3; none for a system that is not read.
+struct AbaqusOrientation {
+  std::string name;  // as spelled
+  std::optional<Mat3> axes;
+  FilePlace place = {};
+};
+
 using AbaqusSets = std::map<std::string, AbaqusSet>;
 
 struct AbaqusFile {
@@ -42,7 +55,8 @@ struct AbaqusFile {
   std::vector<FileFace> faces;  // elements of three or four corners, of shells and the like
   AbaqusSets node_sets, element_sets;
   std::map<std::string, AbaqusSurface> surfaces;
-  std::vector<AbaqusMembers> sections;  // the element set of each *SOLID SECTION
+  std::vector<AbaqusSection> sections;
+  std::map<std::string, AbaqusOrientation> orientations;
 };
 
 // Throws ConfigError.

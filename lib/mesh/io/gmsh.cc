@@ -16,6 +16,7 @@ namespace orthodyn {
 namespace {
 
 constexpr const char* kKinds[] = {"points", "curve", "surface", "volume"};
+constexpr const char* kParts[] = {"nodes", "lines of first or second order", "faces", "solid elements"};
 
 // Turns what the file says into a draft; takes the nodes out of the file. The file and the tokens, which name it in
 // messages, must outlive it.
@@ -106,12 +107,15 @@ class MeshBuilder {
     }
   }
 
+  // Physical points and curves; of the same name they are one set.
   void add_node_sets() {
-    for (const Grouped<FileNodeUse>& point : file_.points) {
-      for (int tag : groups_of(point)) {
-        draft_.node_sets[group_name(0, std::abs(tag))].push_back(point.element);
-      }
-    }
+    const auto add = [&](const std::vector<Grouped<FileNodeUse>>& uses, int dim) {
+      for (const Grouped<FileNodeUse>& node : uses)
+        for (const int tag : groups_of(node))
+          draft_.node_sets[group_name(dim, std::abs(tag))].push_back(node.element);
+    };
+    add(file_.points, 0);
+    add(file_.curves, 1);
   }
 
   void warn_of_empty_groups() {
@@ -119,11 +123,12 @@ class MeshBuilder {
     for (const auto& [dim_tag, name] : file_.names) {
       const auto [dim, tag] = dim_tag;
       const std::string used = group_name(dim, tag);
-      const bool empty = (dim == 2 && !draft_.surfaces.contains(used)) ||
+      const bool empty = (dim < 2 && !draft_.node_sets.contains(used)) ||
+                         (dim == 2 && !draft_.surfaces.contains(used)) ||
                          (dim == 3 && std::count(regions.begin(), regions.end(), used) == 0);
       if (!empty) continue;
       draft_.warnings.push_back(fmt::format("{}: physical {} \"{}\" has no {}", tokens_.path(), kKinds[dim], used,
-                                            dim == 3 ? "solid elements" : "faces"));
+                                            kParts[dim]));
     }
   }
 

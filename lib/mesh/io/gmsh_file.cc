@@ -159,7 +159,9 @@ int intern_groups(GmshFile& file, std::vector<int> groups) {
 GmshType check_element_type(const TextTokens& tokens, std::int64_t type) {
   using enum GmshType::Role;
   static const std::map<std::int64_t, GmshType> types{
-      {1, {}},  {8, {}}, {26, {}}, {27, {}}, {28, {}},  // lines of any order
+      {1, {line, 2, 2}},
+      {8, {line, 3, 2}},
+      {26, {}}, {27, {}}, {28, {}},  // lines of higher order
       {15, {point, 1, 1}},
       {2, {face, 3, 3}},
       {9, {face, 6, 3}},
@@ -223,6 +225,9 @@ void read_element_nodes(TextTokens& tokens, const GmshType& type, std::int64_t t
     read(face.corners());
     file.faces.push_back({face, groups});
     if (type.nodes > type.corners) return tokens.skip_line();  // its other nodes are those of the element behind it
+  } else if (type.role == line && grouped) {
+    for (std::size_t k = 0; k < type.nodes; ++k)
+      file.curves.push_back({{tokens.integer("a node tag"), place}, groups});
   } else if (type.role == point && grouped) {
     file.points.push_back({{tokens.integer("a node tag"), place}, groups});
   } else {

@@ -17,7 +17,7 @@ namespace orthodyn {
 
 // What a type of element is read as.
 struct GmshType {
-  enum class Role { ignored, point, face, cell };
+  enum class Role { ignored, point, line, face, cell };
 
   Role role = Role::ignored;
   std::size_t nodes = 0;    // in the file
@@ -39,6 +39,7 @@ struct GmshFile {
   std::map<DimTag, std::string> names;  // of physical groups
   std::vector<FileNode> nodes;
   std::vector<Grouped<FileNodeUse>> points;  // only those in a physical point
+  std::vector<Grouped<FileNodeUse>> curves;  // nodes of lines that are in a physical curve
   std::vector<Grouped<FileFace>> faces;      // only those in a physical surface
   std::vector<Grouped<FileCell>> cells;
   // Sets of physical tags that elements refer to; ascending, no duplicates. The first is empty.

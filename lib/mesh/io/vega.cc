@@ -86,6 +86,18 @@ void assign_elements(VegaFile& file, const std::vector<int>& region_of, const st
                                             file.draft.files.front(), unassigned, region_of.size()));
 }
 
+// Where there are regions, a set that none of them names is of no use.
+void warn_of_unused_sets(VegaFile& file) {
+  if (file.regions.empty()) return;
+  for (const VegaSet& set : file.sets) {
+    const auto names_it = [&](const VegaRegion& region) { return region.set == set.name; };
+    if (std::any_of(file.regions.begin(), file.regions.end(), names_it)) continue;
+    file.draft.warnings.push_back(fmt::format("{}: *SET {} of {} elements is in no *REGION, and is left out",
+                                              file.draft.where(set.place), TextTokens::quoted(set.name),
+                                              set.elements.size()));
+  }
+}
+
 // Gives the draft its regions, and returns their materials; regions without elements are dropped.
 std::map<std::string, MeshMaterial> settle_regions(VegaFile& file) {
   const std::vector<VegaRegion> regions = wanted_regions(file);
@@ -114,6 +126,7 @@ std::map<std::string, MeshMaterial> settle_regions(VegaFile& file) {
 LoadedMesh build(VegaFile& file) {
   if (file.draft.cells.empty()) file.draft.fail({}, "no elements");
   auto materials = settle_regions(file);
+  warn_of_unused_sets(file);
   LoadedMesh loaded = build_mesh(std::move(file.draft));
   loaded.materials = std::move(materials);
   return loaded;

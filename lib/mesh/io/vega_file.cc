@@ -80,8 +80,8 @@ class VegaReader {
       begin_once(has_elements_, "*ELEMENTS", Section::element_type);
     } else if (keyword == "*SET") {
       section_ = Section::set;
-      file_.sets.push_back({name_on_line(tokens), {}, place});
-      if (file_.sets.back().name.empty()) tokens.fail("*SET without a name");
+      begin_set(name_on_line(tokens), place);
+      if (file_.sets[set_].name.empty()) tokens.fail("*SET without a name");
     } else if (keyword == "*MATERIAL") {
       section_ = Section::material;
       material_name_ = name_on_line(tokens);
@@ -93,6 +93,20 @@ class VegaReader {
                               TextTokens::quoted(keyword)));
     }
     tokens.finish_line();
+  }
+
+  // A second *SET of a name goes on with the first.
+  void begin_set(const std::string& name, FilePlace place) {
+    const auto same =
+        std::find_if(file_.sets.begin(), file_.sets.end(), [&](const VegaSet& s) { return s.name == name; });
+    set_ = static_cast<std::size_t>(same - file_.sets.begin());
+    if (same == file_.sets.end()) {
+      file_.sets.push_back({name, {}, place});
+    } else {
+      file_.draft.warnings.push_back(fmt::format("{}: a second *SET {}: its elements are added to those of line {}",
+                                                 file_.draft.where(place), TextTokens::quoted(name),
+                                                 same->place.line));
+    }
   }
 
   void begin_once(bool& seen, const char* keyword, Section section) {
@@ -198,7 +212,7 @@ class VegaReader {
   }
 
   void read_set(TextTokens& tokens) {
-    while (tokens.peek() != '\0') file_.sets.back().elements.push_back({tokens.integer("an element"), last_});
+    while (tokens.peek() != '\0') file_.sets[set_].elements.push_back({tokens.integer("an element"), last_});
     tokens.skip_line();
   }
 
@@ -252,6 +266,7 @@ class VegaReader {
   CellKind kind_ = CellKind::tet;  // of all elements
   std::int64_t first_vertex_ = 1;
   std::string material_name_;
+  std::size_t set_ = 0;  // index of the one that is being read
 };
 
 }  // namespace

@@ -104,17 +104,14 @@ class VtuFile {
 // As codes of characters, each name ended by a zero: not every reader takes arrays of strings.
 void add_region_names(VtuFile& file, const std::vector<std::string>& names) {
   if (names.empty()) return;
-  std::size_t codes = names.size();
-  for (const std::string& name : names) codes += name.size();
-  file.text(
-      fmt::format("<FieldData>\n<DataArray type=\"UInt8\" Name=\"region_names\" NumberOfTuples=\"{}\" "
-                  "format=\"ascii\">\n",
-                  codes));
+  file.text(fmt::format("<FieldData>\n<Array type=\"String\" Name=\"region_names\" NumberOfTuples=\"{}\" "
+                        "format=\"ascii\">\n",
+                        names.size()));
   for (const std::string& name : names) {
     for (const char c : name) file.text(std::to_string(static_cast<unsigned char>(c)) + " ");
     file.text("0\n");
   }
-  file.text("</DataArray>\n</FieldData>\n");
+  file.text("</Array>\n</FieldData>\n");
 }
 
 void add_points(VtuFile& file, const VtuGrid& grid, VtuStorage storage) {

@@ -109,7 +109,8 @@ class VegaSource : public MeshSource, public FileOptions {
 const bool file_registered[] = {
     Registry<MeshSource>::add<FileSource>("file", "A mesh file of any known format, chosen by its ending."),
     Registry<MeshSource>::add<GmshSource>(
-        "gmsh", "A Gmsh file. Physical volumes become regions, physical surfaces surfaces, physical points node sets."),
+        "gmsh", "A Gmsh file. Physical volumes become regions, physical surfaces surfaces, physical curves and points "
+                "node sets."),
     Registry<MeshSource>::add<VegaSource>(
         "vega", "A Vega file. Its regions bring their materials and axes: a scene may leave out `materials`."),
 };

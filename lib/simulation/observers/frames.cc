@@ -18,7 +18,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
-VtuGrid grid_of(const Geometry& geometry, std::vector<VtuField> fields, VtuNumber type) {
+bool has_named_regions(const TetMesh& mesh) {
+  return mesh.region_names.size() > 1 || mesh.region_names.front() != "body";
+}
+
+void add_frame_regions(const TetMesh& mesh, VtuGrid& grid) {
+  grid.region_names = mesh.region_names;
+  const auto is_region = [](const VtuArray& array) { return array.name == "region"; };
+  if (std::any_of(grid.cell_data.begin(), grid.cell_data.end(), is_region)) return;
+  grid.cell_data.push_back(
+      {.name = "region", .type = VtuNumber::int32, .values = {mesh.region_of.begin(), mesh.region_of.end()}});
+}
+
+VtuGrid grid_of(const Geometry& geometry, std::vector<VtuField> fields, VtuNumber type, const TetMesh* mesh) {
   const Cells& cells = geometry.cells;
   VtuGrid grid{.points = geometry.points,
                .cell_type = geometry.vtk_cell_type,
@@ -28,17 +40,20 @@ VtuGrid grid_of(const Geometry& geometry, std::vector<VtuField> fields, VtuNumbe
     auto& data = field.location == Location::node ? grid.point_data : grid.cell_data;
     data.push_back({std::move(field.name), field.components, type, std::move(field.values)});
   }
+  if (mesh && has_named_regions(*mesh)) add_frame_regions(*mesh, grid);
   return grid;
 }
 
 }  // namespace
 
-void write_vtu(const std::filesystem::path& path, const Geometry& geometry, std::vector<VtuField> fields) {
-  write_file(path, vtu_text(grid_of(geometry, std::move(fields), VtuNumber::float64), VtuStorage::raw));
+void write_vtu(const std::filesystem::path& path, const Geometry& geometry, std::vector<VtuField> fields,
+               const TetMesh* mesh) {
+  write_file(path, vtu_text(grid_of(geometry, std::move(fields), VtuNumber::float64, mesh), VtuStorage::raw));
 }
 
-FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields)
-    : folder_(std::move(folder)), model_(model),
+FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields,
+                         const TetMesh* mesh)
+    : folder_(std::move(folder)), model_(model), mesh_(mesh),
       collection_(folder_ / "frames.pvd",
                   "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n",
                   "</Collection>\n</VTKFile>\n") {
@@ -52,7 +67,7 @@ void FrameWriter::write(const ObservedState& observed) {
     fields.push_back({info.name, info.location, info.components, observed.evaluate(info.name)});
   const fs::path path = frame(frames_);
   const Geometry geometry = model_.geometry();
-  write_file(path, vtu_text(grid_of(geometry, std::move(fields), VtuNumber::float32), VtuStorage::raw));
+  write_file(path, vtu_text(grid_of(geometry, std::move(fields), VtuNumber::float32, mesh_), VtuStorage::raw));
   try {
     collection_.append(fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"frames/{}\"/>\n", observed.t(),
                                    path.filename().string()));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/mesh/tet_mesh.h"
 #include "lib/simulation/files.h"
 #include "lib/simulation/observers/observer.h"
 
@@ -19,14 +20,17 @@ struct VtuField {
   std::vector<double> values;
 };
 
-// Writes one .vtu file, in double precision. Throws RunError.
-void write_vtu(const std::filesystem::path& path, const Geometry& geometry, std::vector<VtuField> fields);
+// Writes one .vtu file, in double precision, with the names of the regions of `mesh`, if there is one. Throws RunError.
+void write_vtu(const std::filesystem::path& path, const Geometry& geometry, std::vector<VtuField> fields,
+               const TetMesh* mesh = nullptr);
 
 class FrameWriter : public Observer {
  public:
   // Writes <folder>/frames.pvd and <folder>/frames/frame_00000.vtu ... `fields` are node or cell
-  // outputs of the model, which must outlive the writer.
-  FrameWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields);
+  // outputs of the model, which must outlive the writer, as must the mesh: its regions stand in each frame by number
+  // (cell data "region") and name (field data "region_names"), unless it has one and the name "body" only.
+  FrameWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields,
+              const TetMesh* mesh = nullptr);
 
   void on_start(const ObservedState& observed) override;
   void on_resume(const ObservedState& observed) override;
@@ -41,6 +45,7 @@ class FrameWriter : public Observer {
 
   std::filesystem::path folder_;
   const Model& model_;
+  const TetMesh* mesh_;  // null: no regions
   std::vector<OutputInfo> fields_;
   GrowingFile collection_;
   std::size_t frames_ = 0, lasting_ = 0;  // written, and known to be on the disk

@@ -18,7 +18,7 @@ RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& fold
     : linearity_(setup.linearity.get()), finder_(setup.events) {
   const auto& model = *setup.built.model;
   const auto& scene = setup.scene;
-  if (!scene.output.fields.empty()) frames_.emplace(folder, model, scene.output.fields);
+  if (!scene.output.fields.empty()) frames_.emplace(folder, model, scene.output.fields, &model.parts().mesh);
   if (const auto& output = scene.output; output.energy)  // without outputs there would be no drift
     energy.emplace(folder / "energy.csv", model, *setup.integrator,
                    output.frames == 0 && !output.history ? EnergyTimes::steps : output.energy_times);

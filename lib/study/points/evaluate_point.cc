@@ -216,7 +216,7 @@ class Evaluation {
     for (const auto& info : model.outputs())
       if (info.location != Location::global && (info.name == "displacement" || info.name == *input_.frame))
         fields.push_back({info.name, info.location, info.components, model.evaluate(info.name, state)});
-    write_vtu(folder_ / kFrameFile, model.geometry(), fields);
+    write_vtu(folder_ / kFrameFile, model.geometry(), fields, &model.parts().mesh);
     result_.frame = kFrameFile;
   }
 

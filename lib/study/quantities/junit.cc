@@ -31,8 +31,14 @@ std::string test_case(const CaseResult& result, const Check& check) {
   if (check.passed()) return out + "/>\n";
   return out + fmt::format(">\n    <failure message=\"computed {:.9g}, expected {:.9g}, difference {:.3g}, limit "
                            "{:.3g}\">{}</failure>\n  </testcase>\n",
-                           check.computed, e.value, check.difference(), e.limit(),
+                           check.computed, e.value.si(), check.difference(), e.limit(),
                            escaped("Expected: " + e.source + ". Tolerance: " + e.reason));
+}
+
+std::string unread_case(const CaseResult& result) {
+  return fmt::format("  <testcase classname=\"{}\" name=\"is read\" time=\"0\">\n    <error message=\"{}\"/>\n"
+                     "  </testcase>\n",
+                     escaped(result.file), escaped(result.outcome.message));
 }
 
 }  // namespace
@@ -43,6 +49,10 @@ std::string junit_xml(const std::vector<CaseResult>& results) {
   double seconds = 0;
   for (const auto& result : results) {
     seconds += result.outcome.wall_seconds;
+    if (result.checks.empty()) {
+      ++tests, ++errors;
+      body += unread_case(result);
+    }
     for (const auto& check : result.checks) {
       ++tests;
       if (!result.completed()) ++errors;

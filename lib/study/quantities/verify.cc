@@ -82,14 +82,17 @@ std::vector<std::string> find_cases(const std::vector<std::string>& places) {
   return files;
 }
 
+void require_expectations(const Scene& scene, const Config& config) {
+  if (scene.expect.empty()) config.fail("expects nothing; add a list 'expect' (see `orthodyn list expect`)");
+}
+
 CaseResult verify(const Config& scene) {
   const std::atomic<bool> never{false};
   return verify(set_up(scene), {}, never);
 }
 
 CaseResult verify(const Setup& setup, const std::vector<Observer*>& observers, const std::atomic<bool>& interrupt) {
-  if (setup.scene.expect.empty())
-    setup.config.fail("expects nothing; add a list 'expect' (see `orthodyn list expect`)");
+  require_expectations(setup.scene, setup.config);
   if (setup.scene.analysis == Analysis::statical) return verify_equilibrium(setup, interrupt);
   return verify_motion(setup, observers, interrupt);
 }

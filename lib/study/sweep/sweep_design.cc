@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 
@@ -11,6 +12,7 @@
 #include "lib/scene/build.h"
 #include "lib/scene/quantity.h"
 #include "lib/study/sweep/formula_scope.h"
+#include "lib/study/sweep/key_unit.h"
 #include "lib/study/sweep/latin_hypercube.h"
 
 namespace orthodyn::study::sweep {
@@ -80,6 +82,15 @@ class Expansion {
  public:
   explicit Expansion(const Sweep& sweep) : sweep_(sweep), scene_(read_scene_text(sweep.scene.file)) {}
 
+  // Before the first point, which may have the angle 0.
+  void require_units_of_angles() const {
+    Config config = Config::from_text(scene_, sweep_.scene.file.path);
+    for (const auto& [path, value] : sweep_.scene.set) assign(config, path, value);
+    for (const Variable& v : sweep_.vary)
+      if (v.unit.empty() && !v.path.empty() && v.numeric() && unit_at(v.path, config) == "rad")
+        v.origin.fail("an angle needs a unit: give {..., unit: deg} or {..., unit: rad}");
+  }
+
   Point point(const Values& values) {
     Point point{values, title_of(sweep_, values), {}, "", {}};
     const FormulaScope scope = scope_of(values);
@@ -136,8 +147,28 @@ class Expansion {
   }
 
   static void set(Config& config, const Assignments& assignments, const FormulaScope& scope) {
-    for (const auto& [path, value] : assignments)
-      assign(config, path, {scope.resolved(parsed(value), value.origin.where), value.origin});
+    for (const auto& [path, value] : assignments) {
+      const Config given = parsed(value);
+      assign(config, path, {scope.resolved(given, value.origin.where), value.origin});
+      give_radians(config, path, given, scope, value.origin);
+    }
+  }
+
+  // The values of formulas are SI: those of angles get the unit that the scene asks for.
+  static void give_radians(Config& config, const std::string& path, const Config& given, const FormulaScope& scope,
+                           const Origin& origin) {
+    if (given.is_sequence())
+      for (std::size_t i = 0; i < given.size(); ++i)
+        give_radians(config, fmt::format("{}.{}", path, i), given.at(i), scope, origin);
+    if (given.is_map())
+      for (const auto& key : given.keys()) give_radians(config, path + "." + key, given.at(key), scope, origin);
+    if (!given.is_scalar() || !given.text().starts_with("=") || unit_at(path, config) != "rad") return;
+    const double angle = scope.evaluate(given.text().substr(1), origin.where);
+    if (std::abs(angle) > 2 * std::numbers::pi && !mentions(given.text(), "pi"))
+      origin.fail(fmt::format("the formula '{}' gives {:.6g} rad, for formulas see and give SI units; if degrees are "
+                              "meant, give its variables the unit deg, or multiply by pi/180",
+                              given.text().substr(1), angle));
+    assign(config, path, {number_text(angle) + " rad", origin});
   }
 
   // Of every point: its time span may be varied.
@@ -196,6 +227,7 @@ class Expansion {
 
 std::vector<Point> expand(const Sweep& sweep) {
   Expansion expansion(sweep);
+  expansion.require_units_of_angles();
   std::vector<Point> points;
   for (const auto& values : combined(sweep)) points.push_back(expansion.point(values));
   if (std::all_of(points.begin(), points.end(), [](const Point& p) { return !p.impossible.empty(); }))

@@ -53,7 +53,7 @@ TEST(RigidMotion, KeepsDistancesAndTurnsByTheWholeAngle) {
 }
 
 TEST(RigidMotion, ByASmallAngleHasAllDigits) {
-  const auto motion = read_motion("{surface: x1, rotation: {point: [0, 0, 0], axis: [0, 0, 1], angle: 1e-9}, "
+  const auto motion = read_motion("{surface: x1, rotation: {point: [0, 0, 0], axis: [0, 0, 1], angle: 1e-9 rad}, "
                                   "factor: {type: constant}}").motion();
   NodalVector X(3, 1);
   X << 3, 4, 0;

@@ -1,0 +1,48 @@
+// Rayleigh damping by which nothing vibrates, though the figure looks as if that were not meant.
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "lib/simulation/slips/subject.h"
+
+namespace orthodyn::slip {
+
+namespace {
+
+constexpr double kMostRatio = 50;  // of vibrations along the body; those of bending are slower by its slenderness
+// What people take for damping ratios; a body that is to creep has more.
+constexpr double kLeastUsualRatio = 0.004, kMostUsualRatio = 0.25;
+
+void add_stiffness_slip(const Subject& subject, const Config& place, double beta, Warnings& out) {
+  const double omega = std::numbers::pi / 2 / subject.crossing();
+  const double ratio = beta * omega / 2;
+  const bool looks_like_a_ratio = beta >= kLeastUsualRatio && beta <= kMostUsualRatio;
+  if (ratio <= kMostRatio || !(looks_like_a_ratio || beta > subject.span())) return;
+  out.push_back(fmt::format(
+      "{}: {:.4g} s gives the lowest vibration along the body ({:.3g} Hz) a damping ratio of {:.3g}: nothing vibrates, "
+      "it creeps{}. Is it meant as a damping ratio? For a ratio xi at the frequency f take xi/(pi f)",
+      place.where(), beta, omega / (2 * std::numbers::pi), ratio,
+      beta > subject.span() ? fmt::format(", for longer than the run of {:.4g} s", subject.span()) : ""));
+}
+
+}  // namespace
+
+void add_damping_slips(const Subject& subject, Warnings& out) {
+  if (!subject.moves()) return;
+  const auto& damping = subject.scene.damping;
+  if (damping) {
+    const Config section = subject.config.at("damping");
+    if (damping->stiffness > 0) add_stiffness_slip(subject, section.at("stiffness"), damping->stiffness, out);
+    const double omega = std::numbers::pi / 2 / subject.crossing();
+    if (damping->mass > 2 * kMostRatio * omega)
+      out.push_back(
+          fmt::format("{}: {:.4g} 1/s stops every motion within {:.2g} s: is it a damping ratio, or of another "
+                      "unit? For a ratio xi at the frequency f take 4 pi f xi",
+                      section.at("mass").where(), damping->mass, 1 / damping->mass));
+  }
+  for (const auto& [name, region] : subject.scene.regions)
+    if (region.stiffness_damping)
+      add_stiffness_slip(subject, subject.config.at("regions").at(name), *region.stiffness_damping, out);
+}
+
+}  // namespace orthodyn::slip

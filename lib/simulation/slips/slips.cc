@@ -1,0 +1,67 @@
+#include "lib/simulation/slips/slips.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/fem/time_functions/time_function.h"
+#include "lib/scene/region.h"
+#include "lib/simulation/slips/subject.h"
+
+namespace orthodyn {
+
+namespace slip {
+
+Subject::Subject(const Config& input, const Scene& given, const BuiltScene& made, bool timed)
+    : config(input), scene(given), built(made), is_timed(timed), box(bounding_box(made.model->parts().mesh)),
+      extent(box.size().maxCoeff()) {
+  for (const auto& term : built.model->parts().elastic)
+    wave = std::max(wave, fastest_wave(material_in(scene, term->region())));
+}
+
+std::optional<Config> value_at(const Config& config, const std::vector<std::string>& path) {
+  Config here = config;
+  for (const auto& key : path) {
+    if (!here.has(key)) return {};
+    here = here.at(key);
+  }
+  if (here.is_null()) return {};
+  return here;
+}
+
+void visit_keys(const Config& config, const std::string& key, const std::function<void(const Config&)>& visit) {
+  if (config.is_sequence())
+    for (std::size_t i = 0; i < config.size(); ++i) visit_keys(config.at(i), key, visit);
+  if (!config.is_map()) return;
+  for (const auto& name : config.keys()) {
+    if (config.at(name).is_null()) continue;
+    if (name == key) visit(config.at(name));
+    else visit_keys(config.at(name), key, visit);
+  }
+}
+
+bool names_a_factor(const Config& section) {
+  return section.is_map() && section.has("type") && section.at("type").is_scalar() &&
+         Registry<TimeFunction>::entries().contains(section.at("type").text());
+}
+
+double fastest_wave(const Material& material) {
+  return std::sqrt(voigt(material.stiffness()).diagonal().maxCoeff() / material.density());
+}
+
+double distance(const Vec3& point, const Box& box) {
+  return (point - point.cwiseMax(box.min).cwiseMin(box.max)).norm();
+}
+
+}  // namespace slip
+
+Warnings slips(const Config& config, const Scene& scene, const BuiltScene& built, bool is_timed) {
+  const slip::Subject subject(config, scene, built, is_timed);
+  Warnings out;
+  for (const auto add :
+       {slip::add_material_slips, slip::add_place_slips, slip::add_load_slips, slip::add_time_slips,
+        slip::add_motion_slips, slip::add_damping_slips, slip::add_event_slips, slip::add_setting_slips})
+    add(subject, out);
+  return out;
+}
+
+}  // namespace orthodyn
