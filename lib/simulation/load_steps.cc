@@ -34,7 +34,7 @@ Outcome run_static(const Model& model, LoadStepper& stepper, const std::vector<O
       stepper.step();
       outcome.last = stepper.state();
       const ObservedState equilibrium(model, outcome.last);
-      for (auto* o : observers) o->on_output(equilibrium), o->on_history(equilibrium);
+      for (auto* o : observers) o->on_history(equilibrium), o->on_output(equilibrium);
     }
   });
 }

@@ -155,11 +155,10 @@ class Driver {
     State state;
     integrator_.interpolate(t, state);
     const ObservedState observed(model_, state);
-    if (is_output) {
-      for (auto* o : observers_) o->on_output(observed);
-      last_output_ = t;
-    }
-    if (is_history) tell_history(observed);
+    if (is_history) tell_history(observed);  // first: an output may end the run (LinearityWatch)
+    if (!is_output) return;
+    for (auto* o : observers_) o->on_output(observed);
+    last_output_ = t;
   }
 
   void tell_history(const ObservedState& observed) {
