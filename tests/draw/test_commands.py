@@ -16,8 +16,10 @@ from folder_test import InAFolder, TOOLS  # noqa: E402
 from tiny_result import POINTS, Vtu, fields_at, write_curves, write_result  # noqa: E402
 
 from draw import animation  # noqa: E402
+from draw.compare import _difference  # noqa: E402
 from draw.scene import PictureSpec, Scene  # noqa: E402
 from draw.series import Series  # noqa: E402
+from draw.table import Table  # noqa: E402
 
 
 class Commands(InAFolder):
@@ -79,6 +81,62 @@ class Commands(InAFolder):
         self.assertEqual([Path(p).name for p in out],
                          ["strip.png", "animation.gif", "energy.png", "steps.png", "probes.png"])
         self.assertTrue(all(Path(p).stat().st_size > 1000 for p in out))
+
+
+class OfStatics(InAFolder):
+    """load_factor in place of t."""
+    def setUp(self):
+        super().setUp()
+        self.result = write_result(self.folder / "s", [0.0, 0.25, 1.0])
+        (self.result / "run.json").write_text('{"analysis": "static"}')
+        (self.result / "probes.csv").write_text("load_factor,tip.displacement.x [m],tip.displacement.z [m]\n"
+                                                "0,0,0\n0.25,1e-4,-2e-3\n1,2e-4,-4e-3\n")
+        (self.result / "load_steps.csv").write_text("load_factor,newton_iterations,largest_displacement [m]\n"
+                                                    "0,0,0\n0.25,3,2e-3\n1,4,4e-3\n")
+
+    def test_all_draws_frames_and_the_load_over_the_displacement(self):
+        code, out, err = self.run_draw("all", self.result)
+        self.assertEqual((code, err), (0, []))
+        self.assertEqual([Path(p).name for p in out], ["strip.png", "animation.gif", "probes.png", "load.png"])
+
+    def test_frames_are_those_of_load_factors(self):
+        scene = Scene(Series(self.result), [0, 1, 2], PictureSpec())
+        self.assertEqual(scene.labels, {0: "load factor 0.00", 1: "load factor 0.25", 2: "load factor 1.00"})
+
+    def test_the_largest_displacement_stands_in_for_probes(self):
+        (self.result / "probes.csv").unlink()
+        self.assertEqual(self.run_draw("load", self.result)[0], 0)
+        (self.result / "load_steps.csv").unlink()
+        self.fails_with("no displacements in probes.csv or load_steps.csv", "load", self.result)
+
+
+class Comparisons(InAFolder):
+    def setUp(self):
+        super().setUp()
+        self.results = [write_result(self.folder / name, [0.0, 1.0]) for name in "ab"]
+        for result in self.results:
+            write_curves(result)
+
+    def test_two_results_are_drawn_over_each_other(self):
+        code, out, err = self.run_draw("compare", *self.results)
+        self.assertEqual((code, err), (0, []))
+        self.assertEqual([Path(p).name for p in out], ["compare_probes.png", "compare_energy.png"])
+        self.assertEqual(Path(out[0]).parent, self.results[1] / "pictures")
+
+    def test_their_difference_is_that_of_the_curves(self):
+        tables = []
+        for result, last in zip(self.results, (2.0, 1.5)):
+            (result / "probes.csv").write_text(f"t [s],tip.displacement.x [m]\n0,0\n1,{last}\n")
+            tables.append(Table(result / "probes.csv"))
+        self.assertAlmostEqual(_difference(tables, 1, ["tip.displacement.x"]), 0.25)
+
+    def test_what_cannot_be_compared_is_refused(self):
+        self.fails_with("give 2 to 4 results, found 1", "compare", self.results[0])
+        for name in ("probes", "energy"):
+            (self.results[1] / f"{name}.csv").unlink()
+        self.fails_with("none of probes.csv, energy.csv is in all of", "compare", *self.results)
+        (self.results[1] / "probes.csv").write_text("load_factor,tip.displacement.x [m]\n0,0\n1,1\n")
+        self.fails_with("static", "compare", *self.results)
 
 
 class Failures(InAFolder):

@@ -7,21 +7,24 @@ from .units import prefix
 COLOURS = ("#2f5fb3", "#d1622b", "#2e8b57", "#8e44ad", "#b8860b", "#c0392b", "#3aa0b5", "#6b7280")
 
 
-def panels(heights, width=8.0, right=1.35):
-    """Figure and axes that share the time axis; `heights` in inches."""
-    height = sum(heights) + 0.62 + 0.34 * len(heights)
-    figure, axes = pyplot.subplots(len(heights), 1, sharex=True, squeeze=False, figsize=(width, height),
+def panels(heights, width=8.0, right=1.35, sharex=True):
+    """Figure and axes, by default with one time axis; `heights` in inches."""
+    gap = 0.34 if sharex else 0.75
+    height = sum(heights) + 0.62 + gap * len(heights)
+    figure, axes = pyplot.subplots(len(heights), 1, sharex=sharex, squeeze=False, figsize=(width, height),
                                    gridspec_kw={"height_ratios": heights})
     figure.subplots_adjust(left=0.80 / width, right=1 - right / width, bottom=0.56 / height,
-                           top=1 - 0.34 / height, hspace=0.34 * len(heights) / sum(heights))
+                           top=1 - 0.34 / height, hspace=gap * len(heights) / sum(heights))
     return figure, list(axes[:, 0])
 
 
-def time_axis(axes, times, unit, start=None):
-    """Sets limits (from `start` or the first time) and label; returns the times in the unit of the axis."""
+def time_axis(axes, times, unit, name="t", start=None):
+    """Sets limits (from `start` or the first time) and label; returns the times, or load factors, in the unit of the
+    axis."""
     factor, unit = prefix(unit, np.nanmax(np.abs(times)))
     scaled = times / factor
-    axes.set_xlabel(f"time [{unit}]" if unit else "time")
+    label = "time" if name == "t" else name.replace("_", " ")
+    axes.set_xlabel(f"{label} [{unit}]" if unit else label)
     first = scaled[0] if start is None else start / factor
     axes.set_xlim(first, scaled[-1] if scaled[-1] > first else first + 1)
     return scaled

@@ -18,6 +18,8 @@ examples:
   draw strip out/beam --times 0,0.1,0.4 --scale 20     deformation enlarged twenty times
   draw animate out/beam --every 4 --fps 20
   draw energy out/beam
+  draw load out/shelf                                  load over displacement of a static analysis
+  draw compare out/a out/b                             probes and energies of two runs over each other
   draw report out/compare                              a comparison as one page, report.html
   draw axes out/axes/stem/axes.vtu                     material axes, which `orthodyn check --axes` wrote
   draw modes out/modes/tuning_fork                     natural modes, which `orthodyn modes` wrote"""
@@ -119,6 +121,11 @@ def _parser():
     command("steps", "Step size with order and rejections, Newton iterations, from steps.csv.")
     command("probes", "Probed values over time, from probes.csv.")
     command("momentum", "Linear and angular momentum over time, from momentum.csv.")
+    command("load", "Load factor over displacement of a static analysis.")
+    both = "Probes and energies of two to four results over each other, with how far they differ."
+    compare = commands.add_parser("compare", help=both, description=both)
+    compare.add_argument("results", metavar="RESULT", nargs="+", help="folders that `orthodyn run` wrote")
+    compare.add_argument("--out", type=Path, metavar="FOLDER", help="default: the pictures of the last RESULT")
     page = "One HTML page and figures for papers of a comparison, a sweep or a matrix of hard cases."
     report = commands.add_parser("report", help=page, description=page)
     report.add_argument("result", metavar="RESULT", help="folder that `orthodyn compare`, `sweep`, `converge` or `stability` wrote")
@@ -185,14 +192,26 @@ def _curve(args):
     yield curves.draw_curve(args.command, folder, _out(args, f"{args.command}.png"))
 
 
+def _load(args):
+    from . import load_path, series
+    yield load_path.draw_load_path(series.result_folder(args.result), _out(args, "load.png"))
+
+
+def _compare(args):
+    from .compare import draw_comparison
+    yield from draw_comparison(args.results, args.out or Path(args.results[-1]) / "pictures")
+
+
 def _all(args):
     """What the folder has; the rest is left out with a word on stderr."""
     from .curves import CURVES
+    from .load_path import has_load_path
     from .series import result_folder
     folder = result_folder(args.result)
     parts = [(name, (folder / f"{name}.csv").is_file(), _curve) for name in CURVES]
     parts = [(name, (folder / "frames.pvd").is_file(), run) for name, run in
              (("strip", _strip), ("animate", _animate))] + parts
+    parts.append(("load", has_load_path(folder), _load))
     if not any(present for _, present, _ in parts):
         raise DrawError(f"{folder}: neither frames.pvd nor any of {', '.join(f'{c}.csv' for c in CURVES)}; "
                         "is it a folder that `orthodyn run` wrote?")
@@ -223,7 +242,7 @@ def _modes(args):
     yield draw_modes(args.result, args.out or Path(args.result) / "modes.png", args.count, args.view, args.up)
 
 
-COMMANDS = {"report": _report, "axes": _axes, "modes": _modes, "frame": _frame, "strip": _strip, "animate": _animate,
+COMMANDS = {"report": _report, "compare": _compare, "load": _load, "axes": _axes, "modes": _modes, "frame": _frame, "strip": _strip, "animate": _animate,
             "all": _all}
 
 

@@ -34,7 +34,7 @@ def draw_energy(table, path):
     energies = moving or energies
     with_balance = "balance" in table
     figure, axes = panels([3.2, 1.25] if with_balance else [3.2])
-    times = time_axis(axes[-1], table["t"].values, table["t"].unit)
+    times = time_axis(axes[-1], table.axis.values, table.axis.unit, table.axis.name)
     unit = draw_lines(axes[0], times, energies, ENERGY_STYLE)
     _y_label(axes[0], "energy", unit)
     title(axes[0], "Energy", f"zero throughout: {', '.join(quiet)}" if quiet else "")
@@ -71,8 +71,8 @@ def draw_steps(table, path):
     """`rejected` counts the attempts that failed before the step of its row was accepted."""
     effort = "newton_iterations" in table
     figure, axes = panels([3.0, 1.1] if effort else [3.0])
-    t = table["t"]
-    times = time_axis(axes[-1], t.values, t.unit, start=t.values[0] - np.nan_to_num(table["h"].values[0]))
+    t = table.axis
+    times = time_axis(axes[-1], t.values, t.unit, t.name, start=t.values[0] - np.nan_to_num(table["h"].values[0]))
     _draw_steps(axes[0], times, table)
     _y_label(axes[0], "h", table["h"].unit)
     if effort:
@@ -98,7 +98,7 @@ def draw_components(table, path):
     groups = _by_vector(table.others())
     longest = max(len(c.name.rpartition(".")[2]) for c in table.others())
     figure, axes = panels([1.7 if len(groups) > 1 else 3.0] * len(groups), right=0.45 + 0.08 * longest)
-    times = time_axis(axes[-1], table["t"].values, table["t"].unit)
+    times = time_axis(axes[-1], table.axis.values, table.axis.unit, table.axis.name)
     for panel, ((stem, _), columns) in zip(axes, groups.items()):
         unit = draw_lines(panel, times, columns, name=lambda column: column.name.rpartition(".")[2])
         _y_label(panel, "", unit)

@@ -9,8 +9,9 @@ from .colouring import Colouring
 from .errors import DrawError
 from .grain import Grain
 from .quantity import find_quantity
+from .series import is_static
 from .surface import Surface
-from .units import time_labels
+from .units import load_factor_labels, time_labels
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,8 @@ class Scene:
         if not len(first.tets):
             raise DrawError(f"{series.paths[indices[0]]}: no tetrahedra to draw")
         self.surface = Surface(first.points, first.tets)
-        self.labels = dict(zip(indices, time_labels([series.times[i] for i in indices])))
+        labels = load_factor_labels if is_static(series.folder) else time_labels
+        self.labels = dict(zip(indices, labels([series.times[i] for i in indices])))
         self._shape = first.points.shape, first.tets.shape
         self.quantity = find_quantity(spec.color, first)
         self._grain = None

@@ -1,5 +1,6 @@
 """A result folder as a series of frames in time, by its frames.pvd."""
 import functools
+import json
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
@@ -14,6 +15,14 @@ def result_folder(name):
     if not folder.is_dir():
         raise DrawError(f"{folder}: no such result folder; `orthodyn run SCENE.yaml` writes one")
     return folder
+
+
+def is_static(folder):
+    """Whether the frames and rows of a folder are those of load factors, by its run.json; if in doubt, of times."""
+    try:
+        return json.loads((folder / "run.json").read_text(encoding="utf-8"))["analysis"] == "static"
+    except (OSError, ValueError, KeyError, TypeError):
+        return False
 
 
 class Series:

@@ -51,6 +51,11 @@ class Table:
     def __contains__(self, name):
         return name in self.columns
 
+    @property
+    def axis(self):
+        """The first column: the time, or the load factor of a static analysis."""
+        return next(iter(self.columns.values()))
+
     def others(self):
-        """All columns but the time."""
-        return [c for c in self.columns.values() if c.name != "t"]
+        """All columns but the first."""
+        return list(self.columns.values())[1:]

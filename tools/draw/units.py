@@ -30,13 +30,21 @@ def length_label(length):
     return f"{length:.3g} m"
 
 
-def time_labels(times):
-    """Labels 't = 12.5 ms', in one unit and with as few digits as show each time well."""
-    factor, unit = prefix("s", max(abs(t) for t in times))
-    scaled = [float(t / factor) for t in times]
-    distinct = sorted(set(scaled))
+def _figures(values):
+    """The values as text, with as few digits as show each of them well."""
+    distinct = sorted(set(values))
     if len(distinct) == 1:
-        return [f"t = {t:.4g} {unit}" for t in scaled]
+        return [f"{v:.4g}" for v in values]
     gap = min(b - a for a, b in zip(distinct, distinct[1:]))
-    digits = next((d for d in range(9) if all(abs(t - round(t, d)) < 0.02 * gap for t in distinct)), 9)
-    return [f"t = {t:.{digits}f} {unit}" for t in scaled]
+    digits = next((d for d in range(9) if all(abs(v - round(v, d)) < 0.02 * gap for v in distinct)), 9)
+    return [f"{v:.{digits}f}" for v in values]
+
+
+def time_labels(times):
+    """Labels 't = 12.5 ms', in one unit."""
+    factor, unit = prefix("s", max(abs(t) for t in times))
+    return [f"t = {figure} {unit}" for figure in _figures([float(t / factor) for t in times])]
+
+
+def load_factor_labels(factors):
+    return [f"load factor {figure}" for figure in _figures([float(f) for f in factors])]

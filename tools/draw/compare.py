@@ -1,0 +1,79 @@
+"""Curves of several results over each other, and how far each is from the first."""
+import numpy as np
+from matplotlib.lines import Line2D
+
+from .chart import COLOURS, panels, time_axis, title
+from .errors import DrawError
+from .series import result_folder
+from .style import save
+from .table import Table
+from .units import prefix
+
+FILES = ("probes.csv", "energy.csv")
+STYLES = ("-", (0, (5, 2)), (0, (1, 1.4)), (0, (5, 2, 1, 2)))
+
+
+def _groups(table, leave_out=("balance",)):
+    """Columns of one vector, or energies, that belong to one panel."""
+    groups = {}
+    for column in table.others():
+        if column.name in leave_out:
+            continue
+        stem = column.name.rpartition(".")[0] or ("energy" if column.unit == "J" else column.name)
+        groups.setdefault((stem, column.unit), []).append(column.name)
+    return groups
+
+
+def _difference(tables, other, names):
+    """The largest distance of `other` from the first, at the first's abscissae that both have, over the first's
+    largest magnitude."""
+    first, second = tables[0], tables[other]
+    shared = (first.axis.values >= second.axis.values[0]) & (first.axis.values <= second.axis.values[-1])
+    if not shared.any():
+        return np.nan
+    a = np.array([first[n].values[shared] for n in names])
+    b = np.array([np.interp(first.axis.values[shared], second.axis.values, second[n].values) for n in names])
+    largest = np.linalg.norm(a, axis=0).max()
+    return np.linalg.norm(a - b, axis=0).max() / largest if largest > 0 else np.nan
+
+
+def _draw_file(tables, labels, path):
+    groups = {key: [n for n in names if all(n in t for t in tables)] for key, names in _groups(tables[0]).items()}
+    groups = {key: names for key, names in groups.items() if names}
+    if not groups:
+        raise DrawError(f"{tables[0].path}: no column that all results have")
+    figure, axes = panels([2.2] * len(groups), right=1.9)
+    time_axis(axes[-1], np.concatenate([t.axis.values for t in tables]), tables[0].axis.unit, tables[0].axis.name)
+    factor = prefix(tables[0].axis.unit, max(np.abs(t.axis.values).max() for t in tables))[0]
+    axes[-1].set_xlim(min(t.axis.values[0] for t in tables) / factor, max(t.axis.values[-1] for t in tables) / factor)
+    for panel, ((stem, unit), names) in zip(axes, groups.items()):
+        scale, shown = prefix(unit, max(np.nanmax(np.abs(t[n].values)) for t in tables for n in names))
+        for k, name in enumerate(names):
+            for table, style in zip(tables, STYLES):
+                panel.plot(table.axis.values / factor, table[name].values / scale, color=COLOURS[k % len(COLOURS)],
+                           ls=style, lw=1.3)
+        panel.set_ylabel(f"[{shown}]" if shown else "")
+        handles = [Line2D([], [], color=COLOURS[k % len(COLOURS)], label=n.rpartition(".")[2])
+                   for k, n in enumerate(names)]
+        handles += [Line2D([], [], color="#6b7280", ls=style, label=label) for label, style in zip(labels, STYLES)]
+        panel.legend(handles=handles, loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=7.5)
+        apart = ", ".join(f"{_difference(tables, k, names):.2g}" for k in range(1, len(tables)))
+        title(panel, stem.replace("_", " "), f"largest difference from the first: {apart} of its largest value")
+    return save(figure, path)
+
+
+def draw_comparison(names, out):
+    """A picture for each table that all of the results have; `out` is a folder."""
+    if not 2 <= len(names) <= len(STYLES):
+        raise DrawError(f"compare: give 2 to {len(STYLES)} results, found {len(names)}")
+    folders = [result_folder(name) for name in names]
+    drawn = 0
+    for file in FILES:
+        if all((folder / file).is_file() for folder in folders):
+            tables = [Table(folder / file) for folder in folders]
+            if len({t.axis.name for t in tables}) > 1:
+                raise DrawError(f"{file}: a static analysis has nothing to be compared with in a dynamic one")
+            yield _draw_file(tables, names, out / f"compare_{file.removesuffix('.csv')}.png")
+            drawn += 1
+    if not drawn:
+        raise DrawError(f"compare: none of {', '.join(FILES)} is in all of {', '.join(names)}")

@@ -1,0 +1,54 @@
+"""Load factor over displacement of a static analysis, from its probes.csv or load_steps.csv."""
+from matplotlib.lines import Line2D
+
+from .chart import COLOURS, panels, title
+from .errors import DrawError
+from .series import is_static
+from .style import save
+from .table import Table
+from .units import prefix
+
+FILES = ("probes.csv", "load_steps.csv")
+
+
+def has_load_path(folder):
+    return is_static(folder) and any((folder / name).is_file() for name in FILES)
+
+
+def _displacements(folder):
+    """The load factors, and the displacements at the probes or, without probes, the largest one."""
+    for name in FILES:
+        if not (folder / name).is_file():
+            continue
+        table = Table(folder / name)
+        columns = [c for c in table.others() if "displacement" in c.name]
+        if columns:
+            return table["load_factor"].values, columns
+    raise DrawError(f"{folder}: no displacements in {' or '.join(FILES)}; is it a static analysis?")
+
+
+def _panels_of(columns):
+    """A panel per probe: name and columns."""
+    groups = {}
+    for column in columns:
+        probe, _, component = column.name.rpartition(".")
+        vector = probe.endswith("displacement")
+        groups.setdefault(probe.removesuffix(".displacement") if vector else "", []).append(
+            (component if vector else column.name.replace("_", " "), column))
+    return groups
+
+
+def draw_load_path(folder, path):
+    factors, columns = _displacements(folder)
+    groups = _panels_of(columns)
+    figure, axes = panels([2.6] * len(groups), sharex=False)
+    for panel, (probe, lines) in zip(axes, groups.items()):
+        factor, unit = prefix("m", max(abs(c.values).max() for _, c in lines))
+        for k, (_, column) in enumerate(lines):
+            panel.plot(column.values / factor, factors, marker="o", ms=3, lw=1.3, color=COLOURS[k])
+        panel.set_xlabel(f"displacement [{unit}]")
+        panel.set_ylabel("load factor")
+        panel.legend(handles=[Line2D([], [], color=COLOURS[k], marker="o", ms=3, label=name)
+                              for k, (name, _) in enumerate(lines)], loc="center left", bbox_to_anchor=(1.0, 0.5))
+        title(panel, f"Load over displacement{f' of {probe}' if probe else ''}", f"{len(factors) - 1} load steps")
+    return save(figure, path)
