@@ -117,7 +117,7 @@ class DynamicAnalysis {
                               *setup_.integrator);
     Plan plan = plan_of(setup_.scene, begin.schedule);
     plan.events = observers.events();
-    if (begin.begun) plan.delivered = begin.last_output;
+    if (begin.begun) plan.delivered = begin.last_output, plan.history_delivered = begin.last_history;
     const auto progress = context_.listener.on_begin(setup_);
     auto all = observers.all(progress.get(), checkpointer);
     if (estimator_) all.push_back(&estimator_->recorder());

@@ -67,8 +67,9 @@ class Driver {
     history_.meet(outputs_.times(), tiny_);
     if (plan.delivered) {
       outputs_.skip_until(*plan.delivered, tiny_);
-      history_.skip_until(outcome.last.t, tiny_);
+      history_.skip_until(plan.history_delivered, tiny_);
       outputs_.begin_at(outcome.last.t);
+      history_.begin_at(outcome.last.t);
     }
   }
 

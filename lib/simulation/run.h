@@ -18,6 +18,7 @@ struct Plan {
   std::optional<double> delivered = std::nullopt;
   EventFinder* events = nullptr;  // what to look for in each step, if anything
   std::vector<double> history_times = {};  // ascending, after the start; the output times where it is empty
+  double history_delivered = 0;            // with `delivered`: the same of the history
   bool history_at_steps = false;           // in place of history_times: after each step
 };
 

@@ -65,6 +65,15 @@ TEST_F(Resume, TheSameValueInAnotherUnitIsNoChange) {
   EXPECT_NE(other.output.find("materials.soft.young differs"), std::string::npos) << other.output;
 }
 
+TEST_F(Resume, ARunWithoutAnIntegratorKeepsTheOneThatWasChosen) {
+  write("beam.yaml", kBeam + std::string("time: {end: 0.5}\n"));
+  ASSERT_EQ(orthodyn("run beam.yaml --quiet --out out").exit_code, 0);
+  const auto result = orthodyn("run beam.yaml --quiet --out out --resume --set time.end=1");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_EQ(record("out").at("time_reached"), 1.0);
+  EXPECT_EQ(record("out").at("status"), "completed");
+}
+
 TEST_F(Resume, ItDoesNotGoTogetherWithForce) {
   write("beam.yaml", kBeam + std::string(kBdf));
   EXPECT_EQ(orthodyn("run beam.yaml --resume --force").exit_code, 2);

@@ -71,6 +71,7 @@ SortedJson to_json(const Checkpoint& c) {
           {"q", numbers(c.state.q)},
           {"v", numbers(c.state.v)},
           {"last_output", c.last_output},
+          {"last_history", c.last_history},
           {"rhythm", {c.schedule.start, c.schedule.end, c.schedule.interval}},
           {"effort", c.effort.archive().entries()},
           {"restarts", restarts_json(c.restarts)},
@@ -85,6 +86,7 @@ Checkpoint from_json(const SortedJson& json) {
   c.begun = json.at("begun");
   c.state = {json.at("t"), vector(json.at("q")), vector(json.at("v"))};
   c.last_output = json.at("last_output");
+  c.last_history = json.value("last_history", c.last_output);
   const auto& rhythm = json.at("rhythm");
   c.schedule = {rhythm.at(0), rhythm.at(1), rhythm.at(2)};
   c.effort = Effort::from(archive(json.at("effort")));

@@ -33,7 +33,7 @@ void Checkpointer::start_clock() {
 void Checkpointer::on_start(const ObservedState& observed) {
   start_clock();
   checkpoint_.begun = true;
-  checkpoint_.last_output = observed.t();
+  checkpoint_.last_output = checkpoint_.last_history = observed.t();
   if (!times_.never) write(observed.state());
 }
 
@@ -43,6 +43,8 @@ void Checkpointer::on_output(const ObservedState& observed) {
   checkpoint_.last_output = observed.t();
   ++outputs_;
 }
+
+void Checkpointer::on_history(const ObservedState& observed) { checkpoint_.last_history = observed.t(); }
 
 void Checkpointer::on_step(const StepInfo&, const ObservedState& observed, const Integrator&) {
   if (times_.never) return;

@@ -33,6 +33,7 @@ class Checkpointer : public Observer {
   void on_start(const ObservedState& observed) override;
   void on_resume(const ObservedState& observed) override;
   void on_output(const ObservedState& observed) override;
+  void on_history(const ObservedState& observed) override;
   void on_step(const StepInfo& info, const ObservedState& observed, const Integrator& integrator) override;
 
   // Between steps only. Throws RunError.

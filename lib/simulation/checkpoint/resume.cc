@@ -105,10 +105,13 @@ void keep_choices(const Checkpoint& checkpoint, Config& scene) {
   const Config before = Config::from_text(checkpoint.scene, "checkpoint.cbor");
   keep_kinematics(before, scene);
   if (!before.has("integrator")) return;
-  for (const std::string key : {"position_scale", "velocity_scale"}) {
-    const bool open = !scene.has("integrator") || !scene.at("integrator").has(key);
-    if (open && before.at("integrator").has(key)) scene.set("integrator." + key, before.at("integrator").at(key));
-  }
+  if (!scene.has("integrator")) scene.set("integrator.type", before.at("integrator").at("type"));
+  const Config section = scene.at("integrator"), kept = before.at("integrator");
+  if (!section.is_map() || !section.has("type")) return;  // reading it will tell
+  std::vector<std::string> choices{"position_scale", "velocity_scale"};
+  if (section.at("type").yaml() == "auto") choices.insert(choices.end(), {"method", "because", "safety"});
+  for (const auto& key : choices)
+    if (!section.has(key) && kept.has(key)) scene.set("integrator." + key, kept.at(key));
 }
 
 Checkpoint first_checkpoint(const Setup& setup, const std::string& resolved, const ResultFolder& folder) {
@@ -117,7 +120,7 @@ Checkpoint first_checkpoint(const Setup& setup, const std::string& resolved, con
   checkpoint.mesh = mesh_fingerprint(setup.built.model->parts().mesh);
   checkpoint.files = file_fingerprints(setup.config, folder);
   checkpoint.state = setup.built.initial;
-  checkpoint.last_output = setup.built.initial.t;
+  checkpoint.last_output = checkpoint.last_history = setup.built.initial.t;
   checkpoint.schedule = schedule_of(setup.scene);
   return checkpoint;
 }
