@@ -47,7 +47,7 @@ const Spec<Scene>& Scene::spec() {
           .key("time", &Scene::time,
                "Time span; in statics may be left out: its end is when factors of loads are taken.",
                {.fallback = "{end: 0}"})
-          .key("integrator", &Scene::integrator, "The integrator.", {.fallback = "{type: cvode_bdf}", .with = kDynamic})
+          .key("integrator", &Scene::integrator, "The integrator.", {.fallback = "{type: auto}", .with = kDynamic})
           .key("statics", &Scene::statics, "How equilibrium is found, by analysis: static and start: equilibrium.")
           .key("events", &Scene::events, "Values that quantities cross: logged to events.csv, or the end of the run.",
                {.with = kDynamic})
