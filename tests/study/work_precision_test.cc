@@ -26,6 +26,12 @@ TEST(WorkPrecision, DoNotExtrapolate) {
   EXPECT_FALSE(seconds_to_reach(1e-1, {}).has_value());
 }
 
+TEST(WorkPrecision, CountsARunThatMissesTheErrorByAHair) {
+  EXPECT_DOUBLE_EQ(*seconds_to_reach(1e-3, {{1e-3, 1e-2, 1}, {1e-4, 1.024e-3, 2}}), 2);
+  EXPECT_FALSE(seconds_to_reach(1e-3, {{1e-3, 1e-2, 1}, {1e-4, 1.1e-3, 2}}));
+  EXPECT_EQ(targets({{1e-4, 1.024e-3, 2}}, 0), (std::vector<double>{0.1, 0.01, std::pow(10, -3)}));
+}
+
 TEST(WorkPrecision, PreferATighterPointThatHappenedToBeFaster) {
   EXPECT_DOUBLE_EQ(*seconds_to_reach(1e-2, {{1e-2, 5e-3, 4}, {1e-3, 1e-3, 1}}), 1);
 }

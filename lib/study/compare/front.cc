@@ -4,6 +4,8 @@
 #include <limits>
 #include <tuple>
 
+#include "lib/study/compare/work_precision.h"
+
 namespace orthodyn::study::compare {
 
 std::vector<CostPoint> front(std::vector<CostPoint> points, double floor) {
@@ -24,7 +26,7 @@ std::vector<CostPoint> front(std::vector<CostPoint> points, double floor) {
 std::optional<CostPoint> fastest(const std::vector<CostPoint>& points, double target) {
   std::optional<CostPoint> best;
   for (const auto& point : points)
-    if (point.error <= target && (!best || point.seconds < best->seconds)) best = point;
+    if (point.error <= kAsGood * target && (!best || point.seconds < best->seconds)) best = point;
   return best;
 }
 

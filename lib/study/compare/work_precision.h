@@ -14,6 +14,9 @@ struct WorkPoint {
   bool resolved = true;  // its error is well above that of the reference
 };
 
+// A point whose error is above a target by a twentieth at most has reached it: errors are hardly known better.
+inline constexpr double kAsGood = 1.05;
+
 // Seconds to reach an error, from loose to tight points, by log-log interpolation between neighbours;
 // nothing if no point reaches it.
 std::optional<double> seconds_to_reach(double target, const std::vector<WorkPoint>& points);

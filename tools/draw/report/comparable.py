@@ -4,6 +4,7 @@ import math
 from . import measures
 
 USUAL = 1e-3
+AS_GOOD = 1.05  # an error above the target by a twentieth at most has reached it, as in the times
 
 
 def _distance(target):
@@ -43,7 +44,7 @@ def representatives(comparison, problem):
     measure, target, found = measures.primary(comparison), target_of(comparison, problem), []
     for method in comparison.methods:
         runs = [p for p in comparison.finished(problem, method.id) if math.isfinite(p.seconds())]
-        below = [p for p in runs if p.error(measure) <= target]
+        below = [p for p in runs if p.error(measure) <= AS_GOOD * target]
         measured = [p for p in runs if math.isfinite(p.error(measure))]
         if below:
             found.append((min(below, key=lambda p: p.seconds()), True))
