@@ -30,7 +30,7 @@ Json machine_json() {
 }
 
 Json versions_json() {
-  Json out{{"orthodyn", orthodyn_version()}};
+  Json out{{"orthodyn", orthodyn_version()}, {"commit", orthodyn_commit()}};
   for (const auto& [library, version] : library_versions()) out[library] = version;
   out["BLAS"] = blas_name();
   return out;

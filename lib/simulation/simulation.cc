@@ -26,7 +26,9 @@ std::string resolved_scene(const Setup& setup, const std::string& file, const st
 }  // namespace
 
 Simulation Simulation::from_file(const std::string& file, const SceneChanges& changes) {
-  return {file, changes, read_scene_file(file, changes)};
+  std::vector<std::string> left_out;
+  Config scene = read_scene_file(file, changes, &left_out);
+  return {file, changes, std::move(scene), left_out_sentence(left_out, changes)};
 }
 
 RunResult Simulation::run(const RunRequest& request) const {
@@ -40,6 +42,7 @@ RunResult Simulation::run(const RunRequest& request, const std::atomic<bool>& in
 }
 
 RunResult Simulation::run(const RunRequest& request, const std::atomic<bool>& interrupt, RunListener& listener) const {
+  if (!notice_.empty()) listener.on_notice(notice_);
   RunRequest how = request;
   std::optional<RunResult> result;
   start_again_if_outgrown(scene_, [&](Config config, const std::string& given_up) {

@@ -36,12 +36,13 @@ class Simulation {
   RunResult run_once(Config scene, const RunRequest& request, const std::string& given_up,
                      const std::atomic<bool>& interrupt, RunListener& listener) const;
 
-  Simulation(std::string file, SceneChanges changes, Config scene)
-      : file_(std::move(file)), changes_(std::move(changes)), scene_(std::move(scene)) {}
+  Simulation(std::string file, SceneChanges changes, Config scene, std::string notice)
+      : file_(std::move(file)), changes_(std::move(changes)), scene_(std::move(scene)), notice_(std::move(notice)) {}
 
   std::string file_;
   SceneChanges changes_;
-  Config scene_;  // with the changes
+  Config scene_;        // with the changes
+  std::string notice_;  // of what the changes have left out; may be empty
 };
 
 }  // namespace orthodyn

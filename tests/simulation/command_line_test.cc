@@ -1,5 +1,7 @@
 #include <dlfcn.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 
 #include "lib/core/versions.h"
@@ -157,6 +159,36 @@ TEST_F(CommandLine, ARunThatCannotGoOnExitsWith3AndKeepsItsFrames) {
   for (const char* word :
        {"\"failed\"", "\"failure\"", "\"time\"", "element_with_smallest_det_f", "fastest_node", "raise"})
     EXPECT_NE(json.find(word), std::string::npos) << word;
+}
+
+TEST_F(CommandLine, AnotherIntegratorTakesOverTheKeysThatItHas) {
+  write("beam.yaml", R"(
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [2, 1, 1], order: 1}
+materials: {soft: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
+clamps: [{surface: x0}]
+gravity: [0, 0, -9.81]
+time: {end: 0.1}
+integrator: {type: cvode_bdf, rtol: 1e-3, max_order: 4}
+)");
+  const auto result = orthodyn("run beam.yaml --integrator newmark");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_NE(result.output.find("max_order has no meaning for newmark and is left out"), std::string::npos)
+      << result.output;
+  const auto scene = read_text(folder_ / "out/beam/scene.yaml");
+  EXPECT_NE(scene.find("newmark"), std::string::npos);
+  EXPECT_NE(scene.find("0.001"), std::string::npos) << scene;  // rtol
+  EXPECT_EQ(orthodyn("check beam.yaml --integrator ida_bdf").output.find("no meaning"), std::string::npos);
+}
+
+TEST_F(CommandLine, TheCommitIsRecordedAndScalesAreShort) {
+  write("swing.yaml", kSwing);
+  const auto result = orthodyn("run swing.yaml");
+  EXPECT_NE(read_text(folder_ / "out/swing/run.json").find("\"commit\": \"" + orthodyn_commit() + "\""),
+            std::string::npos);
+  const auto at = result.output.find("velocity_scale");
+  ASSERT_NE(at, std::string::npos) << result.output;
+  const std::string line = result.output.substr(at, result.output.find('\n', at) - at);
+  EXPECT_LE(std::count_if(line.begin(), line.end(), [](char c) { return std::isdigit(c) != 0; }), 6) << line;
 }
 
 TEST_F(CommandLine, AFullDiskEndsTheRunWithWholeFrames) {

@@ -14,6 +14,7 @@
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/scene_options.h"
+#include "tools/orthodyn/shortened.h"
 
 namespace orthodyn {
 
@@ -81,7 +82,7 @@ void print_dynamics(Setup& setup) {
     fmt::print("start\n  from the static equilibrium, displaced by at most {:.4g} m\n",
                setup.built.initial.q.lpNorm<Eigen::Infinity>());
   fmt::print("integrator\n  type {}\n", setup.config.at("integrator").at("type").text());
-  for (const auto& [key, value] : setup.integrator->decisions()) fmt::print("  {} {}\n", key, value);
+  for (const auto& [key, value] : setup.integrator->decisions()) fmt::print("  {} {}\n", key, shortened(value));
   print_memory(model, "integrator", setup.integrator->bytes(), setup.integrator->factor_bytes());
 }
 

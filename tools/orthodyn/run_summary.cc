@@ -7,6 +7,7 @@
 
 #include "lib/simulation/doubts.h"
 #include "lib/simulation/errors/error_balance.h"
+#include "tools/orthodyn/shortened.h"
 
 namespace orthodyn {
 
@@ -60,7 +61,7 @@ void print_motion(const RunResult& result, const MotionResult& motion) {
   if (!outcome.remark.empty()) fmt::print("  {}\n", outcome.remark);
   fmt::print("  {:<15} {}\n", "elasticity", result.model.elasticity);
   if (!result.model.kinematics.empty()) fmt::print("  {:<15} {}\n", "kinematics", result.model.kinematics);
-  for (const auto& [key, value] : motion.decisions) fmt::print("  {:<15} {}\n", key, value);
+  for (const auto& [key, value] : motion.decisions) fmt::print("  {:<15} {}\n", key, shortened(value));
   print_costs(motion.effort.statistics);
   if (motion.energy) print_energy(*motion.energy);
   if (motion.momentum && motion.momentum->angular_scale > 0)

@@ -8,10 +8,19 @@ void declare_scene(SceneArguments& arguments, CommandOptions& options) {
   options.value("scene", arguments.scene, "A scene in YAML.").required().type("SCENE.yaml");
   options.repeated("--set", arguments.changes.set, "Change a value by its path, e.g. materials.wood.young.0=12e9.")
       .type("PATH=VALUE");
-  options.value("--integrator", arguments.changes.integrator, "Short for --set integrator.type=NAME.");
+  options.value("--integrator", arguments.changes.integrator,
+                "Another integrator; keys of the scene's that it does not have are left out.");
 }
 
 namespace {
+
+Config read_and_tell(const std::string& file, const SceneChanges& changes) {
+  std::vector<std::string> left_out;
+  Config scene = read_scene_file(file, changes, &left_out);
+  if (const auto sentence = left_out_sentence(left_out, changes); !sentence.empty())
+    fmt::print(stderr, "notice: {}\n", sentence);
+  return scene;
+}
 
 Setup set_up_and_warn(const Config& scene, bool is_timed) {
   Setup setup = set_up(scene, false, is_timed);
@@ -22,11 +31,11 @@ Setup set_up_and_warn(const Config& scene, bool is_timed) {
 }  // namespace
 
 Setup set_up_and_warn(const std::string& scene, const SceneChanges& changes) {
-  return set_up_and_warn(read_scene_file(scene, changes), true);
+  return set_up_and_warn(read_and_tell(scene, changes), true);
 }
 
 SetupOfAnyTime set_up_without_time(const std::string& file, const SceneChanges& changes) {
-  Config scene = read_scene_file(file, changes);
+  Config scene = read_and_tell(file, changes);
   const bool timed = scene.is_map() && (scene.has("time") || scene.has("analysis"));
   if (scene.is_map() && !timed) {
     fmt::print(stderr, "notice: the scene has no 'time', which a run needs; 1 s is taken here\n");
