@@ -92,7 +92,7 @@ class TheNumbers(OfAComparison):
         self.assertEqual(target, 1e-3)
         for point, reached in comparable.representatives(read, read.problems[0]):
             below = [p.seconds() for p in read.finished(read.problems[0], point.method)
-                     if p.error("displacement.l2") <= target]
+                     if p.error("displacement.l2") <= comparable.AS_GOOD * target]
             self.assertEqual(reached, bool(below))
             if below:
                 self.assertEqual(point.seconds(), min(below))
