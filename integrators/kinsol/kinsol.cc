@@ -1,25 +1,26 @@
-// KINSOL's Newton iteration (Hindmarsh et al. 2005) for -f(t, q, 0) = 0, with the stiffness K factored each time.
+// KINSOL's Newton iteration (Hindmarsh et al. 2005) for the unknowns (q, lambda): -f_lambda(q) = 0 on a plane
 //
-// Nearby: full steps, which must contract, |dq_1| <= |dq_0|/2 and |dq_k+1| <= |dq_k|, else a solution is not one
-// that the guess leads to (Deuflhard, Newton Methods for Nonlinear Problems, 2004, 3.3 and 5.2), and K must be
-// positive definite. That the residual falls is not asked for: in thin bodies that bend it rises first, by the
-// stretching that a straight step brings. With line_search it is (Dennis & Schnabel 1983, A6.3.1), in place of
-// contraction.
-// Anywhere: with the positive semidefinite part of K, whose corrections lead down the energy, each at most as long as
-// the motion's size. The residual, which rises beyond a limit point, is not looked at either.
+//     [ K    -f' ] [dq]   [ f                ]
+//     [ a^T   b  ] [dl] = [ -a.(q - q*) - b (l - l*) ],    f' = df_lambda/dlambda,
+//
+// by two solves with K (Riks, Int. J. Solids Struct. 15, 1979). K, factored each time, is the mixed one
+// (Model::linearize_mixed), with which straight steps of slender bodies may be long. Corrections must contract
+// (Deuflhard, Newton Methods for Nonlinear Problems, 2004), else a solution is not one that the guess leads to. That
+// the residual falls is not asked for: it rises first, by the stretching that a straight step brings.
+//
+// Down the energy: with the positive semidefinite part of K, each correction at most as long as the motion's size.
 //
 // Round-off of large internal forces may keep the residual from falling below the tolerance; a solution then is
 // where Newton's next correction is below the tolerance of the motion, or round-off itself, and the attempt says so.
-//
-// With an approximate K corrections may fail to contract anywhere: that says nothing on the branch.
 #include <fmt/format.h>
 #include <kinsol/kinsol.h>
 #include <kinsol/kinsol_ls.h>
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
-#include "integrators/newton_matrix.h"
+#include "integrators/kinsol/path_stiffness.h"
 #include "integrators/solver_options.h"
 #include "integrators/sundials/callbacks.h"
 #include "integrators/sundials/solver_adapter.h"
@@ -31,7 +32,6 @@ namespace {
 
 struct KinsolOptions {
   double rtol = 1e-8;
-  bool line_search = false;
   long max_iterations = 50;
   std::string linear_solver = "cholmod";
 };
@@ -42,43 +42,86 @@ struct FreeKinsol {
 
 constexpr double kRoundOff = 1e-11;  // of the motion
 
+// Of unit length, in no body's symmetry, the same each time.
+Vector probe_vector(Eigen::Index n) {
+  std::mt19937 random(1);
+  Vector b(n);
+  for (double& entry : b) entry = static_cast<double>(random()) / std::mt19937::max() - 0.5;
+  return b.normalized();
+}
+
 class Kinsol : public EquilibriumSolver {
  public:
-  Kinsol(const Model& model, const EquilibriumTask& task, const KinsolOptions& options)
-      : model_(model), task_(task), options_(options), still_(Vector::Zero(model.num_dofs())),
-        matrix_(make_matrix()), q_(make_vector(model.num_dofs(), context_)),
-        position_weights_(make_vector(model.num_dofs(), context_)),
-        force_weights_(make_vector(model.num_dofs(), context_)), memory_(KINCreate(context_)) {
+  Kinsol(const LoadPath& path, const EquilibriumTask& task, const KinsolOptions& options)
+      : path_(path),
+        n_(path.num_dofs()),
+        task_(task),
+        options_(options),
+        still_(Vector::Zero(n_)),
+        stiffness_(path, options.linear_solver, statistics_),
+        probe_(probe_vector(n_)),
+        unknowns_(make_vector(path.num_dofs() + 1, context_)),
+        position_weights_(make_vector(path.num_dofs() + 1, context_)),
+        force_weights_(make_vector(path.num_dofs() + 1, context_)),
+        memory_(KINCreate(context_)) {
     if (!memory_) throw RunError("KINSOL could not be created");
     view(position_weights_.get()).setConstant(1 / task.length);
     view(force_weights_.get()).setConstant(1 / task.force);
+    view(position_weights_.get())[n_] = view(force_weights_.get())[n_] = 1;
     initialise();
   }
 
-  Attempt solve(double t, Vector& q, Where where) override {
-    t_ = t;
-    where_ = where;
-    callback_context_ = {};
-    renew_matrix(where == Where::nearby ? TangentKind::exact : TangentKind::gauss_newton);
-    indefinite_ = false;
-    corrections_.clear();
-    view(q_.get()) = q;
+  Attempt solve(const Vector& before, PathPoint& point, const PathPlane& plane) override {
+    before_ = before;
+    plane_ = &plane;
+    descends_ = false;
     constexpr double kUnlimited = 1e12;  // of the motion's size
-    const double longest = where == Where::nearby ? kUnlimited : std::sqrt(static_cast<double>(model_.num_dofs()));
+    return run(point, kUnlimited);
+  }
+
+  Attempt descend(PathPoint& point) override {
+    const PathPlane fixed_load;
+    plane_ = &fixed_load;
+    descends_ = true;
+    return run(point, std::sqrt(static_cast<double>(n_)));
+  }
+
+  std::optional<Response> respond(const PathPoint& at) override {
+    stiffness_.exact(at.lambda, at.q);
+    if (!stiffness_.factor_with_inertia()) return std::nullopt;
+    Response response{Vector(n_), std::nullopt, Vector(n_), 0};
+    stiffness_.solve(path_.load(), response.rate);
+    stiffness_.solve(probe_, response.weakest);
+    response.stiffness = 1 / probe_.dot(response.weakest);
+    if (path_.traits().exact_stiffness) response.unstable = stiffness_.negative_eigenvalues();
+    return response;
+  }
+
+  const Statistics& statistics() const override { return statistics_; }
+  std::size_t factor_bytes() const override { return stiffness_.factor_bytes(); }
+  std::string description() const override { return options_.linear_solver + " (" + stiffness_.description() + ")"; }
+
+ private:
+  Attempt run(PathPoint& point, double longest) {
+    callback_context_ = {};
+    corrections_.clear();
+    guess_ = point;
+    auto x = view(unknowns_.get());
+    x.head(n_) = point.q;
+    x[n_] = point.lambda;
     require(KINSetMaxNewtonStep(memory_.get(), longest));
-    const int flag = KINSol(memory_.get(), q_.get(), searches_line() ? KIN_LINESEARCH : KIN_NONE,
-                            position_weights_.get(), force_weights_.get());
+    const int flag =
+        KINSol(memory_.get(), unknowns_.get(), KIN_NONE, position_weights_.get(), force_weights_.get());
     if (callback_context_.failure) std::rethrow_exception(callback_context_.failure);
     Attempt attempt;
     KINGetNumNonlinSolvIters(memory_.get(), &attempt.iterations);
     statistics_.newton_iterations += attempt.iterations;
-    const bool diverged = flag == KIN_LINSOLV_NO_RECOVERY && callback_context_.recoverable_cause.empty();
-    attempt.indefinite = indefinite_ || (diverged && model_.traits().exact_stiffness);
+    if (corrections_.size() > 1) attempt.contraction = corrections_[1] / corrections_[0];
     const bool within_tolerance = flag == KIN_SUCCESS || flag == KIN_INITIAL_GUESS_OK;
-    attempt.found = within_tolerance || (!indefinite_ && is_settled());
+    attempt.found = within_tolerance || is_settled();
     if (attempt.found) {
-      q = view(q_.get());
-      attempt.residual = residual();
+      point = {x.head(n_), x[n_]};
+      attempt.residual = force(point).lpNorm<Eigen::Infinity>();
       attempt.above_tolerance = !within_tolerance;
     } else {
       attempt.failure_reason = sentence(flag);
@@ -86,44 +129,22 @@ class Kinsol : public EquilibriumSolver {
     return attempt;
   }
 
-  const Statistics& statistics() const override { return statistics_; }
-  std::size_t factor_bytes() const override { return matrix_->factor_bytes(); }
-  std::string description() const override { return options_.linear_solver + " (" + matrix_->description() + ")"; }
-
- private:
-  bool searches_line() const { return options_.line_search && where_ == Where::nearby; }
-
-  std::unique_ptr<NewtonMatrix> make_matrix() {
-    return std::make_unique<NewtonMatrix>(model_, options_.linear_solver, tangent_, statistics_);
-  }
-
-  // One that has met an indefinite matrix would go on with the Gauss-Newton part for a while.
-  void renew_matrix(TangentKind tangent) {
-    if (tangent == tangent_ && statistics_.gauss_newton_fallbacks == fallbacks_) return;
-    tangent_ = tangent;
-    fallbacks_ = statistics_.gauss_newton_fallbacks;
-    matrix_ = make_matrix();
-  }
-
   void initialise() {
     void* m = memory_.get();
     ORTHODYN_CAPTURE_ERRORS(KINSetErrHandlerFn, context_, m, &callback_context_.message);
-    require(KINInit(m, [](N_Vector q, N_Vector f, void* user) { return self(user).evaluate(q, f); }, q_.get()));
+    require(KINInit(m, [](N_Vector x, N_Vector r, void* user) { return self(user).evaluate(x, r); }, unknowns_.get()));
     require(KINSetUserData(m, this));
     functions_.setup = [this] { return factor(); };
-    functions_.solve = [this](N_Vector dq, N_Vector b) {
+    functions_.solve = [this](N_Vector dx, N_Vector b) {
       bool good = false;
-      const int thrown = guarded(callback_context_, [&] {
-        matrix_->solve(view(b), view(dq));
-        good = contracts(view(dq).lpNorm<Eigen::Infinity>());
-      });
+      const int thrown = guarded(callback_context_, [&] { good = correct(view(b), view(dx)); });
       return thrown ? thrown : good ? 0 : 1;
     };
     plug_ = make_placeholder_matrix(context_);
     solver_ = make_solver_adapter(functions_, context_);
     require(KINSetLinearSolver(m, solver_.get(), plug_.get()));
-    require(KINSetJacFn(m, [](N_Vector q, N_Vector, SUNMatrix, void* user, N_Vector, N_Vector) {
-      return self(user).linearize(q);
+    require(KINSetJacFn(m, [](N_Vector x, N_Vector, SUNMatrix, void* user, N_Vector, N_Vector) {
+      return self(user).linearize(x);
     }));
     require(KINSetMaxSetupCalls(m, 1));
     require(KINSetNumMaxIters(m, options_.max_iterations));
@@ -137,53 +158,89 @@ class Kinsol : public EquilibriumSolver {
     if (flag < 0) throw RunError("kinsol refused its set-up: " + callback_context_.message);
   }
 
-  int evaluate(N_Vector q, N_Vector minus_f) {
+  // How far from the plane.
+  double distance(const ConstVectorRef& x) const {
+    const double along = plane_->lambda * (x[n_] - guess_.lambda);
+    return plane_->q.size() > 0 ? along + plane_->q.dot(x.head(n_) - guess_.q) : along;
+  }
+
+  int evaluate(N_Vector x, N_Vector residual) {
     return guarded(callback_context_, [&] {
       const Measure measure(statistics_.force);
-      auto out = view(minus_f);
-      model_.force(t_, view(q), still_, out);
-      require_finite(out);
+      auto out = view(residual);
+      const auto at = view(x);
+      path_.force(at[n_], at.head(n_), still_, out.head(n_));
+      require_finite(out.head(n_));
       out = -out;
+      out[n_] = distance(at);
     });
   }
 
-  int linearize(N_Vector q) {
-    return guarded(callback_context_, [&] { matrix_->linearize(t_, view(q), still_); });
+  int linearize(N_Vector x) {
+    return guarded(callback_context_, [&] {
+      const auto at = view(x);
+      if (descends_) {
+        stiffness_.semidefinite(at[n_], at.head(n_));
+      } else {
+        stiffness_.mixed(at[n_], before_, at.head(n_));
+        before_ = at.head(n_);
+      }
+    });
+  }
+
+  int factor() {
+    bool regular = false;
+    const int thrown = guarded(callback_context_, [&] {
+      regular = stiffness_.factor();
+      if (descends_ && stiffness_.negative_eigenvalues().value_or(0) > 0) regular = false;  // round-off
+    });
+    return thrown ? thrown : regular ? 0 : 1;
+  }
+
+  // dx = -J^-1 r, b = -r; whether Newton's method is to go on.
+  bool correct(const ConstVectorRef& b, VectorRef dx) {
+    auto dq = dx.head(n_);
+    stiffness_.solve(b.head(n_), dq);
+    double missing = b[n_];
+    if (plane_->q.size() > 0) missing -= plane_->q.dot(dq);
+    if (plane_->q.size() > 0) {
+      Vector rate(n_);
+      stiffness_.solve(path_.load(), rate);
+      dx[n_] = missing / (plane_->q.dot(rate) + plane_->lambda);
+      dq += dx[n_] * rate;
+    } else {
+      dx[n_] = missing / plane_->lambda;
+    }
+    return contracts(dq.lpNorm<Eigen::Infinity>());
   }
 
   bool contracts(double correction) {
     corrections_.push_back(correction);
     const auto k = corrections_.size() - 1;
-    if (where_ == Where::anywhere || searches_line() || k == 0) return std::isfinite(correction);
-    return correction <= (k == 1 ? 0.5 : 1.0) * corrections_[k - 1];
+    if (descends_ || k == 0) return std::isfinite(correction);
+    return correction <= corrections_[k - 1];
   }
 
-  int factor() {
-    bool factored = false;
-    const long before = statistics_.gauss_newton_fallbacks;
-    const int thrown = guarded(callback_context_, [&] { factored = matrix_->factor({0, 0, 1}); });
-    if (thrown) return thrown;
-    if (!factored || (where_ == Where::nearby && statistics_.gauss_newton_fallbacks > before)) indefinite_ = true;
-    return indefinite_ ? 1 : 0;
-  }
-
-  double residual() {
-    Vector f(model_.num_dofs());
-    model_.force(t_, view(q_.get()), still_, f);
-    return f.lpNorm<Eigen::Infinity>();
+  Vector force(const PathPoint& at) const {
+    Vector f(n_);
+    path_.force(at.lambda, at.q, still_, f);
+    return f;
   }
 
   // Whether one more Newton step would change next to nothing. One by an approximate K may be short far from there.
   bool is_settled() {
     try {
-      Vector f(model_.num_dofs()), correction(f.size());
-      model_.force(t_, view(q_.get()), still_, f);
-      matrix_->linearize(t_, view(q_.get()), still_);
-      if (factor() != 0) return false;
-      matrix_->solve(f, correction);
-      const double motion = std::max(view(q_.get()).lpNorm<Eigen::Infinity>(), 1e-3 * task_.length);
+      const auto x = view(unknowns_.get());
+      const PathPoint at{x.head(n_), x[n_]};
+      const Vector f = force(at);
+      if (!f.allFinite()) return false;
+      stiffness_.exact(at.lambda, at.q);
+      if (!stiffness_.factor()) return false;
+      Vector correction(n_);
+      stiffness_.solve(f, correction);
+      const double motion = std::max(at.q.lpNorm<Eigen::Infinity>(), 1e-3 * task_.length);
       return correction.lpNorm<Eigen::Infinity>() <=
-             std::max(model_.traits().exact_stiffness ? options_.rtol : 0, kRoundOff) * motion;
+             std::max(path_.traits().exact_stiffness ? options_.rtol : 0, kRoundOff) * motion;
     } catch (const RecoverableError&) {
       return false;
     }
@@ -192,22 +249,19 @@ class Kinsol : public EquilibriumSolver {
   std::string sentence(int flag) const {
     const std::string cause =
         callback_context_.recoverable_cause.empty() ? "" : " (" + callback_context_.recoverable_cause + ")";
+    const std::string approximate =
+        path_.traits().exact_stiffness ? ""
+                                       : ", by a stiffness that is approximate: take elasticity.warped_tangent: "
+                                         "unsymmetric and statics.solver.linear_solver: klu";
     switch (flag) {
       case KIN_MAXITER_REACHED:
-        return fmt::format("Newton's method did not converge within {} iterations (statics.solver.max_iterations)",
-                           options_.max_iterations);
-      case KIN_LINSOLV_NO_RECOVERY:
-        return (model_.traits().exact_stiffness
-                    ? "Newton's corrections do not contract"
-                    : "Newton's corrections do not contract, by a stiffness that is approximate: take "
-                      "elasticity.warped_tangent: unsymmetric and statics.solver.linear_solver: klu") +
-               cause;
-      case KIN_LSETUP_FAIL: return "the stiffness is not positive definite";
+        return fmt::format("Newton's method did not converge within {} iterations (statics.solver.max_iterations){}",
+                           options_.max_iterations, approximate);
+      case KIN_LINSOLV_NO_RECOVERY: return "Newton's corrections do not contract" + approximate + cause;
+      case KIN_LSETUP_FAIL: return "the stiffness is singular";
       case KIN_FIRST_SYSFUNC_ERR:
       case KIN_SYSFUNC_FAIL:
       case KIN_REPTD_SYSFUNC_ERR: return "the forces could not be evaluated" + cause;
-      case KIN_LINESEARCH_NONCONV:
-      case KIN_LINESEARCH_BCFAIL: return "the residual does not fall along Newton's direction" + cause;
       case KIN_STEP_LT_STPTOL:
         return "Newton's corrections have become too small for the residual that is left" + cause;
       default:
@@ -215,22 +269,23 @@ class Kinsol : public EquilibriumSolver {
     }
   }
 
-  const Model& model_;
+  const LoadPath& path_;
+  Eigen::Index n_;
   EquilibriumTask task_;
   KinsolOptions options_;
   Statistics statistics_;
   Vector still_;  // velocities
-  double t_ = 0;
-  Where where_ = Where::nearby;
-  bool indefinite_ = false;
+  PathStiffness stiffness_;
+  Vector probe_;
+  const PathPlane* plane_ = nullptr;
+  PathPoint guess_;
+  Vector before_;  // the iterate before the present one
+  bool descends_ = false;
   std::vector<double> corrections_;  // the largest of each iteration
   CallbackContext callback_context_;
-  TangentKind tangent_ = TangentKind::exact;
-  std::unique_ptr<NewtonMatrix> matrix_;
-  long fallbacks_ = 0;  // when the matrix was made
   SolverFunctions functions_;
   Context context_;
-  OwnedVector q_, position_weights_, force_weights_;
+  OwnedVector unknowns_, position_weights_, force_weights_;
   OwnedMatrix plug_;
   OwnedSolver solver_;
   std::unique_ptr<void, FreeKinsol> memory_;
@@ -245,8 +300,6 @@ class KinsolChoice : public EquilibriumChoice, public KinsolOptions {
           Spec<C>()
               .key("rtol", &C::rtol, "Largest residual, relative to the largest load on a coordinate.",
                    {.range = {1e-15, 1e-2}})
-              .key("line_search", &C::line_search,
-                   "Shorten steps until the residual falls, in place of the test that corrections contract.")
               .key("max_iterations", &C::max_iterations, "Newton iterations per load step.", {.range = {1, 10'000}});
       add_linear_solver(spec, SolverPaths::reduced);
       return spec;
@@ -254,15 +307,16 @@ class KinsolChoice : public EquilibriumChoice, public KinsolOptions {
     return s;
   }
   static MethodFacts facts() {
-    return {{"source", "Hindmarsh et al., ACM TOMS 31, 2005; Deuflhard, Newton Methods for Nonlinear Problems, 2004"}};
+    return {{"source", "Hindmarsh et al., ACM TOMS 31, 2005; Riks, Int. J. Solids Struct. 15, 1979; "
+                       "Magisano, Leonetti & Garcea, CMAME 313, 2017"}};
   }
-  std::unique_ptr<EquilibriumSolver> make(const Model& model, const EquilibriumTask& task) const override {
-    return std::make_unique<Kinsol>(model, task, *this);
+  std::unique_ptr<EquilibriumSolver> make(const LoadPath& path, const EquilibriumTask& task) const override {
+    return std::make_unique<Kinsol>(path, task, *this);
   }
 };
 
 const bool kinsol_registered = Registry<EquilibriumChoice>::add<KinsolChoice>(
-    "kinsol", "KINSOL: Newton's method, K factored anew each time; down the energy where a branch was lost.");
+    "kinsol", "KINSOL: Newton's method with stresses carried along, K factored anew each time.");
 
 }  // namespace
 }  // namespace orthodyn::sundials

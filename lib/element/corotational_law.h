@@ -93,6 +93,20 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
     return exact_form(p, sparse_, regular_stress<double>(p, stretch_strain<double>(H, Q, p.S)));
   }
 
+  // The exact tangent at H, but with the stress that the tangent at H0 predicts for it, C (S0 - I + dS): that of
+  // Newton's method for stress and displacement as unknowns of their own (Magisano, Leonetti & Garcea, CMAME 313,
+  // 2017). A straight step of a slender body that bends stretches it: the stress of that is not in the tangent.
+  // The exact tangent where an end is blended.
+  Form mixed_tangent(const Mat3& H0, const Mat3& H, const Mat3& Q) const {
+    const Mat3 F0 = deformation_gradient<double>(H0, Q), F = deformation_gradient<double>(H, Q);
+    const auto p0 = polar(F0, Q), p = polar(F, Q);
+    for (const auto* end : {&p0, &p})
+      if (blend<double>(end->S, end->det_G).chi < 1) return tangent(H, Q, TangentKind::exact, 0, nullptr);
+    const Mat3 sigma = C_.stress(Mat3(stretch_strain<double>(H0, Q, p0.S) + stretch_change<double>(p0, F - F0)));
+    const Vec3 c = p.G_inverse * axial<double>(p.S * sigma);
+    return exact_form(p, sparse_, Mat3(sigma + cross_matrix<double>(c)));
+  }
+
   // The stress of two states, P Q, with P : (F1 - F0) = Psi(F1) - Psi(F0) and P (F0 + F1)^T symmetric, which is
   // the discrete derivative in C = F^T F (Simo & Tarnow 1992; Gonzalez 2000): P = (F0 + F1)/2 X, X symmetric.
   // Psi is quadratic in S and S^2 = C, so that X needs no quotient of differences: with the means s of S and

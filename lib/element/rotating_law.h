@@ -13,12 +13,17 @@
 
 namespace orthodyn {
 
+// dS for a change dF of F.
+template <class T>
+Mat3T<T> stretch_change(const Polar<T>& p, const Mat3T<T>& dF) {
+  const Mat3T<T> X = p.R.transpose() * dF;
+  const Vec3T<T> w = p.G_inverse * axial<T>(X);
+  return symmetric_part<T>(X - cross_matrix<T>(w) * p.S);
+}
+
 template <class T, class C>
 Mat3T<T> viscous_stress(const Polar<T>& p, const C& stiffness, const T& beta_chi, const Mat3T<T>& F_rate) {
-  const Mat3T<T> X = p.R.transpose() * F_rate;
-  const Vec3T<T> w = p.G_inverse * axial<T>(X);
-  const Mat3T<T> rate = symmetric_part<T>(X - cross_matrix<T>(w) * p.S);
-  const Mat3T<T> s = beta_chi * stiffness.stress(rate);
+  const Mat3T<T> s = beta_chi * stiffness.stress(stretch_change<T>(p, F_rate));
   const Vec3T<T> c = p.G_inverse * axial<T>(p.S * s);
   return p.R * (s + cross_matrix<T>(c));
 }

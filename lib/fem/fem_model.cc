@@ -89,6 +89,16 @@ void FemModel::assemble(double t, const ConstVectorRef& q, const ConstVectorRef&
   });
 }
 
+void FemModel::assemble_mixed(double t, const ConstVectorRef& q_before, const ConstVectorRef& q,
+                              Linearization& out) const {
+  const Vector still = Vector::Zero(q.size());
+  const NodalExpansion before(parts_, t, q_before, still), nodal(parts_, t, q, still);
+  out.stiffness.assign(parts_.pattern->pattern().row.size(), 0);
+  for_each_term(parts_, [&](const Term& term) {
+    term.add_mixed_tangent(before.state(), nodal.state(), out.stiffness.data());
+  });
+}
+
 void FemModel::combine(const Weights& w, const Linearization& at, double* values) const {
   const auto size = static_cast<Eigen::Index>(at.stiffness.size());
   Eigen::Map<Vector> A(values, size);

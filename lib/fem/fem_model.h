@@ -79,6 +79,8 @@ class FemModel : public Model {
  private:
   void assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                 Linearization& out) const override;
+  void assemble_mixed(double t, const ConstVectorRef& q_before, const ConstVectorRef& q,
+                      Linearization& out) const override;
 
   Parts parts_;
   std::unique_ptr<const DiscreteGradient> mean_force_;  // null where a term has no energy

@@ -48,6 +48,11 @@ class Term {
   // Adds -df/dx to `stiffness` and -df/dv to `damping` (null if the model has no D).
   virtual void add_tangent(const NodalState&, TangentKind, double* /*stiffness*/, double* /*damping*/) const {}
 
+  // Adds -df/dx as Model::linearize_mixed() has it.
+  virtual void add_mixed_tangent(const NodalState& /*before*/, const NodalState& s, double* stiffness) const {
+    add_tangent(s, TangentKind::exact, stiffness, nullptr);
+  }
+
   // Adds to each node an upper bound of the row sums of its stiffness, N/m; elasticity has its own bound.
   virtual void add_stiffness_bound(Vector& /*row_sums*/) const {}
 

@@ -31,6 +31,10 @@ class LinearSolver {
   // x = A^-1 b, both of size n; they may be the same. Precondition: the last factor() was ok.
   virtual void solve(const ConstVectorRef& b, VectorRef x) = 0;
 
+  // How many eigenvalues of A are negative (Sylvester's law of inertia: of its pivots as many are), of the last factor
+  // of a solver for indefinite matrices; 0 of others.
+  virtual int negative_eigenvalues() const { return 0; }
+
   // Bytes taken at the peak of a factorisation: the factor and the solver's workspace. After analyze()
   // a prediction.
   virtual std::size_t factor_bytes() const = 0;
@@ -44,6 +48,10 @@ struct SolverKind {
   bool takes_general;                                   // unsymmetric matrices too
   std::function<std::unique_ptr<LinearSolver>()> make;  // null for one that SUNDIALS has of its own
 };
+
+// For symmetric matrices that may be indefinite: factor() is `ok` for them. L D L^T without pivoting for size, which
+// loses digits where a leading block of A is nearly singular.
+std::unique_ptr<LinearSolver> make_indefinite_solver();
 
 // By name. Written while the program and its plugins are loaded, only read afterwards.
 std::map<std::string, SolverKind>& solver_registry();

@@ -43,6 +43,10 @@ class LoadPath : public Model {
                 Linearization& out) const override {
     model_.linearize(t_, q, v, kind, out);
   }
+  void assemble_mixed(double, const ConstVectorRef& q_before, const ConstVectorRef& q,
+                      Linearization& out) const override {
+    model_.linearize_mixed(t_, q_before, q, out);
+  }
 
   const Model& model_;
   double t_;

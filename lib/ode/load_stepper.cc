@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "lib/core/errors.h"
@@ -10,82 +11,192 @@
 namespace orthodyn {
 
 namespace {
-constexpr long kEasy = 6, kHard = 12;  // Newton iterations
+
+constexpr long kEasy = 4, kHard = 8;     // Newton iterations
+constexpr double kBracket = 1e-3;          // of the step in which a critical point was met
+constexpr int kMostCloser = 30;          // steps towards a critical point
+constexpr double kLowestFactor = -1;
+
+}  // namespace
+
+LoadStepper::LoadStepper(const LoadPath& path, EquilibriumSolver& solver, const LoadStepping& stepping, double length)
+    : path_(path), solver_(solver), stepping_(stepping), length_(length),
+      state_{0, path.start(), Vector::Zero(path.num_dofs())} {}
+
+void LoadStepper::begin() {
+  tracer_.emplace(path_, solver_);
+  const double length_of_factor = 1 / tracer_->place().tangent.lambda;
+  const double moves = tracer_->place().response.rate.lpNorm<Eigen::Infinity>();  // m, by all loads, if linear
+  step_ =
+      std::min(stepping_.first_step, moves > 0 && !path_.traits().linear ? length_ / moves : 1.0) * length_of_factor;
+  smallest_step_ = std::min(stepping_.min_step * length_of_factor, step_ / 64);
+  if (tracer_->place().response.unstable.value_or(0) > 0)
+    throw RunError("the body is unstable before it is loaded: its stiffness at the start is indefinite",
+                   Reason::newton);
 }
 
-LoadStepper::LoadStepper(const LoadPath& path, EquilibriumSolver& solver, const LoadStepping& stepping)
-    : path_(path), solver_(solver), stepping_(stepping),
-      state_{0, path.start(), Vector::Zero(path.num_dofs())}, step_(stepping.first_step) {}
-
 StepInfo LoadStepper::step() {
+  if (!tracer_) begin();
+  require_going_on();
+  const double from = state_.t;
+  advance();
+  ++steps_;
+  arrive();
+  return {state_.t, state_.t - from, 1};
+}
+
+void LoadStepper::advance() {
+  for (;;) {
+    const double slope = std::abs(tracer_->place().tangent.lambda);
+    if (slope > 0) step_ = std::min(step_, stepping_.max_step / slope);
+    auto next = tracer_->beyond(step_);
+    if (next) {
+      attempt_ = tracer_->attempt();
+      if (crosses_critical_point(*next)) return pass_critical_point(std::move(*next));
+      tracer_->move_to(std::move(*next));
+      return adapt();
+    }
+    ++rejected_;
+    if (step_ <= smallest_step_) give_up();
+    shorten();
+  }
+}
+
+void LoadStepper::adapt() {
+  if (attempt_.iterations <= kEasy) step_ *= 2;
+  else if (attempt_.iterations > kHard) step_ /= 2;
+  step_ = std::max(step_, smallest_step_);
+}
+
+void LoadStepper::shorten() { step_ = std::max(step_ / 2, smallest_step_); }
+
+void LoadStepper::arrive() { state_ = {tracer_->place().point.lambda, tracer_->place().point.q, state_.v}; }
+
+bool LoadStepper::crosses_critical_point(const Place& next) const {
+  const Place& here = tracer_->place();
+  if (here.tangent.lambda * next.tangent.lambda < 0) return true;
+  const auto &before = here.response.unstable, &after = next.response.unstable;
+  return before && after && *before != *after;
+}
+
+// Moves to the last equilibrium before a critical point that lies between here and there, and returns the first one
+// found past it. None where there is no such point: `beyond` lies on another path, to which a long step led.
+std::optional<PathTracer::Place> LoadStepper::close_in(Place beyond) {
+  const double close = kBracket * tracer_->along(beyond.point);
+  for (int k = 0; k < kMostCloser; ++k) {
+    const double left = tracer_->along(beyond.point);
+    if (!(left > 0) || tracer_->distance(beyond.point) > 3 * left) {
+      step_ = std::max(step_ / 4, smallest_step_);
+      return std::nullopt;
+    }
+    step_ = left;
+    if (left <= std::max(close, smallest_step_)) break;
+    const double a = tracer_->place().response.stiffness, b = beyond.response.stiffness;
+    const double share = a * b < 0 ? std::clamp(a / (a - b), 0.1, 0.9) : 0.5;
+    auto next = tracer_->beyond(share * left);
+    if (!next) next = tracer_->beyond(0.1 * share * left);
+    if (!next) break;
+    attempt_ = tracer_->attempt();
+    if (crosses_critical_point(*next)) beyond = std::move(*next);
+    else tracer_->move_to(std::move(*next));
+  }
+  return beyond;
+}
+
+// Of a limit point the largest load factor of the cubic through both ends with their slopes, else where the stiffness
+// crosses zero along a straight line.
+CriticalPoint LoadStepper::critical_point_before(const Place& beyond) const {
+  const Place& here = tracer_->place();
+  const double la = here.point.lambda, lb = beyond.point.lambda;
+  if (here.tangent.lambda * beyond.tangent.lambda < 0) {
+    const double ds = tracer_->distance(beyond.point),
+                 share = here.tangent.lambda / (here.tangent.lambda - beyond.tangent.lambda);
+    const double peak = la + 0.5 * here.tangent.lambda * share * ds;
+    return {CriticalPoint::Kind::limit, peak, std::abs(here.tangent.lambda) * share * ds, beyond.response.unstable};
+  }
+  const double a = here.response.stiffness, b = beyond.response.stiffness;
+  const double share = a * b < 0 ? a / (a - b) : 0.5;
+  return {CriticalPoint::Kind::bifurcation, la + share * (lb - la), std::abs(lb - la), beyond.response.unstable};
+}
+
+void LoadStepper::pass_critical_point(Place beyond) {
+  const double step = step_;
+  auto past = close_in(std::move(beyond));
+  if (!past) return;
+  critical_.push_back(critical_point_before(*past));
+  step_ = step;
+  const bool leaves_stability = tracer_->place().response.unstable.value_or(0) == 0;
+  if (stepping_.at_limit == AtLimit::follow || !leaves_stability) tracer_->move_to(std::move(*past));
+  else if (stepping_.at_limit == AtLimit::jump && jump()) ++jumps_;
+  else stops_ = true;
+}
+
+void LoadStepper::require_going_on() const {
+  if (stops_) stop_at(critical_.back());
+  if (state_.t < kLowestFactor)
+    throw RunError(fmt::format("the path leads down to load factor {:.6g}, away from 1 (statics.at_limit: follow)",
+                               state_.t),
+                   Reason::newton);
   if (steps_ >= stepping_.max_steps)
     throw RunError(fmt::format("gave up at load factor {:.6g} after {} steps (statics.max_steps); raise it, or "
                                "statics.max_step",
                                state_.t, steps_),
                    Reason::too_many_steps);
-  const double from = state_.t;
-  while (!try_to_reach(target(), EquilibriumSolver::Where::nearby)) {
-    ++rejected_;
-    if (step_ > stepping_.min_step) cut_back();
-    else if (stepping_.may_jump && jump()) break;
-    else give_up();
-  }
-  ++steps_;
-  adapt();
-  return {state_.t, state_.t - from, 1};
 }
 
-// No sliver of a step is left over for the end.
-double LoadStepper::target() const {
-  const double next = state_.t + step_;
-  return next > 1 - 0.5 * stepping_.min_step ? 1 : next;
-}
-
-bool LoadStepper::try_to_reach(double target, EquilibriumSolver::Where where) {
-  Vector q = state_.q;
-  attempt_ = solver_.solve(target, q, where);
-  if (!attempt_.found) return false;
-  state_.t = target;
-  state_.q = std::move(q);
-  return true;
-}
-
-void LoadStepper::adapt() {
-  if (attempt_.iterations <= kEasy) step_ = std::min(2 * step_, stepping_.max_step);
-  else if (attempt_.iterations > kHard) step_ = std::max(step_ / 2, stepping_.min_step);
-}
-
-void LoadStepper::cut_back() { step_ = std::max(std::min(step_, 1 - state_.t) / 2, stepping_.min_step); }
-
-// A step far enough that what is out of balance drives the body away from the limit point.
+// A little past the critical point, then far.
 bool LoadStepper::jump() {
-  const auto nearby = attempt_;
-  const double cut_back_to = std::exchange(step_, stepping_.first_step);
-  if (!try_to_reach(target(), EquilibriumSolver::Where::anywhere)) {
-    attempt_ = nearby;
-    step_ = cut_back_to;
-    return false;
+  const double from = critical_.back().load_factor;
+  for (const double step : {0.05 * std::abs(from), stepping_.first_step})
+    if (settle(std::min(1.0, from + step))) return true;
+  return false;
+}
+
+// Pushed aside along the weakest direction, each time that it rests where it is unstable.
+bool LoadStepper::settle(double load_factor) {
+  constexpr double kPush = 0.1;  // of the motion's size
+  constexpr int kPushes = 4;
+  PathPoint point = tracer_->place().point;
+  Vector aside = tracer_->place().response.weakest;
+  point.lambda = load_factor;
+  for (int k = 0; k < kPushes; ++k) {
+    point.q += kPush * length_ / aside.lpNorm<Eigen::Infinity>() * aside;
+    const auto attempt = solver_.descend(point);
+    if (!attempt.found) return false;
+    const auto response = solver_.respond(point);
+    if (response && response->unstable.value_or(0) == 0) {
+      attempt_ = attempt;
+      return tracer_->move_to(point);
+    }
+    if (response) aside = response->weakest;
   }
-  ++jumps_;
-  return true;
+  return false;
+}
+
+void LoadStepper::stop_at(const CriticalPoint& point) const {
+  const std::string where = fmt::format("load factor {:.6g} +- {:.2g}", point.load_factor, point.uncertainty);
+  const char* const tried = stepping_.at_limit == AtLimit::jump
+                                ? "no stable equilibrium was found elsewhere (statics.at_limit: jump)"
+                                : "statics.at_limit: jump looks for a stable equilibrium elsewhere";
+  if (point.kind == CriticalPoint::Kind::limit)
+    throw RunError(fmt::format("limit point at {}: the body carries no more on this path, and snaps through. What "
+                               "follows is a motion (analysis: dynamic); statics.at_limit: follow goes on along the "
+                               "path of unstable equilibria, {}",
+                               where, tried),
+                   Reason::newton);
+  throw RunError(fmt::format("bifurcation at {}: the equilibria go on, but are unstable; the body buckles sideways. "
+                             "statics.at_limit: follow stays on this path, {}; a small load sideways takes the corner "
+                             "off",
+                             where, tried),
+                 Reason::newton);
 }
 
 void LoadStepper::give_up() const {
-  if (attempt_.indefinite)
-    throw RunError(
-        fmt::format(
-            "the branch of stable equilibria ends at load factor {:.6g}, the last one found on it, to within {:.2g} "
-            "(statics.min_step): beyond it {}, as where a body snaps through or buckles. What follows "
-            "is a motion (analysis: dynamic); {}",
-            state_.t, stepping_.min_step, attempt_.failure_reason,
-            stepping_.may_jump ? "no equilibrium was found elsewhere either (statics.at_limit: jump)"
-                               : "statics.at_limit: jump looks for an equilibrium elsewhere"),
-        Reason::newton);
   throw RunError(
       fmt::format("no equilibrium was found beyond load factor {:.6g}, with steps down to {:.2g} "
-                  "(statics.min_step): {}. Lower statics.min_step or the loads, or let the body come to rest in "
-                  "time with damping (analysis: dynamic)",
-                  state_.t, stepping_.min_step, attempt_.failure_reason),
+                  "(statics.min_step): {}. This says nothing about the body: lower statics.min_step or the loads, or "
+                  "let the body come to rest in time with damping (analysis: dynamic)",
+                  state_.t, stepping_.min_step, tracer_->attempt().failure_reason),
       Reason::newton);
 }
 

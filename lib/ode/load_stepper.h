@@ -1,22 +1,45 @@
-// Follows the equilibrium of a body while its loads grow from nothing to all: steps in the load factor that
-// are halved where no equilibrium is found and doubled where it was easy.
+// Follows the equilibria of a body while its loads grow from nothing to all, along the path that they form
+// (path_tracer.h): steps are lengthened where Newton's method had little to do, and shortened where it failed.
 //
-// Each step has to lead to an equilibrium nearby (equilibrium.h), with a positive definite stiffness on the way: where
-// that fails for the smallest step the branch of stable equilibria ends (limit point, bifurcation), which is thus found
-// to within that step. Only then, and only if a jump is allowed, it searches for an equilibrium on any branch.
+// A critical point, where K becomes singular, is located. Past a limit point the load factor falls: the body snaps
+// through. At a bifurcation it does not: the path goes on, the body leaves it sideways. Which of the two it is the sign
+// of dlambda/ds tells, that there is one the negative eigenvalues of K.
 #pragma once
 
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "lib/config/spec.h"
-#include "lib/ode/equilibrium.h"
 #include "lib/ode/integrator.h"
-#include "lib/ode/load_path.h"
+#include "lib/ode/path_tracer.h"
 
 namespace orthodyn {
 
+// At a critical point. stop: there. follow: along the path, also where it is unstable. jump: down the energy to a
+// stable equilibrium on another path.
+enum class AtLimit { stop, follow, jump };
+
+template <>
+struct Words<AtLimit> {
+  static constexpr std::array<std::pair<AtLimit, const char*>, 3> list{
+      {{AtLimit::stop, "stop"}, {AtLimit::follow, "follow"}, {AtLimit::jump, "jump"}}};
+};
+
+struct CriticalPoint {
+  enum class Kind { limit, bifurcation };
+  Kind kind = Kind::limit;
+  double load_factor = 0;
+  double uncertainty = 0;       // of load_factor
+  std::optional<int> unstable;  // directions past it; none: not known
+};
+
 struct LoadStepping {
-  double first_step = 0.25, max_step = 1, min_step = 1e-4;  // of the load factor
+  double first_step = 0.25, max_step = 1, min_step = 1e-4;  // of the load factor, where the path begins
   long max_steps = 10'000;
-  bool may_jump = false;
+  AtLimit at_limit = AtLimit::stop;
 
   // These keys, in a Spec of a struct derived from this one.
   template <class T>
@@ -25,35 +48,52 @@ struct LoadStepping {
 
 class LoadStepper {
  public:
-  // `path` and `solver` must outlive it.
-  LoadStepper(const LoadPath& path, EquilibriumSolver& solver, const LoadStepping& stepping);
+  // `path` and `solver` must outlive it; length, m: the size of the motion.
+  LoadStepper(const LoadPath& path, EquilibriumSolver& solver, const LoadStepping& stepping, double length);
 
   // The last equilibrium; its t is the load factor.
   const State& state() const { return state_; }
-  bool done() const { return state_.t >= 1; }
-  // Of the last step.
+  bool done() const { return state_.t == 1; }
+  // That led to it.
   const EquilibriumSolver::Attempt& attempt() const { return attempt_; }
+  // Of the last equilibrium: directions in which it is unstable; none: not known.
+  std::optional<int> unstable() const { return tracer_ ? tracer_->place().response.unstable : 0; }
   long rejected() const { return rejected_; }
-  long jumps() const { return jumps_; }  // to equilibria that may lie on another branch
+  long jumps() const { return jumps_; }  // to equilibria that may lie on another path
   long steps() const { return steps_; }
+  const std::vector<CriticalPoint>& critical_points() const { return critical_; }
 
   // To the next equilibrium. Throws RunError with the load factor reached and what to try.
   StepInfo step();
 
  private:
-  double target() const;
-  bool try_to_reach(double target, EquilibriumSolver::Where where);
-  void adapt();
-  void cut_back();
+  using Place = PathTracer::Place;
+
+  void begin();
+  void advance();
+  bool crosses_critical_point(const Place& next) const;
+  void pass_critical_point(Place beyond);
+  std::optional<Place> close_in(Place beyond);
+  CriticalPoint critical_point_before(const Place& beyond) const;
   bool jump();
+  bool settle(double load_factor);
+  void adapt();
+  void shorten();
+  void arrive();
+  void require_going_on() const;
+  [[noreturn]] void stop_at(const CriticalPoint& point) const;
   [[noreturn]] void give_up() const;
 
   const LoadPath& path_;
   EquilibriumSolver& solver_;
   LoadStepping stepping_;
+  double length_;
+  std::optional<PathTracer> tracer_;
   State state_;
   EquilibriumSolver::Attempt attempt_;
-  double step_;
+  double step_ = 0, smallest_step_ = 0;  // along the path
+  std::vector<CriticalPoint> critical_;
+  bool stops_ = false;  // the last of them is where it stops
   long steps_ = 0, rejected_ = 0, jumps_ = 0;
 };
 
@@ -64,8 +104,14 @@ Spec<T> LoadStepping::spec_for() {
   return Spec<T>()
       .key("first_step", &L::first_step, "First step of the load factor, which grows from 0 to 1.", {.range = kShare})
       .key("max_step", &L::max_step, "Its largest step.", {.range = kShare})
-      .key("min_step", &L::min_step, "Its smallest step: how closely the end of a branch is found.", {.range = kShare})
+      .key("min_step", &L::min_step,
+           "Smallest step along the path of equilibria, in load factors at its start: below it the analysis is given "
+           "up.",
+           {.range = kShare})
       .key("max_steps", &L::max_steps, "Load steps after which the analysis is given up.", {.range = {1}})
+      .key("at_limit", &L::at_limit,
+           "At a limit point (snap-through) or a bifurcation (buckling). stop: there; follow: along the path, past "
+           "limit points and through unstable equilibria; jump: to a stable equilibrium on another path.")
       .check([](const T& s, const Config& config) {
         if (s.min_step > s.max_step) config.at("min_step").fail("is larger than max_step");
         if (s.min_step > s.first_step) config.at("min_step").fail("is larger than first_step");

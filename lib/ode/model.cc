@@ -21,6 +21,18 @@ void Model::linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v
   if (constant) out.filled_by_ = number_.value();
 }
 
+void Model::linearize_mixed(double t, const ConstVectorRef& q_before, const ConstVectorRef& q,
+                            Linearization& out) const {
+  if (traits().linear) return linearize(t, q, Vector::Zero(q.size()), TangentKind::exact, out);
+  out.filled_by_ = 0;
+  out.damping.clear();
+  assemble_mixed(t, q_before, q, out);
+}
+
+void Model::assemble_mixed(double t, const ConstVectorRef&, const ConstVectorRef& q, Linearization& out) const {
+  assemble(t, q, Vector::Zero(q.size()), TangentKind::exact, out);
+}
+
 std::unique_ptr<Model> Model::only(const std::vector<std::string>&) const {
   throw std::logic_error("the model's force has no parts");
 }

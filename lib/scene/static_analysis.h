@@ -8,10 +8,7 @@
 
 namespace orthodyn {
 
-enum class AtLimit { stop, jump };
-
 struct Statics : LoadStepping {
-  AtLimit at_limit = AtLimit::stop;
   std::shared_ptr<const EquilibriumChoice> solver;
   static const Spec<Statics>& spec();
 };

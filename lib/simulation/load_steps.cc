@@ -1,6 +1,7 @@
 #include "lib/simulation/load_steps.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace orthodyn {
 
@@ -14,7 +15,8 @@ std::vector<std::string> energies_of(const Model& model) {
 }
 
 std::vector<std::string> header(const std::vector<std::string>& energies) {
-  std::vector<std::string> out{"load_factor", "newton_iterations", "residual [N]", "largest_displacement [m]"};
+  std::vector<std::string> out{"load_factor", "newton_iterations", "residual [N]", "largest_displacement [m]",
+                               "unstable_directions"};
   for (const auto& name : energies) out.push_back(name + " [J]");
   return out;
 }
@@ -51,7 +53,8 @@ void LoadStepWriter::write(const ObservedState& observed) {
   const State& state = observed.state();
   const auto& attempt = stepper_.attempt();
   std::vector<double> row{state.t, static_cast<double>(attempt.iterations), attempt.residual,
-                          state.q.lpNorm<Eigen::Infinity>()};
+                          state.q.lpNorm<Eigen::Infinity>(),
+                          stepper_.unstable() ? *stepper_.unstable() : std::numeric_limits<double>::quiet_NaN()};
   for (const auto& name : energies_) row.push_back(observed.evaluate(name)[0]);
   file_.row(row);
 }

@@ -16,8 +16,8 @@ namespace orthodyn {
 Outcome run_static(const Model& model, LoadStepper& stepper, const std::vector<Observer*>& observers,
                    const std::atomic<bool>& interrupt);
 
-// load_steps.csv: for each equilibrium what it took, how well it holds, and how large the motion is; energies, where
-// the model tells them.
+// load_steps.csv: for each equilibrium what it took, how well it holds, how large the motion is, in how many directions
+// it is unstable (nan where K does not tell); energies, where the model tells them.
 class LoadStepWriter : public Observer {
  public:
   // `stepper` must outlive it.

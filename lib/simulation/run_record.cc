@@ -105,12 +105,24 @@ void add_motion(Json& out, const MotionResult& motion, const Outcome& outcome) {
   if (motion.failure) out["failure"]["where"] = place_json(*motion.failure, outcome.last.t);
 }
 
+Json to_json(const std::optional<int>& count) { return count ? Json(*count) : Json(nullptr); }
+
+Json to_json(const CriticalPoint& point) {
+  return {{"kind", point.kind == CriticalPoint::Kind::limit ? "limit point" : "bifurcation"},
+          {"load_factor", point.load_factor},
+          {"uncertainty", point.uncertainty},
+          {"unstable_directions_after", to_json(point.unstable)}};
+}
+
 void add_equilibrium(Json& out, const EquilibriumResult& equilibrium, const Outcome& outcome) {
   out["load_factor_reached"] = outcome.last.t;
   out["loads_at_time"] = equilibrium.loads_at_time;
   out["load_steps"] = equilibrium.load_steps;
   out["rejected_load_steps"] = equilibrium.rejected_load_steps;
   out["jumps"] = equilibrium.jumps;
+  out["critical_points"] = Json::array();
+  for (const CriticalPoint& point : equilibrium.critical_points) out["critical_points"].push_back(to_json(point));
+  out["unstable_directions"] = to_json(equilibrium.unstable);
   out["largest_displacement"] = equilibrium.largest_displacement;
   out["residual"] = equilibrium.residual;
   out["solver"] = equilibrium.solver;

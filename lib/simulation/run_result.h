@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/ode/load_stepper.h"
 #include "lib/simulation/observers/balance.h"
 #include "lib/simulation/checkpoint/effort.h"
 #include "lib/simulation/errors/accumulated_error.h"
@@ -79,7 +80,9 @@ struct ProbedDisplacement {
 struct EquilibriumResult {
   double loads_at_time = 0;  // s
   long load_steps = 0, rejected_load_steps = 0;
-  long jumps = 0;                         // load steps to equilibria that may lie on another branch
+  long jumps = 0;                         // down the energy to another path
+  std::vector<CriticalPoint> critical_points = {};
+  std::optional<int> unstable = {};       // directions in which it is unstable; none: not known
   double largest_displacement = 0;        // m, of a coordinate
   double residual = 0, largest_load = 0;  // N, of a coordinate
   bool residual_above_tolerance = false;

@@ -30,9 +30,7 @@ StaticProblem static_problem(const Scene& scene, const BuiltScene& built) {
   const double force = problem.path->load().lpNorm<Eigen::Infinity>();
   const double length = 0.1 * bounding_box(model.parts().mesh).size().maxCoeff();
   problem.solver = scene.statics->solver->make(*problem.path, {force > 0 ? force : 1, length});
-  LoadStepping stepping = *scene.statics;
-  stepping.may_jump = scene.statics->at_limit == AtLimit::jump;
-  problem.stepper = std::make_unique<LoadStepper>(*problem.path, *problem.solver, stepping);
+  problem.stepper = std::make_unique<LoadStepper>(*problem.path, *problem.solver, *scene.statics, length);
   return problem;
 }
 

@@ -95,6 +95,8 @@ EquilibriumResult equilibrium_result(const StaticProblem& problem, const State& 
           .load_steps = problem.stepper->steps(),
           .rejected_load_steps = problem.stepper->rejected(),
           .jumps = problem.stepper->jumps(),
+          .critical_points = problem.stepper->critical_points(),
+          .unstable = problem.stepper->unstable(),
           .largest_displacement = last.q.lpNorm<Eigen::Infinity>(),
           .residual = problem.stepper->attempt().residual,
           .largest_load = problem.path->load().lpNorm<Eigen::Infinity>(),

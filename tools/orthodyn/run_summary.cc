@@ -89,9 +89,15 @@ void print_equilibrium(const RunResult& result, const EquilibriumResult& equilib
              status_word(outcome.status), outcome.last.t, outcome.wall_seconds);
   fmt::print("  {:<20} {} ({} cut back), {} Newton iterations\n", "load steps", equilibrium.load_steps,
              equilibrium.rejected_load_steps, equilibrium.statistics.newton_iterations);
+  for (const CriticalPoint& point : equilibrium.critical_points)
+    fmt::print("  {:<20} at load factor {:.6g} +- {:.1g}\n",
+               point.kind == CriticalPoint::Kind::limit ? "limit point" : "bifurcation", point.load_factor,
+               point.uncertainty);
   if (equilibrium.jumps > 0)
-    fmt::print("  {:<20} {} load step{} may have led to another branch of equilibria\n", "jumps", equilibrium.jumps,
-               equilibrium.jumps == 1 ? "" : "s");
+    fmt::print("  {:<20} {}, down the energy to a stable equilibrium on another path\n", "jumps", equilibrium.jumps);
+  if (equilibrium.unstable.value_or(0) > 0)
+    fmt::print("  {:<20} the last equilibrium is unstable in {} direction{}\n", "stability", *equilibrium.unstable,
+               *equilibrium.unstable == 1 ? "" : "s");
   fmt::print("  {:<20} {}\n", "solver", equilibrium.solver);
   if (!result.model.kinematics.empty()) fmt::print("  {:<20} {}\n", "kinematics", result.model.kinematics);
   fmt::print("  {:<20} {:.6g} m\n", "largest displacement", equilibrium.largest_displacement);

@@ -84,6 +84,22 @@ class ElasticTermOf final : public ElasticTerm {
     }
   }
 
+  void add_mixed_tangent(const NodalState& before, const NodalState& s, double* K) const override {
+    if constexpr (requires(const Law& law, Mat3 H) { law.mixed_tangent(H, H, H); }) {
+      ElementBlocks<E::kNodes> stiffness;
+      for (int k = 0; k < size(); ++k) {
+        for (int p = 0; p < E::kPoints; ++p)
+          gather_point(k, p,
+                       law_.mixed_tangent(elements_.gradient(k, p, before.u), elements_.gradient(k, p, s.u),
+                                          axes().of(k, p)),
+                       stiffness);
+        scatter_element(k, stiffness, K);
+      }
+    } else {
+      add_tangent(s, TangentKind::exact, K, nullptr);
+    }
+  }
+
   double energy(const NodalState& s) const override {
     return integrate(
         [&](int b, int p, Batch::Mask& good) {

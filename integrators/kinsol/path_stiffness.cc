@@ -1,0 +1,82 @@
+#include "integrators/kinsol/path_stiffness.h"
+
+#include <algorithm>
+
+#include "lib/core/errors.h"
+
+namespace orthodyn {
+
+PathStiffness::PathStiffness(const Model& model, const std::string& solver, Statistics& statistics)
+    : model_(model), statistics_(statistics) {
+  const auto& kind = solver_registry().at(solver);
+  if (!model.pattern().symmetric && !kind.takes_general)
+    throw ConfigError("linear solver '" + solver + "' needs a symmetric tangent; use klu, or " +
+                      "elasticity.warped_tangent: rotated");
+  checks_definiteness_ = !kind.takes_general;
+  solver_ = kind.make();
+  solver_->analyze(model.pattern());
+  values_.resize(model.pattern().row.size());
+}
+
+void PathStiffness::exact(double lambda, const ConstVectorRef& q) {
+  const Measure measure(statistics_.tangent);
+  model_.linearize(lambda, q, Vector::Zero(q.size()), TangentKind::exact, linearization_);
+}
+
+void PathStiffness::mixed(double lambda, const ConstVectorRef& q_before, const ConstVectorRef& q) {
+  const Measure measure(statistics_.tangent);
+  model_.linearize_mixed(lambda, q_before, q, linearization_);
+}
+
+void PathStiffness::semidefinite(double lambda, const ConstVectorRef& q) {
+  const Measure measure(statistics_.tangent);
+  model_.linearize(lambda, q, Vector::Zero(q.size()), TangentKind::gauss_newton, linearization_);
+}
+
+bool PathStiffness::factor() {
+  if (constant_is_factored_) return true;
+  const Measure measure(statistics_.factorization);
+  model_.combine({0, 0, 1}, linearization_, values_.data());
+  // Where the last K was indefinite this one is likely to be.
+  const bool done = negative_.value_or(0) > 0 ? factor_indefinite() : factor_definite();
+  constant_is_factored_ = done && model_.traits().linear;
+  return done;
+}
+
+bool PathStiffness::factor_with_inertia() {
+  if (checks_definiteness_ || !model_.pattern().symmetric) return factor();
+  const Measure measure(statistics_.factorization);
+  model_.combine({0, 0, 1}, linearization_, values_.data());
+  constant_is_factored_ = false;
+  return factor_indefinite();
+}
+
+bool PathStiffness::factor_definite() {
+  used_ = solver_.get();
+  const FactorStatus status = solver_->factor(values_.data());
+  if (status == FactorStatus::not_positive_definite) return factor_indefinite();
+  negative_ = checks_definiteness_ ? std::optional<int>(0) : std::nullopt;
+  return status == FactorStatus::ok;
+}
+
+bool PathStiffness::factor_indefinite() {
+  if (!indefinite_) {
+    indefinite_ = make_indefinite_solver();
+    indefinite_->analyze(model_.pattern());
+  }
+  used_ = indefinite_.get();
+  const bool regular = indefinite_->factor(values_.data()) == FactorStatus::ok;
+  negative_ = indefinite_->negative_eigenvalues();
+  return regular;
+}
+
+void PathStiffness::solve(const ConstVectorRef& b, VectorRef x) {
+  const Measure measure(statistics_.solve);
+  used_->solve(b, x);
+}
+
+std::size_t PathStiffness::factor_bytes() const {
+  return std::max(solver_->factor_bytes(), indefinite_ ? indefinite_->factor_bytes() : 0);
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,54 @@
+// K of a path of equilibria and its factor: exact, mixed (Model::linearize_mixed) or positive semidefinite. Where the
+// solver asked for finds K indefinite, as past a limit point, L D L^T takes its place. Not thread-safe.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "lib/linear/solver.h"
+#include "lib/ode/model.h"
+#include "lib/ode/statistics.h"
+
+namespace orthodyn {
+
+class PathStiffness {
+ public:
+  // Throws ConfigError if the solver does not take the model's matrices. `model` and `statistics` must outlive this.
+  PathStiffness(const Model& model, const std::string& solver, Statistics& statistics);
+
+  // K at q, m, under load factor lambda. Throw RecoverableError where the model does.
+  void exact(double lambda, const ConstVectorRef& q);
+  void mixed(double lambda, const ConstVectorRef& q_before, const ConstVectorRef& q);
+  void semidefinite(double lambda, const ConstVectorRef& q);
+
+  // False where K is singular. Throws RunError if memory does not suffice.
+  bool factor();
+  // The same with a solver that tells the negative eigenvalues, if K is symmetric.
+  bool factor_with_inertia();
+
+  // Of the last factor; none where its solver does not tell: K is not symmetric.
+  std::optional<int> negative_eigenvalues() const { return negative_; }
+
+  // x = K^-1 b. Precondition: the last factor() was true.
+  void solve(const ConstVectorRef& b, VectorRef x);
+
+  std::size_t factor_bytes() const;
+  std::string description() const { return solver_->description(); }
+
+ private:
+  bool factor_definite();
+  bool factor_indefinite();
+
+  const Model& model_;
+  Statistics& statistics_;
+  std::unique_ptr<LinearSolver> solver_, indefinite_;
+  bool checks_definiteness_;
+  bool constant_is_factored_ = false;
+  std::optional<int> negative_;
+  LinearSolver* used_ = nullptr;  // holds the last factor
+  Linearization linearization_;
+  std::vector<double> values_;
+};
+
+}  // namespace orthodyn

@@ -1,0 +1,70 @@
+// The tangent of the corotational law with a stress of its own.
+#include <gtest/gtest.h>
+
+#include "lib/element/corotational_law.h"
+#include "tests/element/states.h"
+
+namespace orthodyn::mixed_tangent_test {
+namespace {
+
+const Mat3 kQ = Random(41).rotation();
+
+template <class C>
+Mat9 mixed(const C& stiffness, const Mat3& F0, const Mat3& F) {
+  return in_space(CorotationalLaw<C>(stiffness).mixed_tangent(F0 - kQ, F - kQ, kQ));
+}
+
+template <class C>
+Mat9 tangent(const C& stiffness, const Mat3& F, TangentKind kind) {
+  return in_space(CorotationalLaw<C>(stiffness).tangent(F - kQ, kQ, kind, 0, nullptr));
+}
+
+TEST(MixedTangent, IsTheExactOneWhereNothingHasMoved) {
+  Random random(42);
+  for (int sample = 0; sample < 10; ++sample) {
+    const Mat3 F = random_strain(random, 0.3).F();
+    const Mat9 exact = tangent(fibre(10), F, TangentKind::exact);
+    EXPECT_LE((mixed(fibre(10), F, F) - exact).norm(), 64 * kEps * exact.norm());
+  }
+}
+
+// Without the Gauss-Newton part it is the second derivative of sigma : S(F) for the fixed stress
+// sigma = C (S0 - I + dS0), whose gradient is R (sigma + [c]).
+template <class C>
+void expect_second_derivative(const C& stiffness) {
+  Random random(43);
+  for (int sample = 0; sample < 10; ++sample) {
+    const Mat3 F0 = random_strain(random, 0.3).F(), F = random_strain(random, 0.3).F();
+    const auto p0 = polar(F0, kQ);
+    const auto stretch = [](const Mat3T<Complex>& at) { return polar(at, kQ).S; };
+    const Mat3 sigma = stiffness.stress(Mat3(p0.S - Mat3::Identity() + derivative(stretch, F0, Mat3(F - F0))));
+    const auto gradient = [&](const Mat3T<Complex>& at) {
+      const auto p = polar(at, kQ);
+      const CMat3 s = sigma.cast<Complex>();
+      const Vec3T<Complex> c = p.G_inverse * axial<Complex>(CMat3(p.S * s));
+      return CMat3(p.R * (s + cross_matrix<Complex>(c)));
+    };
+    const Mat9 geometric = mixed(stiffness, F0, F) - tangent(stiffness, F, TangentKind::gauss_newton);
+    for (int direction = 0; direction < 3; ++direction) {
+      const Mat3 dF = random.matrix();
+      const Mat3 expected = derivative(gradient, F, dF);
+      const Mat3 found = (geometric * dF.reshaped()).reshaped(3, 3);
+      EXPECT_LE((found - expected).norm(), 1e-12 * tangent(stiffness, F, TangentKind::exact).norm() * dF.norm());
+    }
+  }
+}
+
+TEST(MixedTangent, HoldsTheStressThatTheTangentBeforePredicts) {
+  expect_second_derivative(fibre(10));
+  expect_second_derivative(kIsotropic);
+  expect_second_derivative(turned(fibre(10), Random(44).rotation()));
+}
+
+TEST(MixedTangent, IsTheExactOneWhereAnEndIsBlended) {
+  const Mat3 inverted = Random(45).rotation() * Vec3(1.1, 0.8, -0.7).asDiagonal(), F = 1.1 * kQ;
+  const Mat9 exact = tangent(fibre(10), F, TangentKind::exact);
+  EXPECT_EQ((mixed(fibre(10), inverted, F) - exact).norm(), 0);
+}
+
+}  // namespace
+}  // namespace orthodyn::mixed_tangent_test
