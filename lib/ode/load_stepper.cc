@@ -50,7 +50,7 @@ void LoadStepper::advance() {
     const double slope = std::abs(tracer_->place().tangent.lambda);
     if (slope > 0) step_ = std::min(step_, stepping_.max_step / slope);
     auto next = tracer_->beyond(step_);
-    if (next) {
+    if (next && !passes_over_too_much(*next)) {
       attempt_ = tracer_->attempt();
       if (crosses_critical_point(*next)) return pass_critical_point(std::move(*next));
       tracer_->move_to(std::move(*next));
@@ -60,6 +60,11 @@ void LoadStepper::advance() {
     if (step_ <= smallest_step_) give_up();
     shorten();
   }
+}
+
+// The path bends upwards: its tangent promised less.
+bool LoadStepper::passes_over_too_much(const Place& next) const {
+  return std::abs(next.point.lambda - tracer_->place().point.lambda) > 1.5 * stepping_.max_step;
 }
 
 void LoadStepper::adapt() {

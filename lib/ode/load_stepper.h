@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "lib/config/spec.h"
+#include "lib/ode/critical_point.h"
 #include "lib/ode/integrator.h"
 #include "lib/ode/path_tracer.h"
 
@@ -26,14 +27,6 @@ template <>
 struct Words<AtLimit> {
   static constexpr std::array<std::pair<AtLimit, const char*>, 3> list{
       {{AtLimit::stop, "stop"}, {AtLimit::follow, "follow"}, {AtLimit::jump, "jump"}}};
-};
-
-struct CriticalPoint {
-  enum class Kind { limit, bifurcation };
-  Kind kind = Kind::limit;
-  double load_factor = 0;
-  double uncertainty = 0;       // of load_factor
-  std::optional<int> unstable;  // directions past it; none: not known
 };
 
 struct LoadStepping {
@@ -72,6 +65,7 @@ class LoadStepper {
   void begin();
   void advance();
   bool crosses_critical_point(const Place& next) const;
+  bool passes_over_too_much(const Place& next) const;
   void pass_critical_point(Place beyond);
   std::optional<Place> close_in(Place beyond);
   CriticalPoint critical_point_before(const Place& beyond) const;

@@ -12,8 +12,8 @@ struct Words<MassKind> {
 };
 template <>
 struct Words<Analysis> {
-  static constexpr std::array<std::pair<Analysis, const char*>, 2> list{
-      {{Analysis::dynamic, "dynamic"}, {Analysis::statical, "static"}}};
+  static constexpr std::array<std::pair<Analysis, const char*>, 3> list{
+      {{Analysis::dynamic, "dynamic"}, {Analysis::statical, "static"}, {Analysis::buckling, "buckling"}}};
 };
 template <>
 struct Words<Start> {
@@ -21,12 +21,19 @@ struct Words<Start> {
       {{Start::rest, "rest"}, {Start::equilibrium, "equilibrium"}}};
 };
 
+const Spec<Buckling>& Buckling::spec() {
+  static const auto s = Spec<Buckling>().key("count", &Buckling::count,
+                                             "How many critical load factors, the lowest first.", {.range = {1, 1000}});
+  return s;
+}
+
 const Spec<Scene>& Scene::spec() {
   const Condition kDynamic{"analysis", "dynamic"};
   static const auto s =
       Spec<Scene>()
           .key("analysis", &Scene::analysis,
-               "dynamic: the motion over time. static: the equilibrium under all loads, which grow step by step.")
+               "dynamic: the motion over time. static: the equilibrium under all loads, which grow step by step. "
+               "buckling: the load factors at which the body at rest would buckle, and how (linear).")
           .key("mesh", &Scene::mesh, "Where the mesh comes from.", {.required = true})
           .key("materials", &Scene::materials, "Materials by name; required unless the mesh file brings them (.veg).")
           .key("regions", &Scene::regions,
@@ -49,6 +56,8 @@ const Spec<Scene>& Scene::spec() {
                {.fallback = "{end: 0}"})
           .key("integrator", &Scene::integrator, "The integrator.", {.fallback = "{type: auto}", .with = kDynamic})
           .key("statics", &Scene::statics, "How equilibrium is found, by analysis: static and start: equilibrium.")
+          .key("buckling", &Scene::buckling, "What a buckling analysis looks for.",
+               {.with = Condition{"analysis", "buckling"}})
           .key("events", &Scene::events, "Values that quantities cross: logged to events.csv, or the end of the run.",
                {.with = kDynamic})
           .key("output", &Scene::output, "What is written.")
@@ -116,6 +125,20 @@ void check_static(const Config& config, Scene& scene, bool is_timed) {
   if (scene.output.momentum) output.at("momentum").fail("nothing moves in statics; remove it");
 }
 
+void check_buckling(const Config& config, Scene& scene, bool is_timed) {
+  if (!is_timed) require_time_of_statics(config, scene);
+  if (scene.statics)
+    config.at("statics").fail("has no meaning in a linear buckling analysis; remove it, or say analysis: static");
+  if (!scene.motions.empty())
+    config.at("motions").fail(
+        "a buckling analysis takes loads that grow in proportion, and no prescribed displacements; "
+        "follow the path with analysis: static and find where it becomes unstable");
+  if (!scene.expect.empty())
+    config.at("expect").fail("a buckling analysis has critical load factors only; a sweep takes them as figures "
+                             "({buckling: 1})");
+  if (!scene.buckling) scene.buckling = Buckling::spec().read(config.fill("buckling", "{}"));
+}
+
 bool is_given(const Config& section, const std::string& key) {
   return section.has(key) && !section.at(key).is_null();
 }
@@ -150,7 +173,11 @@ Scene read_scene(const Config& input) {
   const bool is_timed = config.is_map() && config.has("time") && !config.at("time").is_null();
   Scene scene = Scene::spec().read(config);
   complete_terms(config, scene);
-  scene.analysis == Analysis::statical ? check_static(config, scene, is_timed) : check_dynamic(config, scene, is_timed);
+  switch (scene.analysis) {
+    case Analysis::dynamic: check_dynamic(config, scene, is_timed); break;
+    case Analysis::statical: check_static(config, scene, is_timed); break;
+    case Analysis::buckling: check_buckling(config, scene, is_timed); break;
+  }
   if (!config.has("materials")) fill_mesh_materials(config, scene);
   if (scene.materials.empty()) config.at("materials").fail("is empty; give at least one material");
   require_admissible_materials(config, scene);

@@ -28,8 +28,14 @@
 
 namespace orthodyn {
 
-enum class Analysis { dynamic, statical };
+enum class Analysis { dynamic, statical, buckling };
 enum class Start { rest, equilibrium };
+
+// Linear buckling (lib/analysis/buckling.h).
+struct Buckling {
+  int count = 6;
+  static const Spec<Buckling>& spec();
+};
 
 struct Scene {
   Analysis analysis = Analysis::dynamic;
@@ -50,12 +56,16 @@ struct Scene {
   TimeSpan time;
   std::shared_ptr<const IntegratorChoice> integrator;  // null in statics
   std::optional<Statics> statics;  // of a static analysis and a start from equilibrium
+  std::optional<Buckling> buckling;  // of a buckling analysis
   std::vector<EventSpec> events;
   Output output;
   std::optional<CheckpointSchedule> checkpoint;
   std::vector<Expectation> expect;
 
   static const Spec<Scene>& spec();
+
+  // Nothing moves: loads and supports are as at the end of the time span.
+  bool is_static() const { return analysis != Analysis::dynamic; }
 
   // What exerts forces beside elasticity, in the order in which they are added: gravity, loads, terms.
   std::vector<const TermChoice*> force_terms() const;

@@ -46,7 +46,7 @@ std::vector<std::string> open_regions(const Scene& scene) {
 }
 
 double end_of_motion(const Scene& scene) {
-  return scene.analysis == Analysis::statical ? std::numeric_limits<double>::infinity() : scene.time.end;
+  return scene.is_static() ? std::numeric_limits<double>::infinity() : scene.time.end;
 }
 
 Scene with_linear_regions(Scene scene) {
@@ -278,7 +278,7 @@ struct Trial {
 
 Trial try_linear(const Scene& scene, const std::vector<std::string>& open, const BuiltScene& built, double allowed,
                  bool predict, const std::string& only_linear) {
-  const bool is_static = scene.analysis == Analysis::statical;
+  const bool is_static = scene.is_static();
   try {
     auto watch = std::make_unique<LinearityWatch>(*built.model, linear_regions(scene, open, *built.model),
                                                   scene.time.start, end_of_motion(scene), allowed, only_linear);
@@ -314,6 +314,11 @@ ChosenKinematics choose_kinematics(Config& config, Scene& scene, bool linear_so_
   const double allowed = allowed_error(scene);
   const std::string only_linear = only_linear_integrator(config, scene);
   KinematicsChoice choice;
+  if (scene.analysis == Analysis::buckling) {  // linear ones have no stress stiffness
+    make_corotational(config);
+    scene = read_scene(config);
+    return {std::move(choice), build(scene), nullptr};
+  }
   for (auto open = open_regions(scene); !open.empty(); open = open_regions(scene)) {
     const Scene linear = with_linear_regions(scene);
     BuiltScene built = build(linear);

@@ -1,4 +1,4 @@
-// What a dynamic and a static analysis are given, so that both are one kind of function.
+// What the analyses of a scene are given, so that all are one kind of function.
 #pragma once
 
 #include <atomic>
@@ -43,5 +43,6 @@ using RunAnalysis = RunResult (*)(RunContext context);
 
 RunResult run_dynamic_analysis(RunContext context);
 RunResult run_static_analysis(RunContext context);
+RunResult run_buckling_analysis(RunContext context);
 
 }  // namespace orthodyn

@@ -135,6 +135,17 @@ void add_equilibrium(Json& out, const EquilibriumResult& equilibrium, const Outc
   if (outcome.status == Outcome::Status::failed) out["failure"] = failure_json(outcome);
 }
 
+void add_buckling(Json& out, const BucklingResult& buckling, const Outcome& outcome) {
+  out["loads_at_time"] = buckling.loads_at_time;
+  out["modes"] = Json::array();
+  for (const auto& mode : buckling.modes)
+    out["modes"].push_back(
+        {{"load_factor", mode.load_factor}, {"mesh_error", mode.mesh_error}, {"residual", mode.residual}});
+  out["wall_seconds"] = outcome.wall_seconds;
+  out["cpu_seconds"] = outcome.cpu_seconds;
+  if (outcome.status == Outcome::Status::failed) out["failure"] = failure_json(outcome);
+}
+
 }  // namespace
 
 RunRecord::RunRecord(const std::filesystem::path& folder, const std::string& scene, const std::vector<std::string>& set,
@@ -145,9 +156,11 @@ void RunRecord::finish(const RunResult& result) const {
   Json out = begin_;
   out["status"] = status_word(result.outcome.status);
   if (result.equilibrium) out["analysis"] = "static";
+  if (result.buckling) out["analysis"] = "buckling";
   out["model"] = model_json(result.model);
   if (result.motion) add_motion(out, *result.motion, result.outcome);
   if (result.equilibrium) add_equilibrium(out, *result.equilibrium, result.outcome);
+  if (result.buckling) add_buckling(out, *result.buckling, result.outcome);
   if (const auto errors = error_balance(result)) out["errors"] = errors_json(*errors);
   if (const auto warnings = doubts(result); !warnings.empty()) out["warnings"] = warnings;
   file_.rewrite(text(out));

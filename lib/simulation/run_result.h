@@ -7,7 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "lib/ode/load_stepper.h"
+#include "lib/ode/critical_point.h"
+#include "lib/ode/statistics.h"
 #include "lib/simulation/observers/balance.h"
 #include "lib/simulation/checkpoint/effort.h"
 #include "lib/simulation/errors/accumulated_error.h"
@@ -93,13 +94,24 @@ struct EquilibriumResult {
   std::vector<ProbedDisplacement> probes = {};  // where the error of the mesh is asked for
 };
 
+// Of a buckling analysis, the lowest load factor first.
+struct BucklingResult {
+  double loads_at_time = 0;  // s
+  struct Mode {
+    double load_factor = 0, residual = 0;
+    double mesh_error = 0;  // the share by which the mesh makes the factor too high, estimated
+  };
+  std::vector<Mode> modes = {};
+};
+
 struct RunResult {
   std::string scene;  // its file
   std::filesystem::path folder;
   Outcome outcome = {};
   ModelSummary model = {};
-  std::optional<MotionResult> motion = {};            // one of the two,
-  std::optional<EquilibriumResult> equilibrium = {};  // or none where nothing was to be done
+  std::optional<MotionResult> motion = {};            // one of these,
+  std::optional<EquilibriumResult> equilibrium = {};
+  std::optional<BucklingResult> buckling = {};        // or none where nothing was to be done
   bool was_complete = false;                          // it was to be resumed, and had reached its end before
   std::optional<Outgrown> outgrown = {};              // why it ended, and is to start again
   bool resumable = false;                             // the folder holds a checkpoint of a late state

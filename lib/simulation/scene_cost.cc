@@ -104,7 +104,7 @@ class Judge {
 
   // Of the slowest vibration, by Rayleigh's quotient of the response.
   void look_at_damping() {
-    if (!setup_.scene.damping || setup_.scene.analysis == Analysis::statical) return;
+    if (!setup_.scene.damping || setup_.scene.is_static()) return;
     const Vector& u = response_.displacement;
     Vector Mu(u.size());
     model_.multiply_mass(u, Mu);

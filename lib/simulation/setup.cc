@@ -50,7 +50,7 @@ void check_expectations(const Scene& scene, const FemModel& model) {
     if (quantity.components == 3 && (e.at || e.take != Take::drift))
       e.origin.fail(fmt::format("'{}' is a vector: choose .x, .y, .z or .magnitude", e.quantity));
     e.require_units(quantity.unit);
-    if (scene.analysis == Analysis::statical && (e.at || e.take != Take::end || !quantity.values))
+    if (scene.is_static() && (e.at || e.take != Take::end || !quantity.values))
       e.origin.fail("of a static analysis only values in equilibrium are known: remove 'take' and 'at'" +
                     std::string(quantity.values ? "" : ", choose another quantity than energy.balance"));
     if (e.at && (*e.at < scene.time.start || *e.at > scene.time.end))
@@ -134,7 +134,7 @@ Setup set_up(const Config& input, bool linear_so_far, bool is_timed) {
   };
   BuiltScene built = build_it();
   if (!linearity) linearity = watch_for_the_end(scene, *built.model);
-  if (scene.analysis == Analysis::dynamic) require_force_at_start(config, built);
+  if (!scene.is_static()) require_force_at_start(config, built);
   check_outputs(scene, *built.model);
   check_expectations(scene, *built.model);
   append(slips(config, scene, built, is_timed), built.warnings);
@@ -151,7 +151,7 @@ Setup set_up(const Config& input, bool linear_so_far, bool is_timed) {
   std::vector<Event> events = make_events(scene, *built.model);
   std::unique_ptr<Integrator> integrator;
   double wall = 0, cpu = 0;
-  if (scene.analysis == Analysis::dynamic) {
+  if (!scene.is_static()) {
     if (scene.start == Start::equilibrium) {
       start_from_equilibrium(scene, built);
       statics.reset();  // it is of another initial state

@@ -55,6 +55,19 @@ RunResult Simulation::run(const RunRequest& request, const std::atomic<bool>& in
   return std::move(*result);
 }
 
+namespace {
+
+RunAnalysis analysis_of(const Scene& scene) {
+  switch (scene.analysis) {
+    case Analysis::statical: return run_static_analysis;
+    case Analysis::buckling: return run_buckling_analysis;
+    case Analysis::dynamic: break;
+  }
+  return run_dynamic_analysis;
+}
+
+}  // namespace
+
 // `given_up`: where linear kinematics were before, and why; else "".
 RunResult Simulation::run_once(Config config, const RunRequest& request, const std::string& given_up,
                                const std::atomic<bool>& interrupt, RunListener& listener) const {
@@ -67,8 +80,8 @@ RunResult Simulation::run_once(Config config, const RunRequest& request, const s
   if (!given_up.empty()) setup.note_given_up(given_up);
   for (const auto& warning : setup.built.warnings) listener.on_warning(warning);
   const std::string resolved = resolved_scene(setup, file_, folder.path());
-  const RunAnalysis analysis = setup.scene.analysis == Analysis::statical ? run_static_analysis : run_dynamic_analysis;
-  return analysis({file_, changes_.set, request, setup, resolved, folder, std::move(earlier), interrupt, listener});
+  return analysis_of(setup.scene)(
+      {file_, changes_.set, request, setup, resolved, folder, std::move(earlier), interrupt, listener});
 }
 
 }  // namespace orthodyn

@@ -6,8 +6,6 @@
 
 namespace orthodyn {
 
-namespace {
-
 void require_held(const Scene& scene, const FemModel& model, double t) {
   const std::string freedom = describe_rigid_freedom(model, t);
   if (freedom.empty()) return;
@@ -19,18 +17,17 @@ void require_held(const Scene& scene, const FemModel& model, double t) {
   scene.clamps.front().origin.fail(message);
 }
 
-}  // namespace
-
 StaticProblem static_problem(const Scene& scene, const BuiltScene& built) {
   const FemModel& model = *built.model;
-  const double t = scene.analysis == Analysis::statical ? scene.time.end : scene.time.start;
+  const double t = scene.is_static() ? scene.time.end : scene.time.start;
   require_held(scene, model, t);
   StaticProblem problem;
   problem.path = std::make_unique<LoadPath>(model, t, Vector::Zero(model.num_dofs()));
   const double force = problem.path->load().lpNorm<Eigen::Infinity>();
   const double length = 0.1 * bounding_box(model.parts().mesh).size().maxCoeff();
-  problem.solver = scene.statics->solver->make(*problem.path, {force > 0 ? force : 1, length});
-  problem.stepper = std::make_unique<LoadStepper>(*problem.path, *problem.solver, *scene.statics, length);
+  const Statics statics = scene.statics ? *scene.statics : Statics::spec().by_default();
+  problem.solver = statics.solver->make(*problem.path, {force > 0 ? force : 1, length});
+  problem.stepper = std::make_unique<LoadStepper>(*problem.path, *problem.solver, statics, length);
   return problem;
 }
 
@@ -43,7 +40,7 @@ Scene at_rest(const Scene& scene) {
 }
 
 Vector equilibrium(const Scene& scene, const BuiltScene& built) {
-  if (scene.analysis == Analysis::dynamic && !scene.motions.empty()) {
+  if (!scene.is_static() && !scene.motions.empty()) {
     const Scene still = at_rest(scene);
     return equilibrium(still, build(still));
   }

@@ -14,6 +14,9 @@ struct StaticProblem {
   std::unique_ptr<LoadStepper> stepper;
 };
 
+// Throws ConfigError, at the scene's clamps, for a body that has rigid motions left at time t, s.
+void require_held(const Scene& scene, const FemModel& model, double t);
+
 // The loads are those at the end of the time span in statics, at its start for a start from equilibrium. Throws
 // ConfigError for a body that is not held. `built` must outlive the problem.
 StaticProblem static_problem(const Scene& scene, const BuiltScene& built);

@@ -14,7 +14,7 @@ import numpy as np  # noqa: E402
 from PIL import Image  # noqa: E402
 
 from draw.cli import main  # noqa: E402
-from draw.modes import Shapes, frequencies, frequency_label  # noqa: E402
+from draw.modes import Shapes, factor_label, frequency_label, read_modes  # noqa: E402
 from tiny_result import POINTS, Vtu  # noqa: E402
 
 
@@ -51,7 +51,7 @@ class Modes(unittest.TestCase):
     def test_shapes_are_read_as_what_moves_the_body(self):
         write_modes(self.folder, [1.0, 2.0])
         np.testing.assert_array_equal(Shapes(self.folder).frame(1).node_fields["displacement"], np.roll(POINTS, 1, axis=1))
-        self.assertEqual(frequencies(self.folder), [1.0, 2.0])
+        self.assertEqual(read_modes(self.folder), ([1.0, 2.0], frequency_label))
 
     def test_labels_are_short(self):
         self.assertEqual([frequency_label(f) for f in (12.5, 1299.0381, -3.0)], ["12.5 Hz", "1.299 kHz", "-3 Hz"])

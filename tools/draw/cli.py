@@ -138,9 +138,9 @@ def _parser():
                       help="point that the sections go through (default: the middle of the body)")
     axes.add_argument("--view", type=lambda s: _numbers(s, 2), default=(-60.0, 20.0), metavar="AZIM,ELEV",
                       help="where the eye is for the surface, degrees (default -60,20; z is up)")
-    modes = commands.add_parser("modes", help="Natural modes side by side, from modes.pvd and modes.csv.",
-                                description="Natural modes side by side as PNG, with the rest shape's outline.")
-    modes.add_argument("result", metavar="RESULT", help="folder that `orthodyn modes` wrote")
+    modes = commands.add_parser("modes", help="Natural modes or buckling shapes side by side.",
+                                description="Natural modes or buckling shapes side by side as PNG, with the rest shape's outline.")
+    modes.add_argument("result", metavar="RESULT", help="folder of `orthodyn modes`, or of a run with analysis: buckling")
     modes.add_argument("--out", type=Path, metavar="PNG", help="default: RESULT/modes.png")
     modes.add_argument("--count", type=_count, default=12, metavar="N",
                        help="the N lowest that bend the body (default 12)")
@@ -212,6 +212,7 @@ def _all(args):
     parts = [(name, (folder / "frames.pvd").is_file(), run) for name, run in
              (("strip", _strip), ("animate", _animate))] + parts
     parts.append(("load", has_load_path(folder), _load))
+    parts.append(("modes", (folder / "modes.pvd").is_file(), _modes_of_run))
     if not any(present for _, present, _ in parts):
         raise DrawError(f"{folder}: neither frames.pvd nor any of {', '.join(f'{c}.csv' for c in CURVES)}; "
                         "is it a folder that `orthodyn run` wrote?")
@@ -235,6 +236,13 @@ def _axes(args):
     from .vtu import read_vtu
     path = Path(args.result)
     yield draw_axes(path, read_vtu(path), args.out or path.with_suffix(".png"), args.at, args.view)
+
+
+def _modes_of_run(args):
+    from .modes import draw_modes
+    path = Path(args.result) / "pictures" / "modes.png"
+    path.parent.mkdir(exist_ok=True)
+    yield draw_modes(args.result, path, 12, (-60.0, 20.0), "z")
 
 
 def _modes(args):

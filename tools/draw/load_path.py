@@ -38,11 +38,18 @@ def _panels_of(columns):
     return groups
 
 
+def _that_move(lines):
+    """Without components that are round-off, or next to nothing, beside the others."""
+    largest = max(abs(column.values).max() for _, column in lines)
+    return [(name, column) for name, column in lines if abs(column.values).max() >= 1e-3 * largest]
+
+
 def draw_load_path(folder, path):
     factors, columns = _displacements(folder)
     groups = _panels_of(columns)
     figure, axes = panels([2.6] * len(groups), sharex=False)
-    for panel, (probe, lines) in zip(axes, groups.items()):
+    for panel, (probe, all_lines) in zip(axes, groups.items()):
+        lines = _that_move(all_lines)
         factor, unit = prefix("m", max(abs(c.values).max() for _, c in lines))
         for k, (_, column) in enumerate(lines):
             panel.plot(column.values / factor, factors, marker="o", ms=3, lw=1.3, color=COLOURS[k])

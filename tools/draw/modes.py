@@ -1,4 +1,4 @@
-"""Natural modes as small multiples: the shapes, enlarged to be seen, over the outline of the body."""
+"""Natural modes or buckling shapes as small multiples: enlarged to be seen, over the outline of the body."""
 import csv
 from dataclasses import replace
 from pathlib import Path
@@ -32,28 +32,43 @@ class Picture(Scene):
     note = ""  # how far a shape is enlarged means nothing
 
 
-def frequencies(folder):
-    path = Path(folder) / "modes.csv"
-    try:
-        with open(path, newline="", encoding="utf-8") as file:
-            return [float(row["frequency [Hz]"]) for row in csv.DictReader(file)]
-    except (KeyError, TypeError, ValueError) as error:
-        raise DrawError(f"{path}: not readable as what `orthodyn modes` writes ({error})") from None
-
-
 def frequency_label(hertz):
     return f"{hertz / 1000:.4g} kHz" if abs(hertz) >= 1000 else f"{hertz:.4g} Hz"
 
 
+def factor_label(factor):
+    return f"load factor {factor:.4g}"
+
+
+# What tells a mode from others, its column, its label, and the command that writes it.
+KINDS = (("modes.csv", "frequency [Hz]", frequency_label, "orthodyn modes"),
+         ("buckling.csv", "load_factor", factor_label, "orthodyn run"))
+
+
+def read_modes(folder):
+    """The figure of each mode and how to label it."""
+    for name, column, label, command in KINDS:
+        path = Path(folder) / name
+        if not path.exists():
+            continue
+        try:
+            with open(path, newline="", encoding="utf-8") as file:
+                return [float(row[column]) for row in csv.DictReader(file)], label
+        except (KeyError, TypeError, ValueError) as error:
+            raise DrawError(f"{path}: not readable as what `{command}` writes ({error})") from None
+    raise DrawError(f"{folder}: no modes.csv of `orthodyn modes` and no buckling.csv of a buckling analysis")
+
+
 def draw_modes(folder, path, count, view, up):
-    shapes, hertz = Shapes(folder), frequencies(folder)
-    if len(hertz) != len(shapes):
-        raise DrawError(f"{folder}: modes.csv and modes.pvd do not belong together; run `orthodyn modes` again")
-    chosen = [k for k in range(len(shapes)) if hertz[k] != 0][:count]
+    shapes = Shapes(folder)
+    figures, label = read_modes(folder)
+    if len(figures) != len(shapes):
+        raise DrawError(f"{folder}: the table and modes.pvd do not belong together; compute them again")
+    chosen = [k for k in range(len(shapes)) if figures[k] != 0][:count]
     if not chosen:
-        raise DrawError(f"{folder}: all {len(hertz)} modes are rigid; ask for more with -n")
+        raise DrawError(f"{folder}: all {len(figures)} modes are rigid; ask for more with -n")
     scale = LARGEST * float(np.ptp(shapes.frame(chosen[0]).points, axis=0).max())
     spec = PictureSpec(color="shape", view=view, up=up, scale=scale, ghost=True, limits=(0, 1))
     scene = Picture(shapes, chosen, spec)
-    scene.labels = {k: f"{k + 1}: {frequency_label(hertz[k])}" for k in chosen}
+    scene.labels = {k: f"{k + 1}: {label(figures[k])}" for k in chosen}
     return draw_strip(scene, chosen, path)

@@ -36,7 +36,7 @@ class Terminal : public RunListener {
 
   std::unique_ptr<Observer> on_begin(const Setup& setup) override {
     catch_interrupts();
-    if (quiet_ || setup.scene.analysis == Analysis::statical) return nullptr;
+    if (quiet_ || setup.scene.is_static()) return nullptr;
     return std::make_unique<TerminalProgress>(setup.scene.time.start, setup.scene.time.end, stderr);
   }
 

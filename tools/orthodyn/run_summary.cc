@@ -110,6 +110,18 @@ void print_equilibrium(const RunResult& result, const EquilibriumResult& equilib
   fmt::print("  {:<20} {}\n", "results", result.folder.string());
 }
 
+void print_buckling(const RunResult& result, const BucklingResult& buckling) {
+  fmt::print("{}, buckling: {} unknowns, {} after {:.2f} s\n", result.scene, result.model.unknowns,
+             status_word(result.outcome.status), result.outcome.wall_seconds);
+  if (!buckling.modes.empty()) fmt::print("  mode  load factor   by the mesh   residual\n");
+  for (std::size_t k = 0; k < buckling.modes.size(); ++k) {
+    const auto& mode = buckling.modes[k];
+    fmt::print("  {:4}  {:11.6g}  {:>12}   {:8.1e}\n", k + 1, mode.load_factor,
+               fmt::format("{:+.2g} %", 100 * mode.mesh_error), mode.residual);
+  }
+  fmt::print("  {:<20} {}\n", "results", result.folder.string());
+}
+
 void print_what_remains(const RunResult& result) {
   if (result.outcome.status == Outcome::Status::interrupted)
     fmt::print(stderr, "interrupted at t = {:.6g} s; what was computed is in {}\n", result.outcome.last.t,
@@ -123,6 +135,7 @@ void print_what_remains(const RunResult& result) {
 void print_result(const RunResult& result, bool quiet) {
   if (result.outcome.status == Outcome::Status::failed) fmt::print(stderr, "error: {}\n", result.outcome.message);
   if (result.equilibrium && !quiet) print_equilibrium(result, *result.equilibrium);
+  if (result.buckling && !quiet) print_buckling(result, *result.buckling);
   if (result.motion && !quiet) print_motion(result, *result.motion);
   for (const auto& doubt : doubts(result)) fmt::print(stderr, "warning: {}\n", doubt);
   if (result.motion) print_what_remains(result);

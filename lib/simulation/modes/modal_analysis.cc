@@ -10,8 +10,8 @@
 namespace orthodyn {
 
 ModalAnalysis::ModalAnalysis(const Setup& setup, int count, bool about_equilibrium)
-    : setup_(setup), scene_(setup.scene.analysis == Analysis::statical ? setup.scene : at_rest(setup.scene)) {
-  if (setup.scene.analysis == Analysis::dynamic && !scene_.motions.empty()) rebuilt_ = build(scene_);
+    : setup_(setup), scene_(setup.scene.is_static() ? setup.scene : at_rest(setup.scene)) {
+  if (!setup.scene.is_static() && !scene_.motions.empty()) rebuilt_ = build(scene_);
   about_ = state_about(about_equilibrium);
   modes_ = natural_modes(model(), about_, count);
   // Only what the geometry leaves free is rigid; round-off makes zeros of the softest modes of slender bodies, too.

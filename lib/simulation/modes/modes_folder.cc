@@ -6,7 +6,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/simulation/files.h"
-#include "lib/simulation/observers/frames.h"
+#include "lib/simulation/modes/shape_files.h"
 
 namespace orthodyn {
 
@@ -34,35 +34,6 @@ void write_csv(const fs::path& path, const ModalAnalysis& analysis) {
   }
 }
 
-// The shape at all nodes, its largest displacement 1.
-std::vector<double> nodal_shape(const Model& model, const State& about, const Vector& shape) {
-  auto moved = model.evaluate("displacement", {about.t, about.q + shape, about.v});
-  const auto before = model.evaluate("displacement", about);
-  double largest = 0;
-  for (std::size_t i = 0; i < moved.size(); ++i) moved[i] -= before[i];
-  for (std::size_t i = 0; i < moved.size(); i += 3)
-    largest = std::max(largest, Eigen::Map<const Vec3>(&moved[i]).norm());
-  for (double& x : moved) x /= largest;
-  return moved;
-}
-
-// modes.pvd, whose times are the modes' numbers, and a file per mode.
-void write_shapes(const fs::path& folder, const Model& model, const State& about, const Modes& modes) {
-  GrowingFile collection(folder / "modes.pvd",
-                         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n",
-                         "</Collection>\n</VTKFile>\n");
-  collection.begin();
-  const Geometry geometry = model.geometry();
-  const auto displacement = model.evaluate("displacement", about);
-  for (std::size_t k = 0; k < modes.modes.size(); ++k) {
-    const auto name = fmt::format("modes/mode_{:03}.vtu", k + 1);
-    write_vtu(folder / name, geometry,
-              {{"shape", Location::node, 3, nodal_shape(model, about, modes.modes[k].shape)},
-               {"displacement", Location::node, 3, displacement}});
-    collection.append(fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", k + 1, name));
-  }
-}
-
 }  // namespace
 
 void check_modes_folder(const fs::path& folder, bool replace) {
@@ -81,7 +52,9 @@ void check_modes_folder(const fs::path& folder, bool replace) {
 void write_modes(const fs::path& folder, const ModalAnalysis& analysis) {
   remove_earlier(folder);
   write_csv(folder / "modes.csv", analysis);
-  write_shapes(folder, analysis.model(), analysis.about(), analysis.modes());
+  std::vector<Vector> shapes;
+  for (const Mode& mode : analysis.modes().modes) shapes.push_back(mode.shape);
+  write_shapes(folder, analysis.model(), analysis.about(), shapes);
 }
 
 }  // namespace orthodyn

@@ -24,7 +24,7 @@ struct Subject {
   double start() const { return scene.time.start; }
   double end() const { return scene.time.end; }
   double span() const { return end() - start(); }
-  bool is_static() const { return scene.analysis == Analysis::statical; }
+  bool is_static() const { return scene.is_static(); }
   // Over a time span that is known.
   bool moves() const { return !is_static() && is_timed; }
   bool held() const { return built.model->num_dofs() < 3 * built.model->parts().dofs->num_nodes(); }

@@ -38,7 +38,7 @@ void add_named(Named<WantedFigure>& figures, const std::string& text) {
 
 // What the scene expects, or else how far its probes move, or else its energy.
 void add_usual(Named<WantedFigure>& figures, const Scene& scene) {
-  const bool is_static = scene.analysis == Analysis::statical;
+  const bool is_static = scene.is_static();
   for (const Expectation& e : scene.expect)
     if (e.quantity != kEnergyBalance)
       add(figures, {.quantity = e.quantity, .take = e.take, .at = e.at, .of = e.of}, e.title());
@@ -81,7 +81,7 @@ Design design_of(const Convergence& wanted) {
   const BuiltScene built = build(scene);
   for (auto& [name, figure] : design.figures) {
     if (figure.quantity.empty()) continue;
-    if (scene.analysis == Analysis::statical && figure.take != Take::end)
+    if (scene.is_static() && figure.take != Take::end)
       figure.origin.fail("of a static analysis only values in equilibrium are known: leave out 'max of' and the like");
     const Quantity q = find_quantity(figure.quantity, scene, *built.model, figure.origin);
     if (q.components == 3 && figure.take != Take::drift)

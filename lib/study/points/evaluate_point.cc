@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "lib/scene/quantity.h"
+#include "lib/analysis/buckling.h"
 #include "lib/simulation/static_problem.h"
 #include "lib/simulation/errors/mesh_error.h"
 #include "lib/simulation/errors/snapshot.h"
@@ -96,10 +97,11 @@ class Evaluation {
     const auto started = std::chrono::steady_clock::now();
     const double cpu = cpu_seconds_now();
     const Scene scene = read_scene(config_);
-    const Scene still = scene.analysis == Analysis::dynamic ? at_rest(scene) : scene;
+    const Scene still = scene.is_static() ? scene : at_rest(scene);
     const BuiltScene built = build(still);
     describe(*built.model);
     for (const bool about_equilibrium : {false, true}) find_modes(still, built, about_equilibrium);
+    find_buckling(still, built);
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
     result_.cost = result_.modes_cost = EvaluationCost{cpu_seconds_now() - cpu, wall.count(), {}, peak_memory()};
   }
@@ -108,12 +110,26 @@ class Evaluation {
     std::vector<std::string> names;
     std::vector<WantedFigure> wanted;
     for (const auto& [name, f] : input_.figures)
-      if (!f.is_of_motion() && f.about_equilibrium == about_equilibrium) names.push_back(name), wanted.push_back(f);
+      if (!f.is_of_motion() && !f.buckling && f.about_equilibrium == about_equilibrium)
+        names.push_back(name), wanted.push_back(f);
     if (wanted.empty()) return;
     const Vector zero = Vector::Zero(built.model->num_dofs());
     const State about{scene.time.end, about_equilibrium ? equilibrium(scene, built) : zero, zero};
     const auto frequencies = wanted_frequencies(wanted, *built.model, about);
     for (std::size_t k = 0; k < names.size(); ++k) keep(names[k], frequencies[k], wanted[k].unit_of(""));
+  }
+
+  void find_buckling(const Scene& scene, const BuiltScene& built) {
+    int count = 0;
+    for (const auto& [name, f] : input_.figures) count = std::max(count, f.buckling.value_or(0));
+    if (count == 0) return;
+    require_held(scene, *built.model, scene.time.end);
+    const auto modes = buckling_modes(*built.model, scene.time.end, count);
+    for (const auto& [name, f] : input_.figures) {
+      if (!f.buckling) continue;
+      const auto k = static_cast<std::size_t>(*f.buckling - 1);
+      keep(name, k < modes.size() ? modes[k].load_factor : std::nan(""), "");
+    }
   }
 
   void follow_motion() {
@@ -135,7 +151,7 @@ class Evaluation {
   void follow_motion(const Setup& setup) {
     describe(*setup.built.model);
     const WantedQuantities wanted = wanted_quantities(input_, setup);
-    if (setup.scene.analysis == Analysis::statical) find_equilibrium(setup, wanted);
+    if (setup.scene.is_static()) find_equilibrium(setup, wanted);
     else integrate(setup, wanted);
     if (result_.failure || is_outgrown(setup)) return;
     const Json costs = to_json(*result_.cost);

@@ -93,7 +93,7 @@ CaseResult verify(const Config& scene) {
 
 CaseResult verify(const Setup& setup, const std::vector<Observer*>& observers, const std::atomic<bool>& interrupt) {
   require_expectations(setup.scene, setup.config);
-  if (setup.scene.analysis == Analysis::statical) return verify_equilibrium(setup, interrupt);
+  if (setup.scene.is_static()) return verify_equilibrium(setup, interrupt);
   return verify_motion(setup, observers, interrupt);
 }
 

@@ -11,8 +11,9 @@ namespace orthodyn {
 namespace {
 
 void check_figure(const WantedFigure& f, const Config& config) {
-  const int kinds = !f.quantity.empty() + (f.mode.has_value() || f.along.has_value()) + !f.cost.empty();
-  if (kinds != 1) config.fail("give exactly one of: quantity, mode (or along), cost");
+  const int kinds = !f.quantity.empty() + (f.mode.has_value() || f.along.has_value()) + f.buckling.has_value() +
+                    !f.cost.empty();
+  if (kinds != 1) config.fail("give exactly one of: quantity, mode (or along), buckling, cost");
   if (f.mode && f.along) config.at("along").fail("finds a mode by itself; remove 'mode' or 'along'");
   check_take(f.take, f.at, f.of, config);
   if (f.quantity.empty()) f.check_unit("");
@@ -75,6 +76,9 @@ const Spec<WantedFigure>& WantedFigure::spec() {
                "A natural frequency: of the twenty lowest modes that with the largest effective mass along this axis.")
           .key("about_equilibrium", &WantedFigure::about_equilibrium,
                "Modes about the static equilibrium under the scene's loads, not about rest.")
+          .key("buckling", &WantedFigure::buckling,
+               "The load factor at which the body at rest would buckle (linear), by its number from the lowest.",
+               {.range = {1, 1000}})
           .key("cost", &WantedFigure::cost,
                "Of the computation: cpu_seconds, wall_seconds, steps, rejected_steps, newton_iterations, forces, "
                "tangents, factorizations, solves or peak_memory.")

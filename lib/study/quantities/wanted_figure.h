@@ -1,4 +1,5 @@
-// A figure that a sweep wants of each point: of a quantity's course over time, a natural frequency, or a cost.
+// A figure that a sweep wants of each point: of a quantity's course over time, a natural frequency, a critical load
+// factor, or a cost.
 #pragma once
 
 #include <optional>
@@ -19,7 +20,7 @@ struct Words<Scale> {
   static constexpr std::array<std::pair<Scale, const char*>, 2> list{{{Scale::linear, "linear"}, {Scale::log, "log"}}};
 };
 
-// Exactly one of: quantity, mode (or along), cost.
+// Exactly one of: quantity, mode (or along), buckling, cost.
 struct WantedFigure {
   std::string quantity = {};
   Take take = Take::end;
@@ -27,6 +28,7 @@ struct WantedFigure {
   std::optional<int> mode = {};
   std::optional<Component> along = {};  // in place of the mode's number: that with the largest effective mass along it
   bool about_equilibrium = false;
+  std::optional<int> buckling = {};
   std::string cost = {};
   std::string title = {}, unit = {}, closed_form = {};
   Scale scale = Scale::linear;

@@ -173,7 +173,7 @@ class Expansion {
 
   // Of every point: its time span may be varied.
   void check_times(const Scene& scene, const std::string& title) const {
-    const bool is_static = scene.analysis == Analysis::statical;
+    const bool is_static = scene.is_static();
     const auto require = [&](const std::optional<double>& at, const std::string& place) {
       if (at && (*at < scene.time.start || *at > scene.time.end))
         throw ConfigError(place, fmt::format("{} s is outside of the time span of '{}', which is {} to {} s", *at,

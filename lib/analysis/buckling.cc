@@ -1,0 +1,117 @@
+#include "lib/analysis/buckling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "lib/core/errors.h"
+#include "lib/linear/definite_pairs.h"
+#include "lib/linear/solver.h"
+
+namespace orthodyn {
+
+namespace {
+
+constexpr double kStep = 1e-4;  // of the body's size, in the displacement of the difference
+constexpr double kLargestStrain = 0.5;
+
+using Values = std::vector<double>;  // on the model's pattern
+
+Values stiffness_at(const Model& model, double t, const Vector& q, TangentKind kind) {
+  Linearization at;
+  model.linearize(t, q, Vector::Zero(q.size()), kind, at);
+  Values values(model.pattern().row.size());
+  model.combine({0, 0, 1}, at, values.data());
+  return values;
+}
+
+// a A + b B
+Values sum(double a, const Values& A, double b, const Values& B) {
+  Values out(A.size());
+  for (std::size_t k = 0; k < A.size(); ++k) out[k] = a * A[k] + b * B[k];
+  return out;
+}
+
+// The body with its springs and ground, without what loads it.
+std::unique_ptr<Model> structure_of(const FemModel& model) {
+  const auto& parts = model.parts();
+  const auto all = model.force_parts();  // elasticity first, then the other terms
+  std::vector<std::string> names(all.begin(), all.begin() + std::ssize(parts.elastic));
+  for (std::size_t k = 0; k < parts.loads.size(); ++k)
+    if (parts.loads[k]->energy_kind() == EnergyKind::elastic) names.push_back(all[parts.elastic.size() + k]);
+  return model.only(names);
+}
+
+// The largest strain of a small displacement, by the norm of its components.
+double largest_strain(const FemModel& model, double t, const Vector& u) {
+  const NodalExpansion nodal(model.parts(), t, u, Vector::Zero(u.size()));
+  double largest = 0;
+  for (const auto& term : model.parts().elastic)
+    for (int k = 0; k < term->size(); ++k)
+      for (int p = 0; p < term->num_points(); ++p)
+        largest = std::max(largest, term->small_strain(k, p, nodal.u).norm());
+  return largest;
+}
+
+double size_of(const FemModel& model) {
+  const auto points = model.geometry().points;
+  Vec3 low = points.front(), high = low;
+  for (const Vec3& x : points) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  return (high - low).maxCoeff();
+}
+
+// What the stresses at q add to the stiffness.
+Values stress_stiffness_at(const Model& structure, double t, const Vector& q) {
+  return sum(1, stiffness_at(structure, t, q, TangentKind::exact), -1,
+             stiffness_at(structure, t, q, TangentKind::gauss_newton));
+}
+
+// For the stresses of the response u to all loads. The central difference drops the stretching that a straight
+// displacement brings, which is of second order.
+Values stress_stiffness(const Model& structure, double t, const Vector& u, double size) {
+  const double step = std::min(kStep * size / u.lpNorm<Eigen::Infinity>(), 1.0);
+  return sum(0.5 / step, stress_stiffness_at(structure, t, step * u), -0.5 / step,
+             stress_stiffness_at(structure, t, -step * u));
+}
+
+}  // namespace
+
+std::vector<BucklingMode> buckling_modes(const FemModel& model, double t, int count) {
+  const Pattern& pattern = model.pattern();
+  if (!pattern.symmetric)
+    throw ConfigError("buckling needs a symmetric tangent: not that of elasticity.warped_tangent: unsymmetric");
+  const auto structure = structure_of(model);
+  const Vector rest = Vector::Zero(model.num_dofs());
+  const Values K = stiffness_at(*structure, t, rest, TangentKind::exact);
+  const auto solver = solver_registry().at("cholmod").make();
+  solver->analyze(pattern);
+  if (solver->factor(K.data()) != FactorStatus::ok)
+    throw RunError("the stiffness at rest is not positive definite: the body is not held, or unstable without loads");
+  Vector f(rest.size()), u(rest.size());
+  model.force(t, rest, rest, f);
+  if (f.isZero(0)) throw RunError("nothing loads the body: it has no critical load factor");
+  solver->solve(f, u);
+  const Values followers = sum(1, stiffness_at(model, t, rest, TangentKind::exact), -1, K);
+  const Values rate = sum(1, stress_stiffness(*structure, t, u, size_of(model)), 1, followers);
+  const DefinitePairs pairs =
+      negative_pairs(pattern, rate, K, largest_strain(model, t, u) / kLargestStrain, count);  // nu = -1/lambda
+  std::vector<BucklingMode> modes;
+  for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
+    BucklingMode mode{-1 / pairs.values[k], pairs.shapes.col(k)};
+    Eigen::Index top = 0;
+    mode.shape.cwiseAbs().maxCoeff(&top);
+    if (mode.shape[top] < 0) mode.shape = -mode.shape;
+    Vector stressed(rest.size()), missing(rest.size()), elastic(rest.size());
+    pattern.multiply(rate.data(), mode.shape, stressed);
+    solver->solve(stressed, missing);
+    missing = mode.shape + mode.load_factor * missing;
+    pattern.multiply(K.data(), missing, elastic);
+    mode.residual = std::sqrt(std::max(missing.dot(elastic), 0.0));
+    modes.push_back(std::move(mode));
+  }
+  return modes;
+}
+
+}  // namespace orthodyn

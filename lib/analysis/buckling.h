@@ -1,0 +1,30 @@
+// Linear buckling: the load factors at which the equilibrium of a body that carries its loads becomes unstable, as its
+// state at rest foretells them:
+//
+//     K phi = -lambda K' phi,
+//
+// with the stiffness K of the body, its springs and the ground, and K' what all loads add to it: the stress stiffness
+// of the stresses that they cause (static response u = K^-1 f), and their own where they follow the body (pressure).
+// That the shape changes before it buckles is left out, as in the classic analysis (Cook et al., Concepts and
+// Applications of Finite Element Analysis, 2002, 18.5): right where the body moves little until then, else follow the
+// path (lib/ode/load_stepper.h).
+#pragma once
+
+#include <vector>
+
+#include "lib/fem/fem_model.h"
+
+namespace orthodyn {
+
+struct BucklingMode {
+  double load_factor = 0;  // of the loads at the time asked for
+  Vector shape;            // phi . K phi = 1
+  double residual = 0;     // |phi + lambda K^-1 K' phi| in the norm of K
+};
+
+// Those of the lowest positive load factors, ascending; fewer where fewer were found below the factor at which linear
+// statics reach a strain of a half. For the loads reversed no factor is told. t in s. Throws ConfigError for an
+// unsymmetric tangent, RunError if the model is not held or they cannot be found.
+std::vector<BucklingMode> buckling_modes(const FemModel& model, double t, int count);
+
+}  // namespace orthodyn

@@ -1,0 +1,103 @@
+#include "lib/linear/definite_pairs.h"
+
+#include <Spectra/SymGEigsSolver.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "lib/core/errors.h"
+#include "lib/core/symmetric_eigen.h"
+#include "lib/linear/solver.h"
+
+namespace orthodyn {
+
+namespace {
+
+constexpr int kDenseUnknowns = 300;
+
+// As Spectra wants its operators.
+struct SymmetricProduct {
+  using Scalar = double;
+  const Pattern& pattern;
+  const std::vector<double>& values;
+  Eigen::Index rows() const { return pattern.n; }
+  Eigen::Index cols() const { return pattern.n; }
+  void perform_op(const double* in, double* out) const {
+    pattern.multiply(values.data(), Eigen::Map<const Vector>(in, rows()), Eigen::Map<Vector>(out, rows()));
+  }
+};
+
+struct DefiniteOperator {
+  using Scalar = double;
+  const SymmetricProduct& product;
+  LinearSolver& solver;
+  Eigen::Index rows() const { return product.rows(); }
+  Eigen::Index cols() const { return product.cols(); }
+  void perform_op(const double* in, double* out) const { product.perform_op(in, out); }
+  void solve(const double* in, double* out) const {
+    solver.solve(Eigen::Map<const Vector>(in, rows()), Eigen::Map<Vector>(out, rows()));
+  }
+};
+
+DefinitePairs dense_pairs(const Pattern& pattern, const std::vector<double>& A, const std::vector<double>& B,
+                          int count) {
+  const auto full = [&](const std::vector<double>& values) {
+    const Eigen::MatrixXd stored(pattern.matrix(values.data()));
+    return Eigen::MatrixXd(stored.selfadjointView<Eigen::Lower>());
+  };
+  const auto pairs = symmetric_eigenpairs(full(A), full(B));
+  return {pairs.values.head(count), pairs.vectors.leftCols(count)};
+}
+
+DefinitePairs lanczos(SymmetricProduct a, DefiniteOperator& b, int count, Spectra::SortRule rule, double tolerance) {
+  const int basis = std::min(a.pattern.n, std::max(4 * count, 40));
+  Spectra::SymGEigsSolver<SymmetricProduct, DefiniteOperator, Spectra::GEigsMode::RegularInverse> solver(a, b, count,
+                                                                                                     basis);
+  solver.init();
+  constexpr int kMostRestarts = 300;
+  const auto found = solver.compute(rule, kMostRestarts, tolerance, Spectra::SortRule::SmallestAlge);
+  if (solver.info() != Spectra::CompInfo::Successful)
+    throw RunError(fmt::format("{} of {} pairs converged in {} restarts of the Lanczos iteration; ask for fewer",
+                               found, count, kMostRestarts));
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+// A + s B
+std::vector<double> sum(const std::vector<double>& A, double s, const std::vector<double>& B) {
+  std::vector<double> out(A);
+  for (std::size_t k = 0; k < A.size(); ++k) out[k] += s * B[k];
+  return out;
+}
+
+// How many nu are below a bound: the negative eigenvalues of A - bound B.
+int count_below(const Pattern& pattern, const std::vector<double>& A, const std::vector<double>& B, double bound) {
+  const auto solver = make_indefinite_solver();
+  solver->analyze(pattern);
+  if (solver->factor(sum(A, -bound, B).data()) != FactorStatus::ok)
+    throw RunError("the matrix is singular next to an eigenvalue of zero");
+  return solver->negative_eigenvalues();
+}
+
+}  // namespace
+
+DefinitePairs negative_pairs(const Pattern& pattern, const std::vector<double>& A, const std::vector<double>& B,
+                             double bound, int count) {
+  if (!pattern.symmetric) throw ConfigError("needs a symmetric stiffness");
+  const auto solver = solver_registry().at("cholmod").make();
+  solver->analyze(pattern);
+  if (solver->factor(B.data()) != FactorStatus::ok) throw RunError("the stiffness is not positive definite");
+  count = std::min(count, count_below(pattern, A, B, -bound));
+  if (count == 0) return {};
+  if (pattern.n <= kDenseUnknowns) return dense_pairs(pattern, A, B, count);
+  const SymmetricProduct a{pattern, A}, b{pattern, B};
+  DefiniteOperator inverse{b, *solver};
+  // With all eigenvalues raised above zero the tolerance is one of the largest, also for those next to zero.
+  const double raised = 1.1 * std::abs(lanczos(a, inverse, 1, Spectra::SortRule::LargestMagn, 1e-2).values[0]);
+  const auto positive = sum(A, raised, B);
+  DefinitePairs pairs = lanczos({pattern, positive}, inverse, count, Spectra::SortRule::SmallestAlge, 1e-10);
+  pairs.values.array() -= raised;
+  return pairs;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,81 @@
+// A buckling analysis of a scene: buckling.csv, and the shapes as modes.pvd.
+#include "lib/analysis/buckling.h"
+#include "lib/simulation/files.h"
+#include "lib/simulation/model_summary.h"
+#include "lib/simulation/modes/shape_files.h"
+#include "lib/simulation/run_context.h"
+#include "lib/simulation/run_record.h"
+#include "lib/simulation/static_problem.h"
+
+namespace orthodyn {
+
+namespace {
+
+void refuse_what_is_for_others(const RunRequest& request) {
+  if (request.resume) throw ConfigError("--resume: a buckling analysis keeps no checkpoint; start anew with --force");
+  if (request.estimate_error)
+    throw ConfigError("--estimate-error: a buckling analysis has no error of integration; remove it");
+}
+
+// A shape's elastic energy is 1/2: what of it the recovered stresses say is error is that of its factor.
+double mesh_error(const FemModel& model, const State& rest, const Vector& shape) {
+  const FemModel::Parts& parts = model.parts();
+  const NodalExpansion about(parts, rest.t, rest.q, rest.v);
+  NodalVector nodal = NodalVector::Zero(3, about.x.cols());
+  parts.dofs->add_to(shape, nodal);
+  const StressMisfit misfit = parts.recovery->misfit_along(nodal, about.state());
+  return parts.recovery->product(misfit, misfit);
+}
+
+BucklingResult describe(const FemModel& model, const State& rest, const std::vector<BucklingMode>& modes) {
+  BucklingResult result{.loads_at_time = rest.t};
+  for (const BucklingMode& mode : modes)
+    result.modes.push_back({mode.load_factor, mode.residual, mesh_error(model, rest, mode.shape)});
+  return result;
+}
+
+void write(const std::filesystem::path& folder, const FemModel& model, const State& rest,
+           const std::vector<BucklingMode>& modes, const BucklingResult& result) {
+  CsvFile file(folder / "buckling.csv", {"mode", "load_factor", "mesh_error", "residual"});
+  file.begin();
+  std::vector<Vector> shapes;
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    const auto& mode = result.modes[k];
+    file.row({static_cast<double>(k + 1), mode.load_factor, mode.mesh_error, mode.residual});
+    shapes.push_back(modes[k].shape);
+  }
+  write_shapes(folder, model, rest, shapes);
+}
+
+}  // namespace
+
+RunResult run_buckling_analysis(RunContext context) {
+  refuse_what_is_for_others(context.request);
+  const Setup& setup = context.setup;
+  const FemModel& model = *setup.built.model;
+  const double t = setup.scene.time.end;
+  require_held(setup.scene, model, t);
+  context.folder.prepare();
+  const auto& folder = context.folder.path();
+  const RunRecord record(folder, context.scene, context.set, {});
+  write_file(folder / "scene.yaml", {context.resolved});
+  const State rest{t, Vector::Zero(model.num_dofs()), Vector::Zero(model.num_dofs())};
+  RunResult result{.scene = context.scene, .folder = folder};
+  result.buckling = BucklingResult{.loads_at_time = t};
+  result.outcome = supervise(rest, {}, [&](Outcome& outcome) {
+    const auto modes = buckling_modes(model, t, setup.scene.buckling->count);
+    if (modes.empty())
+      throw RunError(
+          "these loads do not buckle the body: no positive critical load factor was found. Loads that pull do "
+          "not, nor does a body of linear kinematics, which has no stress stiffness");
+    result.buckling = describe(model, rest, modes);
+    write(folder, model, rest, modes, *result.buckling);
+    outcome.status = Outcome::Status::completed;
+  });
+  result.model = summarize(setup);
+  record.finish(result);
+  context.listener.on_result(result);
+  return result;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,80 @@
+// A column that is pressed beyond Euler's load, against the elastica (Timoshenko & Gere, Theory of Elastic Stability,
+// 1961, 2.7): with k = sin(alpha/2), alpha the slope of its top, P/P_cr = (2 K(k)/pi)^2, its top at
+// x/L = 2 E(k)/K(k) - 1, y/L = 2 k/K(k).
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "lib/simulation/static_problem.h"
+#include "tests/fem/built_scene.h"
+
+namespace orthodyn::post_buckling_test {
+namespace {
+
+struct Elastica {
+  double load, x, y;  // of Euler's load and of the length
+};
+
+Elastica elastica(double degrees) {
+  const double k = std::sin(degrees * std::numbers::pi / 360), K = std::comp_ellint_1(k);
+  return {std::pow(2 * K / std::numbers::pi, 2), 2 * std::comp_ellint_2(k) / K - 1, 2 * k / K};
+}
+
+class Column {
+ public:
+  // Pressed by `times` Euler's load, pushed aside by a share of it.
+  Column(double times, double aside, const std::string& statics)
+      : scene_(fmt::format(R"(
+analysis: static
+statics: {}
+mesh: {{type: box, size: [1, 0.05, 0.01], cells: [40, 2, 1]}}
+materials: {{m: {{type: isotropic, density: 1000, young: 1e9, nu: 0}}}}
+clamps: [{{surface: x0}}]
+loads: [{{surface: x1, force: [{}, 0, {}]}}]
+)", statics, -times * kEuler, times * aside * kEuler)),
+        problem_(static_problem(scene_.scene, scene_.built)) {}
+
+  // The displacement of the middle of its top.
+  Vec3 press() {
+    while (!problem_.stepper->done()) problem_.stepper->step();
+    const int top = nearest_node(scene_.mesh(), {1, 0.025, 0.005});
+    return scene_.nodal(problem_.stepper->state().q).col(top);
+  }
+  const LoadStepper& stepper() const { return *problem_.stepper; }
+  long factorizations() const { return problem_.solver->statistics().factorization.count; }
+
+ private:
+  static constexpr double kEuler = std::numbers::pi * std::numbers::pi / 4 * 1e9 * 0.05 * 1e-6 / 12;
+  BuiltTestScene scene_;
+  StaticProblem problem_;
+};
+
+TEST(PressedColumn, BendsLikeTheElastica) {
+  for (const double degrees : {60.0, 120.0, 160.0}) {
+    const Elastica expected = elastica(degrees);
+    Column column(expected.load, 1e-3, "{}");
+    const Vec3 moved = column.press();
+    EXPECT_NEAR(1 + moved[0], expected.x, 0.01) << degrees;
+    EXPECT_NEAR(moved[2], expected.y, 0.01) << degrees;
+    EXPECT_LE(column.factorizations(), 80) << degrees;
+    EXPECT_TRUE(column.stepper().critical_points().empty());
+  }
+}
+
+// Straight, until it buckles at Euler's load, and from there to one side or the other.
+TEST(PressedColumn, LeavesTheStraightPathWhereEulerSays) {
+  const Elastica expected = elastica(120);
+  Column column(expected.load, 0, "{at_limit: jump}");
+  const Vec3 moved = column.press();
+  EXPECT_NEAR(1 + moved[0], expected.x, 0.01);
+  EXPECT_NEAR(std::abs(moved[2]), expected.y, 0.01);
+  ASSERT_EQ(column.stepper().critical_points().size(), 1u);
+  EXPECT_EQ(column.stepper().critical_points()[0].kind, CriticalPoint::Kind::bifurcation);
+  EXPECT_NEAR(column.stepper().critical_points()[0].load_factor * expected.load, 1, 0.005);
+  EXPECT_EQ(column.stepper().unstable(), 0);
+}
+
+}  // namespace
+}  // namespace orthodyn::post_buckling_test
