@@ -66,19 +66,26 @@ std::string warning(const ElasticTerm& term, const Excess& e, const std::string&
                 "from the mesh, not from the material",
                 describe(e.limit, e.axis));
   return fmt::format(
-      "region {}: {} puts {} of {} elements along material axis {} under the stress of a strain of {:+.3g} "
-      "%; beyond {:+.3g} % {}. Lower the load, or look for a mistake in the constants and axes.",
+      "region {}: {} {} of {} elements along material axis {} under the stress of a strain of {:+.3g} "
+      "%; beyond {:+.3g} % {}. Lower the load, or look for a mistake in the constants and axes",
       term.region(), cause, e.count, term.size(), e.axis + 1, 100 * e.worst, 100 * e.limit.strain, means);
+}
+
+Vec3 along_axes(const Mat36& equivalent, const Mat3& e) {
+  return equivalent * (Vec6() << e.diagonal(), 2 * e(0, 1), 2 * e(1, 2), 2 * e(2, 0)).finished();
+}
+
+// By a body of this material.
+bool may_be_met(const Stiffness& stiffness) {
+  for (const AxisLimits& axis : strain_limits(stiffness))
+    if (axis.compression || (axis.tension && axis.tension->strain < 1)) return true;
+  return false;
 }
 
 }  // namespace
 
 bool needs_strain_check(const FemModel& model, const std::vector<Stiffness>& stiffness) {
-  if (model.num_dofs() > kLargestSystem) return false;
-  for (const Stiffness& C : stiffness)
-    for (const AxisLimits& axis : strain_limits(C))
-      if (axis.compression || (axis.tension && axis.tension->strain < 1)) return true;
-  return false;
+  return model.num_dofs() <= kLargestSystem && std::any_of(stiffness.begin(), stiffness.end(), may_be_met);
 }
 
 Warnings strain_warnings(const FemModel& model, const std::vector<Stiffness>& stiffness, const State& initial,
@@ -92,19 +99,37 @@ Warnings strain_warnings(const FemModel& model, const std::vector<Stiffness>& st
     const auto limits = strain_limits(stiffness[r]);
     const Mat36 equivalent = stress_over_young(stiffness[r]);
     const auto check = [&](const std::string& cause, const std::function<Mat3(int, int)>& strain) {
-      const Excess excess = find_excess(*term, limits, [&](int k, int p) -> Vec3 {
-        const Mat3 e = strain(k, p);
-        return equivalent * (Vec6() << e.diagonal(), 2 * e(0, 1), 2 * e(1, 2), 2 * e(2, 0)).finished();
-      });
+      const Excess excess = find_excess(*term, limits, [&](int k, int p) { return along_axes(equivalent, strain(k, p)); });
       if (excess.count > 0) out.push_back(warning(*term, excess, cause));
     };
     if (statics.exists())
-      check("twice the linear static response to the loads",
+      check("twice the linear static response to the loads puts",
            [&](int k, int p) -> Mat3 { return kOvershoot * term->small_strain(k, p, u); });
     if (!initial.q.isZero(0))
-      check("the initial deformation", [&](int k, int p) { return term->observe_point(k, p, start.state()).strain; });
+      check("the initial deformation puts", [&](int k, int p) { return term->observe_point(k, p, start.state()).strain; });
   }
   return out;
+}
+
+std::optional<StrainExcess> strain_excess(const FemModel& model, const NodalState& state) {
+  std::optional<StrainExcess> worst;
+  for (const auto& term : model.parts().elastic) {
+    if (term->definition().options.kinematics == Kinematics::linear) continue;
+    const Stiffness& stiffness = term->definition().stiffness;
+    const Mat36 equivalent = stress_over_young(stiffness);
+    const Excess excess = find_excess(*term, strain_limits(stiffness), [&](int k, int p) {
+      return along_axes(equivalent, term->observe_point(k, p, state).strain);
+    });
+    if (excess.count > 0 && (!worst || excess.severity() > worst->share))
+      worst = {excess.severity(), warning(*term, excess, "the motion put")};
+  }
+  return worst;
+}
+
+bool has_strain_limits(const FemModel& model) {
+  return std::any_of(model.parts().elastic.begin(), model.parts().elastic.end(), [](const auto& term) {
+    return term->definition().options.kinematics != Kinematics::linear && may_be_met(term->definition().stiffness);
+  });
 }
 
 }  // namespace orthodyn

@@ -1,12 +1,14 @@
 // A region of a mesh with its elasticity, as ElementType::elastic_term takes it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lib/fem/element_axes.h"
 #include "lib/fem/terms/elasticity_options.h"
 #include "lib/material/stiffness.h"
+#include "lib/material/strength.h"
 
 namespace orthodyn {
 
@@ -17,6 +19,7 @@ struct ElasticRegion {
   ElementAxes axes;        // of these cells
   double beta = 0;         // s, stiffness-proportional damping; 0 for none
   ElasticityOptions options;
+  std::optional<Strength> strength = {};  // where the material tells it
 };
 
 }  // namespace orthodyn

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "lib/fem/nodal_figures.h"
 #include "lib/fem/reactions.h"
 #include "lib/fem/fem_state_view.h"
 
@@ -37,27 +38,9 @@ Values per_cell(const View& view, std::size_t components,
   return out;
 }
 
-// 11, 22, 33, 12, 23, 31 of a symmetric tensor that is seen at a point.
-struct Tensor {
-  const char *name, *unit, *sentence;
-  Mat3 (*pick)(const PointObservation&);
-
-  Vec6 operator()(const PointObservation& o) const {
-    const Mat3 s = pick(o);
-    return {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(2, 0)};
-  }
-};
-
-constexpr Tensor kStrain{"strain", "1", "Strain S - I in material axes: 11, 22, 33, 12, 23, 31 (tensor shear)",
-                         [](const PointObservation& o) { return o.strain; }};
-constexpr Tensor kStress{"stress", "Pa", "Elastic Cauchy stress in space: xx, yy, zz, xy, yz, zx; NaN where inverted",
-                         [](const PointObservation& o) { return o.cauchy; }};
-constexpr Tensor kStressMaterial{
-    "stress_material", "Pa", "Elastic Cauchy stress in the rotated material axes: 11, 22, 33, 12, 23, 31",
-    [](const PointObservation& o) { return Mat3(o.axes.transpose() * o.cauchy * o.axes); }};
-
-Output mean_of_cells(const Tensor& tensor) {
-  return {{tensor.name, Location::cell, 6, tensor.unit, fmt::format("{}. Mean of an element.", tensor.sentence)},
+Output mean_of_cells(const SeenTensor& tensor) {
+  return {{tensor.name, Location::cell, 6, tensor.unit, fmt::format("{}. Mean of an element.", tensor.sentence),
+           tensor.components},
           [&tensor](const View& view) {
             return per_cell(view, 6, [&](const ElasticTerm& term, int k, double* out) {
               const Vec6 v = tensor(term.observe(k, view.state()));
@@ -66,10 +49,30 @@ Output mean_of_cells(const Tensor& tensor) {
           }};
 }
 
-Output at_nodes(const Tensor& tensor) {
+constexpr int kAllRegions = -1;
+
+Output at_nodes(const SeenTensor& tensor, int region = kAllRegions) {
   return {{fmt::format("nodal_{}", tensor.name), Location::node, 6, tensor.unit,
-           fmt::format("{}. Recovered at the nodes.", tensor.sentence)},
-          [&tensor](const View& view) { return flat(view.parts().recovery->at_nodes(view.state(), tensor)); }};
+           fmt::format("{}. Recovered at the nodes.", tensor.sentence), tensor.components},
+          [&tensor, region](const View& view) {
+            return nodal_tensor(*view.parts().recovery, view.state(), tensor, region);
+          }};
+}
+
+Output at_nodes(const NodalFigure& figure, int region = kAllRegions) {
+  const auto count = static_cast<int>(std::max<std::size_t>(figure.components.size(), 1));
+  return {{figure.name, Location::node, count, figure.unit, figure.sentence, figure.components},
+          [&figure, region](const View& view) {
+            return nodal_figure(*view.parts().recovery, view.parts().elastic, view.state(), figure, region);
+          }};
+}
+
+// Of stress and strain at the nodes of one region, or of all.
+std::vector<Output> nodal_outputs(int region) {
+  std::vector<Output> out;
+  for (const SeenTensor& tensor : seen_tensors()) out.push_back(at_nodes(tensor, region));
+  for (const NodalFigure& figure : nodal_figures()) out.push_back(at_nodes(figure, region));
+  return out;
 }
 
 // Of each element the energy of the error for its volume, J/m^3.
@@ -159,8 +162,13 @@ Output scalar(const std::string& name, const std::string& unit, const std::strin
   return {{name, Location::global, 1, unit, sentence}, [f](const View& view) { return Values{f(view)}; }};
 }
 
-const std::vector<Output>& all_outputs() {
-  static const std::vector<Output> all = {
+const std::vector<std::string>& axis_names() {
+  static const std::vector<std::string> names{"x", "y", "z"};
+  return names;
+}
+
+std::vector<Output> make_outputs() {
+  std::vector<Output> all = {
       {{"displacement", Location::node, 3, "m", "Displacement from the rest shape."},
        [](const View& view) { return flat(view.nodal().u); }},
       {{"velocity", Location::node, 3, "m/s", "Velocity."}, [](const View& view) { return flat(view.nodal().u_rate); }},
@@ -178,12 +186,6 @@ const std::vector<Output>& all_outputs() {
       material_axis(0),
       material_axis(1),
       material_axis(2),
-      mean_of_cells(kStrain),
-      mean_of_cells(kStress),
-      mean_of_cells(kStressMaterial),
-      at_nodes(kStrain),
-      at_nodes(kStress),
-      at_nodes(kStressMaterial),
       {{"mesh_error", Location::cell, 1, "J/m^3", "Estimated elastic energy of the mesh's error, per volume."},
        mesh_error_density},
       scalar("energy.kinetic", "J", "Kinetic energy.", [](const View& view) { return view.kinetic_energy(); }),
@@ -206,6 +208,18 @@ const std::vector<Output>& all_outputs() {
        [](const View& view) { return flat(Vec3(view.momentum().rowwise().sum())); }},
       {{"momentum.angular", Location::global, 3, "kg m^2/s", "Angular momentum about the origin."}, angular_momentum},
   };
+  for (Output& output : all)
+    if (output.info.components == 3) output.info.component_names = axis_names();
+  const auto after = std::find_if(all.begin(), all.end(), [](const Output& o) { return o.info.name == "mesh_error"; });
+  std::vector<Output> stresses;
+  for (const SeenTensor& tensor : seen_tensors()) stresses.push_back(mean_of_cells(tensor));
+  for (Output& output : nodal_outputs(kAllRegions)) stresses.push_back(std::move(output));
+  all.insert(after, stresses.begin(), stresses.end());
+  return all;
+}
+
+const std::vector<Output>& all_outputs() {
+  static const std::vector<Output> all = make_outputs();
   return all;
 }
 
@@ -213,9 +227,10 @@ const std::vector<Output>& all_outputs() {
 std::vector<Output> reaction_outputs(const std::vector<Support>& supports) {
   std::vector<Output> out;
   for (const Support& support : supports) {
-    out.push_back({{"reaction." + support.name, Location::global, 3, "N", "Force of the support on the body."},
+    out.push_back({{"reaction." + support.name, Location::global, 3, "N", "Force of the support on the body.", axis_names()},
                    [&support](const View& view) { return flat(reaction(support, view.support_forces())); }});
-    out.push_back({{"torque." + support.name, Location::global, 3, "N m", "Its torque about the middle of the nodes."},
+    out.push_back({{"torque." + support.name, Location::global, 3, "N m", "Its torque about the middle of the nodes.",
+                    axis_names()},
                    [&support](const View& view) {
                      return flat(reaction_torque(support, view.support_forces(), view.nodal().x));
                    }});
@@ -236,12 +251,34 @@ std::unique_ptr<StateView> FemModel::view(const State& state) const {
   return std::make_unique<FemStateView>(parts_, state);
 }
 
+namespace {
+
+// "REGION.FIELD": a field of stress or strain at the nodes of one region, NaN elsewhere.
+std::vector<double> evaluate_in_region(const View& view, const std::string& name) {
+  const auto& terms = view.parts().elastic;
+  for (std::size_t r = 0; r < terms.size(); ++r) {
+    const std::string prefix = terms[r]->region() + ".";
+    if (!name.starts_with(prefix)) continue;
+    for (const Output& output : nodal_outputs(static_cast<int>(r)))
+      if (prefix + output.info.name == name) return output.compute(view);
+  }
+  throw std::logic_error("no output named " + name);
+}
+
+}  // namespace
+
+std::vector<OutputInfo> region_fields() {
+  std::vector<OutputInfo> infos;
+  for (const Output& output : nodal_outputs(kAllRegions)) infos.push_back(output.info);
+  return infos;
+}
+
 std::vector<double> FemStateView::evaluate(const std::string& name) const {
   for (const auto& output : all_outputs())
     if (output.info.name == name) return output.compute(*this);
   for (const auto& output : reaction_outputs(parts_.supports))
     if (output.info.name == name) return output.compute(*this);
-  throw std::logic_error("no output named " + name);
+  return evaluate_in_region(*this, name);
 }
 
 }  // namespace orthodyn

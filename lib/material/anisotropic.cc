@@ -67,6 +67,7 @@ class Anisotropic : public Material {
     s.key("density", &A::density_, "Mass density.", {.required = true, .unit = "kg/m^3", .range = kPositive});
     s.key("voigt_order", &A::order_,
           "What the indices 1 to 6 of the table mean: most tables have 4, 5, 6 = 23, 13, 12.", {.required = true});
+    s.key("strength", &A::strength_, kStrengthSentence);
     for (const Entry& e : entries()) {
       const bool needed = e.diagonal() || e.column() < 3;
       s.key(e.name, e.value,

@@ -14,14 +14,19 @@ class Isotropic : public Material {
             .key("young", &Isotropic::young_, "Young's modulus.",
                  {.required = true, .unit = "Pa", .range = kPositive})
             .key("nu", &Isotropic::nu_, "Poisson's ratio.",
-                 {.required = true, .range = {-1, 0.5, true, true}});
+                 {.required = true, .range = {-1, 0.5, true, true}})
+            .key("strength", &Isotropic::uniform_, "Strengths, for the fields max_stress, tsai_wu and hashin.");
     return s;
   }
 
   Stiffness stiffness() const override { return isotropic_stiffness(young_, nu_); }
+  std::optional<Strength> strength() const override {
+    return uniform_ ? std::optional(uniform_->everywhere()) : std::nullopt;
+  }
 
  private:
   double young_ = 0, nu_ = 0;
+  std::optional<UniformStrength> uniform_;
 };
 
 const bool isotropic_registered =

@@ -2,11 +2,13 @@
 // by `type` through Registry<Material>.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lib/config/registry.h"
 #include "lib/material/stiffness.h"
+#include "lib/material/strength.h"
 
 namespace orthodyn {
 
@@ -15,12 +17,18 @@ class Material {
   virtual ~Material() = default;
   virtual double density() const { return density_; }  // kg/m^3
   virtual Stiffness stiffness() const = 0;             // positive definite
+  // None: how near it is to failure cannot be told.
+  virtual std::optional<Strength> strength() const { return strength_; }
 
   // What of the input was changed to make it usable, one sentence each; empty if nothing was.
   virtual std::vector<std::string> notes() const { return {}; }
 
  protected:
   double density_ = 0;
+  std::optional<Strength> strength_;
 };
+
+inline constexpr const char* kStrengthSentence =
+    "Strengths along the material axes, for the fields max_stress, tsai_wu and hashin.";
 
 }  // namespace orthodyn

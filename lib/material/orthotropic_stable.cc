@@ -23,6 +23,7 @@ class OrthotropicStable : public Material {
             .key("shear_factor", &O::shear_factor_,
                  "Multiplies the family's shear moduli sqrt(Ei Ej)/(2 (1 + nu)).",
                  {.range = kPositive})
+            .key("strength", &O::strength_, kStrengthSentence)
             .check([](const O& o, const Config& config) {
               if (!is_stable(o.constants())) config.fail(explain_instability(o.constants()));
             });

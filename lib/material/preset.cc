@@ -17,6 +17,8 @@ class PresetMaterial : public Material {
                  {.required = true})
             .key("density", &P::own_density_, "Mass density; default that of the preset, required where it has none.",
                  {.unit = "kg/m^3", .range = kPositive})
+            .key("strength", &P::strength_,
+                 "Strengths along the material axes; default those of the preset, if it has any.")
             .check([](const P& p, const Config& config) {
               const auto& preset = p.preset();
               if (!p.own_density_ && !preset.density)
@@ -31,6 +33,7 @@ class PresetMaterial : public Material {
 
   double density() const override { return own_density_ ? *own_density_ : preset().density.value_or(0); }
   Stiffness stiffness() const override { return orthodyn::stiffness(preset().constants); }
+  std::optional<Strength> strength() const override { return strength_ ? strength_ : preset().strength; }
 
  private:
   const Preset& preset() const { return presets()[static_cast<std::size_t>(name_)]; }

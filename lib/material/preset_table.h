@@ -5,6 +5,11 @@
 // specific gravity), at 12 % moisture content. Axes: 1 = L, along the grain; 2 = R, radial; 3 = T,
 // tangential. Of each pair of Poisson's ratios the larger: the book's nu_RL, nu_TL, nu_TR are the less
 // accurate ones and break the symmetry of the compliance by up to 113 %.
+//
+// Strengths from table 5-3a at 12 %, for clear wood, averages of a species: modulus of rupture, which the book takes for
+// the tension along the grain, on the safe side; compression along and across (the latter at the proportional limit);
+// shear along; tension across. R and T are not told apart. Of rolling shear (plane 2-3) the book says that it is 18 to
+// 28 % of the shear along: the smaller.
 #pragma once
 
 #include <array>
@@ -17,16 +22,20 @@ struct WoodRow {
   double E_R, E_T, G_LR, G_LT, G_RT;      // over E_L
   double nu_LR, nu_LT, nu_RT;
   double density;                         // kg/m^3; 0: not in the tables
+  // MPa; 0: not in the tables
+  double rupture = 0, compression_along = 0, compression_across = 0, shear_along = 0, tension_across = 0;
 };
 
+inline constexpr double kRollingShear = 0.18;  // of the shear along
+
 inline constexpr std::array<WoodRow, 10> kWoodRows{{
-    {"sitka_spruce", 11.88, 0.078, 0.043, 0.064, 0.061, 0.003, 0.372, 0.467, 0.435, 448},
-    {"douglas_fir", 14.74, 0.068, 0.050, 0.064, 0.078, 0.007, 0.292, 0.449, 0.390, 537.6},
-    {"engelmann_spruce", 9.79, 0.128, 0.059, 0.124, 0.120, 0.010, 0.422, 0.462, 0.530, 392},
-    {"yellow_poplar", 11.99, 0.092, 0.043, 0.075, 0.069, 0.011, 0.318, 0.392, 0.703, 470.4},
-    {"yellow_birch", 15.29, 0.078, 0.050, 0.074, 0.068, 0.017, 0.426, 0.451, 0.697, 694.4},
-    {"black_walnut", 12.76, 0.106, 0.056, 0.085, 0.062, 0.021, 0.495, 0.632, 0.718, 616},
-    {"sweetgum", 12.43, 0.115, 0.050, 0.089, 0.061, 0.021, 0.325, 0.403, 0.682, 582.4},
+    {"sitka_spruce", 11.88, 0.078, 0.043, 0.064, 0.061, 0.003, 0.372, 0.467, 0.435, 448, 70, 38.7, 4.0, 7.9, 2.6},
+    {"douglas_fir", 14.74, 0.068, 0.050, 0.064, 0.078, 0.007, 0.292, 0.449, 0.390, 537.6, 85, 49.9, 5.5, 7.8, 2.3},
+    {"engelmann_spruce", 9.79, 0.128, 0.059, 0.124, 0.120, 0.010, 0.422, 0.462, 0.530, 392, 64, 30.9, 2.8, 8.3, 2.4},
+    {"yellow_poplar", 11.99, 0.092, 0.043, 0.075, 0.069, 0.011, 0.318, 0.392, 0.703, 470.4, 70, 38.2, 3.4, 8.2, 3.7},
+    {"yellow_birch", 15.29, 0.078, 0.050, 0.074, 0.068, 0.017, 0.426, 0.451, 0.697, 694.4, 114, 56.3, 6.7, 13.0, 6.3},
+    {"black_walnut", 12.76, 0.106, 0.056, 0.085, 0.062, 0.021, 0.495, 0.632, 0.718, 616, 101, 52.3, 7.0, 9.4, 4.8},
+    {"sweetgum", 12.43, 0.115, 0.050, 0.089, 0.061, 0.021, 0.325, 0.403, 0.682, 582.4, 86, 43.6, 4.3, 11.0, 5.2},
     {"balsa", 3.74, 0.046, 0.015, 0.054, 0.037, 0.005, 0.229, 0.488, 0.665, 0},
     {"honduras_mahogany", 11.33, 0.107, 0.064, 0.066, 0.086, 0.028, 0.314, 0.533, 0.600, 0},
     {"african_mahogany", 10.67, 0.111, 0.050, 0.088, 0.059, 0.021, 0.297, 0.641, 0.604, 0},

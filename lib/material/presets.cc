@@ -8,6 +8,14 @@ constexpr double kGiga = 1e9;
 
 std::optional<double> given(double density) { return density > 0 ? std::optional(density) : std::nullopt; }
 
+std::optional<Strength> strength_of(const WoodRow& row) {
+  if (row.rupture == 0) return std::nullopt;
+  constexpr double kMega = 1e6;
+  return Strength{kMega * Vec3(row.rupture, row.tension_across, row.tension_across),
+                  kMega * Vec3(row.compression_along, row.compression_across, row.compression_across),
+                  kMega * row.shear_along * Vec3(1, kRollingShear, 1)};
+}
+
 Preset wood(const WoodRow& row) {
   const double E = row.E_L * kGiga;
   OrthotropicConstants c;
@@ -18,7 +26,7 @@ Preset wood(const WoodRow& row) {
   c.g12 = row.G_LR * E;
   c.g23 = row.G_RT * E;
   c.g13 = row.G_LT * E;
-  return {row.name, c, given(row.density), "1 = L along the grain, 2 = R radial, 3 = T tangential",
+  return {row.name, c, given(row.density), strength_of(row), "1 = L along the grain, 2 = R radial, 3 = T tangential",
           "USDA Wood Handbook FPL-GTR-282, tables 5-1, 5-2, 5-3a, 12 % moisture"};
 }
 
@@ -31,7 +39,7 @@ Preset composite(const CompositeRow& row) {
   c.g12 = row.G12 * kGiga;
   c.g23 = row.G23 * kGiga;
   c.g13 = row.G13 * kGiga;
-  return {row.name, c, given(row.density), row.axes, row.source};
+  return {row.name, c, given(row.density), std::nullopt, row.axes, row.source};
 }
 
 std::vector<Preset> convert() {

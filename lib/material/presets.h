@@ -8,6 +8,7 @@
 #include "lib/config/values.h"
 #include "lib/material/orthotropy.h"
 #include "lib/material/preset_table.h"
+#include "lib/material/strength.h"
 
 namespace orthodyn {
 
@@ -15,6 +16,7 @@ struct Preset {
   std::string name;
   OrthotropicConstants constants;  // Pa
   std::optional<double> density;   // kg/m^3; none: the source has none
+  std::optional<Strength> strength;  // likewise
   std::string axes;                // what 1, 2, 3 are
   std::string source;
 };

@@ -32,6 +32,7 @@ class TransverselyIsotropic : public Material {
                  "nu23 = nu32: contraction across when stretched across; sets G23 = E2/(2 (1 + nu23)).",
                  {.required = true})
             .key("shear_axial", &M::shear_axial_, "Shear modulus G12 = G13 of the planes that hold the fibre.", modulus)
+            .key("strength", &M::strength_, kStrengthSentence)
             .key("repair", &M::repair_,
                  "Of an unstable set. none: refuse it. shrink: multiply both ratios by the largest factor that makes "
                  "it stable, with a warning.")

@@ -24,6 +24,7 @@ struct OutputInfo {
   int components;
   std::string unit;
   std::string sentence;
+  std::vector<std::string> component_names = {};  // "x", "y", "z"; "11", ..., "31"; empty where they have none
 };
 
 // Points and cells that fields live on.

@@ -41,7 +41,8 @@ void add_elasticity(const Scene& scene, const std::vector<const Region*>& region
     const ElementAxes axes = element_axes(*region.axes, field, elements, cells);
     parts.elastic.push_back(elements.type.elastic_term(
         elements, {mesh.region_names[r], std::move(cells), material_of(scene, region).stiffness(), axes,
-                   stiffness_damping(scene, region), elasticity_of(scene, region)}, *parts.pattern));
+                   stiffness_damping(scene, region), elasticity_of(scene, region),
+                   material_of(scene, region).strength()}, *parts.pattern));
     parts.densities.push_back(material_of(scene, region).density());
   }
 }

@@ -43,8 +43,7 @@ std::vector<Event> make_events(const Scene& scene, const FemModel& model) {
     const Quantity quantity = find_quantity(spec.quantity, scene, model, spec.origin);
     if (!quantity.values)
       spec.origin.fail(fmt::format("'{}' is known at output times only; choose another quantity", spec.quantity));
-    if (quantity.components != 1)
-      spec.origin.fail(fmt::format("'{}' is a vector: choose .x, .y, .z or .magnitude", spec.quantity));
+    if (quantity.components() > 1) spec.origin.fail(quantity.ask_for_component());
     spec.crosses.require(quantity.unit, spec.origin);
     events.push_back({spec.name.value_or(spec.quantity),
                       [values = quantity.values](const ObservedState& observed) { return values(observed)[0]; },

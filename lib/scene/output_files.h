@@ -57,6 +57,7 @@ struct Output {
   OutputTimes times = OutputTimes::interpolated;
   FrameFields fields{"displacement", "velocity"};
   Named<Probe> probes;
+  std::vector<std::string> extremes;
   bool reactions = false, energy = true, steps = true, momentum = false;
   EnergyTimes energy_times = EnergyTimes::outputs;
   bool accumulated_error = true, mesh_error = true;

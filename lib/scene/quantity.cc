@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "lib/core/words.h"
+#include "lib/fem/nodal_figures.h"
 #include "lib/scene/build.h"
 
 namespace orthodyn {
@@ -12,41 +13,42 @@ namespace orthodyn {
 namespace {
 
 constexpr std::size_t kNearest = 5;  // names in a message
-constexpr std::array kComponents{"x", "y", "z", "magnitude"};
+constexpr const char* kMagnitude = "magnitude";
 
 // Where a name starts with `prefix` and a dot: what follows, else "".
 std::string after(const std::string& name, const std::string& prefix) {
   return name.starts_with(prefix + ".") ? name.substr(prefix.size() + 1) : "";
 }
 
-std::vector<double> pick(const std::vector<double>& vector, const std::string& component) {
-  if (component.empty()) return vector;
-  if (component == "magnitude") return {Eigen::Map<const Vec3>(vector.data()).norm()};
-  return {vector[static_cast<std::size_t>(component[0] - 'x')]};
-}
-
-// Fields of one output: all of it, or of one node.
+// An output, or what it has at one node.
 struct Source {
-  std::string output;
-  int components, node = -1;
-  std::string unit;
+  OutputInfo info;
+  int node = -1;
+
+  std::vector<std::string> components() const {
+    auto all = info.component_names;
+    if (all.size() == 3 && all[0] == "x") all.push_back(kMagnitude);
+    return all;
+  }
 };
 
-// `rest` is what follows the source's name: "", or a component of a vector.
-bool is_component_of(const std::string& rest, const Source& source) {
-  if (rest.empty()) return true;
-  return source.components == 3 && std::find(kComponents.begin(), kComponents.end(), rest) != kComponents.end();
+std::vector<double> pick(const Source& source, const std::vector<double>& own, const std::string& component) {
+  if (component.empty()) return own;
+  if (component == kMagnitude) return {Eigen::Map<const Vec3>(own.data()).norm()};
+  const auto& names = source.info.component_names;
+  return {own[static_cast<std::size_t>(std::find(names.begin(), names.end(), component) - names.begin())]};
 }
 
+// `component`: one of the source's, or "".
 Quantity make_quantity(const std::string& name, const Source& source, const std::string& component) {
-  Quantity quantity{name, source.unit, source.components == 3 && component.empty() ? 3 : 1, {}};
+  Quantity quantity{name, source.info.unit};
+  if (component.empty()) quantity.choices = source.info.component_names;
   quantity.values = [source, component](const ObservedState& observed) {
-    const auto all = observed.evaluate(source.output);
-    const auto first = source.node < 0 ? 0 : static_cast<std::size_t>(source.node * source.components);
-    const auto count = source.components == 3 ? 3u : 1u;  // of det_f.smallest the value, not the element
-    return pick({all.begin() + static_cast<std::ptrdiff_t>(first),
-                 all.begin() + static_cast<std::ptrdiff_t>(first + count)},
-                component);
+    const auto all = observed.evaluate(source.info.name);
+    const auto first = source.node < 0 ? 0 : std::ptrdiff_t{source.node} * source.info.components;
+    // Of det_f.smallest the value, not the element.
+    const auto count = std::max<std::ptrdiff_t>(std::ssize(source.info.component_names), 1);
+    return pick(source, {all.begin() + first, all.begin() + first + count}, component);
   };
   return quantity;
 }
@@ -55,28 +57,45 @@ Quantity make_quantity(const std::string& name, const Source& source, const std:
 std::vector<std::pair<std::string, Source>> sources(const Scene& scene, const FemModel& model) {
   std::vector<std::pair<std::string, Source>> all;
   for (const auto& info : model.outputs()) {
-    if (info.location == Location::global) all.push_back({info.name, {info.name, info.components, -1, info.unit}});
+    if (info.location == Location::global) all.push_back({info.name, {info}});
     if (info.location != Location::node) continue;
     for (const auto& [probe, p] : scene.output.probes)
-      all.push_back({probe + "." + info.name,
-                     {info.name, info.components, nearest_node(model.parts().mesh, p.at), info.unit}});
+      all.push_back({probe + "." + info.name, {info, nearest_node(model.parts().mesh, p.at)}});
   }
   return all;
 }
 
+// Names that a mistaken one may have meant.
+void add_extremes(std::vector<std::string>& known) {
+  for (const OutputInfo& info : region_fields()) {
+    if (info.component_names.empty()) known.push_back(info.name + ".largest");
+    for (const auto& component : info.component_names) known.push_back(info.name + "." + component + ".largest");
+  }
+}
+
 }  // namespace
 
+std::string Quantity::ask_for_component() const {
+  return fmt::format("'{}' has several components: choose .{}{}", name, fmt::join(choices, ", ."),
+                     is_vector() && choices[0] == "x" ? std::string(" or .") + kMagnitude : "");
+}
+
 Quantity find_quantity(const std::string& name, const Scene& scene, const FemModel& model, const Origin& origin) {
-  if (name == kEnergyBalance) return {name, "J", 1, {}};
+  if (name == kEnergyBalance) return {name, "J"};
+  if (const auto extreme = find_extreme(name, model, origin))
+    return {name, unit_of_extreme(name), {}, [find = *extreme](const ObservedState& observed) {
+              return std::vector<double>{find(observed).value};
+            }};
   std::vector<std::string> known{kEnergyBalance};
   for (const auto& [source_name, source] : sources(scene, model)) {
     const std::string rest = after(name, source_name);
-    if (name == source_name || (!rest.empty() && is_component_of(rest, source)))
+    const auto components = source.components();
+    if (name == source_name || std::find(components.begin(), components.end(), rest) != components.end())
       return make_quantity(name, source, rest);
     known.push_back(source_name);
-    if (source.components != 3) continue;
-    for (const char* component : kComponents) known.push_back(source_name + "." + component);
+    for (const auto& component : components) known.push_back(source_name + "." + component);
   }
+  add_extremes(known);
   origin.fail(fmt::format("unknown quantity '{}'{} The nearest are {}. Take a probe of the scene with a field and a "
                           "component (tip.displacement.z, see `orthodyn list fields`), or a quantity of the whole body "
                           "(`orthodyn list quantities`)",

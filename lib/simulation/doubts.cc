@@ -85,6 +85,9 @@ std::vector<std::string> doubts(const RunResult& result) {
   std::vector<std::string> all;
   add_doubts(result.outcome, all);
   if (result.equilibrium) add_doubts(*result.equilibrium, all);
+  if (const auto& strain = result.passed_strain)
+    all.push_back(fmt::format("{} (the most at {} {:.4g}{})", strain->sentence,
+                              result.equilibrium ? "load factor" : "t =", strain->time, result.equilibrium ? "" : " s"));
   const auto& mesh = result.motion ? result.motion->mesh_error
                                    : result.equilibrium ? result.equilibrium->mesh_error : std::nullopt;
   if (mesh && mesh->relative > kCoarse) all.push_back(mesh_sentence(result.model, mesh->relative));

@@ -100,6 +100,8 @@ class DynamicAnalysis {
       result.outgrown = setup_.linearity->why_to_start_again();
     if (result.outgrown) return result;
     result.motion = motion_result(result.outcome, begin.effort, observers);
+    if (observers.extremes) result.extremes = observers.extremes->found();
+    if (observers.strains) result.passed_strain = observers.strains->worst();
     record.finish(result);
     if (parts_ && result.outcome.status == Outcome::Status::completed) {
       result.motion->accumulated = accumulated(result.outcome.last.t);

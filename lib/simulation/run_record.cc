@@ -107,6 +107,15 @@ void add_motion(Json& out, const MotionResult& motion, const Outcome& outcome) {
 
 Json to_json(const std::optional<int>& count) { return count ? Json(*count) : Json(nullptr); }
 
+Json to_json(const RecordedExtreme& extreme) {
+  if (extreme.node < 0) return nullptr;
+  return {{"value", extreme.value},
+          {"unit", extreme.unit},
+          {"time", extreme.time},
+          {"node", extreme.node},
+          {"place", {extreme.place[0], extreme.place[1], extreme.place[2]}}};
+}
+
 Json to_json(const CriticalPoint& point) {
   return {{"kind", point.kind == CriticalPoint::Kind::limit ? "limit point" : "bifurcation"},
           {"load_factor", point.load_factor},
@@ -161,6 +170,7 @@ void RunRecord::finish(const RunResult& result) const {
   if (result.motion) add_motion(out, *result.motion, result.outcome);
   if (result.equilibrium) add_equilibrium(out, *result.equilibrium, result.outcome);
   if (result.buckling) add_buckling(out, *result.buckling, result.outcome);
+  for (const RecordedExtreme& extreme : result.extremes) out["extremes"][extreme.quantity] = to_json(extreme);
   if (const auto errors = error_balance(result)) out["errors"] = errors_json(*errors);
   if (const auto warnings = doubts(result); !warnings.empty()) out["warnings"] = warnings;
   file_.rewrite(text(out));

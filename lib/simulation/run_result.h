@@ -10,6 +10,8 @@
 #include "lib/ode/critical_point.h"
 #include "lib/ode/statistics.h"
 #include "lib/simulation/observers/balance.h"
+#include "lib/simulation/observers/extremes.h"
+#include "lib/simulation/observers/strain_watch.h"
 #include "lib/simulation/checkpoint/effort.h"
 #include "lib/simulation/errors/accumulated_error.h"
 #include "lib/simulation/errors/error_estimate.h"
@@ -112,6 +114,8 @@ struct RunResult {
   std::optional<MotionResult> motion = {};            // one of these,
   std::optional<EquilibriumResult> equilibrium = {};
   std::optional<BucklingResult> buckling = {};        // or none where nothing was to be done
+  std::vector<RecordedExtreme> extremes = {};
+  std::optional<PassedStrain> passed_strain = {};     // where the law's limit was passed
   bool was_complete = false;                          // it was to be resumed, and had reached its end before
   std::optional<Outgrown> outgrown = {};              // why it ended, and is to start again
   bool resumable = false;                             // the folder holds a checkpoint of a late state

@@ -10,6 +10,7 @@
 #include "lib/analysis/strain_check.h"
 #include "lib/core/words.h"
 #include "lib/linear/blas.h"
+#include "lib/simulation/observers/extremes.h"
 #include "lib/simulation/outcome.h"
 #include "lib/simulation/slips/slips.h"
 #include "lib/simulation/static_problem.h"
@@ -38,17 +39,21 @@ void check_fields(const Model& model, const std::vector<std::string>& fields, st
   }
 }
 
-void check_outputs(const Scene& scene, const Model& model) {
-  check_fields(model, scene.output.fields, {Location::node, Location::cell}, scene.output.origin);
-  for (const auto& [name, probe] : scene.output.probes)
-    check_fields(model, probe.fields, {Location::node}, probe.origin);
+void check_outputs(const Scene& scene, const FemModel& model) {
+  const auto check = [&](const std::vector<std::string>& fields, std::vector<Location> allowed, const Origin& origin) {
+    check_fields(model, fields, std::move(allowed), origin);
+    for (const auto& field : fields) require_strengths(field, "", model, origin);
+  };
+  check(scene.output.fields, {Location::node, Location::cell}, scene.output.origin);
+  for (const auto& [name, probe] : scene.output.probes) check(probe.fields, {Location::node}, probe.origin);
+  ExtremeRecorder(scene.output.extremes, model, scene.output.origin);  // throws
 }
 
 void check_expectations(const Scene& scene, const FemModel& model) {
   for (const auto& e : scene.expect) {
     const Quantity quantity = find_quantity(e.quantity, scene, model, e.origin);
-    if (quantity.components == 3 && (e.at || e.take != Take::drift))
-      e.origin.fail(fmt::format("'{}' is a vector: choose .x, .y, .z or .magnitude", e.quantity));
+    if (quantity.components() > 1 && !(quantity.is_vector() && !e.at && e.take == Take::drift))
+      e.origin.fail(quantity.ask_for_component());
     e.require_units(quantity.unit);
     if (scene.is_static() && (e.at || e.take != Take::end || !quantity.values))
       e.origin.fail("of a static analysis only values in equilibrium are known: remove 'take' and 'at'" +

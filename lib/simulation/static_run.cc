@@ -42,6 +42,14 @@ class StaticObservers {
     if (output.steps) steps_.emplace(folder / "load_steps.csv", *problem.path, *problem.stepper);
     if (const auto columns = probe_columns(setup.scene, *setup.built.model); !columns.empty())
       probes_.emplace(folder / "probes.csv", *problem.path, columns, "load_factor");
+    const FemModel& model = *setup.built.model;
+    if (!output.extremes.empty()) extremes_.emplace(output.extremes, model, output.origin);
+    if (has_strain_limits(model)) strains_.emplace(model);
+  }
+
+  void tell(RunResult& result) const {
+    if (extremes_) result.extremes = extremes_->found();
+    if (strains_) result.passed_strain = strains_->worst();
   }
 
   std::vector<Observer*> all() {
@@ -52,6 +60,8 @@ class StaticObservers {
     add(frames_);
     add(steps_);
     add(probes_);
+    add(extremes_);
+    add(strains_);
     out.push_back(&progress_);
     return out;
   }
@@ -60,6 +70,8 @@ class StaticObservers {
   std::optional<FrameWriter> frames_;
   std::optional<LoadStepWriter> steps_;
   std::optional<ProbeWriter> probes_;
+  std::optional<ExtremeRecorder> extremes_;
+  std::optional<StrainWatch> strains_;
   LoadProgress progress_;
 };
 
@@ -129,6 +141,7 @@ RunResult run_static_analysis(RunContext context) {
     if (result.outgrown) return result;
   }
   result.model = summarize(setup);
+  observers.tell(result);
   MeshErrorRecorder mesh_error(0);
   if (setup.scene.output.mesh_error) mesh_error.look_at({*problem.path, result.outcome.last});
   result.equilibrium = equilibrium_result(problem, result.outcome.last, mesh_error.found());

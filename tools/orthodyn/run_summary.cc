@@ -53,6 +53,20 @@ void print_errors(const RunResult& result, int width) {
              errors->advice.empty() ? "" : ": ", errors->advice);
 }
 
+std::string three(const Vec3& v, const char* format) {
+  const auto number = [&](double x) { return fmt::format(fmt::runtime(format), x); };
+  return fmt::format("({}, {}, {})", number(v[0]), number(v[1]), number(v[2]));
+}
+
+void print_extremes(const RunResult& result, const char* time, const char* unit) {
+  for (const auto& e : result.extremes) {
+    if (e.node < 0) fmt::print("  {}: no node has a value\n", e.quantity);
+    else
+      fmt::print("  {}: {:.4g}{} at {} m, {} {:.4g}{}\n", e.quantity, e.value, e.unit == "1" ? "" : " " + e.unit,
+                 three(e.place, "{:.4g}"), time, e.time, unit);
+  }
+}
+
 void print_motion(const RunResult& result, const MotionResult& motion) {
   const auto& outcome = result.outcome;
   fmt::print("{} with {}: {} unknowns, {} at t = {:.6g} s after {:.2f} s ({:.2f} s CPU)\n", result.scene,
@@ -73,14 +87,10 @@ void print_motion(const RunResult& result, const MotionResult& motion) {
         "s)\n",
         "error", e->error, e->since, e->parts, e->parts == 1 ? "" : "s", e->steps, e->against, e->wall_seconds);
   print_errors(result, 15);
+  print_extremes(result, "at t =", " s");
   fmt::print("  {:<15} {:.4g} in element {} at t = {:.4g} s{}\n", "smallest det F", motion.det_f.value,
              motion.det_f.element, motion.det_f.time, motion.det_f.value <= 0 ? ": INVERTED" : "");
   fmt::print("  {:<15} {}\n", "results", result.folder.string());
-}
-
-std::string three(const Vec3& v, const char* format) {
-  const auto number = [&](double x) { return fmt::format(fmt::runtime(format), x); };
-  return fmt::format("({}, {}, {})", number(v[0]), number(v[1]), number(v[2]));
 }
 
 void print_equilibrium(const RunResult& result, const EquilibriumResult& equilibrium) {
@@ -104,6 +114,7 @@ void print_equilibrium(const RunResult& result, const EquilibriumResult& equilib
   fmt::print("  {:<20} {:.2g} N, {:.2g} of the largest load on a coordinate\n", "residual", equilibrium.residual,
              equilibrium.residual / std::max(equilibrium.largest_load, 1e-300));
   print_errors(result, 20);
+  print_extremes(result, "at load factor", "");
   for (const auto& [probe, value, error] : equilibrium.probes)
     fmt::print("  {:<20} moved by {} m; the mesh puts this off by about {} m\n", probe, three(value, "{:.6g}"),
                three(error, "{:.1e}"));

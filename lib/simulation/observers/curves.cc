@@ -94,13 +94,13 @@ std::vector<ProbeColumn> with_components(const Model& model, std::vector<ProbeCo
 
 std::vector<std::string> probe_header(const Model& model, const std::vector<ProbeColumn>& columns,
                                       const std::string& t) {
-  constexpr const char* axis[] = {".x", ".y", ".z"};
   std::vector<std::string> header{t};
   for (const auto& column : columns) {
     const auto info = info_of(model, column.field);
     for (int c = 0; c < info.components; ++c)
       header.push_back(fmt::format("{}{}{} [{}]", column.name.empty() ? "" : column.name + ".", column.field,
-                                   info.components == 3 ? axis[c] : "", info.unit));
+                                   info.component_names.empty() ? "" : "." + info.component_names[static_cast<std::size_t>(c)],
+                                   info.unit));
   }
   return header;
 }

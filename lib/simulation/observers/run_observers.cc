@@ -26,6 +26,8 @@ RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& fold
   if (scene.output.steps) steps_.emplace(folder / "steps.csv");
   if (const auto columns = probe_columns(scene, model); !columns.empty())
     probes_.emplace(folder / "probes.csv", model, columns);
+  if (!scene.output.extremes.empty()) extremes.emplace(scene.output.extremes, model, scene.output.origin);
+  if (has_strain_limits(model)) strains.emplace(model);
   if (!finder_.empty()) events_.emplace(folder / "events.csv", finder_);
 }
 
@@ -38,6 +40,7 @@ NamedObservers RunObservers::kept() {
   add("steps", steps_);
   add("probes", probes_);
   add("events", events_);
+  add("extremes", extremes);
   add("linearity", linearity_);
   return out;
 }
@@ -45,6 +48,7 @@ NamedObservers RunObservers::kept() {
 std::vector<Observer*> RunObservers::all(Observer* progress, Checkpointer& checkpointer) {
   std::vector<Observer*> out;
   for (const auto& [name, observer] : kept()) out.push_back(observer);
+  if (strains) out.push_back(&*strains);
   if (progress) out.push_back(progress);
   out.push_back(&checkpointer);
   return out;

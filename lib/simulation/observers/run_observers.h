@@ -8,7 +8,9 @@
 #include "lib/simulation/checkpoint/checkpointer.h"
 #include "lib/simulation/observers/curves.h"
 #include "lib/simulation/observers/event_writer.h"
+#include "lib/simulation/observers/extremes.h"
 #include "lib/simulation/observers/frames.h"
+#include "lib/simulation/observers/strain_watch.h"
 #include "lib/simulation/setup.h"
 
 namespace orthodyn {
@@ -35,6 +37,8 @@ class RunObservers {
   InversionWatch inversion;
   std::optional<EnergyWriter> energy;
   std::optional<MomentumWriter> momentum;
+  std::optional<ExtremeRecorder> extremes;
+  std::optional<StrainWatch> strains;
 
  private:
   LinearityWatch* linearity_;  // null without linear kinematics

@@ -145,7 +145,7 @@ double onset(const Series& s, double level) {
 SeriesRecorder::SeriesRecorder(const Model& model, const Integrator& integrator, std::vector<Quantity> quantities)
     : model_(model), quantities_(std::move(quantities)) {
   for (const auto& q : quantities_) {
-    series_.push_back({q.components, {}, {}});
+    series_.push_back({q.components(), {}, {}});
     if (!q.values && !energy_) energy_ = std::make_unique<EnergyMeter>(model, integrator);
   }
 }

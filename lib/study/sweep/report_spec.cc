@@ -10,13 +10,9 @@ namespace orthodyn {
 namespace {
 
 std::vector<std::string> components_of(const OutputInfo& info) {
-  static const std::vector<std::string> space{"xx", "yy", "zz", "xy", "yz", "zx"},
-      material{"11", "22", "33", "12", "23", "31"};
-  if (info.components == 3) return {"x", "y", "z", "magnitude"};
-  if (info.components != 6) return {};
-  std::vector<std::string> all = info.name == "stress" ? space : material;
-  all.push_back("magnitude");
-  if (info.name != "strain") all.push_back("von_mises");
+  auto all = info.component_names;
+  if (all.size() == 6 || (all.size() == 3 && all[0] == "x")) all.push_back("magnitude");
+  if (all.size() > 3 && info.unit == "Pa") all.push_back("von_mises");
   return all;
 }
 

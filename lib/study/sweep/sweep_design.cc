@@ -213,8 +213,7 @@ class Expansion {
       if (f.quantity.empty()) continue;
       const Quantity q = find_quantity(f.quantity, scene, model, f.origin);
       f.check_unit(q.unit);
-      if (q.components == 3 && f.take != Take::drift)
-        f.origin.fail(fmt::format("'{}' is a vector: choose .x, .y, .z or .magnitude", f.quantity));
+      if (q.components() > 1 && !(q.is_vector() && f.take == Take::drift)) f.origin.fail(q.ask_for_component());
     }
   }
 

@@ -1,0 +1,121 @@
+#include "lib/fem/nodal_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lib/core/symmetric_eigen.h"
+
+namespace orthodyn {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+Mat3 full(const Vec6& s) {
+  Mat3 m;
+  m << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+  return m;
+}
+
+std::vector<double> von_mises(const Vec6& s, const ElasticRegion&) {
+  const auto square = [](double x) { return x * x; };
+  return {std::sqrt(0.5 * (square(s[0] - s[1]) + square(s[1] - s[2]) + square(s[2] - s[0])) +
+                    3 * (square(s[3]) + square(s[4]) + square(s[5])))};
+}
+
+// The largest first.
+std::vector<double> principal(const Vec6& s, const ElasticRegion&) {
+  if (!s.allFinite()) return {kNone, kNone, kNone};
+  const Vec3 values = symmetric_eigenvalues<3>(full(s));
+  return {values[2], values[1], values[0]};
+}
+
+// det F = det S of F = R S.
+std::vector<double> volume_ratio(const Vec6& strain, const ElasticRegion&) {
+  return {(Mat3::Identity() + full(strain)).determinant()};
+}
+
+template <double (*exposure)(const Vec6&, const Strength&)>
+std::vector<double> of_strength(const Vec6& s, const ElasticRegion& region) {
+  return {region.strength ? exposure(s, *region.strength) : kNone};
+}
+
+const SeenTensor& tensor_of(const NodalFigure& figure) {
+  const auto& all = seen_tensors();
+  return *std::find_if(all.begin(), all.end(), [&](const auto& t) { return std::string(t.name) == figure.tensor; });
+}
+
+// Visits the recovered tensor of each node of each region that is asked for.
+template <class Visit>
+void for_each_node(const StressRecovery& recovery, const NodalState& s, const SeenTensor& tensor, int region,
+                   Visit&& visit) {
+  const auto all = recovery.at_nodes_of_regions(s, tensor);
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    if (region >= 0 && static_cast<int>(r) != region) continue;
+    for (std::size_t i = 0; i < all[r].nodes->size(); ++i)
+      visit(r, static_cast<std::size_t>((*all[r].nodes)[i]), Vec6(all[r].values.row(static_cast<Eigen::Index>(i))));
+  }
+}
+
+}  // namespace
+
+const std::vector<SeenTensor>& seen_tensors() {
+  static const std::vector<std::string> space{"xx", "yy", "zz", "xy", "yz", "zx"},
+      material{"11", "22", "33", "12", "23", "31"};
+  static const std::vector<SeenTensor> all{
+      {"strain", "1", "Strain S - I in material axes: 11, 22, 33, 12, 23, 31 (tensor shear)", material,
+       [](const PointObservation& o) { return o.strain; }},
+      {"strain_space", "1", "The same strain in space, as the body is turned: xx, yy, zz, xy, yz, zx (tensor shear)", space,
+       [](const PointObservation& o) { return Mat3(o.axes * o.strain * o.axes.transpose()); }},
+      {"stress", "Pa", "Elastic Cauchy stress in space: xx, yy, zz, xy, yz, zx; NaN where inverted", space,
+       [](const PointObservation& o) { return o.cauchy; }},
+      {"stress_material", "Pa", "Elastic Cauchy stress in the rotated material axes: 11, 22, 33, 12, 23, 31", material,
+       [](const PointObservation& o) { return Mat3(o.axes.transpose() * o.cauchy * o.axes); }}};
+  return all;
+}
+
+const std::vector<NodalFigure>& nodal_figures() {
+  static const std::vector<std::string> three{"1", "2", "3"};
+  static const std::vector<NodalFigure> all{
+      {"von_mises", "Pa", "Von Mises' equivalent stress.", "stress", {}, false, von_mises},
+      {"principal_stress", "Pa", "Principal stresses, the largest first.", "stress", three, false, principal},
+      {"principal_strain", "1", "Principal strains, the largest first.", "strain", three, false, principal},
+      {"nodal_det_f", "1", "Volume ratio det F at the nodes.", "strain", {}, false, volume_ratio},
+      {"max_stress", "1", "Exposure by maximum stress: the largest ratio of a component to its strength; 1 fails.",
+       "stress_material", {}, true, of_strength<max_stress_exposure>},
+      {"tsai_wu", "1", "Exposure by Tsai and Wu: one over the factor by which the stress may grow; 1 fails.",
+       "stress_material", {}, true, of_strength<tsai_wu_exposure>},
+      {"hashin", "1", "Exposure by Hashin, the largest of fibre and matrix in tension and compression; 1 fails.",
+       "stress_material", {}, true, of_strength<hashin_exposure>}};
+  return all;
+}
+
+std::vector<double> nodal_tensor(const StressRecovery& recovery, const NodalState& s, const SeenTensor& tensor,
+                                 int region) {
+  const auto nodes = static_cast<std::size_t>(s.x.cols());
+  std::vector<double> out(6 * nodes, region < 0 ? 0 : kNone);
+  if (region < 0) {
+    const auto all = recovery.at_nodes(s, tensor);
+    std::copy(all.data(), all.data() + all.size(), out.begin());
+  } else {
+    for_each_node(recovery, s, tensor, region, [&](std::size_t, std::size_t node, const Vec6& value) {
+      std::copy(value.begin(), value.end(), out.begin() + static_cast<std::ptrdiff_t>(6 * node));
+    });
+  }
+  return out;
+}
+
+std::vector<double> nodal_figure(const StressRecovery& recovery, const StressRecovery::Terms& terms,
+                                 const NodalState& s, const NodalFigure& figure, int region) {
+  const std::size_t count = std::max<std::size_t>(figure.components.size(), 1);
+  std::vector<double> out(count * static_cast<std::size_t>(s.x.cols()), kNone);
+  for_each_node(recovery, s, tensor_of(figure), region, [&](std::size_t r, std::size_t node, const Vec6& tensor) {
+    const auto values = figure.of(tensor, terms[r]->definition());
+    auto at = out.begin() + static_cast<std::ptrdiff_t>(count * node);
+    if (std::isnan(*at) || values[0] > *at) std::copy(values.begin(), values.end(), at);
+  });
+  return out;
+}
+
+}  // namespace orthodyn

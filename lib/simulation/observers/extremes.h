@@ -1,0 +1,41 @@
+// The largest and smallest values of quantities over a run (output.extremes), each with its time and the node where it was.
+// They are looked at when the history is written.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lib/scene/quantity.h"
+#include "lib/simulation/observers/observer.h"
+
+namespace orthodyn {
+
+struct RecordedExtreme {
+  std::string quantity, unit;
+  double value = 0;
+  double time = 0;           // s; of a static analysis the load factor
+  int node = -1;             // of the mesh
+  Vec3 place = Vec3::Zero();  // its rest position, m
+};
+
+class ExtremeRecorder : public Observer {
+ public:
+  // `quantities`: such as find_extreme() takes. The model must outlive it. Throws ConfigError at `origin`.
+  ExtremeRecorder(const std::vector<std::string>& quantities, const FemModel& model, const Origin& origin);
+
+  void on_start(const ObservedState& observed) override { look_at(observed); }
+  void on_history(const ObservedState& observed) override { look_at(observed); }
+  void save(Archive& archive) override;
+  void restore(const Archive& archive) override;
+
+  const std::vector<RecordedExtreme>& found() const { return found_; }
+
+ private:
+  void look_at(const ObservedState& observed);
+
+  const FemModel& model_;
+  std::vector<FindExtreme> find_;
+  std::vector<RecordedExtreme> found_;
+};
+
+}  // namespace orthodyn

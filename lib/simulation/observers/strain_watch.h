@@ -1,0 +1,33 @@
+// Whether a run strained its body beyond what the corotational law holds for (lib/analysis/strain_check.h): looks at the
+// outputs.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/analysis/strain_check.h"
+#include "lib/simulation/observers/observer.h"
+
+namespace orthodyn {
+
+// The worst of a run.
+struct PassedStrain {
+  double share = 0, time = 0;  // times the limit; s, of a static analysis the load factor
+  std::string sentence = {};
+};
+
+class StrainWatch : public Observer {
+ public:
+  // The model must outlive it.
+  explicit StrainWatch(const FemModel& model) : model_(model) {}
+
+  void on_output(const ObservedState& observed) override;
+  const std::optional<PassedStrain>& worst() const { return worst_; }
+
+ private:
+  const FemModel& model_;
+  std::optional<PassedStrain> worst_;
+};
+
+}  // namespace orthodyn
