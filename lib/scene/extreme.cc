@@ -57,7 +57,8 @@ void require_strengths(const std::string& field, const std::string& region, cons
 
 std::string unit_of_extreme(const std::string& name) {
   for (const OutputInfo& info : region_fields())
-    if (name.starts_with(info.name + ".") || name.find("." + info.name + ".") != std::string::npos) return info.unit;
+    if (name.starts_with(info.name + ".") || name.find("." + info.name + ".") != std::string::npos)
+      return info.unit == "1" ? "" : info.unit;
   return "";
 }
 

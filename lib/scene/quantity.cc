@@ -41,7 +41,7 @@ std::vector<double> pick(const Source& source, const std::vector<double>& own, c
 
 // `component`: one of the source's, or "".
 Quantity make_quantity(const std::string& name, const Source& source, const std::string& component) {
-  Quantity quantity{name, source.info.unit};
+  Quantity quantity{name, source.info.unit == "1" ? "" : source.info.unit};
   if (component.empty()) quantity.choices = source.info.component_names;
   quantity.values = [source, component](const ObservedState& observed) {
     const auto all = observed.evaluate(source.info.name);

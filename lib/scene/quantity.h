@@ -2,8 +2,8 @@
 //
 //   PROBE.FIELD[.COMPONENT]              a field at a probe's node: tip.displacement.z, tip.nodal_stress_material.11
 //   NAME[.COMPONENT]                     a scalar of the whole body: energy.kinetic, momentum.angular.y
-//   [REGION.]FIELD[.COMPONENT].largest   the extreme of a field of stress or strain over the nodes of the body or of one
-//   [REGION.]FIELD[.COMPONENT].smallest  region: von_mises.largest, grip.nodal_stress_material.22.largest
+//   [REGION.]FIELD[.COMPONENT].largest   the extreme of a field of stress or strain over the nodes of the body or of
+//   one [REGION.]FIELD[.COMPONENT].smallest  region: von_mises.largest, grip.nodal_stress_material.22.largest
 #pragma once
 
 #include <functional>
@@ -35,7 +35,8 @@ struct Quantity {
 // Throws ConfigError at `origin`.
 Quantity find_quantity(const std::string& name, const Scene& scene, const FemModel& model, const Origin& origin);
 
-// Of a quantity that ends on .largest or .smallest its value and the node where it is; NaN and -1 where no node has one.
+// Of a quantity that ends on .largest or .smallest its value and the node where it is; NaN and -1 where no node has
+// one.
 struct Extreme {
   double value;
   int node;
@@ -45,12 +46,12 @@ using FindExtreme = std::function<Extreme(const ObservedState&)>;
 // None for other quantities. Throws what require_strengths() does.
 std::optional<FindExtreme> find_extreme(const std::string& name, const FemModel& model, const Origin& origin);
 
-// Throws ConfigError at `origin` for a field that needs strengths which no material of the region, or of the body where it
-// is "", has.
+// Throws ConfigError at `origin` for a field that needs strengths which no material of the region, or of the body where
+// it is "", has.
 void require_strengths(const std::string& field, const std::string& region, const FemModel& model,
                        const Origin& origin);
 
-// The SI unit of such a quantity; "1" for a plain number.
+// The SI unit of such a quantity; "" for a plain number.
 std::string unit_of_extreme(const std::string& name);
 
 }  // namespace orthodyn

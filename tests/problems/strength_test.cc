@@ -25,7 +25,7 @@ elasticity: {{kinematics: linear}}
 mesh: {{type: box, size: [1, 0.5, 0.4], cells: [3, 2, 2]}}
 materials:
   wood: {{type: orthotropic, density: 400, young: [10.8e9, 0.84e9, 0.46e9], nu12: 0.44, nu23: 0.44, nu31: 0.0225,
-         g12: 0.69e9, g23: 0.032e9, g13: 0.66e9{}}}
+         g12: 0.69e9, g23: 0.032e9, g13: 0.66e9{0}}}
 regions: {{all: {{material: wood, axes: {{first: [{1}, -{2}, 0], second: [{2}, {1}, 0]}}}}}}
 clamps:
   - {{nearest: [0, 0, 0]}}

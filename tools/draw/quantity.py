@@ -7,7 +7,8 @@ from .errors import unknown
 
 SPACE = ("xx", "yy", "zz", "xy", "yz", "zx")
 MATERIAL = ("11", "22", "33", "12", "23", "31")
-UNITS = {"displacement": "m", "velocity": "m/s", "stress": "Pa", "stress_material": "Pa", "mesh_error": "J/m^3"}
+UNITS = {"displacement": "m", "velocity": "m/s", "stress": "Pa", "stress_material": "Pa", "von_mises": "Pa",
+         "principal_stress": "Pa", "mesh_error": "J/m^3"}
 AT_NODES = "nodal_"  # the same field, recovered at the nodes
 NEUTRAL = {"det_f": 1.0}  # the value of the undeformed body; every other signed field has 0
 
@@ -28,6 +29,8 @@ def component_names(field, count):
     if count == 6:
         field = field.removeprefix(AT_NODES)
         return MATERIAL if field in ("stress_material", "strain") else SPACE
+    if field.startswith("principal_"):
+        return "1", "2", "3"
     return {1: (), 3: ("x", "y", "z")}.get(count, tuple(str(i) for i in range(count)))
 
 

@@ -62,7 +62,7 @@ void print_extremes(const RunResult& result, const char* time, const char* unit)
   for (const auto& e : result.extremes) {
     if (e.node < 0) fmt::print("  {}: no node has a value\n", e.quantity);
     else
-      fmt::print("  {}: {:.4g}{} at {} m, {} {:.4g}{}\n", e.quantity, e.value, e.unit == "1" ? "" : " " + e.unit,
+      fmt::print("  {}: {:.4g}{} at {} m, {} {:.4g}{}\n", e.quantity, e.value, e.unit.empty() ? "" : " " + e.unit,
                  three(e.place, "{:.4g}"), time, e.time, unit);
   }
 }
