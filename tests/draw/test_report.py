@@ -73,6 +73,14 @@ class TheNumbers(OfAComparison):
             if len(names) > 1 and "cvode_bdf" in names and "Problem" not in table[0]:  # that one is by problem
                 self.assertEqual(names[-1], "cvode_bdf", table)
 
+    def test_methods_that_agree_with_each_other_put_the_reference_in_doubt(self):
+        content, words = self.small(), "agree with each other rather than with the reference"
+        self.assertNotIn(words, Page(self.html(content)).text)
+        for k, point in enumerate(content["points"]):
+            if point["errors"]:
+                point["errors"]["displacement"]["l2"] = 3.2e-3 * (1 + 1e-3 * k)
+        self.assertIn(words, Page(self.html(content)).text)
+
     def test_methods_that_are_equally_fast_are_named_together(self):
         answers = [{"problem": "damped_beam", "error": "displacement.l2", "target": 1e-3, "methods": [
             {"method": "cvode_bdf", "seconds": 0.24}, {"method": "ida_bdf", "seconds": 0.25},

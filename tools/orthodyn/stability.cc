@@ -55,6 +55,7 @@ class MatrixTable {
     for (const auto& integrator : matrix_.at("integrators"))
       fmt::print("{:>3} {}\n", ++column, integrator.get<std::string>());
     for (const auto& variant : matrix_.at("variants")) print(variant);
+    for (const auto& suspicion : matrix_.at("suspected")) fmt::print("\n{}\n", suspicion.get<std::string>());
   }
 
  private:

@@ -203,6 +203,24 @@ def _why_no_answer(comparison, problem):
     return f"{formatting.plural(finished, 'run')} finished; times to given errors were not asked for."
 
 
+ALIKE, LEAST_METHODS = 1.05, 3
+
+
+def _suspected(comparison, problem):
+    """Methods that all end at the same error, far from what is resolved, agree with each other and not with the
+    reference."""
+    measure = measures.primary(comparison)
+    errors = [[p.error(measure) for p in comparison.finished(problem, m.id) if p.error(measure) > 0]
+              for m in comparison.methods]
+    best = [min(found) for found in errors if found]
+    reach = problem.reference.reach(measure)
+    if len(best) < LEAST_METHODS or max(best) > ALIKE * min(best) or min(best) < reach:
+        return None
+    return tag("p", tag("strong", "Reference in doubt. "), f"The most accurate runs of all {len(best)} methods have the "
+               f"same error, {formatting.exponent(min(best))}: they agree with each other rather than with the "
+               "reference. Suspect the reference before the methods.", class_="banner")
+
+
 def _scene(problem):
     """What the scene shows, and what was changed in it."""
     changes = ", ".join(f"{k} left out" if v in ("~", "null") else f"{k}: {v}" for k, v in problem.set.items())
@@ -220,6 +238,6 @@ def answer_section(comparison):
         if not any(content):
             content = [tag("p", _why_no_answer(comparison, problem), class_="empty")]
         parts.append(tag("div", tag("h3", problem.label, " ", tag("small", size)),
-                         _scene(problem), *content,
+                         _scene(problem), _suspected(comparison, problem), *content,
                          class_="problem"))
     return joined(parts)
