@@ -121,7 +121,8 @@ def _without_noise(points, figures):
 
 
 def _sweep(found):
-    variables = [Variable(v["name"], v.get("path", ""), v["unit"], v["numeric"], v["scale"] == "log") for v in found["variables"]]
+    variables = [Variable(v["name"], v.get("path", ""), v["unit"], v["numeric"], v["scale"] == "log")
+                 for v in found["variables"]]
     figures = [Figure(f["name"], f["title"], f["unit"], f["factor"], f["scale"] == "log", f["closed_form"])
                for f in found["figures"]]
     points = _without_noise([{**p, "index": k} for k, p in enumerate(found["points"])], figures)
