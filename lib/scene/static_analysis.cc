@@ -12,7 +12,8 @@ const Spec<Statics>& Statics::spec() {
   static const auto s =
       LoadStepping::spec_for<Statics>()
           .key("at_limit", &Statics::at_limit,
-               "Where the branch of stable equilibria ends (snap-through, buckling). stop: there; jump: look for an "
+               "What to do where the branch of stable equilibria ends (snap-through, buckling). stop: end there; jump: "
+               "look for an "
                "equilibrium on another branch.")
           .key("solver", &Statics::solver, "Finds the equilibrium of each load step.", {.fallback = "{type: kinsol}"});
   return s;

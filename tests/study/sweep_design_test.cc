@@ -148,7 +148,7 @@ TEST_F(SweepDesign, GivesFormulasOnlyNamesThatTheyCanHave) {
 TEST_F(SweepDesign, RefusesTwoVariablesThatSetTheSamePath) {
   const std::string head = std::string(kFigure) + "vary:\n";
   EXPECT_THAT(complaint(head + "  materials.soft.nu: [0.1, 0.2]\n  kind: {a: {materials.soft.nu: 0.3}}\n"),
-              AllOf(HasSubstr("s.yaml:5:"), HasSubstr("s.yaml:4:"), HasSubstr("only one of both can hold")));
+              AllOf(HasSubstr("s.yaml:5:"), HasSubstr("s.yaml:4:"), HasSubstr("only one of the two can apply")));
   EXPECT_THAT(complaint(head + "  a: {x: {gravity: [0, 0, -1]}}\n  b: {y: {gravity: [0, 0, -2]}}\n"),
               AllOf(HasSubstr("s.yaml:5:"), HasSubstr("s.yaml:4:")));
   // The whole after its part takes the part away; the part after the whole is what it says.

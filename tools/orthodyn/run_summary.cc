@@ -99,7 +99,7 @@ void print_equilibrium(const RunResult& result, const EquilibriumResult& equilib
              equilibrium.residual / std::max(equilibrium.largest_load, 1e-300));
   print_errors(result, 20);
   for (const auto& [probe, value, error] : equilibrium.probes)
-    fmt::print("  {:<20} moved by {} m; the mesh puts this off by about {} m\n", probe, three(value, "{:.6g}"),
+    fmt::print("  {:<20} moved by {} m; its error due to the mesh is about {} m\n", probe, three(value, "{:.6g}"),
                three(error, "{:.1e}"));
   fmt::print("  {:<20} {}\n", "results", result.folder.string());
 }
@@ -109,7 +109,7 @@ void print_what_remains(const RunResult& result) {
     fmt::print(stderr, "interrupted at t = {:.6g} s; what was computed is in {}\n", result.outcome.last.t,
                result.folder.string());
   if (result.outcome.status != Outcome::Status::completed && result.resumable)
-    fmt::print(stderr, "to go on: orthodyn run {} --resume\n", result.folder.string());
+    fmt::print(stderr, "to continue: orthodyn run {} --resume\n", result.folder.string());
 }
 
 }  // namespace
@@ -138,8 +138,8 @@ void print_estimate(const RunResult& result) {
   if (std::isnan(u.max)) fmt::print("  nothing moves: there is nothing to compare with\n");
   else
     fmt::print(
-        "  the integration puts displacements off by about {:.2g} % of the largest, {:.2g} % at worst; velocities "
-        "by {:.2g} %, {:.2g} % at worst{}\n",
+        "  integration error of displacements: about {:.2g} % of the largest, {:.2g} % at worst; of velocities {:.2g} "
+        "%, {:.2g} % at worst{}\n",
         100 * u.l2, 100 * u.max, 100 * error.velocity.l2, 100 * error.velocity.max,
         u.max > kUnresolved ? ". The motion is NOT resolved: lower integrator.rtol or step" : "");
   print_errors(result, 15);

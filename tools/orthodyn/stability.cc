@@ -128,7 +128,7 @@ const CommandRegistration stability_command(
     {.order = 60,
      .name = "stability",
      .sentence =
-         "Try integrators on hard cases: a matrix of pass, degraded and fail, with reasons. Run again, it goes on.",
+         "Try integrators on hard cases: a matrix of pass, degraded and fail, with reasons. Run it again to continue.",
      .examples = R"(
   orthodyn stability configs/stability/hard_cases.yaml --jobs 2
   orthodyn stability mine.yaml --retry         once more, with what failed)"},
