@@ -151,7 +151,8 @@ TEST_F(StabilityCommand, ARunThatDoesNotEndFails) {
   EXPECT_EQ(grade(1), "fail");
   EXPECT_EQ(table().at("trials").at(1).at("reason"), "time limit");
   const auto again = stability();
-  EXPECT_NE(again.output.find("1 that met the limit of time or memory; --retry"), std::string::npos) << again.output;
+  EXPECT_NE(again.output.find("1 that reached the limit of time or memory; --retry"), std::string::npos)
+      << again.output;
   const auto retried = stability(" --retry");
   EXPECT_EQ(retried.output.find("(done before)"), std::string::npos) << retried.output;
   EXPECT_EQ(retried.output.find("--retry"), std::string::npos) << retried.output;

@@ -279,8 +279,8 @@ TEST_F(SweepDesign, RefusesColumnsThatTheTableHasAlready) {
   refused("steps: {mode: 1}", "a column 'steps' of its own");
   refused("steps: {cost: forces}", "a column 'steps' of its own");
   refused("'': {mode: 1}", "has no name");
-  refused("nu: {mode: 1}", "a column 'nu' already, of ");
-  refused("{f: {mode: 1, closed_form: 1}, f.closed_form: {mode: 2}}", "a column 'f.closed_form' already");
+  refused("nu: {mode: 1}", "already has a column 'nu', of ");
+  refused("{f: {mode: 1, closed_form: 1}, f.closed_form: {mode: 2}}", "already has a column 'f.closed_form'");
   EXPECT_EQ(complaint(head + "steps: {cost: steps}"), "");
   EXPECT_THAT(complaint(kFigure + std::string("vary: {folder: [1, 2]}\ndefinitions: {a: folder}")),
               AllOf(HasSubstr("s.yaml:3:"), HasSubstr("a column 'folder' of its own")));

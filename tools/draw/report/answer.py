@@ -43,8 +43,8 @@ def _missed(answer):
 
 
 MEANING = ("An error is the distance from a far more accurate solution, as a share of the largest motion. "
-           "rtol is the tolerance that a method with error control was asked to keep in each step. A method that is "
-           "asked for little may need as long as when it is asked for more: then its cheapest run stands for both.")
+           "rtol is the tolerance that a method with error control was asked to keep in each step. A loose "
+           "tolerance may take as long as a tighter one: then the method's cheapest run counts for both.")
 
 
 def _label(comparison, method):

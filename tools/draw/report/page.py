@@ -62,8 +62,8 @@ def _banner(comparison):
     if comparison.complete:
         return None
     planned = f" of {formatting.count(comparison.planned)}" if formatting.known(comparison.planned) else ""
-    return tag("p", tag("strong", "Not finished: "), f"{len(comparison.points)}{planned} points. What follows is "
-               "what there is so far.", class_="banner", role="status")
+    return tag("p", tag("strong", "Not finished: "), f"{len(comparison.points)}{planned} points. What follows "
+               "covers the points so far.", class_="banner", role="status")
 
 
 def _header(comparison):

@@ -27,7 +27,7 @@ def _counted(sweep):
 def _header(sweep, sections):
     missing = sweep.about["missing"]
     banner = tag("p", tag("strong", "Not finished: "), f"{missing} of {len(sweep.points)} points are missing. What "
-                 "follows is what there is so far.", class_="banner", role="status") if missing else None
+                 "follows covers the points so far.", class_="banner", role="status") if missing else None
     return tag("header", tag("button", "Dark", type="button", id="theme", class_="js"), tag("h1", sweep.title),
                tag("p", sweep.description, class_="lede") if sweep.description else None,
                tag("p", " · ".join(p for p in _counted(sweep) if p), class_="facts"), banner,
