@@ -55,7 +55,7 @@ void refuse_a_run_without_end(const std::string& name, const Model& model, const
   const double steps = (task.end - task.initial.t) / longest;
   if (steps > static_cast<double>(max_steps))
     throw ConfigError(fmt::format("{} would take at least {:.2g} steps, of {:.3g} s at most for the stiffness at the "
-                                  "start, more than max_steps, {}; take an implicit integrator, or raise max_steps",
+                                  "start, more than max_steps, {}; use an implicit integrator, or raise max_steps",
                                   name, steps, longest, max_steps));
 }
 

@@ -57,7 +57,7 @@ class ArkodeDirkChoice : public SettableChoice<ArkodeDirkChoice>, public DirkOpt
     static const auto s = [] {
       auto spec = Options::spec_for<ArkodeDirkChoice>().key(
           "table", &ArkodeDirkChoice::table, "The method: name, stages, order of the error estimate, order.");
-      FixedStep::add_to(spec, "Fixed step, in place of error control; rtol then is Newton's alone.");
+      FixedStep::add_to(spec, "Fixed step, instead of error control; rtol then applies to Newton's method only.");
       return spec;
     }();
     return s;

@@ -57,7 +57,7 @@ class ArkodeErkChoice : public SettableChoice<ArkodeErkChoice>, public ErkOption
       auto spec = ErrorControl::spec_for<ArkodeErkChoice>().key(
           "table", &ArkodeErkChoice::table,
           "The method: name, stages, order of the error estimate, order. KNOTH_WOLKE_3_3 has no estimate.");
-      FixedStep::add_to(spec, "Fixed step, in place of error control; nothing checks its stability.");
+      FixedStep::add_to(spec, "Fixed step, instead of error control; nothing checks its stability.");
       spec.check([](const ArkodeErkChoice& options, const Config& config) {
         if (options.table == ARKODE_KNOTH_WOLKE_3_3 && !options.step)
           config.at("table").fail("KNOTH_WOLKE_3_3 has no error estimate; give integrator.step, or another table");

@@ -106,7 +106,7 @@ class ArkodeImexChoice : public SettableChoice<ArkodeImexChoice>, public ImexOpt
                            "Parts of the force that are treated explicitly, by name (gravity, traction on x1, "
                            "elasticity of region soft, mass damping, ...); the others are implicit. At least one.")
                       .key("table", &C::table, "The pair of tables: name, stages, order of the error estimate, order.");
-      FixedStep::add_to(spec, "Fixed step, in place of error control; rtol then is Newton's alone.");
+      FixedStep::add_to(spec, "Fixed step, instead of error control; rtol then applies to Newton's method only.");
       return spec;
     }();
     return s;

@@ -57,16 +57,17 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public Automatic
     static const auto s = [] {
       auto spec = ErrorControl::spec_for<C>();
       return add_linear_solver(spec, SolverPaths::reduced)
-          .key("method", &C::method, "The integrator; chosen by a look at the scene where it is left out.")
+          .key("method", &C::method, "The integrator; if left out, it is chosen for the scene.")
           .key("because", &C::rationale, "Why it was chosen, in words; written by the program.")
-          .key("safety", &C::safety, "Of central_differences, if that is the method; written by the program.",
+          .key("safety", &C::safety,
+               "Safety factor of central_differences, if that is the method; written by the program.",
                {.range = {0, 1, true, true}})
           .check([](const C& options, const Config& config) { options.check_method(config); });
     }();
     return s;
   }
   static MethodFacts facts() {
-    return method_facts("that of the method it takes", "that of the method it takes", "what the method it takes does",
+    return method_facts("that of the chosen method", "that of the chosen method", "what the chosen method conserves",
                         "docs/speed-against-error.md");
   }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
@@ -96,7 +97,7 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public Automatic
 };
 
 const bool automatic_registered = Registry<IntegratorChoice>::add<AutomaticChoice>(
-    "auto", "Looks at the scene, takes one of the others and says why.");
+    "auto", "Chooses one of the others for the scene and says why.");
 
 }  // namespace
 }  // namespace orthodyn

@@ -71,13 +71,13 @@ class CentralDifferences : public ExplicitStep {
     try {
       watch_.update(task.initial);
     } catch (const RecoverableError& e) {
-      throw ConfigError(fmt::format("central_differences needs the stiffness at the start, which cannot be had: {}",
-                                    e.what()));
+      throw ConfigError(fmt::format(
+          "central_differences needs the stiffness at the start, which could not be computed: {}", e.what()));
     }
     first_critical_ = watch_.critical();
     if (options_.step.value && *options_.step.value > first_critical_)
       throw ConfigError(fmt::format("step: {:.6g} s is above the critical step, {:.6g} s; lower it, set `step: auto`, "
-                                    "or take an implicit integrator",
+                                    "or use an implicit integrator",
                                     *options_.step.value, first_critical_));
     if (!options_.step.value) refuse_a_run_without_end(task);
   }
@@ -87,7 +87,7 @@ class CentralDifferences : public ExplicitStep {
     const double steps = (task.end - task.initial.t) / h;
     if (steps > static_cast<double>(options_.max_steps))
       throw ConfigError(fmt::format("central_differences would take {:.2g} steps of {:.3g} s ({}), more than "
-                                    "max_steps, {}; take an implicit integrator, or raise max_steps",
+                                    "max_steps, {}; use an implicit integrator, or raise max_steps",
                                     steps, h, critical_text(first_critical_), options_.max_steps));
   }
 
@@ -129,7 +129,7 @@ class CentralDifferences : public ExplicitStep {
   [[noreturn]] void fail_by_growth() const {
     fail(std::string("the motion has grown without bound; ") +
              (options_.step.value ? "set integrator.step: auto"
-                                  : "lower integrator.safety, or take an implicit integrator"),
+                                  : "lower integrator.safety, or use an implicit integrator"),
          Reason::diverged);
   }
 
@@ -173,7 +173,7 @@ class CentralDifferencesChoice : public SettableChoice<CentralDifferencesChoice>
                  {.unit = "s", .range = kPositive})
             .key("safety", &C::safety, "Share of the critical step that step: auto takes.",
                  {.range = {0, 1, true, true}})
-            .key("max_steps", &C::max_steps, "Steps after which the run is given up.", {.range = {1}})
+            .key("max_steps", &C::max_steps, "Steps after which the run gives up.", {.range = {1}})
             .check([](const C& options, const Config& config) {
               if (options.step.value && options.safety != CentralOptions{}.safety)
                 config.at("safety").fail("has no meaning with a fixed step; remove it, or set `step: auto`");
@@ -193,7 +193,8 @@ class CentralDifferencesChoice : public SettableChoice<CentralDifferencesChoice>
 };
 
 const bool central_differences_registered = Registry<IntegratorChoice>::add<CentralDifferencesChoice>(
-    "central_differences", "Leapfrog of order 2, explicit, one force a step, at a fixed step below the critical one.");
+    "central_differences",
+    "Leapfrog of order 2, explicit, one force per step, at a fixed step below the critical one.");
 
 }  // namespace
 }  // namespace orthodyn

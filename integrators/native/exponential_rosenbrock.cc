@@ -212,7 +212,7 @@ class ExponentialRosenbrockChoice : public SettableChoice<ExponentialRosenbrockC
       auto spec = ErrorControl::spec_for<C>().key(
           "krylov_dimension", &C::krylov_dimension,
           "Largest Krylov space; a step that would need a larger one is shortened.", {.range = {4, 500}});
-      FixedStep::add_to(spec, "Fixed step, in place of error control; rtol then is the Krylov spaces' alone.");
+      FixedStep::add_to(spec, "Fixed step, instead of error control; rtol then applies to the Krylov spaces only.");
       return spec;
     }();
     return s;

@@ -141,10 +141,10 @@ class Modal : public Integrator {
   std::vector<std::string> doubts() const override {
     const double share = std::max(truncation_.displacement_share(), truncation_.velocity_share());
     if (share <= kMisfit) return {};
-    return {fmt::format("the modes that were left out would have moved by about {:.2g} of the motion, with {:.2g} of "
-                        "its velocity. Keep more modes (integrator.modes, now {}; integrator.below), or take another "
-                        "integrator",
-                        truncation_.displacement_share(), truncation_.velocity_share(), basis_.size())};
+    return {fmt::format(
+        "the modes that were left out would have moved by about {:.2g} of the motion, with {:.2g} of "
+        "its velocity. Keep more modes (integrator.modes, now {}; integrator.below), or use another integrator",
+        truncation_.displacement_share(), truncation_.velocity_share(), basis_.size())};
   }
 
  private:
@@ -165,7 +165,7 @@ class Modal : public Integrator {
     const double share = begun ? truncation_.displacement_share() : share_at_start_;
     if (!begun && share == 0) return text;  // the loads will tell
     text += fmt::format("; what is left out{} is about {:.2g} of the motion", begun ? "" : " at the start", share);
-    return share > options_.rtol ? text + ", more than rtol (more modes make it less)" : text;
+    return share > options_.rtol ? text + ", more than rtol (keep more modes to reduce it)" : text;
   }
 
   // What of the initial state the modes do not represent starts vibrations that are lost.
@@ -183,8 +183,8 @@ class Modal : public Integrator {
     at_start.reach(begin_, load, 0);
     if (const double share = at_start.displacement_share(); share > kMisfit)
       throw ConfigError(fmt::format(
-          "the modes that are kept ({}) do not hold the motion that the initial state and the loads start: about "
-          "{:.2g} of it is in those left out; keep more of them (`modes`, `below`), or take another integrator",
+          "the modes kept ({}) do not contain the motion that the initial state and the loads start: about "
+          "{:.2g} of it is in those left out; keep more of them (`modes`, `below`), or use another integrator",
           basis_.size(), share));
     share_at_start_ = at_start.displacement_share();
   }

@@ -26,9 +26,9 @@ double hertz(double lambda) { return std::sqrt(lambda) / (2 * std::numbers::pi);
 void require_linear(const Model& model) {
   if (!model.traits().linear)
     throw ConfigError(
-        "modal integrates linear models only, and this one is not: set `elasticity.kinematics: linear` and take no "
-        "ground, no pressure that follows and no springs or dashpots that turn, or take another integrator");
-  if (!model.pattern().symmetric) throw ConfigError("modal needs a symmetric stiffness; take another integrator");
+        "modal integrates linear models only, and this one is not: set `elasticity.kinematics: linear` and use no "
+        "ground, following pressure or turning springs and dashpots, or use another integrator");
+  if (!model.pattern().symmetric) throw ConfigError("modal needs a symmetric stiffness; use another integrator");
 }
 
 Vector root_of_diagonal(const Pattern& pattern, const std::vector<double>& M) {
@@ -100,8 +100,9 @@ void ModalBasis::take_modes(const ModeLimit& limit) {
   if (limit.modes) take_count(*limit.modes);
   else take_below(*limit.below);
   if (lambda_.minCoeff() < 0)
-    throw ConfigError("the state of rest is not stable: modal needs a stiffness without negative eigenvalues; take "
-                      "another integrator");
+    throw ConfigError(
+        "the state of rest is not stable: modal needs a stiffness without negative eigenvalues; use another "
+        "integrator");
   if (!complete_ && next_lambda_ == 0)
     throw ConfigError(fmt::format("{} modes leave out motions without stiffness, such as those of a body that nothing "
                                   "holds (6); ask for more modes",
@@ -127,7 +128,7 @@ void ModalBasis::take_below(double frequency) {
     if (complete_ || next_lambda_ >= limit) break;
     if (count >= kMostModes)
       throw ConfigError(fmt::format("more than {} modes lie below {:.6g} Hz, the last of them at {:.6g} Hz; lower "
-                                    "`below`, or take another integrator",
+                                    "`below`, or use another integrator",
                                     count, frequency, hertz(lambda_[lambda_.size() - 1])));
   }
   const auto kept = static_cast<Eigen::Index>(
@@ -193,7 +194,7 @@ void ModalBasis::refuse_coupled_damping(double share) const {
                        : std::pair{"damping that differs among regions", "Give all regions the same stiffness damping"};
   throw ConfigError(fmt::format(
       "modal needs damping that does not couple the modes, alpha M + beta K; here {} couples them (to {:.2g} of an "
-      "amplitude, {:.0e} is allowed). {}, or take another integrator",
+      "amplitude, {:.0e} is allowed). {}, or use another integrator",
       what, share, kCoupling, remedy));
 }
 
@@ -210,7 +211,7 @@ void ModalBasis::factor() {
     if (solver_->factor(values.data()) == FactorStatus::ok) return;
   }
   throw RunError("the stiffness is not positive definite, and no small shift makes it so: modal has no static response "
-                 "of the modes left out; take another integrator");
+                 "of the modes left out; use another integrator");
 }
 
 Vector ModalBasis::coordinates(const Vector& q) const { return shapes_.transpose() * times_mass(q); }

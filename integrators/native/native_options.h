@@ -37,7 +37,7 @@ struct NewtonOptions : LinearOptions, NewtonLimits {
 template <class T>
 Spec<T> LinearOptions::spec_for() {
   auto spec = ErrorControl::spec_for<T>();
-  FixedStep::add_to(spec, "Fixed step, in place of error control.");
+  FixedStep::add_to(spec, "Fixed step, instead of error control.");
   SolverOptions::add_to(spec, SolverPaths::reduced);
   return spec;
 }
@@ -46,7 +46,7 @@ template <class T>
 Spec<T> NewtonOptions::spec_for() {
   auto spec = LinearOptions::spec_for<T>().key(
       "newton", &NewtonOptions::newton,
-      "When the tangent is made anew: when convergence asks for it, at each step, at each iteration.");
+      "When the tangent is recomputed: when convergence requires it, at each step, or at each iteration.");
   NewtonLimits::add_to(spec, "rtol, with a fixed step too", "stage");
   return spec;
 }

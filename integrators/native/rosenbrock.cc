@@ -133,7 +133,7 @@ class RosenbrockChoice : public SettableChoice<RosenbrockChoice>, public LinearO
 
 const bool rosenbrock_registered = Registry<IntegratorChoice>::add<RosenbrockChoice>(
     "rosenbrock",
-    "A Rosenbrock method of order 3 for old or inexact tangents: five linear solves a step, no iteration.");
+    "A Rosenbrock method of order 3 for old or inexact tangents: five linear solves per step, no iteration.");
 
 }  // namespace
 }  // namespace orthodyn

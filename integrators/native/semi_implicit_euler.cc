@@ -53,7 +53,7 @@ class SemiImplicitEulerChoice : public SettableChoice<SemiImplicitEulerChoice>, 
 };
 
 const bool semi_implicit_euler_registered = Registry<IntegratorChoice>::add<SemiImplicitEulerChoice>(
-    "semi_implicit_euler", "Backward Euler with one linear solve a step, as in computer graphics.");
+    "semi_implicit_euler", "Backward Euler with one linear solve per step, as in computer graphics.");
 
 }  // namespace
 }  // namespace orthodyn

@@ -12,7 +12,7 @@ SundialsIntegrator::SundialsIntegrator(std::string name, const Model& model, con
       name_(std::move(name)) {
   if (!settings.implicit) return;
   if (!model.traits().smooth && settings.options.max_newton_iterations < 2)
-    throw ConfigError("max_newton_iterations: must be at least 2 where the body may touch something, found 1");
+    throw ConfigError("max_newton_iterations: must be at least 2 if the body may touch something, found 1");
   if (settings.full) full_.emplace(model);
   else reduced_.emplace(model, settings.options.linear_solver, settings.options.tangent(), statistics_);
 }

@@ -62,7 +62,7 @@ std::string warning(const ElasticTerm& term, const Excess& e, const std::string&
           ? fmt::format("a bar of it that is pulled along this axis has no thickness left ({})",
                         describe(e.limit, e.axis))
           : fmt::format(
-                "the corotational law is not elliptic any more ({}): patterns as small as the elements then come "
+                "the corotational law is no longer elliptic ({}): patterns as small as the elements then come "
                 "from the mesh, not from the material",
                 describe(e.limit, e.axis));
   return fmt::format(

@@ -86,7 +86,7 @@ AxesRows read_axes_rows(const FilePath& file) {
   if (extension == ".vtu" || extension == ".inp") return read_axes_mesh(file);
   throw ConfigError(
       file.where,
-      fmt::format("'{}' is not a kind of file that axes are read from; known: .csv, .vtu, .inp", extension));
+      fmt::format("axes cannot be read from a file of type '{}'; known: .csv, .vtu, .inp", extension));
 }
 
 }  // namespace orthodyn

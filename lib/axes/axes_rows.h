@@ -30,7 +30,7 @@ struct AxesRows {
 };
 
 // Reads CSV with the columns a1x,a1y,a1z,a2x,a2y,a2z and, if wanted, element and a3x,a3y,a3z; or VTU with
-// cell data of three components axis_1, axis_2 and, if wanted, axis_3, or of nine axes: those of axis 1, then
+// cell data of three components axis_1, axis_2 and optionally axis_3, or of nine axes: those of axis 1, then
 // 2, then 3; or an Abaqus file whose sections have orientations. Vectors have any length but zero. Throws ConfigError
 // (see read_csv(), read_vtu()).
 AxesRows read_axes_rows(const FilePath& file);

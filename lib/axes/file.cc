@@ -13,11 +13,11 @@ class AxesFile : public AxesSource {
     static const auto s =
         Spec<AxesFile>()
             .key("file", &AxesFile::file_,
-                 "CSV with the columns a1x,a1y,a1z,a2x,a2y,a2z and, if wanted, a3x,a3y,a3z and element (index from 0, "
+                 "CSV with the columns a1x,a1y,a1z,a2x,a2y,a2z and optionally a3x,a3y,a3z and element (index from 0, "
                  "as the mesh file counts its solid elements). "
                  "Without element there is one row for each element of the mesh, in its order. Or VTU of the same mesh "
                  "with the "
-                 "cell data axis_1, axis_2 and, if wanted, axis_3, or axes (9 components: axis 1, axis 2, axis 3). "
+                 "cell data axis_1, axis_2 and optionally axis_3, or axes (9 components: axis 1, axis 2, axis 3). "
                  "Or an Abaqus file (.inp) of the same mesh, for the orientations of its sections; relative to the "
                  "scene.",
                  {.required = true})
@@ -44,7 +44,7 @@ class AxesFile : public AxesSource {
                                                         num_elements - 1));
       Mat3& Q = (*axes)[static_cast<std::size_t>(row.element)];
       if (!Q.isZero(0))
-        throw ConfigError(given.where(row), fmt::format("element {} has a row already", row.element));
+        throw ConfigError(given.where(row), fmt::format("element {} already has a row", row.element));
       Q = rotation(given, row);
     }
     note_repairs(given, notes);

@@ -18,7 +18,7 @@ struct Words<AxesRepair> {
 };
 
 inline constexpr const char* kRepairSentence =
-    "What becomes of axes that are not orthogonal or are left-handed by more than typed digits (1e-3): an "
+    "What to do with axes that are not orthogonal, or left-handed, by more than rounding (1e-3): an "
     "error, or the nearest rotation, with a note.";
 
 // What keeps the columns from being right-handed orthonormal axes to within `kTypedDigits`, or "".

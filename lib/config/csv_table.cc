@@ -43,7 +43,7 @@ void check_names(const CsvTable& table, const std::string& where, const std::vec
     double number;
     if (parse(name, number)) fail(fmt::format("found the number {} where a column name belongs", name));
     if (!known(required) && !known(optional)) fail(fmt::format("unknown column '{}'", name.substr(0, 60)));
-    if (table.column(name) != i) fail(fmt::format("column '{}' is there twice", name));
+    if (table.column(name) != i) fail(fmt::format("column '{}' occurs twice", name));
   }
   for (const auto& name : required)
     if (!table.has(name)) fail(fmt::format("column '{}' is missing", name));

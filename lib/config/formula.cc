@@ -64,7 +64,7 @@ Formula::Formula(const std::string& text, const std::vector<std::string>& variab
     parser.SetExpr(text);
     parser.Eval();
     if (parser.GetNumResults() > 1)
-      throw std::invalid_argument("It gives several values, for a comma separates them; write a decimal point.");
+      throw std::invalid_argument("It gives several values, because a comma separates them; write a decimal point.");
   } catch (const mu::Parser::exception_type& e) {
     throw std::invalid_argument(e.GetMsg());
   }

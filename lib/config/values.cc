@@ -43,7 +43,7 @@ void refuse_missing_units(const Config& list, const std::vector<double>& si, std
       const auto apart = [&](double x) { return std::max(std::abs(si[i] / x), std::abs(x / si[i])); };
       if (apart(si[k]) < kUnlike || apart(neighbour->number) > apart(si[k])) continue;
       list.at(i).fail(
-          fmt::format("unit missing: '{0}' stands beside '{1}'; write '{0} {2}', or '{0} {3}' if that is meant",
+          fmt::format("unit missing: '{0}' is next to '{1}'; write '{0} {2}', or '{0} {3}' if you mean that",
                       list.at(i).text(), list.at(k).text(), neighbour->unit, unit),
           InputFault::form);
     }

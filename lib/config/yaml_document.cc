@@ -29,7 +29,7 @@ class BoundsCheck : public YAML::EventHandler {
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (++documents_ > 1)
-      throw ConfigError(mark_text(file_, mark), "more than one YAML document; keep what stands before this place");
+      throw ConfigError(mark_text(file_, mark), "more than one YAML document; keep only what is before this place");
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
     descend(mark);
@@ -100,7 +100,7 @@ class StructureCheck {
       const std::string key = entry.first.Scalar();
       if (key == "<<") fail(entry.first, "merge keys (<<) are not supported; write the keys out");
       if (!seen.insert(key).second)
-        fail(entry.first, fmt::format("key '{}' stands twice in the same section; keep one", key));
+        fail(entry.first, fmt::format("key '{}' occurs twice in the same section; keep one", key));
       visit(entry.second, depth + 1);
     }
   }

@@ -61,7 +61,8 @@ void write_at(const YAML::Node& root, YAML::Node node, const std::string& path, 
     reached = child_path(reached, step);
     YAML::Node next = entry(node, step, reached, place);
     if (next.IsDefined() && occurrences(root, next) > 1)
-      throw ConfigError(place, fmt::format("'{}' stands in several places by an alias; change the file", reached));
+      throw ConfigError(place,
+                        fmt::format("'{}' is used in several places through an alias; change the file", reached));
     if (reached != path && (!next.IsDefined() || next.IsNull())) next = YAML::Node(YAML::NodeType::Map);
     node.reset(next);
   }

@@ -110,7 +110,7 @@ int zeros_among(const Vector& values, double largest) {
 EigenPairs first_pass(Problem& problem, double largest, int count, double& shift) {
   for (shift = kFirstShift * largest; shift <= kMostShift * largest; shift *= 100)
     if (problem.shift(shift)) return lanczos(problem, shift, count);
-  throw RunError("the stiffness is far from positive definite: no modes can be had about this state");
+  throw RunError("the stiffness is far from positive definite: modes about this state cannot be computed");
 }
 
 EigenPairs sparse(Problem& problem, double largest, int count) {
@@ -134,7 +134,7 @@ EigenPairs lowest_eigenpairs(const Pattern& pattern, const std::vector<double>& 
   if (!pattern.symmetric) throw ConfigError("modes need a symmetric stiffness");
   if (count > pattern.n)
     throw ConfigError(
-        fmt::format("{} modes were asked for, but there are {} unknowns and as many modes", count, pattern.n));
+        fmt::format("{} modes were requested, but there are {} unknowns and as many modes", count, pattern.n));
   Problem problem(pattern, K, M);
   const double largest = problem.largest();
   const bool small = pattern.n <= kDense || count + kRigid + 1 >= pattern.n / 2;

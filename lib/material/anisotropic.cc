@@ -76,7 +76,8 @@ class Anisotropic : public Material {
             {.required = needed, .unit = "Pa", .range = e.diagonal() ? kPositive : Range{}});
     }
     s.key("repair", &A::repair_,
-          "Of an unstable set. none: refuse it. shrink: multiply all constants off the diagonal by the largest factor "
+          "What to do with an unstable set. none: refuse it. shrink: multiply all constants off the diagonal by the "
+          "largest factor "
           "that makes it stable, with a warning.");
     s.check([](const A& a, const Config& config) {
       if (is_stable(a.given())) return;

@@ -50,9 +50,10 @@ class Orthotropic : public Material {
             .key("g13", &O::g13_, "Shear modulus in the plane 1-3.", modulus)
             .key("strength", &O::strength_, kStrengthSentence)
             .key("symmetrise", &O::symmetrise_,
-                 "Of measured sets with both nu_ij and nu_ji: use the mean of nu_ij/Ei and nu_ji/Ej.")
+                 "For measured sets with both nu_ij and nu_ji: use the mean of nu_ij/Ei and nu_ji/Ej.")
             .key("repair", &O::repair_,
-                 "Of an unstable set. none: refuse it. shrink: multiply all ratios by the largest factor that makes "
+                 "What to do with an unstable set. none: refuse it. shrink: multiply all ratios by the largest factor "
+                 "that makes "
                  "it stable, with a warning.")
             .check([](const O& o, const Config& config) {
               o.refuse_unpaired(config);

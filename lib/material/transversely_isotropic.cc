@@ -34,7 +34,8 @@ class TransverselyIsotropic : public Material {
             .key("shear_axial", &M::shear_axial_, "Shear modulus G12 = G13 of the planes that hold the fibre.", modulus)
             .key("strength", &M::strength_, kStrengthSentence)
             .key("repair", &M::repair_,
-                 "Of an unstable set. none: refuse it. shrink: multiply both ratios by the largest factor that makes "
+                 "What to do with an unstable set. none: refuse it. shrink: multiply both ratios by the largest factor "
+                 "that makes "
                  "it stable, with a warning.")
             .check([](const M& m, const Config& config) {
               if (m.is_given_stable()) return;

@@ -4,7 +4,7 @@ namespace orthodyn {
 
 const Spec<Clamp>& Clamp::spec() {
   static const auto s = selection_spec<Clamp>()
-                            .key("name", &Clamp::name, "For its reaction; default clamp_1, clamp_2 and so on.")
+                            .key("name", &Clamp::name, "Name of its reaction; default clamp_1, clamp_2 and so on.")
                             .key("components", &Clamp::components, "Which coordinates are held.")
                             .check([](const Clamp& clamp, const Config& config) {
                               clamp.check(config);

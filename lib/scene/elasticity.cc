@@ -29,7 +29,7 @@ const Spec<Elasticity>& Elasticity::spec() {
                "exact: gradient of the energy. warped: R sigma as in Mueller & Gross 2004 and Vega FEM, for "
                "comparison; it gains energy and exerts a net torque for anisotropic materials.")
           .key("warped_tangent", &Elasticity::warped_tangent,
-               "Of the warped force: R K R^T, or its exact unsymmetric derivative (klu, klu_full).")
+               "Tangent of the warped force: R K R^T, or its exact unsymmetric derivative (klu, klu_full).")
           .check([](const Elasticity& e, const Config& config) {
             const bool warped = e.corotation == Corotation::warped;
             if (warped && e.kinematics == Kinematics::linear)

@@ -28,7 +28,7 @@ const Spec<EventSpec>& EventSpec::spec() {
           .key("crosses", &EventSpec::crosses, "The value that it passes, in SI units or with a unit.",
                {.required = true, .unit = kUnitOfQuantity})
           .key("direction", &EventSpec::direction, "Which passings count.")
-          .key("action", &EventSpec::action, "log: a row in events.csv; stop: the run ends there, too.")
+          .key("action", &EventSpec::action, "log: a row in events.csv; stop: the run also ends there.")
           .key("name", &EventSpec::name, "Its name in events.csv; default the quantity.")
           .check([](const EventSpec& e, const Config& config) {
             if (e.name && e.name->find_first_of(",\"\n") != std::string::npos)

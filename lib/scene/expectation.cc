@@ -19,7 +19,7 @@ void check_expectation(const Expectation& e, const Config& config) {
 }  // namespace
 
 void check_take(Take take, const std::optional<double>& at, const std::optional<double>& of, const Config& config) {
-  if (at && take != Take::end) config.at("at").fail("stands in place of 'take'; remove one of them");
+  if (at && take != Take::end) config.at("at").fail("replaces 'take'; remove one of them");
   const bool compares = take == Take::drift || take == Take::gain || take == Take::onset;
   if (of && !compares) config.at("of").fail("goes with take: drift, gain or onset only");
   if (!of && take == Take::onset) config.fail("take: onset needs 'of', the size that is passed");
@@ -49,7 +49,7 @@ const Spec<Expectation>& Expectation::spec() {
                "(energy.balance, momentum.angular.z, det_f.smallest).",
                {.required = true})
           .key("take", &Expectation::take, kTakeSentence)
-          .key("at", &Expectation::at, "The value at this time, in place of `take`.", {.unit = "s"})
+          .key("at", &Expectation::at, "The value at this time, instead of `take`.", {.unit = "s"})
           .key("value", &Expectation::value, "The expected figure, in SI units or with a unit.",
                {.required = true, .unit = kUnitOfQuantity})
           .key("source", &Expectation::source, "Where the value is known from.", {.required = true})
@@ -59,7 +59,7 @@ const Spec<Expectation>& Expectation::spec() {
           .key("of", &Expectation::of, kOfSentence, {.unit = kUnitOfQuantity, .range = kPositive})
           .key("reason", &Expectation::reason, "Why the tolerance is what it is.", {.required = true})
           .key("degraded", &Expectation::degraded,
-               "Times the tolerance: what misses by less is called degraded, not failed, by `orthodyn stability`.",
+               "A multiple of the tolerance: a smaller miss counts as degraded, not failed, in `orthodyn stability`.",
                {.range = {.low = 1}})
           .check(check_expectation);
   return s;

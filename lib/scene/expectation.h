@@ -37,7 +37,7 @@ std::string figure_unit(Take take, const std::string& quantity_unit);
 
 // What the key `take` means, for those who read the input.
 inline constexpr const char* kTakeSentence =
-    "Which figure of its course over time. drift is the largest change from the start, gain the largest rise above it, "
+    "Which figure of its history. drift is the largest change from the start, gain the largest rise above it, "
     "both relative to `of`; default the initial size, for energy.balance the largest energy. onset is the time at "
     "which its size first passes `of`.";
 inline constexpr const char* kOfSentence = "What a drift or gain is relative to; the size that an onset passes.";

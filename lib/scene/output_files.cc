@@ -72,7 +72,7 @@ const Spec<Output>& Output::spec() {
           .key("frames", &Output::frames, "Frames after the initial one, evenly spaced; default 50.",
                {.range = {0, 1e6}})
           .key("history", &Output::history,
-               "When probes.csv, energy.csv and momentum.csv get their rows; default with the frames.")
+               "When rows are written to probes.csv, energy.csv and momentum.csv; default with the frames.")
           .key("times", &Output::times,
                "interpolated: frames from the integrator's own polynomial; exact: steps end on them.")
           .key("fields", &Output::fields, "Node and cell fields of the frames (see `orthodyn list fields`).")
@@ -81,17 +81,16 @@ const Spec<Output>& Output::spec() {
                "Extremes of stress and strain over the run, with place and time, for the summary and run.json: "
                "von_mises.largest, tsai_wu.largest, REGION.nodal_stress_material.11.smallest. Looked at by the history.")
           .key("reactions", &Output::reactions,
-               "Record force and torque of every clamp and motion on the body in probes.csv.")
+               "Record in probes.csv the force and torque that every clamp and motion exerts on the body.")
           .key("energy", &Output::energy, "Write energy.csv.")
           .key("accumulated_error", &Output::accumulated_error,
-               "Tell after runs of some 500 steps and more how far the errors of the steps may have added up, by "
-               "integrating a "
-               "few short parts again; costs some per cent.")
+               "After runs of about 500 steps or more, estimate how far the errors of the steps have added up by "
+               "integrating a few short parts again; costs a few per cent.")
           .key("mesh_error", &Output::mesh_error,
-               "Tell how far off the mesh may be, from stresses recovered at the nodes, at some of the outputs.")
+               "Estimate the error of the mesh from stresses recovered at the nodes, at some of the outputs.")
           .key("energy_times", &Output::energy_times,
-               "outputs: energies are computed for the rows of energy.csv; steps: after each step, too, and the drift "
-               "of the summary is over all of them. It costs about one evaluation of the forces a step.")
+               "outputs: energies are computed for the rows of energy.csv; steps: also after each step, and the drift "
+               "in the summary covers all of them. This costs about one evaluation of the forces per step.")
           .key("steps", &Output::steps, "Write steps.csv.")
           .key("momentum", &Output::momentum, "Write momentum.csv.")
           .check([](const Output& output, const Config& config) {

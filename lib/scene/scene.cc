@@ -51,19 +51,18 @@ const Spec<Scene>& Scene::spec() {
                "rest: from the rest shape. equilibrium: from the static equilibrium under the loads at the start.",
                {.with = kDynamic})
           .key("initial", &Scene::initial, "Initial state; default at rest.", {.with = kDynamic})
-          .key("time", &Scene::time,
-               "Time span; in statics may be left out: its end is when factors of loads are taken.",
+          .key("time", &Scene::time, "Time span; optional in statics, where factors of loads are evaluated at its end.",
                {.fallback = "{end: 0}"})
           .key("integrator", &Scene::integrator, "The integrator.", {.fallback = "{type: auto}", .with = kDynamic})
-          .key("statics", &Scene::statics, "How equilibrium is found, by analysis: static and start: equilibrium.")
+          .key("statics", &Scene::statics, "How equilibrium is found, for analysis: static and start: equilibrium.")
           .key("buckling", &Scene::buckling, "What a buckling analysis looks for.",
                {.with = Condition{"analysis", "buckling"}})
-          .key("events", &Scene::events, "Values that quantities cross: logged to events.csv, or the end of the run.",
-               {.with = kDynamic})
+          .key("events", &Scene::events,
+               "Values that quantities cross; a crossing is logged to events.csv or ends the run.", {.with = kDynamic})
           .key("output", &Scene::output, "What is written.")
           .key("checkpoint", &Scene::checkpoint,
-               "Keep the state every so often, so that `orthodyn run --resume` can go on after a crash; {} for "
-               "every minute.",
+               "Save the state at intervals, so that `orthodyn run --resume` can continue after a crash; {} for every "
+               "minute.",
                {.with = kDynamic})
           .key("expect", &Scene::expect, "Known figures, which `orthodyn verify` checks.");
   return s;

@@ -190,7 +190,7 @@ TEST_F(AxesFromFiles, RowsMayNameTheirElement) {
 
 TEST_F(AxesFromFiles, RowsTwiceForAnElementAreRefused) {
   EXPECT_TRUE(holds(refused(write("element,a1x,a1y,a1z,a2x,a2y,a2z\n0,1,0,0,0,1,0\n0,1,0,0,0,1,0\n")),
-                    ".csv:3: element 0 has a row already"));
+                    ".csv:3: element 0 already has a row"));
 }
 
 TEST_F(AxesFromFiles, RowsMoreOrFewerThanElementsAreRefused) {
@@ -222,7 +222,7 @@ TEST_F(AxesFromFiles, BadTextIsRefusedWithItsLine) {
   EXPECT_TRUE(holds(refused(write(header)), "no rows"));
   EXPECT_TRUE(holds(refused(write("")), "no rows"));
   EXPECT_TRUE(holds(refused(write("1,0,0,0,1,0\n")), ".csv:1: found the number 1 where a column name belongs"));
-  EXPECT_TRUE(holds(refused(write("a1x,a1x\n")), "column 'a1x' is there twice"));
+  EXPECT_TRUE(holds(refused(write("a1x,a1x\n")), "column 'a1x' occurs twice"));
   EXPECT_TRUE(holds(refused(write("a1x,b\n")), "unknown column 'b'"));
   EXPECT_TRUE(holds(refused(write("a1x,a1y,a1z,a2x,a2y\n")), "column 'a2z' is missing"));
   EXPECT_TRUE(holds(refused(write("a1x,a1y,a1z,a2x,a2y,a2z,a3x\n1,0,0,0,1,0,0\n")), "axis 3 needs all of"));
@@ -231,7 +231,7 @@ TEST_F(AxesFromFiles, BadTextIsRefusedWithItsLine) {
   EXPECT_TRUE(holds(refused("/nowhere.csv"), "no such file: /nowhere.csv"));
   const auto unknown = std::filesystem::path(testing::TempDir()) / "axes.txt";
   std::ofstream(unknown) << header;
-  EXPECT_TRUE(holds(refused(unknown.string()), "'.txt' is not a kind of file"));
+  EXPECT_TRUE(holds(refused(unknown.string()), "axes cannot be read from a file of type '.txt'"));
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ TEST(Config, ReadsLinesThatEndWithCarriageReturns) {
 
 TEST(ConfigRefuses, AKeyGivenTwice) {
   EXPECT_EQ(refusal_of("a:\n  x: 1\n  y: 2\n  x: 3\n"),
-            "a.yaml:4:3: key 'x' stands twice in the same section; keep one");
+            "a.yaml:4:3: key 'x' occurs twice in the same section; keep one");
 }
 
 TEST(ConfigRefuses, AKeyGivenTwiceInAnEntryOfAList) {

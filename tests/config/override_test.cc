@@ -85,7 +85,7 @@ TEST(Override, IsPartOfTheDump) {
 
 TEST(Override, OfAnAliasedValueIsRefusedRatherThanChangedInTwoPlaces) {
   const std::string message = refusal([] { Config::from_text("a: &x {v: 1}\nb: *x\n").override_with("b.v=2"); });
-  EXPECT_TRUE(holds(message, "--set b.v=2: 'b' stands in several places by an alias"));
+  EXPECT_TRUE(holds(message, "--set b.v=2: 'b' is used in several places through an alias"));
 }
 
 TEST(Override, WithoutAnEqualsSignIsRefused) {

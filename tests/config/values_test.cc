@@ -76,8 +76,8 @@ TEST(ReadVec3, AsksForAUnitThatItsNeighbourHas) {
   const Rule stiffness{.unit = "Pa"}, length{.unit = "m"};
   EXPECT_EQ(
       refusal_of<Vec3>("[10.8 GPa, 0.84, 0.46]", stiffness),
-      "a.yaml:1:12: 1: unit missing: '0.84' stands beside '10.8 GPa'; write '0.84 GPa', or '0.84 Pa' if that is meant");
-  EXPECT_TRUE(holds(refusal_of<Vec3>("[2, 2, 1 um]", length), "a.yaml:1:2: 0: unit missing: '2' stands beside '1 um'"));
+      "a.yaml:1:12: 1: unit missing: '0.84' is next to '10.8 GPa'; write '0.84 GPa', or '0.84 Pa' if you mean that");
+  EXPECT_TRUE(holds(refusal_of<Vec3>("[2, 2, 1 um]", length), "a.yaml:1:2: 0: unit missing: '2' is next to '1 um'"));
   EXPECT_TRUE(holds(refusal_of<Vec3>("[2, 2, 3 km]", length), "write '2 km'"));
   EXPECT_EQ(read<Vec3>("[12e9, 0.84 GPa, 0.46 GPa]", stiffness), Vec3(12e9, 0.84e9, 0.46e9));  // of --set young.0=12e9
   EXPECT_EQ(read<Vec3>("[0, 0, -9.81 m/s^2]", {.unit = "m/s^2"}), Vec3(0, 0, -9.81));

@@ -69,7 +69,7 @@ TEST(ExplicitMethods, RefuseARunOfMoreStepsThanAllowedAndNameTheirNumber) {
     } catch (const ConfigError& e) {
       const std::string message = e.what();
       EXPECT_NE(message.find(steps), std::string::npos) << message;
-      EXPECT_NE(message.find("take an implicit integrator, or raise max_steps"), std::string::npos) << message;
+      EXPECT_NE(message.find("use an implicit integrator, or raise max_steps"), std::string::npos) << message;
     }
   }
   EXPECT_NO_THROW(make(model, "{type: arkode_erk, max_steps: 2000000}"));

@@ -4,6 +4,7 @@ Run with  /usr/bin/python3 -m unittest tests/draw/test_report.py
 """
 import json
 import math
+import random
 import re
 import sys
 import unittest
@@ -13,10 +14,10 @@ sys.dont_write_bytecode = True
 TOOLS = Path(__file__).resolve().parents[2] / "tools"
 sys.path[:0] = [str(TOOLS), str(Path(__file__).resolve().parent)]
 
-from draw.report import comparable, cost, theme, tolerance, formatting  # noqa: E402
+from draw.report import comparable, cost, drift, theme, tolerance, formatting  # noqa: E402
 from draw.report.layout import NARROW, WIDE  # noqa: E402
 from draw.report.work_precision import draw_work_precision  # noqa: E402
-from synthetic_comparison import comparison, failed  # noqa: E402
+from synthetic_comparison import comparison, completed, failed  # noqa: E402
 from report_page import EVIL, OfAComparison, Page  # noqa: E402
 
 
@@ -44,6 +45,41 @@ class TheNumbers(OfAComparison):
         self.assertIn("For an error of 1e-3 (0.1 %), ida_bdf is fastest: 0.12 s; next is cvode_bdf with 0.24 s.", text)
         self.assertIn("To reach an error of 1e-3 (0.1 %) on damped_beam: ida_bdf 0.12 s, cvode_bdf 0.24 s (2.0×); "
                       "arkode_dirk did not reach it (best 3e-3).", text)
+
+    def test_drifts_are_compared_at_the_tolerance_that_most_methods_share(self):
+        content = self.small(methods=3, points=4)
+        rtols = {"cvode_bdf": (1e-2, 1e-3, 1e-4), "ida_bdf": (1e-3, 1e-4), "arkode_dirk": (1e-2, 1e-5)}
+        content["points"] = [p for p in (completed("damped_beam", m, v, random.Random(1)) for m in rtols
+                                         for v in rtols[m])]
+        read = self.read(content)
+        self.assertEqual(drift.shared_tolerance(read, read.problems[0]), 1e-3)
+        shown = {p.method: p.control.value for p in drift.drift_runs(read, read.problems[0])}
+        self.assertEqual(shown, {"cvode_bdf": 1e-3, "ida_bdf": 1e-3, "arkode_dirk": 1e-2})
+        text = self.html(content)
+        self.assertIn("Energy drift at rtol 1e-3", text)
+        self.assertIn("arkode_dirk, rtol 1e-2", text)
+
+    def test_a_method_without_a_finished_run_stands_last_everywhere(self):
+        content = self.small(problems=2, methods=3, points=2)
+        for k, point in enumerate(content["points"]):
+            if point["method"] == "cvode_bdf":
+                content["points"][k] = failed(point["problem"], "cvode_bdf", point["control"]["value"], "refused")
+        content["answers"] = [{"problem": p["id"], "error": "displacement.l2", "target": 1e-9, "methods": [
+            {"method": "cvode_bdf", "seconds": None, "best_error": None},
+            {"method": "ida_bdf", "seconds": None, "best_error": 3e-3},
+            {"method": "arkode_dirk", "seconds": None, "best_error": 2e-3}]} for p in content["problems"]]
+        for table in Page(self.html(content)).tables:
+            names = list(dict.fromkeys(row[0] for row in table if row[0] in ("cvode_bdf", "ida_bdf", "arkode_dirk")))
+            if len(names) > 1 and "cvode_bdf" in names and "Problem" not in table[0]:  # that one is by problem
+                self.assertEqual(names[-1], "cvode_bdf", table)
+
+    def test_methods_that_agree_with_each_other_put_the_reference_in_doubt(self):
+        content, words = self.small(), "agree with each other rather than with the reference"
+        self.assertNotIn(words, Page(self.html(content)).text)
+        for k, point in enumerate(content["points"]):
+            if point["errors"]:
+                point["errors"]["displacement"]["l2"] = 3.2e-3 * (1 + 1e-3 * k)
+        self.assertIn(words, Page(self.html(content)).text)
 
     def test_methods_that_are_equally_fast_are_named_together(self):
         answers = [{"problem": "damped_beam", "error": "displacement.l2", "target": 1e-3, "methods": [

@@ -49,6 +49,18 @@ class TheNumbers(OfAMatrix):
         self.assertEqual([(name, t["pass"], t["fail"]) for name, t in ranked(read, "warped")],
                          [("gamma", 1, 0), ("alpha", 1, 1), ("beta", 0, 1)])
 
+    def test_an_integrator_that_refuses_everything_stands_last(self):
+        grades = {"alpha": ("refused", "refused"), "beta": ("fail", "fail"), "gamma": ("fail", "degraded")}
+        content = matrix(trials=[trial(case, "exact", name, grade) for name, both in grades.items()
+                                 for case, grade in zip(CASES, both)])
+        names = [name for name, _ in ranked(self.read(content), "exact")]
+        self.assertEqual(names, ["gamma", "beta", "alpha"])
+
+    def test_a_suspected_expectation_is_said_in_the_answer(self):
+        sentence = "mirrored, exact: all 3 integrators that finished agree on x"
+        self.assertIn(f"Expectation in doubt. {sentence}.", self.parsed(matrix(suspected=[sentence])).text)
+        self.assertNotIn("in doubt", self.parsed(matrix()).text)
+
     def test_what_a_variant_loses(self):
         read = self.read(matrix())
         self.assertEqual([(t.case, t.integrator) for t in lost(read, "warped", "exact")],

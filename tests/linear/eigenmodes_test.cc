@@ -90,7 +90,7 @@ TEST(Eigenmodes, RefuseMoreModesThanUnknowns) {
     lowest(chain(4, true), 5);
     ADD_FAILURE() << "accepted";
   } catch (const ConfigError& e) {
-    EXPECT_STREQ(e.what(), "5 modes were asked for, but there are 4 unknowns and as many modes");
+    EXPECT_STREQ(e.what(), "5 modes were requested, but there are 4 unknowns and as many modes");
   }
   EXPECT_EQ(lowest(chain(4, true), 4).values.size(), 4);
 }

@@ -188,7 +188,7 @@ TEST(WriteMesh, ReplacesNothingUnasked) {
   const TemporaryFolder folder;
   folder.write("mesh.ele", "mine");
   EXPECT_CONTAINS(refusal_of([&] { write_mesh(sample(), folder.path("mesh.node"), false); }),
-                  "mesh.ele: is there already; --force");
+                  "mesh.ele: already exists; --force");
   EXPECT_FALSE(std::filesystem::exists(folder.path("mesh.node")));
   write_mesh(sample(), folder.path("mesh.node"), true);
   EXPECT_EQ(read_mesh(folder.path("mesh.ele")).mesh.tets, sample().mesh.tets);

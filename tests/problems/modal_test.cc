@@ -247,7 +247,7 @@ TEST(Modal, RefusesDashpotsGroundAndTooFewModesForAStart) {
          "dashpots couples them");
   expect(refusal(clamp + "terms: [{type: ground, point: [0, 0, -1], normal: [0, 0, 1], stiffness: 1e6}]\n",
                  "type: modal, modes: 5"),
-         "take no ground");
+         "use no ground");
   expect(refusal("", "type: modal, modes: 5"), "ask for more modes");
   expect(refusal(clamp + "initial: {velocity_field: [0, 0, \"x > 0.9 ? 1 : 0\"]}\n", "type: modal, modes: 1"),
          "keep more of them");

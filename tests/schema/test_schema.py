@@ -223,7 +223,7 @@ class Init(unittest.TestCase):
             path.write_text("mine")
             again = subprocess.run([EXECUTABLE, "init", "scene", path], capture_output=True, text=True)
             self.assertEqual(again.returncode, 2)
-            self.assertIn("exists already", again.stderr)
+            self.assertIn("already exists", again.stderr)
             self.assertEqual(path.read_text(), "mine")
 
 

@@ -140,7 +140,7 @@ TEST_F(CompareMeshes, AReferenceOfAnotherMotionIsRefused) {
                           "mesh.parts.foot.max: [1, 1, 1]", "mesh.type: cylinder"}) {
     const std::string said = refusal(points + "{" + key + "}}\n");
     EXPECT_NE(said.find("c.yaml:6"), std::string::npos) << said;
-    EXPECT_NE(said.find("reference of another motion"), std::string::npos) << said;
+    EXPECT_NE(said.find("reference for a different motion"), std::string::npos) << said;
   }
   EXPECT_NE(refusal(points + "{mesh.order: 2}, kind: none}\n").find("remove 'kind: none', or 'set'"),
             std::string::npos);
@@ -150,7 +150,7 @@ TEST_F(CompareMeshes, KinematicsThatWouldBeChosenForEachToleranceAreRefused) {
   const std::string said =
       refusal("scenes: [{file: swing.yaml, set: {elasticity.kinematics: auto}}]\nintegrators: [cvode_bdf]\n"
               "tolerances: [1e-2]\n");
-  EXPECT_NE(said.find("kinematics: auto would choose another model for each tolerance"), std::string::npos) << said;
+  EXPECT_NE(said.find("kinematics: auto would choose a different model for each tolerance"), std::string::npos) << said;
 }
 
 TEST_F(CompareMeshes, ASceneWithoutProbesIsRefusedWithTheRemedy) {

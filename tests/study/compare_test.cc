@@ -314,7 +314,7 @@ TEST_F(Compare, SaysSoWhereNothingCouldBeMeasuredAndTriesAgainWhenAsked) {
       << failed.output;
   const auto kept = compare();
   EXPECT_NE(kept.output.find("(done before)"), std::string::npos) << kept.output;
-  EXPECT_NE(kept.output.find("1 that met the limit of time or memory; --retry"), std::string::npos) << kept.output;
+  EXPECT_NE(kept.output.find("1 that reached the limit of time or memory; --retry"), std::string::npos) << kept.output;
   const auto again = compare(" --retry");
   EXPECT_EQ(again.output.find("(done before)"), std::string::npos) << again.output;
 }

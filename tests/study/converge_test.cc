@@ -150,10 +150,11 @@ analysis: static
 }
 
 TEST_F(Converge, RefusesWhatItCannotDo) {
-  for (const auto& [options, message] : {std::pair{"--order 3", "--order: expected 1, 2 or 1,2, found '3'"},
-                                         {"--quantity tip.nothing", "unknown quantity 'tip.nothing'"},
-                                         {"--quantity tip.displacement", "choose .x, .y, .z or .magnitude"},
-                                         {"--quantity \"max of tip.displacement.z\"", "of a static analysis only"}}) {
+  for (const auto& [options, message] :
+       {std::pair{"--order 3", "--order: expected 1, 2 or 1,2, found '3'"},
+        {"--quantity tip.nothing", "unknown quantity 'tip.nothing'"},
+        {"--quantity tip.displacement", "choose .x, .y, .z or .magnitude"},
+        {"--quantity \"max of tip.displacement.z\"", "a static analysis knows only"}}) {
     const auto done = converge(options);
     EXPECT_EQ(done.exit_code, 2) << options;
     EXPECT_NE(done.output.find(message), std::string::npos) << done.output;

@@ -4,6 +4,7 @@
 
 #include "lib/study/jobs/json_values.h"
 #include "lib/study/stability/case_grade.h"
+#include "lib/study/stability/suspected.h"
 #include "tests/simulation/run_program.h"
 
 namespace orthodyn::study::stability::stability_test {
@@ -48,6 +49,43 @@ TEST_F(StabilityCommand, GradesByTheDistanceInTolerances) {
   write("fall.yaml", expecting(5.105, ", degraded: 100"));
   ASSERT_EQ(stability().exit_code, 0);
   EXPECT_EQ(grade(0), "degraded");
+}
+
+TEST_F(StabilityCommand, SuspectsAnExpectationThatAllIntegratorsMissAlike) {
+  write("fall.yaml", expecting(5.105));
+  write("m.yaml", kMatrix);
+  const auto done = stability();
+  EXPECT_NE(done.output.find("all 2 integrators that finished agree on end of corner.displacement.z"),
+            std::string::npos)
+      << done.output;
+  ASSERT_EQ(table().at("suspected").size(), 1u);
+  write("fall.yaml", expecting(4.905));
+  stability();
+  EXPECT_TRUE(table().at("suspected").empty());
+}
+
+Json trial(const std::string& integrator, const std::string& grade, const Json& computed) {
+  return {{"case", "fall"},
+          {"variant", "default"},
+          {"status", "completed"},
+          {"integrator", integrator},
+          {"grade", grade},
+          {"worst", {{"title", "depth"}, {"computed", computed}, {"expected", 2}, {"limit", 0.1}}}};
+}
+
+TEST(SuspectedExpectations, AreThoseThatAllMissWithinTheLimitOfEachOther) {
+  const Json cases = Json::array({{{"label", "fall"}, {"model", ""}}});
+  const auto count = [&](const Json& first, const Json& second) {
+    return suspected_expectations(cases, Json::array({first, second})).size();
+  };
+  EXPECT_EQ(count(trial("a", "fail", 3.0), trial("b", "fail", 3.05)), 1u);
+  EXPECT_EQ(count(trial("a", "fail", 3.0), trial("b", "degraded", 3.05)), 1u);
+  EXPECT_EQ(count(trial("a", "fail", 3.0), trial("b", "fail", 3.2)), 0u);
+  EXPECT_EQ(count(trial("a", "fail", 3.0), trial("b", "pass", 2.05)), 0u);
+  EXPECT_EQ(count(trial("a", "fail", 3.0), trial("b", "fail", nullptr)), 0u);
+  const Json explained = Json::array({{{"label", "fall"}, {"model", "why"}}});
+  const Json alike = Json::array({trial("a", "fail", 3.0), trial("b", "fail", 3.0)});
+  EXPECT_TRUE(suspected_expectations(explained, alike).empty());
 }
 
 TEST_F(StabilityCommand, SaysWhatWasExpectedAndLeavesTheLastState) {
@@ -113,7 +151,8 @@ TEST_F(StabilityCommand, ARunThatDoesNotEndFails) {
   EXPECT_EQ(grade(1), "fail");
   EXPECT_EQ(table().at("trials").at(1).at("reason"), "time limit");
   const auto again = stability();
-  EXPECT_NE(again.output.find("1 that met the limit of time or memory; --retry"), std::string::npos) << again.output;
+  EXPECT_NE(again.output.find("1 that reached the limit of time or memory; --retry"), std::string::npos)
+      << again.output;
   const auto retried = stability(" --retry");
   EXPECT_EQ(retried.output.find("(done before)"), std::string::npos) << retried.output;
   EXPECT_EQ(retried.output.find("--retry"), std::string::npos) << retried.output;

@@ -148,7 +148,7 @@ TEST_F(SweepDesign, GivesFormulasOnlyNamesThatTheyCanHave) {
 TEST_F(SweepDesign, RefusesTwoVariablesThatSetTheSamePath) {
   const std::string head = std::string(kFigure) + "vary:\n";
   EXPECT_THAT(complaint(head + "  materials.soft.nu: [0.1, 0.2]\n  kind: {a: {materials.soft.nu: 0.3}}\n"),
-              AllOf(HasSubstr("s.yaml:5:"), HasSubstr("s.yaml:4:"), HasSubstr("only one of both can hold")));
+              AllOf(HasSubstr("s.yaml:5:"), HasSubstr("s.yaml:4:"), HasSubstr("only one of the two can apply")));
   EXPECT_THAT(complaint(head + "  a: {x: {gravity: [0, 0, -1]}}\n  b: {y: {gravity: [0, 0, -2]}}\n"),
               AllOf(HasSubstr("s.yaml:5:"), HasSubstr("s.yaml:4:")));
   // The whole after its part takes the part away; the part after the whole is what it says.
@@ -279,8 +279,8 @@ TEST_F(SweepDesign, RefusesColumnsThatTheTableHasAlready) {
   refused("steps: {mode: 1}", "a column 'steps' of its own");
   refused("steps: {cost: forces}", "a column 'steps' of its own");
   refused("'': {mode: 1}", "has no name");
-  refused("nu: {mode: 1}", "a column 'nu' already, of ");
-  refused("{f: {mode: 1, closed_form: 1}, f.closed_form: {mode: 2}}", "a column 'f.closed_form' already");
+  refused("nu: {mode: 1}", "already has a column 'nu', of ");
+  refused("{f: {mode: 1, closed_form: 1}, f.closed_form: {mode: 2}}", "already has a column 'f.closed_form'");
   EXPECT_EQ(complaint(head + "steps: {cost: steps}"), "");
   EXPECT_THAT(complaint(kFigure + std::string("vary: {folder: [1, 2]}\ndefinitions: {a: folder}")),
               AllOf(HasSubstr("s.yaml:3:"), HasSubstr("a column 'folder' of its own")));

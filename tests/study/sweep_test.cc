@@ -218,7 +218,7 @@ TEST_F(SweepCommand, TriesFailuresAgainWhereThatIsAskedFor) {
   const auto kept = sweep();
   EXPECT_EQ(kept.exit_code, 0);
   EXPECT_NE(kept.output.find(": time limit: on a slow machine"), std::string::npos) << kept.output;
-  EXPECT_NE(kept.output.find("1 that met the limit of time or memory; --retry"), std::string::npos) << kept.output;
+  EXPECT_NE(kept.output.find("1 that reached the limit of time or memory; --retry"), std::string::npos) << kept.output;
   const auto again = sweep("--retry");
   EXPECT_EQ(again.exit_code, 0);
   EXPECT_EQ(again.output.find("failed"), std::string::npos) << again.output;

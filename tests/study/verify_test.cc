@@ -107,7 +107,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{"quantity: corner.displacement.z, value: 1", "exactly one of relative, absolute"},
                     Refusal{"quantity: corner.displacement.z, value: 0, relative: 1e-3", "value 0"},
                     Refusal{"quantity: corner.displacement.z, value: 1, relative: 1, at: 3", "time span"},
-                    Refusal{"quantity: corner.displacement.z, value: 1, relative: 1, at: 1, take: max", "in place of"},
+                    Refusal{"quantity: corner.displacement.z, value: 1, relative: 1, at: 1, take: max",
+                            "replaces 'take'"},
                     Refusal{"quantity: corner.displacement.z, value: 1, relative: 1, of: 2", "take: drift"}));
 
 TEST_F(Verify, RefusesAFolderWithoutCasesAndASceneWithoutExpectations) {

@@ -5,7 +5,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.patches import Rectangle
 
 from .colouring import CATEGORIES, NOT_A_NUMBER
-from .style import FAINT, TEXT
+from .style import FAINT
 from .units import length_label, round_length
 
 AXIS_COLOURS = ("#c0392b", "#2e8b57", "#2f5fb3")  # x red, y green, z blue
@@ -37,7 +37,7 @@ def scale_bar(axes, x, y, metres_per_inch, longest=1.1):
     length = round_length(longest * metres_per_inch)
     width = length / metres_per_inch
     axes.plot([x, x, x, x + width, x + width, x + width], [y - .04, y + .04, y, y, y - .04, y + .04],
-              color=TEXT, lw=1.1, solid_joinstyle="miter")
+              color=matplotlib.rcParams["text.color"], lw=1.1, solid_joinstyle="miter")
     axes.text(x + width / 2, y + 0.09, length_label(length), ha="center", va="bottom", fontsize=8)
 
 

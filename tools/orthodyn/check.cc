@@ -116,7 +116,7 @@ void print_cost(const Setup& setup) {
                100 * cost.force / all.force, 1e3 * cost.tangent, 100 * cost.tangent / all.tangent);
   const auto sentences = dispensable(setup, costs);
   fmt::print("could be left out at an accuracy of {:.0e}\n", accuracy_asked_for(setup.scene));
-  if (sentences.empty()) fmt::print("  nothing that the linear response tells of\n");
+  if (sentences.empty()) fmt::print("  nothing, as far as the linear response shows\n");
   for (const auto& sentence : sentences) fmt::print("  {}\n", sentence);
 }
 
@@ -141,7 +141,7 @@ int check(const CheckArguments& arguments) {
   auto [setup, has_time] = set_up_without_time(arguments.scene, arguments.changes);
   const FemModel& model = *setup.built.model;
   const auto& parts = model.parts();
-  fmt::print("{}: valid{}\n", arguments.scene, has_time ? "" : ", but for the missing 'time'");
+  fmt::print("{}: valid{}\n", arguments.scene, has_time ? "" : ", except for the missing 'time'");
   fmt::print("mesh\n  {} nodes, {} elements, regions {}\n", parts.mesh.nodes.size(), parts.mesh.tets.size(),
              join(parts.mesh.region_names));
   const Box box = bounding_box(parts.mesh);
@@ -173,7 +173,7 @@ void declare(CheckArguments& arguments, CommandOptions& options) {
 
 const CommandRegistration check_command({.order = 20,
                                          .name = "check",
-                                         .sentence = "Read, validate and build a scene, and say what it consists of.",
+                                         .sentence = "Read, check and build a scene, and describe it.",
                                          .examples = R"(
   orthodyn check configs/scenes/laminate.yaml
   orthodyn check configs/scenes/laminate.yaml --axes)"},

@@ -1,7 +1,7 @@
 // A subcommand of `orthodyn`. Each has a file of its own, which declares it and registers it:
 //
 //   void declare(ConvertArguments& arguments, CommandOptions& options) {
-//     options.flag("--force", arguments.force, "Replace files that are there already.");
+//     options.flag("--force", arguments.force, "Replace existing files.");
 //   }
 //   int convert(const ConvertArguments& arguments) { ... return 0; }
 //   const CommandRegistration convert_command({.order = 80, .name = "convert", .sentence = "..."}, declare, convert);

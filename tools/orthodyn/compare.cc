@@ -106,7 +106,8 @@ void declare_comparison(StudyArguments& arguments, CommandOptions& options) {
 const CommandRegistration compare_command(
     {.order = 40,
      .name = "compare",
-     .sentence = "Compare integrators on scenes: error against time, as a report, CSV and JSON. Run again, it goes on.",
+     .sentence =
+         "Compare integrators on scenes: error against time, as a report, CSV and JSON. Run it again to continue.",
      .examples = R"(
   orthodyn compare configs/comparisons/damped_beam.yaml
   orthodyn compare configs/comparisons/space_and_time.yaml   meshes and methods: total error, and its front

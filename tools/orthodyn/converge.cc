@@ -41,7 +41,7 @@ Convergence wanted_of(const ConvergeArguments& arguments) {
   if (!(arguments.seconds > 0)) throw ConfigError("--seconds: must be positive");
   for (const auto& assignment : arguments.set)
     if (assignment.starts_with("mesh.order="))
-      throw ConfigError("--set " + assignment + ": is what this command varies; use --order");
+      throw ConfigError("--set " + assignment + ": is varied by this command; use --order");
   return {.file = arguments.file,
           .set = arguments.set,
           .levels = arguments.levels,
@@ -109,24 +109,22 @@ void declare(ConvergeArguments& arguments, CommandOptions& options) {
   options.value("--order", arguments.orders, "Linear elements, quadratic ones or both: 1, 2 or 1,2.").show_default();
   options
       .repeated("--quantity", arguments.quantities,
-                "What to look at: tip.displacement.z, \"max of tip.displacement.z\", energy.elastic. Default: what the "
+                "What to compute: tip.displacement.z, \"max of tip.displacement.z\", energy.elastic. Default: what the "
                 "scene expects, or how far its probes move.")
       .type("NAME");
-  options.value("--modes", arguments.modes, "Look at so many of the lowest natural frequencies.").range(0, 100);
+  options.value("--modes", arguments.modes, "Compute this many of the lowest natural frequencies.").range(0, 100);
   options.value("--seconds", arguments.seconds, "Wall time that one mesh may take.").show_default();
 }
 
-const CommandRegistration converge_command(
-    {.order = 55,
-     .name = "converge",
-     .sentence =
-         "A scene on finer and finer meshes: errors in space, orders, limits, and what they cost. Run again, it "
-         "goes on.",
-     .examples = R"(
+const CommandRegistration converge_command({.order = 55,
+                                            .name = "converge",
+                                            .sentence = "A scene on finer and finer meshes: errors in space, orders, "
+                                                        "limits, and what they cost. Run it again to continue.",
+                                            .examples = R"(
   orthodyn converge configs/scenes/shelf.yaml --set mesh.cells=[8,2,1] --levels 3
   orthodyn converge configs/scenes/cantilever.yaml --quantity "max of tip.displacement.z" --order 2
   orthodyn converge mine.yaml --modes 3        natural frequencies)"},
-    declare, converge);
+                                           declare, converge);
 
 }  // namespace
 

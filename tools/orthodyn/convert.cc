@@ -33,15 +33,17 @@ int convert(const ConvertArguments& arguments) {
 
 void declare(ConvertArguments& arguments, CommandOptions& options) {
   options.value("in", arguments.in, "The mesh to read: " + known_mesh_endings() + ".").required().type("IN");
-  options.value("out", arguments.out, "The mesh to write; what its format cannot hold is said.").required().type("OUT");
+  options.value("out", arguments.out, "The mesh to write; what its format cannot hold is reported.")
+      .required()
+      .type("OUT");
   options.value("--scale", arguments.scale, "Multiplies coordinates: 0.001 from mm to m.").type("FACTOR");
-  options.flag("--force", arguments.force, "Replace files that are there already.");
+  options.flag("--force", arguments.force, "Replace existing files.");
 }
 
 const CommandRegistration convert_command(
     {.order = 80,
      .name = "convert",
-     .sentence = "A mesh from one format to another, by the endings of the names.",
+     .sentence = "Convert a mesh from one format to another, by the endings of the file names.",
      .examples = R"(
   orthodyn convert part.msh part.vtu
   orthodyn convert part.inp part.msh --scale 0.001)"},

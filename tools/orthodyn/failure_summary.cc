@@ -18,8 +18,7 @@ void FailureSummary::print() const {
 void tell_of_kept_limits(std::size_t count) {
   if (count > 0)
     fmt::print(stderr,
-               "kept from an earlier run: {} that met the limit of time or memory; --retry tries what failed "
-               "again\n",
+               "kept from an earlier run: {} that reached the limit of time or memory; --retry repeats what failed\n",
                count);
 }
 

@@ -192,10 +192,10 @@ int init(const InitArguments& arguments) {
   if (start == starts().end()) {
     std::vector<std::string> names;
     for (const auto& [name, text] : starts()) names.push_back(name);
-    throw ConfigError(fmt::format("nothing to start '{}' from; known: {}", kind, join(names)));
+    throw ConfigError(fmt::format("there is no template for '{}'; known: {}", kind, join(names)));
   }
   const fs::path path = arguments.file.value_or(kind + ".yaml");
-  if (fs::exists(path)) throw ConfigError(path.string(), "exists already; choose another name");
+  if (fs::exists(path)) throw ConfigError(path.string(), "already exists; choose another name");
   write_file(path, {modeline(kind), with_file_name(start->second, path.string())});
   fmt::print("{}\n", path.string());
   return 0;

@@ -86,7 +86,7 @@ int submit(const ArrayJob& job) {
   const auto script = job.folder.string() + ".sbatch";
   write_file(script, {array_script(job)});
   const std::string array = output_of("sbatch --parsable " + quoted(script));
-  if (array.empty()) throw RunError("sbatch did not take the job; its script is " + script);
+  if (array.empty()) throw RunError("sbatch did not accept the job; its script is " + script);
   const std::string after =
       output_of(fmt::format("sbatch --parsable --job-name={} --output={} --open-mode=append --dependency=afterany:{} "
                             "--wrap {}",

@@ -59,7 +59,8 @@ void list_presets() {
     const auto reverse = [&](double nu, int i, int j) { return nu * c.young[j] / c.young[i]; };
     constexpr double kGiga = 1e9;
     fmt::print("  {}\n    {}. {}\n", p.name, p.source, p.axes);
-    fmt::print("    density {}\n", p.density ? fmt::format("{} kg/m^3", *p.density) : "to be given: not in the source");
+    fmt::print("    density {}\n",
+               p.density ? fmt::format("{} kg/m^3", *p.density) : "must be given: not in the source");
     fmt::print("    E1 {:.4g}, E2 {:.4g}, E3 {:.4g}, G12 {:.4g}, G23 {:.4g}, G13 {:.4g} GPa\n", c.young[0] / kGiga,
                c.young[1] / kGiga, c.young[2] / kGiga, c.g12 / kGiga, c.g23 / kGiga, c.g13 / kGiga);
     fmt::print("    nu12 {}, nu23 {}, nu13 {} (nu21 {:.3g}, nu32 {:.3g}, nu31 {:.3g})\n", c.nu12, c.nu23, c.nu13,
@@ -89,29 +90,30 @@ void list_terms() {
 void list_scene() {
   print_entry("scene", "The keys of a scene.", Scene::spec().keys());
   print_entry("time", "Time span.", TimeSpan::spec().keys());
-  print_entry("regions.<name>", "What a region consists of.", Region::spec().keys());
+  print_entry("regions.<name>", "Material, axes and kinematics of a region.", Region::spec().keys());
   print_entry("output", "What is written.", Output::spec().keys());
   print_entry("output.probes.<name>", "A point whose fields are recorded.", Probe::spec().keys());
 }
 
 void list_expectations() {
-  print_entry("expect.<n>", "A figure that `orthodyn verify` compares.", Expectation::spec().keys());
+  print_entry("expect.<n>", "A figure that `orthodyn verify` checks.", Expectation::spec().keys());
 }
 
 void list_statics() {
-  print_entry("statics", "How equilibrium is found, by analysis: static and start: equilibrium.",
+  print_entry("statics", "How equilibrium is found, for analysis: static and start: equilibrium.",
               Statics::spec().keys());
   list_registry<EquilibriumChoice>();
 }
 
 void list_events() {
-  print_entry("events.<n>", "A value that a quantity passes, logged or the end of the run.", EventSpec::spec().keys());
+  print_entry("events.<n>", "A value that a quantity crosses; the crossing is logged or ends the run.",
+              EventSpec::spec().keys());
 }
 
 void list_comparison() {
   print_entry("comparison", "The keys of a comparison, for `orthodyn compare`.", Comparison::spec().keys());
   print_entry("scenes.<n>", "A scene of a comparison.", SceneEntry::spec().keys());
-  print_entry("limits", "Of each point of a comparison.", Limits::spec().keys());
+  print_entry("limits", "Limits of each point of a comparison.", Limits::spec().keys());
   print_entry("reference", "What errors are measured against.", ReferenceOptions::spec().keys());
 }
 
@@ -120,17 +122,17 @@ void list_sweep() {
   print_entry("scene", "The scene of a sweep, where it is a section.", SceneEntry::spec().keys());
   print_entry("vary.<name>", "Evenly spaced numbers.", NumberRange::spec().keys());
   print_entry("vary.<name>", "A list with a unit or a name.", ValueList::spec().keys());
-  print_entry("quantities.<name>", "What is wanted of every point: one of quantity, mode (or along), cost.",
+  print_entry("quantities.<name>", "What is computed for every point: one of quantity, mode (or along), cost.",
               WantedFigure::spec().keys());
   print_entry("plots.<n>", "A figure of the report.", PlotSpec::spec().keys());
   print_entry("frames", "A picture of each point.", FrameSpec::spec().keys());
-  print_entry("limits", "Of each point of a sweep.", Limits::spec().keys());
+  print_entry("limits", "Limits of each point of a sweep.", Limits::spec().keys());
 }
 
 void list_stability() {
   print_entry("stability", "The keys of a file of hard cases, for `orthodyn stability`.", Stability::spec().keys());
   print_entry("cases.<n>", "A hard case.", HardCase::spec().keys());
-  print_entry("limits", "Of each trial.", Limits::spec().keys());
+  print_entry("limits", "Limits of each trial.", Limits::spec().keys());
 }
 
 void list_fields() {
@@ -208,7 +210,7 @@ void declare(ListArguments& arguments, CommandOptions& options) {
 }
 
 const CommandRegistration list_command(
-    {.order = 90, .name = "list", .sentence = "What can be named in a scene, each with its keys.", .examples = R"(
+    {.order = 90, .name = "list", .sentence = "List what a scene can name, with its keys.", .examples = R"(
   orthodyn list materials
   orthodyn list --markdown > reference.md)"},
     declare, list);

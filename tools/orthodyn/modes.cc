@@ -29,10 +29,10 @@ void print_zeros(const Modes& modes, int rigid) {
   if (rigid > 0)
     fmt::print("the first {} {} rigid: 0 Hz, nothing holds them\n", rigid, rigid == 1 ? "is" : "are");
   if (const int more = modes.zeros - rigid; more > 0)
-    fmt::print("{} {} cannot be told from zero: round-off hides what is below {:.2g} Hz of a mesh this stiff{}\n",
-               rigid > 0 ? fmt::format("{} more", more) : fmt::format("the first {}", more),
-               more == 1 ? "mode" : "modes", modes.resolution,
-               rigid > 0 ? "" : "; the body is held, none of them is rigid");
+    fmt::print(
+        "{} {} cannot be distinguished from zero: round-off hides frequencies below {:.2g} Hz in a mesh this stiff{}\n",
+        rigid > 0 ? fmt::format("{} more", more) : fmt::format("the first {}", more), more == 1 ? "mode" : "modes",
+        modes.resolution, rigid > 0 ? "" : "; the body is held, none of them is rigid");
 }
 
 // The share by which a frequency is too high.

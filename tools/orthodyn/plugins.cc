@@ -57,7 +57,7 @@ void load(const std::string& file) {
   if (registered() == before)
     throw ConfigError(
         fmt::format("plugin {} adds nothing: no material, term, integrator, mesh, axes, factor or solver registers "
-                    "itself when it is loaded. Is it the file that was meant, built against this orthodyn ({})? See "
+                    "itself when it is loaded. Is it the intended file, built against this orthodyn ({})? See "
                     "docs/extend.md",
                     file, orthodyn_version()));
 }

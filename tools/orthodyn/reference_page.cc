@@ -10,10 +10,11 @@ namespace {
 
 constexpr const char* kReferenceHead = R"(# Reference: every key of the input
 
-Written by `orthodyn list --markdown` from the declarations that the program itself reads by; a test keeps
+Written by `orthodyn list --markdown` from the declarations that the program reads its input with; a test keeps
 this page up to date. Numbers are in SI units; a key with a unit also takes a text such as `"11.9 GPa"`,
-`25 mm` or `30 deg`. Any section may take keys from other files with `include: FILE` or a list of files: what the
-section says itself wins. A key in **bold** is required. `<name>` is a name of your choice, `<n>` an entry of a list.
+`25 mm` or `30 deg`. Any section may take keys from other files with `include: FILE` or a list of files: the
+section's own keys take precedence. A key in **bold** is required. `<name>` is a name of your choice, `<n>` an entry
+of a list.
 )";
 
 // A bar would end the cell.

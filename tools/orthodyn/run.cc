@@ -93,7 +93,7 @@ void declare(RunArguments& arguments, CommandOptions& options) {
   options.flag("--force", arguments.force, "Replace an earlier result in the folder.");
   options
       .flag("--resume", arguments.resume,
-            "Go on from the checkpoint in the folder, or begin if there is no result yet. SCENE may be the folder.")
+            "Continue from the checkpoint in the folder, or start if there is no result yet. SCENE may be the folder.")
       .excludes("--force");
   options
       .flag("--estimate-error", arguments.estimate_error,

@@ -116,7 +116,7 @@ void print_equilibrium(const RunResult& result, const EquilibriumResult& equilib
   print_errors(result, 20);
   print_extremes(result, "at load factor", "");
   for (const auto& [probe, value, error] : equilibrium.probes)
-    fmt::print("  {:<20} moved by {} m; the mesh puts this off by about {} m\n", probe, three(value, "{:.6g}"),
+    fmt::print("  {:<20} moved by {} m; its error due to the mesh is about {} m\n", probe, three(value, "{:.6g}"),
                three(error, "{:.1e}"));
   fmt::print("  {:<20} {}\n", "results", result.folder.string());
 }
@@ -138,7 +138,7 @@ void print_what_remains(const RunResult& result) {
     fmt::print(stderr, "interrupted at t = {:.6g} s; what was computed is in {}\n", result.outcome.last.t,
                result.folder.string());
   if (result.outcome.status != Outcome::Status::completed && result.resumable)
-    fmt::print(stderr, "to go on: orthodyn run {} --resume\n", result.folder.string());
+    fmt::print(stderr, "to continue: orthodyn run {} --resume\n", result.folder.string());
 }
 
 }  // namespace
@@ -168,8 +168,8 @@ void print_estimate(const RunResult& result) {
   if (std::isnan(u.max)) fmt::print("  nothing moves: there is nothing to compare with\n");
   else
     fmt::print(
-        "  the integration puts displacements off by about {:.2g} % of the largest, {:.2g} % at worst; velocities "
-        "by {:.2g} %, {:.2g} % at worst{}\n",
+        "  integration error of displacements: about {:.2g} % of the largest, {:.2g} % at worst; of velocities {:.2g} "
+        "%, {:.2g} % at worst{}\n",
         100 * u.l2, 100 * u.max, 100 * error.velocity.l2, 100 * error.velocity.max,
         u.max > kUnresolved ? ". The motion is NOT resolved: lower integrator.rtol or step" : "");
   print_errors(result, 15);

@@ -9,7 +9,7 @@ void declare_scene(SceneArguments& arguments, CommandOptions& options) {
   options.repeated("--set", arguments.changes.set, "Change a value by its path, e.g. materials.wood.young.0=12e9.")
       .type("PATH=VALUE");
   options.value("--integrator", arguments.changes.integrator,
-                "Another integrator; keys of the scene's that it does not have are left out.");
+                "Another integrator; keys of the scene's integrator that it lacks are left out.");
 }
 
 namespace {
@@ -38,7 +38,7 @@ SetupOfAnyTime set_up_without_time(const std::string& file, const SceneChanges& 
   Config scene = read_and_tell(file, changes);
   const bool timed = scene.is_map() && (scene.has("time") || scene.has("analysis"));
   if (scene.is_map() && !timed) {
-    fmt::print(stderr, "notice: the scene has no 'time', which a run needs; 1 s is taken here\n");
+    fmt::print(stderr, "notice: the scene has no 'time', which a run needs; 1 s is used here\n");
     scene.set("time.end", 1.0);
   }
   return {set_up_and_warn(scene, timed), timed};

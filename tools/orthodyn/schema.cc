@@ -49,7 +49,7 @@ class SchemaWriter {
  private:
   static Schema include() {
     const Schema file = {{"type", "string"}};
-    return {{"description", "Files whose keys stand here too; what the section says itself wins."},
+    return {{"description", "Files whose keys are included here; the section's own keys take precedence."},
             {"anyOf", {file, {{"type", "array"}, {"items", file}}}}};
   }
 
@@ -182,7 +182,7 @@ std::vector<InputKind> chosen(const std::string& name) {
     names.push_back(kind.name);
   }
   if (name.empty()) return input_kinds();
-  throw ConfigError(fmt::format("there is no schema of '{}'; known: {}", name, join(names)));
+  throw ConfigError(fmt::format("there is no schema for '{}'; known: {}", name, join(names)));
 }
 
 int print_schema(const SchemaArguments& arguments) {

@@ -55,6 +55,7 @@ class MatrixTable {
     for (const auto& integrator : matrix_.at("integrators"))
       fmt::print("{:>3} {}\n", ++column, integrator.get<std::string>());
     for (const auto& variant : matrix_.at("variants")) print(variant);
+    for (const auto& suspicion : matrix_.at("suspected")) fmt::print("\n{}\n", suspicion.get<std::string>());
   }
 
  private:
@@ -127,7 +128,7 @@ const CommandRegistration stability_command(
     {.order = 60,
      .name = "stability",
      .sentence =
-         "Try integrators on hard cases: a matrix of pass, degraded and fail, with reasons. Run again, it goes on.",
+         "Try integrators on hard cases: a matrix of pass, degraded and fail, with reasons. Run it again to continue.",
      .examples = R"(
   orthodyn stability configs/stability/hard_cases.yaml --jobs 2
   orthodyn stability mine.yaml --retry         once more, with what failed)"},

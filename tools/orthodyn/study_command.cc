@@ -35,7 +35,8 @@ void use_one_thread_each() {
 }
 
 void tell_of_interrupt(const char* pieces, const fs::path& folder) {
-  fmt::print(stderr, "interrupted; the finished {} are in {} and will not be done again\n", pieces, folder.string());
+  fmt::print(stderr, "interrupted; the finished {} are in {} and will not be computed again\n", pieces,
+             folder.string());
 }
 
 void show_report(const fs::path& folder, const StudyArguments& arguments) {

@@ -187,7 +187,7 @@ class SweepCommand {
     fmt::print(stderr, "{} of {} points are missing:\n", missing.size(), points_.size());
     for (std::size_t i = 0; i < std::min(missing.size(), kListed); ++i) fmt::print(stderr, "  {}\n", missing[i]);
     if (missing.size() > kListed) fmt::print(stderr, "  ...\n");
-    fmt::print(stderr, "the same command without --collect, or the same array again, does these only\n");
+    fmt::print(stderr, "to compute them, run the same command without --collect, or submit the array again\n");
     return 3;
   }
 
@@ -196,7 +196,7 @@ class SweepCommand {
     for (const auto& point : points_)
       if (!point.impossible.empty() && ++count == 1)
         fmt::print(stderr, "warning: {} cannot be computed: {}\n", point.title, point.impossible);
-    if (count > 1) fmt::print(stderr, "warning: the same holds for {} more points\n", count - 1);
+    if (count > 1) fmt::print(stderr, "warning: the same is true of {} more points\n", count - 1);
   }
 
   const SweepArguments& arguments_;
@@ -212,14 +212,15 @@ class SweepCommand {
 void declare(SweepArguments& arguments, CommandOptions& options) {
   declare_study(arguments, options, {"sweep", "A sweep in YAML.", "sweeps", "sweep", "points"});
   declare_jobs(arguments, options, "Points");
-  options.value("--task", arguments.task, "Do the I-th of N parts of the points only; for job arrays.").type("I/N");
+  options.value("--task", arguments.task, "Compute only the I-th of N parts of the points; for job arrays.")
+      .type("I/N");
   options.value("--slurm", arguments.slurm, "The sweep as a job array of SLURM: print its script, or submit it.")
       .choice({"print", "submit"})
       .excludes("--task");
-  options.value("--tasks", arguments.tasks, "Tasks of the array; default one a point, up to 1000.")
+  options.value("--tasks", arguments.tasks, "Tasks of the array; default one per point, up to 1000.")
       .range(1, 1000000)
       .needs("--slurm");
-  options.flag("--collect", arguments.collect, "Join the points that are there, and say which are missing.")
+  options.flag("--collect", arguments.collect, "Join the finished points, and list the missing ones.")
       .excludes("--task")
       .excludes("--slurm")
       .excludes("--retry");
@@ -230,7 +231,7 @@ int sweep(const SweepArguments& arguments) { return SweepCommand(arguments).exec
 const CommandRegistration sweep_command(
     {.order = 50,
      .name = "sweep",
-     .sentence = "Figures of a scene over varied values, as a report, CSV and JSON. Run again, it goes on.",
+     .sentence = "Figures of a scene over varied values, as a report, CSV and JSON. Run it again to continue.",
      .examples = R"(
   orthodyn sweep configs/sweeps/grain_angle.yaml
   orthodyn sweep mine.yaml --slurm --tasks 100 > array.sh; sbatch array.sh

@@ -110,6 +110,7 @@ int verify_cases(const VerifyArguments& arguments) {
   fmt::print("{} of {} cases pass ({:.1f} s)", configs.size() - missed, configs.size(), seconds);
   if (!faulty.empty()) fmt::print("; {} could not be read", faulty.size());
   fmt::print("\n");
+  if (missed) fmt::print("if another integrator (--integrator NAME) computes the same, suspect the expectation\n");
   if (!faulty.empty()) return 2;
   return missed == 0 ? 0 : 1;
 }

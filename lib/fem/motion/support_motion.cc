@@ -9,9 +9,10 @@ namespace orthodyn {
 const Spec<Rotation>& Rotation::spec() {
   static const auto s =
       Spec<Rotation>()
-          .key("point", &Rotation::point, "A point of the axis, at rest; a translation takes it along.", {.unit = "m"})
+          .key("point", &Rotation::point, "A point on the axis, at rest; a translation moves it as well.",
+               {.unit = "m"})
           .key("axis", &Rotation::axis, "Its direction, of any length.", {.required = true})
-          .key("angle", &Rotation::angle, "At factor 1, by the right-hand rule; more than a turn is possible.",
+          .key("angle", &Rotation::angle, "Angle at factor 1, by the right-hand rule; more than a turn is possible.",
                {.required = true, .unit = "rad"})
           .check([](const Rotation& r, const Config& config) {
             if (r.axis.norm() == 0) config.at("axis").fail("is zero; give a direction");
@@ -49,13 +50,13 @@ void check_motion(const SupportMotion& m, const Config& config) {
 const Spec<SupportMotion>& SupportMotion::spec() {
   static const auto s =
       selection_spec<SupportMotion>()
-          .key("name", &SupportMotion::name, "For its reaction; default motion_1, motion_2 and so on.")
+          .key("name", &SupportMotion::name, "Name of its reaction; default motion_1, motion_2 and so on.")
           .key("components", &SupportMotion::components, "Which coordinates are moved; the others stay free.")
           .key("translation", &SupportMotion::translation, "At factor 1.", {.unit = "m"})
           .key("rotation", &SupportMotion::rotation, "About an axis.")
           .key("factor", &SupportMotion::factor, "Factor of translation and angle in time.")
           .key("displacement", &SupportMotion::displacement,
-               "From the place at rest, in m: three formulas of the time t and the rest position x, y, z.")
+               "Displacement from the rest position, in m: three formulas of the time t and the rest position x, y, z.")
           .key("kinks", &SupportMotion::kinks, "Times where the formulas are not smooth; integrators restart there.",
                {.unit = "s"})
           .key(

@@ -44,7 +44,7 @@ class DashpotChoice : public TermChoice, public Ends {
     using D = DashpotChoice;
     static const auto s =
         ends_spec<D>()
-            .key("coefficient", &D::coefficient_, "Of all dashpots together, shared evenly by the selected nodes.",
+            .key("coefficient", &D::coefficient_, "Total of all dashpots, shared evenly by the selected nodes.",
                  {.required = true, .unit = "N s/m", .range = kPositive})
             .check([](const D& dashpot, const Config& config) { dashpot.Ends::check(config); });
     return s;

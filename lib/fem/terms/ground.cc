@@ -84,7 +84,7 @@ class GroundChoice : public TermChoice {
                  {.required = true, .unit = "Pa/m", .range = kPositive})
             .key("onset", &G::onset_, "Depth over which contact sets in; default 1e-3 of the mesh's diagonal.",
                  {.unit = "m", .range = kPositive})
-            .key("surface", &G::surface_, "What can touch it: a named surface; default the whole outer surface.")
+            .key("surface", &G::surface_, "Which surface can touch it: a named one; default the whole outer surface.")
             .check([](const G& ground, const Config& config) {
               if (ground.normal_.norm() == 0) config.at("normal").fail("is zero; give a direction");
             });

@@ -83,7 +83,7 @@ class SpringChoice : public TermChoice, public Ends {
     using S = SpringChoice;
     static const auto s =
         ends_spec<S>()
-            .key("stiffness", &S::stiffness_, "Of all springs together, shared evenly by the selected nodes.",
+            .key("stiffness", &S::stiffness_, "Total of all springs, shared evenly by the selected nodes.",
                  {.required = true, .unit = "N/m", .range = kPositive})
             .key("rest_length", &S::rest_length_, "Length without force; default that at rest.",
                  {.unit = "m", .range = kNonNegative})

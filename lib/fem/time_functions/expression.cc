@@ -20,8 +20,8 @@ class Expression : public TimeFunction {
             .key("kinks", &Expression::kinks_, "Times where it is not smooth; integrators restart there.",
                  {.unit = "s"})
             .key("peak", &Expression::peak_,
-                 "The largest magnitude it reaches, for default scales of errors; default that found at 100,000 times "
-                 "of the span.",
+                 "The largest magnitude it reaches, for default scales of errors; default the largest found at 100,000 "
+                 "times of the span.",
                  {.range = kNonNegative})
             .key("resolution", &Expression::resolution_,
                  "Step of the differences that give rate and curvature: a sixtieth of its shortest period, or less.",

@@ -109,7 +109,7 @@ Warnings write_mesh(const LoadedMesh& loaded, const std::string& path, bool repl
     return written.files.size() == 1 ? path : fs::path(path).replace_extension(file.ending).string();
   };
   for (const MeshText& file : written.files) {
-    if (!replace && fs::exists(place(file))) throw ConfigError(place(file), "is there already; --force replaces it");
+    if (!replace && fs::exists(place(file))) throw ConfigError(place(file), "already exists; --force replaces it");
   }
   replace_together(written.files, place);
   for (std::string& loss : losses_in(format, loaded)) written.losses.push_back(std::move(loss));

@@ -69,12 +69,11 @@ void check_reference_set(const ReferenceOptions& reference, const Config& config
   for (const auto& [path, value] : reference.set)
     if (!is_of_mesh(path))
       config.at("set").at(path).fail(
-          "is no key of the mesh, or one of the body's shape; a reference of another motion measures nothing. Here can "
-          "be "
-          "set mesh.cells, order, refine, split, grading and file, which leave the body as it is; what is to be "
-          "compared belongs into 'scenes' or 'vary'");
+          "is not a key of the mesh, or changes the body's shape; a reference for a different motion measures nothing. "
+          "Allowed here are mesh.cells, order, refine, split, grading and file, which leave the body unchanged; what "
+          "is to be compared belongs in 'scenes' or 'vary'");
   if (!reference.set.empty() && reference.kind == ReferenceKind::none)
-    config.at("set").fail("has no reference to hold for: remove 'kind: none', or 'set'");
+    config.at("set").fail("has no reference to apply to: remove 'kind: none', or 'set'");
 }
 
 }  // namespace
@@ -91,7 +90,7 @@ const Spec<ReferenceOptions>& ReferenceOptions::spec() {
   static const auto s =
       Spec<ReferenceOptions>()
           .key("kind", &ReferenceOptions::kind,
-               "automatic: the exact solution where there is one, else computed. none: no errors.")
+               "automatic: the exact solution if there is one, otherwise computed. none: no errors.")
           .key("integrator", &ReferenceOptions::integrator,
                "The integrator of the reference, as in a scene; default arkode_dirk at a thousandth of the "
                "smallest tolerance.")
@@ -122,7 +121,7 @@ const Spec<Comparison>& Comparison::spec() {
                "'integrator' makes methods, everything else makes scenes.")
           .key("repeats", &Comparison::repeats, "Timed integrations of each point.", {.range = {1, 100}})
           .key("samples", &Comparison::samples, "Times at which errors are taken, evenly spaced.", {.range = {2, 2000}})
-          .key("limits", &Comparison::limits, "Of each point.")
+          .key("limits", &Comparison::limits, "Limits of each point.")
           .key("reference", &Comparison::reference, "What errors are measured against.")
           .check(check_comparison);
   return s;

@@ -33,7 +33,7 @@ Json no_reference(const std::string& method, const Json& message) {
 
 // `wanted`: the comparison asks for references.
 Json reference_json(const Reference* reference, bool wanted) {
-  if (!reference) return no_reference("", wanted ? "not computed yet" : "no reference was asked for");
+  if (!reference) return no_reference("", wanted ? "not computed yet" : "no reference was requested");
   const MeasurementResult& result = reference->result;
   if (reference->folder.empty()) return no_reference(reference->method, message_of(result.failure));
   const bool exact = is_exact(*reference);

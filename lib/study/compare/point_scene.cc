@@ -29,9 +29,11 @@ Config scene_of(const SceneVariant& variant, const std::string& integrator,
   for (const char* key : {"output.energy", "output.steps", "output.momentum"}) config.set(key, false);
   config.set("expect", nullptr);
   if (leaves_kinematics_open(read_scene(config)))
-    config.at("elasticity").fail(
-        "kinematics: auto would choose another model for each tolerance, and a comparison is of one: set linear or "
-        "corotational, in the scene or by its `set`");
+    config.at("elasticity")
+        .fail(
+            "kinematics: auto would choose a different model for each tolerance, and a comparison needs one model: set "
+            "linear or "
+            "corotational, in the scene or by its `set`");
   return config;
 }
 

@@ -82,7 +82,7 @@ Design design_of(const Convergence& wanted) {
   for (auto& [name, figure] : design.figures) {
     if (figure.quantity.empty()) continue;
     if (scene.is_static() && figure.take != Take::end)
-      figure.origin.fail("of a static analysis only values in equilibrium are known: leave out 'max of' and the like");
+      figure.origin.fail("a static analysis knows only values in equilibrium: leave out 'max of' and the like");
     const Quantity q = find_quantity(figure.quantity, scene, *built.model, figure.origin);
     if (q.components() > 1 && !(q.is_vector() && figure.take == Take::drift))
       figure.origin.fail(q.ask_for_component());

@@ -73,7 +73,7 @@ IntegratorEntry Value<IntegratorEntry>::read(const Config& c, const Rule&) {
   }
   for (const char* control : {"rtol", "step", "safety"})
     if (c.has(control))
-      c.at(control).fail("is what the comparison varies, by its 'tolerances' and 'steps' or by itself; remove it here");
+      c.at(control).fail("is set by the comparison ('tolerances', 'steps', or the program itself); remove it here");
   return read_section(c);
 }
 

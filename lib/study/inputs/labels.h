@@ -16,7 +16,7 @@ template <class Entry>
 void refuse_equal_labels(const std::vector<Entry>& entries) {
   for (auto a = entries.begin(); a != entries.end(); ++a)
     if (std::any_of(entries.begin(), a, [&](const Entry& b) { return b.label == a->label; }))
-      a->origin.fail("'" + a->label + "' stands here twice; give one of them a different 'label'");
+      a->origin.fail("'" + a->label + "' occurs twice here; give one of them a different 'label'");
 }
 
 }  // namespace orthodyn

@@ -83,7 +83,7 @@ std::vector<std::string> find_cases(const std::vector<std::string>& places) {
 }
 
 void require_expectations(const Scene& scene, const Config& config) {
-  if (scene.expect.empty()) config.fail("expects nothing; add a list 'expect' (see `orthodyn list expect`)");
+  if (scene.expect.empty()) config.fail("expects nothing; add an 'expect' list (see `orthodyn list expect`)");
 }
 
 CaseResult verify(const Config& scene) {

@@ -18,7 +18,7 @@ void check_figure(const WantedFigure& f, const Config& config) {
   check_take(f.take, f.at, f.of, config);
   if (f.quantity.empty()) f.check_unit("");
   if (f.settled_within && (f.at || f.take != Take::end))
-    config.at("settled_within").fail("stands in place of 'take' and 'at'; remove them");
+    config.at("settled_within").fail("replaces 'take' and 'at'; remove them");
   const auto& costs = cost_names();
   if (f.cost.empty() || std::any_of(costs.begin(), costs.end(), [&](const auto& c) { return c.first == f.cost; }))
     return;
@@ -63,30 +63,31 @@ const Spec<WantedFigure>& WantedFigure::spec() {
                "A probe's field and component (tip.displacement.z) or a scalar of the whole body (energy.elastic), as "
                "in `expect` of a scene.")
           .key("take", &WantedFigure::take, kTakeSentence)
-          .key("at", &WantedFigure::at, "The value at this time, in place of `take`.", {.unit = "s"})
+          .key("at", &WantedFigure::at, "The value at this time, instead of `take`.", {.unit = "s"})
           .key("of", &WantedFigure::of, kOfSentence, {.range = kPositive})
-          .key(
-              "settled_within", &WantedFigure::settled_within,
-              "In place of `take`: the time after which the quantity stays within this fraction of its range about its "
-              "last value. None if that is in the last tenth of the time span.",
-              {.range = {0, 1, true, true}})
+          .key("settled_within", &WantedFigure::settled_within,
+               "Instead of `take`: the time after which the quantity stays within this fraction of its range about its "
+               "last value. None if that is in the last tenth of the time span.",
+               {.range = {0, 1, true, true}})
           .key("mode", &WantedFigure::mode, "A natural frequency in Hz by its number, rigid modes not counted.",
                {.range = {1, 1000}})
           .key("along", &WantedFigure::along,
-               "A natural frequency: of the twenty lowest modes that with the largest effective mass along this axis.")
+               "A natural frequency: among the twenty lowest modes, the one with the largest effective mass along this "
+               "axis.")
           .key("about_equilibrium", &WantedFigure::about_equilibrium,
                "Modes about the static equilibrium under the scene's loads, not about rest.")
           .key("buckling", &WantedFigure::buckling,
                "The load factor at which the body at rest would buckle (linear), by its number from the lowest.",
                {.range = {1, 1000}})
-          .key("cost", &WantedFigure::cost,
-               "Of the computation: cpu_seconds, wall_seconds, steps, rejected_steps, newton_iterations, forces, "
-               "tangents, factorizations, solves or peak_memory.")
-          .key("title", &WantedFigure::title, "What it is called in figures; default its name.")
-          .key("unit", &WantedFigure::unit, "The unit that it is shown in, such as mm; default SI.")
+          .key(
+              "cost", &WantedFigure::cost,
+              "A cost of the computation: cpu_seconds, wall_seconds, steps, rejected_steps, newton_iterations, forces, "
+              "tangents, factorizations, solves or peak_memory.")
+          .key("title", &WantedFigure::title, "Its title in figures; default its name.")
+          .key("unit", &WantedFigure::unit, "The unit it is shown in, such as mm; default SI.")
           .key("closed_form", &WantedFigure::closed_form,
                "A formula of the varied values and the definitions, in SI units: drawn as a line over the points.")
-          .key("scale", &WantedFigure::scale, "Of its axis in figures.")
+          .key("scale", &WantedFigure::scale, "Scale of its axis in figures.")
           .check(check_figure);
   return s;
 }

@@ -17,7 +17,7 @@ namespace {
 void check(const Stability& stability, const Config& config) {
   if (stability.cases.empty()) config.at("cases").fail("is empty; name at least one scene with an 'expect' list");
   if (stability.integrators.empty()) config.at("integrators").fail("is empty; name some, or 'all'");
-  if (stability.variants.empty()) config.at("variants").fail("is empty; leave it out for the force as it is");
+  if (stability.variants.empty()) config.at("variants").fail("is empty; leave it out to keep the force unchanged");
 }
 
 // Reads it, too: wrong input shows before anything runs.
@@ -26,7 +26,7 @@ Config scene_of(const SceneVariant& variant, const StabilityIntegrator& entry) {
   config.set("output.fields", std::vector<std::string>());
   for (const char* key : {"output.energy", "output.steps"}) config.set(key, false);
   if (read_scene(config).expect.empty())
-    config.fail("expects nothing, so nothing can be judged; add a list 'expect' (see `orthodyn list expect`)");
+    config.fail("expects nothing, so nothing can be judged; add an 'expect' list (see `orthodyn list expect`)");
   return config;
 }
 
@@ -60,7 +60,7 @@ const Spec<HardCase>& HardCase::spec() {
           .key("label", &HardCase::label, "Its name in the matrix; default the file's.")
           .key("set", &HardCase::set, "Changes by path: {mesh.cells: [45, 9, 9]}.")
           .key("model", &HardCase::model,
-               "Where the model itself is at fault and no integrator can help: why, in words for the row.");
+               "If the model itself is at fault and no integrator can help: the reason, shown in its row.");
   return s;
 }
 
@@ -74,10 +74,10 @@ const Spec<Stability>& Stability::spec() {
           .key("integrators", &Stability::integrators,
                "Names, 'all', or sections {type, label, any option of the integrator}.", {.fallback = "[all]"})
           .key("variants", &Stability::variants,
-               "What every case is run with, by name: changes by path, such as {warped: {elasticity.corotation: "
+               "Changes that every case is run with, by name and path, such as {warped: {elasticity.corotation: "
                "warped}}.",
                {.fallback = "{default: {}}"})
-          .key("limits", &Stability::limits, "Of each trial.")
+          .key("limits", &Stability::limits, "Limits of each trial.")
           .check(check);
   return s;
 }

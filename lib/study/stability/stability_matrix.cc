@@ -10,6 +10,7 @@
 #include "lib/simulation/machine.h"
 #include "lib/study/inputs/scene_entry.h"
 #include "lib/study/jobs/json_values.h"
+#include "lib/study/stability/suspected.h"
 
 namespace orthodyn::study::stability {
 
@@ -96,6 +97,8 @@ Json StabilityMatrix::json(const std::string& file) const {
   json["complete"] = results_.size() == runs_.size();
   json["trials"] = Json::array();
   for (const auto& [run, result] : results_) json["trials"].push_back(run_json(run, result));
+  json["suspected"] = Json::array();
+  for (const auto& s : suspected_expectations(json["cases"], json["trials"])) json["suspected"].push_back(describe(s));
   return json;
 }
 

@@ -33,8 +33,8 @@ void refuse_replaced_values(const Variable& earlier, const Variable& later) {
   for (const auto& [path, place] : paths_of(later)) {
     for (const auto& [other, other_place] : paths_of(earlier)) {
       if (path == other)
-        place.fail(
-            fmt::format("'{}' is set here and at {}: only one of both can hold; remove one", path, other_place.where));
+        place.fail(fmt::format("'{}' is set here and at {}: only one of the two can apply; remove one", path,
+                               other_place.where));
       if (other.starts_with(path + "."))
         place.fail(fmt::format("'{}' replaces '{}', which is set at {}; put this one before it, or remove one", path,
                                other, other_place.where));
@@ -66,7 +66,7 @@ void refuse_unused_names(const Sweep& sweep) {
   const auto formulas = formulas_of(sweep);
   const auto require = [&](const std::string& name, const Origin& place) {
     if (std::none_of(formulas.begin(), formulas.end(), [&](const std::string& f) { return mentions(f, name); }))
-      place.fail("'" + name + "' is no key of a scene, and no formula uses it" + scene_key_near(name));
+      place.fail("'" + name + "' is not a key of a scene, and no formula uses it" + scene_key_near(name));
   };
   for (const auto& v : sweep.vary) {
     if (v.path.empty() && v.numeric()) require(v.name, v.origin);
@@ -101,11 +101,11 @@ bool is_blank(const std::string& name) { return name.find_first_not_of(' ') == s
 void refuse_equal_columns(const Sweep& sweep) {
   Places taken;
   const auto add = [&](const std::string& name, const Origin& place) {
-    if (is_blank(name)) place.fail("has no name; give one, it heads a column of the table");
+    if (is_blank(name)) place.fail("has no name; give one to head its column of the table");
     const auto [other, is_new] = taken.emplace(name, place);
     if (!is_new)
       place.fail(
-          fmt::format("the table has a column '{}' already, of {}; give another name", name, other->second.where));
+          fmt::format("the table already has a column '{}', of {}; give another name", name, other->second.where));
   };
   for (const auto& v : sweep.vary) add(v.name, v.origin);
   for (const auto& [name, f] : sweep.quantities) {

@@ -28,7 +28,8 @@ bool is_identifier(const std::string& name) {
 
 void check_formula_name(const std::string& name, const Config& at) {
   if (!is_identifier(name))
-    at.fail("the name '" + name + "' is none for formulas: it consists of letters, digits and '_', no digit first");
+    at.fail("the name '" + name +
+            "' cannot be used in formulas: a name consists of letters, digits and '_', no digit first");
   if (name == "e" || name == "pi")
     at.fail("the name '" + name + "' is a constant of formulas; give another (a varied key has 'name' for that)");
 }

@@ -45,7 +45,8 @@ const Spec<NumberRange>& NumberRange::spec() {
       Spec<NumberRange>()
           .key("from", &NumberRange::from, "The first value.", {.required = true})
           .key("to", &NumberRange::to, "The last value.", {.required = true})
-          .key("count", &NumberRange::count, "How many, with both ends; not in a Latin hypercube.", {.range = {1, 1e6}})
+          .key("count", &NumberRange::count, "How many, including both ends; not in a Latin hypercube.",
+               {.range = {1, 1e6}})
           .key("scale", &NumberRange::scale, "log: neighbours have the same ratio, and axes are logarithmic.")
           .key("unit", &NumberRange::unit,
                "Unit of the values, such as deg or GPa; formulas see SI units. Or give 'from' and 'to' units of their "

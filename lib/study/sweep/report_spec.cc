@@ -49,8 +49,8 @@ const Spec<FrameSpec>& FrameSpec::spec() {
           .key("view", &FrameSpec::view, "Azimuth and elevation of the eye, degrees.")
           .key("up", &FrameSpec::up, "The axis that is up.")
           .key("enlarged", &FrameSpec::enlarged, "Enlarges the deformation.", {.range = kPositive})
-          .key("most", &FrameSpec::most, "The most pictures; of more points some are chosen evenly.",
-               {.range = {1, 100}})
+          .key("most", &FrameSpec::most,
+               "The largest number of pictures; of more points, evenly spaced ones are chosen.", {.range = {1, 100}})
           .key("ghost", &FrameSpec::ghost, "Draw the outline of the rest shape as well.")
           .check(check_frame);
   return s;

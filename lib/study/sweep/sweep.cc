@@ -92,14 +92,14 @@ const Spec<Sweep>& Sweep::spec() {
                "cartesian: every combination. zip: first with first, second with second. latin_hypercube: `samples` "
                "points, each value's range in as many strata.")
           .key("samples", &Sweep::samples, "Points of a Latin hypercube; default 50.", {.range = {1, kMostPoints}})
-          .key("seed", &Sweep::seed, "Of a Latin hypercube; default 1.")
-          .key("quantities", &Sweep::quantities, "What is wanted of every point, by name.", {.required = true})
+          .key("seed", &Sweep::seed, "Seed of a Latin hypercube; default 1.")
+          .key("quantities", &Sweep::quantities, "What is computed for every point, by name.", {.required = true})
           .key("plots", &Sweep::plots, "Figures of the report; default by the number of variables.")
           .key("frames", &Sweep::frames, "A picture of each point, side by side.")
           .key("impossible", &Sweep::impossible,
-               "Points whose scene cannot be (an unstable material). stop: an error before anything runs. keep: they "
-               "are in the table, with the reason.")
-          .key("limits", &Sweep::limits, "Of each point.")
+               "Points whose scene is impossible (an unstable material). stop: an error before anything runs. keep: "
+               "they stay in the table, with the reason.")
+          .key("limits", &Sweep::limits, "Limits of each point.")
           .check(check_sweep);
   return s;
 }

@@ -112,10 +112,11 @@ class Expansion {
     } catch (const ConfigError& e) {
       point.impossible = e.what();
       if (sweep_.impossible == Impossible::stop)
-        throw ConfigError(
-            e.place(),
-            fmt::format("{} (in {}{})", e.message(), point.title,
-                        e.fault() == InputFault::form ? "" : "; impossible: keep goes on without such points"));
+        throw ConfigError(e.place(),
+                          fmt::format("{} (in {}{})", e.message(), point.title,
+                                      e.fault() == InputFault::form
+                                          ? ""
+                                          : "; with impossible: keep the sweep continues without such points"));
     }
     if (scene) check_times(*scene, point.title);
     if (scene && !is_looked_up_) try_to_look_up_quantities(*scene);
@@ -184,7 +185,7 @@ class Expansion {
       if (!is_static) require(f.at, f.origin.where + ".at");
       else if (f.at || f.take != Take::end || f.settled_within || f.quantity == kEnergyBalance)
         f.origin.fail(
-            "of a static analysis only values in equilibrium are known: remove 'take', 'at' and "
+            "a static analysis knows only values in equilibrium: remove 'take', 'at' and "
             "'settled_within', choose another quantity than energy.balance");
     }
     if (!sweep_.frames || !sweep_.frames->at) return;

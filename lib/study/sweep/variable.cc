@@ -106,7 +106,7 @@ void read_sets(const Config& c, Variable& v) {
     c.fail("a list of values, {from, to, count} or {values} belongs here; found " + c.shown());
   for (const auto& label : c.keys()) {
     const Config set = c.at(label);
-    if (label.find_first_not_of(' ') == std::string::npos) set.fail("has no name; give one, which people read");
+    if (label.find_first_not_of(' ') == std::string::npos) set.fail("has no name; give one for people to read");
     if (!set.is_map()) set.fail("expected a set of keys of the scene {path: value}, found " + set.shown());
     VariedValue value{label, {}, {}, {}};
     for (const auto& key : set.keys()) {

@@ -55,7 +55,7 @@ def draw_errors(study, figure, against, width):
     low, high = limits([e for r in runs.values() for _, e, _ in r] + estimates)
     set_log(axes, "y", low, high, error_tick)
     if math.isfinite(figure.resolution):
-        draw_unresolved(axes, figure.resolution, "the limit itself is not known better")
+        draw_unresolved(axes, figure.resolution, "within the uncertainty of the limit")
     _estimates(axes, study, figure, place)
     for k, found in runs.items():
         if found:

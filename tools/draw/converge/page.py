@@ -9,9 +9,9 @@ from ..report.page import SCRIPT, head
 from ..report.tables import caption, number
 from .figures import Figures, words
 
-READ = ("Marks are meshes, each twice as fine as the one before; strokes are what the estimate from recovered stresses "
-        "says of the same mesh. Lower left is better. The dashed line is an error of one per cent; hollow marks are below "
-        "what is known of the limit.")
+READ = ("Marks are meshes, each twice as fine as the one before; strokes are errors of the same mesh estimated from "
+        "recovered stresses. Lower left is better. The dashed line is an error of one per cent; hollow marks are below "
+        "the uncertainty of the limit.")
 
 
 def _cheaper(figure, study):
@@ -62,7 +62,7 @@ def _answer(study):
     heads = [("Figure", False), ("Limit", False)]
     heads += [(f"{words(o)} [s]", True) for o in study.orders]
     heads.append(("Cheaper", False))
-    return _table(f"What a figure tends to, and the CPU time for an error of {100 * study.target:g} %", heads,
+    return _table(f"Limits of the figures, and the CPU time for an error of {100 * study.target:g} %", heads,
                   [_answer_row(study, f) for f in study.figures], "Limits and costs")
 
 

@@ -34,9 +34,17 @@ def _ranked(answer):
     return sorted(((m, s) for m, s in answer.seconds.items() if math.isfinite(s)), key=lambda pair: pair[1])
 
 
+def _missed(answer):
+    """Methods that did not reach the target, the nearest first, those without a finished run last."""
+    def best(method):
+        error = answer.best_error.get(method, math.nan)
+        return error if formatting.known(error) else math.inf
+    return sorted((m for m, s in answer.seconds.items() if not math.isfinite(s)), key=best)
+
+
 MEANING = ("An error is the distance from a far more accurate solution, as a share of the largest motion. "
-           "rtol is the tolerance that a method with error control was asked to keep in each step. A method that is "
-           "asked for little may need as long as when it is asked for more: then its cheapest run stands for both.")
+           "rtol is the tolerance that a method with error control was asked to keep in each step. A loose "
+           "tolerance may take as long as a tighter one: then the method's cheapest run counts for both.")
 
 
 def _label(comparison, method):
@@ -107,8 +115,7 @@ def sentence(comparison, problem):
     reached = [f"{_label(comparison, m)} {formatting.seconds(s)}"
                + (f" ({_ratio(s / first)})" if k and first > 0 else "")
                for k, (m, s) in enumerate(ranked)]
-    missed = [f"{_label(comparison, m)} did not reach it ({_best(answer, m)})" for m in answer.seconds
-              if not math.isfinite(answer.seconds[m])]
+    missed = [f"{_label(comparison, m)} did not reach it ({_best(answer, m)})" for m in _missed(answer)]
     target = _with_percent(answer.target, answer.error)
     parts = [part for part in (", ".join(reached), ", ".join(missed)) if part]
     return tag("p", f"To reach an error of {target} on ", tag("em", problem.label), f": {'; '.join(parts)}.")
@@ -148,7 +155,7 @@ def table(comparison, problem):
     if not answers:
         return None
     main = _main(comparison, problem) or answers[0]
-    order = [m for m, _ in _ranked(main)]
+    order = [m for m, _ in _ranked(main)] + _missed(main)
     order += [m.id for m in comparison.methods if m.id not in order and comparison.points_of(problem, m.id)]
     head = [tag("th", "Method", scope="col")] + [
         tag("th", *_target_words(a), scope="col", class_="main" if a is main else None) for a in answers]
@@ -169,21 +176,22 @@ def overview(comparison):
     target = _with_percent(found[0][1].target, found[0][1].error)
     head = [tag("th", "Method", scope="col"), *(tag("th", problem.label, scope="col") for problem, _ in found)]
     rows = [tag("tr", tag("th", method_name(comparison, m.id), scope="row"), *(_cell(a, m.id) for _, a in found))
-            for m in sorted(comparison.methods, key=lambda m: _mean_rank([a for _, a in found], m.id))]
+            for m in sorted(comparison.methods, key=lambda m: _rank([a for _, a in found], m.id))]
     title = caption(f"Wall time to reach an error of {target}, and its ratio to the fastest, on every problem. "
                     f"Error: {measures.label(found[0][1].error)}.")
     return scrolling(tag("table", title, tag("thead", tag("tr", *head)), tag("tbody", *rows), class_="targets"),
                      label="Times on every problem")
 
 
-def _mean_rank(answers, method):
-    """Mean logarithm of the ratio to the fastest; a target that was not reached counts as a factor of 1000."""
+def _rank(answers, method):
+    """(no run has finished, sum of the logarithms of the ratios to the fastest); a target that was not reached counts
+    as a factor of 1000."""
     total = 0.0
     for answer in answers:
         seconds, ranked = answer.seconds.get(method, math.nan), _ranked(answer)
         reached = ranked and seconds > 0 and ranked[0][1] > 0
         total += math.log(seconds / ranked[0][1]) if reached else math.log(1000)
-    return total
+    return not any(formatting.known(a.best_error.get(method, math.nan)) for a in answers), total
 
 
 def _why_no_answer(comparison, problem):
@@ -193,6 +201,24 @@ def _why_no_answer(comparison, problem):
     if problem.reference.kind == "none":
         return f"{formatting.plural(finished, 'run')} finished, but there is no reference to measure an error against."
     return f"{formatting.plural(finished, 'run')} finished; times to given errors were not asked for."
+
+
+ALIKE, LEAST_METHODS = 1.05, 3
+
+
+def _suspected(comparison, problem):
+    """Methods that all end at the same error, far from what is resolved, agree with each other and not with the
+    reference."""
+    measure = measures.primary(comparison)
+    errors = [[p.error(measure) for p in comparison.finished(problem, m.id) if p.error(measure) > 0]
+              for m in comparison.methods]
+    best = [min(found) for found in errors if found]
+    reach = problem.reference.reach(measure)
+    if len(best) < LEAST_METHODS or max(best) > ALIKE * min(best) or min(best) < reach:
+        return None
+    return tag("p", tag("strong", "Reference in doubt. "), f"The most accurate runs of all {len(best)} methods have the "
+               f"same error, {formatting.exponent(min(best))}: they agree with each other rather than with the "
+               "reference. Suspect the reference before the methods.", class_="banner")
 
 
 def _scene(problem):
@@ -212,6 +238,6 @@ def answer_section(comparison):
         if not any(content):
             content = [tag("p", _why_no_answer(comparison, problem), class_="empty")]
         parts.append(tag("div", tag("h3", problem.label, " ", tag("small", size)),
-                         _scene(problem), *content,
+                         _scene(problem), _suspected(comparison, problem), *content,
                          class_="problem"))
     return joined(parts)

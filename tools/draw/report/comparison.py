@@ -177,10 +177,13 @@ class Comparison:
         return next(p for p in self.problems if p.id == name)
 
     def points_of(self, problem, method=None):
-        """Points of a problem (and a method), methods in their order, loose control first."""
+        """Points of a problem (and a method), loose control first; methods in their order, those without a finished
+        run last."""
         rank = {m.id: k for k, m in enumerate(self.methods)}
         found = [p for p in self.points if p.problem == problem.id and method in (None, p.method)]
-        return sorted(found, key=lambda p: (rank[p.method], p.control.kind, -np.nan_to_num(p.control.value)))
+        ended = {p.method for p in found if p.completed}
+        return sorted(found, key=lambda p: (p.method not in ended, rank[p.method], p.control.kind,
+                                            -np.nan_to_num(p.control.value)))
 
     def finished(self, problem, method=None):
         return [p for p in self.points_of(problem, method) if p.completed]

@@ -1,8 +1,11 @@
-"""Energy drift over time, one line per method, of runs of about the same error."""
+"""Energy drift over time, one line per method, of runs at the same tolerance."""
+import math
+from collections import Counter
+
 import numpy as np
 
 from . import formatting
-from .comparable import representatives
+from .comparable import USUAL, representatives
 from .layout import WIDE, PixelLayout, legend_columns, legend_height, shortened, side_margin, styled
 from .runs import end_fraction, label_right
 from .scale import error_tick, limits, positive, set_log
@@ -16,14 +19,34 @@ def _usable(point):
     return positive(np.abs(point.drift_energy)).size > 0
 
 
+def _tolerance(p):
+    return p.control.value if p.control.kind == "rtol" and p.control.value > 0 else math.nan
+
+
+def shared_tolerance(comparison, problem):
+    """The tolerance at which most methods have a history, of several the nearest to 1e-3; nan without any."""
+    counts = Counter(_tolerance(p) for p in comparison.finished(problem) if _usable(p) and _tolerance(p) > 0)
+    return min(counts, key=lambda rtol: (-counts[rtol], abs(math.log10(rtol / USUAL)), rtol), default=math.nan)
+
+
 def drift_runs(comparison, problem):
-    """The representative of each method, or its finished run of nearest cost that has a history."""
-    found = []
+    """A run of each method that has a history: at the shared tolerance or next to it; of methods without a tolerance
+    the representative, or the run of nearest cost."""
+    found, shared = [], shared_tolerance(comparison, problem)
     for point, _ in representatives(comparison, problem):
         runs = [p for p in comparison.finished(problem, point.method) if _usable(p)]
-        if runs:
+        asked = [p for p in runs if _tolerance(p) > 0]
+        if asked:
+            found.append(min(asked, key=lambda p: abs(math.log(_tolerance(p) / shared))))
+        elif runs:
             found.append(min(runs, key=lambda p: (p is not point, abs(p.seconds() - point.seconds()))))
     return sorted(found, key=lambda p: comparison.method_index(p.method))
+
+
+def _name(comparison, point, shared):
+    """A method's label, with its control where that is not the shared tolerance."""
+    label = comparison.methods[comparison.method_index(point.method)].label
+    return label if _tolerance(point) == shared else f"{label}, {formatting.control(point.control)}"
 
 
 def _history(point):
@@ -53,7 +76,8 @@ def draw_energy_drift(comparison, problem, width):
     if not found:
         return None
     indices = [comparison.method_index(p.method) for p in found]
-    entries = [(k, shortened(comparison.methods[k].label, 26), False) for k in indices]
+    shared = shared_tolerance(comparison, problem)
+    entries = [(k, shortened(_name(comparison, p, shared), 30), False) for k, p in zip(indices, found)]
     columns, narrow = legend_columns(entries), width < WIDE
     left, right, height = (50, 20, 230) if narrow else (54, side_margin(entries), 270)
     box = (left, 40, width - left - right, height)
@@ -65,7 +89,8 @@ def draw_energy_drift(comparison, problem, width):
     if problem.end > problem.start:
         axes.set_xlim(problem.start, problem.end)
     axes.locator_params(axis="x", nbins=4 if narrow else 8)
-    layout.text(0, 16, "Energy drift, |change| / largest energy", weight="bold")
+    at = f" at rtol {formatting.exponent(shared, 3)}" if shared > 0 else ""
+    layout.text(0, 16, f"Energy drift{at}, |change| / largest energy", weight="bold")
     layout.text(left + box[2] / 2, 40 + height + 40, "Time in the scene [s]", ha="center", color=LIGHT["ink"])
     if narrow:
         layout.legend(40 + height + 52, entries, columns)

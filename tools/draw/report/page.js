@@ -144,6 +144,22 @@
     input.addEventListener("change", () => choose(input.dataset.pick, input.value));
   }
 
+  // A table that is wider than its box says so, and fades where it goes on.
+  function watch(box) {
+    const hint = Object.assign(element("p", "More columns to the right: scroll the table sideways \u2192"), {className: "hint"});
+    hint.setAttribute("aria-hidden", "true");
+    box.before(hint);
+    const look = () => {
+      const beyond = box.scrollWidth - box.clientWidth;
+      hint.classList.toggle("shown", beyond > 2);
+      box.classList.toggle("more", beyond - box.scrollLeft > 2);
+    };
+    box.addEventListener("scroll", look, {passive: true});
+    new ResizeObserver(look).observe(box);
+    look();
+  }
+  document.querySelectorAll(".scroll").forEach(watch);
+
   const button = document.getElementById("theme");
   const system = matchMedia("(prefers-color-scheme: dark)");
   const isDark = () => root.dataset.theme ? root.dataset.theme === "dark" : system.matches;

@@ -22,7 +22,9 @@ READ = {
     "cost": "For each method the cheapest run whose error is below the target, or its most accurate run if none is "
             "(pale, and cut off where it is longer than the others). Rest is wall time minus the parts that were "
             "measured.",
-    "drift": "Change of the energy balance since the start, in magnitude, of the same runs as in the cost breakdown.",
+    "drift": "Change of the energy balance since the start, in magnitude, at one tolerance for all methods. A method "
+             "that was not run at it, or has a step instead, is named with its own control; of those with a step it is "
+             "the run in the cost breakdown.",
 }
 
 
@@ -60,8 +62,8 @@ def _banner(comparison):
     if comparison.complete:
         return None
     planned = f" of {formatting.count(comparison.planned)}" if formatting.known(comparison.planned) else ""
-    return tag("p", tag("strong", "Not finished: "), f"{len(comparison.points)}{planned} points. What follows is "
-               "what there is so far.", class_="banner", role="status")
+    return tag("p", tag("strong", "Not finished: "), f"{len(comparison.points)}{planned} points. What follows "
+               "covers the points so far.", class_="banner", role="status")
 
 
 def _header(comparison):

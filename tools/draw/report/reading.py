@@ -190,11 +190,13 @@ def read_comparison(folder):
     problems = [_problem(n) for n in node.children("problems")]
     methods = [_method(n) for n in node.children("methods")]
     ids, names = [p.id for p in problems], [m.id for m in methods]
+    points = [_point(k, n, ids, names) for k, n in enumerate(node.children("points"))]
+    ended = {p.method for p in points if p.completed}
+    methods.sort(key=lambda m: m.id not in ended)  # what never came to an end stands last everywhere
     return Comparison(
         node.text("name", path.parent.name), node.text("title"), node.text("description"), node.text("file"),
         node.text("started"), node.value.get("complete") is True, node.number("planned_points"),
-        *(node.child(key).texts() for key in ("machine", "versions", "settings")), problems, methods,
-        [_point(k, n, ids, names) for k, n in enumerate(node.children("points"))],
+        *(node.child(key).texts() for key in ("machine", "versions", "settings")), problems, methods, points,
         [_answer(n, ids, names) for n in node.children("answers")],
         [Order(n.text("problem"), n.text("method"), n.text("error"), n.number("slope"))
          for n in node.children("orders")],

@@ -110,7 +110,8 @@ def answer(matrix):
     if not tried:
         return tag("p", "No trial has ended yet.", class_="headline")
     hard = [part for part in (_hard(matrix, v) for v in tried) if part]
-    return joined([headline(matrix), tag("div", *(_ranking(matrix, v) for v in tried), class_="pair"),
+    suspected = [tag("p", tag("strong", "Expectation in doubt. "), f"{s}.", class_="banner") for s in matrix.suspected]
+    return joined([headline(matrix), *suspected, tag("div", *(_ranking(matrix, v) for v in tried), class_="pair"),
                    tag("h3", "The hardest cases") if hard else None,
                    tag("div", *(tag("div", part) for part in hard), class_="columns"),
                    *(_losses(matrix, v) for v in tried[1:])])

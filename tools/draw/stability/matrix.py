@@ -56,6 +56,7 @@ class Matrix:
     variants: list
     integrators: list
     trials: list
+    suspected: list = ()  # sentences on expectations that all integrators miss alike
 
     @property
     def planned(self):

@@ -30,7 +30,7 @@ def _banner(matrix):
     if matrix.complete:
         return None
     return tag("p", tag("strong", "Not finished: "), f"{formatting.count(len(matrix.trials))} of "
-               f"{formatting.plural(matrix.planned, 'trial')}. What follows is what there is so far.", class_="banner",
+               f"{formatting.plural(matrix.planned, 'trial')}. What follows covers the trials so far.", class_="banner",
                role="status")
 
 
@@ -56,8 +56,8 @@ def _origin(matrix, folder):
 def page(matrix, folder):
     """The whole page as text; `folder` has the end states and is named in the command that reproduces it."""
     sections = (("answer", "Answer", answer(matrix)), ("matrix", "Matrix", grid(matrix)),
-                ("states", "End states", gallery(matrix, Path(folder))), ("trials", "No pass", failures(matrix)),
-                ("details", "Where from", _origin(matrix, folder)))
+                ("states", "End states", gallery(matrix, Path(folder))), ("trials", "Not passed", failures(matrix)),
+                ("details", "Origin", _origin(matrix, folder)))
     main = tag("main", *(tag("section", tag("h2", name), content, id=identity) for identity, name, content in sections))
     tooltips = [tooltip(t) for t in matrix.trials] + [case_tooltip(c) for c in matrix.cases]
     body = tag("body", grades.symbols(), _header(matrix, sections), main,

@@ -21,8 +21,10 @@ class Tally:
 
     @property
     def merit(self):
-        """Larger is better: passes, then few fails, then little time. A refusal neither helps nor hurts."""
-        return self["pass"], -self["fail"], self["degraded"], -self.cpu
+        """Larger is better: passes, then few fails, then little time. A refusal neither helps nor hurts, but who
+        refuses everything comes last."""
+        refuses_all = self.tried > 0 and self["refused"] == self.tried
+        return not refuses_all, self["pass"], -self["fail"], self["degraded"], -self.cpu
 
 
 def tally(trials):

@@ -65,4 +65,5 @@ def read_matrix(folder):
     limit = node.number("limit") if "limit" in node.value else math.nan
     return Matrix(node.text("title", path.parent.name), node.text("description"), node.text("file"), node.text("at"),
                   node.child("machine").texts(), node.child("versions").texts(), limit,
-                  node.value.get("complete") is True, cases, variants, integrators, trials)
+                  node.value.get("complete") is True, cases, variants, integrators, trials,
+                  [str(s) for s in node.list("suspected")])

@@ -16,6 +16,5 @@ def write_sweep_report(result, out=None):
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(page(sweep, folder, gallery), encoding="utf-8")
     yield path
-    if gallery:
-        yield gallery
+    yield from gallery
     yield from write_paper_figures(sweep, folder / "pictures")

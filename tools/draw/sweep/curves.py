@@ -32,6 +32,21 @@ def power_tick(x):
     return f"{x:g}" if 0.99e-3 < x < 2e4 else error_tick(x)
 
 
+def with_ends(axes, which, values, log, most):
+    """Ticks at both ends of the values; those that would crowd an end give way."""
+    finite = [v for v in values if math.isfinite(v)]
+    if not finite or min(finite) == max(finite):
+        return
+    low, high = min(finite), max(finite)
+    place = math.log10 if log and low > 0 else float
+    room = 0.55 * (place(high) - place(low)) / max(most - 1, 1)
+    axis = getattr(axes, f"{which}axis")
+    words = power_tick if place is math.log10 else lambda x: f"{x:.6g}".replace("-", "−")
+    inner = [x for x in axis.get_majorticklocs() if low < x < high and
+             min(place(x) - place(low), place(high) - place(x)) > room]
+    getattr(axes, f"set_{which}ticks")([low, *inner, high], [words(x) for x in (low, *inner, high)])
+
+
 def scaled(axes, which, values, log=False, most=7):
     """A round axis around the values; logarithmic where that is wanted and possible."""
     finite = [v for v in values if math.isfinite(v)]
@@ -40,7 +55,10 @@ def scaled(axes, which, values, log=False, most=7):
     axis = getattr(axes, f"{which}axis")
     axis.set_major_locator(MaxNLocator(most, steps=[1, 2, 2.5, 3, 5, 10]))
     axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:.6g}".replace("-", "−")))
-    if finite and (max(finite) > min(finite) or which == "x"):
+    if finite and max(finite) > min(finite) and which == "y":
+        ticks = axis.get_major_locator().tick_values(min(finite), max(finite))
+        axes.set_ylim(ticks[0], ticks[-1])
+    elif finite and (max(finite) > min(finite) or which == "x"):
         pad = 0.04 * (max(finite) - min(finite)) or 0.5
         getattr(axes, f"set_{which}lim")(min(finite) - pad, max(finite) + pad)
     elif finite:
@@ -84,7 +102,9 @@ def _annotate(layout, axes, box, plan, sweep, title, entries, columns):
     layout.text(0, 16, title, weight="bold")
     levels = sweep.levels(plan.x)
     if plan.x.numeric:
-        scaled(axes, "x", levels, plan.x.log, 4 if layout.narrow else 8)
+        most = 4 if layout.narrow else 8
+        scaled(axes, "x", levels, plan.x.log, most)
+        with_ends(axes, "x", levels, plan.x.log, most)
     else:
         axes.set_xlim(-0.5, len(levels) - 0.5)
         axes.set_xticks(range(len(levels)), [shortened(str(v), 10) for v in levels])

@@ -1,6 +1,7 @@
 """The frames of a sweep's points as small multiples: one camera, one window and one colour range for all."""
 from pathlib import Path
 
+import matplotlib
 import numpy as np
 
 from ..camera import Window
@@ -8,10 +9,14 @@ from ..colouring import Colouring
 from ..picture import draw_page, strip_columns
 from ..scene import Scene, PictureSpec
 from ..series import Series
+from ..report.theme import DARK
 from .plan import plans
 
 MOST_COLUMNS = 8
 PAGE, LETTER = 10.0, 0.085  # inches: the picture, and a letter of a label
+ON_DARK = {**dict.fromkeys(("figure.facecolor", "savefig.facecolor"), DARK["paper"]), "text.color": DARK["ink"],
+           **dict.fromkeys(("xtick.color", "ytick.color"), DARK["muted"]),
+           **dict.fromkeys(("xtick.labelcolor", "ytick.labelcolor"), DARK["ink"])}
 
 
 class Files(Series):
@@ -65,11 +70,11 @@ def _label(sweep, point):
 
 
 def draw_gallery(sweep, folder, path):
-    """The picture's path, or None where no point has a frame."""
+    """Writes the picture, and NAME_dark.png for pages with a dark ground; returns both paths, [] without frames."""
     frames = sweep.frames
     points = [p for p in sweep.done if p.get("frame") and (Path(folder) / p["folder"] / p["frame"]).is_file()]
     if not frames or not points:
-        return None
+        return []
     points, columns = _ordered(sweep, points)
     chosen = _chosen(points, frames["most"])
     paths = [Path(folder) / p["folder"] / p["frame"] for p in chosen]
@@ -79,4 +84,6 @@ def draw_gallery(sweep, folder, path):
     if not columns or len(chosen) < len(points):
         fitting = int(PAGE / (0.2 + LETTER * max(map(len, gallery.labels.values()))))
         columns = max(1, min(strip_columns(len(chosen), gallery.window.size[0] / gallery.window.size[1]), fitting))
-    return draw_page(gallery, columns, range(len(chosen)), path)
+    with matplotlib.rc_context(ON_DARK):
+        dark = draw_page(gallery, columns, range(len(chosen)), path.with_stem(f"{path.stem}_dark"))
+    return [draw_page(gallery, columns, range(len(chosen)), path), dark]

@@ -8,9 +8,11 @@ from ..report import formatting
 from ..report.details import facts, pairs
 from ..report.markup import Html, data_script, joined, scrolling, tag, void
 from ..report.page import SCRIPT, head
-from ..report.tables import caption, number
+from ..report.tables import caption
+from .answer import answer, where
 from .figures import Figures
 from .plan import MOST_PANELS, left_out, plans
+from .point_table import point_table
 
 READ = "Marks are points of the sweep. Lines without marks, and strokes, are closed forms."
 
@@ -25,7 +27,7 @@ def _counted(sweep):
 def _header(sweep, sections):
     missing = sweep.about["missing"]
     banner = tag("p", tag("strong", "Not finished: "), f"{missing} of {len(sweep.points)} points are missing. What "
-                 "follows is what there is so far.", class_="banner", role="status") if missing else None
+                 "follows covers the points so far.", class_="banner", role="status") if missing else None
     return tag("header", tag("button", "Dark", type="button", id="theme", class_="js"), tag("h1", sweep.title),
                tag("p", sweep.description, class_="lede") if sweep.description else None,
                tag("p", " · ".join(p for p in _counted(sweep) if p), class_="facts"), banner,
@@ -39,29 +41,28 @@ def _table(title, heads, rows, label, kind=None):
                      label=label)
 
 
-def _where(sweep, point):
-    return ", ".join(f"{v.name} {v.words(point['values'][v.name])}" for v in sweep.variables)
-
-
-def _range_row(sweep, figure):
+def _range_row(sweep, figure, closed_forms):
     values = [(figure.value(p), p) for p in sweep.done if math.isfinite(figure.value(p))]
     if not values:
         return tag("tr", tag("th", figure.heading, scope="row"), tag("td", "no point has it", colspan=3, class_="word"))
-    cells = []
-    for value, point in (min(values, key=lambda v: v[0]), max(values, key=lambda v: v[0])):
-        cells.append(tag("td", formatting.general(value), void("br"), tag("small", _where(sweep, point)),
-                         class_="word"))
+    ends = (min(values, key=lambda v: v[0]), max(values, key=lambda v: v[0]))
+    cells = [(formatting.general(value), where(sweep, point)) for value, point in ends]
     gaps = [(abs(figure.difference(p)), p) for _, p in values if math.isfinite(figure.difference(p))]
-    gap, point = max(gaps, key=lambda g: g[0]) if gaps else (math.nan, None)
-    farthest = gaps and (f"{formatting.general(100 * gap, 3)}{formatting.THIN}%", void("br"),
-                         tag("small", _where(sweep, point)))
-    cells.append(tag("td", *(farthest or [formatting.UNKNOWN]), class_="word"))
-    return tag("tr", tag("th", figure.heading, scope="row"), *cells)
+    if gaps:
+        gap, point = max(gaps, key=lambda g: g[0])
+        cells.append((f"{formatting.general(100 * gap, 3)}{formatting.THIN}%", where(sweep, point)))
+    elif closed_forms:
+        cells.append((formatting.UNKNOWN, ""))
+    return tag("tr", tag("th", figure.heading, scope="row"),
+               *(tag("td", words, void("br"), tag("small", place), class_="word") for words, place in cells))
 
 
 def _ranges(sweep):
-    heads = (("Figure", False), ("Smallest", False), ("Largest", False), ("Farthest from the closed form", False))
-    return _table("Over all points", heads, [_range_row(sweep, f) for f in sweep.figures], "Smallest and largest")
+    closed_forms = any(f.closed_form for f in sweep.figures)
+    heads = [(text, False) for text in ("Figure", "Smallest", "Largest")]
+    heads += [("Farthest from the closed form", False)] if closed_forms else []
+    rows = [_range_row(sweep, f, closed_forms) for f in sweep.figures]
+    return _table("Over all points", heads, rows, "Smallest and largest")
 
 
 def _figures(sweep, figures):
@@ -77,43 +78,19 @@ def _figures(sweep, figures):
     return joined(parts) or tag("p", "Nothing to show: no point has finished.", class_="empty")
 
 
-def _gallery(sweep, path):
+def _embedded(path):
+    return "data:image/png;base64," + base64.b64encode(Path(path).read_bytes()).decode("ascii")
+
+
+def _gallery(sweep, paths):
     scale, at = sweep.frames["enlarged"], sweep.frames["at"]
     names = ", ".join(v.heading for v in sweep.variables)
     when = "at the end of their runs" if at is None else f"after {at:g} s"
     enlarged = f" Deformations are enlarged {scale:g} times." if scale != 1 else ""
-    data = base64.b64encode(Path(path).read_bytes()).decode("ascii")
-    return tag("figure", void("img", src=f"data:image/png;base64,{data}", class_="photo",
-                              alt=f"The body at {len(sweep.done)} points of the sweep, side by side"),
+    alt = f"The body at {len(sweep.done)} points of the sweep, side by side"
+    return tag("figure", *(void("img", src=_embedded(path), class_=f"photo {theme}", alt=alt)
+                           for theme, path in zip(("day", "night"), paths)),
                tag("figcaption", f"Points {when}, with one camera and one range of colours. Above each: {names}.{enlarged}"))
-
-
-def _row(sweep, point):
-    cells = []
-    for k, v in enumerate(sweep.variables):
-        value = v.plain(point["values"][v.name])
-        cells.append(tag("th", value, scope="row") if k == 0 else number(value) if v.numeric else
-                     tag("td", value, class_="word"))
-    for figure in sweep.figures:
-        cells.append(number(formatting.general(figure.value(point), 6)))
-        if figure.closed_form:
-            gap = figure.difference(point)
-            cells.append(number(f"{100 * gap:+.3f}".replace("-", "−") if math.isfinite(gap) else formatting.UNKNOWN))
-    cost = point["cost"] or {}
-    cells.append(number(formatting.plain_seconds(cost.get("wall_seconds", math.nan))))
-    cells.append(tag("td", "" if point["status"] == "completed" else point["reason"] or point["status"], class_="word"))
-    return tag("tr", *cells, class_="failed" if point["status"] != "completed" else None)
-
-
-def _points(sweep):
-    heads = [(v.heading, v.numeric and k > 0) for k, v in enumerate(sweep.variables)]
-    for figure in sweep.figures:
-        heads.append((figure.heading, True))
-        if figure.closed_form:
-            heads.append(("from closed form [%]", True))
-    heads += [("wall time [s]", True), ("", False)]
-    rows = [_row(sweep, p) for p in sweep.points]
-    return _table("All points; the same in sweep.csv", heads, rows, "All points", "long")
 
 
 def _failures(sweep):
@@ -144,12 +121,13 @@ def _tip(sweep, point):
 
 
 def page(sweep, folder, gallery):
-    """The whole page as text; `gallery` is a picture's path or None."""
+    """The whole page as text; `gallery` are the paths of a picture on light and on dark ground, or empty."""
     figures = Figures(sweep)
-    parts = [("ranges", "Ranges", _ranges(sweep)), ("figures", "Figures", _figures(sweep, figures))]
+    parts = [("answer", "Answer", joined([answer(sweep), _ranges(sweep)])),
+             ("figures", "Figures", _figures(sweep, figures))]
     if gallery:
         parts.append(("frames", "Frames", _gallery(sweep, gallery)))
-    parts += [("points", "Points", joined([_points(sweep), tag("h3", "Failures"), _failures(sweep)])),
+    parts += [("points", "Points", joined([point_table(sweep), tag("h3", "Failures"), _failures(sweep)])),
               ("details", "Details", _details(sweep, folder))]
     main = tag("main", *(tag("section", tag("h2", name), content, id=identity) for identity, name, content in parts))
     runs = data_script("run-data", {"measure": "", "labels": {}, "runs": [_tip(sweep, p) for p in sweep.points]})

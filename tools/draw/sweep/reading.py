@@ -8,11 +8,13 @@ from ..series import result_folder
 from . import FILE
 
 FORMAT = 1
+NOISE = 1e-12  # of the largest value of a figure
 
 
 @dataclass(frozen=True)
 class Variable:
     name: str
+    path: str  # of the key in the scene, '' for names of the sweep
     unit: str
     numeric: bool
     log: bool
@@ -107,11 +109,23 @@ def read_sweep(result):
         raise DrawError(f"{path}: {error} is missing or no such thing; `orthodyn sweep` writes the file anew") from None
 
 
+def _without_noise(points, figures):
+    """Values of a figure that are round-off beside its largest become 0."""
+    for figure in figures:
+        values = [p["figures"].get(figure.name) for p in points]
+        floor = NOISE * max((abs(v) for v in values if v is not None), default=0.0)
+        for p, v in zip(points, values):
+            if v is not None and abs(v) < floor:
+                p["figures"] = {**p["figures"], figure.name: 0.0}
+    return points
+
+
 def _sweep(found):
-    variables = [Variable(v["name"], v["unit"], v["numeric"], v["scale"] == "log") for v in found["variables"]]
+    variables = [Variable(v["name"], v.get("path", ""), v["unit"], v["numeric"], v["scale"] == "log")
+                 for v in found["variables"]]
     figures = [Figure(f["name"], f["title"], f["unit"], f["factor"], f["scale"] == "log", f["closed_form"])
                for f in found["figures"]]
-    points = [{**p, "index": k} for k, p in enumerate(found["points"])]
+    points = _without_noise([{**p, "index": k} for k, p in enumerate(found["points"])], figures)
     return Sweep(found["title"], found["description"], found["combine"], variables, figures, found["plots"],
                  found["frames"], points, {k: found[k] for k in ("file", "scene", "written", "machine", "versions",
                                                                   "definitions", "missing")})

@@ -1,0 +1,107 @@
+"""The answer of a sweep in sentences: how far each figure changes, where, and whether closed forms hold."""
+import math
+
+from ..report import formatting
+from ..report.markup import joined, tag
+
+SAME = 1e-6   # relative changes below it are none
+AGREES = 0.1  # integrators agree if they differ by less than this share of their distance from the closed form
+FAR = 0.01    # and that distance is a matter of the formula from here on
+
+
+def words(figure, value):
+    return formatting.general(value).replace("-", "−") + (f" {figure.unit}" if figure.unit else "")
+
+
+def where(sweep, point):
+    """'stiffer 10, along L', without variables that have one value."""
+    varied = [v for v in sweep.variables if len(sweep.levels(v)) > 1] or sweep.variables
+    return ", ".join(f"{v.name} {v.words(point['values'][v.name])}" for v in varied)
+
+
+def _valued(sweep, figure):
+    """(value, point) of points that have one; along the axis where there is one numeric variable."""
+    found = [(figure.value(p), p) for p in sweep.done if math.isfinite(figure.value(p))]
+    if len(sweep.variables) == 1 and sweep.variables[0].numeric:
+        found.sort(key=lambda entry: entry[1]["values"][sweep.variables[0].name])
+    return found
+
+
+def _monotonic(sweep, values):
+    """'rises', 'falls', or '' where it turns or where there is no one axis."""
+    if len(sweep.variables) > 1 or not sweep.variables[0].numeric:
+        return ""
+    steps = [b - a for a, b in zip(values, values[1:])]
+    return "rises" if all(s >= 0 for s in steps) else "falls" if all(s <= 0 for s in steps) else ""
+
+
+def _by_how_much(low, high):
+    """'a factor of 12', 'by 4.2 %'; '' where the sign changes."""
+    small, large = sorted((abs(low), abs(high)))
+    if low * high <= 0:
+        return ""
+    return f", a factor of {large / small:.3g}" if large >= 2 * small else f", by {100 * (large / small - 1):.2g} %"
+
+
+def _change(sweep, figure):
+    """Words that follow the figure's title; None where no point has it."""
+    found = _valued(sweep, figure)
+    if not found:
+        return None
+    low, high = (choose(found, key=lambda entry: entry[0]) for choose in (min, max))
+    if high[0] - low[0] <= SAME * max(abs(low[0]), abs(high[0])):
+        return f"is {words(figure, low[0])} at {'the only point' if len(found) == 1 else 'all points'}"
+    much, verb = _by_how_much(low[0], high[0]), _monotonic(sweep, [value for value, _ in found])
+    first, last = (found[0], found[-1]) if verb else (low, high)
+    return (f"{verb or 'ranges'} from {words(figure, first[0])} ({where(sweep, first[1])}) "
+            f"to {words(figure, last[0])} ({where(sweep, last[1])}){much}")
+
+
+def _closed_form(sweep, figure):
+    gaps = [(abs(figure.difference(p)), p) for p in sweep.done if math.isfinite(figure.difference(p))]
+    if not gaps:
+        return ""
+    gap, point = max(gaps, key=lambda entry: entry[0])
+    if gap < 1e-9:
+        return "; it equals the closed form"
+    at = f" ({where(sweep, point)})" if len(gaps) > 1 else ""
+    return f"; at most {formatting.general(100 * gap, 2)} % from the closed form{at}"
+
+
+def _groups(sweep, figure):
+    """Differences from the closed form by the values of all variables but the integrator."""
+    chooser = next((v for v in sweep.variables if v.path == "integrator.type"), None)
+    groups = {}
+    for point in sweep.done if chooser else ():
+        key = tuple(value for name, value in point["values"].items() if name != chooser.name)
+        if math.isfinite(figure.difference(point)):
+            groups.setdefault(key, []).append(figure.difference(point))
+    return [g for g in groups.values() if len(g) > 1]
+
+
+def _suspected(sweep, figure):
+    """Where integrators agree with each other and not with the closed form, the formula is in doubt."""
+    groups = _groups(sweep, figure)
+    if not groups or not all(min(map(abs, g)) > FAR and max(g) - min(g) < AGREES * min(map(abs, g)) for g in groups):
+        return ""
+    return ". All integrators agree with each other and not with the closed form: the formula is suspected"
+
+
+def _sentence(sweep, figure):
+    change = _change(sweep, figure)
+    if change is None:
+        return None
+    title = figure.title[:1].upper() + figure.title[1:]
+    return joined([tag("strong", title), f" {change}{_closed_form(sweep, figure)}{_suspected(sweep, figure)}."])
+
+
+def answer(sweep):
+    """The first figure as the headline, the others as a list."""
+    sentences = [s for s in (_sentence(sweep, f) for f in sweep.figures) if s]
+    if not sentences:
+        return tag("p", "No point has finished with a figure yet.", class_="headline")
+    failed = len(sweep.failed)
+    return joined([
+        tag("p", sentences[0], class_="headline"),
+        tag("ul", *(tag("li", s) for s in sentences[1:])) if sentences[1:] else None,
+        tag("p", f"{failed} of {formatting.plural(len(sweep.points), 'point')} failed.") if failed else None])
