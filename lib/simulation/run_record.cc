@@ -27,7 +27,8 @@ Json begin_json(const std::string& scene, const std::vector<std::string>& set, c
 Json model_json(const ModelSummary& model) {
   Json terms = Json::array();
   for (const auto& term : model.terms) terms.push_back(term);
-  Json out{{"nodes", model.nodes}, {"elements", model.elements}, {"unknowns", model.unknowns}, {"terms", terms}};
+  Json out{{"nodes", model.nodes}, {"elements", model.elements}, {"unknowns", model.unknowns}, {"terms", terms},
+           {"given", model.given}};
   if (!model.kinematics.empty()) out["kinematics"] = model.kinematics;
   if (model.linear_error && std::isfinite(*model.linear_error)) out["linear_error"] = *model.linear_error;
   return out;

@@ -111,6 +111,25 @@ TEST_F(Resume, AnInterruptedRunGoesOnThoughItsSceneAsksForNoCheckpoints) {
   EXPECT_EQ(record("out/swing")["restarts"][0]["time"], reached);
 }
 
+// A factorisation that would take minutes.
+TEST_F(Resume, ATermSignalEndsALongFactorisationToo) {
+  write("block.yaml", R"(
+mesh: {type: box, size: [1, 1, 1], cells: [22, 22, 22], order: 1}
+materials: {soft: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
+gravity: [0, 0, -1]
+clamps: [{surface: x0}]
+time: {end: 0.5}
+integrator: {type: arkode_dirk, step: 0.01, position_scale: 0.1, velocity_scale: 0.1, linear_solver: eigen_ldlt}
+)");
+  const auto stopped = shell("cd " + folder_.string() + " && { " ORTHODYN_EXECUTABLE
+                             " run block.yaml --quiet & pid=$!; for i in $(seq 600); do [ -e out/block/steps.csv ] && "
+                             "break; sleep 0.05; done; sleep 1; kill -TERM $pid; for i in $(seq 60); do kill -0 $pid "
+                             "2>/dev/null || break; sleep 0.5; done; kill -KILL $pid 2>/dev/null; wait $pid; }");
+  EXPECT_EQ(stopped.exit_code, 130) << stopped.output;
+  EXPECT_NE(stopped.output.find("in the middle of a computation"), std::string::npos) << stopped.output;
+  EXPECT_EQ(record("out/block").at("status"), "running");
+}
+
 TEST_F(Resume, ARunKilledAfterItsLastStepGetsItsRecord) {
   write("beam.yaml", kBeam + std::string(kFixedStep));
   ASSERT_EQ(orthodyn("run beam.yaml --quiet --set time.end=0.1").exit_code, 0);

@@ -154,7 +154,7 @@ int check(const CheckArguments& arguments) {
   fmt::print("terms\n");
   for (const auto& term : parts.elastic) fmt::print("  {}\n", term->description());
   for (const auto& term : parts.loads) fmt::print("  {}\n", term->description());
-  if (parts.mass_damping > 0) fmt::print("  mass-proportional damping\n");
+  if (parts.mass_damping > 0) fmt::print("  mass-proportional damping of {:.6g} 1/s\n", parts.mass_damping);
   fmt::print("system\n  {} unknowns, {} non-zeros ({})\n", model.num_dofs(), model.pattern().non_zeros(),
              model.pattern().symmetric ? "symmetric, lower triangle" : "general");
   setup.integrator ? print_dynamics(setup) : print_statics(setup);
