@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "lib/core/words.h"
-#include "lib/simulation/given_terms.h"
 
 namespace orthodyn {
 
@@ -30,7 +29,6 @@ ModelSummary summarize(const Setup& setup) {
   for (const auto& term : parts.loads) out.terms.push_back(term->description());
   if (parts.mass_damping > 0)
     out.terms.push_back(fmt::format("mass-proportional damping of {:.6g} 1/s", parts.mass_damping));
-  out.given = given_terms(setup.config);
   out.kinematics = told_kinematics(setup);
   if (setup.linearity && !std::isnan(setup.linearity->error())) out.linear_error = setup.linearity->error();
   return out;

@@ -12,7 +12,6 @@
 #include "lib/simulation/errors/accumulated_error.h"
 #include "lib/simulation/errors/error_estimate.h"
 #include "lib/simulation/errors/mesh_error.h"
-#include "lib/simulation/json.h"
 #include "lib/simulation/kinematics.h"
 #include "lib/simulation/outcome.h"
 
@@ -25,7 +24,6 @@ struct ModelSummary {
   std::string elasticity;          // the laws of its regions
   std::vector<std::string> terms;  // in words
   std::string kinematics = {};     // what was taken for `auto`, and why, and how far linear kinematics are off; or ""
-  Json given = {};                  // what the scene says of it (given_terms.h)
   std::optional<double> linear_error = {};  // of these, of the motion; infinite where it is a good part
 };
 

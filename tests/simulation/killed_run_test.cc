@@ -154,5 +154,21 @@ TEST_F(Resume, ARunThatFilledTheDiskGoesOnWhenThereIsRoom) {
   EXPECT_EQ(read_times(folder_ / "out/beam/frames.pvd").size(), 41u);
 }
 
+TEST_F(Resume, ARunThatFilledTheDiskGoesOnThoughItsSceneAsksForNoCheckpoints) {
+  write("swing.yaml", kSwing);
+  // No file may grow past 24 kB: steps.csv does, and run.json has its room.
+  const std::string run = "run swing.yaml --quiet --set integrator.h_max=2e-4 --set output.fields=[region]";
+  const auto full = shell("cd " + folder_.string() + " && trap '' XFSZ; ulimit -f 48; " ORTHODYN_EXECUTABLE " " + run);
+  ASSERT_EQ(full.exit_code, 3) << full.output;
+  EXPECT_NE(full.output.find("cannot write"), std::string::npos) << full.output;
+  EXPECT_NE(full.output.find("--resume"), std::string::npos) << full.output;
+  const auto result = orthodyn(run + " --resume");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  ASSERT_EQ(record("out/swing").at("status"), "completed");
+  EXPECT_EQ(record("out/swing").at("restarts").size(), 1u);
+  EXPECT_EQ(read_times(folder_ / "out/swing/frames.pvd").size(), 6u);
+  EXPECT_EQ(record("out/swing").at("statistics").at("steps"), read_rows(folder_ / "out/swing/steps.csv").size());
+}
+
 }  // namespace
 }  // namespace orthodyn::killed_run_test
