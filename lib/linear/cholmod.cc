@@ -6,6 +6,7 @@
 #include "lib/core/errors.h"
 #include "lib/core/versions.h"
 #include "lib/linear/blas.h"
+#include "lib/linear/room.h"
 #include "lib/linear/solver.h"
 
 namespace orthodyn {
@@ -70,6 +71,9 @@ class Cholmod : public LinearSolver {
 
   FactorStatus factor(const double* values) override {
     const OneBlasThread threads(pattern_->n < kBlasThreadsFrom);
+    if (factor_->xtype == CHOLMOD_PATTERN)  // the first on this pattern
+      require_room_of_factor(factor_bytes(), "the Cholesky factor",
+                   "use a coarser mesh, or an explicit integrator (central_differences), which has no factor");
     cholmod_sparse view = view_of(values);
     cholmod_factorize(&view, factor_, &common_);
     if (common_.status == CHOLMOD_NOT_POSDEF)

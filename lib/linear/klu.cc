@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lib/core/errors.h"
+#include "lib/linear/room.h"
 #include "lib/linear/solver.h"
 
 namespace orthodyn {
@@ -35,6 +36,7 @@ class Klu : public LinearSolver {
   }
 
   FactorStatus factor(const double* values) override {
+    if (!numeric_) require_room_of_factor(factor_bytes(), "the pair of LU factors", "use cholmod or a coarser mesh");
     full_ = full(values);
     int* p = full_.outerIndexPtr();
     int* i = full_.innerIndexPtr();

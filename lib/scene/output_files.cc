@@ -70,7 +70,7 @@ const Spec<Output>& Output::spec() {
       Spec<Output>()
           .key("interval", &Output::interval, "Time between frames.", {.unit = "s", .range = kPositive})
           .key("frames", &Output::frames, "Frames after the initial one, evenly spaced; default 50.",
-               {.range = {0, 1e6}})
+               {.range = {0, 1e9}})
           .key("history", &Output::history,
                "When rows are written to probes.csv, energy.csv and momentum.csv; default with the frames.")
           .key("times", &Output::times,

@@ -1,5 +1,9 @@
 #include "lib/scene/scene.h"
 
+#include <fmt/format.h>
+
+#include <utility>
+
 #include "lib/material/admissible.h"
 #include "lib/scene/mesh_materials.h"
 
@@ -163,6 +167,19 @@ void require_admissible_materials(const Config& config, const Scene& scene) {
     }
 }
 
+// Their list is kept in memory; from a million on a run asks for --yes.
+void require_countable_times(const Config& config, const Scene& scene) {
+  constexpr double kMost = 1e9;
+  const double span = scene.time.end - scene.time.start;
+  const auto& [interval, history] = std::pair(scene.output.interval, scene.output.history);
+  if (interval && span / *interval > kMost)
+    config.at("output").at("interval").fail(
+        fmt::format("gives {:.2g} frames, the most is {:.0e}; take a longer one", span / *interval, kMost));
+  if (history && history->interval && span / *history->interval > kMost)
+    config.at("output").at("history").at("interval").fail(
+        fmt::format("gives {:.2g} rows, the most is {:.0e}; take a longer one", span / *history->interval, kMost));
+}
+
 }  // namespace
 
 Scene read_scene(const Config& input) {
@@ -181,9 +198,7 @@ Scene read_scene(const Config& input) {
   if (scene.materials.empty()) config.at("materials").fail("is empty; give at least one material");
   require_admissible_materials(config, scene);
   complete_regions(config, scene);
-  const auto& interval = scene.output.interval;
-  if (interval && (scene.time.end - scene.time.start) / *interval > 1e6)
-    config.at("output").at("interval").fail("gives more than 1e6 frames");
+  require_countable_times(config, scene);
   return scene;
 }
 

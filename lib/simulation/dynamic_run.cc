@@ -5,6 +5,7 @@
 
 #include "lib/config/registry.h"
 #include "lib/config/values.h"
+#include "lib/simulation/given_terms.h"
 #include "lib/simulation/model_summary.h"
 #include "lib/simulation/checkpoint/resume.h"
 #include "lib/simulation/run_context.h"
@@ -24,7 +25,6 @@ CheckpointTimes checkpoint_times(const Scene& scene) {
 // A run that ended early, by an event as well, can be taken up again whether or not the scene asks for checkpoints; one
 // that completed can be extended if it does. A checkpoint that is there is kept up to date.
 bool keeps_last_state(const Scene& scene, const Outcome& outcome, bool resumed) {
-  if (!outcome.between_steps) return false;
   return scene.checkpoint || resumed || outcome.status != Outcome::Status::completed || !outcome.remark.empty();
 }
 
@@ -68,7 +68,8 @@ class DynamicAnalysis {
     }
     RunObservers observers(setup_, folder_.path());
     resumes ? resume(begin, observers) : prepare_anew();
-    const RunRecord record(folder_.path(), context_.scene, context_.set, begin.restarts);
+    const RunRecord record(folder_.path(), context_.scene, context_.set, begin.restarts,
+                           given_terms(setup_.config));
     write_file(folder_.path() / "scene.yaml", {begin.scene});
     // Killed from here on, it can be resumed.
     if (!resumes && setup_.scene.checkpoint) begin.save(folder_.checkpoint());
@@ -127,15 +128,17 @@ class DynamicAnalysis {
     if (setup_.scene.output.mesh_error) all.push_back(&mesh_error_.emplace(outputs_left(plan)));
     const Outcome outcome =
         orthodyn::run(*setup_.built.model, *setup_.integrator, begin.state, plan, all, context_.interrupt);
-    const bool kept = keeps_last_state(setup_.scene, outcome, begin.begun) && keep(outcome.last, checkpointer);
+    const bool kept = keep(outcome, begin.begun, checkpointer);
     resumable = kept || setup_.scene.checkpoint;
     return outcome;
   }
 
   // False if it cannot be written: a run that has failed is not to fail in another way.
-  bool keep(const State& last, Checkpointer& checkpointer) {
+  bool keep(const Outcome& outcome, bool resumed, Checkpointer& checkpointer) {
     try {
-      checkpointer.write(last);
+      if (!outcome.between_steps) return outcome.reason == Reason::disk && checkpointer.write_remembered();
+      if (!keeps_last_state(setup_.scene, outcome, resumed)) return false;
+      checkpointer.write(outcome.last);
       return true;
     } catch (const RunError& e) {
       context_.listener.on_warning(fmt::format("no checkpoint of the last state: {}", e.what()));

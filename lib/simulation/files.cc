@@ -14,21 +14,18 @@
 namespace orthodyn {
 
 namespace {
-constexpr std::size_t kReserved = 16384;
-
-std::string padded(std::string text) {
-  if (text.size() < kReserved) text.append(kReserved - text.size(), '\n');
-  return text;
-}
+constexpr std::size_t kReserved = 16384;  // bytes beyond the first content
 }  // namespace
 
-ReservedFile::ReservedFile(std::filesystem::path path, const std::string& content) : path_(std::move(path)) {
-  write_file(path_, {padded(content)});
+ReservedFile::ReservedFile(std::filesystem::path path, const std::string& content)
+    : path_(std::move(path)), room_(content.size() + kReserved) {
+  write_file(path_, {content, std::string(kReserved, '\n')});
 }
 
 void ReservedFile::rewrite(const std::string& content) const {
   std::fstream out(path_, std::ios::in | std::ios::out | std::ios::binary);
-  const std::string text = padded(content);
+  std::string text = content;
+  if (text.size() < room_) text.append(room_ - text.size(), '\n');
   out.write(text.data(), static_cast<std::streamsize>(text.size()));
   out.close();
   if (!out) fail_to_write(path_);

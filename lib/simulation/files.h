@@ -19,6 +19,7 @@ class ReservedFile {
 
  private:
   std::filesystem::path path_;
+  std::size_t room_;  // bytes
 };
 
 // A file to which entries are appended, and which is whole after each of them: an end mark may follow

@@ -1,5 +1,7 @@
 #include "lib/simulation/model_summary.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -25,6 +27,8 @@ ModelSummary summarize(const Setup& setup) {
                    parts.mesh.order(),      laws_of(model), {}};
   for (const auto& term : parts.elastic) out.terms.push_back(term->description());
   for (const auto& term : parts.loads) out.terms.push_back(term->description());
+  if (parts.mass_damping > 0)
+    out.terms.push_back(fmt::format("mass-proportional damping of {:.6g} 1/s", parts.mass_damping));
   out.kinematics = told_kinematics(setup);
   if (setup.linearity && !std::isnan(setup.linearity->error())) out.linear_error = setup.linearity->error();
   return out;

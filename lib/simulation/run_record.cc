@@ -13,21 +13,24 @@ namespace {
 // A path need not be UTF-8.
 std::string text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
-Json begin_json(const std::string& scene, const std::vector<std::string>& set, const std::vector<Restart>& restarts) {
+Json begin_json(const std::string& scene, const std::vector<std::string>& set, const std::vector<Restart>& restarts,
+                const Json& given) {
   Json out{{"status", "running"},
            {"scene", scene},
            {"set", set},
            {"versions", versions_json()},
-           {"machine", machine_json()}};
+           {"machine", machine_json()},
+           {"model", {{"given", given}}}};
   for (const auto& r : restarts)
     out["restarts"].push_back({{"time", r.time}, {"at", r.at}, {"after", r.after}, {"changed", r.changed}});
   return out;
 }
 
-Json model_json(const ModelSummary& model) {
+Json model_json(const ModelSummary& model, const Json& given) {
   Json terms = Json::array();
   for (const auto& term : model.terms) terms.push_back(term);
-  Json out{{"nodes", model.nodes}, {"elements", model.elements}, {"unknowns", model.unknowns}, {"terms", terms}};
+  Json out{{"nodes", model.nodes}, {"elements", model.elements}, {"unknowns", model.unknowns}, {"terms", terms},
+           {"given", given}};
   if (!model.kinematics.empty()) out["kinematics"] = model.kinematics;
   if (model.linear_error && std::isfinite(*model.linear_error)) out["linear_error"] = *model.linear_error;
   return out;
@@ -158,15 +161,15 @@ void add_buckling(Json& out, const BucklingResult& buckling, const Outcome& outc
 }  // namespace
 
 RunRecord::RunRecord(const std::filesystem::path& folder, const std::string& scene, const std::vector<std::string>& set,
-                     const std::vector<Restart>& restarts)
-    : begin_(begin_json(scene, set, restarts)), file_(folder / kRunRecordFile, text(begin_)) {}
+                     const std::vector<Restart>& restarts, const Json& given)
+    : begin_(begin_json(scene, set, restarts, given)), file_(folder / kRunRecordFile, text(begin_)) {}
 
 void RunRecord::finish(const RunResult& result) const {
   Json out = begin_;
   out["status"] = status_word(result.outcome.status);
   if (result.equilibrium) out["analysis"] = "static";
   if (result.buckling) out["analysis"] = "buckling";
-  out["model"] = model_json(result.model);
+  out["model"] = model_json(result.model, begin_.at("model").at("given"));
   if (result.motion) add_motion(out, *result.motion, result.outcome);
   if (result.equilibrium) add_equilibrium(out, *result.equilibrium, result.outcome);
   if (result.buckling) add_buckling(out, *result.buckling, result.outcome);

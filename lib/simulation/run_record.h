@@ -17,9 +17,10 @@ inline constexpr const char* kRunRecordFile = "run.json";  // in the folder of t
 
 class RunRecord {
  public:
-  // Writes the file. `scene`: its file, `set`: what was changed in it. Throws RunError.
+  // Writes the file. `scene`: its file, `set`: what was changed in it, `given`: of its model (given_terms.h). Throws
+  // RunError.
   RunRecord(const std::filesystem::path& folder, const std::string& scene, const std::vector<std::string>& set,
-            const std::vector<Restart>& restarts);
+            const std::vector<Restart>& restarts, const Json& given);
 
   // Throws RunError, but not for a full disk: its room is reserved.
   void finish(const RunResult& result) const;

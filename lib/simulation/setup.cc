@@ -21,8 +21,6 @@ namespace orthodyn {
 
 namespace {
 
-constexpr int kLargestForSlips = 30'000;  // unknowns that are factorised for a warning's sake
-
 void append(Warnings more, Warnings& all) {
   for (auto& warning : more) all.push_back(std::move(warning));
 }

@@ -7,6 +7,7 @@
 
 #include "lib/core/versions.h"
 #include "lib/simulation/checkpoint/resume.h"
+#include "lib/simulation/volume.h"
 
 namespace orthodyn {
 
@@ -79,6 +80,7 @@ RunResult Simulation::run_once(Config config, const RunRequest& request, const s
   Setup setup = set_up(std::move(config), earlier && was_linear_so_far(*earlier));
   if (!given_up.empty()) setup.note_given_up(given_up);
   for (const auto& warning : setup.built.warnings) listener.on_warning(warning);
+  if (!request.any_volume) require_usual_volume(setup);
   const std::string resolved = resolved_scene(setup, file_, folder.path());
   return analysis_of(setup.scene)(
       {file_, changes_.set, request, setup, resolved, folder, std::move(earlier), interrupt, listener});

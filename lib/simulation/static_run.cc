@@ -6,6 +6,7 @@
 #include "lib/analysis/displacement_error.h"
 #include "lib/simulation/static_problem.h"
 #include "lib/simulation/files.h"
+#include "lib/simulation/given_terms.h"
 #include "lib/simulation/load_steps.h"
 #include "lib/simulation/model_summary.h"
 #include "lib/simulation/run_context.h"
@@ -127,7 +128,7 @@ RunResult run_static_analysis(RunContext context) {
   const auto& folder = context.folder.path();
   const StaticProblem problem = static_problem(setup.scene, setup.built);
   context.folder.prepare();
-  const RunRecord record(folder, context.scene, context.set, {});
+  const RunRecord record(folder, context.scene, context.set, {}, given_terms(context.setup.config));
   write_file(folder / "scene.yaml", {context.resolved});
   StaticObservers observers(setup, problem, folder, context.listener);
   auto all = observers.all();

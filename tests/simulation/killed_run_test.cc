@@ -111,6 +111,25 @@ TEST_F(Resume, AnInterruptedRunGoesOnThoughItsSceneAsksForNoCheckpoints) {
   EXPECT_EQ(record("out/swing")["restarts"][0]["time"], reached);
 }
 
+// A factorisation that would take minutes.
+TEST_F(Resume, ATermSignalEndsALongFactorisationToo) {
+  write("block.yaml", R"(
+mesh: {type: box, size: [1, 1, 1], cells: [22, 22, 22], order: 1}
+materials: {soft: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
+gravity: [0, 0, -1]
+clamps: [{surface: x0}]
+time: {end: 0.5}
+integrator: {type: arkode_dirk, step: 0.01, position_scale: 0.1, velocity_scale: 0.1, linear_solver: eigen_ldlt}
+)");
+  const auto stopped = shell("cd " + folder_.string() + " && { " ORTHODYN_EXECUTABLE
+                             " run block.yaml --quiet & pid=$!; for i in $(seq 600); do [ -e out/block/steps.csv ] && "
+                             "break; sleep 0.05; done; sleep 1; kill -TERM $pid; for i in $(seq 60); do kill -0 $pid "
+                             "2>/dev/null || break; sleep 0.5; done; kill -KILL $pid 2>/dev/null; wait $pid; }");
+  EXPECT_EQ(stopped.exit_code, 130) << stopped.output;
+  EXPECT_NE(stopped.output.find("in the middle of a computation"), std::string::npos) << stopped.output;
+  EXPECT_EQ(record("out/block").at("status"), "running");
+}
+
 TEST_F(Resume, ARunKilledAfterItsLastStepGetsItsRecord) {
   write("beam.yaml", kBeam + std::string(kFixedStep));
   ASSERT_EQ(orthodyn("run beam.yaml --quiet --set time.end=0.1").exit_code, 0);
@@ -133,6 +152,22 @@ TEST_F(Resume, ARunThatFilledTheDiskGoesOnWhenThereIsRoom) {
   ASSERT_EQ(result.exit_code, 0) << result.output;
   EXPECT_EQ(read_rows(folder_ / "out/beam/steps.csv").size(), 200u);
   EXPECT_EQ(read_times(folder_ / "out/beam/frames.pvd").size(), 41u);
+}
+
+TEST_F(Resume, ARunThatFilledTheDiskGoesOnThoughItsSceneAsksForNoCheckpoints) {
+  write("swing.yaml", kSwing);
+  // No file may grow past 24 kB: steps.csv does, and run.json has its room.
+  const std::string run = "run swing.yaml --quiet --set integrator.h_max=2e-4 --set output.fields=[region]";
+  const auto full = shell("cd " + folder_.string() + " && trap '' XFSZ; ulimit -f 48; " ORTHODYN_EXECUTABLE " " + run);
+  ASSERT_EQ(full.exit_code, 3) << full.output;
+  EXPECT_NE(full.output.find("cannot write"), std::string::npos) << full.output;
+  EXPECT_NE(full.output.find("--resume"), std::string::npos) << full.output;
+  const auto result = orthodyn(run + " --resume");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  ASSERT_EQ(record("out/swing").at("status"), "completed");
+  EXPECT_EQ(record("out/swing").at("restarts").size(), 1u);
+  EXPECT_EQ(read_times(folder_ / "out/swing/frames.pvd").size(), 6u);
+  EXPECT_EQ(record("out/swing").at("statistics").at("steps"), read_rows(folder_ / "out/swing/steps.csv").size());
 }
 
 }  // namespace

@@ -74,6 +74,28 @@ output: {fields: []}
   EXPECT_NE(result.output.find("max_steps"), std::string::npos) << result.output;
 }
 
+// Half a gigabyte where a third is left.
+TEST_F(Losses, AFactorWithoutRoomIsRefusedBeforeItIsTried) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "needs all addresses";
+#endif
+  write("block.yaml", R"(
+mesh: {type: box, size: [1, 1, 1], cells: [30, 30, 30], order: 1}
+materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
+clamps: [{surface: x0}]
+gravity: [0, 0, -9.81]
+time: {end: 1}
+integrator: {type: arkode_dirk, step: 0.01, position_scale: 0.1, velocity_scale: 0.1}
+output: {fields: []}
+)");
+  const auto result =
+      shell("cd " + folder_.string() + " && ulimit -v 500000 && " ORTHODYN_EXECUTABLE " run block.yaml --quiet");
+  EXPECT_EQ(result.exit_code, 3) << result.output;
+  EXPECT_NE(result.output.find("the Cholesky factor does not fit in memory: it takes"), std::string::npos)
+      << result.output;
+  EXPECT_EQ(Json::parse(read_text(folder_ / "out/block/run.json"))["failure"]["reason"], "out of memory");
+}
+
 TEST_F(Losses, AFormulaThatLosesItsValueOnTheWay) {
   write("swing.yaml", kSwing + std::string("loads: [{surface: x1, force: [0, 0, 1], factor: {type: expression, "
                                            "formula: sqrt(0.3-t)}}]\n"));

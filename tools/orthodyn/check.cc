@@ -8,9 +8,13 @@
 #include "lib/analysis/strain_limits.h"
 #include "lib/axes/axes_source.h"
 #include "lib/core/symmetric_eigen.h"
+#include "lib/core/memory.h"
 #include "lib/simulation/axes_file.h"
+#include "lib/simulation/layers.h"
+#include "lib/simulation/run_cost.h"
 #include "lib/simulation/scene_cost.h"
 #include "lib/simulation/static_problem.h"
+#include "lib/simulation/volume.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/scene_options.h"
@@ -21,6 +25,8 @@ namespace orthodyn {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr double kSecondsOfCosts = 1;  // in which terms are measured
 
 struct CheckArguments : SceneArguments {
   bool axes = false;  // write the material axes
@@ -105,9 +111,7 @@ void print_supports(const FemModel& model) {
   if (moved > 0) fmt::print("motions\n  {} of {} coordinates are moved\n", moved, coordinates);
 }
 
-// Measured in about a second.
-void print_cost(const Setup& setup) {
-  const auto costs = term_costs(*setup.built.model, setup.built.initial, 1);
+void print_cost(const Setup& setup, const std::vector<TermCost>& costs) {
   TermCost all;
   for (const TermCost& cost : costs) all = {"", all.force + cost.force, all.tangent + cost.tangent};
   fmt::print("cost of one evaluation, measured\n");
@@ -118,6 +122,46 @@ void print_cost(const Setup& setup) {
   fmt::print("could be left out at an accuracy of {:.0e}\n", accuracy_asked_for(setup.scene));
   if (sentences.empty()) fmt::print("  nothing, as far as the linear response shows\n");
   for (const auto& sentence : sentences) fmt::print("  {}\n", sentence);
+}
+
+std::string shown_steps(const RunCost& cost) {
+  if (cost.fixed_steps) return fmt::format("{:.0f}, as given", cost.steps.most);
+  return fmt::format("{:.0f} to {:.0f}, chosen as it goes: right to an order of magnitude", cost.steps.least,
+                     cost.steps.most);
+}
+
+// Of this machine, as it is used now.
+void print_time(const Setup& setup, const std::vector<TermCost>& terms) {
+  const RunCost cost = run_cost(setup, terms);
+  fmt::print("time, from what was measured here\n");
+  if (cost.factor) fmt::print("  factorisation {:.3g} s, solution {:.3g} s\n", *cost.factor, *cost.solve);
+  else if (setup.integrator->factor_bytes() > 0) fmt::print("  without factorisations, which are not measured here\n");
+  fmt::print("  steps {}\n", shown_steps(cost));
+  fmt::print("  of {} each\n", shown_seconds(cost.step));
+  fmt::print("  in all {}\n", shown_seconds(cost.seconds()));
+}
+
+void print_disk(const Setup& setup) {
+  const Volume volume = volume_of(setup);
+  fmt::print("disk\n");
+  fmt::print("  {}{:.0f} frames of {}\n", setup.integrator ? "" : "at least ", volume.frames,
+             shown_bytes(volume.frame_bytes));
+  if (volume.rows > 0) fmt::print("  {:.0f} rows of tables of {}\n", volume.rows, shown_bytes(volume.row_bytes));
+  else fmt::print("  a row of tables of {} each step\n", shown_bytes(volume.row_bytes));
+  if (volume.checkpoint_bytes > 0) fmt::print("  checkpoint {}\n", shown_bytes(volume.checkpoint_bytes));
+  std::error_code error;
+  const auto space = fs::space(".", error);
+  fmt::print("  in all {}{}\n", shown_bytes(volume.bytes()),
+             error ? "" : fmt::format("; {} are free here", shown_bytes(static_cast<double>(space.available))));
+  if (const std::string refusal = unusual_volume(setup); !refusal.empty())
+    fmt::print(stderr, "warning: {}\n", refusal);
+}
+
+void warn_of_memory(const Setup& setup) {
+  const auto needed = setup.integrator ? static_cast<double>(setup.integrator->factor_bytes()) : 0;
+  if (const double left = memory_left(); needed > left)
+    fmt::print(stderr, "warning: the factorisation takes {} of memory, and {} are left: the run will be refused; use a "
+               "coarser mesh, or an explicit integrator\n", shown_bytes(needed), shown_bytes(left));
 }
 
 // "cylindrical, by place", for each region of the mesh by its name.
@@ -147,6 +191,7 @@ int check(const CheckArguments& arguments) {
   const Box box = bounding_box(parts.mesh);
   fmt::print("  extent {} to {} m, mass {:.6g} kg ({})\n", Value<Vec3>::yaml(box.min), Value<Vec3>::yaml(box.max),
              parts.mass->total(), parts.mass->lumped() ? "lumped" : "consistent");
+  for (const auto& sentence : thin_regions(parts.mesh)) fmt::print(stderr, "warning: {}\n", sentence);
   fmt::print("materials\n");
   print_materials(setup.scene, setup.built.model->traits().linear);
   print_axes(setup);
@@ -154,11 +199,17 @@ int check(const CheckArguments& arguments) {
   fmt::print("terms\n");
   for (const auto& term : parts.elastic) fmt::print("  {}\n", term->description());
   for (const auto& term : parts.loads) fmt::print("  {}\n", term->description());
-  if (parts.mass_damping > 0) fmt::print("  mass-proportional damping\n");
+  if (parts.mass_damping > 0) fmt::print("  mass-proportional damping of {:.6g} 1/s\n", parts.mass_damping);
   fmt::print("system\n  {} unknowns, {} non-zeros ({})\n", model.num_dofs(), model.pattern().non_zeros(),
              model.pattern().symmetric ? "symmetric, lower triangle" : "general");
   setup.integrator ? print_dynamics(setup) : print_statics(setup);
-  if (has_time || !setup.integrator) print_cost(setup);
+  warn_of_memory(setup);
+  if (has_time || !setup.integrator) {
+    const auto costs = term_costs(model, setup.built.initial, kSecondsOfCosts);
+    if (setup.integrator) print_time(setup, costs);
+    print_disk(setup);
+    print_cost(setup, costs);
+  }
   if (arguments.axes)
     write_and_draw_axes(
         setup, arguments.out ? fs::path(*arguments.out) : fs::path("out") / "axes" / fs::path(arguments.scene).stem());

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "lib/simulation/files.h"
 #include "lib/study/compare/comparison_table.h"
@@ -69,9 +70,19 @@ void print_failed_references(const ComparisonRun& run) {
   }
 }
 
+// By the first point of each problem: methods have no slips of their own.
+void tell_of_slips(const Design& design) {
+  SlipTeller teller;
+  std::set<std::size_t> seen;
+  for (const Point& point : design.points)
+    if (seen.insert(point.problem).second) teller.tell(point_scene(design, point));
+}
+
 int compare(const StudyArguments& arguments) {
   const Comparison comparison = read_comparison(Config::from_file(arguments.file));
   Design design = expand(comparison);
+  require_usual_number(arguments, static_cast<double>(design.points.size()));
+  tell_of_slips(design);
   const StudyFolder place(folder_for(arguments, "out/comparisons", comparison.name), "comparison", arguments.file);
   const fs::path& folder = place.path();
 
@@ -101,6 +112,7 @@ int compare(const StudyArguments& arguments) {
 
 void declare_comparison(StudyArguments& arguments, CommandOptions& options) {
   declare_study(arguments, options, {"comparison", "A comparison in YAML.", "comparisons", "compare", "points"});
+  declare_yes(arguments, options);
 }
 
 const CommandRegistration compare_command(

@@ -7,6 +7,7 @@
 
 #include "lib/core/words.h"
 #include "lib/simulation/files.h"
+#include "lib/simulation/scene_file.h"
 #include "lib/study/converge/convergence_table.h"
 #include "lib/study/converge/convergence_text.h"
 #include "lib/study/inputs/labels.h"
@@ -63,6 +64,7 @@ int converge(const ConvergeArguments& arguments) {
   const Convergence wanted = wanted_of(arguments);
   const Design design = design_of(wanted);
   const fs::path folder = folder_for(arguments, "out/convergence", stem(arguments.file));
+  SlipTeller().tell(read_scene_file(wanted.file, {.set = wanted.set}));
   const StudyFolder place(folder, "convergence", arguments.file);
   PointJobs factory(input_of(wanted, design), wanted.limits, folder);
   std::vector<Job> jobs;

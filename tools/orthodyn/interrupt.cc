@@ -1,16 +1,30 @@
 #include "tools/orthodyn/interrupt.h"
 
+#include <unistd.h>
+
 #include <csignal>
 
 namespace orthodyn {
 
 namespace {
 
+constexpr unsigned kSecondsToEnd = 4;  // what waits for the program's end may give it five
+
 std::atomic<bool> flag{false};
 
 void set_flag(int signal) {
   flag = true;
   std::signal(signal, signal == SIGHUP ? SIG_IGN : SIG_DFL);  // shell and kernel may each send one
+  alarm(kSecondsToEnd);
+}
+
+// A step or a factorisation can take longer. Only what is safe in a signal handler; processes that were started die
+// with this one (process.cc), and files are whole at any time, or cut back by --resume.
+void end_at_once(int) {
+  static constexpr char kText[] =
+      "\ninterrupted: ended after 4 s in the middle of a computation; what was written by then is kept\n";
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, kText, sizeof kText - 1);
+  _exit(130);
 }
 
 }  // namespace
@@ -18,6 +32,7 @@ void set_flag(int signal) {
 const std::atomic<bool>& interrupted() { return flag; }
 
 void catch_interrupts() {
+  std::signal(SIGALRM, end_at_once);
   std::signal(SIGINT, set_flag);
   std::signal(SIGTERM, set_flag);
   if (std::signal(SIGHUP, set_flag) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // under nohup

@@ -1,4 +1,5 @@
-// Ctrl-C, and the other signals that end a program, as a flag that is read between steps; a second one ends it.
+// Ctrl-C, and the other signals that end a program, as a flag that is read between steps. A second one ends it at once,
+// and so do four seconds in which it has not come to its end: a step or a factorisation may take hours.
 #pragma once
 
 #include <atomic>

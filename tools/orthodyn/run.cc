@@ -20,7 +20,7 @@ namespace {
 
 struct RunArguments : SceneArguments {
   std::optional<std::string> out;
-  bool quiet = false, force = false, resume = false, estimate_error = false;
+  bool quiet = false, force = false, resume = false, estimate_error = false, yes = false;
 };
 
 // Prints what a run reports.
@@ -78,7 +78,8 @@ int run_scene(const RunArguments& given) {
   const RunResult result = simulation.run({.folder = folder_for(arguments),
                                            .force = arguments.force,
                                            .resume = arguments.resume,
-                                           .estimate_error = arguments.estimate_error},
+                                           .estimate_error = arguments.estimate_error,
+                                           .any_volume = arguments.yes},
                                           interrupted(), terminal);
   if (result.was_complete && !arguments.quiet)
     fmt::print("{} is complete at t = {:.6g} s: nothing to do\n", result.folder.string(), result.outcome.last.t);
@@ -91,6 +92,7 @@ void declare(RunArguments& arguments, CommandOptions& options) {
   options.value("--out", arguments.out, "Folder for the results; default out/<scene>.").type("DIR");
   options.flag("--quiet", arguments.quiet, "No progress and no summary.");
   options.flag("--force", arguments.force, "Replace an earlier result in the folder.");
+  options.flag("--yes", arguments.yes, "Also for a million frames, rows or load steps and more.");
   options
       .flag("--resume", arguments.resume,
             "Continue from the checkpoint in the folder, or start if there is no result yet. SCENE may be the folder.")

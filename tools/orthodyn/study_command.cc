@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <thread>
 
+#include "lib/simulation/slips/slips.h"
+#include "lib/simulation/volume.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/interrupt.h"
 
@@ -28,6 +30,19 @@ study::JobQueue job_queue(const StudyArguments& arguments, int workers) {
 
 int worker_count(const StudyArguments& arguments) {
   return arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::thread::hardware_concurrency());
+}
+
+void require_usual_number(const StudyArguments& arguments, double points) {
+  constexpr double kBytesOfPoint = 16e3;  // its scene, input and result, a block each
+  if (arguments.yes || points < kMostUnasked) return;
+  throw ConfigError(arguments.file,
+                    fmt::format("makes {:.7g} points (about {} of disk); take fewer values, and if they are meant, say "
+                                "--yes", points, shown_bytes(points * kBytesOfPoint)));
+}
+
+void SlipTeller::tell(const Config& scene) {
+  for (const auto& slip : slips_of(scene))
+    if (told_.insert(slip).second) fmt::print(stderr, "warning: {}\n", slip);
 }
 
 void use_one_thread_each() {

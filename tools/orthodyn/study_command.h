@@ -2,7 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
+#include <string>
 
+#include "lib/config/config.h"
 #include "lib/study/jobs/job_queue.h"
 #include "tools/orthodyn/study_options.h"
 
@@ -23,6 +26,18 @@ int worker_count(const StudyArguments& arguments);
 
 // Processes that share the processors must not each start a thread of BLAS for every one of them.
 void use_one_thread_each();
+
+// Throws ConfigError for a million points and more, unless --yes was said.
+void require_usual_number(const StudyArguments& arguments, double points);
+
+// Slips of unit and magnitude in scenes of a study, on stderr: each once.
+class SlipTeller {
+ public:
+  void tell(const Config& scene);
+
+ private:
+  std::set<std::string> told_;
+};
 
 // `pieces`: "points".
 void tell_of_interrupt(const char* pieces, const std::filesystem::path& folder);

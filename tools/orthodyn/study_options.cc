@@ -13,6 +13,10 @@ void declare_study(StudyArguments& arguments, CommandOptions& options, const Stu
   options.flag("--no-report", arguments.no_report, fmt::format("Write {0}.json and {0}.csv only.", words.table));
 }
 
+void declare_yes(StudyArguments& arguments, CommandOptions& options) {
+  options.flag("--yes", arguments.yes, "Also for a million points and more.");
+}
+
 void declare_jobs(StudyArguments& arguments, CommandOptions& options, const char* pieces) {
   options
       .value("--jobs", arguments.jobs, fmt::format("{} at a time, each in a process; default one a processor.", pieces))

@@ -13,6 +13,7 @@ struct StudyArguments {
   std::optional<std::string> out;
   int jobs = 0;  // 0: as many as there are processors
   bool retry = false, quiet = false, no_report = false;
+  bool yes = false;  // also for a million points and more
 };
 
 // What `--help` says of a study.
@@ -23,6 +24,8 @@ struct StudyWords {
 };
 
 void declare_study(StudyArguments& arguments, CommandOptions& options, const StudyWords& words);
+
+void declare_yes(StudyArguments& arguments, CommandOptions& options);
 
 // `pieces`: "Points".
 void declare_jobs(StudyArguments& arguments, CommandOptions& options, const char* pieces);

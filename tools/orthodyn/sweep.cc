@@ -66,12 +66,18 @@ std::string outcome_of(const EvaluationResult& result, const Sweep& sweep) {
   return join(words);
 }
 
+// Before its points are made.
+const Sweep& asked_for(const Sweep& sweep, const StudyArguments& arguments) {
+  require_usual_number(arguments, number_of_points(sweep));
+  return sweep;
+}
+
 class SweepCommand {
  public:
   explicit SweepCommand(const SweepArguments& arguments)
       : arguments_(arguments),
         sweep_(read_sweep(Config::from_file(arguments.file))),
-        points_(expand(sweep_)),
+        points_(expand(asked_for(sweep_, arguments))),
         folder_(folder_for(arguments, "out/sweeps", sweep_.name)),
         jobs_(jobs_of(sweep_, points_, folder_)),
         work_(distinct(jobs_)) {}
@@ -85,6 +91,7 @@ class SweepCommand {
     const bool alone = !arguments_.task && !arguments_.collect;
     const StudyFolder place(folder_, "sweep", arguments_.file, alone ? Sharing::alone : Sharing::with_its_like);
     warn_of_impossible_points();
+    if (!arguments_.task && !arguments_.collect) SlipTeller().tell(first_scene(sweep_));
     if (!arguments_.task) results_ = results_of(work_);
     if (arguments_.collect) return collect();
     use_one_thread_each();
@@ -212,6 +219,7 @@ class SweepCommand {
 void declare(SweepArguments& arguments, CommandOptions& options) {
   declare_study(arguments, options, {"sweep", "A sweep in YAML.", "sweeps", "sweep", "points"});
   declare_jobs(arguments, options, "Points");
+  declare_yes(arguments, options);
   options.value("--task", arguments.task, "Compute only the I-th of N parts of the points; for job arrays.")
       .type("I/N");
   options.value("--slurm", arguments.slurm, "The sweep as a job array of SLURM: print its script, or submit it.")

@@ -34,7 +34,7 @@ class ElasticTermOf final : public ElasticTerm {
 
   std::string description() const override {
     return fmt::format("{}: {}, {} elements{}", name(), law(), size(),
-                       damped() ? ", stiffness-proportional damping" : "");
+                       damped() ? fmt::format(", stiffness-proportional damping of {:.6g} s", region_.beta) : "");
   }
 
   const ElasticRegion& definition() const override { return region_; }

@@ -2,6 +2,8 @@
 // - sum m_i g . u_i.
 #pragma once
 
+#include <fmt/format.h>
+
 #include "lib/config/values.h"
 #include "lib/fem/term_choice.h"
 
@@ -13,6 +15,9 @@ class Gravity : public Term {
   Gravity(const Vec3& g, const Vector& nodal_masses) : g_(g), masses_(nodal_masses) {}
 
   std::string name() const override { return "gravity"; }
+  std::string description() const override {
+    return fmt::format("gravity: {} m/s^2 on {:.6g} kg", Value<Vec3>::yaml(g_), masses_.sum());
+  }
   void add_force(const NodalState&, NodalVector& f) const override { f += g_ * masses_.transpose(); }
   EnergyKind energy_kind() const override { return EnergyKind::gravitational; }
   double energy(const NodalState& s) const override { return -g_.dot(s.u * masses_); }

@@ -11,6 +11,7 @@ namespace {
 // By the clock, none is written for so many times as long as the last one took: a slow disk takes a tenth of the run at
 // most.
 constexpr double kRest = 10;
+constexpr double kBetweenRemembered = 1;  // s
 
 double seconds_between(std::chrono::steady_clock::time_point a, std::chrono::steady_clock::time_point b) {
   return std::chrono::duration<double>(b - a).count();
@@ -47,14 +48,13 @@ void Checkpointer::on_output(const ObservedState& observed) {
 void Checkpointer::on_history(const ObservedState& observed) { checkpoint_.last_history = observed.t(); }
 
 void Checkpointer::on_step(const StepInfo&, const ObservedState& observed, const Integrator&) {
-  if (times_.never) return;
+  if (times_.never) return remember_now_and_then(observed.state());
   const double since = seconds_between(written_, Clock::now());
   const bool enough_outputs = times_.frames > 0 && outputs_ >= times_.frames;
   if (enough_outputs || since >= std::max(times_.every, kRest * last_took_)) write(observed.state());
 }
 
-void Checkpointer::write(const State& state) {
-  const auto begin = Clock::now();
+void Checkpointer::take(const State& state) {
   checkpoint_.state = state;
   checkpoint_.effort = effort();
   for (const auto& [name, observer] : others_) {
@@ -62,10 +62,30 @@ void Checkpointer::write(const State& state) {
     observer->save(kept);
     checkpoint_.observers[name] = std::move(kept);
   }
+}
+
+void Checkpointer::write(const State& state) {
+  const auto begin = Clock::now();
+  take(state);
   checkpoint_.save(path_);
   outputs_ = 0;
   written_ = Clock::now();
   last_took_ = seconds_between(begin, written_);
+}
+
+// Observers make their files lasting when they are asked for what they keep, which takes a slow disk some time.
+void Checkpointer::remember_now_and_then(const State& state) {
+  const auto begin = Clock::now();
+  if (remembered_ && seconds_between(written_, begin) < std::max(kBetweenRemembered, kRest * last_took_)) return;
+  take(state);
+  remembered_ = checkpoint_;
+  written_ = Clock::now();
+  last_took_ = seconds_between(begin, written_);
+}
+
+bool Checkpointer::write_remembered() {
+  if (remembered_) remembered_->save(path_);
+  return remembered_.has_value();
 }
 
 Effort Checkpointer::effort() const {

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,13 +40,20 @@ class Checkpointer : public Observer {
   // Between steps only. Throws RunError.
   void write(const State& state);
 
+  // Where there is no schedule: a state of a second ago or so, between steps, for a run that an observer has ended in
+  // the middle of one (a full disk). False if there is none. Throws RunError.
+  bool write_remembered();
+
  private:
   using Clock = std::chrono::steady_clock;
   Effort effort() const;
   void start_clock();
+  void take(const State& state);
+  void remember_now_and_then(const State& state);
 
   std::filesystem::path path_;
   Checkpoint checkpoint_;
+  std::optional<Checkpoint> remembered_;
   Effort before_;
   CheckpointTimes times_;
   NamedObservers others_;

@@ -5,6 +5,7 @@
 
 #include "lib/fem/time_functions/time_function.h"
 #include "lib/scene/region.h"
+#include "lib/simulation/kinematics.h"
 #include "lib/simulation/slips/subject.h"
 
 namespace orthodyn {
@@ -62,6 +63,26 @@ Warnings slips(const Config& config, const Scene& scene, const BuiltScene& built
         slip::add_motion_slips, slip::add_damping_slips, slip::add_event_slips, slip::add_setting_slips})
     add(subject, out);
   return out;
+}
+
+Warnings slips_of(const Config& given) {
+  Config config = given.resolving();
+  try {
+    Scene scene = read_scene(config);
+    if (leaves_kinematics_open(scene)) {
+      make_corotational(config);
+      scene = read_scene(config);
+    }
+    const BuiltScene built = build(scene);
+    Warnings out = slips(config, scene, built);
+    if (built.model->num_dofs() > kLargestForSlips) return out;
+    const StaticResponse statics = static_response(*built.model, built.initial, scene.time.end);
+    for (auto& slip : response_slips(config, scene, built, statics)) out.push_back(std::move(slip));
+    return out;
+  } catch (const ConfigError&) {
+  } catch (const RunError&) {
+  }
+  return {};
 }
 
 }  // namespace orthodyn

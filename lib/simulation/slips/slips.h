@@ -18,4 +18,11 @@ Warnings slips(const Config& config, const Scene& scene, const BuiltScene& built
 Warnings response_slips(const Config& config, const Scene& scene, const BuiltScene& built,
                         const StaticResponse& statics);
 
+// Unknowns up to which the response is computed for a warning's sake.
+constexpr int kLargestForSlips = 30'000;
+
+// Both kinds, of a scene that is built for them: for studies, whose points run elsewhere. None of a scene that cannot
+// be built, of which its points tell.
+Warnings slips_of(const Config& scene);
+
 }  // namespace orthodyn

@@ -35,7 +35,7 @@ void check_plots(const Sweep& s, const Config& config) {
   }
 }
 
-constexpr double kMostPoints = 1e6;
+constexpr double kMostPoints = 1e7;  // a million asks for --yes
 
 void check_number_of_points(const Sweep& s, const Config& config) {
   double points = 1;

@@ -43,10 +43,12 @@ std::vector<Values> side_by_side(const std::vector<Variable>& vary) {
   return all;
 }
 
+constexpr int kUsualSamples = 50;
+
 std::vector<Values> sampled(const Sweep& sweep) {
   std::vector<Values> all;
-  for (const auto& shares :
-       latin_hypercube(sweep.samples.value_or(50), static_cast<int>(sweep.vary.size()), sweep.seed.value_or(1))) {
+  for (const auto& shares : latin_hypercube(sweep.samples.value_or(kUsualSamples), static_cast<int>(sweep.vary.size()),
+                                            sweep.seed.value_or(1))) {
     all.emplace_back();
     for (std::size_t k = 0; k < shares.size(); ++k) {
       const Variable& v = sweep.vary[k];
@@ -91,17 +93,21 @@ class Expansion {
         v.origin.fail("an angle needs a unit: give {..., unit: deg} or {..., unit: rad}");
   }
 
+  Config scene(const Values& values) const {
+    Config config = Config::from_text(scene_, sweep_.scene.file.path);
+    set(config, values, scope_of(values));
+    return config;
+  }
+
   Point point(const Values& values) {
     Point point{values, title_of(sweep_, values), {}, "", {}};
     const FormulaScope scope = scope_of(values);
     for (const auto& [name, figure] : sweep_.quantities)
       point.closed_forms.push_back(
           figure.closed_form.empty() ? std::nan("") : scope.evaluate(figure.closed_form, figure.origin.where));
-    Assignments assignments = sweep_.scene.set;
-    for (const auto& value : values) assignments.insert(assignments.end(), value.set.begin(), value.set.end());
     Config config = Config::from_text(scene_, sweep_.scene.file.path).resolving();
     try {
-      set(config, assignments, scope);
+      set(config, values, scope);
     } catch (const ConfigError& e) {
       throw ConfigError(e.place(), fmt::format("{} (in {})", e.message(), point.title));
     }
@@ -147,7 +153,9 @@ class Expansion {
     return scope.evaluate(given.text(), value.origin.where);
   }
 
-  static void set(Config& config, const Assignments& assignments, const FormulaScope& scope) {
+  void set(Config& config, const Values& values, const FormulaScope& scope) const {
+    Assignments assignments = sweep_.scene.set;
+    for (const auto& value : values) assignments.insert(assignments.end(), value.set.begin(), value.set.end());
     for (const auto& [path, value] : assignments) {
       const Config given = parsed(value);
       assign(config, path, {scope.resolved(given, value.origin.where), value.origin});
@@ -224,6 +232,19 @@ class Expansion {
 };
 
 }  // namespace
+
+double number_of_points(const Sweep& sweep) {
+  if (sweep.combine == Combine::latin_hypercube) return sweep.samples.value_or(kUsualSamples);
+  if (sweep.combine == Combine::zip) return static_cast<double>(sweep.vary.front().values.size());
+  double points = 1;
+  for (const auto& variable : sweep.vary) points *= static_cast<double>(variable.values.size());
+  return points;
+}
+
+Config first_scene(const Sweep& sweep) {
+  const Expansion expansion(sweep);
+  return expansion.scene(combined(sweep).front());
+}
 
 std::vector<Point> expand(const Sweep& sweep) {
   Expansion expansion(sweep);

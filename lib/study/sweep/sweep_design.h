@@ -17,6 +17,12 @@ struct Point {
   std::vector<double> closed_forms;  // by quantity; NaN for none
 };
 
+// How many expand() would make.
+double number_of_points(const Sweep& sweep);
+
+// The scene of the first point, with the places of its keys. Throws ConfigError.
+Config first_scene(const Sweep& sweep);
+
 // Every scene is read and checked, and the first one's quantities are looked up in its model. Throws ConfigError.
 std::vector<Point> expand(const Sweep& sweep);
 

@@ -1,0 +1,34 @@
+// What a run of a scene will take of the processor, from the measured cost of a force, a tangent and a factorisation.
+// The number of steps is known for fixed steps and about known for explicit methods; of methods that choose their steps
+// there is a range, by the motion's phase over the time span, which is right to an order of magnitude.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/simulation/scene_cost.h"
+
+namespace orthodyn {
+
+struct CostRange {
+  double least = 0, most = 0;
+};
+
+struct RunCost {
+  double force = 0, tangent = 0;            // s, of one evaluation
+  std::optional<double> factor = {}, solve = {};  // s; none for methods without a factor, and where it is too large
+  CostRange step;                           // s
+  CostRange steps;                          // equal where they are known
+  bool fixed_steps = false;                 // by the input
+  CostRange seconds() const { return {steps.least * step.least, steps.most * step.most}; }
+};
+
+// Of a dynamic analysis, whose integrator has been started; takes as long as a factorisation, at most some ten seconds.
+RunCost run_cost(const Setup& setup, const std::vector<TermCost>& costs);
+
+// "about 3 s", "2 to 40 min".
+std::string shown_seconds(const CostRange& range);
+
+}  // namespace orthodyn
