@@ -23,7 +23,7 @@ const Spec<EventSpec>& EventSpec::spec() {
       Spec<EventSpec>()
           .key("quantity", &EventSpec::quantity,
                "A probe's field and component (tip.displacement.z, or .magnitude) or a scalar of the whole body "
-               "(energy.kinetic, det_f.smallest).",
+               "(energy.kinetic, von_mises.largest).",
                {.required = true})
           .key("crosses", &EventSpec::crosses, "The value that it passes, in SI units or with a unit.",
                {.required = true, .unit = kUnitOfQuantity})

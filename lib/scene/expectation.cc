@@ -46,7 +46,7 @@ const Spec<Expectation>& Expectation::spec() {
       Spec<Expectation>()
           .key("quantity", &Expectation::quantity,
                "A probe's field and component (tip.displacement.z, or .magnitude) or a scalar of the whole body "
-               "(energy.balance, momentum.angular.z, det_f.smallest).",
+               "(energy.balance, momentum.angular.z, von_mises.largest).",
                {.required = true})
           .key("take", &Expectation::take, kTakeSentence)
           .key("at", &Expectation::at, "The value at this time, instead of `take`.", {.unit = "s"})

@@ -9,6 +9,7 @@
 #include "lib/material/presets.h"
 #include "lib/mesh/io/mesh_format.h"
 #include "lib/fem/fem_model.h"
+#include "lib/fem/nodal_figures.h"
 #include "lib/scene/quantity.h"
 #include "lib/scene/scene.h"
 #include "lib/study/compare/comparison.h"
@@ -122,7 +123,7 @@ void list_sweep() {
   print_entry("scene", "The scene of a sweep, where it is a section.", SceneEntry::spec().keys());
   print_entry("vary.<name>", "Evenly spaced numbers.", NumberRange::spec().keys());
   print_entry("vary.<name>", "A list with a unit or a name.", ValueList::spec().keys());
-  print_entry("quantities.<name>", "What is computed for every point: one of quantity, mode (or along), cost.",
+  print_entry("quantities.<name>", "What is computed for every point: one of quantity, mode (or along), buckling, cost.",
               WantedFigure::spec().keys());
   print_entry("plots.<n>", "A figure of the report.", PlotSpec::spec().keys());
   print_entry("frames", "A picture of each point.", FrameSpec::spec().keys());
@@ -154,6 +155,12 @@ void list_quantities() {
                  info.components == 1 ? "" : "s", info.unit);
   fmt::print("  {:<22} Drift of the energy balance (1 component, J)\n", kEnergyBalance);
   fmt::print("  PROBE.FIELD            A field per node (`orthodyn list fields`) at a probe of the scene.\n");
+  fmt::print("  [REGION.]FIELD.largest, .smallest\n");
+  fmt::print("                         Over the nodes of the body or of a region, for a tensor with a component "
+             "(nodal_stress.xx.largest):\n");
+  for (const OutputInfo& info : region_fields())
+    fmt::print("                         {}{}\n", info.name,
+               info.component_names.empty() ? "" : fmt::format(" .{}", fmt::join(info.component_names, " .")));
 }
 
 const std::vector<std::pair<std::string, std::function<void()>>>& chapters() {
