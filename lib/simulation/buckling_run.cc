@@ -1,6 +1,7 @@
 // A buckling analysis of a scene: buckling.csv, and the shapes as modes.pvd.
 #include "lib/analysis/buckling.h"
 #include "lib/simulation/files.h"
+#include "lib/simulation/given_terms.h"
 #include "lib/simulation/model_summary.h"
 #include "lib/simulation/modes/shape_files.h"
 #include "lib/simulation/run_context.h"
@@ -57,7 +58,7 @@ RunResult run_buckling_analysis(RunContext context) {
   require_held(setup.scene, model, t);
   context.folder.prepare();
   const auto& folder = context.folder.path();
-  const RunRecord record(folder, context.scene, context.set, {});
+  const RunRecord record(folder, context.scene, context.set, {}, given_terms(setup.config));
   write_file(folder / "scene.yaml", {context.resolved});
   const State rest{t, Vector::Zero(model.num_dofs()), Vector::Zero(model.num_dofs())};
   RunResult result{.scene = context.scene, .folder = folder};
