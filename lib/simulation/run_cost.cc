@@ -8,6 +8,7 @@
 
 #include "lib/linear/solver.h"
 #include "lib/simulation/setup.h"
+#include "lib/simulation/volume.h"
 
 namespace orthodyn {
 
@@ -36,6 +37,7 @@ void measure_factor(const Setup& setup, RunCost& cost) {
   model.combine({model.frequency_bound() * model.frequency_bound(), 0, 1}, at, values.data());
   const auto solver = solver_registry().at(model.pattern().symmetric ? "cholmod" : "klu").make();
   solver->analyze(model.pattern());
+  if (static_cast<double>(solver->factor_bytes()) > kLargestFactor) return;
   auto begin = std::chrono::steady_clock::now();
   if (solver->factor(values.data()) != FactorStatus::ok) return;
   cost.factor = seconds_since(begin);
@@ -72,14 +74,26 @@ CostRange steps_of(const Setup& setup, bool is_implicit, RunCost& cost) {
   return {two_digits(std::max(about / kSpread, fewest)), two_digits(std::max(about * kSpread, fewest))};
 }
 
+// Load steps that are doubled from the first one on; each takes a few Newton corrections with a factor each.
+void add_load_steps(const Statics& statics, RunCost& cost) {
+  constexpr double kFewestCorrections = 3, kMostCorrections = 8, kMostCuts = 10;
+  const double each = cost.force + cost.tangent + cost.factor.value_or(0) + cost.solve.value_or(0);
+  cost.step = {kFewestCorrections * each, kMostCorrections * each};
+  const double fewest = fewest_load_steps(statics);
+  cost.steps = {fewest, std::min(kMostCuts * fewest, static_cast<double>(statics.max_steps))};
+}
+
 }  // namespace
 
 RunCost run_cost(const Setup& setup, const std::vector<TermCost>& costs) {
   RunCost cost;
   for (const TermCost& term : costs) cost.force += term.force, cost.tangent += term.tangent;
-  const auto factor_bytes = static_cast<double>(setup.integrator->factor_bytes());
-  const bool is_implicit = factor_bytes > 0;
-  if (is_implicit && factor_bytes < kLargestFactor) measure_factor(setup, cost);
+  const bool is_static = !setup.integrator, is_implicit = is_static || setup.integrator->factor_bytes() > 0;
+  if (is_implicit) measure_factor(setup, cost);
+  if (is_static) {
+    add_load_steps(*setup.scene.statics, cost);
+    return cost;
+  }
   if (is_implicit) {
     const double each = kIterations * (cost.force + cost.solve.value_or(0));
     const double anew = cost.tangent + cost.factor.value_or(0);

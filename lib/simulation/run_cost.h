@@ -25,7 +25,8 @@ struct RunCost {
   CostRange seconds() const { return {steps.least * step.least, steps.most * step.most}; }
 };
 
-// Of a dynamic analysis, whose integrator has been started; takes as long as a factorisation, at most some ten seconds.
+// Of an analysis whose integrator, if it has one, has been started; takes as long as a factorisation, at most some ten
+// seconds.
 RunCost run_cost(const Setup& setup, const std::vector<TermCost>& costs);
 
 // "about 3 s", "2 to 40 min".

@@ -36,12 +36,8 @@ double row_bytes_of(const Setup& setup) {
   return kColumn * columns;
 }
 
-double load_steps(const Statics& statics) {
-  return std::min(std::ceil(1 / statics.max_step), static_cast<double>(statics.max_steps));
-}
-
 double frames_of(const Scene& scene) {
-  if (scene.analysis == Analysis::statical) return load_steps(*scene.statics);
+  if (scene.analysis == Analysis::statical) return fewest_load_steps(*scene.statics);
   const double span = scene.time.end - scene.time.start;
   return scene.output.interval ? std::ceil(span / *scene.output.interval) : scene.output.frames.value_or(kUsualFrames);
 }
@@ -60,6 +56,11 @@ double rows_of(const Scene& scene, double frames) {
 }
 
 }  // namespace
+
+double fewest_load_steps(const Statics& statics) {
+  const double doubled = std::ceil(std::log2(1 + 1 / statics.first_step));
+  return std::min(std::max(std::ceil(1 / statics.max_step), doubled), static_cast<double>(statics.max_steps));
+}
 
 std::string shown_bytes(double bytes) {
   for (const auto& [size, unit] : {std::pair{1e12, "TB"}, {1e9, "GB"}, {1e6, "MB"}})

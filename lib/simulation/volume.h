@@ -21,6 +21,9 @@ struct Volume {
   double bytes() const { return frames * frame_bytes + rows * row_bytes + checkpoint_bytes; }
 };
 
+// Where none is cut back: doubled from the first one on, up to the largest.
+double fewest_load_steps(const Statics& statics);
+
 Volume volume_of(const Setup& setup);
 
 // Throws ConfigError for a million frames, rows or load steps: how many they are, what they take on the disk, what to

@@ -56,7 +56,8 @@ TEST_F(GivenTerms, WhatASceneDoesNotNameIsNotInTheRecord) {
   ASSERT_EQ(orthodyn("run swing.yaml --quiet").exit_code, 0);
   const Json given = Json::parse(read_text(folder_ / "out/swing/run.json")).at("model").at("given");
   EXPECT_TRUE(given.contains("gravity"));
-  for (const char* key : {"loads", "terms", "motions", "initial"}) EXPECT_TRUE(!given.contains(key) || given[key].empty()) << key;
+  for (const char* key : {"loads", "terms", "motions", "initial"})
+    EXPECT_TRUE(!given.contains(key) || given[key].empty()) << key;
 }
 
 }  // namespace

@@ -38,7 +38,8 @@ TEST_F(VolumeOf, AMillionLoadStepsAreRefused) {
 
 // It is let through, and ends for its max_steps.
 TEST_F(VolumeOf, YesHasThemAllTheSame) {
-  const std::string run = "run swing.yaml --quiet --set output.frames=1000000 --set integrator.max_steps=3 --set integrator.h0=1e-10";
+  const std::string run =
+      "run swing.yaml --quiet --set output.frames=1000000 --set integrator.max_steps=3 --set integrator.h0=1e-10";
   EXPECT_EQ(orthodyn(run).exit_code, 2);
   EXPECT_EQ(orthodyn(run + " --yes").exit_code, 3);
 }

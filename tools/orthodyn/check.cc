@@ -135,8 +135,9 @@ void print_time(const Setup& setup, const std::vector<TermCost>& terms) {
   const RunCost cost = run_cost(setup, terms);
   fmt::print("time, from what was measured here\n");
   if (cost.factor) fmt::print("  factorisation {:.3g} s, solution {:.3g} s\n", *cost.factor, *cost.solve);
-  else if (setup.integrator->factor_bytes() > 0) fmt::print("  without factorisations, which are not measured here\n");
-  fmt::print("  steps {}\n", shown_steps(cost));
+  else if (!setup.integrator || setup.integrator->factor_bytes() > 0)
+    fmt::print("  without factorisations, which are not measured here\n");
+  fmt::print("  {}steps {}\n", setup.integrator ? "" : "load ", shown_steps(cost));
   fmt::print("  of {} each\n", shown_seconds(cost.step));
   fmt::print("  in all {}\n", shown_seconds(cost.seconds()));
 }
@@ -206,7 +207,7 @@ int check(const CheckArguments& arguments) {
   warn_of_memory(setup);
   if (has_time || !setup.integrator) {
     const auto costs = term_costs(model, setup.built.initial, kSecondsOfCosts);
-    if (setup.integrator) print_time(setup, costs);
+    print_time(setup, costs);
     print_disk(setup);
     print_cost(setup, costs);
   }

@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kReport = "report.html";
+constexpr double kSeconds = 600, kSecondsWhenInterrupted = 3;  // before the program ends itself (interrupt.cc)
 
 // Whether `draw` with these arguments ended well; its messages go to `log`.
 bool draw(std::vector<std::string> arguments, const fs::path& log) {
@@ -24,7 +25,8 @@ bool draw(std::vector<std::string> arguments, const fs::path& log) {
   arguments.insert(arguments.begin(), program.string());
   const std::atomic<bool> never{false};
   const std::atomic<bool>& interrupt = interrupted() ? never : interrupted();  // a second Ctrl-C ends it all
-  return run_process(arguments, log, {600, 16e9}, [&] { return interrupt.load(); }).succeeded();
+  const double seconds = interrupted() ? kSecondsWhenInterrupted : kSeconds;
+  return run_process(arguments, log, {seconds, 16e9}, [&] { return interrupt.load(); }).succeeded();
 }
 
 }  // namespace
