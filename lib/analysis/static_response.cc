@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/errors.h"
 #include "lib/linear/solver.h"
 
 namespace orthodyn {
@@ -23,8 +24,8 @@ Vector peak_load(const FemModel& model, const State& initial, double end, std::s
   return free;
 }
 
-// K at rest, factored; null where it is singular or nearly so.
-std::unique_ptr<LinearSolver> factored_stiffness(const FemModel& model, std::vector<double>& values) {
+// K at rest, factored; null where it is singular or nearly so, or does not fit: who needs no factor is to run.
+std::unique_ptr<LinearSolver> factored_stiffness(const FemModel& model, std::vector<double>& values) try {
   const Vector zero = Vector::Zero(model.num_dofs());
   Linearization at;
   model.linearize(0, zero, zero, TangentKind::gauss_newton, at);
@@ -33,6 +34,9 @@ std::unique_ptr<LinearSolver> factored_stiffness(const FemModel& model, std::vec
   auto solver = solver_registry().at(model.pattern().symmetric ? "cholmod" : "klu").make();
   solver->analyze(model.pattern());
   return solver->factor(values.data()) == FactorStatus::ok ? std::move(solver) : nullptr;
+} catch (const RunError& e) {
+  if (e.reason() == Reason::out_of_memory) return nullptr;
+  throw;
 }
 
 // Empty where round-off decides.

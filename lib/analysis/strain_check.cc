@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "lib/analysis/strain_limits.h"
@@ -13,6 +14,7 @@ namespace orthodyn {
 
 namespace {
 
+constexpr double kMargin = 4;           // between Green's strain and that of the law; engineering shear counts twice
 constexpr double kOvershoot = 2;        // of a load applied at once, over its static response
 constexpr int kLargestSystem = 30000;   // unknowns that are factorised for a warning's sake
 
@@ -82,6 +84,14 @@ bool may_be_met(const Stiffness& stiffness) {
   return false;
 }
 
+double smallest(const std::array<AxisLimits, 3>& limits) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const AxisLimits& axis : limits)
+    for (const auto& limit : {axis.compression, axis.tension})
+      if (limit && limit->strain != 0) least = std::min(least, std::abs(limit->strain));
+  return least;
+}
+
 }  // namespace
 
 bool needs_strain_check(const FemModel& model, const std::vector<Stiffness>& stiffness) {
@@ -99,14 +109,16 @@ Warnings strain_warnings(const FemModel& model, const std::vector<Stiffness>& st
     const auto limits = strain_limits(stiffness[r]);
     const Mat36 equivalent = stress_over_young(stiffness[r]);
     const auto check = [&](const std::string& cause, const std::function<Mat3(int, int)>& strain) {
-      const Excess excess = find_excess(*term, limits, [&](int k, int p) { return along_axes(equivalent, strain(k, p)); });
+      const Excess excess =
+          find_excess(*term, limits, [&](int k, int p) { return along_axes(equivalent, strain(k, p)); });
       if (excess.count > 0) out.push_back(warning(*term, excess, cause));
     };
     if (statics.exists())
       check("twice the linear static response to the loads puts",
            [&](int k, int p) -> Mat3 { return kOvershoot * term->small_strain(k, p, u); });
     if (!initial.q.isZero(0))
-      check("the initial deformation puts", [&](int k, int p) { return term->observe_point(k, p, start.state()).strain; });
+      check("the initial deformation puts",
+            [&](int k, int p) { return term->observe_point(k, p, start.state()).strain; });
   }
   return out;
 }
@@ -117,7 +129,10 @@ std::optional<StrainExcess> strain_excess(const FemModel& model, const NodalStat
     if (term->definition().options.kinematics == Kinematics::linear) continue;
     const Stiffness& stiffness = term->definition().stiffness;
     const Mat36 equivalent = stress_over_young(stiffness);
-    const Excess excess = find_excess(*term, strain_limits(stiffness), [&](int k, int p) {
+    const auto limits = strain_limits(stiffness);
+    const double far_off = smallest(limits) / (kMargin * equivalent.rowwise().norm().maxCoeff());
+    const Excess excess = find_excess(*term, limits, [&](int k, int p) -> Vec3 {
+      if (term->green_strain(k, p, state).norm() < far_off) return Vec3::Zero();
       return along_axes(equivalent, term->observe_point(k, p, state).strain);
     });
     if (excess.count > 0 && (!worst || excess.severity() > worst->share))

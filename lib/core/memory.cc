@@ -65,7 +65,7 @@ double memory_limit() {
 double memory_left() {
   const double free = proc_bytes("/proc/meminfo", "MemAvailable") + proc_bytes("/proc/meminfo", "SwapFree");
   const double addresses = limit_of(RLIMIT_AS) - proc_bytes("/proc/self/status", "VmSize");
-  const double resident = std::min(limit_of(RLIMIT_RSS), group_limit()) - proc_bytes("/proc/self/status", "VmRSS");
+  const double resident = group_limit() - proc_bytes("/proc/self/status", "VmRSS");  // Linux ignores RLIMIT_RSS
   return std::max(0.0, std::min({free > 0 ? free : memory_limit(), addresses, resident}));
 }
 

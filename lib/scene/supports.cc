@@ -54,7 +54,7 @@ class CoordinateOwners {
     if (name.empty() || !std::all_of(name.begin(), name.end(), plain))
       origin.fail(fmt::format("name: '{}' is no name; use letters, digits, _ and -", name));
     for (const Support& other : supports_)
-      if (other.name == name) origin.fail(fmt::format("name: '{}' stands twice among clamps and motions", name));
+      if (other.name == name) origin.fail(fmt::format("name: '{}' is used twice among clamps and motions", name));
   }
 
   [[noreturn]] void fail_twice(const Origin& origin, int node, std::size_t component, int owner) const {

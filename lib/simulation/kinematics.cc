@@ -98,7 +98,7 @@ std::string only_linear_integrator(const Config& config, const Scene& scene) {
 }
 
 std::string other_integrator(const std::string& only_linear) {
-  return only_linear + " is for linear kinematics only: take another integrator, such as cvode_bdf";
+  return only_linear + " is for linear kinematics only: use another integrator, such as cvode_bdf";
 }
 
 }  // namespace

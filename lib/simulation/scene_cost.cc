@@ -149,7 +149,7 @@ class Judge {
     if (error > kCoarse)
       found_.push_back(
           fmt::format("nothing of the mesh, whose error is about {:.1e} of the elastic energy: finer cells or "
-                      "mesh.order: 2 would mend it",
+                      "mesh.order: 2 would reduce it",
                       error));
   }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/fem/built_scene.h"
 
@@ -34,13 +35,19 @@ time: {{end: 1}}
 };
 INSTANTIATE_TEST_SUITE_P(Masses, Views, testing::Values("lumped", "consistent"));
 
+// NaN is where there is no value, and equal to itself.
+bool are_same(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
+}
+
 TEST_P(Views, GiveEachOutputInAnyOrderAsItIsAlone) {
   const auto& model = scene.model();
   auto outputs = model.outputs();
   for (int pass = 0; pass < 2; ++pass) {
     const auto view = model.view(state);
     for (const auto& output : outputs)
-      EXPECT_EQ(view->evaluate(output.name), model.evaluate(output.name, state)) << output.name;
+      EXPECT_TRUE(are_same(view->evaluate(output.name), model.evaluate(output.name, state))) << output.name;
     std::reverse(outputs.begin(), outputs.end());
   }
 }

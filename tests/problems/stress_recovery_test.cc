@@ -126,14 +126,14 @@ RunResult moved(int order, double mesh, std::optional<double> accumulated, doubl
 TEST(ErrorBalance, TellsTheLargerErrorAndWhatToChange) {
   const auto advice = [](const RunResult& result) { return error_balance(result)->advice; };
   EXPECT_EQ(advice(moved(1, 0.3, 1e-4, 1e-4)),
-            "the mesh dominates: mesh.order: 2, or finer cells, would mend it; as it is, rtol 1e-02 would do");
+            "the mesh dominates: mesh.order: 2, or finer cells, would reduce it; as it is, rtol 1e-02 would do");
   EXPECT_EQ(advice(moved(2, 0.1, 1e-3, 1e-5)),
-            "the mesh dominates: finer cells would mend it; as it is, rtol 1e-04 would do");
-  EXPECT_EQ(advice(moved(2, 0.1, 0.02, 1e-5)), "the mesh dominates: finer cells would mend it");
+            "the mesh dominates: finer cells would reduce it; as it is, rtol 1e-04 would do");
+  EXPECT_EQ(advice(moved(2, 0.1, 0.02, 1e-5)), "the mesh dominates: finer cells would reduce it");
   EXPECT_EQ(advice(moved(1, 0.001, 0.02, 1e-3)),
-            "the integration dominates: a smaller integrator.rtol or step would mend it");
+            "the integration dominates: a smaller integrator.rtol or step would reduce it");
   EXPECT_EQ(advice(moved(1, 0.01, 0.02, 1e-3)), "");
-  EXPECT_EQ(advice(moved(1, 0.1, std::nullopt, 1e-3)), "mesh.order: 2, or finer cells, would mend it");
+  EXPECT_EQ(advice(moved(1, 0.1, std::nullopt, 1e-3)), "mesh.order: 2, or finer cells, would reduce it");
   EXPECT_EQ(advice(moved(1, 1e-3, std::nullopt, 1e-3)), "");
 }
 

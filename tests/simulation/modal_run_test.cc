@@ -54,7 +54,7 @@ TEST_F(ModalRun, IsRefusedWhereLinearKinematicsWouldNotServe) {
   const auto result = orthodyn("run scene.yaml --out out --set 'loads.0.force=[0, 0, -1e4]'");
   EXPECT_EQ(result.exit_code, 2) << result.output;
   expect_said(result, "elasticity.kinematics: linear kinematics would be off by");
-  expect_said(result, "modal is for linear kinematics only: take another integrator, such as cvode_bdf, or raise "
+  expect_said(result, "modal is for linear kinematics only: use another integrator, such as cvode_bdf, or raise "
                       "elasticity.linear_error");
   EXPECT_FALSE(fs::exists(folder_ / "out"));
   const auto follows = orthodyn(
@@ -69,7 +69,7 @@ TEST_F(ModalRun, EndsWhereLinearKinematicsAreOutgrownAndKeepsItsOutput) {
   const auto result = orthodyn("run scene.yaml --out out --set elasticity.linear_error=1e-3");
   EXPECT_EQ(result.exit_code, 3) << result.output;
   expect_said(result, "linear kinematics are off by");
-  expect_said(result, "where 0.001 is allowed; modal is for linear kinematics only: take another integrator, such as "
+  expect_said(result, "where 0.001 is allowed; modal is for linear kinematics only: use another integrator, such as "
                       "cvode_bdf, or raise elasticity.linear_error");
   EXPECT_EQ(result.output.find("starts again"), std::string::npos) << result.output;
   EXPECT_EQ(record("out").at("status"), "failed");

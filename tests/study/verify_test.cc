@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(
     Expectations, VerifyRefuses,
     testing::Values(Refusal{"quantity: corner.displacement.q, value: 1, relative: 1", "unknown quantity"},
                     Refusal{"quantity: corner.displacment.z, value: 1, relative: 1", "corner.displacement.z"},
-                    Refusal{"quantity: corner.displacement, value: 1, relative: 1", "is a vector"},
+                    Refusal{"quantity: corner.displacement, value: 1, relative: 1", "has several components"},
                     Refusal{"quantity: corner.displacement.z, value: 1", "exactly one of relative, absolute"},
                     Refusal{"quantity: corner.displacement.z, value: 0, relative: 1e-3", "value 0"},
                     Refusal{"quantity: corner.displacement.z, value: 1, relative: 1, at: 3", "time span"},

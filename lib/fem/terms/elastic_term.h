@@ -40,6 +40,9 @@ class ElasticTerm : public Term {
   virtual int num_points() const = 0;
   virtual PointObservation observe_point(int k, int point, const NodalState& s) const = 0;
 
+  // (F^T F - I)/2 there, in material axes: cheaper than what is observed.
+  virtual Mat3 green_strain(int k, int point, const NodalState& s) const = 0;
+
   // The same point at rest: material axes (columns), and in them sym(grad u) of a small displacement u (m).
   virtual Mat3 axes_at_rest(int k, int point) const = 0;
   virtual Mat3 small_strain(int k, int point, const NodalVector& u) const = 0;

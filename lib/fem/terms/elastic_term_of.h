@@ -130,6 +130,11 @@ class ElasticTermOf final : public ElasticTerm {
     return orthodyn::small_strain<double>(elements_.gradient(k, p, u), axes().of(k, p));
   }
 
+  Mat3 green_strain(int k, int p, const NodalState& s) const override {
+    const Mat3 H = axes().of(k, p).transpose() * elements_.gradient(k, p, s.u);
+    return 0.5 * (H + H.transpose() + H.transpose() * H);
+  }
+
   PointObservation observe_point(int k, int p, const NodalState& s) const override {
     return law_.observe(elements_.gradient(k, p, s.u), axes().of(k, p));
   }

@@ -64,7 +64,7 @@ class NodalForcesChoice : public TermChoice {
                                 : node_numbered(table, row, mesh);
       const auto [first, is_new] = row_of.emplace(node, row);
       if (!is_new)
-        throw ConfigError(table.where(row), fmt::format("node {} has a row already, in line {}", node,
+        throw ConfigError(table.where(row), fmt::format("node {} already has a row, in line {}", node,
                                                         table.lines[first->second]));
       forces.emplace_back(node, vector_at(table, row, kForce));
     }

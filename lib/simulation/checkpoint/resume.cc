@@ -102,6 +102,7 @@ bool was_linear_so_far(const Checkpoint& checkpoint) {
 }
 
 void keep_choices(const Checkpoint& checkpoint, Config& scene) {
+  if (!scene.is_map()) return;  // reading it will tell
   const Config before = Config::from_text(checkpoint.scene, "checkpoint.cbor");
   keep_kinematics(before, scene);
   if (!before.has("integrator")) return;

@@ -22,7 +22,7 @@ std::optional<double> time_error(const MotionResult& motion) {
 }
 
 std::string finer(const ModelSummary& model) {
-  return model.order == 1 ? "mesh.order: 2, or finer cells, would mend it" : "finer cells would mend it";
+  return model.order == 1 ? "mesh.order: 2, or finer cells, would reduce it" : "finer cells would reduce it";
 }
 
 // By powers of ten, with the errors in proportion to rtol.
@@ -35,7 +35,7 @@ std::optional<double> sufficient_rtol(double mesh, double time, double rtol) {
 
 std::string advice(const RunResult& result, double mesh, const std::optional<double>& time) {
   if (!time) return mesh > kSmall ? finer(result.model) : "";
-  if (*time > kMuch * mesh) return "the integration dominates: a smaller integrator.rtol or step would mend it";
+  if (*time > kMuch * mesh) return "the integration dominates: a smaller integrator.rtol or step would reduce it";
   if (mesh <= kMuch * *time || mesh <= kSmall) return "";
   std::string out = "the mesh dominates: " + finer(result.model);
   if (const auto& rtol = result.motion->rtol)

@@ -82,10 +82,10 @@ TEST_F(NodalForcesOfAFile, AreRefusedWithTheirLine) {
   EXPECT_TRUE(holds(refused(numbered + "27,1,2,3\n"), ".csv:2: node 27 does not exist; the mesh has 0 to 26"));
   EXPECT_TRUE(holds(refused(numbered + "0,1,2,3\n-1,1,2,3\n"), ".csv:3: column node: expected a whole number from 0"));
   EXPECT_TRUE(holds(refused(numbered + "1.5,1,2,3\n"), ".csv:2: column node: expected a whole number from 0"));
-  EXPECT_TRUE(holds(refused(numbered + "4,1,2,3\n5,1,2,3\n4,1,2,3\n"), ".csv:4: node 4 has a row already, in line 2"));
+  EXPECT_TRUE(holds(refused(numbered + "4,1,2,3\n5,1,2,3\n4,1,2,3\n"), ".csv:4: node 4 already has a row, in line 2"));
   EXPECT_TRUE(holds(refused(numbered + "4,1,nan,3\n"), ".csv:2: column fy: expected a finite number, found 'nan'"));
   EXPECT_TRUE(holds(refused(numbered + "4,1,2\n"), ".csv:2: found 3 entries where 4 columns are named"));
-  EXPECT_TRUE(holds(refused(placed + "0,0,0,1,2,3\n0,0,0,1,2,3\n"), ".csv:3: node 0 has a row already, in line 2"));
+  EXPECT_TRUE(holds(refused(placed + "0,0,0,1,2,3\n0,0,0,1,2,3\n"), ".csv:3: node 0 already has a row, in line 2"));
   const auto far = refused(placed + "2,2,2,1,2,3\n0.1,0,0,1,2,3\n");
   EXPECT_TRUE(holds(far, ".csv:3: no node within 3.46e-06 m of [0.1, 0, 0]"));
   EXPECT_TRUE(holds(far, "the nearest is node 0 at [0, 0, 0], 0.1 m away"));
