@@ -14,7 +14,7 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kMargin = 4;           // between Green's strain and that of the law; engineering shear counts twice
+constexpr double kMargin = 2;           // between Green's strain and that of the law; engineering shear counts twice
 constexpr double kOvershoot = 2;        // of a load applied at once, over its static response
 constexpr int kLargestSystem = 30000;   // unknowns that are factorised for a warning's sake
 
@@ -131,8 +131,8 @@ std::optional<StrainExcess> strain_excess(const FemModel& model, const NodalStat
     const Mat36 equivalent = stress_over_young(stiffness);
     const auto limits = strain_limits(stiffness);
     const double far_off = smallest(limits) / (kMargin * equivalent.rowwise().norm().maxCoeff());
-    const Excess excess = find_excess(*term, limits, [&](int k, int p) -> Vec3 {
-      if (term->green_strain(k, p, state).norm() < far_off) return Vec3::Zero();
+    if (term->largest_green_strain(state) < far_off) continue;
+    const Excess excess = find_excess(*term, limits, [&](int k, int p) {
       return along_axes(equivalent, term->observe_point(k, p, state).strain);
     });
     if (excess.count > 0 && (!worst || excess.severity() > worst->share))

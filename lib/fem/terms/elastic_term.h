@@ -40,8 +40,8 @@ class ElasticTerm : public Term {
   virtual int num_points() const = 0;
   virtual PointObservation observe_point(int k, int point, const NodalState& s) const = 0;
 
-  // (F^T F - I)/2 there, in material axes: cheaper than what is observed.
-  virtual Mat3 green_strain(int k, int point, const NodalState& s) const = 0;
+  // The largest norm of Green's strain (F^T F - I)/2 at all points: far cheaper than what is observed.
+  virtual double largest_green_strain(const NodalState& s) const = 0;
 
   // The same point at rest: material axes (columns), and in them sym(grad u) of a small displacement u (m).
   virtual Mat3 axes_at_rest(int k, int point) const = 0;

@@ -130,9 +130,20 @@ class ElasticTermOf final : public ElasticTerm {
     return orthodyn::small_strain<double>(elements_.gradient(k, p, u), axes().of(k, p));
   }
 
-  Mat3 green_strain(int k, int p, const NodalState& s) const override {
-    const Mat3 H = axes().of(k, p).transpose() * elements_.gradient(k, p, s.u);
-    return 0.5 * (H + H.transpose() + H.transpose() * H);
+  double largest_green_strain(const NodalState& s) const override {
+    double largest = 0;
+    for_each_batch_point([&](int b, int p) {
+      const Mat3T<Batch> F = deformation_gradient<Batch>(elements_.gradients(b, p, s.u), axes().batch(b, p));
+      Batch square(0);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+          Batch e = Batch(i == j ? -1 : 0);
+          for (int k = 0; k < 3; ++k) e = e + F(k, i) * F(k, j);
+          square = square + e * e;
+        }
+      for (int l = 0; l < elements_.lanes(b); ++l) largest = std::max(largest, square[l]);
+    });
+    return 0.5 * std::sqrt(largest);
   }
 
   PointObservation observe_point(int k, int p, const NodalState& s) const override {

@@ -1,5 +1,5 @@
-// Whether a run strained its body beyond what the corotational law holds for (lib/analysis/strain_check.h): looks at the
-// outputs.
+// Whether a run strained its body beyond what the corotational law holds for (lib/analysis/strain_check.h): looks at
+// outputs at which the elastic energy is larger than ever before.
 #pragma once
 
 #include <optional>
@@ -27,6 +27,7 @@ class StrainWatch : public Observer {
 
  private:
   const FemModel& model_;
+  double largest_energy_ = 0;  // J
   std::optional<PassedStrain> worst_;
 };
 
