@@ -46,16 +46,13 @@ const SeenTensor& tensor_of(const NodalFigure& figure) {
   return *std::find_if(all.begin(), all.end(), [&](const auto& t) { return std::string(t.name) == figure.tensor; });
 }
 
-// Visits the recovered tensor of each node of each region that is asked for.
+// Visits the recovered tensor of each node of a region.
 template <class Visit>
-void for_each_node(const StressRecovery& recovery, const NodalState& s, const SeenTensor& tensor, int region,
+void for_each_node(const StressRecovery& recovery, const NodalState& s, const SeenTensor& tensor, std::size_t region,
                    Visit&& visit) {
-  const auto all = recovery.at_nodes_of_regions(s, tensor);
-  for (std::size_t r = 0; r < all.size(); ++r) {
-    if (region >= 0 && static_cast<int>(r) != region) continue;
-    for (std::size_t i = 0; i < all[r].nodes->size(); ++i)
-      visit(r, static_cast<std::size_t>((*all[r].nodes)[i]), Vec6(all[r].values.row(static_cast<Eigen::Index>(i))));
-  }
+  const auto [nodes, values] = recovery.at_nodes_of_region(region, s, tensor);
+  for (std::size_t i = 0; i < nodes->size(); ++i)
+    visit(static_cast<std::size_t>((*nodes)[i]), Vec6(values.row(static_cast<Eigen::Index>(i))));
 }
 
 }  // namespace
@@ -99,7 +96,7 @@ std::vector<double> nodal_tensor(const StressRecovery& recovery, const NodalStat
     const auto all = recovery.at_nodes(s, tensor);
     std::copy(all.data(), all.data() + all.size(), out.begin());
   } else {
-    for_each_node(recovery, s, tensor, region, [&](std::size_t, std::size_t node, const Vec6& value) {
+    for_each_node(recovery, s, tensor, static_cast<std::size_t>(region), [&](std::size_t node, const Vec6& value) {
       std::copy(value.begin(), value.end(), out.begin() + static_cast<std::ptrdiff_t>(6 * node));
     });
   }
@@ -110,11 +107,15 @@ std::vector<double> nodal_figure(const StressRecovery& recovery, const StressRec
                                  const NodalState& s, const NodalFigure& figure, int region) {
   const std::size_t count = std::max<std::size_t>(figure.components.size(), 1);
   std::vector<double> out(count * static_cast<std::size_t>(s.x.cols()), kNone);
-  for_each_node(recovery, s, tensor_of(figure), region, [&](std::size_t r, std::size_t node, const Vec6& tensor) {
-    const auto values = figure.of(tensor, terms[r]->definition());
-    auto at = out.begin() + static_cast<std::ptrdiff_t>(count * node);
-    if (std::isnan(*at) || values[0] > *at) std::copy(values.begin(), values.end(), at);
-  });
+  const auto add = [&](std::size_t r) {
+    for_each_node(recovery, s, tensor_of(figure), r, [&](std::size_t node, const Vec6& tensor) {
+      const auto values = figure.of(tensor, terms[r]->definition());
+      auto at = out.begin() + static_cast<std::ptrdiff_t>(count * node);
+      if (std::isnan(*at) || values[0] > *at) std::copy(values.begin(), values.end(), at);
+    });
+  };
+  if (region >= 0) add(static_cast<std::size_t>(region));
+  else for (std::size_t r = 0; r < terms.size(); ++r) add(r);
   return out;
 }
 

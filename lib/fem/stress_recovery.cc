@@ -272,28 +272,25 @@ const std::vector<RegionRecovery>& StressRecovery::regions() const {
   return regions_;
 }
 
-std::vector<StressRecovery::OfRegion> StressRecovery::at_nodes_of_regions(const NodalState& s, const Seen& seen) const {
-  const ElementMesh mesh(mesh_);
-  std::vector<OfRegion> all;
-  for (std::size_t r = 0; r < terms_.size(); ++r) {
-    const ElasticTerm& term = *terms_[r];
-    const RegionRecovery& recovery = regions()[r];
-    all.push_back({&recovery.nodes(), recovery.at_nodes(mesh, at_points(term, [&](int k, int p) {
-                     return seen(term.observe_point(k, p, s));
-                   }))});
-  }
-  return all;
+StressRecovery::OfRegion StressRecovery::at_nodes_of_region(std::size_t region, const NodalState& s,
+                                                             const Seen& seen) const {
+  const ElasticTerm& term = *terms_[region];
+  const RegionRecovery& recovery = regions()[region];
+  const auto value = [&](int k, int p) { return seen(term.observe_point(k, p, s)); };
+  return {&recovery.nodes(), recovery.at_nodes(ElementMesh(mesh_), at_points(term, value))};
 }
 
 Eigen::Matrix<double, 6, Eigen::Dynamic> StressRecovery::at_nodes(const NodalState& s, const Seen& seen) const {
   Eigen::Matrix<double, 6, Eigen::Dynamic> sum = Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, s.x.cols());
   std::vector<int> count(static_cast<std::size_t>(s.x.cols()), 0);
-  for (const auto& [nodes, values] : at_nodes_of_regions(s, seen))
+  for (std::size_t r = 0; r < terms_.size(); ++r) {
+    const auto [nodes, values] = at_nodes_of_region(r, s, seen);
     for (std::size_t i = 0; i < nodes->size(); ++i) {
       const int node = (*nodes)[i];
       sum.col(node) += values.row(static_cast<Eigen::Index>(i)).transpose();
       ++count[static_cast<std::size_t>(node)];
     }
+  }
   for (Eigen::Index i = 0; i < sum.cols(); ++i) sum.col(i) /= std::max(count[static_cast<std::size_t>(i)], 1);
   return sum;
 }

@@ -83,12 +83,12 @@ class StressRecovery {
   using Seen = std::function<Vec6(const PointObservation&)>;
   Eigen::Matrix<double, 6, Eigen::Dynamic> at_nodes(const NodalState& s, const Seen& seen) const;
 
-  // The same of each term's region by itself: its nodes, and a row for each. Valid as long as this.
+  // The same of one term's region by itself: its nodes, and a row for each. Valid as long as this.
   struct OfRegion {
     const std::vector<int>* nodes;
     SixColumns values;
   };
-  std::vector<OfRegion> at_nodes_of_regions(const NodalState& s, const Seen& seen) const;
+  OfRegion at_nodes_of_region(std::size_t region, const NodalState& s, const Seen& seen) const;
 
   // One for each term.
   std::vector<RegionMeshError> mesh_errors(const NodalState& s) const;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/fem/element_mesh.h"
 #include "lib/fem/fem_model.h"
 #include "lib/fem/nodal_figures.h"
 #include "lib/scene/quantity.h"
@@ -43,6 +44,38 @@ std::optional<FieldOfRegion> read_field(const std::string& name, const FemModel&
   return std::nullopt;
 }
 
+// Of the body, region by region: at a node of several regions the body's field is a mean of theirs, which hides a thin
+// layer between others.
+std::vector<std::string> names_in_regions(const FieldOfRegion& field, const FemModel& model) {
+  const auto& terms = model.parts().elastic;
+  if (!field.region.empty() || terms.size() == 1) return {field.name()};
+  std::vector<std::string> names;
+  for (const auto& term : terms) names.push_back(term->region() + "." + field.field);
+  return names;
+}
+
+// `sign` -1: the smallest.
+void take_in(const std::vector<double>& values, const FieldOfRegion& field, double sign, Extreme& extreme) {
+  for (std::size_t k = field.component; k < values.size(); k += field.components) {
+    if (std::isnan(values[k]) || !(extreme.node < 0 || sign * values[k] > sign * extreme.value)) continue;
+    extreme = {values[k], static_cast<int>(k / field.components)};
+  }
+}
+
+bool has_node(const ElementMesh& mesh, const ElasticTerm& term, int node) {
+  const auto& own = term.definition().cells;
+  return std::any_of(own.begin(), own.end(), [&](int cell) {
+    const auto nodes = mesh.cells[static_cast<std::size_t>(cell)];
+    return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
+  });
+}
+
+void fail_without_strength(const std::string& field, const std::string& what, const Origin& origin) {
+  origin.fail(fmt::format("'{}' needs the strengths of {}: give its material strength: {{tension: [...], compression: "
+                          "[...], shear: [...]}} in Pa, or take a preset that has them (`orthodyn list presets`)",
+                          field, what));
+}
+
 }  // namespace
 
 void require_strengths(const std::string& field, const std::string& region, const FemModel& model,
@@ -50,9 +83,19 @@ void require_strengths(const std::string& field, const std::string& region, cons
   if (!needs_strength(field)) return;
   for (const auto& term : model.parts().elastic)
     if ((region.empty() || term->region() == region) && term->definition().strength) return;
-  origin.fail(fmt::format("'{}' needs the strengths of {}: give its material strength: {{tension: [...], compression: "
-                          "[...], shear: [...]}} in Pa, or take a preset that has them (`orthodyn list presets`)",
-                          field, region.empty() ? "a material" : "the material of region " + region));
+  fail_without_strength(field, region.empty() ? "a material" : "the material of region " + region, origin);
+}
+
+void require_strengths_at(const std::string& field, int node, const FemModel& model, const Origin& origin) {
+  if (!needs_strength(field)) return;
+  const ElementMesh mesh(model.parts().mesh);
+  std::string region;
+  for (const auto& term : model.parts().elastic) {
+    if (!has_node(mesh, *term, node)) continue;
+    if (term->definition().strength) return;
+    region = term->region();
+  }
+  fail_without_strength(field, "the material of region " + region, origin);
 }
 
 std::string unit_of_extreme(const std::string& name) {
@@ -71,13 +114,9 @@ std::optional<FindExtreme> find_extreme(const std::string& name, const FemModel&
   if (!field) return std::nullopt;
   require_strengths(field->field, field->region, model, origin);
   const double sign = which == "largest" ? 1 : -1;
-  return [field = *field, sign](const ObservedState& observed) {
-    const auto values = observed.evaluate(field.name());
+  return [names = names_in_regions(*field, model), field = *field, sign](const ObservedState& observed) {
     Extreme extreme{std::numeric_limits<double>::quiet_NaN(), -1};
-    for (std::size_t k = field.component; k < values.size(); k += field.components) {
-      if (std::isnan(values[k]) || !(extreme.node < 0 || sign * values[k] > sign * extreme.value)) continue;
-      extreme = {values[k], static_cast<int>(k / field.components)};
-    }
+    for (const std::string& region_field : names) take_in(observed.evaluate(region_field), field, sign, extreme);
     return extreme;
   };
 }

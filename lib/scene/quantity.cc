@@ -90,8 +90,10 @@ Quantity find_quantity(const std::string& name, const Scene& scene, const FemMod
   for (const auto& [source_name, source] : sources(scene, model)) {
     const std::string rest = after(name, source_name);
     const auto components = source.components();
-    if (name == source_name || std::find(components.begin(), components.end(), rest) != components.end())
+    if (name == source_name || std::find(components.begin(), components.end(), rest) != components.end()) {
+      if (source.node >= 0) require_strengths_at(source.info.name, source.node, model, origin);
       return make_quantity(name, source, rest);
+    }
     known.push_back(source_name);
     for (const auto& component : components) known.push_back(source_name + "." + component);
   }

@@ -38,12 +38,13 @@ void check_fields(const Model& model, const std::vector<std::string>& fields, st
 }
 
 void check_outputs(const Scene& scene, const FemModel& model) {
-  const auto check = [&](const std::vector<std::string>& fields, std::vector<Location> allowed, const Origin& origin) {
-    check_fields(model, fields, std::move(allowed), origin);
-    for (const auto& field : fields) require_strengths(field, "", model, origin);
-  };
-  check(scene.output.fields, {Location::node, Location::cell}, scene.output.origin);
-  for (const auto& [name, probe] : scene.output.probes) check(probe.fields, {Location::node}, probe.origin);
+  check_fields(model, scene.output.fields, {Location::node, Location::cell}, scene.output.origin);
+  for (const auto& field : scene.output.fields) require_strengths(field, "", model, scene.output.origin);
+  for (const auto& [name, probe] : scene.output.probes) {
+    check_fields(model, probe.fields, {Location::node}, probe.origin);
+    for (const auto& field : probe.fields)
+      require_strengths_at(field, nearest_node(model.parts().mesh, probe.at), model, probe.origin);
+  }
   ExtremeRecorder(scene.output.extremes, model, scene.output.origin);  // throws
 }
 

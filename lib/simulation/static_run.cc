@@ -32,6 +32,27 @@ class LoadProgress : public Observer {
   RunListener& listener_;
 };
 
+// Tells of equilibria alone. Moved supports are at their places from the start, and what is out of balance there grows
+// in (load_path.h): then the last equilibrium only is one of the body.
+class OfEquilibria : public Observer {
+ public:
+  // All must outlive it.
+  OfEquilibria(const FemModel& model, const LoadStepper& stepper, Observer& told)
+      : model_(model), stepper_(stepper), told_(told) {}
+
+  void on_history(const ObservedState& observed) override {
+    if (!model_.parts().moved || stepper_.done()) told_.on_history(observed);
+  }
+  void on_output(const ObservedState& observed) override {
+    if (!model_.parts().moved || stepper_.done()) told_.on_output(observed);
+  }
+
+ private:
+  const FemModel& model_;
+  const LoadStepper& stepper_;
+  Observer& told_;
+};
+
 class StaticObservers {
  public:
   StaticObservers(const Setup& setup, const StaticProblem& problem, const std::filesystem::path& folder,
@@ -46,7 +67,11 @@ class StaticObservers {
     const FemModel& model = *setup.built.model;
     if (!output.extremes.empty()) extremes_.emplace(output.extremes, model, output.origin);
     if (has_strain_limits(model)) strains_.emplace(model);
+    if (extremes_) extremes_at_.emplace(model, *problem.stepper, *extremes_);
+    if (strains_) strains_at_.emplace(model, *problem.stepper, *strains_);
   }
+  StaticObservers(const StaticObservers&) = delete;  // its observers refer to each other
+  StaticObservers& operator=(const StaticObservers&) = delete;
 
   void tell(RunResult& result) const {
     if (extremes_) result.extremes = extremes_->found();
@@ -61,8 +86,8 @@ class StaticObservers {
     add(frames_);
     add(steps_);
     add(probes_);
-    add(extremes_);
-    add(strains_);
+    add(extremes_at_);
+    add(strains_at_);
     out.push_back(&progress_);
     return out;
   }
@@ -73,6 +98,7 @@ class StaticObservers {
   std::optional<ProbeWriter> probes_;
   std::optional<ExtremeRecorder> extremes_;
   std::optional<StrainWatch> strains_;
+  std::optional<OfEquilibria> extremes_at_, strains_at_;
   LoadProgress progress_;
 };
 

@@ -45,6 +45,19 @@ class Quantities(InAFolder):
         frame.node_fields["nodal_stress_material"] = frame.node_fields["nodal_stress"]
         self.assertEqual(find_quantity("nodal_stress_material.11", frame).kind, 0)
 
+    def test_figures_of_the_stress_at_the_nodes_are_peaked_and_the_first_principal_value_stands_for_all(self):
+        frame = self.frame
+        frame.node_fields["principal_stress"] = np.tile([3e6, 0, -1e6], (5, 1))
+        quantity = find_quantity("principal_stress", frame)
+        self.assertEqual((quantity.kind, quantity.unit, quantity.peaked), (0, "Pa", True))
+        np.testing.assert_allclose(find_quantity("principal_stress.3", frame).values(frame), -1e6)
+        frame.node_fields["tsai_wu"] = np.full((5, 1), 0.5)
+        self.assertTrue(find_quantity("tsai_wu", frame).peaked)
+        frame.node_fields["nodal_det_f"] = np.full((5, 1), 8.0)
+        self.assertEqual(find_quantity("nodal_det_f", frame).neutral, 1)
+        frame.node_fields["von_mises"] = np.full((5, 1), 3e6)
+        self.assertEqual(find_quantity(None, frame).field, "von_mises")
+
     def test_a_name_finds_its_component(self):
         for text, wanted in (("displacement.y", POINTS[:, 1]), ("displacement", np.linalg.norm(POINTS, axis=1)),
                              ("stress.xy", [0, 4e6]), ("stress", [6e6, 4e6 * np.sqrt(3)]), ("det_f", [8, 8]),

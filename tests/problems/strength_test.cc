@@ -107,6 +107,41 @@ TEST(Exposures, NeedStrengths) {
   }
 }
 
+TEST(Exposures, NeedStrengthsAtAProbe) {
+  const BuiltTestScene scene(block(0, ""));
+  try {
+    find_quantity("middle.tsai_wu", scene.scene, scene.model(), {"here"});
+    ADD_FAILURE() << "accepted";
+  } catch (const ConfigError& e) {
+    EXPECT_NE(std::string(e.what()).find("the material of region body"), std::string::npos) << e.what();
+  }
+}
+
+// A laminate whose middle ply is one linear element thick: each of its nodes is one of another ply, too. Stretched along x with
+// its sides free to contract alike (nu = 0), each ply has E times the strain.
+TEST(ExtremesOfTheBody, AreNotAveragedAcrossRegions) {
+  constexpr double kStiff = 10e9, kSoft = 1e9, kStretch = 1e-3;
+  const BuiltTestScene scene(fmt::format(R"(
+analysis: static
+elasticity: {{kinematics: linear}}
+mesh: {{type: box, size: [1, 0.5, 0.3], cells: [3, 2, 3], order: 1, parts: {{ply: {{min: [0, 0, 0.1], max: [1, 0.5, 0.2]}}}}}}
+materials:
+  stiff: {{type: isotropic, density: 400, young: {}, nu: 0}}
+  soft: {{type: isotropic, density: 400, young: {}, nu: 0}}
+regions: {{ply: {{material: stiff}}, all: {{material: soft}}}}
+clamps: [{{surface: x0}}]
+)", kStiff, kSoft));
+  const Vector q = scene.dofs([&](const Vec3& x) { return Vec3(kStretch * x[0], 0, 0); });
+  const State state{0, q, Vector::Zero(q.size())};
+  const auto value = [&](const std::string& quantity) {
+    return find_quantity(quantity, scene.scene, scene.model(), {"test"}).values({scene.model(), state})[0];
+  };
+  EXPECT_NEAR(value("nodal_stress.xx.largest"), kStiff * kStretch, 1e-9 * kStiff);
+  EXPECT_NEAR(value("nodal_stress.xx.smallest"), kSoft * kStretch, 1e-9 * kStiff);
+  EXPECT_NEAR(value("principal_stress.1.smallest"), kSoft * kStretch, 1e-9 * kStiff);
+  EXPECT_NEAR(value("ply.von_mises.smallest"), kStiff * kStretch, 1e-9 * kStiff);
+}
+
 TEST(Quantities, AskForAComponentOfATensor) {
   const BuiltTestScene scene(block(0, kStrength));
   const Quantity whole = find_quantity("middle.nodal_stress", scene.scene, scene.model(), {"here"});

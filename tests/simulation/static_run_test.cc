@@ -49,6 +49,20 @@ TEST_F(StaticRun, ThatCannotGoOnKeepsItsStepsAndSaysWhere) {
   EXPECT_NE(read_text(folder_ / "out/run.json").find("\"status\": \"failed\""), std::string::npos);
 }
 
+// Its interior is at rest at load factor 0 while the support has moved: no shape that the body takes.
+TEST_F(StaticRun, WithAMovedSupportHasTheExtremesOfItsEquilibrium) {
+  write("shelf.yaml", std::string(kShelf) + R"(
+motions: [{surface: x1, translation: [1e-3, 0, 0], factor: {type: ramp, end: 1}}]
+time: {end: 1}
+)");
+  const auto result = orthodyn("run shelf.yaml --out out --set loads=[] --set "
+                               "'output.extremes=[nodal_stress.xx.largest, nodal_stress.xx.smallest]'");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  for (const char* which : {"largest", "smallest"})  // E times the strain
+    EXPECT_NE(result.output.find(std::string("nodal_stress.xx.") + which + ": 1000 Pa"), std::string::npos)
+        << result.output;
+}
+
 // Displacements that vanish beside the body's size.
 TEST_F(StaticRun, OfALinearModelMeetsItsToleranceInOneCorrectionAStep) {
   write("shelf.yaml", kShelf);

@@ -30,7 +30,9 @@ COLORS = """colours (--color FIELD[.COMPONENT]):
   strain                      .11 .22 .33 .12 .23 .31 .magnitude (default); 1 is along the grain
   nodal_stress, ...           likewise, recovered at the nodes: for quadratic elements
   det_f, region               volume ratio; one colour per region
-  Without --color: nodal_stress.von_mises or stress.von_mises where frames carry it, else displacement.
+  principal_stress, _strain   .1 (default) .2 .3; von_mises, max_stress, tsai_wu, hashin have no components
+  Without --color: the first that frames carry of nodal_stress.von_mises, von_mises, stress.von_mises;
+  else displacement.
   The range of stresses, strains and other cell fields leaves out the outermost 0.4 % at either
   end, where the colour bar then has a tip; --range gives it exactly. It is one range for all frames of a picture."""
 MOST_FRAMES = 60

@@ -10,7 +10,9 @@ MATERIAL = ("11", "22", "33", "12", "23", "31")
 UNITS = {"displacement": "m", "velocity": "m/s", "stress": "Pa", "stress_material": "Pa", "von_mises": "Pa",
          "principal_stress": "Pa", "mesh_error": "J/m^3"}
 AT_NODES = "nodal_"  # the same field, recovered at the nodes
-NEUTRAL = {"det_f": 1.0}  # the value of the undeformed body; every other signed field has 0
+# Fields at the nodes that follow from the recovered ones.
+FIGURES = ("von_mises", "principal_stress", "principal_strain", "max_stress", "tsai_wu", "hashin")
+NEUTRAL = {"det_f": 1.0, "nodal_det_f": 1.0}  # the value of the undeformed body; every other signed field has 0
 
 
 def von_mises(s):
@@ -49,7 +51,7 @@ class Quantity:
     @property
     def peaked(self):
         """Whether a few values, at corners and clamped edges, may dwarf the others."""
-        return not self.on_nodes or self.field.startswith(AT_NODES)
+        return not self.on_nodes or self.field.startswith(AT_NODES) or self.field in FIGURES
 
     @property
     def categorical(self):
@@ -78,6 +80,8 @@ def default_quantity(frame):
     """The von Mises stress where frames carry stress, that at the nodes first; otherwise the displacement."""
     if AT_NODES + "stress" in frame.node_fields:
         return AT_NODES + "stress.von_mises"
+    if "von_mises" in frame.node_fields:
+        return "von_mises"
     return "stress.von_mises" if "stress" in frame.cell_fields else "displacement"
 
 
@@ -99,8 +103,9 @@ def find_quantity(text, frame):
         return Quantity(field, "value", title, on_nodes)
     components = component_names(field, count)
     stress = count == 6 and field.removeprefix(AT_NODES).startswith("stress")
-    derived = ["magnitude"] * (count > 1) + ["von_mises"] * stress
-    part = part or derived[-1]
+    principal = field.startswith("principal_")
+    derived = ["magnitude"] * (count > 1 and not principal) + ["von_mises"] * stress
+    part = part or (components[0] if principal else derived[-1])
     if part in derived:
         return Quantity(field, part, f"{title}, {part.replace('von_mises', 'von Mises')}", on_nodes)
     if part in components:
