@@ -14,7 +14,7 @@ struct Supports {
 };
 
 // A coordinate of several clamps belongs to the first of them. Throws ConfigError for a selection without nodes, a
-// coordinate that is moved twice or held and moved, a name that stands twice, and a jump of velocity that a
+// coordinate that is moved twice or held and moved, a name that is used twice, and a jump of velocity that a
 // consistent mass would answer by an infinite force.
 Supports make_supports(const Scene& scene, const TetMesh& mesh);
 

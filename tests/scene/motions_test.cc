@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {"motions.0", "infinite force", "smooth_step", "mass: lumped"}},
         Refused{"name_twice",
                 "motions: [{surface: x1, name: clamp_1, translation: [1, 0, 0], " + kStep + "}]",
-                {"motions.0", "'clamp_1' stands twice"}},
+                {"motions.0", "'clamp_1' is used twice"}},
         Refused{"no_name",
                 "motions: [{surface: x1, name: a.b, translation: [1, 0, 0], " + kStep + "}]",
                 {"'a.b' is no name", "letters"}},
