@@ -52,9 +52,13 @@ void LoadStepper::advance() {
     auto next = tracer_->beyond(step_);
     if (next && !passes_over_too_much(*next)) {
       attempt_ = tracer_->attempt();
-      if (crosses_critical_point(*next)) return pass_critical_point(std::move(*next));
-      tracer_->move_to(std::move(*next));
-      return adapt();
+      if (!crosses_critical_point(*next)) {
+        tracer_->move_to(std::move(*next));
+        return adapt();
+      }
+      pass_critical_point(std::move(*next));
+      if (has_moved()) return;
+      if (stops_) stop_at(critical_.back());
     }
     ++rejected_;
     if (step_ <= smallest_step_) give_up();
@@ -74,6 +78,11 @@ void LoadStepper::adapt() {
 }
 
 void LoadStepper::shorten() { step_ = std::max(step_ / 2, smallest_step_); }
+
+bool LoadStepper::has_moved() const {
+  const PathPoint& here = tracer_->place().point;
+  return here.lambda != state_.t || here.q != state_.q;
+}
 
 void LoadStepper::arrive() { state_ = {tracer_->place().point.lambda, tracer_->place().point.q, state_.v}; }
 
@@ -198,10 +207,12 @@ void LoadStepper::stop_at(const CriticalPoint& point) const {
 
 void LoadStepper::give_up() const {
   throw RunError(
-      fmt::format("no equilibrium was found beyond load factor {:.6g}, with steps down to {:.2g} "
-                  "(statics.min_step): {}. This says nothing about the body: lower statics.min_step or the loads, or "
-                  "let the body come to rest in time with damping (analysis: dynamic)",
-                  state_.t, stepping_.min_step, tracer_->attempt().failure_reason),
+      fmt::format(
+          "no equilibrium was found beyond load factor {:.6g}, with steps down to {:.2g} "
+          "(statics.min_step): {}. This says nothing about the body: lower statics.min_step or the loads, or "
+          "let the body come to rest in time with damping (analysis: dynamic)",
+          state_.t, stepping_.min_step,
+          tracer_->attempt().found ? "another path is too near to be told apart" : tracer_->attempt().failure_reason),
       Reason::newton);
 }
 

@@ -73,6 +73,7 @@ class LoadStepper {
   bool settle(double load_factor);
   void adapt();
   void shorten();
+  bool has_moved() const;  // since the last equilibrium that was told
   void arrive();
   void require_going_on() const;
   [[noreturn]] void stop_at(const CriticalPoint& point) const;
