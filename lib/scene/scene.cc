@@ -139,6 +139,11 @@ void check_buckling(const Config& config, Scene& scene, bool is_timed) {
   if (!scene.expect.empty())
     config.at("expect").fail("a buckling analysis has critical load factors only; a sweep takes them as figures "
                              "({buckling: 1})");
+  const Output& output = scene.output;
+  const Output usual;
+  if (output.fields != usual.fields || !output.probes.empty() || !output.extremes.empty() || output.reactions ||
+      output.momentum || output.interval || output.frames || output.history)
+    config.at("output").fail("a buckling analysis writes its load factors and shapes only; remove it");
   if (!scene.buckling) scene.buckling = Buckling::spec().read(config.fill("buckling", "{}"));
 }
 

@@ -83,6 +83,15 @@ void add_load_steps(const Statics& statics, RunCost& cost) {
   cost.steps = {fewest, std::min(kMostCuts * fewest, static_cast<double>(statics.max_steps))};
 }
 
+// One computation: the stiffness, what stresses add to it from four tangents more, three factors and Lanczos'
+// solutions.
+void add_buckling(RunCost& cost) {
+  constexpr double kTangents = 6, kFactors = 3, kFewestSolutions = 50, kMostSolutions = 500;
+  const double fixed = kTangents * cost.tangent + kFactors * cost.factor.value_or(0);
+  cost.step = {fixed + kFewestSolutions * cost.solve.value_or(0), fixed + kMostSolutions * cost.solve.value_or(0)};
+  cost.steps = {1, 1};
+}
+
 }  // namespace
 
 RunCost run_cost(const Setup& setup, const std::vector<TermCost>& costs) {
@@ -91,7 +100,7 @@ RunCost run_cost(const Setup& setup, const std::vector<TermCost>& costs) {
   const bool is_static = !setup.integrator, is_implicit = is_static || setup.integrator->factor_bytes() > 0;
   if (is_implicit) measure_factor(setup, cost);
   if (is_static) {
-    add_load_steps(*setup.scene.statics, cost);
+    setup.scene.buckling ? add_buckling(cost) : add_load_steps(*setup.scene.statics, cost);
     return cost;
   }
   if (is_implicit) {

@@ -37,14 +37,15 @@ double row_bytes_of(const Setup& setup) {
 }
 
 double frames_of(const Scene& scene) {
-  if (scene.analysis == Analysis::statical) return fewest_load_steps(*scene.statics);
+  if (scene.buckling) return scene.buckling->count;
+  if (scene.is_static()) return fewest_load_steps(*scene.statics);
   const double span = scene.time.end - scene.time.start;
   return scene.output.interval ? std::ceil(span / *scene.output.interval) : scene.output.frames.value_or(kUsualFrames);
 }
 
 double rows_of(const Scene& scene, double frames) {
   const auto& history = scene.output.history;
-  if (!history || scene.analysis == Analysis::statical) return frames;
+  if (!history || scene.is_static()) return frames;
   return history->steps ? 0 : std::ceil((scene.time.end - scene.time.start) / *history->interval);
 }
 
@@ -81,7 +82,7 @@ Volume volume_of(const Setup& setup) {
 
 void require_usual_volume(const Setup& setup) {
   const Volume volume = volume_of(setup);
-  if (setup.scene.analysis == Analysis::statical && volume.frames >= kMostUnasked)
+  if (setup.scene.is_static() && volume.frames >= kMostUnasked)
     refuse(setup, "statics", volume.frames, "load steps", volume.frame_bytes + volume.row_bytes,
            "take a larger statics.max_step");
   if (volume.frames >= kMostUnasked)

@@ -62,6 +62,15 @@ TEST_F(VolumeOf, CheckTellsTimeAndDisk) {
     EXPECT_NE(said.output.find(words), std::string::npos) << words << "\nin: " << said.output;
 }
 
+TEST_F(VolumeOf, CheckTellsThatOfEveryAnalysis) {
+  for (const char* scene : {"column", "toggle", "pulled_strip"}) {
+    const auto said = orthodyn(std::string("check " ORTHODYN_SOURCE_DIR "/configs/scenes/") + scene + ".yaml");
+    EXPECT_EQ(said.exit_code, 0) << said.output;
+    EXPECT_NE(said.output.find("in all"), std::string::npos) << said.output;
+    EXPECT_EQ(said.output.find("days"), std::string::npos) << said.output;
+  }
+}
+
 // To a factor of two, on a mesh where the text around the numbers does not count.
 TEST_F(VolumeOf, FramesAreAsLargeAsWasSaid) {
   const char* const kFine = "mesh.cells=[16,8,8]";

@@ -137,15 +137,17 @@ void print_time(const Setup& setup, const std::vector<TermCost>& terms) {
   if (cost.factor) fmt::print("  factorisation {:.3g} s, solution {:.3g} s\n", *cost.factor, *cost.solve);
   else if (!setup.integrator || setup.integrator->factor_bytes() > 0)
     fmt::print("  without factorisations, which are not measured here\n");
-  fmt::print("  {}steps {}\n", setup.integrator ? "" : "load ", shown_steps(cost));
-  fmt::print("  of {} each\n", shown_seconds(cost.step));
+  if (!setup.scene.buckling) {
+    fmt::print("  {}steps {}\n", setup.integrator ? "" : "load ", shown_steps(cost));
+    fmt::print("  of {} each\n", shown_seconds(cost.step));
+  }
   fmt::print("  in all {}\n", shown_seconds(cost.seconds()));
 }
 
 void print_disk(const Setup& setup) {
   const Volume volume = volume_of(setup);
   fmt::print("disk\n");
-  fmt::print("  {}{:.0f} frames of {}\n", setup.integrator ? "" : "at least ", volume.frames,
+  fmt::print("  {}{:.0f} frames of {}\n", setup.integrator || setup.scene.buckling ? "" : "at least ", volume.frames,
              shown_bytes(volume.frame_bytes));
   if (volume.rows > 0) fmt::print("  {:.0f} rows of tables of {}\n", volume.rows, shown_bytes(volume.row_bytes));
   else fmt::print("  a row of tables of {} each step\n", shown_bytes(volume.row_bytes));

@@ -41,6 +41,7 @@ NamedObservers RunObservers::kept() {
   add("probes", probes_);
   add("events", events_);
   add("extremes", extremes);
+  add("strains", strains);
   add("linearity", linearity_);
   return out;
 }
@@ -48,7 +49,6 @@ NamedObservers RunObservers::kept() {
 std::vector<Observer*> RunObservers::all(Observer* progress, Checkpointer& checkpointer) {
   std::vector<Observer*> out;
   for (const auto& [name, observer] : kept()) out.push_back(observer);
-  if (strains) out.push_back(&*strains);
   if (progress) out.push_back(progress);
   out.push_back(&checkpointer);
   return out;

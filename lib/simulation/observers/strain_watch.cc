@@ -1,5 +1,7 @@
 #include "lib/simulation/observers/strain_watch.h"
 
+#include <fmt/format.h>
+
 namespace orthodyn {
 
 void StrainWatch::on_output(const ObservedState& observed) {
@@ -10,6 +12,20 @@ void StrainWatch::on_output(const ObservedState& observed) {
   const NodalExpansion nodal(model_.parts(), state.t, state.q, state.v);
   const auto found = strain_excess(model_, nodal.state());
   if (found && (!worst_ || found->share > worst_->share)) worst_ = {found->share, state.t, found->sentence};
+}
+
+void StrainWatch::save(Archive& archive) {
+  archive.put("largest_energy", largest_energy_);
+  archive.put("worst", std::vector{worst_ ? worst_->share : 0, worst_ ? worst_->time : 0});
+}
+
+void StrainWatch::restore(const Archive& archive) {
+  largest_energy_ = archive.number("largest_energy");
+  const auto& worst = archive.numbers("worst", 2);
+  if (worst[0] > 0)
+    worst_ = {worst[0], worst[1],
+              fmt::format("before the run was resumed, its body was strained to {:.3g} times the limit of the "
+                          "corotational law", worst[0])};
 }
 
 }  // namespace orthodyn

@@ -23,6 +23,8 @@ class StrainWatch : public Observer {
   explicit StrainWatch(const FemModel& model) : model_(model) {}
 
   void on_output(const ObservedState& observed) override;
+  void save(Archive& archive) override;
+  void restore(const Archive& archive) override;
   const std::optional<PassedStrain>& worst() const { return worst_; }
 
  private:
