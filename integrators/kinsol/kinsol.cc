@@ -201,15 +201,13 @@ class Kinsol : public EquilibriumSolver {
   bool correct(const ConstVectorRef& b, VectorRef dx) {
     auto dq = dx.head(n_);
     stiffness_.solve(b.head(n_), dq);
-    double missing = b[n_];
-    if (plane_->q.size() > 0) missing -= plane_->q.dot(dq);
-    if (plane_->q.size() > 0) {
+    if (plane_->q.size() == 0) {  // the load factor is fixed
+      dx[n_] = b[n_] / plane_->lambda;
+    } else {
       Vector rate(n_);
       stiffness_.solve(path_.load(), rate);
-      dx[n_] = missing / (plane_->q.dot(rate) + plane_->lambda);
+      dx[n_] = (b[n_] - plane_->q.dot(dq)) / (plane_->q.dot(rate) + plane_->lambda);
       dq += dx[n_] * rate;
-    } else {
-      dx[n_] = missing / plane_->lambda;
     }
     return contracts(dq.lpNorm<Eigen::Infinity>());
   }
