@@ -40,6 +40,28 @@ bool Linearity::factor(double t, const Vector& q, TangentKind kind) {
   model_.linearize(t, q, Vector::Zero(q.size()), kind, tangent_);
   values_.resize(tangent_.stiffness.size());
   model_.combine({mass_, 0, 1}, tangent_, values_.data());
+  holds_rest_ = q.isZero(0);
+  return solver_->factor(values_.data()) == FactorStatus::ok;
+}
+
+bool Linearity::factor_for(double t, const Vector& q) {
+  if (model_.traits().linear) return holds_rest_ || factor(t, Vector::Zero(q.size()), TangentKind::exact);
+  return factor(t, q, TangentKind::exact) || factor(t, q, TangentKind::gauss_newton);
+}
+
+bool Linearity::is_stable(double t, const Vector& q, const Terms& terms) {
+  const FemModel::Parts& parts = model_.parts();
+  const Vector still = Vector::Zero(q.size());
+  const NodalExpansion nodal(parts, t, q, still);
+  std::vector<double> linear(values_.size());
+  model_.linearize(t, q, still, TangentKind::exact, tangent_);
+  model_.combine({0, 0, 1}, tangent_, values_.data());
+  for (const std::size_t k : terms) {
+    exact_[k]->add_tangent(nodal.state(), TangentKind::exact, values_.data(), nullptr);
+    parts.elastic[k]->add_tangent(nodal.state(), TangentKind::exact, linear.data(), nullptr);
+  }
+  for (std::size_t i = 0; i < values_.size(); ++i) values_[i] -= linear[i];
+  holds_rest_ = false;
   return solver_->factor(values_.data()) == FactorStatus::ok;
 }
 
@@ -57,6 +79,13 @@ void Linearity::add_correction(double t, const Vector& q, const Terms& terms, Ve
 }
 
 LinearityError Linearity::error(double t, const Vector& q, const Terms& terms) {
+  const LinearityError found = distance(t, q, terms);
+  const bool can_tell = mass_ == 0 && model_.pattern().symmetric && !q.isZero(0) && std::isfinite(found.displacement);
+  if (!can_tell || is_stable(t, q, terms)) return found;
+  return {kUnknown, kUnknown, true};
+}
+
+LinearityError Linearity::distance(double t, const Vector& q, const Terms& terms) {
   constexpr double kAccuracy = 0.02;  // of the error itself
   constexpr double kSlowest = 0.7;    // contraction of the energy of steps
   const Vector still = Vector::Zero(q.size());
@@ -66,8 +95,7 @@ LinearityError Linearity::error(double t, const Vector& q, const Terms& terms) {
   if (!(square > 0)) return {};
   Vector x = still;
   try {
-    if (!model_.traits().linear && !factor(t, q, TangentKind::exact) && !factor(t, q, TangentKind::gauss_newton))
-      return {kUnknown, kUnknown};
+    if (!factor_for(t, q)) return {kUnknown, kUnknown};
     model_.force(t, q, still, at_q);
     for (double before = kUnknown;;) {
       model_.force(t, q + x, still, there);

@@ -1,6 +1,8 @@
 // How far linear kinematics are off at a displacement: the body with the exact force is brought to the equilibrium
 // under what the linear one carries there, by Newton's method with the factorised tangent of the model. It knows
-// rotations, strains and stretched midlines alike, and costs a few forces and solutions.
+// rotations, strains and stretched midlines alike, and costs a few forces and solutions. In statics a tangent with the
+// exact force and its factor are added: a straight column that carries more than Euler's load is at an equilibrium, but
+// at none that lasts.
 #pragma once
 
 #include <cstddef>
@@ -17,6 +19,7 @@ namespace orthodyn {
 struct LinearityError {
   double displacement = 0;  // by which the displacement would differ
   double stiffness = 0;     // the part of that along the displacement: how much softer or stiffer it is
+  bool unstable = false;    // in statics: an equilibrium of the exact force that does not last; both are infinite
 };
 
 class Linearity {
@@ -34,6 +37,10 @@ class Linearity {
 
  private:
   bool factor(double t, const Vector& q, TangentKind kind);
+  bool factor_for(double t, const Vector& q);  // as error() needs it
+  // Of the body with the exact force, at an equilibrium. The factor is then that of its tangent.
+  bool is_stable(double t, const Vector& q, const Terms& terms);
+  LinearityError distance(double t, const Vector& q, const Terms& terms);  // to the equilibrium with the exact force
   // What the exact force adds to that of the model, on the free coordinates.
   void add_correction(double t, const Vector& q, const Terms& terms, Vector& f) const;
 
@@ -44,6 +51,7 @@ class Linearity {
   Linearization tangent_;
   std::vector<double> values_;
   std::unique_ptr<LinearSolver> solver_;
+  bool holds_rest_ = false;  // the solver the factor of the tangent at rest
 };
 
 }  // namespace orthodyn

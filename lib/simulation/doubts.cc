@@ -46,6 +46,10 @@ std::string mesh_sentence(const ModelSummary& model, double error) {
       error, model.order == 1 ? "Take mesh.order: 2 or finer cells" : "Take finer cells");
 }
 
+constexpr const char* kBuckles =
+    "the body buckles below these loads, which linear kinematics do not show. Take elasticity.kinematics: auto, or "
+    "corotational; analysis: buckling tells the load factors";
+
 std::string linearity_sentence(double error) {
   return fmt::format(
       "linear kinematics are off by {} of the motion: rotations or stretches are too large for them. Take "
@@ -92,7 +96,7 @@ std::vector<std::string> doubts(const RunResult& result) {
                                    : result.equilibrium ? result.equilibrium->mesh_error : std::nullopt;
   if (mesh && mesh->relative > kCoarse) all.push_back(mesh_sentence(result.model, mesh->relative));
   if (const auto& error = result.model.linear_error; error && *error > kMuchError)
-    all.push_back(linearity_sentence(*error));
+    all.push_back(result.model.buckles ? kBuckles : linearity_sentence(*error));
   if (const auto& motion = result.motion) {
     if (!(motion->det_f.value > 0))
       all.push_back(fmt::format("element {} was inverted at t = {:.4g} s (det F = {:.3g})", motion->det_f.element,

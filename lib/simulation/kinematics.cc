@@ -30,6 +30,8 @@ double allowed_error(const Scene& scene) {
   return kUsual;
 }
 
+constexpr const char* kUnstable = "the body buckles below these loads, which linear kinematics do not show";
+
 std::string how_much(double error, const char* format = "{:.3g}") {
   return std::isfinite(error) ? "about " + fmt::format(fmt::runtime(format), error) : std::string("a good part");
 }
@@ -138,6 +140,7 @@ void LinearityWatch::note(double t, const Vector& q) {
   const LinearityError found = linearity().error(t, q);
   local_ = std::max(local_, found.displacement);
   stiffness_ = std::max(stiffness_, found.stiffness);
+  unstable_ = unstable_ || found.unstable;
   error_ = std::max(error_, local_);
 }
 
@@ -225,6 +228,7 @@ std::vector<std::string> LinearityWatch::to_give_up(double t, const Vector& q) {
 }
 
 std::string outgrown_sentence(const LinearityWatch& watch) {
+  if (watch.unstable()) return kUnstable;
   return fmt::format("linear kinematics are off by {} of the motion at t = {:.6g} s, where {:.3g} is allowed",
                      how_much(watch.error()), watch.time(), watch.allowed());
 }
@@ -233,6 +237,7 @@ std::string outcome_of(const LinearityWatch& watch) {
   const bool is_whole = terms_of(watch.regions()).size() == watch.num_regions();
   const std::string where = is_whole ? "" : " in " + join(names_of(watch.regions()));
   if (std::isnan(watch.error())) return fmt::format("linear{}: how far off is not known", where);
+  if (watch.unstable()) return fmt::format("linear{}: {}", where, kUnstable);
   const bool is_watched = std::isfinite(watch.allowed());
   return fmt::format("linear{}: off by {} of the motion{}{}", where, how_much(watch.error(), "{:.1e}"),
                      std::isfinite(watch.error()) ? " at most" : "",
@@ -287,11 +292,13 @@ Trial try_linear(const Scene& scene, const std::vector<std::string>& open, const
     const StaticResponse response = static_response(*built.model, built.initial, scene.time.end);
     if (!response.exists()) return {.watch = std::move(watch)};
     const Vector q = built.initial.q + (is_static ? 1 : kOvershoot) * response.displacement;
-    const double error = watch->error_at(scene.time.end, q);
-    if (error <= kClearly * allowed) return {.watch = std::move(watch)};
+    const LinearityError error = watch->error_at(scene.time.end, q);
+    if (error.displacement <= kClearly * allowed) return {.watch = std::move(watch)};
     return {.given_up = watch->to_give_up(scene.time.end, q),
-            .why = fmt::format("linear kinematics would be off by {}{}, where {:.2g} is allowed", how_much(error),
-                               is_static ? "" : " at twice the static response", allowed)};
+            .why = error.unstable ? kUnstable
+                                  : fmt::format("linear kinematics would be off by {}{}, where {:.2g} is allowed",
+                                                how_much(error.displacement),
+                                                is_static ? "" : " at twice the static response", allowed)};
   } catch (const RunError& e) {
     return {.given_up = open, .why = e.what()};
   }

@@ -48,7 +48,7 @@ class LinearityWatch : public Observer {
   void restore(const Archive& archive) override;
 
   // The error of one state, without phase. Throws RunError if the tangent at rest cannot be factorised.
-  double error_at(double t, const Vector& q) { return linearity().error(t, q).displacement; }
+  LinearityError error_at(double t, const Vector& q) { return linearity().error(t, q); }
   // At the end, for error(), which is NaN where it cannot be computed: the displacement may have grown since the last
   // look. In statics it is the last one.
   void finish();
@@ -60,6 +60,7 @@ class LinearityWatch : public Observer {
   std::size_t num_regions() const { return model_.parts().elastic.size(); }  // of the mesh, linear or not
   double allowed() const { return allowed_; }
   double error() const { return error_; }  // the largest so far, phase included
+  bool unstable() const { return unstable_; }  // in statics: as LinearityError has it
   bool outgrown() const { return error_ > allowed_; }
   double time() const { return time_; }  // s: of the last state that was looked at
 
@@ -91,6 +92,7 @@ class LinearityWatch : public Observer {
   double checked_ = 0;   // the displacement at which the error was computed last
   double velocity_ = 0;  // the largest so far
   double local_ = 0, stiffness_ = 0, error_ = 0;
+  bool unstable_ = false;
   std::string only_linear_;
 };
 

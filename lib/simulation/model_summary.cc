@@ -31,6 +31,7 @@ ModelSummary summarize(const Setup& setup) {
     out.terms.push_back(fmt::format("mass-proportional damping of {:.6g} 1/s", parts.mass_damping));
   out.kinematics = told_kinematics(setup);
   if (setup.linearity && !std::isnan(setup.linearity->error())) out.linear_error = setup.linearity->error();
+  out.buckles = setup.linearity && setup.linearity->unstable();
   return out;
 }
 

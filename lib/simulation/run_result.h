@@ -29,6 +29,7 @@ struct ModelSummary {
   std::vector<std::string> terms;  // in words
   std::string kinematics = {};     // what was taken for `auto`, and why, and how far linear kinematics are off; or ""
   std::optional<double> linear_error = {};  // of these, of the motion; infinite where it is a good part
+  bool buckles = false;  // below loads that linear kinematics carry
 };
 
 struct EnergySummary {
