@@ -6,27 +6,50 @@ namespace {
 
 // a(dS T^T) as a 3x6 matrix on the Voigt form of dS. Inlined by order: with two kinds of stiffness the
 // compiler would not, and tangents cost 4 % more instructions.
-[[gnu::always_inline]] inline Mat36 axial_of_product(const Mat3& T) {
-  const Mat3 h = 0.5 * T;
-  Mat36 A;
-  A << 0, -T(2, 1), T(1, 2), -h(2, 0), h(1, 1) - h(2, 2), h(1, 0),  //
-      T(2, 0), 0, -T(0, 2), h(2, 1), -h(0, 1), h(2, 2) - h(0, 0),   //
-      -T(1, 0), T(0, 1), 0, h(0, 0) - h(1, 1), h(0, 2), -h(1, 2);
+template <class T>
+[[gnu::always_inline]] inline Mat36T<T> axial_of_product(const Mat3T<T>& stress) {
+  const Mat3T<T>& s = stress;
+  const Mat3T<T> h = T(0.5) * s;
+  const T zero(0);
+  Mat36T<T> A;
+  A << zero, -s(2, 1), s(1, 2), -h(2, 0), h(1, 1) - h(2, 2), h(1, 0),  //
+      s(2, 0), zero, -s(0, 2), h(2, 1), -h(0, 1), h(2, 2) - h(0, 0),   //
+      -s(1, 0), s(0, 1), zero, h(0, 0) - h(1, 1), h(0, 2), -h(1, 2);
   return A;
 }
 
-[[gnu::always_inline]] inline Mat63 times(const OrthotropicStiffness& C, const Mat63& N) {
-  Mat63 out;
-  out.row(0) = C.c11 * N.row(0) + C.c12 * N.row(1) + C.c31 * N.row(2);
-  out.row(1) = C.c12 * N.row(0) + C.c22 * N.row(1) + C.c23 * N.row(2);
-  out.row(2) = C.c31 * N.row(0) + C.c23 * N.row(1) + C.c33 * N.row(2);
-  out.row(3) = C.g12 * N.row(3);
-  out.row(4) = C.g23 * N.row(4);
-  out.row(5) = C.g31 * N.row(5);
+template <class T>
+[[gnu::always_inline]] inline Mat63T<T> times(const OrthotropicStiffness& C, const Mat63T<T>& N) {
+  Mat63T<T> out;
+  for (int j = 0; j < 3; ++j) {
+    out(0, j) = C.c11 * N(0, j) + C.c12 * N(1, j) + C.c31 * N(2, j);
+    out(1, j) = C.c12 * N(0, j) + C.c22 * N(1, j) + C.c23 * N(2, j);
+    out(2, j) = C.c31 * N(0, j) + C.c23 * N(1, j) + C.c33 * N(2, j);
+    out(3, j) = C.g12 * N(3, j);
+    out(4, j) = C.g23 * N(4, j);
+    out(5, j) = C.g31 * N(5, j);
+  }
   return out;
 }
 
-Mat63 times(const AnisotropicStiffness& C, const Mat63& N) { return C.c * N; }
+template <class T>
+Mat63T<T> times(const AnisotropicStiffness& C, const Mat63T<T>& N) {
+  return C.c.template cast<T>().lazyProduct(N);
+}
+
+// dS/dF in the rotated frame: dS = sym(X) - N w, in Voigt form with engineering shear.
+template <class T>
+[[gnu::always_inline]] inline Mat63T<T> stretch_rate_matrix(const Mat3T<T>& S) {
+  const T zero(0);
+  Mat63T<T> N;
+  N << zero, S(0, 2), -S(0, 1),                    //
+      -S(1, 2), zero, S(0, 1),                     //
+      S(1, 2), -S(0, 2), zero,                     //
+      -S(0, 2), S(1, 2), S(0, 0) - S(1, 1),        //
+      S(1, 1) - S(2, 2), -S(0, 1), S(0, 2),        //
+      S(0, 1), S(2, 2) - S(0, 0), -S(1, 2);
+  return N;
+}
 
 }  // namespace
 
@@ -40,58 +63,52 @@ Mat3 solve_lyapunov(const Mat3& S, const Mat3& B) {
   return V * X * V.transpose();
 }
 
-Mat63 stretch_rate_matrix(const Mat3& S) {
-  Mat63 N;
-  N << 0, S(0, 2), -S(0, 1),                       //
-      -S(1, 2), 0, S(0, 1),                        //
-      S(1, 2), -S(0, 2), 0,                        //
-      -S(0, 2), S(1, 2), S(0, 0) - S(1, 1),        //
-      S(1, 1) - S(2, 2), -S(0, 1), S(0, 2),        //
-      S(0, 1), S(2, 2) - S(0, 0), -S(1, 2);
-  return N;
-}
-
-template <class C>
-TangentFormOf<C> gauss_newton_form(const Polar<double>& p, const C& stiffness, double chi) {
-  TangentFormOf<C> form;
-  form.R = p.R;
-  if (chi == 0) {  // G may be singular: nothing to weigh
-    form.Hee = {};
-    form.Hea.setZero();
-    form.Hae.setZero();
-    form.Haa.setZero();
-    return form;
-  }
-  form.Hee = chi * stiffness;
-  const Mat63 N = stretch_rate_matrix(p.S) * p.G_inverse;
-  const Mat63 CN = times(form.Hee, N);
-  form.Hea = -CN;
-  form.Hae = form.Hea.transpose();
-  form.Haa = N.transpose() * CN;
-  return form;
-}
-
-template <class C>
-TangentFormOf<C> exact_form(const Polar<double>& p, const C& stiffness, const Mat3& T) {
-  TangentFormOf<C> form;
+template <class C, class T>
+TangentFormOf<C, T> gauss_newton_form(const Polar<T>& p, const C& stiffness) {
+  TangentFormOf<C, T> form;
   form.R = p.R;
   form.Hee = stiffness;
-  const Mat63 N = stretch_rate_matrix(p.S);
-  const Mat63 CN = times(stiffness, N);
-  const Mat36 A = axial_of_product(T);
-  const Mat3 AN = A * N;
-  const Mat3 tau = symmetric_part<double>(T * p.S);
-  const Mat3 Hww = N.transpose() * CN - AN - AN.transpose() + tau.trace() * Mat3::Identity() - tau;
-  form.Hea = (A.transpose() - CN) * p.G_inverse;
+  const Mat63T<T> N = stretch_rate_matrix<T>(p.S).lazyProduct(p.G_inverse);
+  const Mat63T<T> CN = times(stiffness, N);
+  form.Hea = -CN;
   form.Hae = form.Hea.transpose();
-  form.Haa = p.G_inverse * Hww * p.G_inverse;
+  form.Haa = N.transpose().lazyProduct(CN);
   return form;
 }
 
-template TangentForm gauss_newton_form(const Polar<double>&, const OrthotropicStiffness&, double);
-template TangentForm exact_form(const Polar<double>&, const OrthotropicStiffness&, const Mat3&);
-template TangentFormOf<AnisotropicStiffness> gauss_newton_form(const Polar<double>&, const AnisotropicStiffness&,
-                                                               double);
-template TangentFormOf<AnisotropicStiffness> exact_form(const Polar<double>&, const AnisotropicStiffness&, const Mat3&);
+template <class C, class T>
+TangentFormOf<C, T> exact_form(const Polar<T>& p, const C& stiffness, const Mat3T<T>& stress) {
+  TangentFormOf<C, T> form;
+  form.R = p.R;
+  form.Hee = stiffness;
+  const Mat63T<T> N = stretch_rate_matrix<T>(p.S);
+  const Mat63T<T> CN = times(stiffness, N);
+  const Mat36T<T> A = axial_of_product<T>(stress);
+  const Mat3T<T> AN = A.lazyProduct(N);
+  const Mat3T<T> tau = symmetric_part<T>(stress.lazyProduct(p.S));
+  Mat3T<T> Hww = N.transpose().lazyProduct(CN);
+  Hww -= AN + AN.transpose() + tau;
+  const T trace = tau.trace();
+  for (int i = 0; i < 3; ++i) Hww(i, i) += trace;
+  const Mat63T<T> turning = A.transpose() - CN;
+  form.Hea = turning.lazyProduct(p.G_inverse);
+  form.Hae = form.Hea.transpose();
+  const Mat3T<T> right = Hww.lazyProduct(p.G_inverse);
+  form.Haa = p.G_inverse.lazyProduct(right);
+  return form;
+}
+
+template TangentFormOf<OrthotropicStiffness, double> gauss_newton_form(const Polar<double>&, const OrthotropicStiffness&);
+template TangentFormOf<OrthotropicStiffness, double> exact_form(const Polar<double>&, const OrthotropicStiffness&,
+                                                                const Mat3T<double>&);
+template TangentFormOf<OrthotropicStiffness, Batch> gauss_newton_form(const Polar<Batch>&, const OrthotropicStiffness&);
+template TangentFormOf<OrthotropicStiffness, Batch> exact_form(const Polar<Batch>&, const OrthotropicStiffness&,
+                                                               const Mat3T<Batch>&);
+template TangentFormOf<AnisotropicStiffness, double> gauss_newton_form(const Polar<double>&, const AnisotropicStiffness&);
+template TangentFormOf<AnisotropicStiffness, double> exact_form(const Polar<double>&, const AnisotropicStiffness&,
+                                                                const Mat3T<double>&);
+template TangentFormOf<AnisotropicStiffness, Batch> gauss_newton_form(const Polar<Batch>&, const AnisotropicStiffness&);
+template TangentFormOf<AnisotropicStiffness, Batch> exact_form(const Polar<Batch>&, const AnisotropicStiffness&,
+                                                               const Mat3T<Batch>&);
 
 }  // namespace orthodyn

@@ -22,16 +22,13 @@ namespace orthodyn {
 // X with S X + X S = B; S and B symmetric, S positive definite.
 Mat3 solve_lyapunov(const Mat3& S, const Mat3& B);
 
-// dS/dF in the rotated frame: dS = sym(X) - N w, in Voigt form with engineering shear.
-Mat63 stretch_rate_matrix(const Mat3& S);
+// The positive semidefinite form dS : C : dS, for one point or a batch of them. G is not singular.
+template <class C, class T>
+TangentFormOf<C, T> gauss_newton_form(const Polar<T>& p, const C& stiffness);
 
-// The positive semidefinite form dS : C : dS, weighted by chi.
-template <class C>
-TangentFormOf<C> gauss_newton_form(const Polar<double>& p, const C& stiffness, double chi);
-
-// The form of d2Psi where chi = 1; T = sigma + [c].
-template <class C>
-TangentFormOf<C> exact_form(const Polar<double>& p, const C& stiffness, const Mat3& T);
+// The form of d2Psi where chi = 1; stress = sigma + [c].
+template <class C, class T>
+TangentFormOf<C, T> exact_form(const Polar<T>& p, const C& stiffness, const Mat3T<T>& stress);
 
 template <class C>
 class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
@@ -39,6 +36,7 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
   static constexpr const char* kName = "corotational, exact gradient";
   static constexpr bool kHasEnergy = true;
   using Form = TangentFormOf<TangentStiffness<C>>;
+  using BatchForm = TangentFormOf<TangentStiffness<C>, Batch>;
 
   explicit CorotationalLaw(const C& stiffness)
       : RotatingLaw<CorotationalLaw, C>(stiffness), sparse_(as_tangent(stiffness)) {
@@ -87,10 +85,21 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
   Form tangent(const Mat3& H, const Mat3& Q, TangentKind kind, double beta, Form* damping) const {
     const auto p = polar(deformation_gradient<double>(H, Q), Q);
     const auto b = blend<double>(p.S, p.det_G);
-    if (damping) *damping = gauss_newton_form(p, beta * sparse_, b.chi);
+    if (damping) *damping = weighted_form(p, beta * sparse_, b.chi);
     if (b.chi < 1) return blended_form(p, b.chi);
-    if (kind == TangentKind::gauss_newton) return gauss_newton_form(p, sparse_, 1);
+    if (kind == TangentKind::gauss_newton) return gauss_newton_form(p, sparse_);
     return exact_form(p, sparse_, regular_stress<double>(p, stretch_strain<double>(H, Q, p.S)));
+  }
+
+  // tangent() for a batch of points; right in the lanes of `good`, the others are to be done one by one.
+  template <class Axes>
+  BatchForm batch_tangent(const Mat3T<Batch>& H, const Axes& Q, TangentKind kind, double beta, BatchForm* damping,
+                          Batch::Mask& good) const {
+    Polar<Batch> p;
+    good = this->regular_polar(H, Q, p);
+    if (damping) *damping = gauss_newton_form(p, beta * sparse_);
+    if (kind == TangentKind::gauss_newton) return gauss_newton_form(p, sparse_);
+    return exact_form(p, sparse_, regular_stress<Batch>(p, stretch_strain<Batch>(H, Q, p.S)));
   }
 
   // The exact tangent at H, but with the stress that the tangent at H0 predicts for it, C (S0 - I + dS): that of
@@ -158,9 +167,15 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
     else return beta * chi;
   }
 
+  // chi times the Gauss-Newton form.
+  static Form weighted_form(const Polar<double>& p, const TangentStiffness<C>& stiffness, double chi) {
+    if (chi > 0) return gauss_newton_form(p, chi * stiffness);
+    return {p.R, {}, Mat63::Zero(), Mat36::Zero(), Mat3::Zero()};  // G may be singular: nothing to weigh
+  }
+
   // chi times the Gauss-Newton part and 1 - chi times the isotropic law at fixed rotation.
   Form blended_form(const Polar<double>& p, double chi) const {
-    Form form = gauss_newton_form(p, sparse_, chi);
+    Form form = weighted_form(p, sparse_, chi);
     if constexpr (C::kIsotropic) form.Hee = form.Hee + (1 - chi) * sparse_;
     else form.Hee = form.Hee + (1 - chi) * as_orthotropic(isotropic_);
     return form;

@@ -28,11 +28,11 @@ NodeDifferences<kNodes> differences(const ElementNodes<kNodes>& x) {
   return x.template rightCols<kNodes - 1>().colwise() - x.col(0);
 }
 
-// One integration point of an element.
-template <int kNodes>
+// One integration point of an element, or of a batch of them (T = Batch).
+template <int kNodes, class T = double>
 struct ElementPoint {
-  Eigen::Matrix<double, kNodes - 1, 3> B;  // rows: the gradients g_a of nodes 1, 2, ..., 1/m
-  double volume;                           // its part of the element's, m^3
+  Eigen::Matrix<T, kNodes - 1, 3> B;  // rows: the gradients g_a of nodes 1, 2, ..., 1/m
+  T volume;                           // its part of the element's, m^3
 
   // H Q from differences of displacements, F Q from those of positions, F_rate Q from those of velocities.
   Mat3 gradient(const NodeDifferences<kNodes>& d) const { return d.lazyProduct(B); }

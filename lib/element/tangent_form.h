@@ -13,47 +13,79 @@
 
 namespace orthodyn {
 
-using Mat63 = Eigen::Matrix<double, 6, 3>;
-using Mat36 = Eigen::Matrix<double, 3, 6>;
-using Mat9 = Eigen::Matrix<double, 9, 9>;
+template <class T>
+using Mat63T = Eigen::Matrix<T, 6, 3>;
+template <class T>
+using Mat36T = Eigen::Matrix<T, 3, 6>;
+template <class T>
+using Mat9T = Eigen::Matrix<T, 9, 9>;
+using Mat63 = Mat63T<double>;
+using Mat36 = Mat36T<double>;
+using Mat9 = Mat9T<double>;
 
-template <class C>
+// Of one point (T = double) or a batch of them (T = Batch), which share Hee.
+template <class C, class T = double>
 struct TangentFormOf {
-  Mat3 R;
+  Mat3T<T> R;
   C Hee;
-  Mat63 Hea;
-  Mat36 Hae;
-  Mat3 Haa;
+  Mat63T<T> Hea;
+  Mat36T<T> Hae;
+  Mat3T<T> Haa;
 };
 
 using TangentForm = TangentFormOf<OrthotropicStiffness>;
 
-// The form as a 9x9 matrix acting on X in column-major order (X11, X21, X31, X12, ...).
-template <class C>
-[[gnu::always_inline]] inline Mat9 expand(const TangentFormOf<C>& form) {
-  Eigen::Matrix<double, 9, 9> H;  // on (e, a)
-  H.topLeftCorner<6, 6>() = voigt(form.Hee);
-  H.topRightCorner<6, 3>() = form.Hea;
-  H.bottomLeftCorner<3, 6>() = form.Hae;
-  H.bottomRightCorner<3, 3>() = form.Haa;
+namespace tangent_detail {
 
-  // X_ij + X_ji = gamma, X_ji - X_ij = +-a: each off-diagonal entry of X meets one of each.
-  struct Shear {
-    int gamma, a, plus, minus;  // plus: the entry of X with +a
-  };
-  constexpr std::array<Shear, 3> shears{{{3, 8, 1, 3}, {4, 6, 5, 7}, {5, 7, 6, 2}}};
-  Eigen::Matrix<double, 9, 9> rows, out;
-  for (int k = 0; k < 3; ++k) rows.row(4 * k) = H.row(k);
-  for (const auto& s : shears) {
-    rows.row(s.plus) = H.row(s.gamma) + H.row(s.a);
-    rows.row(s.minus) = H.row(s.gamma) - H.row(s.a);
-  }
-  for (int k = 0; k < 3; ++k) out.col(4 * k) = rows.col(k);
-  for (const auto& s : shears) {
-    out.col(s.plus) = rows.col(s.gamma) + rows.col(s.a);
-    out.col(s.minus) = rows.col(s.gamma) - rows.col(s.a);
-  }
+// X_ij + X_ji = gamma, X_ji - X_ij = +-a: each off-diagonal entry of X meets one of each.
+struct Shear {
+  int gamma, a, plus, minus;  // plus: the entry of X with +a
+};
+inline constexpr std::array<Shear, 3> kShears{{{3, 8, 1, 3}, {4, 6, 5, 7}, {5, 7, 6, 2}}};
+
+}  // namespace tangent_detail
+
+// The form as a 9x9 matrix acting on X in column-major order (X11, X21, X31, X12, ...).
+template <class C, class T>
+[[gnu::always_inline]] inline Mat9T<T> expand(const TangentFormOf<C, T>& form) {
+  using tangent_detail::kShears;
+  const Mat6 C6 = voigt(form.Hee);
+  Mat9T<T> out;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) out(4 * i, 4 * j) = T(C6(i, j));
+  for (const auto& s : kShears)
+    for (int i = 0; i < 3; ++i) {
+      out(4 * i, s.plus) = T(C6(i, s.gamma)) + form.Hea(i, s.a - 6);
+      out(4 * i, s.minus) = T(C6(i, s.gamma)) - form.Hea(i, s.a - 6);
+      out(s.plus, 4 * i) = T(C6(s.gamma, i)) + form.Hae(s.a - 6, i);
+      out(s.minus, 4 * i) = T(C6(s.gamma, i)) - form.Hae(s.a - 6, i);
+    }
+  for (const auto& r : kShears)
+    for (const auto& c : kShears) {
+      const T e(C6(r.gamma, c.gamma)), ea = form.Hea(r.gamma, c.a - 6), ae = form.Hae(r.a - 6, c.gamma),
+              aa = form.Haa(r.a - 6, c.a - 6);
+      const T even = e + aa, odd = e - aa, up = ea + ae, down = ea - ae;
+      out(r.plus, c.plus) = even + up;
+      out(r.minus, c.minus) = even - up;
+      out(r.plus, c.minus) = odd - down;
+      out(r.minus, c.plus) = odd + down;
+    }
   return out;
+}
+
+// Takes H of expand(), which acts on R^T dF and gives R^T dP, to what acts on dF and gives dP.
+template <class T>
+[[gnu::always_inline]] inline void turn_to_space(const Mat3T<T>& R, Mat9T<T>& H) {
+  const auto turn = [&R](auto&& a, auto&& b, auto&& c) {
+    const T x = a, y = b, z = c;
+    a = R(0, 0) * x + R(0, 1) * y + R(0, 2) * z;
+    b = R(1, 0) * x + R(1, 1) * y + R(1, 2) * z;
+    c = R(2, 0) * x + R(2, 1) * y + R(2, 2) * z;
+  };
+  for (int column = 0; column < 9; ++column)
+    for (int m = 0; m < 9; m += 3) turn(H(m, column), H(m + 1, column), H(m + 2, column));
+  for (int row = 0; row < 9; ++row)
+    for (int n = 0; n < 9; n += 3) turn(H(row, n), H(row, n + 1), H(row, n + 2));
 }
 
 }  // namespace orthodyn

@@ -63,7 +63,7 @@ class WarpedLaw : public RotatingLaw<WarpedLaw<C>, C> {
 
   // d(R sigma) = R ([w] sigma + C : dS), dS = e - N w, w = G^-1 a.
   Form unsymmetric_form(const Polar<double>& p, const Mat3& strain) const {
-    Form form = gauss_newton_form(p, as_tangent(C_), 1);
+    Form form = gauss_newton_form(p, as_tangent(C_));
     const Mat3 sigma = C_.stress(strain);
     for (int k = 0; k < 3; ++k) {
       const Vec3 w = p.G_inverse.col(k);

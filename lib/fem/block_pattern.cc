@@ -81,6 +81,18 @@ BlockPattern::BlockPattern(const Cells& cells, const DofMap& dofs, bool symmetri
   pattern_.row.reserve(entries);
   for_each_entry([&](int row) { pattern_.row.push_back(row); },
                  [&] { pattern_.column_start.push_back(pattern_.non_zeros()); });
+  if (symmetric) find_columns();
+}
+
+void BlockPattern::find_columns() {
+  columns_.resize(static_cast<std::size_t>(dofs_.num_nodes()));
+  for (int node = 0; node < dofs_.num_nodes(); ++node) {
+    const auto& dofs = dofs_.node(node);
+    if (*std::min_element(dofs.begin(), dofs.end()) < 0) continue;
+    const auto first = static_cast<std::size_t>(dofs[0]);
+    const int start = pattern_.column_start[first];
+    columns_[static_cast<std::size_t>(node)] = {start, pattern_.column_start[first + 1] - start};
+  }
 }
 
 int BlockPattern::offset(int a, int b) const {

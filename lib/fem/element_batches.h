@@ -34,6 +34,8 @@ class ElementBatches {
   // Of element k.
   Nodes nodes(int k) const { return at(k).nodes[lane(k)]; }
   ElementPoint<kNodes> point(int k, int point) const;
+  // Of a whole batch.
+  ElementPoint<kNodes, Batch> points(int batch, int point) const;
 
   // H Q = (F - I) Q at a point of a whole batch or of one element, from nodal displacements; F_rate Q from velocities.
   Mat3T<Batch> gradients(int batch, int point, const NodalVector& u) const;
@@ -97,6 +99,15 @@ auto ElementBatches<E>::point(int k, int p) const -> ElementPoint<kNodes> {
   ElementPoint<kNodes> out;
   for (int i = 0; i < kGradients; ++i) out.B(i) = point.B[i][lane(k)];
   out.volume = point.volume[lane(k)];
+  return out;
+}
+
+template <Element E>
+auto ElementBatches<E>::points(int batch, int p) const -> ElementPoint<kNodes, Batch> {
+  const Point& point = at_point(batch, p);
+  ElementPoint<kNodes, Batch> out;
+  for (int i = 0; i < kGradients; ++i) out.B(i) = Batch::load(point.B[i]);
+  out.volume = Batch::load(point.volume);
   return out;
 }
 

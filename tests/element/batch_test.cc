@@ -4,6 +4,7 @@
 #include "lib/element/corotational_law.h"
 #include "lib/element/linear_law.h"
 #include "lib/element/warped_law.h"
+#include "tests/element/states.h"
 
 namespace orthodyn::batch_test {
 namespace {
@@ -83,6 +84,40 @@ TEST(Batch, OfAnAnisotropicMaterialEqualsItsElements) {
 TEST(Batch, OfTheWarpedAndTheLinearLawEqualTheirElements) {
   expect_lanes_equal(WarpedLaw(kStiff, WarpedTangent::rotated), 0.2);
   expect_lanes_equal(LinearLaw(kStiff), 0.2);
+}
+
+template <class C>
+void expect_tangents_equal(const C& stiffness, double strain) {
+  const CorotationalLaw<C> law(stiffness);
+  const auto F = states(strain);
+  for (const auto kind : {TangentKind::exact, TangentKind::gauss_newton}) {
+    Batch::Mask good;
+    typename CorotationalLaw<C>::BatchForm damping;
+    const auto form = law.batch_tangent(pack_gradients(F), kAxes, kind, 0.3, &damping, good);
+    ASSERT_TRUE(all(good));
+    auto moduli = expand(form), damping_moduli = expand(damping);
+    turn_to_space<Batch>(form.R, moduli);
+    turn_to_space<Batch>(damping.R, damping_moduli);
+    for (int l = 0; l < Batch::kLanes; ++l) {
+      typename CorotationalLaw<C>::Form damping_of_one;
+      const auto one = law.tangent(F[static_cast<std::size_t>(l)] - kAxes, kAxes, kind, 0.3, &damping_of_one);
+      const auto expected = in_space(one), expected_damping = in_space(damping_of_one);
+      for (int i = 0; i < 81; ++i) {
+        EXPECT_NEAR(moduli(i)[l], expected(i), 1e-13 * expected.norm());
+        EXPECT_NEAR(damping_moduli(i)[l], expected_damping(i), 1e-13 * expected_damping.norm());
+      }
+    }
+  }
+}
+
+TEST(Batch, OfTangentsEqualsThoseOfItsElements) {
+  Mat6 C = voigt(kStiff);
+  C(0, 3) = C(3, 0) = 0.5;
+  for (const double strain : {0.0, 1e-6, 0.05, 0.3}) {
+    expect_tangents_equal(kStiff, strain);
+    expect_tangents_equal(IsotropicStiffness{2, 1}, strain);
+    expect_tangents_equal(AnisotropicStiffness{C}, strain);
+  }
 }
 
 TEST(Batch, LeavesAnInvertedLaneToTheScalarLawAndDoesTheOthers) {

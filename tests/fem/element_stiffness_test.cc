@@ -61,7 +61,8 @@ Matrix12 assembled(const ElementBlocks<4>& blocks, bool symmetric) {
 
 Matrix12 stiffness(const TangentForm& form, const ElementPoint<4>& shape, bool symmetric) {
   ElementBlocks<4> blocks;
-  point_stiffness<4>(form, shape, symmetric, blocks);
+  add_point_stiffness<4>(form, shape, symmetric, true, blocks);
+  complete<4>(symmetric, blocks);
   return assembled(blocks, symmetric);
 }
 

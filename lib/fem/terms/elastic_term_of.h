@@ -69,35 +69,20 @@ class ElasticTermOf final : public ElasticTerm {
   }
 
   void add_tangent(const NodalState& s, TangentKind kind, double* K, double* D) const override {
-    const bool with_damping = D && damped();
-    ElementBlocks<E::kNodes> stiffness, damping;
-    for (int k = 0; k < size(); ++k) {
-      for (int p = 0; p < E::kPoints; ++p) {
-        Form damping_form;
-        const Form form = law_.tangent(elements_.gradient(k, p, s.u), axes().of(k, p), kind, region_.beta,
-                                       with_damping ? &damping_form : nullptr);
-        gather_point(k, p, form, stiffness);
-        if (with_damping) gather_point(k, p, damping_form, damping);
-      }
-      scatter_element(k, stiffness, K);
-      if (with_damping) scatter_element(k, damping, D);
-    }
+    double* const damping = damped() ? D : nullptr;
+    for (int b = 0; b < elements_.num_batches(); ++b)
+      if (!add_batch_tangent(b, s, kind, K, damping))
+        for_each_lane(b, [&](int k) { add_element_tangent(k, s, kind, K, damping); });
   }
 
   void add_mixed_tangent(const NodalState& before, const NodalState& s, double* K) const override {
-    if constexpr (requires(const Law& law, Mat3 H) { law.mixed_tangent(H, H, H); }) {
-      ElementBlocks<E::kNodes> stiffness;
-      for (int k = 0; k < size(); ++k) {
-        for (int p = 0; p < E::kPoints; ++p)
-          gather_point(k, p,
-                       law_.mixed_tangent(elements_.gradient(k, p, before.u), elements_.gradient(k, p, s.u),
-                                          axes().of(k, p)),
-                       stiffness);
-        scatter_element(k, stiffness, K);
-      }
-    } else {
+    if constexpr (requires(const Law& law, Mat3 H) { law.mixed_tangent(H, H, H); })
+      for (int k = 0; k < size(); ++k)
+        add_element(k, K, [&](int p) {
+          return law_.mixed_tangent(elements_.gradient(k, p, before.u), elements_.gradient(k, p, s.u), axes().of(k, p));
+        });
+    else
       add_tangent(s, TangentKind::exact, K, nullptr);
-    }
   }
 
   double energy(const NodalState& s) const override {
@@ -228,14 +213,64 @@ class ElasticTermOf final : public ElasticTerm {
     volume_excess_ = std::max(volume_excess_, sum / E::mass(X, 1));
   }
 
-  // Sets the blocks at the first point and adds to them at the others.
-  void gather_point(int k, int p, const Form& form, ElementBlocks<E::kNodes>& blocks) const {
-    if (p == 0) {
-      point_stiffness<E::kNodes>(form, elements_.point(k, p), pattern_.symmetric(), blocks);
+  // Adds the stiffness of one element, from the forms at its points.
+  template <class FormAt>
+  void add_element(int k, double* values, FormAt&& form_at) const {
+    ElementBlocks<E::kNodes> blocks;
+    for (int p = 0; p < E::kPoints; ++p)
+      add_point_stiffness<E::kNodes>(form_at(p), elements_.point(k, p), pattern_.symmetric(), p == 0, blocks);
+    complete<E::kNodes>(pattern_.symmetric(), blocks);
+    scatter_element(k, blocks, values);
+  }
+
+  void add_element_tangent(int k, const NodalState& s, TangentKind kind, double* K, double* D) const {
+    const auto form_at = [&](int p, Form* damping) {
+      return law_.tangent(elements_.gradient(k, p, s.u), axes().of(k, p), kind, region_.beta, damping);
+    };
+    if (D)
+      add_element(k, D, [&](int p) {
+        Form damping;
+        form_at(p, &damping);
+        return damping;
+      });
+    add_element(k, K, [&](int p) { return form_at(p, nullptr); });
+  }
+
+  // False, and nothing is added, if the batch has an inverted or degenerate element, or the law no batches.
+  bool add_batch_tangent(int b, const NodalState& s, TangentKind kind, double* K, double* D) const {
+    if constexpr (requires { typename Law::BatchForm; }) {
+      ElementBlocks<E::kNodes, Batch> stiffness, damping;
+      for (int p = 0; p < E::kPoints; ++p) {
+        typename Law::BatchForm damping_form;
+        Batch::Mask good;
+        const auto form = law_.batch_tangent(elements_.gradients(b, p, s.u), axes().batch(b, p), kind, region_.beta,
+                                             D ? &damping_form : nullptr, good);
+        if (!all(good)) return false;
+        const auto points = elements_.points(b, p);
+        add_point_stiffness<E::kNodes>(form, points, pattern_.symmetric(), p == 0, stiffness);
+        if (D) add_point_stiffness<E::kNodes>(damping_form, points, pattern_.symmetric(), p == 0, damping);
+      }
+      scatter_batch(b, stiffness, K);
+      if (D) scatter_batch(b, damping, D);
+      return true;
     } else {
-      ElementBlocks<E::kNodes> more;
-      point_stiffness<E::kNodes>(form, elements_.point(k, p), pattern_.symmetric(), more);
-      add_blocks<E::kNodes>(more, pattern_.symmetric(), blocks);
+      return false;
+    }
+  }
+
+  void scatter_batch(int b, ElementBlocks<E::kNodes, Batch>& blocks, double* values) const {
+    complete<E::kNodes>(pattern_.symmetric(), blocks);
+    for (int l = 0; l < elements_.lanes(b); ++l) {
+      const int k = b * Batch::kLanes + l;
+      const auto nodes = elements_.nodes(k);
+      const auto is_free = [&](int node) { return pattern_.is_free(node); };
+      if (pattern_.symmetric() && std::all_of(nodes.begin(), nodes.end(), is_free)) {
+        scatter_lane<E::kNodes>(blocks, l, nodes, offsets_[static_cast<std::size_t>(k)], pattern_, values);
+      } else {
+        ElementBlocks<E::kNodes> one;
+        take_lane<E::kNodes>(blocks, pattern_.symmetric(), l, one);
+        scatter_element(k, one, values);
+      }
     }
   }
 
