@@ -28,10 +28,10 @@ bool is_better(const Check& a, const Check& b) {
 
 std::string describe(const Check& check) {
   if (check.expectation.take == Take::onset && std::isnan(check.computed))
-    return fmt::format("{} never came, expected {:.3g} +- {:.2g}", check.expectation.title(), check.expectation.value,
-                       check.expectation.limit());
+    return fmt::format("{} never came, expected {:.3g} +- {:.2g}", check.expectation.title(),
+                       check.expectation.value.si(), check.expectation.limit());
   return fmt::format("{} is {:.3g}, expected {:.3g} +- {:.2g}", check.expectation.title(), check.computed,
-                     check.expectation.value, check.expectation.limit());
+                     check.expectation.value.si(), check.expectation.limit());
 }
 
 }  // namespace

@@ -18,9 +18,10 @@ std::map<Field, std::vector<Json>> completed_trials(const Json& cases, const Jso
   std::map<Field, std::vector<Json>> found;
   for (const auto& trial : trials)
     if (member(trial, "status") == "completed") found[{trial.at("case"), trial.at("variant")}].push_back(trial);
-  for (const auto& hard : cases)
-    if (hard.at("model") != "")
-      std::erase_if(found, [&](const auto& entry) { return entry.first.first == hard.at("label"); });
+  for (const auto& hard : cases) {
+    const auto label = hard.at("label").get<std::string>();
+    if (hard.at("model") != "") std::erase_if(found, [&](const auto& entry) { return entry.first.first == label; });
+  }
   return found;
 }
 
