@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "integrators/critical_step.h"
+#include "integrators/damping_ratio.h"
 #include "integrators/newton_matrix.h"
 #include "lib/core/errors.h"
 
@@ -23,19 +23,12 @@ constexpr double kBytesPerEntry = 10;  // of the factor, workspace included
 // step, and tangents with their factors for each step.
 constexpr double kSteps = 7, kIterations = 4, kTangents = 0.3;
 
-// A position scale, against which errors are measured, is about a tenth of the motion.
-constexpr double kScaleOfMotion = 0.1;
-
-// The damping ratio of the motion above which the faster vibrations are gone soon enough for BDF of high order; at a
-// loose tolerance it loses its way on a stiff part of a beam at 0.003.
-constexpr double kWellDamped = 1e-3, kWellDampedIfLoose = 5e-3, kLoose = 5e-3;
-
 }  // namespace
 
 CostEstimate estimate_cost(const Model& model, const Task& task, const Scales& scales,
                            const std::string& linear_solver) {
   CostEstimate cost;
-  const double span = task.end - task.initial.t, omega = kScaleOfMotion * scales.velocity / scales.position;
+  const double span = task.end - task.initial.t, omega = frequency_of_motion(scales);
   cost.phase = span * omega;
   cost.known_phase = span * scales.omega;
   Statistics unused;
@@ -43,7 +36,7 @@ CostEstimate estimate_cost(const Model& model, const Task& task, const Scales& s
   try {
     CriticalStep critical(model, unused);
     cost.explicit_steps = span / critical.at(task.initial);
-    if (model.traits().damped) cost.damping_ratio = critical.damping_time() * omega / 2;
+    if (model.traits().damped) cost.damping_ratio = damping_ratio_of_motion(critical, scales);
   } catch (const RecoverableError&) {  // the start has its own sentence for it
   }
   const NewtonMatrix matrix(model, linear_solver, TangentKind::exact, unused);
@@ -72,7 +65,7 @@ MethodChoice choose_method(const CostEstimate& cost, double rtol, double most_ex
         "central_differences",
         fmt::format("{:.2g} explicit steps cost less than about {:.2g} implicit ones", explicit_cost, implicit_steps),
         safety};
-  if (cost.damping_ratio > (rtol < kLoose ? kWellDamped : kWellDampedIfLoose))
+  if (suits_high_orders(cost.damping_ratio, rtol))
     return {"cvode_bdf", "well damped, where multistep methods of high order take long steps"};
   if (rtol < 1e-4)
     return {"arkode_dirk", "hardly damped, where Runge-Kutta methods of high order keep fast oscillations"};

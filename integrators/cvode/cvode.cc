@@ -1,6 +1,5 @@
 #include "integrators/cvode/cvode.h"
 
-#include <cstdlib>
 #include <cvode/cvode.h>
 #include <cvode/cvode_ls.h>
 
@@ -32,7 +31,6 @@ void Cvode::initialise(double t) {
   }));
   const auto& o = settings_.options;
   require(CVodeSetMaxOrd(m, max_order_));
-  if (getenv("STALD")) require(CVodeSetStabLimDet(m, 1));
   if (o.h0) require(CVodeSetInitStep(m, *o.h0));
   if (o.h_max) require(CVodeSetMaxStep(m, *o.h_max));
   if (o.h_min > 0) require(CVodeSetMinStep(m, o.h_min));
