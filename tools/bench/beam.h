@@ -1,0 +1,30 @@
+// The beam on which kernels and solvers are measured, in a bent and twisted state with strains of a few per mille.
+#pragma once
+
+#include "lib/scene/build.h"
+
+namespace orthodyn::bench {
+
+struct Beam {
+  bool damped = false;
+  int order = 1;                                // of the elements
+  std::string material = "orthotropic_stable";  // or isotropic
+};
+
+// With `across` cells over its height and width, and five times as many along it.
+class BentBeam {
+ public:
+  BentBeam(const Beam& beam, int across);
+
+  const FemModel& model() const { return *built_.model; }
+  const Vector& q() const { return q_; }
+  const Vector& v() const { return v_; }
+  int num_elements() const { return elements_; }
+
+ private:
+  BuiltScene built_;
+  Vector q_, v_;
+  int elements_;
+};
+
+}  // namespace orthodyn::bench

@@ -1,0 +1,138 @@
+// Forces, tangents and what follows from them, on one thread, in nanoseconds an element.
+#include <benchmark/benchmark.h>
+
+#include <fmt/format.h>
+
+#include "lib/linear/solver.h"
+#include "tools/bench/beam.h"
+#include "tools/bench/register.h"
+
+namespace orthodyn::bench {
+
+namespace {
+
+using Body = std::shared_ptr<const BentBeam>;
+
+void count(benchmark::State& state, const BentBeam& beam) {
+  state.SetItemsProcessed(state.iterations() * beam.num_elements());
+  state.counters["unknowns"] = beam.model().num_dofs();
+}
+
+void force(benchmark::State& state, const BentBeam& beam) {
+  Vector f(beam.q().size());
+  for (auto _ : state) {
+    beam.model().force(0, beam.q(), beam.v(), f);
+    benchmark::DoNotOptimize(f.data());
+  }
+  count(state, beam);
+}
+
+void tangent(benchmark::State& state, const BentBeam& beam) {
+  Linearization at;
+  for (auto _ : state) beam.model().linearize(0, beam.q(), beam.v(), TangentKind::exact, at);
+  count(state, beam);
+}
+
+void combine(benchmark::State& state, const BentBeam& beam) {
+  Linearization at;
+  beam.model().linearize(0, beam.q(), beam.v(), TangentKind::exact, at);
+  std::vector<double> values(beam.model().pattern().row.size());
+  for (auto _ : state) beam.model().combine({1, 1e-2, 1e-4}, at, values.data());
+  count(state, beam);
+}
+
+void energy(benchmark::State& state, const BentBeam& beam) {
+  for (auto _ : state) {
+    const auto view = beam.model().view({0, beam.q(), beam.v()});
+    benchmark::DoNotOptimize(view->evaluate("energy.elastic"));
+  }
+  count(state, beam);
+}
+
+struct Factored {
+  explicit Factored(const BentBeam& beam)
+      : solver(solver_registry().at("cholmod").make()), values(beam.model().pattern().row.size()) {
+    Linearization at;
+    beam.model().linearize(0, beam.q(), beam.v(), TangentKind::exact, at);
+    beam.model().combine({1, 1e-2, 1e-4}, at, values.data());
+    solver->analyze(beam.model().pattern());
+    solver->factor(values.data());
+  }
+  std::unique_ptr<LinearSolver> solver;
+  std::vector<double> values;
+};
+
+void factorisation(benchmark::State& state, const BentBeam& beam) {
+  Factored factored(beam);
+  for (auto _ : state) factored.solver->factor(factored.values.data());
+  count(state, beam);
+}
+
+void solve(benchmark::State& state, const BentBeam& beam) {
+  Factored factored(beam);
+  Vector x(beam.q().size());
+  for (auto _ : state) factored.solver->solve(beam.q(), x);
+  count(state, beam);
+}
+
+void analysis(benchmark::State& state, const BentBeam& beam) {
+  for (auto _ : state) {
+    const auto solver = solver_registry().at("cholmod").make();
+    solver->analyze(beam.model().pattern());
+  }
+  count(state, beam);
+}
+
+// The beam is made when its first benchmark runs, and goes with the last: `--filter` pays for what it names.
+class Later {
+ public:
+  Later(Beam beam, int across) : beam_(std::move(beam)), across_(across) {}
+  const BentBeam& get() {
+    if (!body_) body_ = std::make_unique<BentBeam>(beam_, across_);
+    return *body_;
+  }
+
+ private:
+  Beam beam_;
+  int across_;
+  std::unique_ptr<BentBeam> body_;
+};
+
+void add(const std::string& what, const std::string& of, const std::shared_ptr<Later>& beam,
+         void (*measure)(benchmark::State&, const BentBeam&)) {
+  benchmark::RegisterBenchmark((what + "/" + of).c_str(),
+                               [beam, measure](benchmark::State& state) { measure(state, beam->get()); });
+}
+
+}  // namespace
+
+void register_kernels(bool large) {
+  struct Size {
+    int across;
+    const char* name;
+  };
+  std::vector<Size> sizes{{5, "2,700"}, {9, "13,500"}};
+  if (large) sizes.push_back({15, "57,600"});
+  for (const auto& [across, name] : sizes) {
+    const auto plain = std::make_shared<Later>(Beam{}, across), damped = std::make_shared<Later>(Beam{true}, across),
+               isotropic = std::make_shared<Later>(Beam{false, 1, "isotropic"}, across);
+    const std::string n = name;
+    add("force", n, plain, force);
+    add("force, damped", n, damped, force);
+    add("force, isotropic", n, isotropic, force);
+    add("tangent", n, plain, tangent);
+    add("tangent, damped", n, damped, tangent);
+    add("tangent, isotropic", n, isotropic, tangent);
+    add("M + w K", n, plain, combine);
+    add("M + w D + w K", n, damped, combine);
+    add("elastic energy", n, plain, energy);
+    add("factorisation", n, plain, factorisation);
+    add("solve", n, plain, solve);
+    add("symbolic analysis", n, plain, analysis);
+  }
+  const auto quadratic = std::make_shared<Later>(Beam{false, 2}, 4);
+  add("force, quadratic elements", "6,480", quadratic, force);
+  add("tangent, quadratic elements", "6,480", quadratic, tangent);
+}
+
+}  // namespace orthodyn::bench

@@ -1,0 +1,62 @@
+// Measures the kernels that a run spends its time in, and compares with what was measured before.
+#include <CLI/CLI.hpp>
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "lib/core/errors.h"
+#include "lib/linear/blas.h"
+#include "tools/bench/register.h"
+#include "tools/bench/results.h"
+
+namespace {
+
+struct Request {
+  std::string filter = ".*";
+  std::filesystem::path json, compare;
+  int repetitions = 5;
+  bool large = false;
+};
+
+std::vector<orthodyn::bench::Result> measure(const Request& request) {
+  orthodyn::bench::register_memory();
+  orthodyn::bench::register_kernels(request.large);
+  std::vector<std::string> arguments{"orthodyn_bench", "--benchmark_filter=" + request.filter,
+                                     fmt::format("--benchmark_repetitions={}", request.repetitions),
+                                     "--benchmark_min_time=0.1", "--benchmark_enable_random_interleaving=false"};
+  std::vector<char*> pointers;
+  for (auto& argument : arguments) pointers.push_back(argument.data());
+  int count = static_cast<int>(pointers.size());
+  benchmark::Initialize(&count, pointers.data());
+  const orthodyn::OneBlasThread threads(true);
+  orthodyn::bench::Collector collector;
+  benchmark::RunSpecifiedBenchmarks(&collector);
+  return collector.results();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Times of forces, tangents, factorisations and solves, in nanoseconds of processor time an element: the "
+               "least of several repetitions. Trust ratios of one machine, not seconds.");
+  Request request;
+  app.add_option("--filter", request.filter, "Regular expression of what is measured, such as '^tangent'");
+  app.add_option("--json", request.json, "Writes the figures to a file");
+  app.add_option("--compare", request.compare, "Ratios to a file of --json; the exit code is 1 where more than 10 % "
+                                               "were lost")->check(CLI::ExistingFile);
+  app.add_option("--repetitions", request.repetitions, "Of each measurement")->check(CLI::Range(1, 1000));
+  app.add_flag("--large", request.large, "With 57,600 unknowns, too");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    std::map<std::string, double> before;
+    if (!request.compare.empty()) before = orthodyn::bench::read_times(request.compare);
+    const auto results = measure(request);
+    const int lost = orthodyn::bench::print(results, before);
+    if (!request.json.empty()) std::ofstream(request.json) << orthodyn::bench::to_json(results).dump(1) << '\n';
+    return lost > 0 ? 1 : 0;
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "error: {}\n", e.what());
+    return 2;
+  }
+}

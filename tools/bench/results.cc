@@ -1,0 +1,80 @@
+#include "tools/bench/results.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "lib/core/errors.h"
+#include "lib/linear/blas.h"
+#include "lib/simulation/machine.h"
+
+namespace orthodyn::bench {
+
+namespace {
+
+constexpr double kLost = 1.1;
+
+Json context() {
+  Json out{{"machine", machine_json()}, {"versions", versions_json()}, {"time", utc_now()}};
+  out["compiler"] = fmt::format("{} {}", ORTHODYN_COMPILER, ORTHODYN_FLAGS);
+  out["blas"] = blas_name();
+  return out;
+}
+
+}  // namespace
+
+void Collector::ReportRuns(const std::vector<Run>& runs) {
+  for (const Run& run : runs) {
+    if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
+    const std::string name = run.run_name.function_name;
+    const double nanoseconds = 1e9 / run.counters.at("items_per_second").value;
+    const auto found = std::find_if(results_.begin(), results_.end(), [&](const Result& r) { return r.name == name; });
+    if (found != results_.end()) {
+      found->nanoseconds = std::min(found->nanoseconds, nanoseconds);
+      continue;
+    }
+    const auto unknowns = run.counters.find("unknowns");
+    results_.push_back({name, nanoseconds, unknowns == run.counters.end() ? 0 : unknowns->second.value});
+    fmt::print(stderr, "{}\n", name);
+  }
+}
+
+Json to_json(const std::vector<Result>& results) {
+  Json out = context();
+  for (const Result& r : results)
+    out["results"].push_back({{"name", r.name}, {"nanoseconds_per_element", r.nanoseconds}, {"unknowns", r.unknowns}});
+  return out;
+}
+
+std::map<std::string, double> read_times(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  const Json document = Json::parse(in, nullptr, false);
+  std::map<std::string, double> times;
+  try {
+    for (const auto& r : document.at("results")) times[r.at("name")] = r.at("nanoseconds_per_element");
+  } catch (const Json::exception&) {
+    throw ConfigError(fmt::format("{}: not a file of orthodyn_bench --json", file.string()));
+  }
+  return times;
+}
+
+int print(const std::vector<Result>& results, const std::map<std::string, double>& before) {
+  const Json at = context();
+  fmt::print("{}\n{}\n{}\n{}\n\n", at["machine"].dump(), at["versions"].dump(), at["compiler"].get<std::string>(),
+             at["blas"].get<std::string>());
+  fmt::print("{:40} {:>12}{}\n", "one thread", "ns/element", before.empty() ? "" : "     before   ratio");
+  int lost = 0;
+  for (const Result& r : results) {
+    std::string compared;
+    if (const auto old = before.find(r.name); old != before.end()) {
+      const double ratio = r.nanoseconds / old->second;
+      compared = fmt::format("{:>11.4g} {:>7.2f}{}", old->second, ratio, ratio > kLost ? "  slower" : "");
+      if (ratio > kLost) ++lost;
+    }
+    fmt::print("{:40} {:>12.4g}{}\n", r.name, r.nanoseconds, compared);
+  }
+  return lost;
+}
+
+}  // namespace orthodyn::bench

@@ -1,0 +1,41 @@
+// Measured times, as a table, as JSON, and against earlier ones.
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lib/simulation/json.h"
+
+namespace orthodyn::bench {
+
+struct Result {
+  std::string name;
+  double nanoseconds = 0;  // of processor time an element: the least of all repetitions
+  double unknowns = 0;     // 0 where there are none
+};
+
+// Collects the least time of each benchmark's repetitions, and tells on standard error what is being measured.
+class Collector : public benchmark::BenchmarkReporter {
+ public:
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override;
+  const std::vector<Result>& results() const { return results_; }
+
+ private:
+  std::vector<Result> results_;
+};
+
+Json to_json(const std::vector<Result>& results);
+
+// Throws ConfigError if the file is none of to_json().
+std::map<std::string, double> read_times(const std::filesystem::path& file);
+
+// Prints machine, versions and a line for each result; with `before`, the ratios, and a mark where more than 10 % were
+// lost. How many lines have one.
+int print(const std::vector<Result>& results, const std::map<std::string, double>& before);
+
+}  // namespace orthodyn::bench
