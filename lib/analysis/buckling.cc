@@ -15,7 +15,7 @@ namespace orthodyn {
 namespace {
 
 constexpr double kStep = 1e-4;  // of the body's size, in the displacement of the difference
-constexpr double kLargestStrain = 0.5;
+constexpr double kLargestStrain = 0.1;
 
 using Values = std::vector<double>;  // on the model's pattern
 

@@ -23,7 +23,7 @@ struct BucklingMode {
 };
 
 // Those of the lowest positive load factors, ascending; fewer where fewer were found below the factor at which linear
-// statics reach a strain of a half. For the loads reversed no factor is told. t in s. Throws ConfigError for an
+// statics reach a strain of a tenth. For the loads reversed no factor is told. t in s. Throws ConfigError for an
 // unsymmetric tangent, RunError if the model is not held or they cannot be found.
 std::vector<BucklingMode> buckling_modes(const FemModel& model, double t, int count);
 

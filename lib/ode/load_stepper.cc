@@ -14,7 +14,10 @@ namespace {
 
 constexpr long kEasy = 4, kHard = 8;     // Newton iterations
 constexpr double kBracket = 1e-3;          // of the step in which a critical point was met
-constexpr int kMostCloser = 30;          // steps towards a critical point
+constexpr int kMostCloser = 30;            // steps towards a critical point
+constexpr double kGap = 0.1;               // of that step: what it cannot be closed in to is a gap between two paths
+constexpr double kTurn = 30;               // growth of displacements with the load, against that at the start
+constexpr double kNear = 0.1;              // of load factors: a turn that leads up to a critical point
 constexpr double kLowestFactor = -1;
 
 }  // namespace
@@ -53,6 +56,7 @@ void LoadStepper::advance() {
     if (next && !passes_over_too_much(*next)) {
       attempt_ = tracer_->attempt();
       if (!crosses_critical_point(*next)) {
+        note_turn(*next);
         tracer_->move_to(std::move(*next));
         return adapt();
       }
@@ -71,6 +75,23 @@ bool LoadStepper::passes_over_too_much(const Place& next) const {
   return std::abs(next.point.lambda - tracer_->place().point.lambda) > 1.5 * stepping_.max_step;
 }
 
+// Where displacements grow fastest.
+void LoadStepper::note_turn(const Place& next) {
+  const Place& here = tracer_->place();
+  const double growth = tracer_->growth(next);
+  if (!(growth > kTurn) || next.response.unstable.value_or(0) > 0) return;
+  const CriticalPoint turn{CriticalPoint::Kind::turn, next.point.lambda,
+                           std::abs(next.point.lambda - here.point.lambda), next.response.unstable};
+  if (tracer_->growth(here) <= kTurn) {
+    critical_.push_back(turn);
+  } else if (!critical_.empty() && critical_.back().kind == CriticalPoint::Kind::turn && growth > steepest_) {
+    critical_.back() = turn;
+  } else {
+    return;
+  }
+  steepest_ = growth;
+}
+
 void LoadStepper::adapt() {
   if (attempt_.iterations <= kEasy) step_ *= 2;
   else if (attempt_.iterations > kHard) step_ /= 2;
@@ -87,16 +108,15 @@ bool LoadStepper::has_moved() const {
 void LoadStepper::arrive() { state_ = {tracer_->place().point.lambda, tracer_->place().point.q, state_.v}; }
 
 bool LoadStepper::crosses_critical_point(const Place& next) const {
-  const Place& here = tracer_->place();
-  if (here.tangent.lambda * next.tangent.lambda < 0) return true;
-  const auto &before = here.response.unstable, &after = next.response.unstable;
+  if (turns_back(next)) return true;
+  const auto &before = tracer_->place().response.unstable, &after = next.response.unstable;
   return before && after && *before != *after;
 }
 
 // Moves to the last equilibrium before a critical point that lies between here and there, and returns the first one
 // found past it. None where there is no such point: `beyond` lies on another path, to which a long step led.
 std::optional<PathTracer::Place> LoadStepper::close_in(Place beyond) {
-  const double close = kBracket * tracer_->along(beyond.point);
+  const double whole = tracer_->along(beyond.point), close = kBracket * whole;
   for (int k = 0; k < kMostCloser; ++k) {
     const double left = tracer_->along(beyond.point);
     if (!(left > 0) || tracer_->distance(beyond.point) > 3 * left) {
@@ -114,7 +134,15 @@ std::optional<PathTracer::Place> LoadStepper::close_in(Place beyond) {
     if (crosses_critical_point(*next)) beyond = std::move(*next);
     else tracer_->move_to(std::move(*next));
   }
-  return beyond;
+  const bool is_gap = !turns_back(beyond) && tracer_->along(beyond.point) > kGap * whole && step_ > smallest_step_;
+  if (!is_gap) return beyond;
+  step_ = std::max(step_ / 4, smallest_step_);
+  return std::nullopt;
+}
+
+// A limit point lies between.
+bool LoadStepper::turns_back(const Place& next) const {
+  return tracer_->place().tangent.lambda * next.tangent.lambda < 0;
 }
 
 // Of a limit point the largest load factor of the cubic through both ends with their slopes, else where the stiffness
@@ -122,7 +150,7 @@ std::optional<PathTracer::Place> LoadStepper::close_in(Place beyond) {
 CriticalPoint LoadStepper::critical_point_before(const Place& beyond) const {
   const Place& here = tracer_->place();
   const double la = here.point.lambda, lb = beyond.point.lambda;
-  if (here.tangent.lambda * beyond.tangent.lambda < 0) {
+  if (turns_back(beyond)) {
     const double ds = tracer_->distance(beyond.point),
                  share = here.tangent.lambda / (here.tangent.lambda - beyond.tangent.lambda);
     const double peak = la + 0.5 * here.tangent.lambda * share * ds;
@@ -137,7 +165,12 @@ void LoadStepper::pass_critical_point(Place beyond) {
   const double step = step_;
   auto past = close_in(std::move(beyond));
   if (!past) return;
-  critical_.push_back(critical_point_before(*past));
+  const CriticalPoint point = critical_point_before(*past);
+  const auto is_before_it = [&](const CriticalPoint& turn) {
+    return turn.kind == CriticalPoint::Kind::turn && std::abs(turn.load_factor - point.load_factor) < kNear;
+  };
+  if (!critical_.empty() && is_before_it(critical_.back())) critical_.pop_back();
+  critical_.push_back(point);
   step_ = step;
   const bool leaves_stability = tracer_->place().response.unstable.value_or(0) == 0;
   if (stepping_.at_limit == AtLimit::follow || !leaves_stability) tracer_->move_to(std::move(*past));

@@ -3,7 +3,9 @@
 //
 // A critical point, where K becomes singular, is located. Past a limit point the load factor falls: the body snaps
 // through. At a bifurcation it does not: the path goes on, the body leaves it sideways. Which of the two it is the sign
-// of dlambda/ds tells, that there is one the negative eigenvalues of K.
+// of dlambda/ds tells, that there is one the negative eigenvalues of K. Where a body is not quite straight the path has
+// no such point but a sharp turn, with the straight path of unstable equilibria near by: which a step must not take for
+// its own.
 #pragma once
 
 #include <array>
@@ -65,12 +67,14 @@ class LoadStepper {
   void begin();
   void advance();
   bool crosses_critical_point(const Place& next) const;
+  bool turns_back(const Place& next) const;
   bool passes_over_too_much(const Place& next) const;
   void pass_critical_point(Place beyond);
   std::optional<Place> close_in(Place beyond);
   CriticalPoint critical_point_before(const Place& beyond) const;
   bool jump();
   bool settle(double load_factor);
+  void note_turn(const Place& next);
   void adapt();
   void shorten();
   bool has_moved() const;  // since the last equilibrium that was told
@@ -88,6 +92,7 @@ class LoadStepper {
   EquilibriumSolver::Attempt attempt_;
   double step_ = 0, smallest_step_ = 0;  // along the path
   std::vector<CriticalPoint> critical_;
+  double steepest_ = 0;  // growth at the last turn
   bool stops_ = false;  // the last of them is where it stops
   long steps_ = 0, rejected_ = 0, jumps_ = 0;
 };

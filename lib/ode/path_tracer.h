@@ -38,6 +38,9 @@ class PathTracer {
   double along(const PathPoint& there) const;
   double distance(const PathPoint& there) const { return distance(there, place_.point); }
 
+  // |dq/dlambda| against that at the start.
+  double growth(const Place& place) const { return place.response.rate.norm() / length_; }
+
   // The last call of the solver.
   const EquilibriumSolver::Attempt& attempt() const { return attempt_; }
 

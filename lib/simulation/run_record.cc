@@ -120,7 +120,7 @@ Json to_json(const RecordedExtreme& extreme) {
 }
 
 Json to_json(const CriticalPoint& point) {
-  return {{"kind", point.kind == CriticalPoint::Kind::limit ? "limit point" : "bifurcation"},
+  return {{"kind", words_of(point.kind)},
           {"load_factor", point.load_factor},
           {"uncertainty", point.uncertainty},
           {"unstable_directions_after", to_json(point.unstable)}};

@@ -59,7 +59,9 @@ TEST(PressedColumn, BendsLikeTheElastica) {
     EXPECT_NEAR(1 + moved[0], expected.x, 0.01) << degrees;
     EXPECT_NEAR(moved[2], expected.y, 0.01) << degrees;
     EXPECT_LE(column.factorizations(), 80) << degrees;
-    EXPECT_TRUE(column.stepper().critical_points().empty());
+    ASSERT_EQ(column.stepper().critical_points().size(), 1u);
+    EXPECT_EQ(column.stepper().critical_points()[0].kind, CriticalPoint::Kind::turn);
+    EXPECT_NEAR(column.stepper().critical_points()[0].load_factor * expected.load, 1, 0.1);
   }
 }
 
@@ -74,6 +76,31 @@ TEST(PressedColumn, LeavesTheStraightPathWhereEulerSays) {
   EXPECT_EQ(column.stepper().critical_points()[0].kind, CriticalPoint::Kind::bifurcation);
   EXPECT_NEAR(column.stepper().critical_points()[0].load_factor * expected.load, 1, 0.005);
   EXPECT_EQ(column.stepper().unstable(), 0);
+}
+
+// The mesh is not symmetric, which makes it not quite straight: it has no bifurcation, but a path that turns aside
+// next to the straight one of unstable equilibria, whatever the steps.
+TEST(PressedColumn, ThatIsNotQuiteStraightTurnsAsideWhateverTheSteps) {
+  const std::string wood = "{type: preset, name: sitka_spruce, density: 400 kg/m^3}";
+  for (const std::string statics : {"{}", "{first_step: 0.05, max_step: 0.05}", "{first_step: 1}",
+                                    "{max_step: 0.3}", "{at_limit: follow}", "{at_limit: jump}"}) {
+    BuiltTestScene scene(fmt::format(R"(
+analysis: static
+statics: {}
+mesh: {{type: box, size: [1, 0.05, 0.01], cells: [40, 2, 1]}}
+materials: {{m: {}}}
+clamps: [{{surface: x0}}]
+loads: [{{surface: x1, force: [-200, 0, 0]}}]
+)", statics, wood));
+    const StaticProblem problem = static_problem(scene.scene, scene.built);
+    while (!problem.stepper->done()) problem.stepper->step();
+    EXPECT_NEAR(problem.stepper->state().q.lpNorm<Eigen::Infinity>(), 0.81, 0.001) << statics;
+    ASSERT_EQ(problem.stepper->critical_points().size(), 1u) << statics;
+    const CriticalPoint& turn = problem.stepper->critical_points()[0];
+    EXPECT_EQ(turn.kind, CriticalPoint::Kind::turn) << statics;
+    EXPECT_NEAR(turn.load_factor, 0.6108, std::max(0.005, turn.uncertainty)) << statics;  // Euler: 122.1 N
+    EXPECT_LE(turn.uncertainty, 0.1) << statics;
+  }
 }
 
 }  // namespace

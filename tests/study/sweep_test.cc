@@ -119,9 +119,32 @@ quantities: {steps: {cost: steps}, hertz: {mode: 1}}
   const std::string csv = read_text(folder_ / "out/sweeps/s/sweep.csv");
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
             "point,young [Pa],density [g/cm^3],force.0 [N],nu,steps,hertz [Hz],status,reason,message,"
-            "wall_seconds [s],cpu_seconds [s],unknowns,folder");
+            "wall_seconds [s],cpu_seconds [s],mesh_error,unknowns,folder");
   std::istringstream lines(csv);
-  for (std::string line; std::getline(lines, line);) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 13) << line;
+  for (std::string line; std::getline(lines, line);) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 14) << line;
+}
+
+TEST_F(SweepCommand, TellsOfACoarseMesh) {
+  const std::string bending = R"(
+analysis: static
+mesh: {type: box, size: [1, 0.1, 0.1], cells: [4, 1, 1], order: ORDER}
+materials: {soft: {type: isotropic, density: 1000, young: 1e9, nu: 0.3}}
+clamps: [{surface: x0}]
+loads: [{surface: x1, force: [0, 0, -1]}]
+output: {probes: {tip: {at: [1, 0.05, 0.05]}}}
+)";
+  for (const bool coarse : {false, true}) {
+    std::string scene = bending;
+    scene.replace(scene.find("ORDER"), 5, coarse ? "1" : "2, cells: [10, 2, 2]");
+    if (!coarse) scene.replace(scene.find("cells: [4, 1, 1], "), 18, "");
+    write("bend.yaml", scene);
+    write("s.yaml", "scene: bend.yaml\nvary: {materials.soft.young: [1e9, 2e9]}\nquantities: {sag: {quantity: "
+                    "tip.displacement.z}}\n");
+    const auto done = sweep();
+    ASSERT_EQ(done.exit_code, 0) << done.output;
+    EXPECT_EQ(done.output.find("warning: the mesh is coarse") != std::string::npos, coarse) << done.output;
+    EXPECT_EQ(table().at("points")[0].at("mesh_error").get<double>() > 0.05, coarse);
+  }
 }
 
 TEST_F(SweepCommand, IntegratesNothingWhereOnlyFrequenciesAreAskedFor) {

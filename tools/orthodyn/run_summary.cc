@@ -100,9 +100,9 @@ void print_equilibrium(const RunResult& result, const EquilibriumResult& equilib
   fmt::print("  {:<20} {} ({} cut back), {} Newton iterations\n", "load steps", equilibrium.load_steps,
              equilibrium.rejected_load_steps, equilibrium.statistics.newton_iterations);
   for (const CriticalPoint& point : equilibrium.critical_points)
-    fmt::print("  {:<20} at load factor {:.6g} +- {:.1g}\n",
-               point.kind == CriticalPoint::Kind::limit ? "limit point" : "bifurcation", point.load_factor,
-               point.uncertainty);
+    fmt::print("  {:<20} at load factor {:.6g} +- {:.1g}{}\n", words_of(point.kind), point.load_factor,
+               point.uncertainty,
+               point.kind == CriticalPoint::Kind::turn ? ": the body buckles there, or loses a support" : "");
   if (equilibrium.jumps > 0)
     fmt::print("  {:<20} {}, down the energy to a stable equilibrium on another path\n", "jumps", equilibrium.jumps);
   if (equilibrium.unstable.value_or(0) > 0)

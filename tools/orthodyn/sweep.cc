@@ -72,6 +72,8 @@ const Sweep& asked_for(const Sweep& sweep, const StudyArguments& arguments) {
   return sweep;
 }
 
+constexpr double kCoarse = 0.05;  // of the elastic energy, as of a run
+
 class SweepCommand {
  public:
   explicit SweepCommand(const SweepArguments& arguments)
@@ -158,7 +160,7 @@ class SweepCommand {
   }
 
   void show() const {
-    write_table();
+    warn_of_coarse_meshes(write_table());
     if (!arguments_.quiet) fmt::print("table   {}\n", (folder_ / "sweep.csv").string());
     show_report(folder_, arguments_);
   }
@@ -196,6 +198,22 @@ class SweepCommand {
     if (missing.size() > kListed) fmt::print(stderr, "  ...\n");
     fmt::print(stderr, "to compute them, run the same command without --collect, or submit the array again\n");
     return 3;
+  }
+
+  static void warn_of_coarse_meshes(const Json& table) {
+    const Json* worst = nullptr;
+    std::size_t count = 0;
+    for (const auto& point : table.at("points")) {
+      if (!point.at("mesh_error").is_number() || !(point.at("mesh_error") > kCoarse)) continue;
+      ++count;
+      if (!worst || point.at("mesh_error") > worst->at("mesh_error")) worst = &point;
+    }
+    if (!worst) return;
+    fmt::print(stderr,
+               "warning: the mesh is coarse for {} of {} points: of the elastic energy up to {:.2g} is its error ({}). "
+               "Deflections are too small and frequencies too high; orthodyn converge tells by how much\n",
+               count, table.at("points").size(), worst->at("mesh_error").get<double>(),
+               worst->at("title").get<std::string>());
   }
 
   void warn_of_impossible_points() const {

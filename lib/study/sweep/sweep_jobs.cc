@@ -1,5 +1,6 @@
 #include "lib/study/sweep/sweep_jobs.h"
 
+#include <algorithm>
 #include <set>
 
 #include "lib/study/points/evaluation.h"
@@ -12,6 +13,8 @@ namespace {
 
 EvaluationInput input_of(const Sweep& sweep) {
   EvaluationInput input{sweep.quantities, {}, {}, sweep.limits.seconds, code_fingerprint()};
+  input.mesh_error = std::any_of(sweep.quantities.begin(), sweep.quantities.end(),
+                                 [](const auto& named) { return !named.second.quantity.empty(); });
   if (!sweep.frames) return input;
   input.frame = sweep.frames->color.substr(0, sweep.frames->color.find('.'));
   input.frame_at = sweep.frames->at;

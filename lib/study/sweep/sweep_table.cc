@@ -88,7 +88,7 @@ Json point_json(const Sweep& sweep, const Point& point, const std::optional<Job>
     out["figures"][name] = member(member(computed, "figures"), name);
     out["closed_forms"][name] = finite_or_null(point.closed_forms[q]);
   }
-  for (const char* key : {"reason", "message", "cost", "model", "frame"}) out[key] = member(computed, key);
+  for (const char* key : {"reason", "message", "cost", "model", "frame", "mesh_error"}) out[key] = member(computed, key);
   return out;
 }
 
@@ -171,7 +171,7 @@ std::string csv_head(const Json& table) {
   out += ",status,reason,message";
   for (const auto& [cost, heading] : kCosts)
     if (!has_figure(table, cost)) out += std::string(",") + heading;
-  return out + ",unknowns,folder\n";
+  return out + ",mesh_error,unknowns,folder\n";
 }
 
 std::string csv_row(const Json& table, const Json& point, std::size_t number) {
@@ -189,6 +189,7 @@ std::string csv_row(const Json& table, const Json& point, std::size_t number) {
   for (const char* key : {"status", "reason", "message"}) add(point.at(key));
   for (const auto& [cost, heading] : kCosts)
     if (!has_figure(table, cost)) add(member(point.at("cost"), cost));
+  add(point.at("mesh_error"));
   add(member(point.at("model"), "unknowns"));
   add(point.at("folder"));
   return out + "\n";

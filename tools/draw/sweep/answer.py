@@ -7,6 +7,7 @@ from ..report.markup import joined, tag
 SAME = 1e-6   # relative changes below it are none
 AGREES = 0.1  # integrators agree if they differ by less than this share of their distance from the closed form
 FAR = 0.01    # and that distance is a matter of the formula from here on
+COARSE = 0.05  # share of the elastic energy that is the error of the mesh
 
 
 def words(figure, value):
@@ -101,7 +102,13 @@ def answer(sweep):
     if not sentences:
         return tag("p", "No point has finished with a figure yet.", class_="headline")
     failed = len(sweep.failed)
+    coarse = [p for p in sweep.done if (p.get("mesh_error") or 0) > COARSE]
+    worst = max((p["mesh_error"] for p in coarse), default=0)
     return joined([
         tag("p", sentences[0], class_="headline"),
         tag("ul", *(tag("li", s) for s in sentences[1:])) if sentences[1:] else None,
-        tag("p", f"{failed} of {formatting.plural(len(sweep.points), 'point')} failed.") if failed else None])
+        tag("p", f"{failed} of {formatting.plural(len(sweep.points), 'point')} failed.") if failed else None,
+        tag("p", tag("strong", "The mesh is coarse"), f" for {len(coarse)} of "
+            f"{formatting.plural(len(sweep.points), 'point')}: of the elastic energy up to "
+            f"{formatting.general(100 * worst, 2)}{formatting.THIN}% is its error. Deflections are too small and "
+            "frequencies too high; `orthodyn converge` tells by how much.") if coarse else None])
