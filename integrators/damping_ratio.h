@@ -6,8 +6,8 @@
 
 namespace orthodyn {
 
-// beta omega / 2 of stiffness-proportional damping in every region, at the frequency that the scales tell of the motion,
-// about. `critical` has looked at a state.
+// beta omega / 2 of stiffness-proportional damping in every region, at the frequency that the scales tell of the
+// motion, about. `critical` has looked at a state.
 double damping_ratio_of_motion(const CriticalStep& critical, const Scales& scales);
 
 // rad/s.

@@ -63,4 +63,8 @@ std::string join(const std::vector<std::string>& names, const std::string& separ
   return fmt::format("{}", fmt::join(names, separator));
 }
 
+std::string counted(long number, const std::string& what) {
+  return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
+}
+
 }  // namespace orthodyn

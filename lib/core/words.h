@@ -21,4 +21,7 @@ std::string expected_one_of(const std::vector<std::string>& known, const std::st
 // "a, b, c"
 std::string join(const std::vector<std::string>& names, const std::string& separator = ", ");
 
+// "1 point", "2 points"; of words that take an s.
+std::string counted(long number, const std::string& what);
+
 }  // namespace orthodyn

@@ -98,13 +98,15 @@ TangentFormOf<C, T> exact_form(const Polar<T>& p, const C& stiffness, const Mat3
   return form;
 }
 
-template TangentFormOf<OrthotropicStiffness, double> gauss_newton_form(const Polar<double>&, const OrthotropicStiffness&);
+template TangentFormOf<OrthotropicStiffness, double> gauss_newton_form(const Polar<double>&,
+                                                                       const OrthotropicStiffness&);
 template TangentFormOf<OrthotropicStiffness, double> exact_form(const Polar<double>&, const OrthotropicStiffness&,
                                                                 const Mat3T<double>&);
 template TangentFormOf<OrthotropicStiffness, Batch> gauss_newton_form(const Polar<Batch>&, const OrthotropicStiffness&);
 template TangentFormOf<OrthotropicStiffness, Batch> exact_form(const Polar<Batch>&, const OrthotropicStiffness&,
                                                                const Mat3T<Batch>&);
-template TangentFormOf<AnisotropicStiffness, double> gauss_newton_form(const Polar<double>&, const AnisotropicStiffness&);
+template TangentFormOf<AnisotropicStiffness, double> gauss_newton_form(const Polar<double>&,
+                                                                       const AnisotropicStiffness&);
 template TangentFormOf<AnisotropicStiffness, double> exact_form(const Polar<double>&, const AnisotropicStiffness&,
                                                                 const Mat3T<double>&);
 template TangentFormOf<AnisotropicStiffness, Batch> gauss_newton_form(const Polar<Batch>&, const AnisotropicStiffness&);

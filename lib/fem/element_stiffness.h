@@ -123,7 +123,9 @@ template <int kNodes>
                                  const typename ElementOffsets<kNodes>::Nodes& nodes,
                                  const ElementOffsets<kNodes>& offsets, const BlockPattern& pattern, double* values) {
   constexpr int kNext = Batch::kLanes;  // from an entry of a block to the next
-  const auto entries = [&](std::size_t a, std::size_t b) { return reinterpret_cast<const double*>(&blocks[a][b]) + lane; };
+  const auto entries = [&](std::size_t a, std::size_t b) {
+    return reinterpret_cast<const double*>(&blocks[a][b]) + lane;
+  };
   for (std::size_t a = 0; a < kNodes; ++a) pattern.add_free_diagonal(nodes[a], entries(a, a), kNext, 3 * kNext, values);
   int pair = 0;
   for (std::size_t j = 0; j < kNodes; ++j)

@@ -232,8 +232,8 @@ void LoadStepper::stop_at(const CriticalPoint& point) const {
                                where, tried),
                    Reason::newton);
   throw RunError(fmt::format("bifurcation at {}: the equilibria go on, but are unstable; the body buckles sideways. "
-                             "statics.at_limit: follow stays on this path, {}; a small load sideways takes the corner "
-                             "off",
+                             "statics.at_limit: follow stays on this path, {}; a small sideways load turns the "
+                             "bifurcation into a smooth path",
                              where, tried),
                  Reason::newton);
 }

@@ -54,7 +54,7 @@ std::string linearity_sentence(double error) {
   return fmt::format(
       "linear kinematics are off by {} of the motion: rotations or stretches are too large for them. Take "
       "elasticity.kinematics: auto, or corotational",
-      std::isfinite(error) ? fmt::format("about {:.2g}", error) : "a good part");
+      std::isfinite(error) ? fmt::format("about {:.2g}", error) : "as much as the size");
 }
 
 // What steps may have missed of loads and of the motion of supports.
@@ -91,7 +91,8 @@ std::vector<std::string> doubts(const RunResult& result) {
   if (result.equilibrium) add_doubts(*result.equilibrium, all);
   if (const auto& strain = result.passed_strain)
     all.push_back(fmt::format("{} (the most at {} {:.4g}{})", strain->sentence,
-                              result.equilibrium ? "load factor" : "t =", strain->time, result.equilibrium ? "" : " s"));
+                              result.equilibrium ? "load factor" : "t =", strain->time,
+                              result.equilibrium ? "" : " s"));
   const auto& mesh = result.motion ? result.motion->mesh_error
                                    : result.equilibrium ? result.equilibrium->mesh_error : std::nullopt;
   if (mesh && mesh->relative > kCoarse) all.push_back(mesh_sentence(result.model, mesh->relative));

@@ -33,7 +33,8 @@ double allowed_error(const Scene& scene) {
 constexpr const char* kUnstable = "the body buckles below these loads, which linear kinematics do not show";
 
 std::string how_much(double error, const char* format = "{:.3g}") {
-  return std::isfinite(error) ? "about " + fmt::format(fmt::runtime(format), error) : std::string("a good part");
+  return std::isfinite(error) ? "about " + fmt::format(fmt::runtime(format), error)
+                              : std::string("as much as the size");
 }
 
 bool is_open(const Scene& scene, const Region& region) {

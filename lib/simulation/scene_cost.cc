@@ -143,9 +143,10 @@ class Judge {
     const auto energy = model_.evaluate("energy.mesh_error", state);
     const double error = energy[0] / (energy[0] + energy[1]);
     if (error < threshold())
-      found_.push_back(
-          fmt::format("mesh: its error is about {:.1e}: fewer cells, or a smaller rtol, go with it; cells of twice the "
-                      "size save seven elements of eight", error));
+      found_.push_back(fmt::format(
+          "mesh: its error is about {:.1e}: so fewer cells would do, or a smaller rtol would pay; doubling the "
+          "cell size removes seven of eight elements",
+          error));
     if (error > kCoarse)
       found_.push_back(
           fmt::format("nothing of the mesh, whose error is about {:.1e} of the elastic energy: finer cells or "

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "lib/analysis/displacement_error.h"
+#include "lib/core/words.h"
 #include "lib/simulation/static_problem.h"
 #include "lib/simulation/files.h"
 #include "lib/simulation/given_terms.h"
@@ -23,8 +24,8 @@ class LoadProgress : public Observer {
  public:
   LoadProgress(const LoadStepper& stepper, RunListener& listener) : stepper_(stepper), listener_(listener) {}
   void on_output(const ObservedState& observed) override {
-    listener_.on_notice(
-        fmt::format("load factor {:.6g}: {} Newton iterations", observed.t(), stepper_.attempt().iterations));
+    listener_.on_notice(fmt::format("load factor {:.6g}: {}", observed.t(),
+                                    counted(stepper_.attempt().iterations, "Newton iteration")));
   }
 
  private:

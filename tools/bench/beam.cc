@@ -17,7 +17,9 @@ gravity: [0, 0, -4]
 clamps: [{{surface: x0}}]
 time: {{end: 1}}
 integrator: {{type: cvode_bdf}}
-)", 5 * across, across, across, beam.order, beam.material, constants, beam.damped ? "damping: {stiffness: 0.01}" : "");
+)",
+                     5 * across, across, across, beam.order, beam.material, constants,
+                     beam.damped ? "damping: {stiffness: 0.01}" : "");
 }
 
 // A circular arc of half a radian, turned about its own axis by as much.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/words.h"
 #include "lib/simulation/doubts.h"
 #include "lib/simulation/errors/error_balance.h"
 #include "tools/orthodyn/shortened.h"
@@ -22,9 +23,10 @@ void print_cost(const char* name, const Cost& c) {
 }
 
 void print_costs(const Statistics& s) {
-  fmt::print("  {:<15} {} ({} rejected), {} Newton iterations", "steps", s.steps, s.rejected_steps,
-             s.newton_iterations);
-  if (s.gauss_newton_fallbacks > 0) fmt::print(", {} indefinite tangents replaced", s.gauss_newton_fallbacks);
+  fmt::print("  {:<15} {} ({} rejected), {}", "steps", s.steps, s.rejected_steps,
+             counted(s.newton_iterations, "Newton iteration"));
+  if (s.gauss_newton_fallbacks > 0)
+    fmt::print(", {} replaced", counted(s.gauss_newton_fallbacks, "indefinite tangent"));
   fmt::print("\n");
   print_cost("force", s.force);
   print_cost("tangent", s.tangent);
@@ -97,8 +99,8 @@ void print_equilibrium(const RunResult& result, const EquilibriumResult& equilib
   const auto& outcome = result.outcome;
   fmt::print("{}, static: {} unknowns, {} at load factor {:.6g} after {:.2f} s\n", result.scene, result.model.unknowns,
              status_word(outcome.status), outcome.last.t, outcome.wall_seconds);
-  fmt::print("  {:<20} {} ({} cut back), {} Newton iterations\n", "load steps", equilibrium.load_steps,
-             equilibrium.rejected_load_steps, equilibrium.statistics.newton_iterations);
+  fmt::print("  {:<20} {} ({} cut back), {}\n", "load steps", equilibrium.load_steps,
+             equilibrium.rejected_load_steps, counted(equilibrium.statistics.newton_iterations, "Newton iteration"));
   for (const CriticalPoint& point : equilibrium.critical_points)
     fmt::print("  {:<20} at load factor {:.6g} +- {:.1g}{}\n", words_of(point.kind), point.load_factor,
                point.uncertainty,

@@ -12,7 +12,7 @@ ExtremeRecorder::ExtremeRecorder(const std::vector<std::string>& quantities, con
   for (const auto& name : quantities) {
     auto find = find_extreme(name, model, origin);
     if (!find)
-      origin.fail(fmt::format("extremes: '{}' is no extreme of a field of stress or strain: give one such as "
+      origin.fail(fmt::format("extremes: '{}' is not an extreme of a field of stress or strain: give one such as "
                               "von_mises.largest, tsai_wu.largest or REGION.nodal_stress_material.11.smallest",
                               name));
     find_.push_back(std::move(*find));

@@ -10,6 +10,8 @@ namespace orthodyn::slip {
 namespace {
 
 constexpr double kMostRatio = 50;  // of vibrations along the body; those of bending are slower by its slenderness
+// Of a cantilever's lowest frequencies in bending and along itself, 1.015 h/L^2 and pi/2/L, times L/h.
+constexpr double kBending = 0.65;
 // What people take for damping ratios; a body that is to creep has more.
 constexpr double kLeastUsualRatio = 0.004, kMostUsualRatio = 0.25;
 
@@ -18,10 +20,14 @@ void add_stiffness_slip(const Subject& subject, const Config& place, double beta
   const double ratio = beta * omega / 2;
   const bool looks_like_a_ratio = beta >= kLeastUsualRatio && beta <= kMostUsualRatio;
   if (ratio <= kMostRatio || !(looks_like_a_ratio || beta > subject.span())) return;
+  const double bending = kBending * subject.slenderness();  // of it in omega
+  const bool creeps = bending * ratio > 1;
   out.push_back(fmt::format(
-      "{}: {:.4g} s gives the lowest vibration along the body ({:.3g} Hz) a damping ratio of {:.3g}: nothing vibrates, "
-      "it creeps{}. Is it meant as a damping ratio? For a ratio xi at the frequency f take xi/(pi f)",
-      place.where(), beta, omega / (2 * std::numbers::pi), ratio,
+      "{}: {:.4g} s gives the lowest vibration along the body ({:.3g} Hz) a damping ratio of {:.3g}, and bending "
+      "(about "
+      "{:.2g} Hz) about {:.2g}{}{}. Is it meant as a damping ratio? For a ratio xi at the frequency f take xi/(pi f)",
+      place.where(), beta, omega / (2 * std::numbers::pi), ratio, bending * omega / (2 * std::numbers::pi),
+      bending * ratio, creeps ? ": nothing vibrates, it creeps" : "",
       beta > subject.span() ? fmt::format(", for longer than the run of {:.4g} s", subject.span()) : ""));
 }
 

@@ -28,6 +28,8 @@ struct Subject {
   // Over a time span that is known.
   bool moves() const { return !is_static() && is_timed; }
   bool held() const { return built.model->num_dofs() < 3 * built.model->parts().dofs->num_nodes(); }
+  // The shortest side of the box over the longest.
+  double slenderness() const { return box.size().minCoeff() / extent; }
   double crossing() const { return extent / wave; }  // s, of a wave along the body
 };
 

@@ -15,7 +15,7 @@ void add_span_slip(const Subject& subject, Warnings& out) {
   const double crossings = subject.span() / subject.crossing();
   const std::string place = subject.config.at("time").where();
   if (crossings < kShortest)
-    out.push_back(fmt::format("{}: in {:.3g} s a wave goes through {:.2g} of the body's length: nothing to speak of "
+    out.push_back(fmt::format("{}: in {:.3g} s a wave goes through {:.2g} of the body's length: almost nothing "
                               "moves. Is the end, {:.4g} s, in another unit, such as ms?",
                               place, subject.span(), crossings, subject.end()));
   if (crossings > kLongest)

@@ -83,7 +83,8 @@ std::vector<std::string> find_cases(const std::vector<std::string>& places) {
 }
 
 void require_expectations(const Scene& scene, const Config& config) {
-  if (scene.expect.empty()) config.fail("expects nothing; add an 'expect' list (see `orthodyn list expect`)");
+  if (scene.expect.empty())
+    config.fail("has no 'expect' list, so there is nothing to verify (see `orthodyn list expect`)");
 }
 
 CaseResult verify(const Config& scene) {

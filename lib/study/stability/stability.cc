@@ -26,7 +26,7 @@ Config scene_of(const SceneVariant& variant, const StabilityIntegrator& entry) {
   config.set("output.fields", std::vector<std::string>());
   for (const char* key : {"output.energy", "output.steps"}) config.set(key, false);
   if (read_scene(config).expect.empty())
-    config.fail("expects nothing, so nothing can be judged; add an 'expect' list (see `orthodyn list expect`)");
+    config.fail("has no 'expect' list, so nothing can be judged (see `orthodyn list expect`)");
   return config;
 }
 

@@ -88,7 +88,8 @@ Json point_json(const Sweep& sweep, const Point& point, const std::optional<Job>
     out["figures"][name] = member(member(computed, "figures"), name);
     out["closed_forms"][name] = finite_or_null(point.closed_forms[q]);
   }
-  for (const char* key : {"reason", "message", "cost", "model", "frame", "mesh_error"}) out[key] = member(computed, key);
+  for (const char* key : {"reason", "message", "cost", "model", "frame", "mesh_error"})
+    out[key] = member(computed, key);
   return out;
 }
 

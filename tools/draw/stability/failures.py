@@ -1,4 +1,4 @@
-"""The table of all trials that are no pass."""
+"""The table of all trials that did not pass."""
 from ..report import formatting
 from ..report.markup import tag
 from ..report.tables import number, table
@@ -26,5 +26,5 @@ def failures(matrix):
     found = [t for t in matrix.trials if t.grade != "pass"]
     if not found:
         return tag("p", "Every trial passes." if matrix.trials else "No trial has ended yet.")
-    title = f"{formatting.plural(len(found), 'trial')} of {formatting.count(len(matrix.trials))} are no pass; SI units"
-    return table(title, HEADS, [_row(t) for t in found], "Trials that are no pass", "long")
+    title = f"{formatting.plural(len(found), 'trial')} of {formatting.count(len(matrix.trials))} did not pass; SI units"
+    return table(title, HEADS, [_row(t) for t in found], "Trials that did not pass", "long")

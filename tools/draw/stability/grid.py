@@ -15,7 +15,7 @@ def breakable(label):
 
 
 def row_id(trial):
-    """Of its row in the table of trials that are no pass."""
+    """Of its row in the table of trials that did not pass."""
     return f"trial-{trial.index}"
 
 
