@@ -149,7 +149,14 @@ double si_factor(const std::string& unit) {
 void check_dimension(const std::string& unit, const std::string& si) {
   const std::lock_guard lock(udunits());
   si_factor(unit);
-  quantity_in("1 " + unit, si == "1" ? "" : si);
+  const std::string wanted = si == "1" ? "" : si;
+  try {
+    quantity_in("1 " + unit, wanted);
+  } catch (const std::invalid_argument&) {
+    const Unit given = parse(unit);
+    throw std::invalid_argument(fmt::format("expected {}, found the unit '{}'{}", expected(wanted), unit,
+                                            given ? ", " + with_article(describe(given.get())) : ""));
+  }
 }
 
 std::string dimension_text(const std::string& unit) {

@@ -71,12 +71,22 @@ Polar<std::complex<double>> polar(const Mat3T<std::complex<double>>& F, const Ma
   return p;
 }
 
-Batch::Mask polar(const Mat3T<Batch>& F, Polar<Batch>& p) {
+namespace {
+
+// Of any state.
+[[gnu::noinline]] Batch::Mask far_polar(const Mat3T<Batch>& F, Polar<Batch>& p) {
   const Batch norm = sqrt(F.cwiseProduct(F).sum());
   const Mat3T<Batch> unit = F * (Batch(1) / norm);
   const Batch::Mask good = decompose_unit<Batch>(unit, p);
   scale<Batch>(p, norm);
   return good;
+}
+
+}  // namespace
+
+[[gnu::flatten]] Batch::Mask polar(const Mat3T<Batch>& F, Polar<Batch>& p) {
+  if (Batch::Mask good; decompose_near_rotation<Batch>(F, p, good)) return good;
+  return far_polar(F, p);
 }
 
 }  // namespace orthodyn

@@ -8,7 +8,8 @@
 // Method: q = the quaternion of R is the top eigenvector of Davenport's symmetric 4x4 matrix; its
 // eigenvalue tr(S) is the largest root of a quartic, found by Newton's method from above, q a column
 // of the adjugate; then Newton steps R <- R cay(G^-1 a(R^T F)) until a(R^T F) vanishes to round-off.
-// Whatever does not pass the check goes through a symmetric eigensolver. Pure functions, safe in any thread.
+// Whatever does not pass the check goes through a symmetric eigensolver. Batches near rotations take fewer steps
+// (polar_steps.h). Pure functions, safe in any thread.
 #pragma once
 
 #include <complex>

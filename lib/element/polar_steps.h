@@ -154,6 +154,39 @@ auto decompose_unit(const Mat3T<T>& F, Polar<T>& p) {
   return polish<T>(F, p);
 }
 
+// For F near a rotation: X <- X + X (I - X^T X)/2 from X = F (Newton & Schulz), which squares the distance from the
+// rotation and takes no division. False, and p is nothing, unless |F^T F - I| <= 1/2 and det F > 0 in all lanes; else
+// `good` are those that are right to round-off.
+template <class T, class Mask>
+bool decompose_near_rotation(const Mat3T<T>& F, Polar<T>& p, Mask& good) {
+  constexpr double kFarthest = 0.5, kLast = 1e-8;  // of |I - X^T X|; the step after the latter leaves round-off
+  constexpr int kMostSteps = 8;
+  const T det = F.col(0).dot(F.col(1).cross(F.col(2)));
+  p.R = F;
+  for (int i = 0;; ++i) {
+    Mat3T<T> E;  // (I - X^T X)/2
+    T size(0);
+    for (int k = 0; k < 3; ++k)
+      for (int j = 0; j <= k; ++j) {
+        const T product = p.R(0, j) * p.R(0, k) + p.R(1, j) * p.R(1, k) + p.R(2, j) * p.R(2, k);
+        E(j, k) = E(k, j) = T(0.5) * (T(j == k ? 1 : 0) - product);
+        size += T(j == k ? 4 : 8) * E(j, k) * E(j, k);
+      }
+    if (i == 0 && !all((size <= T(kFarthest * kFarthest)) & (det > T(0)))) return false;
+    Mat3T<T> X;
+    for (int k = 0; k < 3; ++k)
+      for (int j = 0; j < 3; ++j)
+        X(j, k) = p.R(j, k) + (p.R(j, 0) * E(0, k) + p.R(j, 1) * E(1, k) + p.R(j, 2) * E(2, k));
+    p.R = X;
+    if (i == kMostSteps || all(size <= T(kLast * kLast))) break;
+  }
+  const Mat3T<T> A = p.R.transpose().lazyProduct(F);
+  const Vec3T<T> a = axial<T>(A);
+  set_stretch<T>(A, p);
+  good = a[0] * a[0] + a[1] * a[1] + a[2] * a[2] <= T(kAcceptTolerance * kAcceptTolerance);
+  return true;
+}
+
 template <class T>
 void scale(Polar<T>& p, const T& factor) {
   p.S *= factor;

@@ -49,6 +49,7 @@ StepInfo LoadStepper::step() {
 }
 
 void LoadStepper::advance() {
+  if (leaves_ && leave()) return;
   for (;;) {
     const double slope = std::abs(tracer_->place().tangent.lambda);
     if (slope > 0) step_ = std::min(step_, stepping_.max_step / slope);
@@ -61,7 +62,7 @@ void LoadStepper::advance() {
         return adapt();
       }
       pass_critical_point(std::move(*next));
-      if (has_moved()) return;
+      if (has_moved() || (leaves_ && leave())) return;
       if (stops_) stop_at(critical_.back());
     }
     ++rejected_;
@@ -174,8 +175,16 @@ void LoadStepper::pass_critical_point(Place beyond) {
   step_ = step;
   const bool leaves_stability = tracer_->place().response.unstable.value_or(0) == 0;
   if (stepping_.at_limit == AtLimit::follow || !leaves_stability) tracer_->move_to(std::move(*past));
-  else if (stepping_.at_limit == AtLimit::jump && jump()) ++jumps_;
+  else if (stepping_.at_limit == AtLimit::jump) leaves_ = true;
   else stops_ = true;
+}
+
+// From the last equilibrium before a critical point, which has been told.
+bool LoadStepper::leave() {
+  leaves_ = false;
+  if (!jump()) stop_at(critical_.back());
+  ++jumps_;
+  return true;
 }
 
 void LoadStepper::require_going_on() const {

@@ -72,6 +72,7 @@ class LoadStepper {
   void pass_critical_point(Place beyond);
   std::optional<Place> close_in(Place beyond);
   CriticalPoint critical_point_before(const Place& beyond) const;
+  bool leave();
   bool jump();
   bool settle(double load_factor);
   void note_turn(const Place& next);
@@ -93,7 +94,8 @@ class LoadStepper {
   double step_ = 0, smallest_step_ = 0;  // along the path
   std::vector<CriticalPoint> critical_;
   double steepest_ = 0;  // growth at the last turn
-  bool stops_ = false;  // the last of them is where it stops
+  bool stops_ = false;   // the last of them is where it stops
+  bool leaves_ = false;  // there it is to jump next
   long steps_ = 0, rejected_ = 0, jumps_ = 0;
 };
 

@@ -44,7 +44,7 @@ std::vector<Event> make_events(const Scene& scene, const FemModel& model) {
     if (!quantity.values)
       spec.origin.fail(fmt::format("'{}' is known at output times only; choose another quantity", spec.quantity));
     if (quantity.components() > 1) spec.origin.fail(quantity.ask_for_component());
-    spec.crosses.require(quantity.unit, spec.origin);
+    spec.crosses.require(quantity.unit, {spec.origin.where + ".crosses"});
     events.push_back({spec.name.value_or(spec.quantity),
                       [values = quantity.values](const ObservedState& observed) { return values(observed)[0]; },
                       spec.crosses, spec.direction, spec.action == EventAction::stop});

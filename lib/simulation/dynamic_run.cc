@@ -149,10 +149,12 @@ class DynamicAnalysis {
   MotionResult motion_result(const Outcome& outcome, const Effort& before, const RunObservers& observers) const {
     const Integrator& integrator = *setup_.integrator;
     const InversionWatch& inversion = observers.inversion;
+    Statistics statistics = integrator.statistics();
+    statistics.observation = outcome.observation;
     MotionResult out{.integrator = setup_.config.at("integrator").at("type").text(),
                      .decisions = integrator.decisions(),
                      .doubts = integrator.doubts(),
-                     .effort = before + Effort{integrator.statistics(), outcome.wall_seconds, outcome.cpu_seconds},
+                     .effort = before + Effort{statistics, outcome.wall_seconds, outcome.cpu_seconds},
                      .factor_bytes = integrator.factor_bytes(),
                      .det_f = {inversion.smallest(), inversion.element(), inversion.time()}};
     if (const auto& e = observers.energy)

@@ -21,7 +21,8 @@ Json to_json(const Statistics& s) {
           {"tangent", to_json(s.tangent)},
           {"factorization", to_json(s.factorization)},
           {"solve", to_json(s.solve)},
-          {"modes", to_json(s.modes)}};
+          {"modes", to_json(s.modes)},
+          {"observation", to_json(s.observation)}};
 }
 
 Statistics statistics_from(const Json& json) {
@@ -37,6 +38,7 @@ Statistics statistics_from(const Json& json) {
   s.factorization = cost_from(json.at("factorization"));
   s.solve = cost_from(json.at("solve"));
   s.modes = cost_from(json.at("modes"));
+  if (json.contains("observation")) s.observation = cost_from(json.at("observation"));  // older results have none
   return s;
 }
 

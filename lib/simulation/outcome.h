@@ -22,6 +22,7 @@ struct Outcome {
   State last;                     // the last state reached
   bool between_steps = true;      // false: an observer failed, and not all have seen the last state
   double wall_seconds = 0, cpu_seconds = 0;
+  Cost observation = {};          // of a motion, as in Statistics
 };
 
 const char* status_word(Outcome::Status status);  // "completed"

@@ -75,7 +75,10 @@ class Driver {
 
   void advance() {
     outcome_.between_steps = false;
-    tell_of_start({model_, outcome_.last});
+    {
+      const Measure measure(outcome_.observation);
+      tell_of_start({model_, outcome_.last});
+    }
     outcome_.between_steps = true;
     integrator_.start(outcome_.last);
     for (const double stop : stops_) {
@@ -106,6 +109,7 @@ class Driver {
       if (!outcome_.stepped_over && info.t > seen_until + kMuchLonger * (seen_until - begin))
         outcome_.stepped_over = begin;
       outcome_.between_steps = false;
+      const Measure measure(outcome_.observation);
       const Event* stopper = deliver_events(begin, info);
       deliver_outputs(info.t);
       if (stopper) deliver_last_output(info.t);

@@ -77,7 +77,7 @@ struct MotionResult {
 // Where a probe's node has gone, m, and how far the mesh puts that off: true less computed.
 struct ProbedDisplacement {
   std::string probe;
-  Vec3 value, mesh_error;
+  Vec3 value, mesh_error;  // m; NaN where the latter is not known
 };
 
 // Of a static analysis: the last equilibrium.
@@ -94,7 +94,7 @@ struct EquilibriumResult {
   Statistics statistics = {};
   SmallestDetF det_f = {};
   std::optional<MeshError> mesh_error = {};
-  std::vector<ProbedDisplacement> probes = {};  // where the error of the mesh is asked for
+  std::vector<ProbedDisplacement> probes = {};  // of each probe
 };
 
 // Of a buckling analysis, the lowest load factor first.

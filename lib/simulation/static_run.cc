@@ -1,6 +1,7 @@
 // A static analysis of a scene: load steps to the equilibrium under all its loads, and what it writes.
 #include <fmt/format.h>
 
+#include <limits>
 #include <optional>
 
 #include "lib/analysis/displacement_error.h"
@@ -109,22 +110,22 @@ void refuse_what_is_for_motion(const RunRequest& request) {
     throw ConfigError("--estimate-error: a static analysis has no error of integration; remove it");
 }
 
-// Empty where there is no equilibrium, or an unstable one.
-std::vector<ProbedDisplacement> probed_displacements(const Setup& setup, const State& equilibrium) {
+// At the last equilibrium. Errors where they are asked for; NaN where it is unstable.
+std::vector<ProbedDisplacement> probed_displacements(const Setup& setup, const State& equilibrium, bool with_errors) {
   const FemModel& model = *setup.built.model;
   std::vector<int> nodes;
   for (const auto& [name, probe] : setup.scene.output.probes)
     nodes.push_back(nearest_node(model.parts().mesh, probe.at));
   if (nodes.empty()) return {};
-  std::vector<ProbedDisplacement> out;
+  std::vector<Vec3> errors(nodes.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
   try {
-    const auto errors = displacement_errors(model, equilibrium, nodes);
-    const NodalExpansion nodal(model.parts(), equilibrium.t, equilibrium.q, equilibrium.v);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      out.push_back({setup.scene.output.probes[i].first, nodal.u.col(nodes[i]), errors[i]});
-  } catch (const RunError&) {
-    out.clear();
+    if (with_errors) errors = displacement_errors(model, equilibrium, nodes);
+  } catch (const RunError&) {  // no stable equilibrium, no error of it
   }
+  const NodalExpansion nodal(model.parts(), equilibrium.t, equilibrium.q, equilibrium.v);
+  std::vector<ProbedDisplacement> out;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    out.push_back({setup.scene.output.probes[i].first, nodal.u.col(nodes[i]), errors[i]});
   return out;
 }
 
@@ -173,9 +174,11 @@ RunResult run_static_analysis(RunContext context) {
   MeshErrorRecorder mesh_error(0);
   if (setup.scene.output.mesh_error) mesh_error.look_at({*problem.path, result.outcome.last});
   result.equilibrium = equilibrium_result(problem, result.outcome.last, mesh_error.found());
-  if (setup.scene.output.mesh_error && result.outcome.status == Outcome::Status::completed)
-    result.equilibrium->probes = probed_displacements(
-        setup, {problem.path->time(), result.outcome.last.q, Vector::Zero(result.outcome.last.q.size())});
+  // Below all loads the model has no equilibrium to tell an error of.
+  const bool is_at_all_loads = result.outcome.status == Outcome::Status::completed;
+  result.equilibrium->probes = probed_displacements(
+      setup, {problem.path->time(), result.outcome.last.q, Vector::Zero(result.outcome.last.q.size())},
+      setup.scene.output.mesh_error && is_at_all_loads);
   record.finish(result);
   context.listener.on_result(result);
   return result;

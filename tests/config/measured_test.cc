@@ -25,7 +25,7 @@ TEST(Measured, TakesTheUnitsOfItsQuantityOnly) {
   EXPECT_NO_THROW(read("1").require("J", here));
   EXPECT_NO_THROW(read("1").require("", here));
   EXPECT_EQ(refusal([&] { read("1 mm").require("J", here); }),
-            "a.yaml:1:1: expected an energy (J), found '1 mm', a length (m)");
+            "a.yaml:1:1: expected an energy (J), found the unit 'mm', a length (m)");
   EXPECT_TRUE(holds(refusal([&] { read("1 mm").require("", here); }), "expected a plain number"));
   EXPECT_TRUE(holds(refusal([&] { read("1 mm").require("1", here); }), "expected a plain number"));
 }

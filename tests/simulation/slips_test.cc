@@ -89,6 +89,10 @@ INSTANTIATE_TEST_SUITE_P(
             "{type: orthotropic, density: 450, young: [10.8 GPa, 0.84 GPa, 0.46 GPa], nu12: 0.3, nu23: 0.3, nu13: 0.3, "
             "g12: 0.69, g23: 0.03 GPa, g13: 0.6 GPa}",
             kWarned, "does one of them lack its unit"},
+        Slip{"strengths_in_mpa", "0.46 GPa], nu: 0.3",
+             "0.46 GPa], nu: 0.3, strength: {tension: [70, 2.6, 2.6], compression: [38.7, 4, 4], shear: [7.9, 1.4, "
+             "7.9]}",
+             kWarned, "its strength of 1.4 Pa"},
         Slip{"density_in_g_per_cm3", "450", "0.45", kWarned, "Is it in g/cm^3?"},
         Slip{"density_in_t_per_m3_as_0_4", "450", "0.4", kWarned, "faster than in any solid"},
         Slip{"density_in_t_per_mm3", "450", "4.5e-10", kWarned, "Is it in t/mm^3"},
@@ -178,6 +182,14 @@ INSTANTIATE_TEST_SUITE_P(
              "never is below 0"},
         Slip{"an_event_far_away", kTime, kTime + "\nevents: [{quantity: tip.displacement.z, crosses: 500}]", kWarned,
              "500 times the length of the body"},
+        Slip{"an_event_farther_than_the_body_is_long", kTime,
+             kTime + "\nevents: [{quantity: tip.displacement.z, crosses: -30}]", kWarned,
+             "-30 m is 30 times the length"},
+        Slip{"an_event_at_a_stress_without_unit", kTime,
+             kTime + "\nevents: [{quantity: von_mises.largest, crosses: 5}]", kWarned,
+             "is the unit missing, such as MPa?"},
+        Slip{"an_event_at_a_stress_with_a_unit_too_many", kTime,
+             kTime + "\nevents: [{quantity: von_mises.largest, crosses: 5e6 GPa}]", kWarned, "a unit too many"},
         Slip{"an_event_too_fast", kTime, kTime + "\nevents: [{quantity: tip.velocity.z, crosses: 1e6}]", kWarned,
              "faster than the waves"},
         Slip{"an_event_of_another_dimension", kTime, kTime + "\nevents: [{quantity: tip.velocity.z, crosses: 5 mm}]",
@@ -225,6 +237,7 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"a_step_longer_than_the_run", kRtol, "step: 5", kWarned, "is longer than the run"},
         Slip{"a_step_in_nanoseconds", kRtol, "step: 1e-12", kWarned, "such steps"},
         Slip{"a_first_step_longer_than_the_run", kRtol, "rtol: 1e-4, h0: 5", kWarned, "is longer than the run"},
+        Slip{"a_least_step_as_long_as_the_run", kRtol, "rtol: 1e-4, h_min: 0.5", kWarned, "cannot follow an error"},
         Slip{"a_largest_step_of_nothing", kRtol, "rtol: 1e-4, h_max: 1e-12", kWarned, "such steps"}),
     [](const auto& slip) { return slip.param.name; });
 

@@ -11,6 +11,8 @@ from .units import prefix
 
 FILES = ("probes.csv", "energy.csv")
 STYLES = ("-", (0, (5, 2)), (0, (1, 1.4)), (0, (5, 2, 1, 2)))
+# The first is a broad band, on which the others show where they agree with it.
+LOOKS = [{"lw": 3.6, "alpha": 0.35, "ls": STYLES[0]}] + [{"lw": 1.2, "ls": style} for style in STYLES[1:]]
 
 
 def _groups(table, leave_out=("balance",)):
@@ -49,16 +51,16 @@ def _draw_file(tables, labels, path):
     for panel, ((stem, unit), names) in zip(axes, groups.items()):
         scale, shown = prefix(unit, max(np.nanmax(np.abs(t[n].values)) for t in tables for n in names))
         for k, name in enumerate(names):
-            for table, style in zip(tables, STYLES):
+            for table, look in zip(tables, LOOKS):
                 panel.plot(table.axis.values / factor, table[name].values / scale, color=COLOURS[k % len(COLOURS)],
-                           ls=style, lw=1.3)
+                           **look)
         panel.set_ylabel(f"[{shown}]" if shown else "")
         handles = [Line2D([], [], color=COLOURS[k % len(COLOURS)], label=n.rpartition(".")[2])
                    for k, n in enumerate(names)]
-        handles += [Line2D([], [], color="#6b7280", ls=style, label=label) for label, style in zip(labels, STYLES)]
+        handles += [Line2D([], [], color="#6b7280", label=label, **look) for label, look in zip(labels, LOOKS)]
         panel.legend(handles=handles, loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=7.5)
         apart = ", ".join(f"{_difference(tables, k, names):.2g}" for k in range(1, len(tables)))
-        title(panel, stem.replace("_", " "), f"largest difference from the first: {apart} of its largest value")
+        title(panel, stem.replace("_", " "), f"apart by at most {apart} of the first's largest value")
     return save(figure, path)
 
 

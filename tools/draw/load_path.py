@@ -1,4 +1,7 @@
 """Load factor over displacement of a static analysis, from its probes.csv or load_steps.csv."""
+import json
+
+import numpy as np
 from matplotlib.lines import Line2D
 
 from .chart import COLOURS, panels, title
@@ -44,15 +47,45 @@ def _that_move(lines):
     return [(name, column) for name, column in lines if abs(column.values).max() >= 1e-3 * largest]
 
 
+def _critical(folder):
+    """Critical points as (kind, load factor), and whether the path was left at one of them by a jump."""
+    try:
+        record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+    except (OSError, json.JSONDecodeError):
+        return [], False
+    points = [(p["kind"], p["load_factor"]) for p in record.get("critical_points", [])]
+    return points, record.get("jumps", 0) > 0
+
+
+def _jumps(factors, critical, jumped):
+    """The steps, by the index of their start, that lead from one path to another."""
+    levels = [factor for kind, factor in critical if kind != "sharp turn"] if jumped else []
+    return [i for i in range(len(factors) - 1) if any(factors[i] < level <= factors[i + 1] for level in levels)]
+
+
+def _plot_path(panel, x, factors, jumps, colour):
+    """The path, with a gap bridged by dots where the body jumped."""
+    after = [i + 1 for i in jumps]
+    panel.plot(np.insert(x, after, np.nan), np.insert(factors, after, np.nan), marker="o", ms=3, lw=1.3, color=colour)
+    for i in jumps:
+        panel.plot(x[i:i + 2], factors[i:i + 2], lw=1, ls=":", color=colour)
+
+
 def draw_load_path(folder, path):
     factors, columns = _displacements(folder)
+    critical, jumped = _critical(folder)
+    jumps = _jumps(factors, critical, jumped)
     groups = _panels_of(columns)
     figure, axes = panels([2.6] * len(groups), sharex=False)
     for panel, (probe, all_lines) in zip(axes, groups.items()):
         lines = _that_move(all_lines)
         factor, unit = prefix("m", max(abs(c.values).max() for _, c in lines))
         for k, (_, column) in enumerate(lines):
-            panel.plot(column.values / factor, factors, marker="o", ms=3, lw=1.3, color=COLOURS[k])
+            _plot_path(panel, column.values / factor, factors, jumps, COLOURS[k])
+        for kind, level in critical:
+            panel.axhline(level, color="#6b7280", lw=0.8, ls=(0, (6, 3)))
+            panel.annotate(f"{kind} {level:.4g}", (0.01, level), xycoords=panel.get_yaxis_transform(), fontsize=7,
+                           color="#6b7280", va="bottom")
         panel.set_xlabel(f"displacement [{unit}]")
         panel.set_ylabel("load factor")
         panel.legend(handles=[Line2D([], [], color=COLOURS[k], marker="o", ms=3, label=name)

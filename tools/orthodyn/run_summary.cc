@@ -33,6 +33,7 @@ void print_costs(const Statistics& s) {
   print_cost("factorisation", s.factorization);
   print_cost("solve", s.solve);
   if (s.modes.count > 0) print_cost("modes", s.modes);
+  if (s.observation.count > 0) print_cost("outputs, events", s.observation);
 }
 
 void print_energy(const EnergySummary& energy) {
@@ -118,8 +119,9 @@ void print_equilibrium(const RunResult& result, const EquilibriumResult& equilib
   print_errors(result, 20);
   print_extremes(result, "at load factor", "");
   for (const auto& [probe, value, error] : equilibrium.probes)
-    fmt::print("  {:<20} moved by {} m; its error due to the mesh is about {} m\n", probe, three(value, "{:.6g}"),
-               three(error, "{:.1e}"));
+    fmt::print("  {:<20} moved by {} m{}\n", probe, three(value, "{:.6g}"),
+               error.allFinite() ? fmt::format("; its error due to the mesh is about {} m", three(error, "{:.1e}"))
+                                 : "");
   fmt::print("  {:<20} {}\n", "results", result.folder.string());
 }
 

@@ -1,6 +1,7 @@
 // Constants of materials that no solid has, or that do not go with each other.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lib/core/symmetric_eigen.h"
@@ -15,6 +16,7 @@ constexpr double kSlowest = 0.3;      // m/s; a gel of 100 Pa has as much
 constexpr double kDensest = 30e3;     // kg/m^3; osmium has 22,600
 constexpr double kMostUnlike = 1e-7;  // of the eigenvalues of C
 constexpr double kSoftest = 1e3;      // Pa
+constexpr double kWeakest = 1e-6;     // strength over the softest modulus; the weakest woods and foams have 1e-3
 
 std::string slip_of(const Material& material) {
   const double density = material.density(), wave = fastest_wave(material);
@@ -30,6 +32,13 @@ std::string slip_of(const Material& material) {
   if (softest < kMostUnlike * stiffest)
     return fmt::format("its moduli differ by a factor {:.1g} (eigenvalues of C {:.3g} to {:.3g} Pa): does one of them "
                        "lack its unit, such as GPa?", stiffest / softest, softest, stiffest);
+  if (const auto strength = material.strength()) {
+    const double weakest =
+        std::min({strength->tension.minCoeff(), strength->compression.minCoeff(), strength->shear.minCoeff()});
+    if (weakest > 0 && weakest < kWeakest * softest)
+      return fmt::format("its strength of {:.3g} Pa is {:.1g} of its softest modulus, and is passed at once: is the "
+                         "unit missing, such as MPa?", weakest, weakest / softest);
+  }
   if (wave < kSlowest && stiffest < kSoftest)
     return fmt::format("its moduli of at most {:.3g} Pa at a density of {:.4g} kg/m^3 are softer than any gel: is "
                        "their unit missing, such as GPa or MPa?", stiffest, density);

@@ -10,6 +10,7 @@ namespace {
 constexpr double kCoarsest = 0.1, kFinest = 1e-13;  // of rtol
 constexpr double kLargestScale = 1e3, kSmallestScale = 1e-12;  // of the body's length
 constexpr double kMostSteps = 1e9;
+constexpr double kLargestLeast = 0.1;  // step, of the run
 
 void add_tolerance_slip(const Subject& subject, const char* section, Warnings& out) {
   const auto rtol = value_at(subject.config, {section, "rtol"});
@@ -44,6 +45,9 @@ void add_step_slips(const Subject& subject, Warnings& out) {
     if (step > subject.span() && std::string(key) != "h_max")
       out.push_back(fmt::format("{}: {:.4g} s is longer than the run of {:.4g} s: is it in ms?", value->where(), step,
                                 subject.span()));
+    if (std::string(key) == "h_min" && step > kLargestLeast * subject.span() && step <= subject.span())
+      out.push_back(fmt::format("{}: steps of at least {:.4g} s in a run of {:.4g} s cannot follow an error: is it in "
+                                "ms?", value->where(), step, subject.span()));
     if (shortens && step * kMostSteps < subject.span())
       out.push_back(fmt::format("{}: the run of {:.4g} s needs {:.1g} such steps: is the step in another unit?",
                                 value->where(), subject.span(), subject.span() / step));
