@@ -34,14 +34,19 @@ Values sum(double a, const Values& A, double b, const Values& B) {
   return out;
 }
 
-// The body with its springs and ground, without what loads it.
-std::unique_ptr<Model> structure_of(const FemModel& model) {
+struct Divided {
+  std::unique_ptr<Model> structure, loads;
+};
+
+// The body with its springs and ground, and what loads it.
+Divided divided(const FemModel& model) {
   const auto& parts = model.parts();
   const auto all = model.force_parts();  // elasticity first, then the other terms
-  std::vector<std::string> names(all.begin(), all.begin() + std::ssize(parts.elastic));
+  std::vector<std::string> structure(all.begin(), all.begin() + std::ssize(parts.elastic)), loads;
   for (std::size_t k = 0; k < parts.loads.size(); ++k)
-    if (parts.loads[k]->energy_kind() == EnergyKind::elastic) names.push_back(all[parts.elastic.size() + k]);
-  return model.only(names);
+    (parts.loads[k]->energy_kind() == EnergyKind::elastic ? structure : loads)
+        .push_back(all[parts.elastic.size() + k]);
+  return {model.only(structure), model.only(loads)};
 }
 
 // The largest strain of a small displacement, by the norm of its components.
@@ -70,10 +75,8 @@ Values stress_stiffness_at(const Model& structure, double t, const Vector& q) {
 
 // For the stresses of the response u to all loads. The central difference drops the stretching that a straight
 // displacement brings, which is of second order.
-Values stress_stiffness(const Model& structure, double t, const Vector& u, double size) {
-  const double step = std::min(kStep * size / u.lpNorm<Eigen::Infinity>(), 1.0);
-  return sum(0.5 / step, stress_stiffness_at(structure, t, step * u), -0.5 / step,
-             stress_stiffness_at(structure, t, -step * u));
+Values stress_stiffness(const Model& structure, double t, const Vector& u) {
+  return sum(0.5, stress_stiffness_at(structure, t, u), -0.5, stress_stiffness_at(structure, t, -u));
 }
 
 }  // namespace
@@ -82,7 +85,7 @@ std::vector<BucklingMode> buckling_modes(const FemModel& model, double t, int co
   const Pattern& pattern = model.pattern();
   if (!pattern.symmetric)
     throw ConfigError("buckling needs a symmetric tangent: not that of elasticity.warped_tangent: unsymmetric");
-  const auto structure = structure_of(model);
+  const auto [structure, loads] = divided(model);
   const Vector rest = Vector::Zero(model.num_dofs());
   const Values K = stiffness_at(*structure, t, rest, TangentKind::exact);
   const auto solver = solver_registry().at("cholmod").make();
@@ -93,20 +96,23 @@ std::vector<BucklingMode> buckling_modes(const FemModel& model, double t, int co
   model.force(t, rest, rest, f);
   if (f.isZero(0)) throw RunError("nothing loads the body: it has no critical load factor");
   solver->solve(f, u);
-  const Values followers = sum(1, stiffness_at(model, t, rest, TangentKind::exact), -1, K);
-  const Values rate = sum(1, stress_stiffness(*structure, t, u, size_of(model)), 1, followers);
+  // Under so many times the loads: whatever these are, the difference has its digits.
+  const double times = kStep * size_of(model) / u.lpNorm<Eigen::Infinity>();
+  u *= times;
+  const Values rate = sum(1, stress_stiffness(*structure, t, u), times,
+                          stiffness_at(*loads, t, rest, TangentKind::exact));
   const DefinitePairs pairs =
-      negative_pairs(pattern, rate, K, largest_strain(model, t, u) / kLargestStrain, count);  // nu = -1/lambda
+      negative_pairs(pattern, rate, K, largest_strain(model, t, u) / kLargestStrain, count);  // nu = -times/lambda
   std::vector<BucklingMode> modes;
   for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
-    BucklingMode mode{-1 / pairs.values[k], pairs.shapes.col(k)};
+    BucklingMode mode{-times / pairs.values[k], pairs.shapes.col(k)};
     Eigen::Index top = 0;
     mode.shape.cwiseAbs().maxCoeff(&top);
     if (mode.shape[top] < 0) mode.shape = -mode.shape;
     Vector stressed(rest.size()), missing(rest.size()), elastic(rest.size());
     pattern.multiply(rate.data(), mode.shape, stressed);
     solver->solve(stressed, missing);
-    missing = mode.shape + mode.load_factor * missing;
+    missing = mode.shape + mode.load_factor / times * missing;
     pattern.multiply(K.data(), missing, elastic);
     mode.residual = std::sqrt(std::max(missing.dot(elastic), 0.0));
     modes.push_back(std::move(mode));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace orthodyn {
 
@@ -36,6 +37,7 @@ const Spec<UniformStrength>& UniformStrength::spec() {
 }
 
 double max_stress_exposure(const Vec6& s, const Strength& strength) {
+  if (!s.allFinite()) return std::numeric_limits<double>::quiet_NaN();
   double largest = 0;
   for (int i = 0; i < 3; ++i) {
     largest = std::max(largest, s[i] > 0 ? s[i] / strength.tension[i] : -s[i] / strength.compression[i]);
@@ -57,6 +59,7 @@ double tsai_wu_exposure(const Vec6& s, const Strength& strength) {
 }
 
 double hashin_exposure(const Vec6& s, const Strength& strength) {
+  if (!s.allFinite()) return std::numeric_limits<double>::quiet_NaN();
   const double along = square(strength.shear[0]), across = square(strength.shear[1]);
   const double axial_shear = (square(s[3]) + square(s[5])) / along;
   const double fibre = s[0] > 0 ? std::sqrt(square(s[0] / strength.tension[0]) + axial_shear)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "lib/core/errors.h"
 
@@ -12,12 +13,17 @@ namespace {
 
 constexpr int kLeast = 6;            // intervals between samples in the shortest part
 constexpr double kClose = 0.01;      // to a cubic, relative to the variation within the part,
-constexpr double kNegligible = 1e-4; // or to the whole range
+constexpr double kNegligible = 1e-4; // or to the whole range, which is more than round-off
 constexpr double kJump = 0.01;       // of the range, within the shortest part
 
 class Parts {
  public:
-  explicit Parts(std::vector<double> samples) : f_(std::move(samples)) { range_ = variation(0, f_.size() - 1); }
+  explicit Parts(std::vector<double> samples) : f_(std::move(samples)) {
+    constexpr double kRoundOff = 256 * std::numeric_limits<double>::epsilon() / kNegligible;
+    double largest = 0;
+    for (const double f : f_) largest = std::max(largest, std::abs(f));
+    range_ = std::max(variation(0, f_.size() - 1), kRoundOff * largest);
+  }
 
   // The first and the last sample of each part, in their order.
   std::vector<std::size_t> ends() {
@@ -75,8 +81,9 @@ StepLimits StepLimits::of(const std::function<double(double)>& function, double 
   std::sort(ends.begin(), ends.end());
   ends.push_back(end);
   for (double from = start; const double to : ends) {
+    if (!(to > from)) continue;
     const auto share = static_cast<unsigned>(kMostParts * (to - from) / (end - start));
-    if (to > from) limits.add_smooth_span(function, from, to, static_cast<int>(std::bit_ceil(std::max(share, 32u))));
+    limits.add_smooth_span(function, from, to, static_cast<int>(std::bit_ceil(std::max(share, 32u))));
     from = to;
   }
   return limits;

@@ -68,7 +68,7 @@ class StaticObservers {
       probes_.emplace(folder / "probes.csv", *problem.path, columns, "load_factor");
     const FemModel& model = *setup.built.model;
     if (!output.extremes.empty()) extremes_.emplace(output.extremes, model, output.origin);
-    if (has_strain_limits(model)) strains_.emplace(model);
+    if (has_strain_limits(model)) strains_.emplace(model, problem.path->time());
     if (extremes_) extremes_at_.emplace(model, *problem.stepper, *extremes_);
     if (strains_) strains_at_.emplace(model, *problem.stepper, *strains_);
   }

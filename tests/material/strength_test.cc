@@ -32,6 +32,11 @@ TEST(Exposure, IsOneAtEachStrengthByMaximumStressAndTsaiWu) {
     }
 }
 
+TEST(Exposure, OfAStressThatIsNotFiniteIsNotANumber) {
+  for (const Exposure exposure : kAll)
+    for (int i = 0; i < 6; ++i) EXPECT_TRUE(std::isnan(exposure(one(i, std::nan("")), kWood))) << i;
+}
+
 // Of axis 2 and its planes; axes 2 and 3 are alike to it.
 TEST(Exposure, IsOneAtEachStrengthByHashin) {
   EXPECT_NEAR(hashin_exposure(one(0, kWood.tension[0]), kWood), 1, 1e-14);

@@ -30,6 +30,13 @@ TEST(StepLimits, AreNoneForCubics) {
   EXPECT_EQ(StepLimits().latest_end(3), kInfinite);
 }
 
+TEST(StepLimits, AreNoneForRoundOff) {
+  const auto one = [](double t) { return std::pow(std::sin(t), 2) + std::pow(std::cos(t), 2); };
+  const auto limits = StepLimits::of(one, 0, 100, {});
+  EXPECT_EQ(limits.latest_end(0), kInfinite);
+  EXPECT_FALSE(limits.unresolved());
+}
+
 TEST(StepLimits, LetNoStepPassOverAPulse) {
   const double at = 6.0123, width = 1e-3;
   for (const double height : {1.0, -1e-3}) {  // beside 1

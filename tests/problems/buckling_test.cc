@@ -94,6 +94,16 @@ time: {{end: 1}}
   EXPECT_NEAR(found, expected, 0.02 * expected);
 }
 
+TEST(Buckling, LoadDoesNotDependOnTheUnitLoad) {
+  const std::string scene = strip(0.01, 0, "[{surface: x0}]", kIsotropicMaterial);
+  const double expected = first_factor(scene);
+  for (const double unit : {1e-8, 1e-3, 50.0}) {
+    std::string other = scene;
+    other.replace(other.find("[-1, 0, 0]"), 10, fmt::format("[{}, 0, 0]", -unit));
+    EXPECT_NEAR(first_factor(other) * unit, expected, 1e-5 * expected) << unit;
+  }
+}
+
 TEST(Buckling, HasNoFactorWhereTheLoadPulls) {
   std::string pulled = strip(0.01, 0, "[{surface: x0}]", kIsotropicMaterial);
   pulled.replace(pulled.find("[-1, 0, 0]"), 10, "[1, 0, 0]");

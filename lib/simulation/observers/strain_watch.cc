@@ -9,7 +9,7 @@ void StrainWatch::on_output(const ObservedState& observed) {
   if (!(energy > largest_energy_)) return;
   largest_energy_ = energy;
   const State& state = observed.state();
-  const NodalExpansion nodal(model_.parts(), state.t, state.q, state.v);
+  const NodalExpansion nodal(model_.parts(), loads_at_.value_or(state.t), state.q, state.v);
   const auto found = strain_excess(model_, nodal.state());
   if (found && (!worst_ || found->share > worst_->share)) worst_ = {found->share, state.t, found->sentence};
 }

@@ -19,8 +19,9 @@ struct PassedStrain {
 
 class StrainWatch : public Observer {
  public:
-  // The model must outlive it.
-  explicit StrainWatch(const FemModel& model) : model_(model) {}
+  // The model must outlive it. `loads_at`, s: of a static analysis, of whose states t is the load factor.
+  explicit StrainWatch(const FemModel& model, std::optional<double> loads_at = {})
+      : model_(model), loads_at_(loads_at) {}
 
   void on_output(const ObservedState& observed) override;
   void save(Archive& archive) override;
@@ -29,6 +30,7 @@ class StrainWatch : public Observer {
 
  private:
   const FemModel& model_;
+  std::optional<double> loads_at_;
   double largest_energy_ = 0;  // J
   std::optional<PassedStrain> worst_;
 };
