@@ -62,7 +62,7 @@ function(orthodyn_library)
   # Eigen's alignment depends on it: users of the headers must have the same.
   target_compile_options(orthodyn PUBLIC ${ORTHODYN_ARCH_OPTION})
   target_link_libraries(orthodyn PUBLIC Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json PRIVATE
-    yaml-cpp muparser::muparser Udunits2::udunits2 pugixml::pugixml ZLIB::ZLIB SuiteSparse::cholmod SuiteSparse::klu
+    yaml-cpp muparser::muparser Udunits2::udunits2 pugixml::pugixml ZLIB::ZLIB TBB::tbb SuiteSparse::cholmod SuiteSparse::klu
     ${CMAKE_DL_LIBS}
     SUNDIALS::arkode SUNDIALS::cvode SUNDIALS::ida SUNDIALS::kinsol SUNDIALS::nvecserial SUNDIALS::sunlinsolklu
     SUNDIALS::sunmatrixsparse)

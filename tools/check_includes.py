@@ -44,7 +44,7 @@ LIBRARIES = {
     r"udunits2\.h": ["lib/core/units.cc"],
     r"pugixml": ["lib/mesh/io/vtu"],
     r"zlib\.h": ["lib/mesh/io/vtu"],
-    r"Spectra/": ["lib/linear/definite_pairs.cc", "lib/linear/eigenmodes.cc"],
+    r"Spectra/": ["lib/linear/negative_eigenpairs.cc", "lib/linear/eigenmodes.cc"],
     r"boost/": ["lib/simulation/observers/event_finder.cc"],
     r"CLI/": ["tools/orthodyn/command_line.cc", "tools/bench/orthodyn_bench.cc"],
     r"nlohmann/": ["lib/simulation/checkpoint/checkpoint.cc", "lib/simulation/json.h", "lib/study/", "tools/", "tests/"],

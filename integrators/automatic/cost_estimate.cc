@@ -67,7 +67,7 @@ MethodChoice choose_method(const CostEstimate& cost, double rtol, double most_ex
         safety};
   if (suits_high_orders(cost.damping_ratio, rtol))
     return {"cvode_bdf", "well damped, where multistep methods of high order take long steps"};
-  if (rtol < 1e-4)
+  if (rtol <= 1e-4)
     return {"arkode_dirk", "hardly damped, where Runge-Kutta methods of high order keep fast oscillations"};
   return {"tr_bdf2", "hardly damped and a moderate accuracy, where an L-stable method of order 2 is cheapest"};
 }

@@ -8,6 +8,7 @@
 
 #include "integrators/sundials/first_order.h"
 #include "integrators/sundials/newton_at_kinks.h"
+#include "integrators/sundials/setup_schedule.h"
 
 namespace orthodyn::sundials {
 
@@ -43,6 +44,7 @@ class Cvode : public FirstOrderIntegrator {
   void attach_full();
 
   int max_order_;
+  SetupSchedule setups_;
   std::optional<NewtonAtKinks> newton_;
   std::unique_ptr<void, FreeMemory> memory_;
 };

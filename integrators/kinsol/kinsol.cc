@@ -71,7 +71,7 @@ class Kinsol : public EquilibriumSolver {
     initialise();
   }
 
-  Attempt solve(const Vector& before, PathPoint& point, const PathPlane& plane) override {
+  Attempt solve(const PathPoint& before, PathPoint& point, const PathPlane& plane) override {
     before_ = before;
     plane_ = &plane;
     descends_ = false;
@@ -90,7 +90,7 @@ class Kinsol : public EquilibriumSolver {
     stiffness_.exact(at.lambda, at.q);
     if (!stiffness_.factor_with_inertia()) return std::nullopt;
     Response response{Vector(n_), std::nullopt, Vector(n_), 0};
-    stiffness_.solve(path_.load(), response.rate);
+    stiffness_.solve(path_.rate(at.lambda, at.q), response.rate);
     stiffness_.solve(probe_, response.weakest);
     response.stiffness = 1 / probe_.dot(response.weakest);
     if (path_.traits().exact_stiffness) response.unstable = stiffness_.negative_eigenvalues();
@@ -182,8 +182,8 @@ class Kinsol : public EquilibriumSolver {
       if (descends_) {
         stiffness_.semidefinite(at[n_], at.head(n_));
       } else {
-        stiffness_.mixed(at[n_], before_, at.head(n_));
-        before_ = at.head(n_);
+        stiffness_.mixed(before_.lambda, before_.q, at[n_], at.head(n_));
+        before_ = {at.head(n_), at[n_]};
       }
     });
   }
@@ -205,7 +205,7 @@ class Kinsol : public EquilibriumSolver {
       dx[n_] = b[n_] / plane_->lambda;
     } else {
       Vector rate(n_);
-      stiffness_.solve(path_.load(), rate);
+      stiffness_.solve(path_.rate(before_.lambda, before_.q), rate);
       dx[n_] = (b[n_] - plane_->q.dot(dq)) / (plane_->q.dot(rate) + plane_->lambda);
       dq += dx[n_] * rate;
     }
@@ -277,7 +277,7 @@ class Kinsol : public EquilibriumSolver {
   Vector probe_;
   const PathPlane* plane_ = nullptr;
   PathPoint guess_;
-  Vector before_;  // the iterate before the present one
+  PathPoint before_;  // the iterate before the present one
   bool descends_ = false;
   std::vector<double> corrections_;  // the largest of each iteration
   CallbackContext callback_context_;

@@ -23,9 +23,10 @@ void PathStiffness::exact(double lambda, const ConstVectorRef& q) {
   model_.linearize(lambda, q, Vector::Zero(q.size()), TangentKind::exact, linearization_);
 }
 
-void PathStiffness::mixed(double lambda, const ConstVectorRef& q_before, const ConstVectorRef& q) {
+void PathStiffness::mixed(double lambda_before, const ConstVectorRef& q_before, double lambda,
+                          const ConstVectorRef& q) {
   const Measure measure(statistics_.tangent);
-  model_.linearize_mixed(lambda, q_before, q, linearization_);
+  model_.linearize_mixed(lambda_before, q_before, lambda, q, linearization_);
 }
 
 void PathStiffness::semidefinite(double lambda, const ConstVectorRef& q) {

@@ -19,7 +19,7 @@ class PathStiffness {
 
   // K at q, m, under load factor lambda. Throw RecoverableError where the model does.
   void exact(double lambda, const ConstVectorRef& q);
-  void mixed(double lambda, const ConstVectorRef& q_before, const ConstVectorRef& q);
+  void mixed(double lambda_before, const ConstVectorRef& q_before, double lambda, const ConstVectorRef& q);
   void semidefinite(double lambda, const ConstVectorRef& q);
 
   // False where K is singular. Throws RunError if memory does not suffice.

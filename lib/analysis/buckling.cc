@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "lib/core/errors.h"
-#include "lib/linear/definite_pairs.h"
+#include "lib/linear/negative_eigenpairs.h"
 #include "lib/linear/solver.h"
 
 namespace orthodyn {
@@ -101,8 +101,8 @@ std::vector<BucklingMode> buckling_modes(const FemModel& model, double t, int co
   u *= times;
   const Values rate = sum(1, stress_stiffness(*structure, t, u), times,
                           stiffness_at(*loads, t, rest, TangentKind::exact));
-  const DefinitePairs pairs =
-      negative_pairs(pattern, rate, K, largest_strain(model, t, u) / kLargestStrain, count);  // nu = -times/lambda
+  const NegativeEigenPairs pairs =
+      negative_eigenpairs(pattern, rate, K, largest_strain(model, t, u) / kLargestStrain, count);  // nu = -times/lambda
   std::vector<BucklingMode> modes;
   for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
     BucklingMode mode{-times / pairs.values[k], pairs.shapes.col(k)};

@@ -7,19 +7,41 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <sstream>
 
 #include "lib/config/yaml_document.h"
 #include "lib/config/yaml_write.h"
 #include "lib/core/parse_number.h"
+#include "lib/core/words.h"
 
 namespace orthodyn {
 
 namespace {
 
+// By path: what a value set later has made, with the names beside it.
+using MadeEntries = std::map<std::string, std::vector<std::string>>;
+
 // "mesh.cells.0" of "mesh.cells" is ".0"; nothing if it is neither that nor below it.
 std::optional<std::string> rest_below(const std::string& path, const std::string& top) {
   if (!path.starts_with(top) || (path.size() > top.size() && path[top.size()] != '.')) return {};
   return path.substr(top.size());
+}
+
+// The first entry on the way to a value that the section there lacks: one that its name may have been mistyped for
+// stands beside it.
+void remember_made(MadeEntries& made, YAML::Node node, const std::string& base, const std::string& path) {
+  std::istringstream steps(path);
+  std::string reached = base;
+  for (std::string step; std::getline(steps, step, '.') && node.IsMap();) {
+    reached = child_path(reached, step);
+    const YAML::Node& section = node;  // const: operator[] must not create the key
+    const YAML::Node next = section[step];
+    if (!next.IsDefined()) {
+      for (const auto& entry : section) made[reached].push_back(entry.first.Scalar());
+      return;
+    }
+    node.reset(next);
+  }
 }
 
 void remember(std::map<std::string, std::string>& set, const std::string& path, const std::string& place) {
@@ -35,6 +57,7 @@ struct Config::Document {
   bool records_defaults = false;
   Origins included;                                                 // what does not stand in `file`
   std::map<std::string, std::string> set;                           // by path: places of values set later, or ""
+  MadeEntries made = {};  // of values set later
   std::map<std::string, std::pair<YAML::Node, std::string>> files;  // by path: values that name files
 };
 
@@ -64,11 +87,13 @@ Config Config::resolving() const { return place_->document->records_defaults ? *
 Config Config::copy(bool resolving) const {
   const Document& original = *place_->document;
   auto document = std::make_shared<Document>(
-      Document{original.file, YAML::Clone(place_->node), resolving, original.included, original.set, {}});
+      Document{original.file, YAML::Clone(place_->node), resolving, original.included, original.set, original.made,
+               {}});
   return Config(std::make_shared<Place>(Place{document, document->root, place_->parsed, place_->path}));
 }
 
 void Config::set(const std::string& path, const ConfigValue& value, const std::string& place) {
+  remember_made(place_->document->made, place_->node, place_->path, path);
   write_at(place_->document->root, place_->node, path, node_of(value), place.empty() ? "--set " + path : place);
   remember(place_->document->set, child_path(place_->path, path), place);
 }
@@ -76,12 +101,14 @@ void Config::set(const std::string& path, const ConfigValue& value, const std::s
 void Config::set(const std::string& path, const Config& value, const std::string& place) {
   YAML::Node copy = YAML::Clone(value.place_->node);
   put_on_one_line(copy);
+  remember_made(place_->document->made, place_->node, place_->path, path);
   write_at(place_->document->root, place_->node, path, copy, place.empty() ? "--set " + path : place);
   remember(place_->document->set, child_path(place_->path, path), place);
 }
 
 void Config::set_yaml(const std::string& path, const std::string& yaml, const std::string& place) {
   const std::string origin = place.empty() ? fmt::format("--set {}={}", path, yaml) : place;
+  remember_made(place_->document->made, place_->node, place_->path, path);
   write_at(place_->document->root, place_->node, path, parse_yaml(yaml + "\n", origin), origin);
   remember(place_->document->set, child_path(place_->path, path), place);
 }
@@ -125,13 +152,18 @@ bool Config::has(const std::string& key) const {
   return node.IsMap() && node[key].IsDefined();
 }
 
+// yaml-cpp tags what is in quotes by "!".
+bool Config::is_quoted() const { return is_scalar() && place_->node.Tag() == "!"; }
+
 bool Config::reads_as_number() const {
   double value = 0;
-  return is_scalar() && parse_number(place_->node.Scalar(), value);
+  return is_scalar() && !is_quoted() && parse_number(place_->node.Scalar(), value);
 }
 
 double Config::number() const {
   double value = 0;
+  if (is_quoted() && parse_number(place_->node.Scalar(), value))
+    fail(fmt::format("expected a number, found the text {}: remove the quotes", shown()), InputFault::form);
   if (!is_scalar() || !parse_number(place_->node.Scalar(), value))
     fail(fmt::format("expected a number, found {}", shown()), InputFault::form);
   if (!std::isfinite(value)) fail(fmt::format("expected a finite number, found {}", shown()), InputFault::form);
@@ -147,6 +179,8 @@ long Config::integer() const {
 
 bool Config::boolean() const {
   const std::string value = is_scalar() ? place_->node.Scalar() : "";
+  if (is_quoted() && (value == "true" || value == "false"))
+    fail(fmt::format("expected true or false, found the text {}: remove the quotes", shown()), InputFault::form);
   if (value == "true") return true;
   if (value == "false") return false;
   fail(fmt::format("expected true or false, found {}", shown()), InputFault::form);
@@ -216,7 +250,16 @@ std::vector<std::string> Config::file_paths() const {
   return out;
 }
 
-void Config::fail(const std::string& message, InputFault fault) const { throw ConfigError(where(), message, fault); }
+void Config::fail(const std::string& message, InputFault fault) const {
+  const auto made = place_->document->made.find(place_->path);
+  std::string hint;
+  if (made != place_->document->made.end()) {
+    const std::string name = place_->path.substr(place_->path.rfind('.') + 1);
+    hint = did_you_mean(name, made->second);
+    if (!hint.empty()) hint = "; '" + name + "' is new here" + hint;
+  }
+  throw ConfigError(where(), message + hint, fault);
+}
 
 std::string Config::yaml() const {
   YAML::Node copy = YAML::Clone(place_->node);

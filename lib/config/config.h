@@ -59,9 +59,11 @@ class Config {
   bool has(const std::string& key) const;
   Config at(const std::string& key) const;  // of a map; the key must exist
 
+  bool is_quoted() const;  // a scalar in quotes, which is a text
   bool reads_as_number() const;
 
-  // Scalars, strictly: a number is finite, an integer integral. Throws ConfigError.
+  // Scalars, strictly: a number is finite, an integer integral, and neither is in quotes, nor is true or false. Throws
+  // ConfigError.
   double number() const;
   long integer() const;
   bool boolean() const;

@@ -28,6 +28,9 @@ void refuse_assignment(const std::string& text) {
   }
 }
 
+// muParser ends some of its messages with a full stop, others without.
+std::string as_sentence(const std::string& message) { return message.ends_with('.') ? message : message + "."; }
+
 }  // namespace
 
 struct Formula::Parsed {
@@ -66,7 +69,7 @@ Formula::Formula(const std::string& text, const std::vector<std::string>& variab
     if (parser.GetNumResults() > 1)
       throw std::invalid_argument("It gives several values, because a comma separates them; write a decimal point.");
   } catch (const mu::Parser::exception_type& e) {
-    throw std::invalid_argument(e.GetMsg());
+    throw std::invalid_argument(as_sentence(e.GetMsg()));
   }
   parsed_ = std::move(parsed);
 }

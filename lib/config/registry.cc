@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lib/config/yaml_slips.h"
 #include "lib/core/words.h"
 
 namespace orthodyn {
@@ -13,7 +14,8 @@ std::vector<std::string>& registry_conflicts() {
 
 std::string registered_type(const Config& config, const std::vector<std::string>& names) {
   if (!config.is_map())
-    config.fail("expected a section with the key 'type' (" + join(names) + "), found " + config.shown(),
+    config.fail("expected a section with the key 'type' (" + join(names) + "), found " + config.shown() +
+                    (config.is_scalar() ? missing_space(config.text()) : ""),
                 InputFault::form);
   if (!config.has("type")) config.fail("key 'type' is missing; one of " + join(names));
   const Config type = config.at("type");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lib/config/yaml_slips.h"
 #include "lib/core/words.h"
 
 namespace orthodyn {
@@ -14,17 +15,77 @@ std::vector<std::string> names_of(const std::vector<Key>& keys) {
   return names;
 }
 
-void refuse_unknown_keys(const Config& section, std::vector<std::string> known, const std::vector<std::string>& also) {
-  known.insert(known.end(), also.begin(), also.end());
-  for (const auto& given : section.keys()) {
-    if (std::find(known.begin(), known.end(), given) != known.end()) continue;
-    section.at(given).fail("unknown key" + did_you_mean(given, known, ".") + " Known here: " + join(known) + ".",
-                           InputFault::form);
-  }
-}
-
 bool is_given(const Config& section, const std::string& name) {
   return section.has(name) && !section.at(name).is_null();
+}
+
+// A key that its section lacks. A section around it may have it, and then says so.
+class UnknownKey : public ConfigError {
+ public:
+  UnknownKey(const Config& at, const std::string& name, const std::string& hint, const std::vector<std::string>& known)
+      : ConfigError(at.where(), "unknown key" + hint + list_of(known), InputFault::form), name_(name), known_(known) {}
+
+  [[noreturn]] void throw_above(const std::string& section) const {
+    throw ConfigError(place(),
+                      "unknown key; it belongs beside '" + section + "', not below: indent it less." + list_of(known_),
+                      fault());
+  }
+
+  const std::string& name() const { return name_; }
+
+ private:
+  static std::string list_of(const std::vector<std::string>& known) { return " Known here: " + join(known) + "."; }
+
+  std::string name_;
+  std::vector<std::string> known_;
+};
+
+bool has_key(const std::vector<Key>& keys, const std::string& name) {
+  return std::any_of(keys.begin(), keys.end(), [&](const Key& key) { return key.name == name; });
+}
+
+// Whether a section, or an entry of a list or of named sections, has the key.
+bool takes(const Shape& shape, const std::string& name) {
+  if (shape.kind == Shape::Kind::section) return has_key(shape.keys(), name);
+  if (shape.kind == Shape::Kind::choice) {
+    const auto alternatives = shape.alternatives();
+    return name == "type" || std::any_of(alternatives.begin(), alternatives.end(),
+                                         [&](const auto& entry) { return has_key(entry.second.keys, name); });
+  }
+  return std::any_of(shape.items.begin(), shape.items.end(), [&](const Shape& item) { return takes(item, name); });
+}
+
+std::string place_below(const Key& key) {
+  const bool has_entries = key.shape.kind == Shape::Kind::named || key.shape.kind == Shape::Kind::list;
+  return (has_entries ? "an entry of '" : "'") + key.name + "'";
+}
+
+std::string belongs_below(const std::string& section) { return "; it belongs below " + section + ": indent it."; }
+
+// "; it belongs below 'mesh': indent it.", or else a name that is near. Where the key before it is empty, that is its
+// section.
+std::string hint_for(const std::string& name, const Config& section, const std::string& before,
+                     const std::vector<Key>& keys, const std::vector<std::string>& known) {
+  constexpr std::size_t kMostHolders = 3;
+  std::vector<std::string> holders;
+  for (const Key& key : keys) {
+    if (!takes(key.shape, name)) continue;
+    if (key.name == before && !is_given(section, before)) return belongs_below(place_below(key));
+    if (name != "type") holders.push_back(place_below(key));
+  }
+  if (holders.empty() || holders.size() > kMostHolders) return did_you_mean(name, known, ".");
+  return belongs_below(join(holders, " or "));
+}
+
+void refuse_unknown_keys(const Config& section, const std::vector<Key>& keys, const std::vector<std::string>& also) {
+  std::vector<std::string> known = names_of(keys);
+  known.insert(known.end(), also.begin(), also.end());
+  std::string before;
+  for (const auto& given : section.keys()) {
+    if (std::find(known.begin(), known.end(), given) == known.end())
+      throw UnknownKey(section.at(given), given, hint_for(given, section, before, keys, known), known);
+    before = given;
+  }
 }
 
 void refuse_meaningless(const Config& section, const std::string& name, const std::string& with_key,
@@ -59,9 +120,11 @@ void Keys::add(std::string_view name, std::string_view sentence, const Rule& rul
 
 Config Keys::read_fields(const Config& given, void* target, const std::vector<std::string>& also) const {
   if (!given.is_map())
-    given.fail("expected a section of keys (" + join(names_of(keys_)) + "), found " + given.shown(), InputFault::form);
+    given.fail("expected a section of keys (" + join(names_of(keys_)) + "), found " + given.shown() +
+                   (given.is_scalar() ? missing_space(given.text()) : ""),
+               InputFault::form);
   const Config section = given.resolving();
-  refuse_unknown_keys(section, names_of(keys_), also);
+  refuse_unknown_keys(section, keys_, also);
   for (const Field& field : fields_) {
     const Key& key = field.doc;
     const Rule rule{key.required, key.unit, key.range, field.fallback, {field.with_key, field.with_word}};
@@ -70,7 +133,12 @@ Config Keys::read_fields(const Config& given, void* target, const std::vector<st
       refuse_meaningless(section, key.name, field.with_key, field.with_word);
     } else if (is_given(section, key.name)) {
       if (!field.fallback.empty()) complete_type(section.at(key.name), field.fallback);
-      field.type->read(section.at(key.name), rule, member);
+      try {
+        field.type->read(section.at(key.name), rule, member);
+      } catch (const UnknownKey& e) {
+        if (has_key(keys_, e.name())) e.throw_above(key.name);
+        throw;
+      }
     } else if (key.required) {
       section.fail("key '" + key.name + "' is missing (" + type_text(key.shape) +
                    (key.unit.empty() ? "" : ", " + key.unit) + ")");

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "lib/core/parse_number.h"
 #include "lib/core/units.h"
 
 namespace orthodyn {
@@ -19,9 +20,15 @@ double angle_without_unit(const Config& config) {
   config.fail(fmt::format("an angle needs a unit: give '{0} deg' or '{0} rad'", config.text()), InputFault::form);
 }
 
+bool is_number_in_quotes(const Config& config) {
+  double x = 0;
+  return config.is_quoted() && parse_number(config.text(), x);
+}
+
 double quantity(const Config& config, std::string_view unit) {
   if (unit == "rad" && config.reads_as_number()) return angle_without_unit(config);
-  if (!config.is_scalar() || config.reads_as_number() || config.text().find_first_of("0123456789") == std::string::npos)
+  if (!config.is_scalar() || config.reads_as_number() || is_number_in_quotes(config) ||
+      config.text().find_first_of("0123456789") == std::string::npos)
     return config.number();
   try {
     return quantity_in(config.text(), std::string(unit));
@@ -33,7 +40,7 @@ double quantity(const Config& config, std::string_view unit) {
 // [10.8 GPa, 0.84, 0.46]: a number without a unit that is far from the SI value of its neighbour, and nearer to the
 // neighbour's number.
 void refuse_missing_units(const Config& list, const std::vector<double>& si, std::string_view unit) {
-  constexpr double kUnlike = 1e3;
+  constexpr double kUnlike = 60;
   for (std::size_t k = 0; k < si.size(); ++k) {
     if (list.at(k).reads_as_number() || si[k] == 0) continue;
     const auto neighbour = split_quantity(list.at(k).text());
@@ -41,7 +48,7 @@ void refuse_missing_units(const Config& list, const std::vector<double>& si, std
     for (std::size_t i = 0; i < si.size(); ++i) {
       if (si[i] == 0 || !list.at(i).reads_as_number()) continue;
       const auto apart = [&](double x) { return std::max(std::abs(si[i] / x), std::abs(x / si[i])); };
-      if (apart(si[k]) < kUnlike || apart(neighbour->number) > apart(si[k])) continue;
+      if (apart(si[k]) < kUnlike || apart(neighbour->number) >= apart(si[k])) continue;
       list.at(i).fail(
           fmt::format("unit missing: '{0}' is next to '{1}'; write '{0} {2}', or '{0} {3}' if you mean that",
                       list.at(i).text(), list.at(k).text(), neighbour->unit, unit),

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/config/yaml_slips.h"
 #include "lib/core/errors.h"
 #include "lib/core/utf8.h"
 
@@ -25,11 +26,12 @@ constexpr int kMostDepth = 100;
 // where something follows a flow collection ("{a: 1},").
 class BoundsCheck : public YAML::EventHandler {
  public:
-  explicit BoundsCheck(const std::string& file) : file_(file) {}
+  BoundsCheck(const std::string& text, const std::string& file) : text_(text), file_(file) {}
 
   void OnDocumentStart(const YAML::Mark& mark) override {
-    if (++documents_ > 1)
-      throw ConfigError(mark_text(file_, mark), "more than one YAML document; keep only what is before this place");
+    if (++documents_ == 1) return;
+    refuse_slip_near(text_, file_, mark);
+    throw ConfigError(mark_text(file_, mark), "more than one YAML document; keep only what is before this place");
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
     descend(mark);
@@ -51,6 +53,7 @@ class BoundsCheck : public YAML::EventHandler {
     if (++depth_ > kMostDepth) throw ConfigError(mark_text(file_, mark), "nested too deeply");
   }
 
+  const std::string& text_;
   std::string file_;
   int documents_ = 0, depth_ = 0;
 };
@@ -69,7 +72,7 @@ std::string with_plain_line_ends(const std::string& text) {
 void require_bounds(const std::string& text, const std::string& file) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
-  BoundsCheck bounds(file);
+  BoundsCheck bounds(text, file);
   while (parser.HandleNextDocument(bounds)) {
   }
   if (bounds.documents() == 0) throw ConfigError(file + ":1:1", "the file is empty");
@@ -99,6 +102,7 @@ class StructureCheck {
       require_utf8(entry.first);
       const std::string key = entry.first.Scalar();
       if (key == "<<") fail(entry.first, "merge keys (<<) are not supported; write the keys out");
+      if (is_key_with_value(entry.first, entry.second)) fail(entry.first, missing_space(key).substr(2));
       if (!seen.insert(key).second)
         fail(entry.first, fmt::format("key '{}' occurs twice in the same section; keep one", key));
       visit(entry.second, depth + 1);
@@ -228,6 +232,7 @@ YAML::Node parse_yaml(const std::string& given, const std::string& file) {
     StructureCheck(file).visit(root, 0);
     return root;
   } catch (const YAML::Exception& e) {
+    refuse_slip_near(text, file, e.mark);
     throw ConfigError(mark_text(file, e.mark), "not YAML: " + e.msg);
   }
 }

@@ -31,7 +31,18 @@ class ConfigError : public std::runtime_error {
 };
 
 // Why a computation could not go on, in one word for a table.
-enum class Reason { other, diverged, step_too_small, too_many_steps, newton, error_test, force, out_of_memory, disk };
+enum class Reason {
+  other,
+  diverged,
+  step_too_small,
+  too_many_steps,
+  newton,
+  critical_point,
+  error_test,
+  force,
+  out_of_memory,
+  disk
+};
 
 inline const char* reason_name(Reason reason) {
   switch (reason) {
@@ -40,6 +51,7 @@ inline const char* reason_name(Reason reason) {
     case Reason::step_too_small: return "step too small";
     case Reason::too_many_steps: return "too many steps";
     case Reason::newton: return "newton";
+    case Reason::critical_point: return "critical point";
     case Reason::error_test: return "error test";
     case Reason::force: return "force";
     case Reason::out_of_memory: return "out of memory";

@@ -78,6 +78,15 @@ bool same_dimension(const ut_unit* a, const ut_unit* b) {
   return ratio && ut_is_dimensionless(ratio.get()) != 0 && has_angle(a) == has_angle(b);
 }
 
+// "%", "ppm": a number in words.
+bool is_ratio(const ut_unit* unit) { return ut_is_dimensionless(unit) != 0 && !has_angle(unit); }
+
+double size_of_ratio(const ut_unit* unit) {
+  const Unit one(ut_get_dimensionless_unit_one(units()));
+  const Converter converter(ut_get_converter(const_cast<ut_unit*>(unit), one.get()));
+  return converter ? cv_convert_double(converter.get(), 1) : NAN;
+}
+
 // "GPa 3" would be a unit of its own.
 bool has_factor(const std::string& unit) {
   for (std::size_t i = 0; i < unit.size(); ++i)
@@ -126,11 +135,14 @@ double quantity_in(const std::string& text, const std::string& unit) {
   const auto& [number, name] = *parts;
   const Unit given = has_factor(name.starts_with("1/") ? name.substr(2) : name) ? Unit() : parse(name);
   if (!given) fail(fmt::format("'{}': the unit '{}' is not known", text, name));
+  if (unit.empty() && is_ratio(given.get()))
+    fail(fmt::format("'{}': {} is no unit here; write {:.6g}", text, name, number * size_of_ratio(given.get())));
   if (unit.empty()) fail(fmt::format("'{}', {}", text, with_article(describe(given.get()))));
   const Unit wanted = parse(unit);
   if (!wanted) fail(fmt::format("'{}'; give a plain number", text));  // such as bytes
-  if (!same_dimension(given.get(), wanted.get()))
-    fail(fmt::format("'{}', {}", text, with_article(describe(given.get()))));
+  const bool fits = same_dimension(given.get(), wanted.get());
+  if (!fits && is_ratio(given.get())) fail(fmt::format("'{}': {} is no unit here", text, name));
+  if (!fits) fail(fmt::format("'{}', {}", text, with_article(describe(given.get()))));
   const Converter converter(ut_get_converter(given.get(), wanted.get()));
   const double value = converter ? cv_convert_double(converter.get(), number) : NAN;
   if (!std::isfinite(value)) fail("'" + text + "', which is too large");

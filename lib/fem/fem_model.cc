@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/parallel.h"
 #include "lib/fem/mean_force.h"
 #include "lib/fem/part_model.h"
 
@@ -10,10 +11,10 @@ namespace orthodyn {
 
 NodalExpansion::NodalExpansion(const FemModel::Parts& parts, double time, const ConstVectorRef& q,
                                const ConstVectorRef& v)
-    : t(time), u(NodalVector::Zero(3, parts.rest->cols())), u_rate(u) {
+    : time(time), t(parts.loads_at.value_or(time)), u(NodalVector::Zero(3, parts.rest->cols())), u_rate(u) {
   parts.dofs->add_to(q, u);
   parts.dofs->add_to(v, u_rate);
-  if (parts.moved) parts.moved->place(t, u, u_rate);
+  if (parts.moved) parts.moved->place(time, u, u_rate);
   x = *parts.rest + u;
 }
 
@@ -62,7 +63,7 @@ void add_mass_damping(const FemModel::Parts& parts, const NodalExpansion& nodal,
 }
 
 void add_support_pull(const FemModel::Parts& parts, const NodalExpansion& nodal, VectorRef f) {
-  subtract_inertia(parts, parts.moved->accelerations(nodal.t), f);
+  subtract_inertia(parts, parts.moved->accelerations(nodal.time), f);
 }
 
 void free_forces(const FemModel::Parts& parts, const NodalExpansion& nodal, const ConstVectorRef& v,
@@ -89,10 +90,10 @@ void FemModel::assemble(double t, const ConstVectorRef& q, const ConstVectorRef&
   });
 }
 
-void FemModel::assemble_mixed(double t, const ConstVectorRef& q_before, const ConstVectorRef& q,
+void FemModel::assemble_mixed(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
                               Linearization& out) const {
   const Vector still = Vector::Zero(q.size());
-  const NodalExpansion before(parts_, t, q_before, still), nodal(parts_, t, q, still);
+  const NodalExpansion before(parts_, t_before, q_before, still), nodal(parts_, t, q, still);
   out.stiffness.assign(parts_.pattern->pattern().row.size(), 0);
   for_each_term(parts_, [&](const Term& term) {
     term.add_mixed_tangent(before.state(), nodal.state(), out.stiffness.data());
@@ -100,10 +101,14 @@ void FemModel::assemble_mixed(double t, const ConstVectorRef& q_before, const Co
 }
 
 void FemModel::combine(const Weights& w, const Linearization& at, double* values) const {
+  constexpr Eigen::Index kPart = 1 << 15;
   const auto size = static_cast<Eigen::Index>(at.stiffness.size());
-  Eigen::Map<Vector> A(values, size);
-  A = w.stiffness * Eigen::Map<const Vector>(at.stiffness.data(), size);
-  if (!at.damping.empty()) A += w.damping * Eigen::Map<const Vector>(at.damping.data(), size);
+  parallel_for(static_cast<int>((size + kPart - 1) / kPart), [&](int i) {
+    const Eigen::Index begin = i * kPart, length = std::min(kPart, size - begin);
+    Eigen::Map<Vector> A(values + begin, length);
+    A = w.stiffness * Eigen::Map<const Vector>(at.stiffness.data() + begin, length);
+    if (!at.damping.empty()) A += w.damping * Eigen::Map<const Vector>(at.damping.data() + begin, length);
+  });
   if (const double m = w.mass + w.damping * parts_.mass_damping; m != 0) parts_.mass->add_to(m, values);
 }
 

@@ -42,6 +42,9 @@ class FemModel : public Model {
     std::vector<double> densities;                      // kg/m^3, of each of these
     std::vector<std::unique_ptr<Term>> loads;           // everything else
     double mass_damping = 0;                            // 1/s
+    // s, of a static analysis: loads are always those at this time, supports are at rest a second
+    // before and arrive at it.
+    std::optional<double> loads_at = {};
     std::unique_ptr<MovedNodes> moved;                  // null if none
     std::vector<Support> supports;                      // those whose reactions are wanted
     std::unique_ptr<SupportMass> support_mass;          // null without either
@@ -79,7 +82,7 @@ class FemModel : public Model {
  private:
   void assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                 Linearization& out) const override;
-  void assemble_mixed(double t, const ConstVectorRef& q_before, const ConstVectorRef& q,
+  void assemble_mixed(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
                       Linearization& out) const override;
 
   Parts parts_;
@@ -90,7 +93,8 @@ class FemModel : public Model {
 struct NodalExpansion {
   NodalExpansion(const FemModel::Parts& parts, double time, const ConstVectorRef& q, const ConstVectorRef& v);
   NodalState state() const { return {t, x, u, u_rate}; }
-  double t;
+  double time;  // of the model, s
+  double t;     // of its loads, s
   NodalVector u, u_rate, x;
 };
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "lib/fem/nodal_figures.h"
+#include "lib/fem/nodal_fields.h"
 #include "lib/fem/reactions.h"
 #include "lib/fem/fem_state_view.h"
 
@@ -38,7 +38,7 @@ Values per_cell(const View& view, std::size_t components,
   return out;
 }
 
-Output mean_of_cells(const SeenTensor& tensor) {
+Output mean_of_cells(const TensorField& tensor) {
   return {{tensor.name, Location::cell, 6, tensor.unit, fmt::format("{}. Mean of an element.", tensor.sentence),
            tensor.components},
           [&tensor](const View& view) {
@@ -51,27 +51,27 @@ Output mean_of_cells(const SeenTensor& tensor) {
 
 constexpr int kAllRegions = -1;
 
-Output at_nodes(const SeenTensor& tensor, int region = kAllRegions) {
+Output at_nodes(const TensorField& tensor, int region = kAllRegions) {
   return {{fmt::format("nodal_{}", tensor.name), Location::node, 6, tensor.unit,
            fmt::format("{}. Recovered at the nodes.", tensor.sentence), tensor.components},
           [&tensor, region](const View& view) {
-            return nodal_tensor(*view.parts().recovery, view.state(), tensor, region);
+            return tensor_at_nodes(*view.parts().recovery, view.state(), tensor, region);
           }};
 }
 
-Output at_nodes(const NodalFigure& figure, int region = kAllRegions) {
-  const auto count = static_cast<int>(std::max<std::size_t>(figure.components.size(), 1));
-  return {{figure.name, Location::node, count, figure.unit, figure.sentence, figure.components},
-          [&figure, region](const View& view) {
-            return nodal_figure(*view.parts().recovery, view.parts().elastic, view.state(), figure, region);
+Output at_nodes(const DerivedField& derived, int region = kAllRegions) {
+  const auto count = static_cast<int>(std::max<std::size_t>(derived.components.size(), 1));
+  return {{derived.name, Location::node, count, derived.unit, derived.sentence, derived.components},
+          [&derived, region](const View& view) {
+            return derived_at_nodes(*view.parts().recovery, view.parts().elastic, view.state(), derived, region);
           }};
 }
 
 // Of stress and strain at the nodes of one region, or of all.
 std::vector<Output> nodal_outputs(int region) {
   std::vector<Output> out;
-  for (const SeenTensor& tensor : seen_tensors()) out.push_back(at_nodes(tensor, region));
-  for (const NodalFigure& figure : nodal_figures()) out.push_back(at_nodes(figure, region));
+  for (const TensorField& tensor : tensor_fields()) out.push_back(at_nodes(tensor, region));
+  for (const DerivedField& derived : derived_fields()) out.push_back(at_nodes(derived, region));
   return out;
 }
 
@@ -135,7 +135,7 @@ double imbalance(const View& view) {
   const Vector still = Vector::Zero(parts.dofs->num_dofs());
   Vector q(still.size()), free(still.size());
   parts.dofs->restrict_to(nodal.u, q);
-  const NodalExpansion resting(parts, nodal.t, q, still);
+  const NodalExpansion resting(parts, nodal.time, q, still);
   free_forces(parts, resting, still, term_forces(parts, resting), free);
   NodalVector forces = NodalVector::Zero(3, nodal.x.cols());
   parts.dofs->add_to(free, forces);
@@ -212,7 +212,7 @@ std::vector<Output> make_outputs() {
     if (output.info.components == 3) output.info.component_names = axis_names();
   const auto after = std::find_if(all.begin(), all.end(), [](const Output& o) { return o.info.name == "mesh_error"; });
   std::vector<Output> stresses;
-  for (const SeenTensor& tensor : seen_tensors()) stresses.push_back(mean_of_cells(tensor));
+  for (const TensorField& tensor : tensor_fields()) stresses.push_back(mean_of_cells(tensor));
   for (Output& output : nodal_outputs(kAllRegions)) stresses.push_back(std::move(output));
   all.insert(after, stresses.begin(), stresses.end());
   return all;
@@ -227,8 +227,9 @@ const std::vector<Output>& all_outputs() {
 std::vector<Output> reaction_outputs(const std::vector<Support>& supports) {
   std::vector<Output> out;
   for (const Support& support : supports) {
-    out.push_back({{"reaction." + support.name, Location::global, 3, "N", "Force of the support on the body.", axis_names()},
-                   [&support](const View& view) { return flat(reaction(support, view.support_forces())); }});
+    out.push_back(
+        {{"reaction." + support.name, Location::global, 3, "N", "Force of the support on the body.", axis_names()},
+         [&support](const View& view) { return flat(reaction(support, view.support_forces())); }});
     out.push_back({{"torque." + support.name, Location::global, 3, "N m", "Its torque about the middle of the nodes.",
                     axis_names()},
                    [&support](const View& view) {

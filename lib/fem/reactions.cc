@@ -6,7 +6,7 @@ namespace {
 
 // Of all nodes as far as the inertia of held ones needs them.
 NodalVector accelerations(const FemModel::Parts& parts, const NodalExpansion& nodal, const NodalVector& forces) {
-  NodalVector a = parts.moved ? parts.moved->accelerations(nodal.t) : NodalVector::Zero(3, nodal.x.cols());
+  NodalVector a = parts.moved ? parts.moved->accelerations(nodal.time) : NodalVector::Zero(3, nodal.x.cols());
   if (parts.mass->lumped()) return a;  // the free ones do not couple with held ones
   Vector v(parts.dofs->num_dofs()), free(parts.dofs->num_dofs());
   parts.dofs->restrict_to(nodal.u_rate, v);

@@ -46,6 +46,11 @@ std::string blas_name() {
 
 bool blas_is_openblas() { return find<char*()>("openblas_get_config") != nullptr; }
 
+void limit_blas_threads(int most) {
+  const auto [get, set] = find_threads();
+  if (get && set && get() > most) set(most);
+}
+
 OneBlasThread::OneBlasThread(bool one) : held_(one && find_threads().get && find_threads().set) {
   if (!held_) return;
   ThreadCount& threads = thread_count();

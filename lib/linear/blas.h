@@ -12,6 +12,9 @@ inline constexpr int kBlasThreadsFrom = 15'000;
 std::string blas_name();
 bool blas_is_openblas();
 
+// No more than these from here on; without effect if the BLAS is not OpenBLAS.
+void limit_blas_threads(int most);
+
 // One BLAS thread while it lives, if `one` is set; then as many as before. The number belongs to the process: where
 // several threads of ours hold such objects, it is one until the last has gone. Without effect if the BLAS is not
 // OpenBLAS. Thread-safe.

@@ -17,7 +17,7 @@ namespace {
 
 // One Poisson's ratio as the user knows it: r = nu * factor.
 struct Ratio {
-  std::string name;  // "nu12"
+  std::string name, other;  // "nu12", "nu21"
   double nu, factor;
   std::string moduli;  // "E1/E2": |nu| < sqrt of it
 };
@@ -30,8 +30,8 @@ Ratios ratios(const OrthotropicConstants& c, const std::array<bool, 3>& reversed
       std::swap(i, j);
       nu_ij *= c.young[i] / c.young[j];  // nu_ji = nu_ij E_j / E_i, i and j swapped already
     }
-    return {fmt::format("nu{}{}", i + 1, j + 1), nu_ij, std::sqrt(c.young[j] / c.young[i]),
-            fmt::format("E{}/E{}", i + 1, j + 1)};
+    return {fmt::format("nu{}{}", i + 1, j + 1), fmt::format("nu{}{}", j + 1, i + 1), nu_ij,
+            std::sqrt(c.young[j] / c.young[i]), fmt::format("E{}/E{}", i + 1, j + 1)};
   };
   return {ratio(0, 1, c.nu12, reversed[0]), ratio(1, 2, c.nu23, reversed[1]), ratio(0, 2, c.nu13, reversed[2])};
 }
@@ -75,6 +75,16 @@ std::string allowed_range(const Ratios& all, const Vec3& r) {
   return fmt::format("For these moduli{} {} must lie in ({:.4g}, {:.4g}).",
                      others_fit ? " and the other two ratios" : "", ratio.name, low / ratio.factor,
                      high / ratio.factor);
+}
+
+// Books differ in which ratio of a pair is nu12: whether the other one of the worst pair was meant.
+std::string likely_swap(const Ratios& all, Vec3 r) {
+  const int worst = largest_ratio(r);
+  const Ratio& ratio = all[static_cast<std::size_t>(worst)];
+  r[worst] = ratio.nu / ratio.factor;
+  if (r.cwiseAbs().maxCoeff() >= 1 || rho_determinant(r) <= 0) return "";
+  return fmt::format(" If your source means by {0} the contraction along {2} when stretched along {3}, give it as {1}.",
+                     ratio.name, ratio.other, ratio.other[3], ratio.other[2]);
 }
 
 // C's smallest eigenvalue, where C exists.
@@ -150,9 +160,9 @@ std::string explain_instability(const OrthotropicConstants& c, const std::array<
   const Ratios all = ratios(c, reversed);
   const double factor = stabilising_factor(c);
   return fmt::format(
-      "{} make the stiffness indefinite: {} ({}). {} Nearest stable set (all ratios times {:.4g}): {}",
-      listed(all, "{}={:.4g}"), violated_inequality(all, r), smallest_eigenvalue(c, r), allowed_range(all, r), factor,
-      listed(all, "{}: {:.6g}", factor));
+      "{} make the stiffness indefinite: {} ({}). {}{} Nearest stable set (all ratios times {:.4g}): {}",
+      listed(all, "{}={:.4g}"), violated_inequality(all, r), smallest_eigenvalue(c, r), allowed_range(all, r),
+      likely_swap(all, r), factor, listed(all, "{}: {:.6g}", factor));
 }
 
 std::string explain_shrinking(const OrthotropicConstants& c, const std::array<bool, 3>& reversed) {

@@ -6,10 +6,10 @@
 // tangential. Of each pair of Poisson's ratios the larger: the book's nu_RL, nu_TL, nu_TR are the less
 // accurate ones and break the symmetry of the compliance by up to 113 %.
 //
-// Strengths from table 5-3a at 12 %, for clear wood, averages of a species: modulus of rupture, which the book takes for
-// the tension along the grain, on the safe side; compression along and across (the latter at the proportional limit);
-// shear along; tension across. R and T are not told apart. Of rolling shear (plane 2-3) the book says that it is 18 to
-// 28 % of the shear along: the smaller.
+// Strengths from table 5-3a at 12 %, for clear wood, averages of a species: modulus of rupture, which the book takes
+// for the tension along the grain, on the safe side; compression along and across (the latter at the proportional
+// limit); shear along; tension across. R and T are not told apart. Of rolling shear (plane 2-3) the book says that it
+// is 18 to 28 % of the shear along: the smaller.
 #pragma once
 
 #include <array>

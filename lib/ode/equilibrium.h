@@ -49,7 +49,7 @@ class EquilibriumSolver {
   // `point`: the guess in, the equilibrium on the plane out if one is found. `before`: the equilibrium from which the
   // guess is a straight step. Given up where Newton's corrections do not contract. Throws RunError for failures that no
   // other guess avoids.
-  virtual Attempt solve(const Vector& before, PathPoint& point, const PathPlane& plane) = 0;
+  virtual Attempt solve(const PathPoint& before, PathPoint& point, const PathPlane& plane) = 0;
 
   // Down the energy from `point`, at its load factor, to an equilibrium on whatever branch.
   virtual Attempt descend(PathPoint& point) = 0;

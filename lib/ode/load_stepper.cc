@@ -35,7 +35,7 @@ void LoadStepper::begin() {
   smallest_step_ = std::min(stepping_.min_step * length_of_factor, step_ / 64);
   if (tracer_->place().response.unstable.value_or(0) > 0)
     throw RunError("the body is unstable before it is loaded: its stiffness at the start is indefinite",
-                   Reason::newton);
+                   Reason::critical_point);
 }
 
 StepInfo LoadStepper::step() {
@@ -55,7 +55,6 @@ void LoadStepper::advance() {
     if (slope > 0) step_ = std::min(step_, stepping_.max_step / slope);
     auto next = tracer_->beyond(step_);
     if (next && !passes_over_too_much(*next)) {
-      attempt_ = tracer_->attempt();
       if (!crosses_critical_point(*next)) {
         note_turn(*next);
         tracer_->move_to(std::move(*next));
@@ -94,8 +93,9 @@ void LoadStepper::note_turn(const Place& next) {
 }
 
 void LoadStepper::adapt() {
-  if (attempt_.iterations <= kEasy) step_ *= 2;
-  else if (attempt_.iterations > kHard) step_ /= 2;
+  const long iterations = tracer_->place().attempt.iterations;
+  if (iterations <= kEasy) step_ *= 2;
+  else if (iterations > kHard) step_ /= 2;
   step_ = std::max(step_, smallest_step_);
 }
 
@@ -131,7 +131,6 @@ std::optional<PathTracer::Place> LoadStepper::close_in(Place beyond) {
     auto next = tracer_->beyond(share * left);
     if (!next) next = tracer_->beyond(0.1 * share * left);
     if (!next) break;
-    attempt_ = tracer_->attempt();
     if (crosses_critical_point(*next)) beyond = std::move(*next);
     else tracer_->move_to(std::move(*next));
   }
@@ -146,8 +145,8 @@ bool LoadStepper::turns_back(const Place& next) const {
   return tracer_->place().tangent.lambda * next.tangent.lambda < 0;
 }
 
-// Of a limit point the largest load factor of the cubic through both ends with their slopes, else where the stiffness
-// crosses zero along a straight line.
+// Of a limit point the top of the parabola with the slopes at both ends, else where the stiffness crosses zero along a
+// straight line.
 CriticalPoint LoadStepper::critical_point_before(const Place& beyond) const {
   const Place& here = tracer_->place();
   const double la = here.point.lambda, lb = beyond.point.lambda;
@@ -192,7 +191,7 @@ void LoadStepper::require_going_on() const {
   if (state_.t < kLowestFactor)
     throw RunError(fmt::format("the path leads down to load factor {:.6g}, away from 1 (statics.at_limit: follow)",
                                state_.t),
-                   Reason::newton);
+                   Reason::critical_point);
   if (steps_ >= stepping_.max_steps)
     throw RunError(fmt::format("gave up at load factor {:.6g} after {} steps (statics.max_steps); raise it, or "
                                "statics.max_step",
@@ -200,11 +199,25 @@ void LoadStepper::require_going_on() const {
                    Reason::too_many_steps);
 }
 
-// A little past the critical point, then far.
+// Where the path goes on the body leaves along another one that crosses it, if that is stable; else it falls to where
+// it rests: a little past the critical point, then far.
 bool LoadStepper::jump() {
+  if (critical_.back().kind == CriticalPoint::Kind::bifurcation && branch_off()) return true;
   const double from = critical_.back().load_factor;
   for (const double step : {0.05 * std::abs(from), stepping_.first_step})
     if (settle(std::min(1.0, from + step))) return true;
+  return false;
+}
+
+bool LoadStepper::branch_off() {
+  const Vector& mode = tracer_->place().response.weakest;
+  for (const double share : {0.02, 0.1, 0.005}) {  // of the motion's size
+    auto next = tracer_->aside(share * length_ / mode.lpNorm<Eigen::Infinity>() * mode);
+    if (!next || next->response.unstable.value_or(0) > 0 || !(next->tangent.lambda > 0)) continue;
+    step_ = tracer_->distance(next->point);
+    tracer_->move_to(std::move(*next));
+    return true;
+  }
   return false;
 }
 
@@ -221,8 +234,8 @@ bool LoadStepper::settle(double load_factor) {
     if (!attempt.found) return false;
     const auto response = solver_.respond(point);
     if (response && response->unstable.value_or(0) == 0) {
-      attempt_ = attempt;
-      return tracer_->move_to(point);
+      step_ = kPush * tracer_->distance(point);
+      return tracer_->move_to(point, attempt);
     }
     if (response) aside = response->weakest;
   }
@@ -239,12 +252,12 @@ void LoadStepper::stop_at(const CriticalPoint& point) const {
                                "follows is a motion (analysis: dynamic); statics.at_limit: follow goes on along the "
                                "path of unstable equilibria, {}",
                                where, tried),
-                   Reason::newton);
+                   Reason::critical_point);
   throw RunError(fmt::format("bifurcation at {}: the equilibria go on, but are unstable; the body buckles sideways. "
                              "statics.at_limit: follow stays on this path, {}; a small sideways load turns the "
                              "bifurcation into a smooth path",
                              where, tried),
-                 Reason::newton);
+                 Reason::critical_point);
 }
 
 void LoadStepper::give_up() const {

@@ -1,11 +1,11 @@
 // Follows the equilibria of a body while its loads grow from nothing to all, along the path that they form
 // (path_tracer.h): steps are lengthened where Newton's method had little to do, and shortened where it failed.
 //
-// A critical point, where K becomes singular, is located. Past a limit point the load factor falls: the body snaps
-// through. At a bifurcation it does not: the path goes on, the body leaves it sideways. Which of the two it is the sign
-// of dlambda/ds tells, that there is one the negative eigenvalues of K. Where a body is not quite straight the path has
-// no such point but a sharp turn, with the straight path of unstable equilibria near by: which a step must not take for
-// its own.
+// A critical point, where K becomes singular, is located. At a limit point the load factor is largest and then falls:
+// the body snaps through. At a bifurcation the path goes on, and the body leaves it sideways. A change in the number of
+// negative eigenvalues of K tells that a critical point was passed; the sign of dlambda/ds tells which of the two it
+// is. A body that is not quite straight has no bifurcation: its path turns sharply, close to the path of unstable
+// equilibria that the straight body has, onto which a step must not jump.
 #pragma once
 
 #include <array>
@@ -50,7 +50,9 @@ class LoadStepper {
   const State& state() const { return state_; }
   bool done() const { return state_.t == 1; }
   // That led to it.
-  const EquilibriumSolver::Attempt& attempt() const { return attempt_; }
+  EquilibriumSolver::Attempt attempt() const {
+    return tracer_ ? tracer_->place().attempt : EquilibriumSolver::Attempt{};
+  }
   // Of the last equilibrium: directions in which it is unstable; none: not known.
   std::optional<int> unstable() const { return tracer_ ? tracer_->place().response.unstable : 0; }
   long rejected() const { return rejected_; }
@@ -74,6 +76,7 @@ class LoadStepper {
   CriticalPoint critical_point_before(const Place& beyond) const;
   bool leave();
   bool jump();
+  bool branch_off();
   bool settle(double load_factor);
   void note_turn(const Place& next);
   void adapt();
@@ -90,7 +93,6 @@ class LoadStepper {
   double length_;
   std::optional<PathTracer> tracer_;
   State state_;
-  EquilibriumSolver::Attempt attempt_;
   double step_ = 0, smallest_step_ = 0;  // along the path
   std::vector<CriticalPoint> critical_;
   double steepest_ = 0;  // growth at the last turn
@@ -108,7 +110,7 @@ Spec<T> LoadStepping::spec_for() {
       .key("max_step", &L::max_step, "Its largest step.", {.range = kShare})
       .key("min_step", &L::min_step,
            "Smallest step along the path of equilibria, in load factors at its start: below it the analysis is given "
-           "up.",
+           "up; at most a 64th of the first step.",
            {.range = kShare})
       .key("max_steps", &L::max_steps, "Load steps after which the analysis is given up.", {.range = {1}})
       .key("at_limit", &L::at_limit,

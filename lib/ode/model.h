@@ -84,10 +84,11 @@ class Model : public OutputSource {
                  Linearization& out) const;
 
   // K at q as Newton's method has it for stresses and displacements as unknowns of their own, after a step from
-  // q_before: with the stresses that K predicts there for q in place of those of q. Where a straight step stretches a
-  // body that bends it keeps definite, and Newton's method contracts, over far longer steps. By default, and where both
-  // states are the same, the exact K. `out` has no damping. Throws as linearize() does.
-  void linearize_mixed(double t, const ConstVectorRef& q_before, const ConstVectorRef& q, Linearization& out) const;
+  // q_before at t_before: with the stresses that K predicts there for q in place of those of q. Where a straight step
+  // stretches a body that bends it keeps definite, and Newton's method contracts, over far longer steps. By default,
+  // and where both states are the same, the exact K. `out` has no damping. Throws as linearize() does.
+  void linearize_mixed(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
+                       Linearization& out) const;
 
   // values = w_m M + w_d D + w_k K, D and K from linearize() of this model.
   virtual void combine(const Weights& w, const Linearization& at, double* values) const = 0;
@@ -136,7 +137,7 @@ class Model : public OutputSource {
                         Linearization& out) const = 0;
 
   // Computes K of linearize_mixed(), and overwrites `out`.
-  virtual void assemble_mixed(double t, const ConstVectorRef& q_before, const ConstVectorRef& q,
+  virtual void assemble_mixed(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
                               Linearization& out) const;
 
   Number number_;

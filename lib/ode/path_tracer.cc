@@ -21,9 +21,9 @@ PathTracer::PathTracer(const LoadPath& path, EquilibriumSolver& solver) : solver
   auto response = solver.respond(start);
   if (!response)
     throw RunError("the stiffness is singular at the start: something is not held, or has no stiffness",
-                   Reason::newton);
+                   Reason::critical_point);
   if (const double length = response->rate.norm(); length > 0) length_ = length;
-  place_ = {start, std::move(*response), {}};
+  place_ = {start, std::move(*response), {}, {}};
   place_.tangent = unit_tangent(place_.response);
 }
 
@@ -67,13 +67,14 @@ std::optional<PathTracer::Place> PathTracer::beyond(double ds) {
     next.point.lambda = std::round(1e12 * next.point.lambda) / 1e12;  // 0.25 rather than 0.25000000000000006
   }
   const PathPoint guess = next.point;
-  attempt_ = solver_.solve(place_.point.q, next.point, plane);
+  attempt_ = solver_.solve(place_.point, next.point, plane);
   if (!attempt_.found) return std::nullopt;
   if (distance(next.point, guess) > ds) return refuse("Newton's corrections led far away");
   auto response = solver_.respond(next.point);
   if (!response) return refuse("the stiffness is singular");
   next.response = std::move(*response);
   next.tangent = unit_tangent(next.response);
+  next.attempt = attempt_;
   double turn = product(next.tangent, t);
   if (turn < 0) {
     next.tangent.q *= -1;
@@ -88,13 +89,30 @@ std::optional<PathTracer::Place> PathTracer::beyond(double ds) {
 std::optional<PathTracer::Place> PathTracer::back_to_one(Place past) {
   PathPoint point{past.point.q + (1 - past.point.lambda) * past.response.rate, 1};
   const auto first = attempt_;
-  attempt_ = solver_.solve(past.point.q, point, {});
+  attempt_ = solver_.solve(past.point, point, {});
   attempt_.iterations += first.iterations;
   if (!attempt_.found) return std::nullopt;
   auto response = solver_.respond(point);
   if (!response) return refuse("the stiffness is singular");
   const PathPoint tangent = unit_tangent(*response);
-  return Place{std::move(point), std::move(*response), tangent};
+  return Place{std::move(point), std::move(*response), tangent, attempt_};
+}
+
+std::optional<PathTracer::Place> PathTracer::aside(const Vector& shift) {
+  Place next;
+  next.point = {place_.point.q + shift, place_.point.lambda};
+  attempt_ = solver_.solve(place_.point, next.point, {shift / shift.squaredNorm(), 0});
+  if (!attempt_.found) return std::nullopt;
+  auto response = solver_.respond(next.point);
+  if (!response) return refuse("the stiffness is singular");
+  next.response = std::move(*response);
+  next.tangent = unit_tangent(next.response);
+  next.attempt = attempt_;
+  if (product(next.tangent, difference(next.point, place_.point)) < 0) {
+    next.tangent.q *= -1;
+    next.tangent.lambda *= -1;
+  }
+  return next;
 }
 
 std::nullopt_t PathTracer::refuse(const char* why) {
@@ -103,10 +121,10 @@ std::nullopt_t PathTracer::refuse(const char* why) {
   return std::nullopt;
 }
 
-bool PathTracer::move_to(const PathPoint& elsewhere) {
+bool PathTracer::move_to(const PathPoint& elsewhere, const EquilibriumSolver::Attempt& attempt) {
   auto response = solver_.respond(elsewhere);
   if (!response) return false;
-  place_ = {elsewhere, std::move(*response), {}};
+  place_ = {elsewhere, std::move(*response), {}, attempt};
   place_.tangent = unit_tangent(place_.response);
   return true;
 }

@@ -14,11 +14,12 @@ namespace orthodyn {
 
 class PathTracer {
  public:
-  // An equilibrium, what K tells there, and the unit tangent.
+  // An equilibrium, what K tells there, the unit tangent, and what led there.
   struct Place {
     PathPoint point;
     EquilibriumSolver::Response response;
     PathPoint tangent;
+    EquilibriumSolver::Attempt attempt = {};
   };
 
   // At the start of the path, where lambda = 0. Both must outlive it. Throws RunError where K is singular there.
@@ -30,9 +31,13 @@ class PathTracer {
   // degrees on the way: a shorter step may help.
   std::optional<Place> beyond(double ds);
 
-  // To an equilibrium found by beyond(); or to one on whatever branch, from where lambda rises.
+  // An equilibrium whose displacement from the present place has `shift`, m, along itself: on the path that crosses
+  // this one near here, if `shift` is along the null vector of K at the crossing. Its tangent leads away from here.
+  std::optional<Place> aside(const Vector& shift);
+
+  // To an equilibrium found by beyond() or aside(); or to one on whatever branch, from where lambda rises.
   void move_to(Place place) { place_ = std::move(place); }
-  bool move_to(const PathPoint& elsewhere);
+  bool move_to(const PathPoint& elsewhere, const EquilibriumSolver::Attempt& attempt);
 
   // How far `there` is from the present place: along its tangent, and altogether.
   double along(const PathPoint& there) const;

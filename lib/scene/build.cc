@@ -8,6 +8,7 @@
 
 #include "lib/axes/axes_source.h"
 #include "lib/fem/elastic_region.h"
+#include "lib/fem/element_groups.h"
 #include "lib/scene/mesh_materials.h"
 #include "lib/scene/supports.h"
 
@@ -36,6 +37,7 @@ void add_elasticity(const Scene& scene, const std::vector<const Region*>& region
     for (std::size_t e = 0; e < mesh.tets.size(); ++e)
       if (mesh.region_of[e] == static_cast<int>(r)) cells.push_back(static_cast<int>(e));
     if (cells.empty()) continue;
+    cells = by_place(elements, std::move(cells));
     AxesField& field = fields[&region];
     if (!field) field = region.axes->field(mesh, notes);
     const ElementAxes axes = element_axes(*region.axes, field, elements, cells);
@@ -161,6 +163,7 @@ BuiltScene build(const Scene& scene) {
   add_supports(std::move(supports), elements, density, parts);
   parts.mass_damping = scene.damping ? scene.damping->mass : 0;
   parts.traits = traits_of(scene, regions);
+  if (scene.is_static()) parts.loads_at = scene.time.end;
   add_elasticity(scene, regions, elements, parts, loaded.warnings);
   add_force_terms(scene, parts);
   BuiltScene built{std::make_unique<FemModel>(std::move(parts)), {}, std::move(loaded.warnings)};

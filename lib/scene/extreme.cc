@@ -7,7 +7,7 @@
 
 #include "lib/fem/element_mesh.h"
 #include "lib/fem/fem_model.h"
-#include "lib/fem/nodal_figures.h"
+#include "lib/fem/nodal_fields.h"
 #include "lib/scene/quantity.h"
 
 namespace orthodyn {
@@ -15,7 +15,7 @@ namespace orthodyn {
 namespace {
 
 bool needs_strength(const std::string& field) {
-  const auto& all = nodal_figures();
+  const auto& all = derived_fields();
   return std::any_of(all.begin(), all.end(), [&](const auto& f) { return f.name == field && f.needs_strength; });
 }
 

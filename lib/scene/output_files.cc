@@ -77,9 +77,10 @@ const Spec<Output>& Output::spec() {
                "interpolated: frames from the integrator's own polynomial; exact: steps end on them.")
           .key("fields", &Output::fields, "Node and cell fields of the frames (see `orthodyn list fields`).")
           .key("probes", &Output::probes, "Named points whose fields go to probes.csv.")
-          .key("extremes", &Output::extremes,
-               "Extremes of stress and strain over the run, with place and time, for the summary and run.json: "
-               "von_mises.largest, tsai_wu.largest, REGION.nodal_stress_material.11.smallest. Looked at by the history.")
+          .key(
+              "extremes", &Output::extremes,
+              "Extremes of stress and strain over the run, with place and time, for the summary and run.json: "
+              "von_mises.largest, tsai_wu.largest, REGION.nodal_stress_material.11.smallest. Looked at by the history.")
           .key("reactions", &Output::reactions,
                "Record in probes.csv the force and torque that every clamp and motion exerts on the body.")
           .key("energy", &Output::energy, "Write energy.csv.")

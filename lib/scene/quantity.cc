@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "lib/core/words.h"
-#include "lib/fem/nodal_figures.h"
+#include "lib/fem/nodal_fields.h"
 #include "lib/scene/build.h"
 
 namespace orthodyn {

@@ -68,6 +68,10 @@ const Spec<Scene>& Scene::spec() {
                "Save the state at intervals, so that `orthodyn run --resume` can continue after a crash; {} for every "
                "minute.",
                {.with = kDynamic})
+          .key("threads", &Scene::threads,
+               "Threads of a run; default: as many as the machine has. Loops over elements give the same bits with any "
+               "number of them. Points of studies have one.",
+               {.range = {1, 1024}})
           .key("expect", &Scene::expect, "Known figures, which `orthodyn verify` checks.");
   return s;
 }

@@ -61,6 +61,7 @@ struct Scene {
   Output output;
   std::optional<CheckpointSchedule> checkpoint;
   std::vector<Expectation> expect;
+  std::optional<int> threads;  // of a run; none: as many as the machine has
 
   static const Spec<Scene>& spec();
 

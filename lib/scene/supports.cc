@@ -80,7 +80,7 @@ void check_velocity(const Scene& scene, const SupportMotion& given, const Motion
 }
 
 std::shared_ptr<const Motion> motion_in(const Scene& scene, const SupportMotion& given) {
-  if (scene.is_static()) return std::make_shared<StillMotion>(given.motion(scene.time.start));
+  if (scene.is_static()) return std::make_shared<StillMotion>(given.motion(scene.time.start), scene.time.end);
   return given.motion(scene.time.start);
 }
 

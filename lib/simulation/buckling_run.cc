@@ -18,7 +18,8 @@ void refuse_what_is_for_others(const RunRequest& request) {
     throw ConfigError("--estimate-error: a buckling analysis has no error of integration; remove it");
 }
 
-// A shape's elastic energy is 1/2: what of it the recovered stresses say is error is that of its factor.
+// The relative error of a shape's elastic energy by the mesh, estimated from recovered stresses: that of its load
+// factor, too. Shapes are scaled to an elastic energy of 1/2, so that nothing is left to divide by.
 double mesh_error(const FemModel& model, const State& rest, const Vector& shape) {
   const FemModel::Parts& parts = model.parts();
   const NodalExpansion about(parts, rest.t, rest.q, rest.v);

@@ -11,14 +11,18 @@ namespace {
 
 constexpr double kMuchDrift = 0.01;  // of the largest energy
 constexpr double kMuchError = 0.05;  // of the largest displacement
-constexpr double kCoarse = 0.05;     // of the elastic energy
 
+// From two states alone the elastic energy between them is not known: the largest energy may be larger.
 std::string drift_sentence(const EnergySummary& energy) {
   return fmt::format(
-      "the energy balance drifts by {:.2g} of the largest energy: energy was made or lost by the integration, or what "
-      "fast vibrations dissipate was not resolved. Run it with --estimate-error, which tells how far off the motion "
+      "the energy balance drifts by {:.2g} of the largest energy{}: energy was made or lost by the integration, or "
+      "what fast vibrations dissipate was not resolved. Run it with --estimate-error, which tells how far off "
+      "the motion "
       "is, or with a smaller integrator.rtol or integrator.step",
-      energy.relative_drift);
+      energy.relative_drift,
+      energy.states > 2 ? ""
+                        : ", of which only the start and the end were looked at (output.energy_times: steps looks at "
+                          "every step; the share may then be smaller)");
 }
 
 // That which `auto` has taken, too.
@@ -95,7 +99,7 @@ std::vector<std::string> doubts(const RunResult& result) {
                               result.equilibrium ? "" : " s"));
   const auto& mesh = result.motion ? result.motion->mesh_error
                                    : result.equilibrium ? result.equilibrium->mesh_error : std::nullopt;
-  if (mesh && mesh->relative > kCoarse) all.push_back(mesh_sentence(result.model, mesh->relative));
+  if (mesh && mesh->relative > kCoarseMesh) all.push_back(mesh_sentence(result.model, mesh->relative));
   if (const auto& error = result.model.linear_error; error && *error > kMuchError)
     all.push_back(result.model.buckles ? kBuckles : linearity_sentence(*error));
   if (const auto& motion = result.motion) {

@@ -158,7 +158,8 @@ class DynamicAnalysis {
                      .factor_bytes = integrator.factor_bytes(),
                      .det_f = {inversion.smallest(), inversion.element(), inversion.time()}};
     if (const auto& e = observers.energy)
-      out.energy = {e->last(), e->time(), e->drift(), e->scale(), e->relative_drift(), e->times()};
+      out.energy = {e->last(), e->time(), e->drift(), e->scale(), e->relative_drift(), e->times(),
+                    e->states()};
     if (const auto& m = observers.momentum) out.momentum = {m->angular_drift(), m->angular_scale()};
     if (mesh_error_) out.mesh_error = mesh_error_->found();
     out.rtol = Registry<IntegratorChoice>::read(setup_.config.at("integrator"))->settings().rtol;

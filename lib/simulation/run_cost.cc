@@ -22,6 +22,8 @@ constexpr double kIterations = 4, kFewestTangents = 0.05, kMostTangents = 1, kSt
 constexpr double kSpread = 5;           // of the number of steps, to both sides
 constexpr double kScaleOfMotion = 0.1;  // a position scale is about a tenth of the motion
 constexpr double kUsualSafety = 0.9;
+constexpr double kSpreadOfContact = 15;  // upwards: nobody knows how often and how long the body touches something
+constexpr double kFewestSteps = 10;      // until an event may end the run
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -47,11 +49,33 @@ void measure_factor(const Setup& setup, RunCost& cost) {
   cost.solve = seconds_since(begin);
 }
 
-// Cycles of the motion, as radians.
-double phase_of(const Setup& setup) {
-  const Scales scales = task_of(setup.scene, setup.built).scales();
+bool has_contact(const FemModel& model) {
+  const auto& loads = model.parts().loads;
+  return std::any_of(loads.begin(), loads.end(), [](const auto& term) { return term->contact_stiffness() > 0; });
+}
+
+bool may_end_early(const Scene& scene) {
+  return std::any_of(scene.events.begin(), scene.events.end(),
+                     [](const EventSpec& event) { return event.action == EventAction::stop; });
+}
+
+// Steps of an adaptive implicit method, about, by the cycles of the motion as radians.
+double steps_for(const Setup& setup, const Scales& scales) {
   const double omega = std::max(scales.omega, kScaleOfMotion * scales.velocity / scales.position);
-  return omega * (setup.scene.time.end - setup.scene.time.start);
+  const double phase = omega * (setup.scene.time.end - setup.scene.time.start);
+  return 10 + kSteps * phase * std::cbrt(1e-3 / setup.scene.integrator->settings().rtol.value_or(1e-3));
+}
+
+// Of a body that may touch something the position scale is the depth of contact: as if it touched all the time. Without
+// contact it is a tenth of the extent. What is measured lies between the two, near their geometric mean.
+CostRange adaptive_steps(const Setup& setup) {
+  const Scales scales = task_of(setup.scene, setup.built).scales();
+  const double about = steps_for(setup, scales);
+  if (!has_contact(*setup.built.model)) return {about / kSpread, about * kSpread};
+  Scales apart = scales;
+  apart.position = std::max(scales.position, 0.1 * bounding_box(setup.built.model->parts().mesh).size().maxCoeff());
+  const double fewest = steps_for(setup, apart);
+  return {fewest / kSpread, std::sqrt(fewest * about) * kSpreadOfContact};
 }
 
 CostRange steps_of(const Setup& setup, bool is_implicit, RunCost& cost) {
@@ -65,13 +89,14 @@ CostRange steps_of(const Setup& setup, bool is_implicit, RunCost& cost) {
     const double most = span * setup.built.model->frequency_bound() / 2 / settings.safety.value_or(kUsualSafety);
     return {most / 2, most};
   }
-  const double about = 10 + kSteps * phase_of(setup) * std::cbrt(1e-3 / settings.rtol.value_or(1e-3));
+  const CostRange about = adaptive_steps(setup);
   const auto two_digits = [](double x) {
     const double unit = std::pow(10, std::floor(std::log10(x)) - 1);
     return std::round(x / unit) * unit;
   };
   const double fewest = settings.h_max ? span / *settings.h_max : 1;
-  return {two_digits(std::max(about / kSpread, fewest)), two_digits(std::max(about * kSpread, fewest))};
+  const double least = cost.may_end_early ? std::min(about.least, kFewestSteps) : std::max(about.least, fewest);
+  return {two_digits(least), two_digits(std::max(about.most, fewest))};
 }
 
 // Load steps that are doubled from the first one on; each takes a few Newton corrections with a factor each.
@@ -111,18 +136,25 @@ RunCost run_cost(const Setup& setup, const std::vector<TermCost>& costs) {
   } else {
     cost.step = {cost.force, 2 * cost.force};  // with what is written and summed up beside
   }
+  cost.has_contact = is_implicit && has_contact(*setup.built.model);
+  cost.may_end_early = may_end_early(setup.scene);
   cost.steps = steps_of(setup, is_implicit, cost);
   return cost;
 }
 
 std::string shown_seconds(const CostRange& range) {
-  const auto& [size, unit] = [&]() -> std::pair<double, const char*> {
-    if (range.most >= 2 * 86400) return {86400, "days"};
-    if (range.most >= 2 * 3600) return {3600, "h"};
-    if (range.most >= 120) return {60, "min"};
+  const auto unit_of = [](double seconds) -> std::pair<double, const char*> {
+    if (seconds >= 2 * 86400) return {86400, "days"};
+    if (seconds >= 2 * 3600) return {3600, "h"};
+    if (seconds >= 120) return {60, "min"};
     return {1, "s"};
-  }();
-  return fmt::format("{:.3g} to {:.3g} {}", range.least / size, range.most / size, unit);
+  };
+  constexpr double kOneUnit = 100;  // for both where they are no further apart
+  const auto [size, unit] = unit_of(range.most);
+  if (range.most <= kOneUnit * range.least)
+    return fmt::format("{:.3g} to {:.3g} {}", range.least / size, range.most / size, unit);
+  const auto [small, small_unit] = unit_of(range.least);
+  return fmt::format("{:.3g} {} to {:.3g} {}", range.least / small, small_unit, range.most / size, unit);
 }
 
 }  // namespace orthodyn

@@ -1,6 +1,7 @@
 // What a run of a scene will take of the processor, from the measured cost of a force, a tangent and a factorisation.
 // The number of steps is known for fixed steps and about known for explicit methods; of methods that choose their steps
-// there is a range, by the motion's phase over the time span, which is right to an order of magnitude.
+// there is a range, by the motion's phase over the time span, which is right to an order of magnitude; it is wider
+// where a body may touch something, and where an event may end the run.
 #pragma once
 
 #include <cstddef>
@@ -22,6 +23,7 @@ struct RunCost {
   CostRange step;                           // s
   CostRange steps;                          // equal where they are known
   bool fixed_steps = false;                 // by the input
+  bool has_contact = false, may_end_early = false;  // error control meets a ground; an event may end the run
   CostRange seconds() const { return {steps.least * step.least, steps.most * step.most}; }
 };
 
@@ -29,7 +31,7 @@ struct RunCost {
 // seconds.
 RunCost run_cost(const Setup& setup, const std::vector<TermCost>& costs);
 
-// "about 3 s", "2 to 40 min".
+// "2 to 40 min"; of ends far apart "0.3 s to 40 min".
 std::string shown_seconds(const CostRange& range);
 
 }  // namespace orthodyn

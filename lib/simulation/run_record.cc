@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "lib/core/parallel.h"
 #include "lib/simulation/doubts.h"
 #include "lib/simulation/errors/error_balance.h"
 #include "lib/simulation/machine.h"
@@ -20,6 +21,7 @@ Json begin_json(const std::string& scene, const std::vector<std::string>& set, c
            {"set", set},
            {"versions", versions_json()},
            {"machine", machine_json()},
+           {"threads", threads()},
            {"model", {{"given", given}}}};
   for (const auto& r : restarts)
     out["restarts"].push_back({{"time", r.time}, {"at", r.at}, {"after", r.after}, {"changed", r.changed}});
@@ -116,7 +118,8 @@ Json to_json(const RecordedExtreme& extreme) {
           {"unit", extreme.unit},
           {"time", extreme.time},
           {"node", extreme.node},
-          {"place", {extreme.place[0], extreme.place[1], extreme.place[2]}}};
+          {"place", {extreme.place[0], extreme.place[1], extreme.place[2]}},
+          {"states", extreme.states}};
 }
 
 Json to_json(const CriticalPoint& point) {

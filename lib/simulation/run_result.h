@@ -38,6 +38,7 @@ struct EnergySummary {
   double drift = 0, scale = 0;  // J: of the balance, and the largest energy
   double relative_drift = 0;
   EnergyTimes times = EnergyTimes::outputs;  // of which the drift is the largest
+  std::size_t states = 0;                    // how many these are
 };
 
 struct MomentumSummary {

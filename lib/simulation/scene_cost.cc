@@ -10,6 +10,7 @@
 
 #include "lib/analysis/static_response.h"
 #include "lib/fem/part_model.h"
+#include "lib/simulation/errors/mesh_error.h"
 
 namespace orthodyn {
 
@@ -19,7 +20,6 @@ constexpr double kUsualAccuracy = 1e-3;  // without an rtol
 constexpr double kOfAccuracy = 0.1;      // what is smaller than this part of it does not matter
 constexpr double kSmall = 1e-6;        // of the smallest extent
 constexpr int kLargestSystem = 30'000;  // unknowns of which two more models and a factor are made
-constexpr double kCoarse = 0.05;       // mesh error
 constexpr double kSecondsOfVariant = 0.2;  // in which the cost of another model is measured
 constexpr double kMuchData = 1e9;        // bytes of frames
 
@@ -147,7 +147,7 @@ class Judge {
           "mesh: its error is about {:.1e}: so fewer cells would do, or a smaller rtol would pay; doubling the "
           "cell size removes seven of eight elements",
           error));
-    if (error > kCoarse)
+    if (error > kCoarseMesh)
       found_.push_back(
           fmt::format("nothing of the mesh, whose error is about {:.1e} of the elastic energy: finer cells or "
                       "mesh.order: 2 would reduce it",

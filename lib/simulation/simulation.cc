@@ -5,7 +5,9 @@
 #include <optional>
 #include <utility>
 
+#include "lib/core/parallel.h"
 #include "lib/core/versions.h"
+#include "lib/linear/blas.h"
 #include "lib/simulation/checkpoint/resume.h"
 #include "lib/simulation/volume.h"
 
@@ -67,6 +69,11 @@ RunAnalysis analysis_of(const Scene& scene) {
   return run_dynamic_analysis;
 }
 
+void use_threads(const Scene& scene) {
+  set_threads(scene.threads.value_or(available_threads()));
+  if (scene.threads) limit_blas_threads(*scene.threads);
+}
+
 }  // namespace
 
 // `given_up`: where linear kinematics were before, and why; else "".
@@ -78,6 +85,7 @@ RunResult Simulation::run_once(Config config, const RunRequest& request, const s
   if (folder.resumes()) earlier = Checkpoint::load(folder.checkpoint());
   if (earlier) keep_choices(*earlier, config);
   Setup setup = set_up(std::move(config), earlier && was_linear_so_far(*earlier));
+  use_threads(setup.scene);
   if (!given_up.empty()) setup.note_given_up(given_up);
   for (const auto& warning : setup.built.warnings) listener.on_warning(warning);
   if (!request.any_volume) require_usual_volume(setup);

@@ -22,8 +22,9 @@ StaticProblem static_problem(const Scene& scene, const BuiltScene& built) {
   const double t = scene.is_static() ? scene.time.end : scene.time.start;
   require_held(scene, model, t);
   StaticProblem problem;
-  problem.path = std::make_unique<LoadPath>(model, t, Vector::Zero(model.num_dofs()));
-  const double force = problem.path->load().lpNorm<Eigen::Infinity>();
+  const PathTimes times = scene.is_static() && model.parts().moved ? PathTimes(t - 1, t) : PathTimes(t);
+  problem.path = std::make_unique<LoadPath>(model, times, Vector::Zero(model.num_dofs()));
+  const double force = problem.path->largest_load();
   const double length = 0.1 * bounding_box(model.parts().mesh).size().maxCoeff();
   const Statics statics = scene.statics ? *scene.statics : Statics::spec().by_default();
   problem.solver = statics.solver->make(*problem.path, {force > 0 ? force : 1, length});

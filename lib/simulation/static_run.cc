@@ -34,27 +34,6 @@ class LoadProgress : public Observer {
   RunListener& listener_;
 };
 
-// Tells of equilibria alone. Moved supports are at their places from the start, and what is out of balance there grows
-// in (load_path.h): then the last equilibrium only is one of the body.
-class OfEquilibria : public Observer {
- public:
-  // All must outlive it.
-  OfEquilibria(const FemModel& model, const LoadStepper& stepper, Observer& told)
-      : model_(model), stepper_(stepper), told_(told) {}
-
-  void on_history(const ObservedState& observed) override {
-    if (!model_.parts().moved || stepper_.done()) told_.on_history(observed);
-  }
-  void on_output(const ObservedState& observed) override {
-    if (!model_.parts().moved || stepper_.done()) told_.on_output(observed);
-  }
-
- private:
-  const FemModel& model_;
-  const LoadStepper& stepper_;
-  Observer& told_;
-};
-
 class StaticObservers {
  public:
   StaticObservers(const Setup& setup, const StaticProblem& problem, const std::filesystem::path& folder,
@@ -68,13 +47,8 @@ class StaticObservers {
       probes_.emplace(folder / "probes.csv", *problem.path, columns, "load_factor");
     const FemModel& model = *setup.built.model;
     if (!output.extremes.empty()) extremes_.emplace(output.extremes, model, output.origin);
-    if (has_strain_limits(model)) strains_.emplace(model, problem.path->time());
-    if (extremes_) extremes_at_.emplace(model, *problem.stepper, *extremes_);
-    if (strains_) strains_at_.emplace(model, *problem.stepper, *strains_);
+    if (has_strain_limits(model)) strains_.emplace(StrainWatch::of_equilibria(model, problem.path->times()));
   }
-  StaticObservers(const StaticObservers&) = delete;  // its observers refer to each other
-  StaticObservers& operator=(const StaticObservers&) = delete;
-
   void tell(RunResult& result) const {
     if (extremes_) result.extremes = extremes_->found();
     if (strains_) result.passed_strain = strains_->worst();
@@ -88,8 +62,8 @@ class StaticObservers {
     add(frames_);
     add(steps_);
     add(probes_);
-    add(extremes_at_);
-    add(strains_at_);
+    add(extremes_);
+    add(strains_);
     out.push_back(&progress_);
     return out;
   }
@@ -100,7 +74,6 @@ class StaticObservers {
   std::optional<ProbeWriter> probes_;
   std::optional<ExtremeRecorder> extremes_;
   std::optional<StrainWatch> strains_;
-  std::optional<OfEquilibria> extremes_at_, strains_at_;
   LoadProgress progress_;
 };
 
@@ -132,7 +105,7 @@ std::vector<ProbedDisplacement> probed_displacements(const Setup& setup, const S
 EquilibriumResult equilibrium_result(const StaticProblem& problem, const State& last,
                                      const std::optional<MeshError>& mesh_error) {
   const auto det_f = problem.path->evaluate("det_f.smallest", last);
-  return {.loads_at_time = problem.path->time(),
+  return {.loads_at_time = problem.path->times().end,
           .load_steps = problem.stepper->steps(),
           .rejected_load_steps = problem.stepper->rejected(),
           .jumps = problem.stepper->jumps(),
@@ -140,11 +113,11 @@ EquilibriumResult equilibrium_result(const StaticProblem& problem, const State& 
           .unstable = problem.stepper->unstable(),
           .largest_displacement = last.q.lpNorm<Eigen::Infinity>(),
           .residual = problem.stepper->attempt().residual,
-          .largest_load = problem.path->load().lpNorm<Eigen::Infinity>(),
+          .largest_load = problem.path->largest_load(),
           .residual_above_tolerance = problem.stepper->attempt().above_tolerance,
           .solver = problem.solver->description(),
           .statistics = problem.solver->statistics(),
-          .det_f = {det_f[0], static_cast<long>(det_f[1]), problem.path->time()},
+          .det_f = {det_f[0], static_cast<long>(det_f[1]), problem.path->times().end},
           .mesh_error = mesh_error};
 }
 
@@ -165,7 +138,7 @@ RunResult run_static_analysis(RunContext context) {
   RunResult result{.scene = context.scene, .folder = folder};
   result.outcome = run_static(*problem.path, *problem.stepper, all, context.interrupt);
   if (setup.linearity && result.outcome.status != Outcome::Status::interrupted) {
-    setup.linearity->finish_at(problem.path->time(), result.outcome.last.q);
+    setup.linearity->finish_at(problem.path->times().end, result.outcome.last.q);
     result.outgrown = setup.linearity->why_to_start_again();
     if (result.outgrown) return result;
   }
@@ -177,7 +150,7 @@ RunResult run_static_analysis(RunContext context) {
   // Below all loads the model has no equilibrium to tell an error of.
   const bool is_at_all_loads = result.outcome.status == Outcome::Status::completed;
   result.equilibrium->probes = probed_displacements(
-      setup, {problem.path->time(), result.outcome.last.q, Vector::Zero(result.outcome.last.q.size())},
+      setup, {problem.path->times().end, result.outcome.last.q, Vector::Zero(result.outcome.last.q.size())},
       setup.scene.output.mesh_error && is_at_all_loads);
   record.finish(result);
   context.listener.on_result(result);

@@ -46,7 +46,8 @@ double frames_of(const Scene& scene) {
 double rows_of(const Scene& scene, double frames) {
   const auto& history = scene.output.history;
   if (!history || scene.is_static()) return frames;
-  return history->steps ? 0 : std::ceil((scene.time.end - scene.time.start) / *history->interval);
+  const auto apart = history->steps ? scene.integrator->settings().step : history->interval;
+  return apart ? std::ceil((scene.time.end - scene.time.start) / *apart) : 0;
 }
 
 [[noreturn]] void refuse(const Setup& setup, const char* section, double count, const char* what, double bytes_each,
@@ -89,7 +90,10 @@ void require_usual_volume(const Setup& setup) {
     refuse(setup, "output", volume.frames, "frames", volume.frame_bytes,
            "take fewer output.frames or a longer output.interval");
   if (volume.rows >= kMostUnasked)
-    refuse(setup, "output", volume.rows, "rows of tables", volume.row_bytes, "take a longer output.history.interval");
+    refuse(setup, "output", volume.rows, "rows of tables", volume.row_bytes,
+           setup.scene.output.history && setup.scene.output.history->steps
+               ? "take output.history.interval in place of output.history.steps"
+               : "take a longer output.history.interval");
 }
 
 std::string unusual_volume(const Setup& setup) {

@@ -34,6 +34,27 @@ TEST(ConfigRefuses, WhatIsNotYamlWithItsLine) {
   EXPECT_TRUE(holds(message, "not YAML"));
 }
 
+// yaml-cpp blames the next line, the end of the braces, or nobody.
+TEST(ConfigRefuses, AColonWithoutASpaceBehindIt) {
+  EXPECT_EQ(refusal_of("mesh:\n  size:[1, 2]\n  cells: [1, 1]\n"), "a.yaml:2:3: not YAML: put a space after 'size:'");
+  EXPECT_EQ(refusal_of("mesh: {type: box, size:[1, 2], a: 1}\n"), "a.yaml:1:19: not YAML: put a space after 'size:'");
+  EXPECT_EQ(refusal_of("name:x\n\n# comment\nmesh: 1\n"), "a.yaml:1:1: not YAML: put a space after 'name:'");
+  EXPECT_EQ(refusal_of("a: 1\ntime: {end:0.1}\n"), "a.yaml:2:8: put a space after 'end:'");
+  EXPECT_TRUE(holds(refusal_of("clamps:[{surface: x0}]\n"), "put a space after 'clamps:'"));
+}
+
+TEST(ConfigRefuses, NoColonWithinATextOrAQuotedKey) {
+  for (const char* text : {"a: b:c\n", "a: http://x.org\n", "'end:1': \n", "tip:1: {x: 2}\n", "a: [b:c, 12:30]\n"})
+    EXPECT_EQ(refusal_of(text), "accepted") << text;
+  EXPECT_FALSE(holds(refusal_of("a: b  # c:d\n {\n"), "put a space"));
+}
+
+TEST(ConfigRefuses, ALineThatIsIndentedBelowAValue) {
+  EXPECT_TRUE(holds(refusal_of("mesh:\n  size: [1, 2]\n    cells: [1, 1]\n"),
+                    "a.yaml:3:5: not YAML: this line is indented deeper"));
+  EXPECT_TRUE(holds(refusal_of("mesh:\n\tsize: 1\n"), "blanks instead of tabs"));
+}
+
 TEST(ConfigRefuses, SeveralDocuments) {
   EXPECT_TRUE(starts(refusal_of("a: 1\n---\nb: 2\n"), "a.yaml:2:1: more than one YAML document"));
 }
@@ -110,6 +131,13 @@ TEST(ConfigRefuses, NumbersThatAreNotFinite) {
 TEST(ConfigRefuses, WhatIsNotANumber) {
   for (const char* text : {".nan", ".inf", "1e400", "1 2", "1,5", "0x10", "5 Pa", "--5", "+-5", "true", "''"})
     EXPECT_TRUE(holds(number_refusal(text), "expected a number, found '")) << text;
+}
+
+TEST(ConfigRefuses, ANumberInQuotesWhichIsAText) {
+  for (const char* text : {"'5'", "\"-1e-3\""}) EXPECT_TRUE(holds(number_refusal(text), "remove the quotes")) << text;
+  EXPECT_TRUE(holds(refusal([] { Config::from_text("'5'").integer(); }), "remove the quotes"));
+  EXPECT_TRUE(holds(refusal([] { Config::from_text("\"true\"").boolean(); }), "remove the quotes"));
+  EXPECT_EQ(Config::from_text("'5'").text(), "5");
 }
 
 TEST(ConfigRefuses, ASectionListOrNothingWhereANumberBelongs) {

@@ -34,6 +34,17 @@ TEST(Formula, WithoutAValueNamesItsPlaceAndThePoint) {
   }
 }
 
+TEST(Formula, WhatItsParserSaysEndsWithAFullStop) {
+  for (const char* text : {"(1+2", "1+", "nothing", "sin()"}) {
+    try {
+      PointFormula{text};
+      FAIL() << "accepted: " << text;
+    } catch (const std::invalid_argument& e) {
+      EXPECT_TRUE(std::string(e.what()).ends_with('.')) << e.what();
+    }
+  }
+}
+
 TEST(Formula, RefusesAssignmentsAndSeveralValues) {
   for (const char* text : {"t=3", "t = 3", "0,5*t", "t, 2", "t += 1"})
     EXPECT_THROW(TimeFormula{text}, std::invalid_argument) << text;

@@ -88,6 +88,19 @@ TEST(Override, OfAnAliasedValueIsRefusedRatherThanChangedInTwoPlaces) {
   EXPECT_TRUE(holds(message, "--set b.v=2: 'b' is used in several places through an alias"));
 }
 
+// What lacks something that a new entry needs may be a slip in the name of one that is there.
+TEST(Override, ANewEntryThatIsRefusedNamesTheOneWithANearName) {
+  Config config = Config::from_text("materials: {spruce: {type: a}, oak: {type: a}}", "a.yaml");
+  config.override_with("materials.spuce.young=1e9");
+  config.override_with("materials.teflon.young=1e9");
+  const auto said = [&](const char* name) {
+    return refusal([&] { config.at("materials").at(name).fail("no type"); });
+  };
+  EXPECT_TRUE(holds(said("spuce"), "no type; 'spuce' is new here; did you mean 'spruce'?"));
+  EXPECT_TRUE(holds(refusal([&] { config.resolving().at("materials").at("spuce").fail("no type"); }), "'spruce'"));
+  for (const char* name : {"teflon", "spruce"}) EXPECT_FALSE(holds(said(name), "did you mean")) << name;
+}
+
 TEST(Override, WithoutAnEqualsSignIsRefused) {
   EXPECT_EQ(refusal_of("mesh.size"), "--set mesh.size: expected PATH=VALUE, such as integrator.rtol=1e-5");
   EXPECT_TRUE(holds(refusal_of("=3"), "expected PATH=VALUE"));

@@ -113,6 +113,21 @@ TEST(Spec, AnUnknownKeyIsRefusedInNestedSections) {
   EXPECT_TRUE(starts(refusal_of("name: x\nstep:\n  frist: 1\n"), "a.yaml:3:10: step.frist: unknown key"));
 }
 
+TEST(Spec, AKeyOfASectionBesideItBelongsBelowThat) {
+  EXPECT_TRUE(holds(refusal_of("name: x\nmost: 3\n"), "unknown key; it belongs below 'step': indent it. Known here"));
+  EXPECT_TRUE(holds(refusal_of("name: x\nstep:\nfirst: 3\n"), "it belongs below 'step'"));
+}
+
+TEST(Spec, AKeyOfTheSectionAroundBelongsBesideIt) {
+  EXPECT_EQ(refusal_of("name: x\nstep: {most: 1, rtol: 0.5}\n"),
+            "a.yaml:2:23: step.rtol: unknown key; it belongs beside 'step', not below: indent it less. Known here: "
+            "first, most.");
+}
+
+TEST(Spec, AScalarThatIsAKeyAndItsValueLacksASpace) {
+  EXPECT_TRUE(holds(refusal_of("name: x\nstep:\n  most:3\n"), "found 'most:3'; put a space after 'most:'"));
+}
+
 TEST(Spec, AMissingRequiredKeyIsNamedWithTypeAndUnit) {
   EXPECT_TRUE(holds(refusal_of("{rtol: 0.5}"), "key 'name' is missing (text, any)"));
 }

@@ -73,6 +73,11 @@ TEST(Units, AKeyWithoutDimensionTakesPlainNumbersOnly) {
   EXPECT_EQ(refusal_of("0.3 m", {}), "a.yaml:1:1: expected a plain number, found '0.3 m', a length (m)");
 }
 
+TEST(Units, APercentageIsNamedAsNoUnit) {
+  EXPECT_TRUE(holds(refusal_of("30 %", {}), "expected a plain number, found '30 %': % is no unit here; write 0.3"));
+  EXPECT_TRUE(holds(refusal_of("5 %", {.unit = "Pa"}), "found '5 %': % is no unit here"));
+}
+
 TEST(Units, WordsAreNoQuantities) {
   EXPECT_EQ(refusal_of("soft", {.unit = "Pa"}), "a.yaml:1:1: expected a number, found 'soft'");
   EXPECT_TRUE(

@@ -67,7 +67,7 @@ def _problem(name, k):
             "unknowns": 2700 * (k + 1), "elements": 3125, "nodes": 936, "time": {"start": 0, "end": 1},
             "scales": {"displacement": 0.42, "velocity": 2.1,
                        "words": "largest displacement, and largest velocity, of the reference over time, in the mass norm"},
-            "probe_scales": {"tip": 0.9}, "dominant_frequency": 1.23,
+            "probe_scales": {"tip": 0.9}, "quantity_scales": {"von_mises.largest": 3e6}, "dominant_frequency": 1.23,
             "reference": {"kind": "computed", "method": "arkode_dirk, rtol 1e-9", "check": "ida_bdf, rtol 1e-8",
                           "seconds": 12.3, "message": None,
                           "errors": {"displacement": own, "velocity": own, "probes": {"tip": own}, "phase": 1e-8}}}

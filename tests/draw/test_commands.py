@@ -148,6 +148,11 @@ class Failures(InAFolder):
         self.fails_with("nowhere: no such result folder", "frame", self.folder / "nowhere")
         self.fails_with("energy.csv: missing", "energy", self.result)
         self.fails_with("neither frames.pvd nor any of energy.csv", "all", self.folder)
+        for analysis, instead in (("static", "draw load"), ("buckling", "draw modes")):
+            (self.result / "run.json").write_text(f'{{"analysis": "{analysis}"}}')
+            self.fails_with(f"a {analysis} analysis has no motion, so there is no energy over time", "energy", self.result)
+            self.fails_with(instead, "energy", self.result)
+        (self.result / "run.json").unlink()
         self.fails_with("frames.pvd: missing", "strip", self.folder)
         (self.result / "frames/frame_00001.vtu").unlink()
         self.fails_with("frame_00001.vtu: No such file", "frame", self.result)

@@ -53,6 +53,7 @@ class Quantities(InAFolder):
         np.testing.assert_allclose(find_quantity("principal_stress.3", frame).values(frame), -1e6)
         frame.node_fields["tsai_wu"] = np.full((5, 1), 0.5)
         self.assertTrue(find_quantity("tsai_wu", frame).peaked)
+        self.assertEqual(find_quantity("tsai_wu", frame).label, "Tsai-Wu")
         frame.node_fields["nodal_det_f"] = np.full((5, 1), 8.0)
         self.assertEqual(find_quantity("nodal_det_f", frame).neutral, 1)
         frame.node_fields["von_mises"] = np.full((5, 1), 3e6)

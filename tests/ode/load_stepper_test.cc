@@ -41,7 +41,7 @@ struct Analysis {
   Analysis(const Model& model, const LoadStepping& stepping, const std::string& solver = "{type: kinsol}", double t = 0)
       : path(model, t, Vector::Zero(model.num_dofs())),
         solver_(Registry<EquilibriumChoice>::read(Config::from_text(solver))
-                    ->make(path, {std::max(path.load().lpNorm<Eigen::Infinity>(), 1e-300), 0.1})),
+                    ->make(path, {std::max(path.largest_load(), 1e-300), 0.1})),
         stepper(path, *solver_, stepping, 0.1) {}
 
   // The message of the RunError that ends it; "" if all loads are reached.

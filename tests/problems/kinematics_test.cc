@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "lib/simulation/errors/error_norms.h"
-#include "lib/simulation/json.h"
 #include "lib/simulation/run.h"
 #include "lib/simulation/setup.h"
 #include "tests/simulation/result_reader.h"
@@ -17,11 +16,6 @@ constexpr double kAllowed = 0.01;
 const char* const kBar = R"(
 mesh: {type: box, size: [1, 0.1, 0.1], cells: [8, 1, 1]}
 materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0.3}}
-)";
-const char* const kColumn = R"(
-mesh: {type: box, size: [1, 0.05, 0.01], cells: [10, 1, 1], order: 2}
-materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0.3}}
-clamps: [{surface: x0}]
 )";
 const char* const kAcross = "clamps: [{surface: x0}]\nloads: [{surface: x1, force: [0, 0, -1]}]\ntime: {end: 0.1}\n";
 
@@ -189,25 +183,6 @@ TEST_F(Kinematics, OfAStaticAnalysisAreCheckedAtItsEnd) {
     const auto result = orthodyn("run static.yaml --force --out out");
     ASSERT_EQ(result.exit_code, 0) << result.output;
     EXPECT_NE(result.output.find(word), std::string::npos) << result.output;
-  }
-}
-
-// A straight bar under an axial load moves by little and without turning; Euler's load says when that does not last:
-// `analysis: buckling` has it (tests/problems/buckling_test.cc).
-TEST_F(Kinematics, OfAStraightColumnAreGivenUpWhereItBuckles) {
-  const auto along = [](double force) { return fmt::format("loads: [{{surface: x1, force: [{}, 0, 0]}}]\n", force); };
-  const std::string rest = "analysis: static\nelasticity: {kinematics: auto}\n";
-  write("modes.yaml", kColumn + along(-1) + "analysis: buckling\nbuckling: {count: 1}\n");
-  const auto modes = orthodyn("run modes.yaml --out modes");
-  ASSERT_EQ(modes.exit_code, 0) << modes.output;
-  const double critical = Json::parse(read_text(folder_ / "modes/run.json")).at("modes").at(0).at("load_factor");
-  for (const auto& [share, word] :
-       {std::pair{0.95, "linear: off by"}, {1.05, "buckles below these loads"}, {-2.0, "linear: off by"}}) {
-    write("static.yaml", kColumn + along(-share * critical) + rest);
-    const auto chosen = orthodyn("run static.yaml --force --out out");
-    EXPECT_NE(chosen.output.find(word), std::string::npos) << share << '\n' << chosen.output;
-    const auto by_hand = orthodyn("run static.yaml --force --out out --set elasticity.kinematics=linear");
-    EXPECT_EQ(by_hand.output.find("warning: the body buckles") != std::string::npos, share > 1) << by_hand.output;
   }
 }
 

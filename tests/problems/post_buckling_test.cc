@@ -78,6 +78,23 @@ TEST(PressedColumn, LeavesTheStraightPathWhereEulerSays) {
   EXPECT_EQ(column.stepper().unstable(), 0);
 }
 
+// Onto the path that crosses the straight one, whatever the load.
+TEST(PressedColumn, BucklesUnderAnyLoadBeyondEulers) {
+  for (const double times : {1.01, 1.1, 1.5, 2.0, 3.0, 5.0, 8.0}) {
+    Column column(times, 0, "{at_limit: jump}");
+    const Vec3 moved = column.press();
+    double low = 0, high = 179;  // the slope of its top, degrees
+    while (high - low > 1e-9) (elastica(0.5 * (low + high)).load < times ? low : high) = 0.5 * (low + high);
+    const Elastica expected = elastica(low);
+    EXPECT_NEAR(1 + moved[0], expected.x, 0.02) << times;
+    EXPECT_NEAR(std::abs(moved[2]), expected.y, 0.02) << times;
+    EXPECT_EQ(column.stepper().jumps(), 1) << times;
+    EXPECT_EQ(column.stepper().unstable(), 0) << times;
+    EXPECT_LE(column.stepper().steps(), 15) << times;
+    EXPECT_LE(column.factorizations(), 160) << times;
+  }
+}
+
 // The mesh is not symmetric, which makes it not quite straight: it has no bifurcation, but a path that turns aside
 // next to the straight one of unstable equilibria, whatever the steps.
 TEST(PressedColumn, ThatIsNotQuiteStraightTurnsAsideWhateverTheSteps) {
@@ -101,6 +118,21 @@ loads: [{{surface: x1, force: [-200, 0, 0]}}]
     EXPECT_NEAR(turn.load_factor, 0.6108, std::max(0.005, turn.uncertainty)) << statics;  // Euler: 122.1 N
     EXPECT_LE(turn.uncertainty, 0.1) << statics;
   }
+}
+
+// 6,000 unknowns.
+TEST(PushedColumn, BendsByThreeQuartersOfItsLengthInFewTangents) {
+  BuiltTestScene scene(R"(
+analysis: static
+mesh: {type: box, size: [1, 0.05, 0.01], cells: [80, 4, 4], order: 1}
+materials: {wood: {type: preset, name: sitka_spruce, density: 400}}
+clamps: [{surface: x0}]
+loads: [{surface: x1, force: [0, 0, -400]}]
+)");
+  const StaticProblem problem = static_problem(scene.scene, scene.built);
+  while (!problem.stepper->done()) problem.stepper->step();
+  EXPECT_GT(problem.stepper->state().q.lpNorm<Eigen::Infinity>(), 0.75);
+  EXPECT_LE(problem.solver->statistics().tangent.count, 60);
 }
 
 }  // namespace

@@ -117,8 +117,8 @@ TEST(Exposures, NeedStrengthsAtAProbe) {
   }
 }
 
-// A laminate whose middle ply is one linear element thick: each of its nodes is one of another ply, too. Stretched along x with
-// its sides free to contract alike (nu = 0), each ply has E times the strain.
+// A laminate whose middle ply is one linear element thick: each of its nodes is one of another ply, too. Stretched
+// along x with its sides free to contract alike (nu = 0), each ply has E times the strain.
 TEST(ExtremesOfTheBody, AreNotAveragedAcrossRegions) {
   constexpr double kStiff = 10e9, kSoft = 1e9, kStretch = 1e-3;
   const BuiltTestScene scene(fmt::format(R"(

@@ -109,7 +109,13 @@ INSTANTIATE_TEST_SUITE_P(
             "{type: orthotropic, density: 448, young: [1.188e10, 9.27e8, 5.11e8], nu12: 0.37, nu13: 0.43, nu23: 1.7, "
             "g12: 7.6e8, g23: 3.6e7, g13: 7.2e8}",
             {"scene.yaml:3:9: materials.soft", "nu23=1.7", "indefinite", "smallest eigenvalue", "must lie in",
-             "Nearest stable set"}}),
+             "Nearest stable set"}},
+        BadScene{
+            "the_other_ratio_of_a_pair",
+            "{type: isotropic, density: 1000, young: 1e6, nu: 0.3}",
+            "{type: orthotropic, density: 448, young: [5.11e8, 9.27e8, 1.188e10], nu12: 0.2, nu13: 0.43, nu23: 0.01, "
+            "g12: 3.6e7, g23: 7.6e8, g13: 7.2e8}",
+            {"nu13=0.43", "means by nu13 the contraction along 1 when stretched along 3, give it as nu31"}}),
     [](const auto& scene) { return scene.param.name; });
 
 // Lowers a limit that the system does not enforce.

@@ -203,6 +203,12 @@ TEST_F(CommandLine, AFullDiskEndsTheRunWithWholeFrames) {
   EXPECT_NE(read_text(folder_ / "out/swing/run.json").find("\"failed\""), std::string::npos);
 }
 
+TEST_F(CommandLine, ListsStrengthsReactionsAndBuckling) {
+  EXPECT_NE(orthodyn("list presets").output.find("strengths along 1, 2, 3: tension 70, 2.6, 2.6"), std::string::npos);
+  EXPECT_NE(orthodyn("list quantities").output.find("reaction.SUPPORT"), std::string::npos);
+  EXPECT_NE(orthodyn("list buckling").output.find("critical load factors"), std::string::npos);
+}
+
 // J, of the run.json of out/swing.
 double balance_drift(const fs::path& folder) {
   return Json::parse(read_text(folder / "out/swing/run.json")).at("energy").at("balance_drift");
@@ -226,8 +232,19 @@ TEST_F(CommandLine, AMuchDriftingBalanceIsAWarning) {
       "run swing.yaml --quiet --force --set damping=null --set 'integrator={type: backward_euler, step: 0.02}'");
   EXPECT_EQ(doubted.exit_code, 0) << doubted.output;
   EXPECT_NE(doubted.output.find("warning: the energy balance drifts by 0."), std::string::npos) << doubted.output;
+  EXPECT_EQ(doubted.output.find("only the start and the end"), std::string::npos) << doubted.output;
   EXPECT_GT(balance_drift(folder_), 0);
   EXPECT_NE(read_text(folder_ / "out/swing/run.json").find("\"warnings\""), std::string::npos);
+}
+
+TEST_F(CommandLine, ADriftBetweenTwoRowsSaysThatNothingBetweenThemWasLookedAt) {
+  write("swing.yaml", kSwing);
+  const std::string run =
+      "run swing.yaml --quiet --force --set damping=null --set output.frames=1 --set 'integrator={type: "
+      "backward_euler, step: 0.02}'";
+  const auto two = orthodyn(run), all = orthodyn(run + " --set output.energy_times=steps");
+  EXPECT_NE(two.output.find("only the start and the end were looked at"), std::string::npos) << two.output;
+  EXPECT_EQ(all.output.find("only the start and the end"), std::string::npos) << all.output;
 }
 
 TEST_F(CommandLine, DriftOverAllStepsIsThatOfTheWholeRunNotOfItsFrames) {

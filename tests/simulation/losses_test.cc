@@ -33,6 +33,16 @@ TEST_F(Losses, ATerminalThatCloses) {
   EXPECT_TRUE(fs::exists(folder_ / "out/swing/checkpoint.cbor"));
 }
 
+// METIS orders matrices of this size, and takes the signal for an error of its own.
+TEST_F(Losses, ASignalWhileALargeMatrixIsOrdered) {
+  write("large.yaml", "mesh: {type: box, size: [1, 0.4, 0.4], cells: [70, 28, 28], order: 1}\n"
+                      "materials: {m: {type: preset, name: sitka_spruce}}\nclamps: [{surface: x0}]\n"
+                      "gravity: [0, 0, -9.81]\ntime: {end: 1e-4}\nelasticity: {kinematics: corotational}\n");
+  const auto result = shell("cd " + folder_.string() + " && " ORTHODYN_EXECUTABLE
+                            " run large.yaml --quiet & pid=$!; sleep 1; kill -TERM $pid; wait $pid");
+  EXPECT_TRUE(result.exit_code == 143 || result.exit_code == 130) << result.exit_code << result.output;
+}
+
 TEST_F(Losses, AReaderOfTheSummaryThatLeaves) {
   write("swing.yaml", kSwing);
   const auto result = shell("cd " + folder_.string() + " && " ORTHODYN_EXECUTABLE " run swing.yaml 2>&1 | true");

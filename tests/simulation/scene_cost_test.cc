@@ -2,8 +2,10 @@
 #include "lib/simulation/scene_cost.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "lib/analysis/static_response.h"
+#include "lib/simulation/run_cost.h"
 #include "tests/simulation/run_program.h"
 
 namespace orthodyn::scene_cost_test {
@@ -82,6 +84,45 @@ TEST(Dispensable, IsAMeshFinerThanTheToleranceAsks) {
 }
 
 class Check : public InFolder {};
+
+// A block of rubber falls on the ground and bounces.
+const std::string kBouncing = R"(
+mesh: {type: box, size: [0.2, 0.2, 0.2], cells: [1, 1, 1], origin: [0, 0, 0.1], order: 1}
+materials: {rubber: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
+gravity: [0, 0, -10]
+terms: [{type: ground, stiffness: 1e7}]
+time: {end: 0.5}
+integrator: {type: cvode_bdf, rtol: 1e-4}
+output: {probes: {corner: {at: [0, 0, 0.1]}}}
+)";
+
+// Of a ground too stiff for its frequency to say anything, and of a run that an event ends at its beginning.
+TEST_F(Check, ForetellsTheStepsOfContactAndEvents) {
+  write("block.yaml", kBouncing);
+  const std::string stop = "events=[{quantity: corner.displacement.z, crosses: -0.01, action: stop}]";
+  const std::string soft = "terms.0.stiffness=1e5", stiff = "terms.0.stiffness=1e12";
+  for (const std::string& change : {soft, stiff, stop}) {
+    Config config = Config::from_text(kBouncing);
+    config.override_with(change);
+    const orthodyn::Setup setup = set_up(config);
+    setup.integrator->start(setup.built.initial);
+    const RunCost cost = run_cost(setup, term_costs(*setup.built.model, setup.built.initial, 0.01));
+    ASSERT_EQ(orthodyn("run block.yaml --quiet --force --set '" + change + "'").exit_code, 0);
+    const double steps = nlohmann::json::parse(read_text(folder_ / "out/block/run.json")).at("statistics").at("steps");
+    EXPECT_LE(cost.steps.least, steps) << change;
+    EXPECT_GE(cost.steps.most, steps) << change;
+  }
+}
+
+TEST_F(Check, SaysWhyStepsOfContactAndEventsAreUncertain) {
+  write("block.yaml", kBouncing);
+  const auto said = orthodyn("check block.yaml");
+  EXPECT_NE(said.output.find("while the body touches the ground"), std::string::npos) << said.output;
+  EXPECT_EQ(said.output.find("an event may end the run"), std::string::npos) << said.output;
+  const auto ended = orthodyn(
+      "check block.yaml --set 'events=[{quantity: corner.displacement.z, crosses: -0.01, action: stop}]'");
+  EXPECT_NE(ended.output.find("an event may end the run"), std::string::npos) << ended.output;
+}
 
 TEST_F(Check, MeasuresEachTerm) {
   write("beam.yaml", kBeam);

@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
              "selects no node"},
         Slip{"a_box_in_mm_that_holds_all", "{surface: x0}", "{box: {min: [0, 0, 0], max: [100, 100, 100]}}", kRefused,
              "all nodes are clamped"},
-        Slip{"one_length_in_mm", "[1, 0.1, 0.1]", "[1000 mm, 100, 100]", kWarned, "is it meant in mm"}),
+        Slip{"one_length_in_mm", "[1, 0.1, 0.1]", "[1000 mm, 100, 100]", kRefused, "write '100 mm'"}),
     [](const auto& slip) { return slip.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -173,6 +173,32 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"a_run_in_ms", kTime, "time: {end: 5e6}", kWarned, "is the end, 5e+06 s, in ms?"},
         Slip{"metres_for_milliseconds", kTime, "time: {end: 500 m}", kRefused, "a length (m)"},
         Slip{"frames_beyond_the_end", "probes: {tip", "interval: 5, probes: {tip", kWarned, "is longer than the run"},
+        Slip{"a_history_beyond_the_end", "probes: {tip", "history: {interval: 5}, probes: {tip", kWarned,
+             "the history is its start and its end"},
+        Slip{"nothing_to_move_it", "gravity: [0, 0, -9.81]\n" + kLoad, "", kWarned, "it will not move"},
+        Slip{"an_anchor_in_mm", kLoad,
+             "terms: [{type: spring, nearest: [1, 0, 0], anchor: [400, 0, 0], stiffness: 10}]", kWarned,
+             "the anchor is 399 m away"},
+        Slip{"a_size_of_which_one_has_its_unit", "size: [1, 0.1, 0.1]", "size: [400 mm, 40, 12]", kRefused,
+             "unit missing: '40' is next to '400 mm'"},
+        Slip{"a_clamp_forgotten", "clamps: [{surface: x0}]\ngravity: [0, 0, -9.81]\n" + kLoad,
+             "loads: [{surface: x1, force: [0, 0, -100 kN]}]", kWarned, "is a clamp missing?"},
+        Slip{"a_ground_upside_down", "clamps: [{surface: x0}]\ngravity: [0, 0, -9.81]\n" + kLoad,
+             "terms: [{type: ground, point: [0, 0, -0.1], normal: [0, 0, -1], stiffness: 1e6}]", kWarned,
+             "the body begins below the ground"},
+        Slip{"an_angle_with_the_wrong_unit", "{material: wood}",
+             "{material: wood, axes: {type: axis_angle, axis: [0, 0, 1], angle: 30 rad}}", kWarned,
+             "30 rad is 4.77 turns"},
+        Slip{
+            "millimetres_and_mpa",
+            "size: [1, 0.1, 0.1], cells: [4, 1, 1], order: 2}\nmaterials:\n  wood: {type: orthotropic_stable, density: "
+            "450, young: [10.8 GPa, 0.84 GPa, 0.46 GPa], nu: 0.3}\nregions: {body: {material: wood}}\nclamps: "
+            "[{surface: x0}]\ngravity: [0, 0, -9.81]\n" +
+                kLoad,
+            "size: [40, 4, 4], cells: [4, 1, 1], order: 2}\nmaterials:\n  wood: {type: orthotropic_stable, density: "
+            "450, young: [10800, 840, 460], nu: 0.3}\nregions: {body: {material: wood}}\nclamps: [{surface: x0}]\n"
+            "initial: {velocity: [0, 0, 0.1]}",
+            kWarned, "are lengths in mm and moduli in MPa?"},
         Slip{"damping_for_ever", "stiffness: 1e-5", "stiffness: 1e4", kWarned, "for longer than the run"},
         Slip{"a_damping_ratio", "stiffness: 1e-5", "stiffness: 0.02", kWarned, "Is it meant as a damping ratio?"},
         Slip{"a_damping_ratio_of_a_region", "{material: wood}", "{material: wood, stiffness_damping: 0.05}", kWarned,

@@ -1,4 +1,7 @@
 // `orthodyn run` of static scenes, and events of dynamic ones, as a user sees them.
+#include <cmath>
+#include <numbers>
+
 #include "tests/simulation/run_program.h"
 #include "tests/simulation/result_reader.h"
 
@@ -49,8 +52,7 @@ TEST_F(StaticRun, ThatCannotGoOnKeepsItsStepsAndSaysWhere) {
   EXPECT_NE(read_text(folder_ / "out/run.json").find("\"status\": \"failed\""), std::string::npos);
 }
 
-// Its interior is at rest at load factor 0 while the support has moved: no shape that the body takes.
-TEST_F(StaticRun, WithAMovedSupportHasTheExtremesOfItsEquilibrium) {
+TEST_F(StaticRun, WithAMovedSupportHasTheExtremesOfItsEquilibria) {
   write("shelf.yaml", std::string(kShelf) + R"(
 motions: [{surface: x1, translation: [1e-3, 0, 0], factor: {type: ramp, end: 1}}]
 time: {end: 1}
@@ -59,8 +61,42 @@ time: {end: 1}
                                "'output.extremes=[nodal_stress.xx.largest, nodal_stress.xx.smallest]'");
   ASSERT_EQ(result.exit_code, 0) << result.output;
   for (const char* which : {"largest", "smallest"})  // E times the strain
-    EXPECT_NE(result.output.find(std::string("nodal_stress.xx.") + which + ": 1000 Pa"), std::string::npos)
+    EXPECT_NE(result.output.find(std::string("nodal_stress.xx.") + which + (which[0] == 'l' ? ": 1000 Pa" : ": 0 Pa")),
+              std::string::npos)
         << result.output;
+}
+
+// Supports go the way with the load factor: the body is in equilibrium with them all along, and what turns does so
+// about its axis.
+TEST_F(StaticRun, MovesSupportsWithTheLoadFactor) {
+  write("bar.yaml", R"(
+analysis: static
+mesh: {type: box, size: [2, 0.1, 0.1], cells: [40, 2, 2], order: 1}
+materials: {m: {type: isotropic, density: 1, young: 1e6, nu: 0}}
+clamps: [{surface: x0, components: [x]}, {nearest: [0, 0, 0]}, {nearest: [0, 0.1, 0], components: [z]}]
+motions: [{surface: x1, components: [x], translation: [0.02, 0, 0], factor: {type: ramp, end: 3}}]
+statics: {max_step: 0.25}
+time: {end: 3}
+output: {probes: {middle: {at: [1, 0, 0], fields: [displacement, nodal_stress]}}, extremes: [nodal_stress.xx.largest]}
+)");
+  const auto pulled = orthodyn("run bar.yaml --out pulled");
+  ASSERT_EQ(pulled.exit_code, 0) << pulled.output;
+  const auto rows = read_rows(folder_ / "pulled/probes.csv");
+  EXPECT_GE(rows.size(), 5u);
+  for (const auto& row : rows) {
+    EXPECT_NEAR(row[1], 0.01 * row[0], 1e-10) << row[0];
+    EXPECT_NEAR(row[4], 1e4 * row[0], 1e-3) << row[0];  // E times the strain
+  }
+  const auto turned = orthodyn(
+      "run bar.yaml --out turned --set 'clamps=[{surface: x0}]' --set 'motions.0={surface: x1, "
+      "rotation: {axis: [1, 0, 0], point: [0, 0.05, 0.05], angle: 150 deg}, factor: {type: "
+      "constant}}' --set output.probes.middle.at='[2, 0, 0.05]'");
+  ASSERT_EQ(turned.exit_code, 0) << turned.output;
+  for (const auto& row : read_rows(folder_ / "turned/probes.csv")) {
+    const double angle = row[0] * 150 * std::numbers::pi / 180;
+    EXPECT_NEAR(row[2], 0.05 * (1 - std::cos(angle)), 1e-12) << row[0];
+    EXPECT_NEAR(row[3], -0.05 * std::sin(angle), 1e-12) << row[0];
+  }
 }
 
 // Displacements that vanish beside the body's size.

@@ -95,7 +95,7 @@ TEST_F(Stopped, ADamagedCheckpointIsRefusedAndNothingDestroyed) {
 
 TEST_F(Stopped, ACheckpointOfAnotherVersionIsNamed) {
   std::string text = read_text(checkpoint_);
-  text.replace(text.find(" 003 "), 5, " 001 ");
+  text.replace(text.find(" 004 "), 5, " 001 ");
   std::ofstream(checkpoint_, std::ios::binary) << text;
   expect_refused("beam.yaml", "version 1 of the format");
 }

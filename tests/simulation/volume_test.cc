@@ -28,6 +28,17 @@ TEST_F(VolumeOf, AMillionRowsAreRefused) {
   expect_refused("run swing.yaml --set output.history.interval=5e-7", "rows of tables");
 }
 
+// Fixed steps are counted; of others nobody knows.
+TEST_F(VolumeOf, ARowForEachOfAMillionFixedStepsIsRefused) {
+  const std::string fixed =
+      " swing.yaml --set 'integrator={type: generalized_alpha, step: 1e-7}' --set 'output.history={steps: true}'";
+  expect_refused("run" + fixed, "5000000 rows of tables");
+  const auto said = orthodyn("check" + fixed);
+  EXPECT_NE(said.output.find("5000000 rows of tables of"), std::string::npos) << said.output;
+  const auto adaptive = orthodyn("check swing.yaml --set 'output.history={steps: true}'");
+  EXPECT_NE(adaptive.output.find("a row of tables of"), std::string::npos) << adaptive.output;
+}
+
 TEST_F(VolumeOf, AMillionLoadStepsAreRefused) {
   expect_refused(
       "run swing.yaml --set analysis=static --set integrator=null --set output.frames=null --set "

@@ -66,6 +66,39 @@ TEST_F(Compare, MeasuresEveryPointAgainstACheckedReference) {
   EXPECT_EQ(t.at("orders").size(), 2u);
 }
 
+// A probe's displacement is a quantity, too: by either name the error is the same.
+TEST_F(Compare, MeasuresTheErrorsOfQuantities) {
+  write("c.yaml", kSmall + std::string("quantities: [von_mises.largest, tip.displacement]\n"));
+  const auto done = compare();
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  const Json t = table();
+  EXPECT_GT(t.at("problems")[0].at("quantity_scales").at("von_mises.largest"), 0);
+  for (const auto& point : t.at("points")) {
+    const Json& errors = point.at("errors");
+    const double rtol = point.at("control").at("value"),
+                 stress = errors.at("quantities").at("von_mises.largest").at("l2");
+    EXPECT_LT(stress, 100 * rtol);
+    EXPECT_GT(stress, 0.01 * rtol);
+    for (const char* norm : {"final", "l2", "max"})
+      EXPECT_NEAR(errors.at("quantities").at("tip.displacement").at(norm).get<double>(),
+                  errors.at("probes").at("tip").at(norm).get<double>(), 1e-12);
+  }
+  EXPECT_NE(read_text(folder_ / "out/comparisons/c/compare.csv").find(",error.von_mises.largest.l2,"),
+            std::string::npos);
+}
+
+TEST_F(Compare, RefusesQuantitiesThatASceneDoesNotHaveBeforeItBegins) {
+  for (const auto& [quantity, words] : {std::pair{"tsai_wu.largest", "strength"}, {"tpi.displacement", "did you mean"},
+                                        {"energy.balance", "drift of the energy"}}) {
+    write("c.yaml", std::string("quantities: [") + quantity + "]\n" + kSmall);
+    const auto refused = compare();
+    EXPECT_EQ(refused.exit_code, 2) << refused.output;
+    EXPECT_NE(refused.output.find("c.yaml:1"), std::string::npos) << refused.output;
+    EXPECT_NE(refused.output.find(words), std::string::npos) << refused.output;
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+  }
+}
+
 TEST_F(Compare, TheCsvHoldsTheNumbersOfTheJson) {
   ASSERT_EQ(compare().exit_code, 0);
   std::istringstream csv(read_text(folder_ / "out/comparisons/c/compare.csv"));

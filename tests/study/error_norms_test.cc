@@ -56,6 +56,23 @@ TEST(ErrorNorms, FinalRmsAndWorstAreRelativeToTheLargestMotion) {
   EXPECT_NEAR(errors.probes[0].second.max, 0.1, 1e-12);
 }
 
+TEST(ErrorNorms, QuantitiesAreRelativeToTheirLargestSize) {
+  const Rigid body;
+  const auto with = [&](double last_of_vector, double number) {
+    Trajectory t = body.moving([](double s) { return s; }, 2);
+    t.quantities = Eigen::MatrixXd{{0, 3, 3}, {0, 0, 0}, {0, 4, last_of_vector}, {-8, 2, number}};
+    return t;
+  };
+  const ReferenceNorms norms(*body.setup.built.model, with(4, 2), {}, {{"vector", 3}, {"number"}});
+  EXPECT_EQ(norms.scales().quantities[0].second, 5);
+  EXPECT_EQ(norms.scales().quantities[1].second, 8);
+  const auto errors = norms.errors(with(4.5, 6)).quantities;
+  EXPECT_EQ(errors[0].first, "vector");
+  EXPECT_NEAR(errors[0].second.final, 0.1, 1e-15);
+  EXPECT_NEAR(errors[1].second.max, 0.5, 1e-15);
+  EXPECT_NEAR(errors[1].second.l2, 0.5 / std::sqrt(3), 1e-15);
+}
+
 TEST(ErrorNorms, ALateSwingIsAPhaseError) {
   const Rigid body;
   const double omega = 2 * std::numbers::pi * 6;

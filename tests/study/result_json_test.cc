@@ -23,7 +23,11 @@ Statistics statistics() {
 }
 
 TrajectoryErrors errors(double size) {
-  return {{size, 2 * size, 3 * size}, {4 * size, kNaN, 5 * size}, {{"tip", {size, size, size}}}, kNaN};
+  return {{size, 2 * size, 3 * size},
+          {4 * size, kNaN, 5 * size},
+          {{"tip", {size, size, size}}},
+          {{"strain", {size, 0, kNaN}}},
+          kNaN};
 }
 
 compare::MeasurementResult measured() {
@@ -62,7 +66,7 @@ TEST(MeasurementResult, OfAReferenceIsReadAsItWasWritten) {
   exact.model = compare::ModelSize{1, 2, 3, 0, 1};
   exact.kind = compare::MeasurementResult::Kind::exact;
   exact.own_errors = errors(1e-15);
-  exact.scales = TrajectoryScales{0.5, 2, {{"tip", 0.25}}, kNaN};
+  exact.scales = TrajectoryScales{0.5, 2, {{"tip", 0.25}}, {{"strain", 0.5}}, kNaN};
   const Json json = sent(to_json(exact));
   const auto read = compare::measurement_from(json);
   EXPECT_EQ(sent(to_json(read)), json);
@@ -94,7 +98,8 @@ TEST(MeasurementResult, OfAFailureTellsWhatWasKnown) {
 }
 
 TEST(MeasurementInput, IsReadAsItWasWritten) {
-  const compare::MeasurementInput input{3, 40, 1.5, "/somewhere/else", true, false, true, "c0de"};
+  const compare::MeasurementInput input{3,     40, 1.5, "/somewhere/else", true, false, true, {"von_mises.largest"},
+                                        "c0de"};
   EXPECT_EQ(to_json(compare::measurement_input_from(sent(to_json(input)))), to_json(input));
 }
 

@@ -114,6 +114,24 @@ TEST_F(SweepCommand, PrintsAnArrayForNamesWithBlanksAndPatterns) {
   EXPECT_NE(script.find("#SBATCH --mem=1512M\n"), std::string::npos) << script;
 }
 
+// nu = 0.6 is no material, and 'nowhere' no surface.
+TEST_F(SweepCommand, TellsOfPointsThatCannotBeBeforeAnArrayIsPrinted) {
+  const auto array_of = [&](const std::string& vary) {
+    write("s.yaml", "scene: scene.yaml\nimpossible: keep\nquantities: {far: {quantity: node.displacement.x}}\nvary: " +
+                        vary + "\n");
+    return sweep("--slurm");
+  };
+  for (const char* vary : {"{materials.soft.nu: [0.6, 0.7]}", "{loads.0.surface: [nowhere, neither]}"}) {
+    const auto none = array_of(vary);
+    EXPECT_EQ(none.exit_code, 2) << none.output;
+    EXPECT_NE(none.output.find("none of the points can be computed"), std::string::npos) << none.output;
+    EXPECT_EQ(none.output.find("#SBATCH"), std::string::npos) << none.output;
+  }
+  const auto some = array_of("{materials.soft.nu: [0.3, 0.6]}");
+  EXPECT_EQ(some.exit_code, 0) << some.output;
+  EXPECT_NE(some.output.find("warning: nu 0.6 cannot be computed"), std::string::npos) << some.output;
+}
+
 TEST_F(SweepCommand, RefusesAFolderOfSomethingElse) {
   write("s.yaml", kMany);
   fs::create_directories(folder_ / "other");

@@ -1,8 +1,10 @@
-// Forces, tangents and what follows from them, on one thread, in nanoseconds an element.
+// Forces, tangents and what follows from them, in nanoseconds an element: of processor time on one thread, of real time
+// on several.
 #include <benchmark/benchmark.h>
 
 #include <fmt/format.h>
 
+#include "lib/core/parallel.h"
 #include "lib/linear/solver.h"
 #include "tools/bench/beam.h"
 #include "tools/bench/register.h"
@@ -104,6 +106,19 @@ void add(const std::string& what, const std::string& of, const std::shared_ptr<L
                                [beam, measure](benchmark::State& state) { measure(state, beam->get()); });
 }
 
+// With as many threads as the machine has.
+void add_threaded(const std::string& what, const std::string& of, const std::shared_ptr<Later>& beam,
+                  void (*measure)(benchmark::State&, const BentBeam&)) {
+  const int count = available_threads();
+  if (count == 1) return;
+  const std::string name = fmt::format("{}, {} threads/{}", what, count, of);
+  benchmark::RegisterBenchmark(name.c_str(), [beam, measure, count](benchmark::State& state) {
+    set_threads(count);
+    measure(state, beam->get());
+    set_threads(1);
+  })->UseRealTime();
+}
+
 }  // namespace
 
 void register_kernels(bool large) {
@@ -118,14 +133,18 @@ void register_kernels(bool large) {
                isotropic = std::make_shared<Later>(Beam{false, 1, "isotropic"}, across);
     const std::string n = name;
     add("force", n, plain, force);
+    add_threaded("force", n, plain, force);
     add("force, damped", n, damped, force);
     add("force, isotropic", n, isotropic, force);
     add("tangent", n, plain, tangent);
+    add_threaded("tangent", n, plain, tangent);
     add("tangent, damped", n, damped, tangent);
     add("tangent, isotropic", n, isotropic, tangent);
     add("M + w K", n, plain, combine);
+    add_threaded("M + w K", n, plain, combine);
     add("M + w D + w K", n, damped, combine);
     add("elastic energy", n, plain, energy);
+    add_threaded("elastic energy", n, plain, energy);
     add("factorisation", n, plain, factorisation);
     add("solve", n, plain, solve);
     add("symbolic analysis", n, plain, analysis);

@@ -63,7 +63,7 @@ int print(const std::vector<Result>& results, const std::map<std::string, double
   const Json at = context();
   fmt::print("{}\n{}\n{}\n{}\n\n", at["machine"].dump(), at["versions"].dump(), at["compiler"].get<std::string>(),
              at["blas"].get<std::string>());
-  fmt::print("{:40} {:>12}{}\n", "one thread", "ns/element", before.empty() ? "" : "     before   ratio");
+  fmt::print("{:40} {:>12}{}\n", "one thread, or several", "ns/element", before.empty() ? "" : "     before   ratio");
   int lost = 0;
   for (const Result& r : results) {
     std::string compared;

@@ -3,6 +3,8 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from .chart import COLOURS, draw_lines, panels, time_axis, title
+from .errors import DrawError
+from .series import analysis
 from .style import FAINT, save
 from .table import Column, Table
 
@@ -109,7 +111,14 @@ def draw_components(table, path):
 
 CURVES = {"energy": draw_energy, "steps": draw_steps, "probes": draw_components, "momentum": draw_components}
 
+MOTION = ("energy", "steps", "momentum")  # what only a motion has
+INSTEAD = {"static": "draw the load path (draw load), its probes (draw probes) or a frame (draw frame)",
+           "buckling": "draw its shapes (draw modes)"}
+
 
 def draw_curve(kind, folder, path):
     """The curve `kind` from folder/kind.csv."""
+    found = analysis(folder)
+    if kind in MOTION and found in INSTEAD and not (folder / f"{kind}.csv").is_file():
+        raise DrawError(f"{folder}: a {found} analysis has no motion, so there is no {kind} over time; {INSTEAD[found]}")
     return CURVES[kind](Table(folder / f"{kind}.csv"), path)

@@ -12,6 +12,7 @@ UNITS = {"displacement": "m", "velocity": "m/s", "stress": "Pa", "stress_materia
 AT_NODES = "nodal_"  # the same field, recovered at the nodes
 # Fields at the nodes that follow from the recovered ones.
 FIGURES = ("von_mises", "principal_stress", "principal_strain", "max_stress", "tsai_wu", "hashin")
+TITLES = {"von_mises": "von Mises", "tsai_wu": "Tsai-Wu", "hashin": "Hashin", "det_f": "volume ratio det F"}
 NEUTRAL = {"det_f": 1.0, "nodal_det_f": 1.0}  # the value of the undeformed body; every other signed field has 0
 
 
@@ -98,7 +99,8 @@ def find_quantity(text, frame):
     fields = {**frame.cell_fields, **frame.node_fields}
     field, part = _split(text or default_quantity(frame), fields)
     on_nodes, count = field in frame.node_fields, fields[field].shape[1]
-    title = field.removeprefix(AT_NODES).replace("_", " ").replace("det f", "volume ratio det F")
+    plain = field.removeprefix(AT_NODES)
+    title = TITLES.get(plain, plain.replace("_", " "))
     if count == 1 and not part:
         return Quantity(field, "value", title, on_nodes)
     components = component_names(field, count)

@@ -17,12 +17,17 @@ def result_folder(name):
     return folder
 
 
-def is_static(folder):
-    """Whether the frames and rows of a folder are those of load factors, by its run.json; if in doubt, of times."""
+def analysis(folder):
+    """'static' or 'buckling' by a folder's run.json; '' of a motion, and if in doubt."""
     try:
-        return json.loads((folder / "run.json").read_text(encoding="utf-8"))["analysis"] == "static"
+        return json.loads((folder / "run.json").read_text(encoding="utf-8"))["analysis"]
     except (OSError, ValueError, KeyError, TypeError):
-        return False
+        return ""
+
+
+def is_static(folder):
+    """Whether the frames and rows of a folder are those of load factors; if in doubt, of times."""
+    return analysis(folder) == "static"
 
 
 class Series:

@@ -95,8 +95,8 @@ void print_dynamics(Setup& setup) {
 void print_statics(const Setup& setup) {
   const StaticProblem problem = static_problem(setup.scene, setup.built);
   fmt::print("statics\n  all rigid motions are held\n  solver {}\n", problem.solver->description());
-  fmt::print("  loads at t = {:.6g} s, the largest {:.4g} N on a coordinate\n", problem.path->time(),
-             problem.path->load().lpNorm<Eigen::Infinity>());
+  fmt::print("  loads at t = {:.6g} s, the largest {:.4g} N on a coordinate\n", problem.path->times().end,
+             problem.path->largest_load());
   print_memory(*setup.built.model, "", 0, problem.solver->factor_bytes());
 }
 
@@ -125,9 +125,12 @@ void print_cost(const Setup& setup, const std::vector<TermCost>& costs) {
 }
 
 std::string shown_steps(const RunCost& cost) {
-  if (cost.fixed_steps) return fmt::format("{:.0f}, as given", cost.steps.most);
-  return fmt::format("{:.0f} to {:.0f}, chosen as it goes: right to an order of magnitude", cost.steps.least,
-                     cost.steps.most);
+  const char* const early = cost.may_end_early ? "; an event may end the run before its time" : "";
+  if (cost.fixed_steps) return fmt::format("{:.0f}, as given{}", cost.steps.most, early);
+  return fmt::format("{:.0f} to {:.0f}, chosen as it goes: {}{}", cost.steps.least, cost.steps.most,
+                     cost.has_contact ? "small while the body touches the ground, and nobody knows how often it will"
+                                      : "right to an order of magnitude",
+                     early);
 }
 
 // Of this machine, as it is used now.

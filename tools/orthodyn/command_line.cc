@@ -29,8 +29,8 @@ Examples:
   orthodyn stability configs/stability/hard_cases.yaml
   orthodyn verify configs/cases
 
-Exit codes: 0 done, 1 an expectation was missed, 2 the input is at fault (nothing was written), 3 the run could not go on (what
-was computed is kept), or no point of a comparison or sweep could be computed, 130 interrupted (likewise).)";
+Exit codes: 0 done, 1 an expectation was missed, 2 the input is at fault (nothing was written), 3 the run could not go
+on (what was computed is kept), or no point of a comparison or sweep could be computed, 130 interrupted (likewise).)";
 
 std::function<int()> add_command(CLI::App& program, const Command& command) {
   auto* app = program.add_subcommand(command.text.name, command.text.sentence)->fallthrough();  // for --plugin

@@ -7,6 +7,7 @@
 
 #include "lib/simulation/files.h"
 #include "lib/study/compare/comparison_table.h"
+#include "lib/study/compare/measurement.h"
 #include "lib/study/jobs/json_values.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/failure_summary.h"
@@ -70,19 +71,31 @@ void print_failed_references(const ComparisonRun& run) {
   }
 }
 
-// By the first point of each problem: methods have no slips of their own.
-void tell_of_slips(const Design& design) {
-  SlipTeller teller;
+// The scenes of the first point of each problem: methods have no slips of their own.
+std::vector<Config> scenes_of(const Design& design) {
+  std::vector<Config> scenes;
   std::set<std::size_t> seen;
   for (const Point& point : design.points)
-    if (seen.insert(point.problem).second) teller.tell(point_scene(design, point));
+    if (seen.insert(point.problem).second) scenes.push_back(point_scene(design, point));
+  return scenes;
+}
+
+// Before hours of points that do not have them.
+void require_quantities(const Comparison& comparison, const Config& config, const std::vector<Config>& scenes) {
+  if (comparison.quantities.empty()) return;
+  for (const Config& scene : scenes)
+    followed_quantities(set_up(scene), comparison.quantities, {config.at("quantities").where()});
 }
 
 int compare(const StudyArguments& arguments) {
-  const Comparison comparison = read_comparison(Config::from_file(arguments.file));
+  const Config config = Config::from_file(arguments.file);
+  const Comparison comparison = read_comparison(config);
+  require_usual_number(arguments, number_of_points(comparison));
   Design design = expand(comparison);
-  require_usual_number(arguments, static_cast<double>(design.points.size()));
-  tell_of_slips(design);
+  const std::vector<Config> scenes = scenes_of(design);
+  require_quantities(comparison, config, scenes);
+  SlipTeller teller;
+  for (const Config& scene : scenes) teller.tell(scene);
   const StudyFolder place(folder_for(arguments, "out/comparisons", comparison.name), "comparison", arguments.file);
   const fs::path& folder = place.path();
 

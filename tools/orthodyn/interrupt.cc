@@ -1,8 +1,11 @@
 #include "tools/orthodyn/interrupt.h"
 
+#include <pthread.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
+#include <thread>
 
 namespace orthodyn {
 
@@ -11,9 +14,11 @@ namespace {
 constexpr unsigned kSecondsToEnd = 4;  // what waits for the program's end may give it five
 
 std::atomic<bool> flag{false};
+std::atomic<void (*)(int)> handler_of_sigterm{SIG_DFL};
 
 void set_flag(int signal) {
   flag = true;
+  if (signal == SIGTERM) handler_of_sigterm = SIG_DFL;
   std::signal(signal, signal == SIGHUP ? SIG_IGN : SIG_DFL);  // shell and kernel may each send one
   alarm(kSecondsToEnd);
 }
@@ -29,11 +34,22 @@ void end_at_once(int) {
 
 }  // namespace
 
+void keep_sigterm() {
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  std::thread([] {
+    for (;; std::this_thread::sleep_for(std::chrono::milliseconds(100))) std::signal(SIGTERM, handler_of_sigterm);
+  }).detach();
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
 const std::atomic<bool>& interrupted() { return flag; }
 
 void catch_interrupts() {
   std::signal(SIGALRM, end_at_once);
   std::signal(SIGINT, set_flag);
+  handler_of_sigterm = set_flag;
   std::signal(SIGTERM, set_flag);
   if (std::signal(SIGHUP, set_flag) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // under nohup
   std::signal(SIGPIPE, SIG_IGN);

@@ -9,7 +9,7 @@
 #include "lib/material/presets.h"
 #include "lib/mesh/io/mesh_format.h"
 #include "lib/fem/fem_model.h"
-#include "lib/fem/nodal_figures.h"
+#include "lib/fem/nodal_fields.h"
 #include "lib/scene/quantity.h"
 #include "lib/scene/scene.h"
 #include "lib/study/compare/comparison.h"
@@ -54,6 +54,15 @@ void list_meshes() {
   fmt::print("  endings of mesh files: {}\n", known_mesh_endings());
 }
 
+void print_strength(const Strength& strength) {
+  const auto three = [](const Vec3& pascal) {
+    const Vec3 v = 1e-6 * pascal;
+    return fmt::format("{:.4g}, {:.4g}, {:.4g}", v[0], v[1], v[2]);
+  };
+  fmt::print("    strengths along 1, 2, 3: tension {}; compression {}; shear 12, 23, 31: {} MPa\n",
+             three(strength.tension), three(strength.compression), three(strength.shear));
+}
+
 void list_presets() {
   for (const auto& p : presets()) {
     const auto& c = p.constants;
@@ -66,6 +75,7 @@ void list_presets() {
                c.young[1] / kGiga, c.young[2] / kGiga, c.g12 / kGiga, c.g23 / kGiga, c.g13 / kGiga);
     fmt::print("    nu12 {}, nu23 {}, nu13 {} (nu21 {:.3g}, nu32 {:.3g}, nu31 {:.3g})\n", c.nu12, c.nu23, c.nu13,
                reverse(c.nu12, 0, 1), reverse(c.nu23, 1, 2), reverse(c.nu13, 0, 2));
+    if (p.strength) print_strength(*p.strength);
   }
 }
 
@@ -106,6 +116,11 @@ void list_statics() {
   list_registry<EquilibriumChoice>();
 }
 
+void list_buckling() {
+  print_entry("buckling", "What is computed of critical load factors, for analysis: buckling.",
+              Buckling::spec().keys());
+}
+
 void list_events() {
   print_entry("events.<n>", "A value that a quantity crosses; the crossing is logged or ends the run.",
               EventSpec::spec().keys());
@@ -123,7 +138,8 @@ void list_sweep() {
   print_entry("scene", "The scene of a sweep, where it is a section.", SceneEntry::spec().keys());
   print_entry("vary.<name>", "Evenly spaced numbers.", NumberRange::spec().keys());
   print_entry("vary.<name>", "A list with a unit or a name.", ValueList::spec().keys());
-  print_entry("quantities.<name>", "What is computed for every point: one of quantity, mode (or along), buckling, cost.",
+  print_entry("quantities.<name>",
+              "What is computed for every point: one of quantity, mode (or along), buckling, cost.",
               WantedFigure::spec().keys());
   print_entry("plots.<n>", "A figure of the report.", PlotSpec::spec().keys());
   print_entry("frames", "A picture of each point.", FrameSpec::spec().keys());
@@ -155,6 +171,10 @@ void list_quantities() {
                  info.components == 1 ? "" : "s", info.unit);
   fmt::print("  {:<22} Drift of the energy balance (1 component, J)\n", kEnergyBalance);
   fmt::print("  PROBE.FIELD            A field per node (`orthodyn list fields`) at a probe of the scene.\n");
+  fmt::print("  reaction.SUPPORT       Force of a clamp or a moved support on the body, by its name (3 components, "
+             "N).\n");
+  fmt::print("  torque.SUPPORT         Its torque about the middle of the support's nodes (3 components, N m).\n");
+  fmt::print("                         Both with output.reactions: true, or where `expect` names one.\n");
   fmt::print("  [REGION.]FIELD.largest, .smallest\n");
   fmt::print("                         Over the nodes of the body or of a region, for a tensor with a component "
              "(nodal_stress.xx.largest):\n");
@@ -175,6 +195,7 @@ const std::vector<std::pair<std::string, std::function<void()>>>& chapters() {
       {"integrators", list_registry<IntegratorChoice>},
       {"solvers", list_solvers},
       {"statics", list_statics},
+      {"buckling", list_buckling},
       {"events", list_events},
       {"expect", list_expectations},
       {"comparison", list_comparison},
@@ -211,8 +232,8 @@ int list(const ListArguments& arguments) {
 void declare(ListArguments& arguments, CommandOptions& options) {
   options.value(
       "what", arguments.what,
-      "scene, materials, presets, meshes, axes, integrators, solvers, terms, factors, statics, events, expect, "
-      "comparison, sweep, stability, fields, quantities; all if left out.");
+      "scene, materials, presets, meshes, axes, integrators, solvers, terms, factors, statics, buckling, events, "
+      "expect, comparison, sweep, stability, fields, quantities; all if left out.");
   options.flag("--markdown", arguments.markdown, "Every key of the input as one page in Markdown.");
 }
 

@@ -66,7 +66,7 @@ int compute_modes(const ModesArguments& arguments) {
   const fs::path folder =
       arguments.out ? fs::path(*arguments.out) : fs::path("out") / "modes" / fs::path(arguments.scene).stem();
   check_modes_folder(folder, arguments.force);
-  const Setup setup = set_up_without_time(arguments.scene, {.set = arguments.set}).setup;
+  const Setup setup = set_up_without_time(arguments.scene, {.set = arguments.set}, false).setup;
   const ModalAnalysis analysis(setup, arguments.count, arguments.equilibrium);
   write_modes(folder, analysis);
   if (arguments.quiet) return 0;

@@ -61,12 +61,16 @@ std::string three(const Vec3& v, const char* format) {
   return fmt::format("({}, {}, {})", number(v[0]), number(v[1]), number(v[2]));
 }
 
+constexpr long kFewStates = 50;
+constexpr const char* kMoreStates = "; output.history: {steps: true} looks at every step";
+
 void print_extremes(const RunResult& result, const char* time, const char* unit) {
   for (const auto& e : result.extremes) {
     if (e.node < 0) fmt::print("  {}: no node has a value\n", e.quantity);
     else
-      fmt::print("  {}: {:.4g}{} at {} m, {} {:.4g}{}\n", e.quantity, e.value, e.unit.empty() ? "" : " " + e.unit,
-                 three(e.place, "{:.4g}"), time, e.time, unit);
+      fmt::print("  {}: {:.4g}{} at {} m, {} {:.4g}{}, of {}{}\n", e.quantity, e.value,
+                 e.unit.empty() ? "" : " " + e.unit, three(e.place, "{:.4g}"), time, e.time, unit,
+                 counted(e.states, "state"), e.states < kFewStates && *unit ? kMoreStates : "");
   }
 }
 

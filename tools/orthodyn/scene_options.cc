@@ -34,14 +34,14 @@ Setup set_up_and_warn(const std::string& scene, const SceneChanges& changes) {
   return set_up_and_warn(read_and_tell(scene, changes), true);
 }
 
-SetupOfAnyTime set_up_without_time(const std::string& file, const SceneChanges& changes) {
+SetupOfAnyTime set_up_without_time(const std::string& file, const SceneChanges& changes, bool uses_time) {
   Config scene = read_and_tell(file, changes);
   const bool timed = scene.is_map() && (scene.has("time") || scene.has("analysis"));
   if (scene.is_map() && !timed) {
     fmt::print(stderr, "notice: the scene has no 'time', which a run needs; 1 s is used here\n");
     scene.set("time.end", 1.0);
   }
-  return {set_up_and_warn(scene, timed), timed};
+  return {set_up_and_warn(scene, timed && uses_time), timed};
 }
 
 }  // namespace orthodyn

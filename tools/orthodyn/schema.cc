@@ -59,10 +59,23 @@ class SchemaWriter {
       out["default"] = fallback;
     else if (key.shape.kind == Shape::Kind::word && !key.fallback.empty())
       out["default"] = key.fallback;
-    const Schema shape = of(key.shape, key);
+    const Schema shape = key.required ? of(key.shape, key) : or_null(of(key.shape, key));
     if (shape.contains("$ref")) out["allOf"] = {shape};  // draft 7 ignores what stands beside $ref
     else out.update(shape);
     return out;
+  }
+
+  // A null counts as a key that is not given.
+  static Schema or_null(Schema shape) {
+    const Schema null = {{"type", "null"}};
+    if (shape.contains("$ref")) return {{"if", {{"not", null}}}, {"then", shape}};
+    if (shape.contains("anyOf")) shape["anyOf"].push_back(null);
+    if (shape.contains("enum")) shape["enum"].push_back(nullptr);
+    if (!shape.contains("type")) return shape;
+    Schema& type = shape["type"];
+    if (!type.is_array()) type = Schema::array({type});
+    type.push_back("null");
+    return shape;
   }
 
   static std::string description(const Key& key) {

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "lib/core/units.h"
+#include "lib/simulation/errors/mesh_error.h"
 #include "lib/simulation/files.h"
 #include "lib/study/jobs/json_values.h"
 #include "lib/study/sweep/sweep_table.h"
@@ -72,8 +73,6 @@ const Sweep& asked_for(const Sweep& sweep, const StudyArguments& arguments) {
   return sweep;
 }
 
-constexpr double kCoarse = 0.05;  // of the elastic energy, as of a run
-
 class SweepCommand {
  public:
   explicit SweepCommand(const SweepArguments& arguments)
@@ -85,7 +84,11 @@ class SweepCommand {
         work_(distinct(jobs_)) {}
 
   int execute() {
-    if (arguments_.slurm) return write_array();
+    if (arguments_.slurm) {
+      warn_of_impossible_points();
+      SlipTeller().tell(first_scene(sweep_));
+      return write_array();
+    }
     if (arguments_.task) {
       const auto [part, parts] = parse_task(*arguments_.task);
       work_ = slice(work_, part, parts);
@@ -204,7 +207,7 @@ class SweepCommand {
     const Json* worst = nullptr;
     std::size_t count = 0;
     for (const auto& point : table.at("points")) {
-      if (!point.at("mesh_error").is_number() || !(point.at("mesh_error") > kCoarse)) continue;
+      if (!point.at("mesh_error").is_number() || !(point.at("mesh_error") > kCoarseMesh)) continue;
       ++count;
       if (!worst || point.at("mesh_error") > worst->at("mesh_error")) worst = &point;
     }

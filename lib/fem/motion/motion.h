@@ -19,6 +19,8 @@ class Motion {
   virtual ~Motion() = default;
   // Of the points that are at X at rest. Velocity and acceleration are those from the right at a kink.
   virtual Moved at(double t, const NodalVector& X) const = 0;
+  // Displacements on the way to those of a time: u at share 1, none at 0; m.
+  virtual NodalVector part_of_way(double share, double t, const NodalVector& X) const { return share * at(t, X).u; }
   virtual std::vector<double> kinks() const = 0;  // where it is not smooth
   virtual bool has_continuous_velocity() const = 0;
   // What it does between the kinks, s.

@@ -18,6 +18,10 @@ class RigidMotion : public Motion {
       : translation_(translation), point_(point), axis_(axis), angle_(angle), factor_(std::move(factor)) {}
 
   Moved at(double t, const NodalVector& X) const override;
+  // By the same share of the factor: what turns does so about its axis.
+  NodalVector part_of_way(double share, double t, const NodalVector& X) const override {
+    return displacements(share * factor_->value(t), X);
+  }
   std::vector<double> kinks() const override { return factor_->kinks(); }
   bool has_continuous_velocity() const override { return factor_->has_continuous_rate(); }
   StepLimits step_limits(double start, double end, const NodalVector&) const override {
@@ -25,6 +29,8 @@ class RigidMotion : public Motion {
   }
 
  private:
+  NodalVector displacements(double factor, const NodalVector& X) const;
+
   Vec3 translation_, point_, axis_;
   double angle_;
   std::shared_ptr<const TimeFunction> factor_;

@@ -1,4 +1,5 @@
-// Elasticity compiled for one element E and one law of lib/element: forces in batches, tangents element by element.
+// Elasticity compiled for one element E and one law of lib/element: forces and tangents in batches of elements, groups
+// of which are worked on in parallel.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,9 +10,11 @@
 
 #include <Eigen/Cholesky>
 
+#include "lib/core/parallel.h"
 #include "lib/core/symmetric_eigen.h"
 #include "lib/fem/elastic_region.h"
 #include "lib/fem/element_batches.h"
+#include "lib/fem/element_groups.h"
 #include "lib/fem/element_stiffness.h"
 #include "lib/fem/terms/elastic_term.h"
 
@@ -22,7 +25,11 @@ class ElasticTermOf final : public ElasticTerm {
  public:
   // The pattern must outlive the term, the mesh need not.
   ElasticTermOf(const ElementMesh& mesh, ElasticRegion region, const Law& law, const BlockPattern& pattern)
-      : region_(std::move(region)), law_(law), pattern_(pattern), elements_(mesh, region_.cells, region_.axes) {
+      : region_(std::move(region)),
+        law_(law),
+        pattern_(pattern),
+        elements_(mesh, region_.cells, region_.axes),
+        groups_(mesh, region_.cells) {
     offsets_.reserve(region_.cells.size());
     for (int k = 0; k < size(); ++k) {
       offsets_.emplace_back(elements_.nodes(k), pattern);
@@ -61,26 +68,29 @@ class ElasticTermOf final : public ElasticTerm {
 
   void add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const override {
     if constexpr (Law::kHasEnergy)
-      for (int k = 0; k < size(); ++k)
+      for_each_element([&](int k) {
         for (int p = 0; p < E::kPoints; ++p)
           elements_.add_force(
               k, p, law_.mean_stress(elements_.gradient(k, p, s0.u), elements_.gradient(k, p, s1.u), axes().of(k, p)),
               f);
+      });
   }
 
   void add_tangent(const NodalState& s, TangentKind kind, double* K, double* D) const override {
     double* const damping = damped() ? D : nullptr;
-    for (int b = 0; b < elements_.num_batches(); ++b)
+    for_each_batch([&](int b) {
       if (!add_batch_tangent(b, s, kind, K, damping))
         for_each_lane(b, [&](int k) { add_element_tangent(k, s, kind, K, damping); });
+    });
   }
 
   void add_mixed_tangent(const NodalState& before, const NodalState& s, double* K) const override {
     if constexpr (requires(const Law& law, Mat3 H) { law.mixed_tangent(H, H, H); })
-      for (int k = 0; k < size(); ++k)
+      for_each_element([&](int k) {
         add_element(k, K, [&](int p) {
           return law_.mixed_tangent(elements_.gradient(k, p, before.u), elements_.gradient(k, p, s.u), axes().of(k, p));
         });
+      });
     else
       add_tangent(s, TangentKind::exact, K, nullptr);
   }
@@ -116,18 +126,14 @@ class ElasticTermOf final : public ElasticTerm {
   }
 
   double largest_green_strain(const NodalState& s) const override {
+    const auto of_group = [&](int first, int last) {
+      double largest = 0;
+      for (int b = first; b < last; ++b)
+        for (int p = 0; p < E::kPoints; ++p) largest = std::max(largest, largest_square(b, p, s));
+      return largest;
+    };
     double largest = 0;
-    for_each_batch_point([&](int b, int p) {
-      const Mat3T<Batch> F = deformation_gradient<Batch>(elements_.gradients(b, p, s.u), axes().batch(b, p));
-      Batch square(0);
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) {
-          Batch e = Batch(i == j ? -1 : 0);
-          for (int k = 0; k < 3; ++k) e = e + F(k, i) * F(k, j);
-          square = square + e * e;
-        }
-      for (int l = 0; l < elements_.lanes(b); ++l) largest = std::max(largest, square[l]);
-    });
+    for (const double square : of_each_group(of_group)) largest = std::max(largest, square);
     return 0.5 * std::sqrt(largest);
   }
 
@@ -171,10 +177,59 @@ class ElasticTermOf final : public ElasticTerm {
   const ElementAxes& axes() const { return region_.axes; }
   bool damped() const { return region_.beta > 0; }
 
+  // Of |F^T F - I|^2.
+  double largest_square(int b, int p, const NodalState& s) const {
+    const Mat3T<Batch> F = deformation_gradient<Batch>(elements_.gradients(b, p, s.u), axes().batch(b, p));
+    Batch square(0);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        Batch e = Batch(i == j ? -1 : 0);
+        for (int k = 0; k < 3; ++k) e = e + F(k, i) * F(k, j);
+        square = square + e * e;
+      }
+    double largest = 0;
+    for (int l = 0; l < elements_.lanes(b); ++l) largest = std::max(largest, square[l]);
+    return largest;
+  }
+
+  // visit(first, last) for the batches [first, last) of a group.
+  template <class Visit>
+  void visit_group(int group, Visit&& visit) const {
+    const auto [begin, end] = groups_.elements(group);
+    visit(begin / Batch::kLanes, (end + Batch::kLanes - 1) / Batch::kLanes);
+  }
+
+  // For what is added to nodes: in parallel, one colour after the other.
+  template <class Visit>
+  void for_each_batch(Visit&& visit) const {
+    for (const std::vector<int>& groups : groups_.colours())
+      parallel_for(static_cast<int>(groups.size()), [&](int i) {
+        visit_group(groups[static_cast<std::size_t>(i)], [&](int first, int last) {
+          for (int b = first; b < last; ++b) visit(b);
+        });
+      });
+  }
+
   template <class Visit>
   void for_each_batch_point(Visit&& visit) const {
-    for (int b = 0; b < elements_.num_batches(); ++b)
+    for_each_batch([&](int b) {
       for (int p = 0; p < E::kPoints; ++p) visit(b, p);
+    });
+  }
+
+  template <class Visit>
+  void for_each_element(Visit&& visit) const {
+    for_each_batch([&](int b) { for_each_lane(b, visit); });
+  }
+
+  // A number for each group.
+  template <class OfGroup>
+  std::vector<double> of_each_group(OfGroup&& of_group) const {
+    std::vector<double> all(static_cast<std::size_t>(groups_.size()));
+    parallel_for(groups_.size(), [&](int group) {
+      visit_group(group, [&](int first, int last) { all[static_cast<std::size_t>(group)] = of_group(first, last); });
+    });
+    return all;
   }
 
   template <class Visit>
@@ -185,13 +240,19 @@ class ElasticTermOf final : public ElasticTerm {
   // The volume integral of a density given at a point of whole batches and, where those fail, of elements.
   template <class OfBatch, class OfElement>
   double integrate(OfBatch&& of_batch, OfElement&& of_element) const {
+    const auto of_group = [&](int first, int last) {
+      double sum = 0;
+      for (int b = first; b < last; ++b)
+        for (int p = 0; p < E::kPoints; ++p) {
+          Batch::Mask good;
+          const Batch product = elements_.volumes(b, p) * of_batch(b, p, good);
+          if (all(good)) for (int l = 0; l < Batch::kLanes; ++l) sum += product[l];
+          else for_each_lane(b, [&](int k) { sum += elements_.volume(k, p) * of_element(k, p); });
+        }
+      return sum;
+    };
     double sum = 0;
-    for_each_batch_point([&](int b, int p) {
-      Batch::Mask good;
-      const Batch product = elements_.volumes(b, p) * of_batch(b, p, good);
-      if (all(good)) for (int l = 0; l < Batch::kLanes; ++l) sum += product[l];
-      else for_each_lane(b, [&](int k) { sum += elements_.volume(k, p) * of_element(k, p); });
-    });
+    for (const double share : of_each_group(of_group)) sum += share;
     return sum;
   }
 
@@ -294,6 +355,7 @@ class ElasticTermOf final : public ElasticTerm {
   Law law_;
   const BlockPattern& pattern_;
   ElementBatches<E> elements_;
+  ElementGroups groups_;
   std::vector<Offsets> offsets_;
   double volume_excess_ = 1;  // the largest ratio of the points' volumes to the element's
 };

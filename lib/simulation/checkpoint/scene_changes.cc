@@ -11,7 +11,7 @@ namespace orthodyn {
 namespace {
 
 constexpr const char* kAllowed[] = {"time.end", "checkpoint", "expect", "integrator.max_steps", "integrator.h_min",
-                                    "integrator.max_newton_iterations", "output.accumulated_error"};
+                                    "integrator.max_newton_iterations", "output.accumulated_error", "threads"};
 
 // What the program says of its own choices, in words: figures in it may differ in their last digits.
 constexpr const char* kWords[] = {"integrator.kept", "integrator.because"};

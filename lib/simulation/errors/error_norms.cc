@@ -39,6 +39,18 @@ std::vector<double> lengths(const ProbePoint& probe, const Eigen::MatrixXd& q) {
   return out;
 }
 
+// The sizes of quantities over time.
+std::vector<std::vector<double>> sizes(const std::vector<FollowedQuantity>& quantities, const Eigen::MatrixXd& values) {
+  std::vector<std::vector<double>> all;
+  Eigen::Index row = 0;
+  for (const auto& quantity : quantities) {
+    const Eigen::RowVectorXd size = values.middleRows(row, quantity.components).colwise().norm();
+    all.emplace_back(size.begin(), size.end());
+    row += quantity.components;
+  }
+  return all;
+}
+
 Eigen::MatrixXd times_mass(const Model& model, const Eigen::MatrixXd& x) {
   Eigen::MatrixXd out(x.rows(), x.cols());
   for (Eigen::Index k = 0; k < x.cols(); ++k) model.multiply_mass(x.col(k), out.col(k));
@@ -51,15 +63,23 @@ double interval(const Trajectory& t) {
 
 }  // namespace
 
-ReferenceNorms::ReferenceNorms(const Model& model, Trajectory reference, std::vector<ProbePoint> probes)
+ReferenceNorms::ReferenceNorms(const Model& model, Trajectory reference, std::vector<ProbePoint> probes,
+                               std::vector<FollowedQuantity> quantities)
     : ReferenceNorms([&model](const Eigen::MatrixXd& x) { return times_mass(model, x); }, std::move(reference),
-                     std::move(probes)) {}
+                     std::move(probes), std::move(quantities)) {}
 
-ReferenceNorms::ReferenceNorms(Metric metric, Trajectory reference, std::vector<ProbePoint> probes)
-    : metric_(std::move(metric)), reference_(std::move(reference)), probes_(std::move(probes)) {
+ReferenceNorms::ReferenceNorms(Metric metric, Trajectory reference, std::vector<ProbePoint> probes,
+                               std::vector<FollowedQuantity> quantities)
+    : metric_(std::move(metric)),
+      reference_(std::move(reference)),
+      probes_(std::move(probes)),
+      quantities_(std::move(quantities)) {
   scales_.displacement = largest(norms(reference_.q));
   scales_.velocity = largest(norms(reference_.v));
   for (const auto& probe : probes_) scales_.probes.emplace_back(probe.name, largest(lengths(probe, reference_.q)));
+  const auto size = sizes(quantities_, reference_.quantities);
+  for (std::size_t k = 0; k < quantities_.size(); ++k)
+    scales_.quantities.emplace_back(quantities_[k].name, largest(size[k]));
   scales_.dominant_frequency = std::numeric_limits<double>::quiet_NaN();
   const Vector mode = leading_mode();
   if (const auto omega = dominant_frequency(reference_.q.transpose() * mode, interval(reference_))) {
@@ -85,7 +105,8 @@ std::vector<double> ReferenceNorms::norms(const Eigen::MatrixXd& x) const {
 }
 
 TrajectoryErrors ReferenceNorms::errors(const Trajectory& trajectory) const {
-  if (trajectory.q.rows() != reference_.q.rows() || trajectory.times != reference_.times)
+  if (trajectory.q.rows() != reference_.q.rows() || trajectory.times != reference_.times ||
+      trajectory.quantities.rows() != reference_.quantities.rows())
     throw std::logic_error("trajectory and reference do not belong together");
   const Eigen::MatrixXd dq = trajectory.q - reference_.q;
   TrajectoryErrors errors;
@@ -93,6 +114,9 @@ TrajectoryErrors ReferenceNorms::errors(const Trajectory& trajectory) const {
   errors.velocity = summarise(norms(trajectory.v - reference_.v), scales_.velocity);
   for (std::size_t p = 0; p < probes_.size(); ++p)
     errors.probes.emplace_back(probes_[p].name, summarise(lengths(probes_[p], dq), scales_.probes[p].second));
+  const auto differences = sizes(quantities_, trajectory.quantities - reference_.quantities);
+  for (std::size_t k = 0; k < quantities_.size(); ++k)
+    errors.quantities.emplace_back(quantities_[k].name, summarise(differences[k], scales_.quantities[k].second));
   errors.phase = std::numeric_limits<double>::quiet_NaN();
   if (mode_.size() > 0)
     errors.phase = phase_difference(trajectory.q.transpose() * mode_, reference_.q.transpose() * mode_,

@@ -2,7 +2,8 @@
 //
 // Displacements u and velocities v are measured in the mass norm |u|_M = sqrt(u' M u), as the model's
 // kinetic energy weighs them, relative to the largest |u_ref|_M and |v_ref|_M over the samples;
-// probes by the length of their displacement relative to its largest length. Other norms may take the place of it.
+// probes by the length of their displacement relative to its largest length, quantities that are followed by their
+// size relative to its largest. Other norms may take the place of the mass norm.
 #pragma once
 
 #include <functional>
@@ -27,15 +28,22 @@ struct ProbePoint {
   std::array<int, 3> dofs;
 };
 
+// A number, or a vector by its components: consecutive rows of Trajectory::quantities.
+struct FollowedQuantity {
+  std::string name;
+  int components = 1;
+};
+
 struct TrajectoryErrors {
   ErrorNorms displacement, velocity;
-  std::vector<std::pair<std::string, ErrorNorms>> probes;
+  std::vector<std::pair<std::string, ErrorNorms>> probes, quantities;
   double phase = 0;  // rad, of the dominant frequency; NaN where there is none
 };
 
 struct TrajectoryScales {
   double displacement = 0, velocity = 0;  // sqrt(kg) m, sqrt(kg) m/s
-  std::vector<std::pair<std::string, double>> probes;  // m
+  std::vector<std::pair<std::string, double>> probes;      // m
+  std::vector<std::pair<std::string, double>> quantities;  // in their SI units
   double dominant_frequency = 0;  // Hz; NaN where there is none
 };
 
@@ -46,9 +54,11 @@ class ReferenceNorms {
   using Metric = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& x)>;
 
   // In the mass norm. `model` must outlive it.
-  ReferenceNorms(const Model& model, Trajectory reference, std::vector<ProbePoint> probes);
+  ReferenceNorms(const Model& model, Trajectory reference, std::vector<ProbePoint> probes,
+                 std::vector<FollowedQuantity> quantities = {});
   // In another one.
-  ReferenceNorms(Metric metric, Trajectory reference, std::vector<ProbePoint> probes);
+  ReferenceNorms(Metric metric, Trajectory reference, std::vector<ProbePoint> probes,
+                 std::vector<FollowedQuantity> quantities = {});
 
   const TrajectoryScales& scales() const { return scales_; }
   TrajectoryErrors errors(const Trajectory& trajectory) const;
@@ -61,6 +71,7 @@ class ReferenceNorms {
   Metric metric_;
   Trajectory reference_;
   std::vector<ProbePoint> probes_;
+  std::vector<FollowedQuantity> quantities_;
   TrajectoryScales scales_;
   Vector mode_;  // M times the leading mode; empty where nothing swings
 };

@@ -9,6 +9,9 @@
 
 namespace orthodyn {
 
+// From this share of the elastic energy on a mesh is called coarse.
+inline constexpr double kCoarseMesh = 0.05;
+
 struct MeshError {
   double relative = 0;  // of the elastic energy
   int samples = 0;      // states that were looked at

@@ -2,8 +2,9 @@
 
 namespace orthodyn {
 
-ProbeRecorder::ProbeRecorder(const Named<Probe>& probes, const TetMesh& mesh, std::size_t outputs)
-    : TrajectoryRecorder(outputs) {
+ProbeRecorder::ProbeRecorder(const Named<Probe>& probes, const TetMesh& mesh, std::size_t outputs,
+                             std::vector<Quantity> quantities)
+    : TrajectoryRecorder(outputs, std::move(quantities)) {
   for (const auto& [name, probe] : probes) places_.push_back(mesh_point(mesh, probe.at));
 }
 
@@ -22,7 +23,8 @@ Vector ProbeRecorder::at_probes(const std::vector<double>& nodal) const {
   return all;
 }
 
-ReferenceNorms probe_norms(Trajectory reference, const Named<Probe>& probes) {
+ReferenceNorms probe_norms(Trajectory reference, const Named<Probe>& probes,
+                           std::vector<FollowedQuantity> quantities) {
   std::vector<ProbePoint> points;
   for (const auto& [name, probe] : probes) {
     const int first = 3 * static_cast<int>(points.size());
@@ -30,7 +32,7 @@ ReferenceNorms probe_norms(Trajectory reference, const Named<Probe>& probes) {
   }
   const double share = 1 / static_cast<double>(points.size());
   const auto mean = [share](const Eigen::MatrixXd& x) -> Eigen::MatrixXd { return share * x; };
-  return {mean, std::move(reference), points};
+  return {mean, std::move(reference), points, std::move(quantities)};
 }
 
 }  // namespace orthodyn

@@ -12,12 +12,12 @@ namespace orthodyn {
 
 namespace {
 
-// A file is the mark, N, the number of times, the fingerprint of what follows, then times, q and v as doubles of this
-// machine.
-constexpr char kTrajectoryMark[8] = {'O', 'D', 'T', 'R', 'A', 'J', '0', '2'};
+// A file is the mark, N, the components of quantities, the number of times, the fingerprint of what follows, then
+// times, q, v and quantities as doubles of this machine.
+constexpr char kTrajectoryMark[8] = {'O', 'D', 'T', 'R', 'A', 'J', '0', '3'};
 struct Head {
   char mark[8];
-  std::int64_t unknowns, times;
+  std::int64_t unknowns, components, times;
   char fingerprint[16];
 };
 
@@ -26,7 +26,7 @@ std::string bytes(const T* data, std::size_t count) {
   return {reinterpret_cast<const char*>(data), count * sizeof(T)};
 }
 
-// Times, q and v, one after the other; empty if the file is not as it was written.
+// Times, q, v and quantities, one after the other; empty if the file is not as it was written.
 std::vector<double> numbers_in(const std::filesystem::path& path, Head& head) {
   std::ifstream in(path, std::ios::binary);
   in.read(reinterpret_cast<char*>(&head), sizeof head);
@@ -34,8 +34,9 @@ std::vector<double> numbers_in(const std::filesystem::path& path, Head& head) {
   std::error_code ec;
   const auto size = std::filesystem::file_size(path, ec);
   const auto doubles = (size - sizeof head) / sizeof(double);
-  if (ec || head.times < 0 || head.unknowns < 0 ||
-      static_cast<double>(doubles) != static_cast<double>(head.times) * (1 + 2 * static_cast<double>(head.unknowns)))
+  const double of_a_time = 1 + 2 * static_cast<double>(head.unknowns) + static_cast<double>(head.components);
+  if (ec || head.times < 0 || head.unknowns < 0 || head.components < 0 ||
+      static_cast<double>(doubles) != static_cast<double>(head.times) * of_a_time)
     return {};
   std::vector<double> numbers(doubles);
   in.read(reinterpret_cast<char*>(numbers.data()), static_cast<std::streamsize>(doubles * sizeof(double)));
@@ -49,8 +50,9 @@ std::vector<double> numbers_in(const std::filesystem::path& path, Head& head) {
 
 void Trajectory::save(const std::filesystem::path& path) const {
   const std::string numbers = bytes(times.data(), times.size()) + bytes(q.data(), static_cast<std::size_t>(q.size())) +
-                              bytes(v.data(), static_cast<std::size_t>(v.size()));
-  Head head{{}, q.rows(), q.cols(), {}};
+                              bytes(v.data(), static_cast<std::size_t>(v.size())) +
+                              bytes(quantities.data(), static_cast<std::size_t>(quantities.size()));
+  Head head{{}, q.rows(), quantities.rows(), q.cols(), {}};
   std::memcpy(head.mark, kTrajectoryMark, sizeof kTrajectoryMark);
   std::memcpy(head.fingerprint, Fingerprint().add(numbers).text().data(), sizeof head.fingerprint);
   write_file(path, {bytes(&head, 1), numbers});
@@ -70,13 +72,19 @@ Trajectory Trajectory::load(const std::filesystem::path& path) {
   const double* at = numbers.data() + head.times;
   return {{numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(head.times)},
           Eigen::Map<const Eigen::MatrixXd>(at, head.unknowns, head.times),
-          Eigen::Map<const Eigen::MatrixXd>(at + size, head.unknowns, head.times)};
+          Eigen::Map<const Eigen::MatrixXd>(at + size, head.unknowns, head.times),
+          Eigen::Map<const Eigen::MatrixXd>(at + 2 * size, head.components, head.times)};
 }
 
 void TrajectoryRecorder::on_start(const ObservedState& observed) {
   const State state = state_of(observed);
   const auto columns = static_cast<Eigen::Index>(outputs_) + 1;
-  trajectory_ = {{}, Eigen::MatrixXd::Zero(state.q.size(), columns), Eigen::MatrixXd::Zero(state.v.size(), columns)};
+  Eigen::Index components = 0;
+  for (const auto& quantity : quantities_) components += quantity.components();
+  trajectory_ = {{},
+                 Eigen::MatrixXd::Zero(state.q.size(), columns),
+                 Eigen::MatrixXd::Zero(state.v.size(), columns),
+                 Eigen::MatrixXd::Zero(components, columns)};
   on_output(observed);
 }
 
@@ -86,6 +94,9 @@ void TrajectoryRecorder::on_output(const ObservedState& observed) {
   trajectory_.times.push_back(state.t);
   trajectory_.q.col(k) = state.q;
   trajectory_.v.col(k) = state.v;
+  Eigen::Index row = 0;
+  for (const auto& quantity : quantities_)
+    for (const double value : quantity.values(observed)) trajectory_.quantities(row++, k) = value;
 }
 
 }  // namespace orthodyn

@@ -48,6 +48,7 @@ void EnergyMeter::look(const ObservedState& observed) {
 
 void EnergyMeter::take_energies(const ObservedState& observed) {
   const auto energy = [&](const char* name) { return observed.evaluate(name)[0]; };
+  ++states_;
   time_ = observed.t();
   last_ = {energy("energy.kinetic"), energy("energy.elastic"), energy("energy.gravitational"),
            dissipated_, load_work_};
@@ -84,6 +85,7 @@ void EnergyMeter::save(Archive& archive) {
   archive.put("time", time_);
   archive.put("drift", drift_);
   archive.put("scale", scale_);
+  archive.put_count("states", states_);
 }
 
 void EnergyMeter::restore(const Archive& archive) {
@@ -94,6 +96,7 @@ void EnergyMeter::restore(const Archive& archive) {
   time_ = archive.number("time");
   drift_ = archive.number("drift");
   scale_ = archive.number("scale");
+  states_ = archive.count("states");
 }
 
 void MomentumMeter::on_start(const ObservedState& observed) {

@@ -2,6 +2,7 @@
 // volumes. They write nothing.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "lib/scene/output_files.h"
@@ -36,6 +37,8 @@ class EnergyMeter : public Observer {
   double relative_drift() const { return scale_ > 0 ? drift_ / scale_ : 0; }
   EnergyTimes times() const { return times_; }
   double time() const { return time_; }  // of last(), s
+  // How many states were looked at for the drift and the elastic energy.
+  std::size_t states() const { return states_; }
 
  private:
   // To a time within the integrator's last step, s.
@@ -50,6 +53,7 @@ class EnergyMeter : public Observer {
   double powers_time_ = 0, dissipated_ = 0, load_work_ = 0;  // s; J up to then
   EnergyBalance first_, last_;
   double time_ = 0, drift_ = 0, scale_ = 0;
+  std::size_t states_ = 0;
 };
 
 // Linear and angular momentum about the origin, kg m/s and kg m^2/s.

@@ -98,9 +98,9 @@ std::vector<std::string> probe_header(const Model& model, const std::vector<Prob
   for (const auto& column : columns) {
     const auto info = info_of(model, column.field);
     for (int c = 0; c < info.components; ++c)
-      header.push_back(fmt::format("{}{}{} [{}]", column.name.empty() ? "" : column.name + ".", column.field,
-                                   info.component_names.empty() ? "" : "." + info.component_names[static_cast<std::size_t>(c)],
-                                   info.unit));
+      header.push_back(fmt::format(
+          "{}{}{} [{}]", column.name.empty() ? "" : column.name + ".", column.field,
+          info.component_names.empty() ? "" : "." + info.component_names[static_cast<std::size_t>(c)], info.unit));
   }
   return header;
 }

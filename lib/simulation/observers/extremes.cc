@@ -24,6 +24,7 @@ void ExtremeRecorder::look_at(const ObservedState& observed) {
   for (std::size_t k = 0; k < find_.size(); ++k) {
     const Extreme now = find_[k](observed);
     RecordedExtreme& found = found_[k];
+    ++found.states;
     const double sign = found.quantity.ends_with(".largest") ? 1 : -1;
     if (now.node < 0 || !(found.node < 0 || sign * now.value > sign * found.value)) continue;
     found.value = now.value;
@@ -34,15 +35,17 @@ void ExtremeRecorder::look_at(const ObservedState& observed) {
 }
 
 void ExtremeRecorder::save(Archive& archive) {
-  for (const auto& f : found_) archive.put(f.quantity, {f.value, f.time, static_cast<double>(f.node)});
+  for (const auto& f : found_)
+    archive.put(f.quantity, {f.value, f.time, static_cast<double>(f.node), static_cast<double>(f.states)});
 }
 
 void ExtremeRecorder::restore(const Archive& archive) {
   for (auto& f : found_) {
-    const auto& kept = archive.numbers(f.quantity, 3);
+    const auto& kept = archive.numbers(f.quantity, 4);
     f.value = kept[0];
     f.time = kept[1];
     f.node = static_cast<int>(kept[2]);
+    f.states = static_cast<long>(kept[3]);
     if (f.node >= 0) f.place = model_.parts().mesh.nodes.at(static_cast<std::size_t>(f.node));
   }
 }

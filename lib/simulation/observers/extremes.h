@@ -1,5 +1,5 @@
-// The largest and smallest values of quantities over a run (output.extremes), each with its time and the node where it was.
-// They are looked at when the history is written.
+// The largest and smallest values of quantities over a run (output.extremes), each with its time and the node where it
+// was. They are looked at when the history is written.
 #pragma once
 
 #include <string>
@@ -16,6 +16,7 @@ struct RecordedExtreme {
   double time = 0;           // s; of a static analysis the load factor
   int node = -1;             // of the mesh
   Vec3 place = Vec3::Zero();  // its rest position, m
+  long states = 0;            // that were looked at
 };
 
 class ExtremeRecorder : public Observer {

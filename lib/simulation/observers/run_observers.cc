@@ -27,7 +27,7 @@ RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& fold
   if (const auto columns = probe_columns(scene, model); !columns.empty())
     probes_.emplace(folder / "probes.csv", model, columns);
   if (!scene.output.extremes.empty()) extremes.emplace(scene.output.extremes, model, scene.output.origin);
-  if (has_strain_limits(model)) strains.emplace(model);
+  if (has_strain_limits(model)) strains.emplace(StrainWatch::of_motion(model, scene.time.end - scene.time.start));
   if (!finder_.empty()) events_.emplace(folder / "events.csv", finder_);
 }
 

@@ -4,12 +4,13 @@
 
 namespace orthodyn {
 
-void StrainWatch::on_output(const ObservedState& observed) {
+void StrainWatch::look_at(const ObservedState& observed) {
+  last_look_ = observed.t();
   const double energy = observed.evaluate("energy.elastic")[0];
   if (!(energy > largest_energy_)) return;
   largest_energy_ = energy;
   const State& state = observed.state();
-  const NodalExpansion nodal(model_.parts(), loads_at_.value_or(state.t), state.q, state.v);
+  const NodalExpansion nodal(model_.parts(), times_ ? times_->at(state.t) : state.t, state.q, state.v);
   const auto found = strain_excess(model_, nodal.state());
   if (found && (!worst_ || found->share > worst_->share)) worst_ = {found->share, state.t, found->sentence};
 }

@@ -17,15 +17,16 @@ namespace {
 // The largest size of a factor within the run: sampled between the times where it is not smooth.
 double largest_within(const TimeFunction& factor, const Subject& subject) {
   if (subject.is_static()) return std::abs(factor.value(subject.end()));
-  constexpr int kSamples = 50;
+  constexpr std::size_t kSamples = 20'000, kFewestInPiece = 50;  // a window of some thousandths of the run is seen
   std::vector<double> times = times_between(factor.kinks(), subject.start(), subject.end());
   times.insert(times.begin(), subject.start());
   times.push_back(subject.end());
+  const auto samples = static_cast<int>(std::max(kSamples / (times.size() - 1), kFewestInPiece));
   double largest = 0;
   for (std::size_t piece = 0; piece + 1 < times.size(); ++piece)
-    for (int k = 0; k <= kSamples; ++k) {
+    for (int k = 0; k <= samples; ++k) {
       const double t =
-          k < kSamples ? times[piece] + (times[piece + 1] - times[piece]) * golden_share(k) : times[piece + 1];
+          k < samples ? times[piece] + (times[piece + 1] - times[piece]) * golden_share(k) : times[piece + 1];
       largest = std::max(largest, std::abs(factor.value(t)));
     }
   return largest;
@@ -87,6 +88,16 @@ void add_idle_loads(const Subject& subject, Warnings& out) {
   }
 }
 
+// It is at rest, and nothing is there to change that.
+void add_idle_scene(const Subject& subject, Warnings& out) {
+  const Scene& scene = subject.scene;
+  if (!subject.moves() || scene.gravity || !scene.loads.empty() || !scene.terms.empty() || !scene.motions.empty() ||
+      !subject.built.initial.q.isZero(0) || !subject.built.initial.v.isZero(0))
+    return;
+  out.push_back(fmt::format("{}: nothing acts on the body, and it is at rest at the start: it will not move. Give it "
+                            "'loads', 'gravity', 'motions' or 'initial'", subject.config.at("time").where()));
+}
+
 void add_gravity_slips(const Subject& subject, Warnings& out) {
   if (!subject.scene.gravity) return;
   const Vec3 g = subject.scene.gravity->g;
@@ -111,6 +122,7 @@ void add_load_slips(const Subject& subject, Warnings& out) {
     if (subject.config.has(section) && (subject.is_static() || subject.is_timed))
       add_factor_slips(subject, subject.config.at(section), out);
   add_idle_loads(subject, out);
+  add_idle_scene(subject, out);
   add_gravity_slips(subject, out);
 }
 

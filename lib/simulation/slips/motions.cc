@@ -2,9 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <vector>
 
-#include "lib/core/golden.h"
 #include "lib/simulation/slips/subject.h"
 
 namespace orthodyn::slip {
@@ -33,19 +31,6 @@ void add_velocity_slips(const Subject& subject, Warnings& out) {
                     "than the waves in it ({:.3g} m/s): it will be crushed or torn. Are velocity and spin in "
                     "m/s and rad/s, the moduli in Pa?",
                     place, relative, subject.wave));
-}
-
-// Some between each two times where loads and motions are not smooth.
-std::vector<double> sampled_times(const Subject& subject) {
-  constexpr int kSamples = 50;
-  std::vector<double> ends = subject.built.model->breakpoints(subject.start(), subject.end()), times;
-  ends.insert(ends.begin(), subject.start());
-  ends.push_back(subject.end());
-  for (std::size_t piece = 0; piece + 1 < ends.size(); ++piece)
-    for (int k = 0; k < kSamples; ++k)
-      times.push_back(ends[piece] + (ends[piece + 1] - ends[piece]) * golden_share(k));
-  times.push_back(subject.end());
-  return times;
 }
 
 void add_support_slips(const Subject& subject, Warnings& out) {

@@ -1,29 +1,69 @@
 // Lengths that do not go with the body: its own size, and points that are far outside of it.
 #include <fmt/format.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "lib/simulation/slips/subject.h"
 
 namespace orthodyn::slip {
 
 namespace {
 
-constexpr double kFar = 0.01;      // of the body's diagonal
-constexpr double kHuge = 80;       // m
-constexpr double kTiny = 1e-6;     // m
+constexpr double kFar = 0.01;       // of the body's diagonal
+constexpr double kFarAnchor = 100;  // of the body's diagonal
+constexpr double kHuge = 80;        // m
+constexpr double kTiny = 1e-6;      // m
+// Together those of nothing but millimetres and MPa taken for m and Pa.
+constexpr double kLong = 15;  // m
+constexpr double kSlow = 30;  // m/s
+constexpr double kTurn = 2 * std::numbers::pi;
 
 void add_size_slip(const Subject& subject, Warnings& out) {
   const Config mesh = subject.config.at("mesh");
   const bool huge = subject.extent > kHuge;
+  if (!huge && subject.extent > kLong && subject.wave < kSlow) {
+    out.push_back(fmt::format("{}: the body is {:.4g} m long and waves in it travel at {:.3g} m/s, as in a gel: are "
+                              "lengths in mm and moduli in MPa? orthodyn computes in m, kg, s and Pa (25 mm, 10.8 GPa)",
+                              mesh.where(), subject.extent, subject.wave));
+    return;
+  }
   if (!huge && subject.extent > kTiny) return;
   const std::string remedy = mesh.has("file") ? "mesh.scale converts it: 0.001 for mm" : "such as [25 mm, 2 cm, 1 m]";
   out.push_back(fmt::format("{}: the body is {:.4g} m long: lengths are in m; is it meant in {}? ({})", mesh.where(),
                             subject.extent, huge ? "mm" : "another unit, or scaled twice", remedy));
 }
 
+void add_anchor_slips(const Subject& subject, Warnings& out) {
+  if (!subject.config.has("terms")) return;
+  visit_keys(subject.config.at("terms"), "anchor", [&](const Config& point) {
+    if (!point.is_sequence() || point.size() != 3) return;  // a plugin's own
+    const double far = distance(Value<Vec3>::read(point, {.unit = "m"}), subject.box);
+    if (far > kFarAnchor * subject.box.diagonal())
+      out.push_back(fmt::format("{}: the anchor is {:.3g} m away from a body that is {:.3g} m long: is it in m?",
+                                point.where(), far, subject.extent));
+  });
+}
+
+// Of material axes; a support may make many turns.
+void add_angle_slips(const Subject& subject, Warnings& out) {
+  visit_keys(subject.config, "axes", [&](const Config& axes) {
+    visit_keys(axes, "angle", [&](const Config& given) {
+      if (!given.is_scalar()) return;  // a plugin's own
+      const double turned = read_number(given, {.unit = "rad"});
+      if (std::abs(turned) > kTurn * (1 + 1e-9))
+        out.push_back(fmt::format("{}: {} is {:.3g} turns: is it in degrees?", given.where(), given.text(),
+                                  turned / kTurn));
+    });
+  });
+}
+
 }  // namespace
 
 void add_place_slips(const Subject& subject, Warnings& out) {
   add_size_slip(subject, out);
+  add_anchor_slips(subject, out);
+  add_angle_slips(subject, out);
   const TetMesh& mesh = subject.built.model->parts().mesh;
   const auto check = [&](const Config& place, const std::string& what, const Vec3& point) {
     const double outside = distance(point, subject.box);

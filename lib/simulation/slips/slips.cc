@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/golden.h"
 #include "lib/fem/time_functions/time_function.h"
 #include "lib/scene/region.h"
 #include "lib/simulation/kinematics.h"
@@ -45,6 +46,19 @@ bool names_a_factor(const Config& section) {
          Registry<TimeFunction>::entries().contains(section.at("type").text());
 }
 
+std::vector<double> sampled_times(const Subject& subject) {
+  constexpr int kSamples = 50;
+  std::vector<double> times{subject.start()}, ends = subject.built.model->breakpoints(subject.start(), subject.end());
+  ends.push_back(subject.end());
+  for (const double end : ends) {
+    const double begin = times.back();
+    for (int k = 0; k < kSamples; ++k) times.push_back(begin + (end - begin) * golden_share(k));
+    std::sort(times.end() - kSamples, times.end());
+    times.push_back(end);
+  }
+  return times;
+}
+
 double fastest_wave(const Material& material) {
   return std::sqrt(voigt(material.stiffness()).diagonal().maxCoeff() / material.density());
 }
@@ -60,13 +74,14 @@ Warnings slips(const Config& config, const Scene& scene, const BuiltScene& built
   Warnings out;
   for (const auto add :
        {slip::add_material_slips, slip::add_place_slips, slip::add_load_slips, slip::add_time_slips,
-        slip::add_motion_slips, slip::add_damping_slips, slip::add_event_slips, slip::add_setting_slips})
+        slip::add_motion_slips, slip::add_freedom_slips, slip::add_damping_slips, slip::add_event_slips, slip::add_setting_slips})
     add(subject, out);
   return out;
 }
 
 Warnings slips_of(const Config& given) {
   Config config = given.resolving();
+  Warnings out;
   try {
     Scene scene = read_scene(config);
     if (leaves_kinematics_open(scene)) {
@@ -74,15 +89,14 @@ Warnings slips_of(const Config& given) {
       scene = read_scene(config);
     }
     const BuiltScene built = build(scene);
-    Warnings out = slips(config, scene, built);
+    out = slips(config, scene, built);
     if (built.model->num_dofs() > kLargestForSlips) return out;
     const StaticResponse statics = static_response(*built.model, built.initial, scene.time.end);
     for (auto& slip : response_slips(config, scene, built, statics)) out.push_back(std::move(slip));
-    return out;
-  } catch (const ConfigError&) {
+  } catch (const ConfigError&) {  // what refuses the scene is told where it is run
   } catch (const RunError&) {
   }
-  return {};
+  return out;
 }
 
 }  // namespace orthodyn

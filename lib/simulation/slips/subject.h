@@ -39,6 +39,7 @@ void add_load_slips(const Subject& subject, Warnings& out);
 void add_time_slips(const Subject& subject, Warnings& out);
 void add_motion_slips(const Subject& subject, Warnings& out);
 void add_damping_slips(const Subject& subject, Warnings& out);
+void add_freedom_slips(const Subject& subject, Warnings& out);
 void add_event_slips(const Subject& subject, Warnings& out);
 void add_setting_slips(const Subject& subject, Warnings& out);
 
@@ -50,6 +51,9 @@ void visit_keys(const Config& config, const std::string& key, const std::functio
 
 // Whether a section is a factor in time; a plugin's term may have another key of that name.
 bool names_a_factor(const Config& section);
+
+// s, ascending, from start to end: some between each two times where loads and motions are not smooth.
+std::vector<double> sampled_times(const Subject& subject);
 
 // m/s, of the fastest wave in a material: sqrt(max C_ii / density).
 double fastest_wave(const Material& material);

@@ -54,6 +54,10 @@ void add_time_slips(const Subject& subject, Warnings& out) {
   if (const auto interval = subject.scene.output.interval; interval && *interval > subject.span())
     out.push_back(fmt::format("{}: {:.4g} s is longer than the run of {:.4g} s: there is no frame but the first",
                               subject.config.at("output").at("interval").where(), *interval, subject.span()));
+  if (const auto& history = subject.scene.output.history;
+      history && history->interval && *history->interval > subject.span())
+    out.push_back(fmt::format("{}: {:.4g} s is longer than the run of {:.4g} s: the history is its start and its end",
+                              subject.config.at("output").at("history").where(), *history->interval, subject.span()));
 }
 
 }  // namespace orthodyn::slip

@@ -119,6 +119,9 @@ const Spec<Comparison>& Comparison::spec() {
           .key("vary", &Comparison::vary,
                "Further values by path, all combined: {integrator.linear_solver: [klu, cholmod]}. What lies below "
                "'integrator' makes methods, everything else makes scenes.")
+          .key("quantities", &Comparison::quantities,
+               "Quantities whose errors are measured too, relative to their largest size over time, by name (see "
+               "`orthodyn list quantities`): [von_mises.largest, root.von_mises].")
           .key("repeats", &Comparison::repeats, "Timed integrations of each point.", {.range = {1, 100}})
           .key("samples", &Comparison::samples, "Times at which errors are taken, evenly spaced.", {.range = {2, 2000}})
           .key("limits", &Comparison::limits, "Limits of each point.")

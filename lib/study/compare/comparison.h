@@ -30,6 +30,7 @@ struct Comparison {
   std::vector<IntegratorEntry> integrators;  // `all`: every one of the registry
   std::vector<double> tolerances, steps;
   Named<std::vector<YamlText>> vary;  // by path in a scene
+  std::vector<std::string> quantities = {};  // whose errors are measured beside displacement and velocity
   int repeats = 3, samples = 100;
   Limits limits;
   ReferenceOptions reference;

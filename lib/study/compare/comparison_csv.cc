@@ -15,6 +15,16 @@ struct Column {
   std::vector<std::string> path;  // into a point
 };
 
+// In the order in which problems have them, each once.
+std::vector<std::string> scaled_names(const Json& comparison, const char* scales) {
+  std::vector<std::string> names;
+  for (const auto& problem : comparison.at("problems"))
+    if (problem.at(scales).is_object())
+      for (const auto& [name, scale] : problem.at(scales).items())
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  return names;
+}
+
 std::vector<Column> columns_of(const Json& comparison) {
   std::vector<Column> all{{"problem", {"problem"}},
                           {"method", {"method"}},
@@ -45,12 +55,10 @@ std::vector<Column> columns_of(const Json& comparison) {
   };
   add_errors({"errors", "displacement"}, "displacement");
   add_errors({"errors", "velocity"}, "velocity");
-  std::vector<std::string> probes;
-  for (const auto& problem : comparison.at("problems"))
-    if (problem.at("probe_scales").is_object())
-      for (const auto& [name, scale] : problem.at("probe_scales").items())
-        if (std::find(probes.begin(), probes.end(), name) == probes.end()) probes.push_back(name);
-  for (const auto& probe : probes) add_errors({"errors", "probes", probe}, "probe." + probe);
+  for (const auto& probe : scaled_names(comparison, "probe_scales"))
+    add_errors({"errors", "probes", probe}, "probe." + probe);
+  for (const auto& quantity : scaled_names(comparison, "quantity_scales"))
+    add_errors({"errors", "quantities", quantity}, quantity);
   all.push_back({"error.phase [rad]", {"errors", "phase"}});
   for (const char* drift : {"energy", "linear_momentum", "angular_momentum"})
     all.push_back({fmt::format("drift.{}", drift), {"drift", drift}});

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <map>
 
@@ -16,6 +17,7 @@ namespace orthodyn::study::compare {
 namespace {
 
 constexpr const char* kIntegratorPrefix = "integrator.";
+constexpr std::array kSafeties{0.9, 0.45, 0.225};
 
 // All combinations of the values of `vary` whose paths `concerns` accepts.
 std::vector<Variant> combinations(const Comparison& comparison,
@@ -45,6 +47,24 @@ std::string newton_tolerance(const std::vector<double>& tolerances) {
   return number_text(std::min(usual, *std::min_element(tolerances.begin(), tolerances.end())));
 }
 
+// What controls the error of an integrator, of what the comparison gives.
+struct Controls {
+  bool adaptive, fixed, by_limit;
+};
+
+Controls controls_of(const Comparison& comparison, const IntegratorEntry& entry) {
+  const bool has_tolerance = has_key(entry.type, "rtol");
+  // One that knows no tolerance and finds its critical step itself.
+  const bool by_limit = has_key(entry.type, "safety") && !has_tolerance;
+  return {has_tolerance && !comparison.tolerances.empty(),
+          has_key(entry.type, "step") && !comparison.steps.empty() && !(by_limit && entry.by_all), by_limit};
+}
+
+// A key that this integrator does not have is not varied for it.
+bool concerns(const IntegratorEntry& entry, const std::string& path) {
+  return is_of_integrator(path) && has_key(entry.type, last_step(path));
+}
+
 // One method for each kind of control that the integrator has.
 void add_methods(const Comparison& comparison, const IntegratorEntry& entry, const Variant& variant,
                  std::vector<Method>& methods) {
@@ -55,17 +75,13 @@ void add_methods(const Comparison& comparison, const IntegratorEntry& entry, con
                 entry.options,
                 Method::Control::rtol};
   for (const auto& [path, value] : variant.set) method.set.emplace_back(last_step(path), value);
-  const auto& tolerances = comparison.tolerances;
-  const bool adaptive = has_key(entry.type, "rtol") && !tolerances.empty();
-  // One that knows no tolerance and finds its critical step itself.
-  const bool by_limit = has_key(entry.type, "safety") && !has_key(entry.type, "rtol");
-  const bool fixed = has_key(entry.type, "step") && !comparison.steps.empty() && !(by_limit && entry.by_all);
+  const auto [adaptive, fixed, by_limit] = controls_of(comparison, entry);
   const std::string label = method.label;
   if (adaptive) methods.push_back(method);
   if (fixed) {
     method.control = Method::Control::step;
     if (adaptive) method.label = label + ", fixed step";
-    if (has_key(entry.type, "rtol")) method.set.emplace_back("rtol", YamlText{newton_tolerance(tolerances)});
+    if (has_key(entry.type, "rtol")) method.set.emplace_back("rtol", YamlText{newton_tolerance(comparison.tolerances)});
     methods.push_back(method);
   }
   if (by_limit) {
@@ -80,13 +96,9 @@ void add_methods(const Comparison& comparison, const IntegratorEntry& entry, con
 
 std::vector<Method> methods_of(const Comparison& comparison) {
   std::vector<Method> methods;
-  for (const auto& entry : comparison.integrators) {
-    // A key that this integrator does not have is not varied for it.
-    const auto concerns = [&](const std::string& path) {
-      return is_of_integrator(path) && has_key(entry.type, last_step(path));
-    };
-    for (const auto& variant : combinations(comparison, concerns)) add_methods(comparison, entry, variant, methods);
-  }
+  for (const auto& entry : comparison.integrators)
+    for (const auto& variant : combinations(comparison, [&](const auto& path) { return concerns(entry, path); }))
+      add_methods(comparison, entry, variant, methods);
   identify(methods);
   return methods;
 }
@@ -155,13 +167,30 @@ std::string title(const Design& design, const Point& point) {
                      control_word(method.control), point.control);
 }
 
+double number_of_points(const Comparison& comparison) {
+  auto problems = static_cast<double>(comparison.scenes.size());
+  for (const auto& [path, values] : comparison.vary)
+    if (!is_of_integrator(path)) problems *= static_cast<double>(values.size());
+  double each = 0;
+  for (const auto& entry : comparison.integrators) {
+    const Controls by = controls_of(comparison, entry);
+    auto points = static_cast<double>((by.adaptive ? comparison.tolerances.size() : 0) +
+                                      (by.fixed ? comparison.steps.size() : 0) + (by.by_limit ? kSafeties.size() : 0));
+    for (const auto& [path, values] : comparison.vary)
+      if (concerns(entry, path)) points *= static_cast<double>(values.size());
+    each += points;
+  }
+  return problems * each;
+}
+
 Design expand(const Comparison& comparison) {
   Design design;
   add_problems(comparison, combinations(comparison, [](const auto& path) { return !is_of_integrator(path); }), design);
   design.methods = methods_of(comparison);
-  std::map<Method::Control, std::vector<double>> controls{{Method::Control::rtol, comparison.tolerances},
-                                                          {Method::Control::step, comparison.steps},
-                                                          {Method::Control::safety, {0.9, 0.45, 0.225}}};
+  std::map<Method::Control, std::vector<double>> controls{
+      {Method::Control::rtol, comparison.tolerances},
+      {Method::Control::step, comparison.steps},
+      {Method::Control::safety, {kSafeties.begin(), kSafeties.end()}}};
   for (auto& [kind, values] : controls) std::sort(values.rbegin(), values.rend());
   for (std::size_t p = 0; p < design.problems.size(); ++p)
     for (std::size_t m = 0; m < design.methods.size(); ++m)

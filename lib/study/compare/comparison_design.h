@@ -49,6 +49,9 @@ struct Design {
   Method reference, check;    // with all that controls their errors among `set`
 };
 
+// How many points a comparison has, counted without making them.
+double number_of_points(const Comparison& comparison);
+
 // Throws ConfigError, also for a scene that cannot be read.
 Design expand(const Comparison& comparison);
 

@@ -128,19 +128,26 @@ const std::string& ComparisonRun::mesh_of(const Config& scene, const std::string
 MeasurementInput ComparisonRun::point_input(std::size_t group) const {
   const auto found = references_.find(group);
   const bool is_usable = found != references_.end() && !found->second.folder.empty();
-  return {comparison_.repeats,
-          comparison_.samples,
-          comparison_.limits.seconds,
-          is_usable ? fs::absolute(folder_ / found->second.folder).string() : "",
-          false,
-          false,
-          design_.across_meshes,
-          code_};
+  return {.repeats = comparison_.repeats,
+          .samples = comparison_.samples,
+          .seconds = comparison_.limits.seconds,
+          .reference = is_usable ? fs::absolute(folder_ / found->second.folder).string() : "",
+          .at_probes = design_.across_meshes,
+          .quantities = comparison_.quantities,
+          .code = code_};
 }
 
 MeasurementInput ComparisonRun::reference_input() const {
   const bool exact = comparison_.reference.kind == ReferenceKind::automatic;
-  return {0, comparison_.samples, comparison_.reference.seconds, "", true, exact, design_.across_meshes, code_};
+  return {.repeats = 0,
+          .samples = comparison_.samples,
+          .seconds = comparison_.reference.seconds,
+          .reference = "",
+          .keep_trajectory = true,
+          .exact_if_possible = exact,
+          .at_probes = design_.across_meshes,
+          .quantities = comparison_.quantities,
+          .code = code_};
 }
 
 std::string ComparisonRun::relative_folder(const Job& job) const {

@@ -76,6 +76,7 @@ Json problem_json(const Design& design, const Problem& problem, const Reference*
           {"time", {{"start", member(model, "start")}, {"end", member(model, "end")}}},
           {"scales", scales_json(scales, design.across_meshes)},
           {"probe_scales", member(scales, "probes")},
+          {"quantity_scales", member(scales, "quantities")},
           {"dominant_frequency", member(scales, "dominant_frequency")},
           {"reference", reference_json(reference, wanted)}};
 }
@@ -102,13 +103,18 @@ Json near_reference(const std::optional<TrajectoryErrors>& errors, const std::op
   };
   look(errors->displacement, of_reference ? &of_reference->displacement : nullptr, "displacement");
   look(errors->velocity, of_reference ? &of_reference->velocity : nullptr, "velocity");
-  for (const auto& [name, e] : errors->probes) {
-    const ErrorNorms* own = nullptr;
-    if (of_reference)
-      for (const auto& [other, norms] : of_reference->probes)
+  const auto look_at_each = [&](const auto& named, const auto& of_reference_named, const std::string& prefix) {
+    for (const auto& [name, e] : named) {
+      const ErrorNorms* own = nullptr;
+      for (const auto& [other, norms] : of_reference_named)
         if (other == name) own = &norms;
-    look(e, own, "probes." + name);
-  }
+      look(e, own, prefix + name);
+    }
+  };
+  const TrajectoryErrors unknown;
+  const TrajectoryErrors& own = of_reference ? *of_reference : unknown;
+  look_at_each(errors->probes, own.probes, "probes.");
+  look_at_each(errors->quantities, own.quantities, "quantities.");
   return out;
 }
 

@@ -56,9 +56,11 @@ bool is_free(const FemModel& model) {
 }
 
 // The same error in every measure.
-TrajectoryErrors uniform_errors(double e, const std::vector<ProbePoint>& probes) {
-  TrajectoryErrors errors{{e, e, e}, {e, e, e}, {}, e};
+TrajectoryErrors uniform_errors(double e, const std::vector<ProbePoint>& probes,
+                                const std::vector<FollowedQuantity>& quantities) {
+  TrajectoryErrors errors{{e, e, e}, {e, e, e}, {}, {}, e};
   for (const auto& probe : probes) errors.probes.emplace_back(probe.name, ErrorNorms{e, e, e});
+  for (const auto& quantity : quantities) errors.quantities.emplace_back(quantity.name, ErrorNorms{e, e, e});
   return errors;
 }
 
@@ -85,7 +87,8 @@ class Measurement {
         integrator_(read_scene(setup_.config).integrator),
         input_(input),
         folder_(folder),
-        times_(evenly_spaced(setup_.scene.time.start, setup_.scene.time.end, input.samples)) {}
+        times_(evenly_spaced(setup_.scene.time.start, setup_.scene.time.end, input.samples)),
+        quantities_(followed_quantities(setup_, input.quantities, {"quantities"})) {}
 
   MeasurementResult result() {
     describe();
@@ -120,19 +123,26 @@ class Measurement {
       if (input_.at_probes) mesh_error.on_output({model, state});
     }
     result_.kind = MeasurementResult::Kind::exact;
-    result_.own_errors = uniform_errors(exact.round_off(times_.back()), probe_points(setup_));
+    result_.own_errors = uniform_errors(exact.round_off(times_.back()), probe_points(setup_), followed());
     keep(mesh_error);
     compare(recorder->trajectory());
   }
 
   std::unique_ptr<TrajectoryRecorder> new_recorder() const {
-    if (!input_.at_probes) return std::make_unique<TrajectoryRecorder>(times_.size());
-    return std::make_unique<ProbeRecorder>(setup_.scene.output.probes, setup_.built.model->parts().mesh, times_.size());
+    if (!input_.at_probes) return std::make_unique<TrajectoryRecorder>(times_.size(), quantities_);
+    return std::make_unique<ProbeRecorder>(setup_.scene.output.probes, setup_.built.model->parts().mesh, times_.size(),
+                                           quantities_);
   }
 
   ReferenceNorms norms_of(Trajectory reference) const {
-    if (input_.at_probes) return probe_norms(std::move(reference), setup_.scene.output.probes);
-    return {*setup_.built.model, std::move(reference), probe_points(setup_)};
+    if (input_.at_probes) return probe_norms(std::move(reference), setup_.scene.output.probes, followed());
+    return {*setup_.built.model, std::move(reference), probe_points(setup_), followed()};
+  }
+
+  std::vector<FollowedQuantity> followed() const {
+    std::vector<FollowedQuantity> all;
+    for (const auto& quantity : quantities_) all.push_back({quantity.name, quantity.components()});
+    return all;
   }
 
   void keep(const MeshErrorRecorder& recorder) {
@@ -237,10 +247,23 @@ class Measurement {
   const MeasurementInput& input_;
   const fs::path& folder_;
   std::vector<double> times_;
+  std::vector<Quantity> quantities_;
   MeasurementResult result_;
 };
 
 }  // namespace
+
+std::vector<Quantity> followed_quantities(const Setup& setup, const std::vector<std::string>& names,
+                                          const Origin& origin) {
+  std::vector<Quantity> all;
+  for (const auto& name : names) {
+    all.push_back(find_quantity(name, setup.scene, *setup.built.model, origin));
+    if (!all.back().values)
+      origin.fail("'" + name + "' has no error of its own: the drift of the energy is measured of every point");
+    if (all.back().components() > 1 && !all.back().is_vector()) origin.fail(all.back().ask_for_component());
+  }
+  return all;
+}
 
 MeasurementResult measure(Setup setup, const MeasurementInput& input, const fs::path& folder) {
   return Measurement(std::move(setup), input, folder).result();

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
+#include "lib/scene/quantity.h"
 #include "lib/simulation/setup.h"
 #include "lib/study/compare/measurement_result.h"
 
@@ -11,6 +14,10 @@ namespace orthodyn::study::compare {
 
 // The states of a reference, in its folder.
 inline constexpr const char* kTrajectoryFile = "trajectory.bin";
+
+// The quantities of a comparison in one of its scenes. Throws ConfigError at `origin` for what the scene does not have.
+std::vector<Quantity> followed_quantities(const Setup& setup, const std::vector<std::string>& names,
+                                          const Origin& origin);
 
 // Trajectories that are to be kept go to `folder`. A run that fails is a result. Throws RunError if a reference cannot
 // be read or a trajectory not be written.

@@ -69,27 +69,32 @@ void take(const Json& json, const char* key, std::optional<T>& value, const Read
 }  // namespace
 
 Json to_json(const TrajectoryErrors& errors) {
-  Json probes = Json::object();
+  Json probes = Json::object(), quantities = Json::object();
   for (const auto& [name, e] : errors.probes) probes[name] = to_json(e);
+  for (const auto& [name, e] : errors.quantities) quantities[name] = to_json(e);
   return {{"displacement", to_json(errors.displacement)},
           {"velocity", to_json(errors.velocity)},
           {"probes", probes},
+          {"quantities", quantities},
           {"phase", finite_or_null(errors.phase)}};
 }
 
 TrajectoryErrors errors_from(const Json& json) {
   TrajectoryErrors errors{
-      norms_from(json.at("displacement")), norms_from(json.at("velocity")), {}, number_or_nan(json.at("phase"))};
+      norms_from(json.at("displacement")), norms_from(json.at("velocity")), {}, {}, number_or_nan(json.at("phase"))};
   for (const auto& [name, e] : json.at("probes").items()) errors.probes.emplace_back(name, norms_from(e));
+  for (const auto& [name, e] : json.at("quantities").items()) errors.quantities.emplace_back(name, norms_from(e));
   return errors;
 }
 
 Json to_json(const TrajectoryScales& scales) {
-  Json probes = Json::object();
+  Json probes = Json::object(), quantities = Json::object();
   for (const auto& [name, length] : scales.probes) probes[name] = finite_or_null(length);
+  for (const auto& [name, size] : scales.quantities) quantities[name] = finite_or_null(size);
   return {{"displacement", finite_or_null(scales.displacement)},
           {"velocity", finite_or_null(scales.velocity)},
           {"probes", probes},
+          {"quantities", quantities},
           {"dominant_frequency", finite_or_null(scales.dominant_frequency)}};
 }
 
@@ -97,8 +102,11 @@ TrajectoryScales scales_from(const Json& json) {
   TrajectoryScales scales{number_or_nan(json.at("displacement")),
                           number_or_nan(json.at("velocity")),
                           {},
+                          {},
                           number_or_nan(json.at("dominant_frequency"))};
   for (const auto& [name, length] : json.at("probes").items()) scales.probes.emplace_back(name, number_or_nan(length));
+  for (const auto& [name, size] : json.at("quantities").items())
+    scales.quantities.emplace_back(name, number_or_nan(size));
   return scales;
 }
 
@@ -110,12 +118,20 @@ Json to_json(const MeasurementInput& i) {
           {"keep_trajectory", i.keep_trajectory},
           {"exact_if_possible", i.exact_if_possible},
           {"at_probes", i.at_probes},
+          {"quantities", i.quantities},
           {"code", i.code}};
 }
 
 MeasurementInput measurement_input_from(const Json& json) {
-  return {json.at("repeats"),         json.at("samples"),           json.at("seconds"),   json.at("reference"),
-          json.at("keep_trajectory"), json.at("exact_if_possible"), json.at("at_probes"), json.at("code")};
+  return {.repeats = json.at("repeats"),
+          .samples = json.at("samples"),
+          .seconds = json.at("seconds"),
+          .reference = json.at("reference"),
+          .keep_trajectory = json.at("keep_trajectory"),
+          .exact_if_possible = json.at("exact_if_possible"),
+          .at_probes = json.at("at_probes"),
+          .quantities = json.at("quantities"),
+          .code = json.at("code")};
 }
 
 Spread spread(std::vector<double> values) {

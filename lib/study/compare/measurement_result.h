@@ -29,6 +29,7 @@ struct MeasurementInput {
   bool keep_trajectory = false;    // for others to be measured against
   bool exact_if_possible = false;  // the exact solution in place of an integration, where there is one
   bool at_probes = false;          // errors of the probes alone: the reference has another mesh
+  std::vector<std::string> quantities = {};  // whose errors are measured too
   std::string code;                // fingerprint of the program that is to do it
 };
 

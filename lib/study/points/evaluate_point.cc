@@ -169,9 +169,9 @@ class Evaluation {
     statistics.steps = problem.stepper->steps();
     statistics.rejected_steps = problem.stepper->rejected();
     if (!conclude(outcome, statistics)) return;
-    if (setup.kinematics && setup.linearity) setup.linearity->finish_at(problem.path->time(), outcome.last.q);
+    if (setup.kinematics && setup.linearity) setup.linearity->finish_at(problem.path->times().end, outcome.last.q);
     if (is_outgrown(setup)) return;
-    const State state{problem.path->time(), outcome.last.q, outcome.last.v};
+    const State state{problem.path->times().end, outcome.last.q, outcome.last.v};
     const ObservedState observed(*setup.built.model, state);
     for (std::size_t q = 0; q < wanted.figures.size(); ++q)
       keep(wanted.figures[q]->first, wanted.quantities[q].values(observed)[0], wanted.quantities[q].unit);

@@ -28,8 +28,8 @@ CaseResult verify_equilibrium(const Setup& setup, const std::atomic<bool>& inter
   const auto quantities = quantities_of(setup);
   const StaticProblem problem = static_problem(setup.scene, setup.built);
   CaseResult result{setup.config.file(), run_static(*problem.path, *problem.stepper, {}, interrupt), {}};
-  if (setup.linearity) setup.linearity->require(problem.path->time(), result.outcome.last.q);
-  const State state{problem.path->time(), result.outcome.last.q, result.outcome.last.v};
+  if (setup.linearity) setup.linearity->require(problem.path->times().end, result.outcome.last.q);
+  const State state{problem.path->times().end, result.outcome.last.q, result.outcome.last.v};
   const ObservedState observed(*setup.built.model, state);
   for (std::size_t q = 0; q < quantities.size(); ++q)
     result.checks.push_back({setup.scene.expect[q],

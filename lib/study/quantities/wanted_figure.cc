@@ -60,8 +60,8 @@ const Spec<WantedFigure>& WantedFigure::spec() {
   static const auto s =
       Spec<WantedFigure>()
           .key("quantity", &WantedFigure::quantity,
-               "A probe's field and component (tip.displacement.z) or a scalar of the whole body (energy.elastic, tsai_wu.largest), as "
-               "in `expect` of a scene.")
+               "A probe's field and component (tip.displacement.z) or a scalar of the whole body (energy.elastic, "
+               "tsai_wu.largest), as in `expect` of a scene.")
           .key("take", &WantedFigure::take, kTakeSentence)
           .key("at", &WantedFigure::at, "The value at this time, instead of `take`.", {.unit = "s"})
           .key("of", &WantedFigure::of, kOfSentence, {.range = kPositive})

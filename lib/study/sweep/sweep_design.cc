@@ -129,6 +129,9 @@ class Expansion {
     return point;
   }
 
+  // Why the first of the scenes so far could not be built, if none could.
+  const std::string& no_body() const { return no_body_; }
+
  private:
   FormulaScope scope_of(const Values& values) const {
     FormulaScope scope;
@@ -209,11 +212,13 @@ class Expansion {
     std::optional<BuiltScene> built;
     try {
       built = build(scene);
-    } catch (const ConfigError&) {
+    } catch (const ConfigError& e) {
       if (sweep_.impossible == Impossible::stop) throw;
+      if (no_body_.empty()) no_body_ = e.what();
       return;
     }
     is_looked_up_ = true;
+    no_body_.clear();
     look_up_quantities(scene, *built->model);
   }
 
@@ -229,6 +234,7 @@ class Expansion {
   const Sweep& sweep_;
   std::string scene_;
   bool is_looked_up_ = false;
+  std::string no_body_;
 };
 
 }  // namespace
@@ -254,6 +260,7 @@ std::vector<Point> expand(const Sweep& sweep) {
   if (std::all_of(points.begin(), points.end(), [](const Point& p) { return !p.impossible.empty(); }))
     throw ConfigError("none of the points can be computed; the first, " + points.front().title + ": " +
                       points.front().impossible);
+  if (!expansion.no_body().empty()) throw ConfigError("none of the points can be computed; " + expansion.no_body());
   return points;
 }
 

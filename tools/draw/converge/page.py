@@ -122,7 +122,7 @@ def page(study, folder):
                               tag("figcaption", READ) if f is study.figures[0] and k == 0 else None,
                               aria_label=f.name) for k, picture in enumerate(figures.of(f)))])
                 for f in study.figures]
-    parts = [("answer", "Answer", _answer(study)), ("errors", "Errors", joined(pictures)),
+    parts = [("answer", "Result", _answer(study)), ("errors", "Errors", joined(pictures)),
              ("meshes", "Meshes", joined([_meshes(study), _failures(study)])),
              ("details", "Details", _details(study, folder))]
     main = tag("main", *(tag("section", tag("h2", name), content, id=identity) for identity, name, content in parts))

@@ -106,6 +106,7 @@ class Problem:
     scales: dict
     scale_words: str
     probe_scales: dict
+    quantity_scales: dict
     dominant_frequency: float
     reference: Reference
     mesh: str = ""  # what tells it from others that share its reference

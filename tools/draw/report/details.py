@@ -32,7 +32,7 @@ def _own_errors(problem):
     """What by how (over time, at the end, largest), of the reference's own errors."""
     own = problem.reference.errors
     whats = list(dict.fromkeys(key.rsplit(".", 1)[0] for key in own if "." in key))
-    rows = [_own_row(what.replace("probes.", "probe "), [own.get(f"{what}.{kind}") for kind in measures.KINDS])
+    rows = [_own_row(measures.name(what), [own.get(f"{what}.{kind}") for kind in measures.KINDS])
             for what in whats]
     if "phase" in own:
         rows.append(_own_row("phase [rad]", [own["phase"]] + [None] * (len(measures.KINDS) - 1)))
@@ -65,7 +65,8 @@ def _size(problem):
 
 def problem_details(problem):
     scales = {**{k: v for k, v in problem.scales.items() if formatting.known(v)},
-              **{f"probe {k}": v for k, v in problem.probe_scales.items() if formatting.known(v)}}
+              **{f"probe {k}": v for k, v in problem.probe_scales.items() if formatting.known(v)},
+              **{k: v for k, v in problem.quantity_scales.items() if formatting.known(v)}}
     span, frequency = "", ""
     if formatting.known(problem.end):
         span = f"{formatting.general(problem.start)} to {formatting.general(problem.end)} s"
@@ -92,7 +93,7 @@ def definitions(comparison):
         tag("p", "An error is the difference between a run and the reference at the same times, in one number. "
                  "For displacement and velocity the difference of all nodes is measured in the mass norm, "
                  "‖d‖ = √(dᵀ M d) with the mass matrix M, so that heavy parts count more than light ones; a probe "
-                 "is one point of the body. Each is divided by the scale named for its problem: an error of 1e-2 "
+                 "is one point of the body, a quantity a number or vector of its own. Each is divided by the scale named for its problem: an error of 1e-2 "
                  "is one per cent of that scale. Over time it becomes"),
         tag("dl", *kinds),
         tag("p", "The phase error is the angle, in radians, by which the swing of the dominant frequency is ahead "

@@ -2,7 +2,7 @@
 import math
 
 KINDS = {"l2": "over time (L2)", "final": "at the end", "max": "largest in time"}
-FIELDS = ("displacement", "drift", "velocity", "probes", "phase")
+FIELDS = ("displacement", "drift", "velocity", "probes", "quantities", "phase")
 DRIFT = "drift."
 DEFAULT = "displacement.l2"
 DEFINITIONS = {
@@ -19,8 +19,14 @@ def label(measure):
     if measure.startswith(DRIFT):
         return f"drift of {measure[len(DRIFT):].replace('_', ' ')}, largest in time"
     what, kind = measure.rsplit(".", 1)
-    what = "probe " + what[len("probes."):] if what.startswith("probes.") else what
-    return f"{what}, {KINDS.get(kind, kind)}"
+    return f"{name(what)}, {KINDS.get(kind, kind)}"
+
+
+def name(what):
+    """probes.tip -> 'probe tip', quantities.von_mises.largest -> 'von_mises.largest'."""
+    if what.startswith("probes."):
+        return "probe " + what[len("probes."):]
+    return what.removeprefix("quantities.")
 
 
 def unit(measure):

@@ -67,7 +67,7 @@ def _banner(comparison):
 
 
 def _header(comparison):
-    sections = (("answer", "Answer"), ("precision", "Work and precision"), ("tolerance", "Tolerance"), ("cost", "Cost"),
+    sections = (("answer", "Fastest"), ("precision", "Work and precision"), ("tolerance", "Tolerance"), ("cost", "Cost"),
                 ("drift", "Drift"), ("runs", "Runs"), ("details", "Details"))
     links = (tag("a", name, href=f"#{identity}") for identity, name in sections)
     return tag("header", tag("button", "Dark", type="button", id="theme", class_="js"),
@@ -182,7 +182,7 @@ def page(comparison, folder):
         return _each(comparison, lambda p: _figure(comparison, p, kind, shown[p.id][which],
                                                    variants.get((kind, p.id), ()), first))
 
-    main = tag("main", _section("answer", "The answer", answer.answer_section(comparison)),
+    main = tag("main", _section("answer", "The fastest at each error", answer.answer_section(comparison)),
                _section("precision", "Work and precision", _choosers(offered, "wp"),
                         _fronts(comparison, figures, variants, first) if comparison.fronts else pictures("wp", 0)),
                _section("tolerance", "Error against tolerance and step", _choosers(offered, "tol", False),

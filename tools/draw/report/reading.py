@@ -89,9 +89,10 @@ def _errors(node):
     flat = {"phase": node.number("phase")} if "phase" in node.value else {}
     for name in ("displacement", "velocity"):
         flat.update({f"{name}.{kind}": x for kind, x in node.child(name).numbers().items()})
-    probes = node.child("probes")
-    for name in probes.value:
-        flat.update({f"probes.{name}.{kind}": x for kind, x in probes.child(name).numbers().items()})
+    for group in ("probes", "quantities"):
+        named = node.child(group)
+        for name in named.value:
+            flat.update({f"{group}.{name}.{kind}": x for kind, x in named.child(name).numbers().items()})
     return flat
 
 
@@ -112,6 +113,7 @@ def _problem(node):
     return Problem(name, node.text("label", name), node.text("scene"), node.child("set").texts(),
                    node.text("sentence"), *map(node.number, ("unknowns", "elements", "nodes")), time.number("start"),
                    time.number("end"), scales.numbers(), scales.text("words"), node.child("probe_scales").numbers(),
+                   node.child("quantity_scales").numbers(),
                    node.number("dominant_frequency"), _reference(node.child("reference")), node.text("mesh", name))
 
 

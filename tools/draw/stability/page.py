@@ -55,7 +55,7 @@ def _origin(matrix, folder):
 
 def page(matrix, folder):
     """The whole page as text; `folder` has the end states and is named in the command that reproduces it."""
-    sections = (("answer", "Answer", answer(matrix)), ("matrix", "Matrix", grid(matrix)),
+    sections = (("answer", "Integrators in order", answer(matrix)), ("matrix", "Matrix", grid(matrix)),
                 ("states", "End states", gallery(matrix, Path(folder))), ("trials", "Not passed", failures(matrix)),
                 ("details", "Origin", _origin(matrix, folder)))
     main = tag("main", *(tag("section", tag("h2", name), content, id=identity) for identity, name, content in sections))

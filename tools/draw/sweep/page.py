@@ -123,7 +123,7 @@ def _tip(sweep, point):
 def page(sweep, folder, gallery):
     """The whole page as text; `gallery` are the paths of a picture on light and on dark ground, or empty."""
     figures = Figures(sweep)
-    parts = [("answer", "Answer", joined([answer(sweep), _ranges(sweep)])),
+    parts = [("answer", "Result", joined([answer(sweep), _ranges(sweep)])),
              ("figures", "Figures", _figures(sweep, figures))]
     if gallery:
         parts.append(("frames", "Frames", _gallery(sweep, gallery)))

@@ -1,4 +1,4 @@
-#include "lib/linear/definite_pairs.h"
+#include "lib/linear/negative_eigenpairs.h"
 
 #include <Spectra/SymGEigsSolver.h>
 #include <fmt/format.h>
@@ -40,8 +40,8 @@ struct DefiniteOperator {
   }
 };
 
-DefinitePairs dense_pairs(const Pattern& pattern, const std::vector<double>& A, const std::vector<double>& B,
-                          int count) {
+NegativeEigenPairs dense_pairs(const Pattern& pattern, const std::vector<double>& A, const std::vector<double>& B,
+                               int count) {
   const auto full = [&](const std::vector<double>& values) {
     const Eigen::MatrixXd stored(pattern.matrix(values.data()));
     return Eigen::MatrixXd(stored.selfadjointView<Eigen::Lower>());
@@ -50,7 +50,8 @@ DefinitePairs dense_pairs(const Pattern& pattern, const std::vector<double>& A, 
   return {pairs.values.head(count), pairs.vectors.leftCols(count)};
 }
 
-DefinitePairs lanczos(SymmetricProduct a, DefiniteOperator& b, int count, Spectra::SortRule rule, double tolerance) {
+NegativeEigenPairs lanczos(SymmetricProduct a, DefiniteOperator& b, int count, Spectra::SortRule rule,
+                           double tolerance) {
   const int basis = std::min(a.pattern.n, std::max(4 * count, 40));
   Spectra::SymGEigsSolver<SymmetricProduct, DefiniteOperator, Spectra::GEigsMode::RegularInverse> solver(a, b, count,
                                                                                                      basis);
@@ -70,7 +71,8 @@ std::vector<double> sum(const std::vector<double>& A, double s, const std::vecto
   return out;
 }
 
-// How many nu are below a bound: the negative eigenvalues of A - bound B.
+// The number of eigenvalues nu below a bound: by Sylvester's law of inertia that of the negative eigenvalues of
+// A - bound B.
 int count_below(const Pattern& pattern, const std::vector<double>& A, const std::vector<double>& B, double bound) {
   const auto solver = make_indefinite_solver();
   solver->analyze(pattern);
@@ -81,8 +83,8 @@ int count_below(const Pattern& pattern, const std::vector<double>& A, const std:
 
 }  // namespace
 
-DefinitePairs negative_pairs(const Pattern& pattern, const std::vector<double>& A, const std::vector<double>& B,
-                             double bound, int count) {
+NegativeEigenPairs negative_eigenpairs(const Pattern& pattern, const std::vector<double>& A,
+                                       const std::vector<double>& B, double bound, int count) {
   if (!pattern.symmetric) throw ConfigError("needs a symmetric stiffness");
   const auto solver = solver_registry().at("cholmod").make();
   solver->analyze(pattern);
@@ -92,10 +94,11 @@ DefinitePairs negative_pairs(const Pattern& pattern, const std::vector<double>& 
   if (pattern.n <= kDenseUnknowns) return dense_pairs(pattern, A, B, count);
   const SymmetricProduct a{pattern, A}, b{pattern, B};
   DefiniteOperator inverse{b, *solver};
-  // With all eigenvalues raised above zero the tolerance is one of the largest, also for those next to zero.
+  // Spectra's tolerance is relative to each eigenvalue, which asks too much of those next to zero. With all of them
+  // shifted by a little more than the largest it is relative to that one there.
   const double raised = 1.1 * std::abs(lanczos(a, inverse, 1, Spectra::SortRule::LargestMagn, 1e-2).values[0]);
   const auto positive = sum(A, raised, B);
-  DefinitePairs pairs = lanczos({pattern, positive}, inverse, count, Spectra::SortRule::SmallestAlge, 1e-10);
+  NegativeEigenPairs pairs = lanczos({pattern, positive}, inverse, count, Spectra::SortRule::SmallestAlge, 1e-10);
   pairs.values.array() -= raised;
   return pairs;
 }

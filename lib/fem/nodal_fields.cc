@@ -1,4 +1,4 @@
-#include "lib/fem/nodal_figures.h"
+#include "lib/fem/nodal_fields.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,14 +41,14 @@ std::vector<double> of_strength(const Vec6& s, const ElasticRegion& region) {
   return {region.strength ? exposure(s, *region.strength) : kNone};
 }
 
-const SeenTensor& tensor_of(const NodalFigure& figure) {
-  const auto& all = seen_tensors();
-  return *std::find_if(all.begin(), all.end(), [&](const auto& t) { return std::string(t.name) == figure.tensor; });
+const TensorField& tensor_of(const DerivedField& derived) {
+  const auto& all = tensor_fields();
+  return *std::find_if(all.begin(), all.end(), [&](const auto& t) { return std::string(t.name) == derived.tensor; });
 }
 
 // Visits the recovered tensor of each node of a region.
 template <class Visit>
-void for_each_node(const StressRecovery& recovery, const NodalState& s, const SeenTensor& tensor, std::size_t region,
+void for_each_node(const StressRecovery& recovery, const NodalState& s, const TensorField& tensor, std::size_t region,
                    Visit&& visit) {
   const auto [nodes, values] = recovery.at_nodes_of_region(region, s, tensor);
   for (std::size_t i = 0; i < nodes->size(); ++i)
@@ -57,14 +57,14 @@ void for_each_node(const StressRecovery& recovery, const NodalState& s, const Se
 
 }  // namespace
 
-const std::vector<SeenTensor>& seen_tensors() {
+const std::vector<TensorField>& tensor_fields() {
   static const std::vector<std::string> space{"xx", "yy", "zz", "xy", "yz", "zx"},
       material{"11", "22", "33", "12", "23", "31"};
-  static const std::vector<SeenTensor> all{
+  static const std::vector<TensorField> all{
       {"strain", "1", "Strain S - I in material axes: 11, 22, 33, 12, 23, 31 (tensor shear)", material,
        [](const PointObservation& o) { return o.strain; }},
-      {"strain_space", "1", "The same strain in space, as the body is turned: xx, yy, zz, xy, yz, zx (tensor shear)", space,
-       [](const PointObservation& o) { return Mat3(o.axes * o.strain * o.axes.transpose()); }},
+      {"strain_space", "1", "The same strain in space, as the body is turned: xx, yy, zz, xy, yz, zx (tensor shear)",
+       space, [](const PointObservation& o) { return Mat3(o.axes * o.strain * o.axes.transpose()); }},
       {"stress", "Pa", "Elastic Cauchy stress in space: xx, yy, zz, xy, yz, zx; NaN where inverted", space,
        [](const PointObservation& o) { return o.cauchy; }},
       {"stress_material", "Pa", "Elastic Cauchy stress in the rotated material axes: 11, 22, 33, 12, 23, 31", material,
@@ -72,9 +72,9 @@ const std::vector<SeenTensor>& seen_tensors() {
   return all;
 }
 
-const std::vector<NodalFigure>& nodal_figures() {
+const std::vector<DerivedField>& derived_fields() {
   static const std::vector<std::string> three{"1", "2", "3"};
-  static const std::vector<NodalFigure> all{
+  static const std::vector<DerivedField> all{
       {"von_mises", "Pa", "Von Mises' equivalent stress.", "stress", {}, false, von_mises},
       {"principal_stress", "Pa", "Principal stresses, the largest first.", "stress", three, false, principal},
       {"principal_strain", "1", "Principal strains, the largest first.", "strain", three, false, principal},
@@ -88,8 +88,8 @@ const std::vector<NodalFigure>& nodal_figures() {
   return all;
 }
 
-std::vector<double> nodal_tensor(const StressRecovery& recovery, const NodalState& s, const SeenTensor& tensor,
-                                 int region) {
+std::vector<double> tensor_at_nodes(const StressRecovery& recovery, const NodalState& s, const TensorField& tensor,
+                                    int region) {
   const auto nodes = static_cast<std::size_t>(s.x.cols());
   std::vector<double> out(6 * nodes, region < 0 ? 0 : kNone);
   if (region < 0) {
@@ -103,13 +103,13 @@ std::vector<double> nodal_tensor(const StressRecovery& recovery, const NodalStat
   return out;
 }
 
-std::vector<double> nodal_figure(const StressRecovery& recovery, const StressRecovery::Terms& terms,
-                                 const NodalState& s, const NodalFigure& figure, int region) {
-  const std::size_t count = std::max<std::size_t>(figure.components.size(), 1);
+std::vector<double> derived_at_nodes(const StressRecovery& recovery, const StressRecovery::Terms& terms,
+                                     const NodalState& s, const DerivedField& derived, int region) {
+  const std::size_t count = std::max<std::size_t>(derived.components.size(), 1);
   std::vector<double> out(count * static_cast<std::size_t>(s.x.cols()), kNone);
   const auto add = [&](std::size_t r) {
-    for_each_node(recovery, s, tensor_of(figure), r, [&](std::size_t node, const Vec6& tensor) {
-      const auto values = figure.of(tensor, terms[r]->definition());
+    for_each_node(recovery, s, tensor_of(derived), r, [&](std::size_t node, const Vec6& tensor) {
+      const auto values = derived.of(tensor, terms[r]->definition());
       auto at = out.begin() + static_cast<std::ptrdiff_t>(count * node);
       if (std::isnan(*at) || values[0] > *at) std::copy(values.begin(), values.end(), at);
     });

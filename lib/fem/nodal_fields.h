@@ -1,4 +1,4 @@
-// Figures of stress and strain at the nodes, from the recovered tensors (stress_recovery.h): invariants, and how near a
+// Fields of stress and strain at the nodes, from the recovered tensors (stress_recovery.h): invariants, and how near a
 // material is to failure. They are computed within each region, with its material; a node of several regions has the
 // largest.
 #pragma once
@@ -11,8 +11,8 @@
 
 namespace orthodyn {
 
-// 11, 22, 33, 12, 23, 31 of a symmetric tensor that is seen at a point.
-struct SeenTensor {
+// A symmetric tensor of a point: 11, 22, 33, 12, 23, 31.
+struct TensorField {
   const char *name, *unit, *sentence;
   std::vector<std::string> components;
   Mat3 (*pick)(const PointObservation&);
@@ -24,12 +24,12 @@ struct SeenTensor {
 };
 
 // strain (material axes), strain_space, stress (space), stress_material.
-const std::vector<SeenTensor>& seen_tensors();
+const std::vector<TensorField>& tensor_fields();
 
 // What is made of one of them at a node.
-struct NodalFigure {
+struct DerivedField {
   const char *name, *unit, *sentence;
-  const char* tensor;  // name of a SeenTensor
+  const char* tensor;  // name of a TensorField
   std::vector<std::string> components;  // empty for a number
   bool needs_strength;
   // As many values as components, or one; NaN where the region has no strength and needs it.
@@ -37,12 +37,13 @@ struct NodalFigure {
 };
 
 // von_mises, principal_stress, principal_strain, nodal_det_f, max_stress, tsai_wu, hashin.
-const std::vector<NodalFigure>& nodal_figures();
+const std::vector<DerivedField>& derived_fields();
 
 // One value set per node of the mesh, NaN off the region. `region`: the index of an elastic term, or -1 for all.
-std::vector<double> nodal_tensor(const StressRecovery& recovery, const NodalState& s, const SeenTensor& tensor, int region);
-std::vector<double> nodal_figure(const StressRecovery& recovery, const StressRecovery::Terms& terms, const NodalState& s,
-                                 const NodalFigure& figure, int region);
+std::vector<double> tensor_at_nodes(const StressRecovery& recovery, const NodalState& s, const TensorField& tensor,
+                                    int region);
+std::vector<double> derived_at_nodes(const StressRecovery& recovery, const StressRecovery::Terms& terms,
+                                     const NodalState& s, const DerivedField& derived, int region);
 
 // The fields that can be asked for in one region, as "REGION.FIELD" of a state's view.
 std::vector<OutputInfo> region_fields();

@@ -11,14 +11,14 @@
 
 namespace orthodyn {
 
-struct DefinitePairs {
+struct NegativeEigenPairs {
   Vector values;           // ascending
   Eigen::MatrixXd shapes;  // a column each, B-orthonormal
 };
 
 // Those with nu < -bound, bound > 0, at most `count`. A and B by their values on `pattern`. Throws ConfigError if the
 // pattern is not symmetric, RunError if B is not positive definite or the iteration fails.
-DefinitePairs negative_pairs(const Pattern& pattern, const std::vector<double>& A, const std::vector<double>& B,
-                             double bound, int count);
+NegativeEigenPairs negative_eigenpairs(const Pattern& pattern, const std::vector<double>& A,
+                                       const std::vector<double>& B, double bound, int count);
 
 }  // namespace orthodyn

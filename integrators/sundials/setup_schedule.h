@@ -1,0 +1,35 @@
+// When Newton's matrix of a step is made anew beforehand. One of earlier steps saves a tangent and a factor where the
+// motion changes it little. Where it does not serve, its iterations are lost before a new one is made after all: large
+// rotations then take a new one at each step, and an old one is tried again now and then.
+#pragma once
+
+#include <algorithm>
+
+namespace orthodyn::sundials {
+
+class SetupSchedule {
+ public:
+  // The largest number of steps between two set-ups, for the next step.
+  long interval() const { return new_left_ > 0 ? 1 : kUsual; }
+
+  // After a step, in which K was made anew or not.
+  void note(bool renewed) {
+    if (new_left_ > 0) {
+      --new_left_;
+    } else if (!renewed) {
+      failures_ = 0;
+      patience_ = kFewest;
+    } else if (++failures_ >= kFailures) {
+      new_left_ = patience_;
+      patience_ = std::min(2 * patience_, kMost);
+    }
+  }
+
+ private:
+  static constexpr long kUsual = 20;             // SUNDIALS' own
+  static constexpr int kFailures = 4;            // in a row: an old matrix serves one step of five at best
+  static constexpr int kFewest = 4, kMost = 64;  // steps until it is tried again
+  int failures_ = 0, new_left_ = 0, patience_ = kFewest;
+};
+
+}  // namespace orthodyn::sundials

@@ -1,0 +1,95 @@
+#include "lib/config/yaml_slips.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+#include <vector>
+
+#include "lib/core/errors.h"
+
+namespace orthodyn {
+
+namespace {
+
+constexpr std::size_t kLongestLine = 2000;  // of one that is searched: std::regex recurses
+
+std::string advice_for(const std::string& key) { return "put a space after '" + key + ":'"; }
+
+// Without its comment; the comma of a text in quotes is nobody's concern here.
+std::string code_of(const std::string& line) {
+  const auto begin = line.find_first_not_of(' ');
+  if (begin != std::string::npos && line[begin] == '#') return "";
+  return line.substr(0, std::min(line.find(" #"), kLongestLine));
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(code_of(line));
+  return lines;
+}
+
+bool is_blank_line(const std::string& line) { return line.find_first_not_of(" \t") == std::string::npos; }
+
+std::size_t indentation(const std::string& line) { return line.find_first_not_of(' '); }
+
+[[noreturn]] void refuse_line(const std::string& file, std::size_t line, std::size_t column, const std::string& what) {
+  throw ConfigError(fmt::format("{}:{}:{}", file, line + 1, column + 1), "not YAML: " + what);
+}
+
+// A key at the beginning of a line, of a list's entry or of an entry in braces, and no blank behind its colon.
+void refuse_missing_space(const std::string& line, const std::string& file, std::size_t number) {
+  static const std::regex key(R"((^ *(- +)*|[{,] *)([A-Za-z_]\w*):(?=[^\s:/]))");
+  std::smatch found;
+  if (std::regex_search(line, found, key))
+    refuse_line(file, number, static_cast<std::size_t>(found.position(3)), advice_for(found.str(3)));
+}
+
+bool has_value(const std::string& line) {
+  static const std::regex key(R"(^ *(- +)*[A-Za-z_][\w.]*: +[^\s|>&].*)");
+  return std::regex_match(line, key);
+}
+
+void refuse_indentation(const std::string& line, const std::string& before, const std::string& file,
+                        std::size_t number) {
+  static const std::regex key(R"(^ *[A-Za-z_][\w.]*:( .*)?)");
+  if (line.find_first_not_of(" \t") > line.find('\t'))
+    refuse_line(file, number, line.find('\t'), "indent it by blanks instead of tabs");
+  if (std::regex_match(line, key) && has_value(before) && indentation(line) > indentation(before))
+    refuse_line(file, number, indentation(line),
+                "this line is indented deeper than the one before it, which has a value already; align the two");
+}
+
+}  // namespace
+
+std::string missing_space(const std::string& text) {
+  static const std::regex key(R"(^([A-Za-z_]\w*):[^\s:/].*)");
+  std::smatch found;
+  const std::string begin = text.substr(0, kLongestLine);
+  return std::regex_match(begin, found, key) ? "; " + advice_for(found.str(1)) : "";
+}
+
+void refuse_slip_near(const std::string& text, const std::string& file, const YAML::Mark& mark) {
+  const auto lines = lines_of(text);
+  if (mark.is_null() || lines.empty()) return;
+  const std::size_t here = std::min(static_cast<std::size_t>(mark.line), lines.size() - 1);
+  std::size_t before = here;
+  while (before > 0 && is_blank_line(lines[--before])) {
+  }
+  refuse_missing_space(lines[before], file, before);
+  if (before == here) return;
+  refuse_missing_space(lines[here], file, here);
+  refuse_indentation(lines[here], lines[before], file, here);
+}
+
+bool is_key_with_value(const YAML::Node& key, const YAML::Node& value) {
+  if (key.Tag() == "!") return false;  // in quotes
+  const std::string& text = key.Scalar();
+  const auto colon = text.find(':');
+  if (missing_space(text).empty()) return false;
+  return value.IsNull() || std::string("[{\"'").find(text[colon + 1]) != std::string::npos;
+}
+
+}  // namespace orthodyn
