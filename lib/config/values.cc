@@ -37,23 +37,40 @@ double quantity(const Config& config, std::string_view unit) {
   }
 }
 
-// [10.8 GPa, 0.84, 0.46]: a number without a unit that is far from the SI value of its neighbour, and nearer to the
-// neighbour's number.
+struct WithUnit {
+  std::string text, unit;
+  double number, si;
+};
+
+// Those entries of a list that have a unit, without zeros.
+std::vector<WithUnit> entries_with_units(const Config& list, const std::vector<double>& si) {
+  std::vector<WithUnit> out;
+  for (std::size_t i = 0; i < si.size(); ++i) {
+    if (list.at(i).reads_as_number() || si[i] == 0) continue;
+    const std::string text = list.at(i).text();
+    if (const auto split = split_quantity(text); split && split->number != 0)
+      out.push_back({text, split->unit, split->number, si[i]});
+  }
+  return out;
+}
+
+// [10.8 GPa, 0.84, 0.46]: a number without a unit that is far from the SI value of every entry that has one, and
+// nearer to the number in front of that unit.
 void refuse_missing_units(const Config& list, const std::vector<double>& si, std::string_view unit) {
   constexpr double kUnlike = 60;
-  for (std::size_t k = 0; k < si.size(); ++k) {
-    if (list.at(k).reads_as_number() || si[k] == 0) continue;
-    const auto neighbour = split_quantity(list.at(k).text());
-    if (!neighbour || neighbour->number == 0) continue;
-    for (std::size_t i = 0; i < si.size(); ++i) {
-      if (si[i] == 0 || !list.at(i).reads_as_number()) continue;
-      const auto apart = [&](double x) { return std::max(std::abs(si[i] / x), std::abs(x / si[i])); };
-      if (apart(si[k]) < kUnlike || apart(neighbour->number) >= apart(si[k])) continue;
-      list.at(i).fail(
-          fmt::format("unit missing: '{0}' is next to '{1}'; write '{0} {2}', or '{0} {3}' if you mean that",
-                      list.at(i).text(), list.at(k).text(), neighbour->unit, unit),
-          InputFault::form);
-    }
+  const auto others = entries_with_units(list, si);
+  if (others.empty()) return;
+  for (std::size_t i = 0; i < si.size(); ++i) {
+    if (si[i] == 0 || !list.at(i).reads_as_number()) continue;
+    const auto apart = [&](double x) { return std::max(std::abs(si[i] / x), std::abs(x / si[i])); };
+    const auto looks_forgotten = [&](const WithUnit& other) {
+      return apart(other.si) >= kUnlike && apart(other.number) < apart(other.si);
+    };
+    if (!std::ranges::all_of(others, looks_forgotten)) continue;
+    const WithUnit& other = others.front();
+    list.at(i).fail(fmt::format("unit missing: '{0}' is next to '{1}'; write '{0} {2}', or '{0} {3}' if you mean that",
+                                list.at(i).text(), other.text, other.unit, unit),
+                    InputFault::form);
   }
 }
 

@@ -31,17 +31,17 @@ double total_mass(const FemModel& model) {
 
 // Where the loads alone take the centre of mass, from rest, m; gravity is left out: things may fall.
 double carried_away(const Subject& subject) {
-  const std::vector<double> times = sampled_times(subject);
-  Vec3 way = Vec3::Zero(), speed = way, before = total_load(subject, times.front());
-  double farthest = 0;
-  for (std::size_t k = 1; k < times.size(); ++k) {
-    const double h = times[k] - times[k - 1];
-    const Vec3 now = total_load(subject, times[k]);
+  Vec3 way = Vec3::Zero(), speed = way, before = way;
+  double farthest = 0, last = subject.start();
+  visit_times(subject, [&](double t) {
+    const double h = t - last;
+    const Vec3 now = total_load(subject, t);
     way += h * speed + h * h / 6 * (2 * before + now);
     speed += h / 2 * (before + now);
     before = now;
+    last = t;
     farthest = std::max(farthest, way.norm());
-  }
+  });
   return farthest / total_mass(*subject.built.model);
 }
 

@@ -37,12 +37,12 @@ void add_support_slips(const Subject& subject, Warnings& out) {
   const auto& parts = subject.built.model->parts();
   if (!parts.moved) return;
   double farthest = 0, fastest = 0;
-  for (const double t : sampled_times(subject)) {
+  visit_times(subject, [&](double t) {
     NodalVector u = NodalVector::Zero(3, parts.rest->cols()), v = u;
     parts.moved->place(t, u, v);
     farthest = std::max(farthest, u.colwise().norm().maxCoeff());
     fastest = std::max(fastest, v.colwise().norm().maxCoeff());
-  }
+  });
   const std::string place = subject.config.at("motions").where();
   if (farthest > kFarthest * subject.extent)
     out.push_back(fmt::format("{}: nodes are moved by {:.4g} m, {:.0f} times the length of the body: is that in mm?",

@@ -46,7 +46,7 @@ bool names_a_factor(const Config& section) {
          Registry<TimeFunction>::entries().contains(section.at("type").text());
 }
 
-std::vector<double> sampled_times(const Subject& subject) {
+void visit_times(const Subject& subject, const std::function<void(double)>& visit) {
   constexpr int kSamples = 50;
   std::vector<double> times{subject.start()}, ends = subject.built.model->breakpoints(subject.start(), subject.end());
   ends.push_back(subject.end());
@@ -56,7 +56,10 @@ std::vector<double> sampled_times(const Subject& subject) {
     std::sort(times.end() - kSamples, times.end());
     times.push_back(end);
   }
-  return times;
+  try {
+    for (const double t : times) visit(t);
+  } catch (const ConfigError&) {
+  }
 }
 
 double fastest_wave(const Material& material) {
@@ -74,7 +77,8 @@ Warnings slips(const Config& config, const Scene& scene, const BuiltScene& built
   Warnings out;
   for (const auto add :
        {slip::add_material_slips, slip::add_place_slips, slip::add_load_slips, slip::add_time_slips,
-        slip::add_motion_slips, slip::add_freedom_slips, slip::add_damping_slips, slip::add_event_slips, slip::add_setting_slips})
+        slip::add_motion_slips, slip::add_freedom_slips, slip::add_damping_slips, slip::add_event_slips,
+        slip::add_setting_slips})
     add(subject, out);
   return out;
 }

@@ -52,8 +52,9 @@ void visit_keys(const Config& config, const std::string& key, const std::functio
 // Whether a section is a factor in time; a plugin's term may have another key of that name.
 bool names_a_factor(const Config& section);
 
-// s, ascending, from start to end: some between each two times where loads and motions are not smooth.
-std::vector<double> sampled_times(const Subject& subject);
+// For times in s, ascending, from start to end: some between each two where loads and motions are not smooth. Ends
+// early where a formula has no value: the run will tell, if it comes so far.
+void visit_times(const Subject& subject, const std::function<void(double)>& visit);
 
 // m/s, of the fastest wave in a material: sqrt(max C_ii / density).
 double fastest_wave(const Material& material);
