@@ -1,0 +1,41 @@
+// How many iterations of Newton's method a step takes on scenes that are shipped.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/problems/running.h"
+
+namespace orthodyn::newton_effort_test {
+namespace {
+
+struct Shipped {
+  const char* name;
+  double end;                   // s, of a part of its motion
+  double iterations, tangents;  // a step, at most
+};
+
+class NewtonEffort : public testing::TestWithParam<Shipped> {};
+
+// Turning strips: an old matrix is wrong after a few steps, and three iterations are spent before it is given up.
+INSTANTIATE_TEST_SUITE_P(Scenes, NewtonEffort,
+                         testing::Values(Shipped{"cantilever", 0.25, 3.5, 1.3}, Shipped{"twist", 0.6, 3.5, 1.3}),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST_P(NewtonEffort, OfBdfIsThreeIterationsAStep) {
+  const Shipped& shipped = GetParam();
+  Config config = Config::from_file(fmt::format(ORTHODYN_SOURCE_DIR "/configs/scenes/{}.yaml", shipped.name));
+  config.set_yaml("integrator", "{type: cvode_bdf, rtol: 1e-4}");
+  config.set_yaml("mesh.order", "1");
+  const BuiltTestScene s(config);
+  const auto integrator = s.scene.integrator->make(s.model(), task_of(s.scene, s.built));
+  const Plan plan{shipped.end, {shipped.end}};
+  const Outcome outcome = run(s.model(), *integrator, s.built.initial, plan, {}, {false});
+  ASSERT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
+  const Statistics done = integrator->statistics();
+  const auto steps = static_cast<double>(done.steps);
+  ASSERT_GT(steps, 50);
+  EXPECT_LT(static_cast<double>(done.newton_iterations), shipped.iterations * steps);
+  EXPECT_LT(static_cast<double>(done.tangent.count), shipped.tangents * steps);
+}
+
+}  // namespace
+}  // namespace orthodyn::newton_effort_test
