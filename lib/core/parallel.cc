@@ -5,41 +5,70 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <memory>
+#include <exception>
+#include <mutex>
 
 namespace orthodyn {
 
-namespace {
-
-// Its threads are made with the first loop; null for one thread.
-struct Team {
-  explicit Team(int n) : limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(n)), arena(n) {}
+// Its threads are made with the first loop. More of them than the machine has need the limit raised.
+struct LoopArena {
+  explicit LoopArena(int n)
+      : limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(n)), tasks(n) {}
   tbb::global_control limit;
-  tbb::task_arena arena;
+  tbb::task_arena tasks;
 };
 
-std::unique_ptr<Team>& team() {
-  static std::unique_ptr<Team> all;
-  return all;
-}
+namespace {
+
+// Which of many exceptions is thrown must not depend on the order in which threads get there.
+class FirstError {
+ public:
+  void keep(int index, std::exception_ptr error) {
+    const std::lock_guard lock(mutex_);
+    if (error_ && index_ < index) return;
+    index_ = index;
+    error_ = std::move(error);
+  }
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  std::mutex mutex_;
+  int index_ = 0;
+  std::exception_ptr error_;
+};
+
+thread_local LoopArena* arena_of_this_thread = nullptr;
 
 }  // namespace
 
 int available_threads() { return tbb::info::default_concurrency(); }
 
-void set_threads(int n) {
-  team().reset();
-  if (n > 1) team() = std::make_unique<Team>(n);
+LoopThreads::LoopThreads(int n)
+    : arena_(n > 1 ? std::make_unique<LoopArena>(n) : nullptr), before_(arena_of_this_thread) {
+  arena_of_this_thread = arena_.get();
 }
 
-int threads() { return team() ? team()->arena.max_concurrency() : 1; }
+LoopThreads::~LoopThreads() { arena_of_this_thread = before_; }
+
+int loop_threads() { return arena_of_this_thread ? arena_of_this_thread->tasks.max_concurrency() : 1; }
 
 void parallel_for(int n, const std::function<void(int)>& body) {
-  if (n == 1 || !team()) {
+  if (n == 1 || !arena_of_this_thread) {
     for (int i = 0; i < n; ++i) body(i);
     return;
   }
-  team()->arena.execute([&] { tbb::parallel_for(0, n, body, tbb::simple_partitioner()); });
+  FirstError first;
+  const auto guarded = [&](int i) {
+    try {
+      body(i);
+    } catch (...) {
+      first.keep(i, std::current_exception());
+    }
+  };
+  arena_of_this_thread->tasks.execute([&] { tbb::parallel_for(0, n, guarded, tbb::simple_partitioner()); });
+  first.rethrow();
 }
 
 }  // namespace orthodyn

@@ -1,5 +1,7 @@
 #include "lib/fem/element_axes.h"
 
+#include <algorithm>
+
 #include "lib/element/polar.h"
 
 namespace orthodyn {
@@ -10,7 +12,7 @@ ElementAxes::ElementAxes(const std::vector<Mat3>& each, int points) : points_(po
   packs_.resize((size + kLanes - 1) / kLanes * per_element);
   for (std::size_t k = 0; k < packs_.size() / per_element * kLanes; ++k)
     for (std::size_t p = 0; p < per_element; ++p) {
-      const Eigen::Quaterniond q = Eigen::Quaterniond(each[(k < size ? k : 0) * per_element + p]).normalized();
+      const Eigen::Quaterniond q = Eigen::Quaterniond(each[std::min(k, size - 1) * per_element + p]).normalized();
       Pack& pack = packs_[k / kLanes * per_element + p];
       const double wxyz[] = {q.w(), q.x(), q.y(), q.z()};
       for (std::size_t i = 0; i < 4; ++i) pack[i][k % kLanes] = wxyz[i];

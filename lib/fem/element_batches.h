@@ -1,5 +1,6 @@
 // The elements of one region in batches of as many as a Batch has lanes: nodes and, for each point, shape gradients
-// and volume side by side. The last batch is filled up with copies of volume zero.
+// and volume side by side. The last batch is filled up with copies of the last element, of volume zero: what is added
+// to their nodes stays within its group (element_groups.h).
 //
 // Const functions may run at the same time on different forces. For an element of lib/element.
 #pragma once
@@ -80,12 +81,13 @@ ElementBatches<E>::ElementBatches(const ElementMesh& mesh, const std::vector<int
       batches_((cells.size() + static_cast<std::size_t>(kLanes) - 1) / static_cast<std::size_t>(kLanes)) {
   for (int k = 0; k < num_batches() * kLanes; ++k) {
     const bool filler = k >= size_;
-    const auto cell = static_cast<std::size_t>(cells[static_cast<std::size_t>(filler ? 0 : k)]);
+    const int element = filler ? size_ - 1 : k;
+    const auto cell = static_cast<std::size_t>(cells[static_cast<std::size_t>(element)]);
     const NodeDifferences<kNodes> rest = differences<kNodes>(mesh.positions(cell));
     One& one = batches_[static_cast<std::size_t>(k / kLanes)];
     std::copy_n(mesh.cells[cell].begin(), kNodes, one.nodes[lane(k)].begin());
     for (int p = 0; p < kPoints; ++p) {
-      const ElementPoint<kNodes> point = E::point(p, rest, axes.of(filler ? 0 : k, p));
+      const ElementPoint<kNodes> point = E::point(p, rest, axes.of(element, p));
       Point& out = one.points[static_cast<std::size_t>(p)];
       for (int i = 0; i < kGradients; ++i) out.B[i][lane(k)] = point.B(i);
       out.volume[lane(k)] = filler ? 0 : point.volume;

@@ -2,7 +2,9 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <mutex>
+#include <set>
 
 namespace orthodyn {
 
@@ -14,22 +16,34 @@ Function* find(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
 }
 
-struct ThreadFunctions {
-  int (*get)();
-  void (*set)(int);
-};
-
-const ThreadFunctions& find_threads() {
-  static const ThreadFunctions functions{find<int()>("openblas_get_num_threads"),
-                                         find<void(int)>("openblas_set_num_threads")};
-  return functions;
-}
-
 // OpenBLAS has one number of threads for the whole process.
-struct ThreadCount {
-  std::mutex mutex;
-  int holders = 0;  // objects that ask for one thread
-  int before = 0;   // threads without them
+class ThreadCount {
+ public:
+  void limit(int most) {
+    const std::lock_guard lock(mutex_);
+    if (!set_ || !get_) return;
+    if (limits_.empty()) free_ = get_();
+    limits_.insert(most);
+    apply();
+  }
+  void release(int most) {
+    const std::lock_guard lock(mutex_);
+    if (!set_ || !get_) return;
+    limits_.erase(limits_.find(most));
+    apply();
+  }
+
+ private:
+  void apply() {
+    const int count = limits_.empty() ? free_ : std::min(free_, *limits_.begin());
+    if (get_() != count) set_(count);
+  }
+
+  int (*const get_)() = find<int()>("openblas_get_num_threads");
+  void (*const set_)(int) = find<void(int)>("openblas_set_num_threads");
+  std::mutex mutex_;
+  std::multiset<int> limits_;
+  int free_ = 0;  // threads without limits
 };
 
 ThreadCount& thread_count() {
@@ -46,25 +60,12 @@ std::string blas_name() {
 
 bool blas_is_openblas() { return find<char*()>("openblas_get_config") != nullptr; }
 
-void limit_blas_threads(int most) {
-  const auto [get, set] = find_threads();
-  if (get && set && get() > most) set(most);
+BlasThreadLimit::BlasThreadLimit(std::optional<int> most) : most_(most) {
+  if (most_) thread_count().limit(*most_);
 }
 
-OneBlasThread::OneBlasThread(bool one) : held_(one && find_threads().get && find_threads().set) {
-  if (!held_) return;
-  ThreadCount& threads = thread_count();
-  const std::lock_guard lock(threads.mutex);
-  if (threads.holders++ > 0) return;
-  threads.before = find_threads().get();
-  if (threads.before > 1) find_threads().set(1);
-}
-
-OneBlasThread::~OneBlasThread() {
-  if (!held_) return;
-  ThreadCount& threads = thread_count();
-  const std::lock_guard lock(threads.mutex);
-  if (--threads.holders == 0 && threads.before > 1) find_threads().set(threads.before);
+BlasThreadLimit::~BlasThreadLimit() {
+  if (most_) thread_count().release(*most_);
 }
 
 }  // namespace orthodyn

@@ -1,6 +1,7 @@
 // Which BLAS is loaded, and how many threads it uses. All functions may be called by several threads.
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace orthodyn {
@@ -12,21 +13,17 @@ inline constexpr int kBlasThreadsFrom = 15'000;
 std::string blas_name();
 bool blas_is_openblas();
 
-// No more than these from here on; without effect if the BLAS is not OpenBLAS.
-void limit_blas_threads(int most);
-
-// One BLAS thread while it lives, if `one` is set; then as many as before. The number belongs to the process: where
-// several threads of ours hold such objects, it is one until the last has gone. Without effect if the BLAS is not
-// OpenBLAS. Thread-safe.
-class OneBlasThread {
+// While it lives, BLAS uses at most so many threads; afterwards as many as before. The number belongs to the process:
+// the smallest limit of all such objects holds. Without effect for std::nullopt, or if the BLAS is not OpenBLAS.
+class BlasThreadLimit {
  public:
-  explicit OneBlasThread(bool one);
-  ~OneBlasThread();
-  OneBlasThread(const OneBlasThread&) = delete;
-  OneBlasThread& operator=(const OneBlasThread&) = delete;
+  explicit BlasThreadLimit(std::optional<int> most);
+  ~BlasThreadLimit();
+  BlasThreadLimit(const BlasThreadLimit&) = delete;
+  BlasThreadLimit& operator=(const BlasThreadLimit&) = delete;
 
  private:
-  bool held_;
+  std::optional<int> most_;
 };
 
 }  // namespace orthodyn

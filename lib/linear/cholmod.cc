@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "lib/core/errors.h"
 #include "lib/core/versions.h"
 #include "lib/linear/blas.h"
@@ -70,7 +72,7 @@ class Cholmod : public LinearSolver {
   }
 
   FactorStatus factor(const double* values) override {
-    const OneBlasThread threads(pattern_->n < kBlasThreadsFrom);
+    const BlasThreadLimit threads(most_threads());
     if (factor_->xtype == CHOLMOD_PATTERN)  // the first on this pattern
       require_room_of_factor(factor_bytes(), "the Cholesky factor",
                    "use a coarser mesh, or an explicit integrator (central_differences), which has no factor");
@@ -87,7 +89,7 @@ class Cholmod : public LinearSolver {
   int negative_eigenvalues() const override { return negative_pivots_; }
 
   void solve(const ConstVectorRef& b, VectorRef x) override {
-    const OneBlasThread threads(pattern_->n < kBlasThreadsFrom);
+    const BlasThreadLimit threads(most_threads());
     cholmod_dense view{};
     view.nrow = static_cast<std::size_t>(b.size());
     view.ncol = 1;
@@ -116,6 +118,10 @@ class Cholmod : public LinearSolver {
   std::string description() const override { return description_; }
 
  private:
+  std::optional<int> most_threads() const {
+    return pattern_->n < kBlasThreadsFrom ? std::optional(1) : std::nullopt;
+  }
+
   // CHOLMOD takes pointers to non-const, and reads only.
   cholmod_sparse view_of(const double* values) const {
     cholmod_sparse view{};

@@ -71,7 +71,7 @@ const Spec<Scene>& Scene::spec() {
           .key("threads", &Scene::threads,
                "Threads of a run; default: as many as the machine has. Loops over elements give the same bits with any "
                "number of them. Points of studies have one.",
-               {.range = {1, 1024}})
+               {.range = kThreads})
           .key("expect", &Scene::expect, "Known figures, which `orthodyn verify` checks.");
   return s;
 }

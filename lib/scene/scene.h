@@ -37,6 +37,8 @@ struct Buckling {
   static const Spec<Buckling>& spec();
 };
 
+inline constexpr Range kThreads{1, 1024};
+
 struct Scene {
   Analysis analysis = Analysis::dynamic;
   std::shared_ptr<const MeshSource> mesh;
@@ -61,7 +63,7 @@ struct Scene {
   Output output;
   std::optional<CheckpointSchedule> checkpoint;
   std::vector<Expectation> expect;
-  std::optional<int> threads;  // of a run; none: as many as the machine has
+  std::optional<int> threads;  // of a run; none: as many as the machine has (RunThreads)
 
   static const Spec<Scene>& spec();
 

@@ -5,10 +5,9 @@
 #include <optional>
 #include <utility>
 
-#include "lib/core/parallel.h"
 #include "lib/core/versions.h"
-#include "lib/linear/blas.h"
 #include "lib/simulation/checkpoint/resume.h"
+#include "lib/simulation/run_threads.h"
 #include "lib/simulation/volume.h"
 
 namespace orthodyn {
@@ -69,23 +68,18 @@ RunAnalysis analysis_of(const Scene& scene) {
   return run_dynamic_analysis;
 }
 
-void use_threads(const Scene& scene) {
-  set_threads(scene.threads.value_or(available_threads()));
-  if (scene.threads) limit_blas_threads(*scene.threads);
-}
-
 }  // namespace
 
 // `given_up`: where linear kinematics were before, and why; else "".
 RunResult Simulation::run_once(Config config, const RunRequest& request, const std::string& given_up,
                                const std::atomic<bool>& interrupt, RunListener& listener) const {
+  const RunThreads threads(config);
   const auto warn = [&](const std::string& text) { listener.on_warning(text); };
   ResultFolder folder(request.folder, earlier_result(request), warn);
   std::optional<Checkpoint> earlier;
   if (folder.resumes()) earlier = Checkpoint::load(folder.checkpoint());
   if (earlier) keep_choices(*earlier, config);
   Setup setup = set_up(std::move(config), earlier && was_linear_so_far(*earlier));
-  use_threads(setup.scene);
   if (!given_up.empty()) setup.note_given_up(given_up);
   for (const auto& warning : setup.built.warnings) listener.on_warning(warning);
   if (!request.any_volume) require_usual_volume(setup);

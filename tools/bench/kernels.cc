@@ -113,9 +113,8 @@ void add_threaded(const std::string& what, const std::string& of, const std::sha
   if (count == 1) return;
   const std::string name = fmt::format("{}, {} threads/{}", what, count, of);
   benchmark::RegisterBenchmark(name.c_str(), [beam, measure, count](benchmark::State& state) {
-    set_threads(count);
+    const LoopThreads threads(count);
     measure(state, beam->get());
-    set_threads(1);
   })->UseRealTime();
 }
 

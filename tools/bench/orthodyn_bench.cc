@@ -29,7 +29,7 @@ std::vector<orthodyn::bench::Result> measure(const Request& request) {
   for (auto& argument : arguments) pointers.push_back(argument.data());
   int count = static_cast<int>(pointers.size());
   benchmark::Initialize(&count, pointers.data());
-  const orthodyn::OneBlasThread threads(true);
+  const orthodyn::BlasThreadLimit one(1);
   orthodyn::bench::Collector collector;
   benchmark::RunSpecifiedBenchmarks(&collector);
   return collector.results();

@@ -10,7 +10,6 @@
 
 #include <Eigen/Cholesky>
 
-#include "lib/core/parallel.h"
 #include "lib/core/symmetric_eigen.h"
 #include "lib/fem/elastic_region.h"
 #include "lib/fem/element_batches.h"
@@ -126,14 +125,15 @@ class ElasticTermOf final : public ElasticTerm {
   }
 
   double largest_green_strain(const NodalState& s) const override {
-    const auto of_group = [&](int first, int last) {
+    const auto of_group = [&](const ElementGroups::Range& group) {
       double largest = 0;
-      for (int b = first; b < last; ++b)
+      visit_batches(group, [&](int b) {
         for (int p = 0; p < E::kPoints; ++p) largest = std::max(largest, largest_square(b, p, s));
+      });
       return largest;
     };
     double largest = 0;
-    for (const double square : of_each_group(of_group)) largest = std::max(largest, square);
+    for (const double square : groups_.of_each(of_group)) largest = std::max(largest, square);
     return 0.5 * std::sqrt(largest);
   }
 
@@ -192,22 +192,15 @@ class ElasticTermOf final : public ElasticTerm {
     return largest;
   }
 
-  // visit(first, last) for the batches [first, last) of a group.
   template <class Visit>
-  void visit_group(int group, Visit&& visit) const {
-    const auto [begin, end] = groups_.elements(group);
-    visit(begin / Batch::kLanes, (end + Batch::kLanes - 1) / Batch::kLanes);
+  static void visit_batches(const ElementGroups::Range& group, Visit&& visit) {
+    for (int b = group.begin / Batch::kLanes; b * Batch::kLanes < group.end; ++b) visit(b);
   }
 
-  // For what is added to nodes: in parallel, one colour after the other.
+  // For what is added to nodes.
   template <class Visit>
   void for_each_batch(Visit&& visit) const {
-    for (const std::vector<int>& groups : groups_.colours())
-      parallel_for(static_cast<int>(groups.size()), [&](int i) {
-        visit_group(groups[static_cast<std::size_t>(i)], [&](int first, int last) {
-          for (int b = first; b < last; ++b) visit(b);
-        });
-      });
+    groups_.for_each([&](const ElementGroups::Range& group) { visit_batches(group, visit); });
   }
 
   template <class Visit>
@@ -222,16 +215,6 @@ class ElasticTermOf final : public ElasticTerm {
     for_each_batch([&](int b) { for_each_lane(b, visit); });
   }
 
-  // A number for each group.
-  template <class OfGroup>
-  std::vector<double> of_each_group(OfGroup&& of_group) const {
-    std::vector<double> all(static_cast<std::size_t>(groups_.size()));
-    parallel_for(groups_.size(), [&](int group) {
-      visit_group(group, [&](int first, int last) { all[static_cast<std::size_t>(group)] = of_group(first, last); });
-    });
-    return all;
-  }
-
   template <class Visit>
   void for_each_lane(int batch, Visit&& visit) const {
     for (int l = 0; l < elements_.lanes(batch); ++l) visit(batch * Batch::kLanes + l);
@@ -240,19 +223,20 @@ class ElasticTermOf final : public ElasticTerm {
   // The volume integral of a density given at a point of whole batches and, where those fail, of elements.
   template <class OfBatch, class OfElement>
   double integrate(OfBatch&& of_batch, OfElement&& of_element) const {
-    const auto of_group = [&](int first, int last) {
+    const auto of_group = [&](const ElementGroups::Range& group) {
       double sum = 0;
-      for (int b = first; b < last; ++b)
+      visit_batches(group, [&](int b) {
         for (int p = 0; p < E::kPoints; ++p) {
           Batch::Mask good;
           const Batch product = elements_.volumes(b, p) * of_batch(b, p, good);
           if (all(good)) for (int l = 0; l < Batch::kLanes; ++l) sum += product[l];
           else for_each_lane(b, [&](int k) { sum += elements_.volume(k, p) * of_element(k, p); });
         }
+      });
       return sum;
     };
     double sum = 0;
-    for (const double share : of_each_group(of_group)) sum += share;
+    for (const double share : groups_.of_each(of_group)) sum += share;
     return sum;
   }
 
@@ -354,6 +338,7 @@ class ElasticTermOf final : public ElasticTerm {
   ElasticRegion region_;
   Law law_;
   const BlockPattern& pattern_;
+  static_assert(ElementGroups::kElements % Batch::kLanes == 0);
   ElementBatches<E> elements_;
   ElementGroups groups_;
   std::vector<Offsets> offsets_;
