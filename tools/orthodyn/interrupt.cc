@@ -3,7 +3,6 @@
 #include <pthread.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
 #include <thread>
 
@@ -14,13 +13,38 @@ namespace {
 constexpr unsigned kSecondsToEnd = 4;  // what waits for the program's end may give it five
 
 std::atomic<bool> flag{false};
-std::atomic<void (*)(int)> handler_of_sigterm{SIG_DFL};
+std::atomic<bool> catches_sigterm{false};
 
-void set_flag(int signal) {
+sigset_t only_sigterm() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGTERM);
+  return set;
+}
+
+// Blocked in every thread, so that nobody's handler runs: before the libraries are initialised, for OpenBLAS starts
+// threads then, which inherit it.
+void block_sigterm(int, char**, char**) {
+  const sigset_t term = only_sigterm();
+  pthread_sigmask(SIG_BLOCK, &term, nullptr);
+}
+[[gnu::section(".preinit_array"), gnu::used]] void (*block_before_all_else)(int, char**, char**) = block_sigterm;
+
+void begin_to_end() {
   flag = true;
-  if (signal == SIGTERM) handler_of_sigterm = SIG_DFL;
-  std::signal(signal, signal == SIGHUP ? SIG_IGN : SIG_DFL);  // shell and kernel may each send one
   alarm(kSecondsToEnd);
+}
+
+void on_signal(int signal) {
+  std::signal(signal, signal == SIGHUP ? SIG_IGN : SIG_DFL);  // shell and kernel may each send one
+  begin_to_end();
+}
+
+void end_by_sigterm() {
+  std::signal(SIGTERM, SIG_DFL);
+  const sigset_t term = only_sigterm();
+  pthread_sigmask(SIG_UNBLOCK, &term, nullptr);
+  std::raise(SIGTERM);
 }
 
 // A step or a factorisation can take longer. Only what is safe in a signal handler; processes that were started die
@@ -32,27 +56,35 @@ void end_at_once(int) {
   _exit(130);
 }
 
+bool is_ignored(int signal) {
+  struct sigaction now {};
+  sigaction(signal, nullptr, &now);
+  return now.sa_handler == SIG_IGN;
+}
+
 }  // namespace
 
-void keep_sigterm() {
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  std::thread([] {
-    for (;; std::this_thread::sleep_for(std::chrono::milliseconds(100))) std::signal(SIGTERM, handler_of_sigterm);
+void wait_for_sigterm() {
+  if (is_ignored(SIGTERM)) return;
+  block_sigterm(0, nullptr, nullptr);
+  std::thread([term = only_sigterm()] {
+    int signal = 0;
+    while (sigwait(&term, &signal) == 0) {
+      if (!catches_sigterm.exchange(false)) end_by_sigterm();
+      begin_to_end();
+    }
   }).detach();
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
 const std::atomic<bool>& interrupted() { return flag; }
 
 void catch_interrupts() {
   std::signal(SIGALRM, end_at_once);
-  std::signal(SIGINT, set_flag);
-  handler_of_sigterm = set_flag;
-  std::signal(SIGTERM, set_flag);
-  if (std::signal(SIGHUP, set_flag) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // under nohup
+  std::signal(SIGINT, on_signal);
+  catches_sigterm = true;
+  if (!is_ignored(SIGHUP)) std::signal(SIGHUP, on_signal);  // it is under nohup
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that reaches its limit is an error of writing
 }
 
 }  // namespace orthodyn

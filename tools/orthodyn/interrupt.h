@@ -8,9 +8,9 @@ namespace orthodyn {
 
 // True from the first SIGINT, SIGTERM or SIGHUP on, once catch_interrupts() was called.
 const std::atomic<bool>& interrupted();
-// METIS, which orders large matrices, takes SIGTERM for an error of its own while it runs, and the signal is lost: from
-// here on a thread, which takes no signal itself, sets the program's handler again.
-void keep_sigterm();
+// A thread of its own waits for SIGTERM from here on, and does what the signal is to do: METIS, which orders large
+// matrices, would take it for an error of its own. Without effect where the program was started to ignore it.
+void wait_for_sigterm();
 // From here on a reader of what is printed that goes away does not end the program, either.
 void catch_interrupts();
 

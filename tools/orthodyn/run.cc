@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 #include <system_error>
 
 #include "lib/simulation/simulation.h"
@@ -10,6 +11,7 @@
 #include "tools/orthodyn/notice.h"
 #include "tools/orthodyn/run_summary.h"
 #include "tools/orthodyn/scene_options.h"
+#include "tools/orthodyn/slow_set_up.h"
 #include "tools/orthodyn/terminal_progress.h"
 
 namespace orthodyn {
@@ -26,7 +28,9 @@ struct RunArguments : SceneArguments {
 // Prints what a run reports.
 class Terminal : public RunListener {
  public:
-  explicit Terminal(bool quiet) : quiet_(quiet) {}
+  explicit Terminal(bool quiet) : quiet_(quiet) {
+    if (!quiet) slow_set_up_.emplace();
+  }
 
   void on_warning(const std::string& text) override { print_notice("warning: " + text + "\n"); }
 
@@ -35,7 +39,7 @@ class Terminal : public RunListener {
   }
 
   std::unique_ptr<Observer> on_begin(const Setup& setup) override {
-    catch_interrupts();
+    slow_set_up_.reset();
     if (quiet_ || setup.scene.is_static()) return nullptr;
     return std::make_unique<TerminalProgress>(setup.scene.time.start, setup.scene.time.end, stderr);
   }
@@ -50,6 +54,7 @@ class Terminal : public RunListener {
 
  private:
   bool quiet_;
+  std::optional<SlowSetUp> slow_set_up_;  // until the run begins
 };
 
 // `run DIR --resume` is the scene in that folder.
@@ -73,6 +78,7 @@ int exit_code(const RunResult& result) {
 
 int run_scene(const RunArguments& given) {
   const RunArguments arguments = with_scene_of_folder(given);
+  catch_interrupts();
   const auto simulation = Simulation::from_file(arguments.scene, arguments.changes);
   Terminal terminal(arguments.quiet);
   const RunResult result = simulation.run({.folder = folder_for(arguments),

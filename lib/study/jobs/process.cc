@@ -27,6 +27,9 @@ constexpr auto kPoll = std::chrono::milliseconds(5);
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // also when the parent is killed
   if (getppid() != parent) _exit(127);
   setpgid(0, 0);  // Ctrl-C goes to the parent alone, which ends the child
+  sigset_t none;  // signals that this program blocks are the child's own
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   if (const int in = open("/dev/null", O_RDONLY | O_CLOEXEC); in >= 0) dup2(in, STDIN_FILENO);
