@@ -36,14 +36,21 @@ Reach reach_of_supports(const FemModel& model, double start, double end) {
   return reach;
 }
 
+// Of twice the static response, what blows that end within a period leave: three times their root mean square.
+double share_reached(const StaticResponse& statics) {
+  const double deflection = statics.displacement.lpNorm<Eigen::Infinity>();
+  return deflection > 0 ? std::min(1.0, 1.5 * statics.struck / deflection) : 1;
+}
+
 // m; 0 where it is not known. Displacements are twice those of the loads' static response, and three times the root
-// mean square of the vibrations that initial velocities start.
+// mean square of the vibrations that initial velocities or blows start.
 double size_of_motion(const State& initial, const StaticResponse& statics, const Reach& reach) {
   const bool held_by_stiffness = statics.displacement.size() > 0;
   const bool moves = !initial.v.isZero(0), is_moved = reach.distance > 0, is_loaded = !statics.load.isZero(0);
   if (!held_by_stiffness && (moves || is_loaded || !is_moved)) return 0;
   const double deflection = is_loaded ? statics.displacement.cwiseAbs().maxCoeff() : 0;
-  return 2 * std::max(deflection, reach.distance) + 3 * statics.vibration + initial.q.lpNorm<Eigen::Infinity>();
+  return 2 * std::max(share_reached(statics) * deflection, reach.distance) + 3 * statics.vibration +
+         initial.q.lpNorm<Eigen::Infinity>();
 }
 
 constexpr double kLeastShare = 1e-6;  // of the extent: errors far below it are round-off
@@ -62,7 +69,10 @@ Scales estimate_scales(const FemModel& model, const State& initial, double end, 
   const bool at_rest = initial.q.isZero(0) && initial.v.isZero(0);
   const double energy = at_rest ? 0 : initial_energy(model, initial);  // not round-off
   if (!std::isfinite(energy)) throw ConfigError("the initial state has no finite energy; check `initial`");
-  const double work = statics.exists() || statics.load.isZero(0) ? statics.work : extent * statics.load.lpNorm<1>();
+  const double reached = statics.exists() ? share_reached(statics) : 1;
+  const double work = statics.exists()         ? reached * reached * statics.work
+                      : statics.load.isZero(0) ? 0
+                                               : extent * statics.load.lpNorm<1>();
   const Reach reach = reach_of_supports(model, initial.t, end);
   Scales scales{0.1 * extent, 3 * std::sqrt(2 * (energy + work) / mass + reach.speed * reach.speed)};
   if (const double size = size_of_motion(initial, statics, reach); size > 0 && size < scales.position) {

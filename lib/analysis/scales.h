@@ -2,11 +2,12 @@
 //
 // Position: a tenth of the body's largest extent L; less if it is known to move less: twice the linear static
 // deflection u under all loads at their peaks, or twice as far as moved supports go, and of a body that is held three
-// times the amplitude of the vibrations that initial velocities start. Where it may touch something whose stiffness at
+// times the amplitude of the vibrations that initial velocities start; of short loads no more than three times that of
+// the vibrations that their impulses start. Where it may touch something whose stiffness at
 // a node is k, at most sqrt(2 (E0 + W) / k), but not below 1e-6 L: errors of position are errors of the energy of
 // contact. Velocity: 3 sqrt(2 (E0 + W) / m + V^2), with E0 the initial elastic and kinetic energy, m the mass, W the
-// work of the peak loads through that deflection, for an unclamped body through L, and V the largest speed of moved
-// supports.
+// work of the peak loads through that deflection, of short loads with the square of the share of it that they reach,
+// for an unclamped body through L, and V the largest speed of moved supports.
 // Frequency: 2/3 of velocity over position where that of the motion itself is known: one is three times a root mean
 // square, the other twice a size.
 #pragma once

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lib/core/errors.h"
 #include "lib/linear/solver.h"
@@ -22,6 +23,14 @@ Vector peak_load(const FemModel& model, const State& initial, double end, std::s
   Vector free(model.num_dofs());
   model.parts().dofs->restrict_to(sum, free);
   return free;
+}
+
+// N s, of all loads in the direction of their peaks.
+Vector impulse(const FemModel& model, const State& initial, double end) {
+  Vector sum = Vector::Zero(model.num_dofs());
+  for (std::size_t k = 0; k < model.parts().loads.size(); ++k)
+    sum += model.parts().loads[k]->seconds_at_peak(initial.t, end) * peak_load(model, initial, end, k, 1);
+  return sum;
 }
 
 // K at rest, factored; null where it is singular or nearly so, or does not fit: who needs no factor is to run.
@@ -82,7 +91,12 @@ StaticResponse static_response(const FemModel& model, const State& initial, doub
   response.work = u.dot(load);
   response.displacement = std::move(u);
   // Modes of frequency omega start with v and reach v/omega: the sum of (M v)^2/omega^2 is p K^-1 p.
-  response.vibration = std::sqrt(std::max(w.dot(momentum), 0.0) / model.parts().mass->total());
+  const auto amplitude = [&](const Vector& p, const Vector& response_to_p) {
+    return std::sqrt(std::max(response_to_p.dot(p), 0.0) / model.parts().mass->total());
+  };
+  response.vibration = amplitude(momentum, w);
+  const Vector blow = impulse(model, initial, end), after = solve(blow);
+  response.struck = after.size() > 0 ? amplitude(blow, after) : std::numeric_limits<double>::infinity();
   return response;
 }
 

@@ -13,6 +13,8 @@ struct StaticResponse {
   Vector displacement;   // m, under the load; empty if there is nothing to respond to or the body is not held
   double work = 0;       // J, load . displacement
   double vibration = 0;  // m, root mean square over the mass of the amplitudes that the initial velocities start
+  double struck = 0;     // m, likewise, that the impulses of all loads would start if they came at once: blows that end
+                         // within a period leave no more
 
   bool exists() const { return displacement.size() > 0; }
 };

@@ -38,6 +38,9 @@ class Term {
   // What it exerts at the peak of its factor between s.t and `end` (s), on the body in state s.
   virtual void add_peak_force(const NodalState& s, double /*end*/, NodalVector& f) const { add_force(s, f); }
 
+  // s, in which that has the impulse of all that it exerts until `end`.
+  virtual double seconds_at_peak(double start, double end) const { return end - start; }
+
   // The force between two states (DiscreteGradient in lib/ode/model.h): by default that of the middle, at rest,
   // which is exact where the energy is at most quadratic.
   virtual void add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "tests/scene/scenes.h"
 
@@ -59,6 +60,23 @@ time: {end: 0.1}
   const double m = 2000 / 2, k = 1e9 / 2;
   const double expected = 3 * 3e-3 * std::sqrt(m / k) * std::sqrt(m / 2000);
   EXPECT_NEAR(scales_of(bar).position, expected, 0.02 * expected);
+}
+
+// The same spring: a blow of impulse J starts v0 = J/m, whatever its peak would do at rest.
+TEST(Scales, OfAHeldBodyUnderAShortLoadComeFromItsImpulse) {
+  const std::string bar = R"(mesh: {type: box, size: [2, 1, 1], cells: [1, 1, 1], order: 1}
+materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0}}
+clamps: [{surface: x0}, {box: {min: [0, 0, 0], max: [2, 1, 1]}, components: [y, z]}]
+loads: [{surface: x1, force: [1000, 0, 0], factor: {type: expression, formula: exp(-((t-0.03)/1e-4)^2)}}]
+time: {end: 0.1}
+)";
+  const double m = 2000 / 2, k = 1e9 / 2, impulse = 1000 * 1e-4 * std::sqrt(std::numbers::pi);
+  const double v0 = impulse / m, expected = 3 * v0 * std::sqrt(m / k) * std::sqrt(m / 2000);
+  EXPECT_NEAR(scales_of(bar).position, expected, 0.03 * expected);
+  const auto longer = replaced(bar, "1e-4", "1e-2");  // than a period of 9 ms
+  EXPECT_NEAR(scales_of(bar).omega, scales_of(longer).omega, 1e-6 * scales_of(longer).omega);
+  EXPECT_NEAR(scales_of(bar).velocity, 1.5 * scales_of(bar).omega * scales_of(bar).position, 1e-9 * v0);
+  EXPECT_NEAR(scales_of(longer).position, 2 * 1000 / k, 1e-3 * 1000 / k);
 }
 
 // Evenly spaced samples of the base's motion would all be its zeros.

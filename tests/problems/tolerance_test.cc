@@ -15,7 +15,9 @@ struct ScenePart {
   const char* cells;  // of a coarser mesh
   const char* end;    // s
   const char* damping = nullptr;  // in place of the scene's
+  const char* factor = nullptr;   // likewise, of its load
 };
+constexpr const char* kPulse = "{type: expression, formula: exp(-((t-0.01)/0.001)^2)}";
 constexpr ScenePart kScenes[] = {{"twist", "[12, 2, 1]", "1.2"}, {"beam_lrt", "[8, 2, 2]", "0.6"}};
 
 // Displacements at 50 times.
@@ -26,6 +28,7 @@ Eigen::MatrixXd motion_of(const ScenePart& part, const std::string& integrator) 
   config.set_yaml("time.end", part.end);
   config.set_yaml("integrator", integrator);
   if (part.damping) config.set_yaml("damping", part.damping);
+  if (part.factor) config.set_yaml("loads.0.factor", part.factor);
   const BuiltTestScene s(config);
   Eigen::MatrixXd q(s.size(), 51);
   Eigen::Index column = 0;
@@ -78,6 +81,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, DefaultTolerance,
                          testing::Values(ScenePart{"cantilever", "[12, 2, 1]", "1"},
                                          ScenePart{"cantilever", "[12, 2, 1]", "0.5", "{stiffness: 1e-5}"},
                                          ScenePart{"cantilever", "[12, 2, 1]", "0.5", "~"},
+                                         ScenePart{"cantilever", "[12, 2, 1]", "0.1", "{stiffness: 1e-4}", kPulse},
+                                         ScenePart{"cantilever", "[12, 2, 1]", "0.1", "~", kPulse},
                                          ScenePart{"beam_lrt", "[8, 2, 2]", "0.6"},
                                          ScenePart{"beam_lrt", "[8, 2, 2]", "0.6", "~"},
                                          ScenePart{"twist", "[12, 2, 1]", "0.8"}));

@@ -21,6 +21,7 @@ class DeadLoad : public Term {
   std::string description() const override;
   void add_force(const NodalState& s, NodalVector& f) const override;
   void add_peak_force(const NodalState& s, double end, NodalVector& f) const override;
+  double seconds_at_peak(double start, double end) const override { return factor_->seconds_at_peak(start, end); }
   double load_power(const NodalState& s) const override;
   std::vector<double> breakpoints(double start, double end) const override;
   StepLimits step_limits(double start, double end) const override { return factor_->step_limits(start, end); }

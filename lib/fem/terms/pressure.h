@@ -47,6 +47,7 @@ class Pressure : public Term {
   std::size_t bytes() const override { return faces_.capacity() * sizeof(PressedFace<F>); }
   void add_force(const NodalState& s, NodalVector& f) const override;
   void add_peak_force(const NodalState& s, double end, NodalVector& f) const override;
+  double seconds_at_peak(double start, double end) const override { return factor_->seconds_at_peak(start, end); }
   void add_tangent(const NodalState& s, TangentKind kind, double* stiffness, double* damping) const override;
   double load_power(const NodalState& s) const override;
   std::vector<double> breakpoints(double start, double end) const override;

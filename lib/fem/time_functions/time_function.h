@@ -22,6 +22,8 @@ class TimeFunction {
   virtual StepLimits step_limits(double /*start*/, double /*end*/) const { return {}; }
   // The largest magnitude it reaches between two times, or ever: for default scales of errors.
   virtual double peak(double start, double end) const = 0;
+  // s, in which the peak would have the impulse of the whole: the integral of its magnitude over the peak, about.
+  double seconds_at_peak(double start, double end) const;
 };
 
 // The times of `all` within (start, end).
