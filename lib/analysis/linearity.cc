@@ -49,13 +49,13 @@ bool Linearity::factor_for(double t, const Vector& q) {
   return factor(t, q, TangentKind::exact) || factor(t, q, TangentKind::gauss_newton);
 }
 
-bool Linearity::is_stable(double t, const Vector& q, const Terms& terms) {
+bool Linearity::factor_exact(double t, const Vector& q, const Terms& terms) {
   const FemModel::Parts& parts = model_.parts();
   const Vector still = Vector::Zero(q.size());
   const NodalExpansion nodal(parts, t, q, still);
   std::vector<double> linear(values_.size());
   model_.linearize(t, q, still, TangentKind::exact, tangent_);
-  model_.combine({0, 0, 1}, tangent_, values_.data());
+  model_.combine({mass_, 0, 1}, tangent_, values_.data());
   for (const std::size_t k : terms) {
     exact_[k]->add_tangent(nodal.state(), TangentKind::exact, values_.data(), nullptr);
     parts.elastic[k]->add_tangent(nodal.state(), TangentKind::exact, linear.data(), nullptr);
@@ -81,13 +81,14 @@ void Linearity::add_correction(double t, const Vector& q, const Terms& terms, Ve
 LinearityError Linearity::error(double t, const Vector& q, const Terms& terms) {
   const LinearityError found = distance(t, q, terms);
   const bool can_tell = mass_ == 0 && model_.pattern().symmetric && !q.isZero(0) && std::isfinite(found.displacement);
-  if (!can_tell || is_stable(t, q, terms)) return found;
+  if (!can_tell || factor_exact(t, q, terms)) return found;
   return {kUnknown, kUnknown, true};
 }
 
 LinearityError Linearity::distance(double t, const Vector& q, const Terms& terms) {
   constexpr double kAccuracy = 0.02;  // of the error itself
   constexpr double kSlowest = 0.7;    // contraction of the energy of steps
+  constexpr int kMostTangents = 6;    // of the exact force, one a step, where the linear stiffness does not serve
   const Vector still = Vector::Zero(q.size());
   Vector at_q(q.size()), there(q.size()), step(q.size()), Mq(q.size()), Mx(q.size());
   model_.multiply_mass(q, Mq);
@@ -97,6 +98,7 @@ LinearityError Linearity::distance(double t, const Vector& q, const Terms& terms
   try {
     if (!factor_for(t, q)) return {kUnknown, kUnknown};
     model_.force(t, q, still, at_q);
+    int tangents = 0;
     for (double before = kUnknown;;) {
       model_.force(t, q + x, still, there);
       add_correction(t, q + x, terms, there);
@@ -110,7 +112,8 @@ LinearityError Linearity::distance(double t, const Vector& q, const Terms& terms
       const double all = norm(x, Mx);
       if (last <= kAccuracy * all || std::max(last, all) <= kNegligible * std::sqrt(square))
         return {all / std::sqrt(square), std::abs(x.dot(Mq)) / square};
-      if (!(energy < kSlowest * before)) return {kUnknown, kUnknown};  // would take long, or has no end
+      if (tangents > 0 || !(energy < kSlowest * before))
+        if (++tangents > kMostTangents || !factor_exact(t, q + x, terms)) return {kUnknown, kUnknown};
       before = energy;
     }
   } catch (const RecoverableError&) {

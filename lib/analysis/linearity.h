@@ -38,8 +38,9 @@ class Linearity {
  private:
   bool factor(double t, const Vector& q, TangentKind kind);
   bool factor_for(double t, const Vector& q);  // as error() needs it
-  // Of the body with the exact force, at an equilibrium. The factor is then that of its tangent.
-  bool is_stable(double t, const Vector& q, const Terms& terms);
+  // The tangent of the body with the exact force; false where it is not positive definite: at an equilibrium the body
+  // is unstable there.
+  bool factor_exact(double t, const Vector& q, const Terms& terms);
   LinearityError distance(double t, const Vector& q, const Terms& terms);  // to the equilibrium with the exact force
   // What the exact force adds to that of the model, on the free coordinates.
   void add_correction(double t, const Vector& q, const Terms& terms, Vector& f) const;

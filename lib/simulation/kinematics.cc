@@ -33,8 +33,8 @@ double allowed_error(const Scene& scene) {
 constexpr const char* kUnstable = "the body buckles below these loads, which linear kinematics do not show";
 
 std::string how_much(double error, const char* format = "{:.3g}") {
-  return std::isfinite(error) ? "about " + fmt::format(fmt::runtime(format), error)
-                              : std::string("as much as the size");
+  return std::isfinite(error) ? "about " + fmt::format(fmt::runtime(format), error) + " of the motion"
+                              : std::string("an amount that could not be estimated");
 }
 
 bool is_open(const Scene& scene, const Region& region) {
@@ -230,7 +230,7 @@ std::vector<std::string> LinearityWatch::to_give_up(double t, const Vector& q) {
 
 std::string outgrown_sentence(const LinearityWatch& watch) {
   if (watch.unstable()) return kUnstable;
-  return fmt::format("linear kinematics are off by {} of the motion at t = {:.6g} s, where {:.3g} is allowed",
+  return fmt::format("linear kinematics are off by {} at t = {:.6g} s, where {:.3g} is allowed",
                      how_much(watch.error()), watch.time(), watch.allowed());
 }
 
@@ -240,7 +240,7 @@ std::string outcome_of(const LinearityWatch& watch) {
   if (std::isnan(watch.error())) return fmt::format("linear{}: how far off is not known", where);
   if (watch.unstable()) return fmt::format("linear{}: {}", where, kUnstable);
   const bool is_watched = std::isfinite(watch.allowed());
-  return fmt::format("linear{}: off by {} of the motion{}{}", where, how_much(watch.error(), "{:.1e}"),
+  return fmt::format("linear{}: off by {}{}{}", where, how_much(watch.error(), "{:.1e}"),
                      std::isfinite(watch.error()) ? " at most" : "",
                      is_watched ? fmt::format(", where {:.1e} is allowed", watch.allowed()) : "");
 }
