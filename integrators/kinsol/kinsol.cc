@@ -1,18 +1,5 @@
-// KINSOL's Newton iteration (Hindmarsh et al. 2005) for the unknowns (q, lambda): -f_lambda(q) = 0 on a plane
-//
-//     [ K    -f' ] [dq]   [ f                ]
-//     [ a^T   b  ] [dl] = [ -a.(q - q*) - b (l - l*) ],    f' = df_lambda/dlambda,
-//
-// by two solves with K (Riks, Int. J. Solids Struct. 15, 1979). K, factored each time, is the mixed one
-// (Model::linearize_mixed), with which straight steps of slender bodies may be long. Corrections must contract
-// (Deuflhard, Newton Methods for Nonlinear Problems, 2004), else a solution is not one that the guess leads to. That
-// the residual falls is not asked for: it rises first, by the stretching that a straight step brings.
-//
-// Down the energy: with the positive semidefinite part of K, each correction at most as long as the motion's size.
-//
-// Round-off of large internal forces may keep the residual from falling below the tolerance; a solution then is
-// where Newton's next correction is below the tolerance of the motion, or round-off itself, and the attempt says so.
-#include <fmt/format.h>
+#include "integrators/kinsol/kinsol.h"
+
 #include <kinsol/kinsol.h>
 #include <kinsol/kinsol_ls.h>
 
@@ -20,21 +7,13 @@
 #include <cmath>
 #include <random>
 
+#include "integrators/kinsol/failure_sentence.h"
 #include "integrators/kinsol/path_stiffness.h"
-#include "integrators/solver_options.h"
 #include "integrators/sundials/callbacks.h"
 #include "integrators/sundials/solver_adapter.h"
-#include "lib/ode/equilibrium.h"
-#include "lib/ode/integrator.h"
 
 namespace orthodyn::sundials {
 namespace {
-
-struct KinsolOptions {
-  double rtol = 1e-8;
-  long max_iterations = 50;
-  std::string linear_solver = "cholmod";
-};
 
 struct FreeKinsol {
   void operator()(void* memory) const { KINFree(&memory); }
@@ -87,14 +66,18 @@ class Kinsol : public EquilibriumSolver {
   }
 
   std::optional<Response> respond(const PathPoint& at) override {
-    stiffness_.exact(at.lambda, at.q);
-    if (!stiffness_.factor_with_inertia()) return std::nullopt;
-    Response response{Vector(n_), std::nullopt, Vector(n_), 0};
-    stiffness_.solve(path_.rate(at.lambda, at.q), response.rate);
-    stiffness_.solve(probe_, response.weakest);
-    response.stiffness = 1 / probe_.dot(response.weakest);
-    if (path_.traits().exact_stiffness) response.unstable = stiffness_.negative_eigenvalues();
-    return response;
+    try {
+      stiffness_.exact(at.lambda, at.q);
+      if (!stiffness_.factor_with_inertia()) return std::nullopt;
+      Response response{Vector(n_), std::nullopt, Vector(n_), 0};
+      stiffness_.solve(rate(at), response.rate);
+      stiffness_.solve(probe_, response.weakest);
+      response.stiffness = 1 / probe_.dot(response.weakest);
+      if (path_.traits().exact_stiffness) response.unstable = stiffness_.negative_eigenvalues();
+      return response;
+    } catch (const RecoverableError&) {
+      return std::nullopt;
+    }
   }
 
   const Statistics& statistics() const override { return statistics_; }
@@ -124,7 +107,8 @@ class Kinsol : public EquilibriumSolver {
       attempt.residual = force(point).lpNorm<Eigen::Infinity>();
       attempt.above_tolerance = !within_tolerance;
     } else {
-      attempt.failure_reason = sentence(flag);
+      attempt.failure_reason =
+          failure_sentence(flag, options_, path_.traits().exact_stiffness, callback_context_);
     }
     return attempt;
   }
@@ -204,10 +188,10 @@ class Kinsol : public EquilibriumSolver {
     if (plane_->q.size() == 0) {  // the load factor is fixed
       dx[n_] = b[n_] / plane_->lambda;
     } else {
-      Vector rate(n_);
-      stiffness_.solve(path_.rate(before_.lambda, before_.q), rate);
-      dx[n_] = (b[n_] - plane_->q.dot(dq)) / (plane_->q.dot(rate) + plane_->lambda);
-      dq += dx[n_] * rate;
+      Vector response(n_);
+      stiffness_.solve(rate(before_), response);
+      dx[n_] = (b[n_] - plane_->q.dot(dq)) / (plane_->q.dot(response) + plane_->lambda);
+      dq += dx[n_] * response;
     }
     return contracts(dq.lpNorm<Eigen::Infinity>());
   }
@@ -217,6 +201,13 @@ class Kinsol : public EquilibriumSolver {
     const auto k = corrections_.size() - 1;
     if (descends_ || k == 0) return std::isfinite(correction);
     return correction <= corrections_[k - 1];
+  }
+
+  // df_lambda/dlambda: forces are evaluated for it where supports move.
+  Vector rate(const PathPoint& at) {
+    if (!path_.moves_supports()) return path_.rate(at.lambda, at.q);
+    const Measure measure(statistics_.force);
+    return path_.rate(at.lambda, at.q);
   }
 
   Vector force(const PathPoint& at) const {
@@ -244,29 +235,6 @@ class Kinsol : public EquilibriumSolver {
     }
   }
 
-  std::string sentence(int flag) const {
-    const std::string cause =
-        callback_context_.recoverable_cause.empty() ? "" : " (" + callback_context_.recoverable_cause + ")";
-    const std::string approximate =
-        path_.traits().exact_stiffness ? ""
-                                       : ", by a stiffness that is approximate: take elasticity.warped_tangent: "
-                                         "unsymmetric and statics.solver.linear_solver: klu";
-    switch (flag) {
-      case KIN_MAXITER_REACHED:
-        return fmt::format("Newton's method did not converge within {} iterations (statics.solver.max_iterations){}",
-                           options_.max_iterations, approximate);
-      case KIN_LINSOLV_NO_RECOVERY: return "Newton's corrections do not contract" + approximate + cause;
-      case KIN_LSETUP_FAIL: return "the stiffness is singular";
-      case KIN_FIRST_SYSFUNC_ERR:
-      case KIN_SYSFUNC_FAIL:
-      case KIN_REPTD_SYSFUNC_ERR: return "the forces could not be evaluated" + cause;
-      case KIN_STEP_LT_STPTOL:
-        return "Newton's corrections have become too small for the residual that is left" + cause;
-      default:
-        return "KINSOL says: " + callback_context_.message;
-    }
-  }
-
   const LoadPath& path_;
   Eigen::Index n_;
   EquilibriumTask task_;
@@ -289,32 +257,11 @@ class Kinsol : public EquilibriumSolver {
   std::unique_ptr<void, FreeKinsol> memory_;
 };
 
-class KinsolChoice : public EquilibriumChoice, public KinsolOptions {
- public:
-  static const Spec<KinsolChoice>& spec() {
-    using C = KinsolChoice;
-    static const auto s = [] {
-      auto spec =
-          Spec<C>()
-              .key("rtol", &C::rtol, "Largest residual, relative to the largest load on a coordinate.",
-                   {.range = {1e-15, 1e-2}})
-              .key("max_iterations", &C::max_iterations, "Newton iterations per load step.", {.range = {1, 10'000}});
-      add_linear_solver(spec, SolverPaths::reduced);
-      return spec;
-    }();
-    return s;
-  }
-  static MethodFacts facts() {
-    return {{"source", "Hindmarsh et al., ACM TOMS 31, 2005; Riks, Int. J. Solids Struct. 15, 1979; "
-                       "Magisano, Leonetti & Garcea, CMAME 313, 2017"}};
-  }
-  std::unique_ptr<EquilibriumSolver> make(const LoadPath& path, const EquilibriumTask& task) const override {
-    return std::make_unique<Kinsol>(path, task, *this);
-  }
-};
-
-const bool kinsol_registered = Registry<EquilibriumChoice>::add<KinsolChoice>(
-    "kinsol", "KINSOL: Newton's method with stresses carried along, K factored anew each time.");
-
 }  // namespace
+
+std::unique_ptr<EquilibriumSolver> make_kinsol(const LoadPath& path, const EquilibriumTask& task,
+                                               const KinsolOptions& options) {
+  return std::make_unique<Kinsol>(path, task, options);
+}
+
 }  // namespace orthodyn::sundials

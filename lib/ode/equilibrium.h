@@ -54,7 +54,7 @@ class EquilibriumSolver {
   // Down the energy from `point`, at its load factor, to an equilibrium on whatever branch.
   virtual Attempt descend(PathPoint& point) = 0;
 
-  // None where K is singular.
+  // None where K is singular or cannot be evaluated.
   virtual std::optional<Response> respond(const PathPoint& equilibrium) = 0;
 
   virtual const Statistics& statistics() const = 0;

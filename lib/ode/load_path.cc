@@ -25,14 +25,18 @@ void LoadPath::force(double lambda, const ConstVectorRef& q, const ConstVectorRe
 }
 
 Vector LoadPath::rate(double lambda, const ConstVectorRef& q) const {
-  if (times_.begin == times_.end) return load_;
+  if (!moves_supports()) return load_;
   constexpr double kStep = 1e-5;  // of lambda: errors of 1e-10, by the square of the step and by round-off
   const Vector still = Vector::Zero(q.size());
-  const double low = std::max(lambda - kStep, 0.0), high = std::min(lambda + kStep, 1.0);
-  Vector before(q.size()), after(q.size());
-  force(low, q, still, before);
-  force(high, q, still, after);
-  return (after - before) / (high - low);
+  const auto force_at = [&](double factor) {
+    Vector f(q.size());
+    force(factor, q, still, f);
+    return f;
+  };
+  const double at = std::clamp(lambda, 0.0, 1.0), inwards = at < kStep ? 1 : at > 1 - kStep ? -1 : 0;
+  if (inwards == 0) return (force_at(at + kStep) - force_at(at - kStep)) / (2 * kStep);
+  const double step = inwards * kStep;
+  return (4 * force_at(at + step) - 3 * force_at(at) - force_at(at + 2 * step)) / (2 * step);
 }
 
 }  // namespace orthodyn

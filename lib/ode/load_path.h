@@ -29,11 +29,13 @@ class LoadPath : public Model {
   LoadPath(const Model& model, const PathTimes& times, Vector start);
 
   const Vector& start() const { return start_; }
-  // df_lambda/dlambda, N.
+  // df_lambda/dlambda, N; beyond [0, 1], where supports stand still, that at the nearer end. Throws RecoverableError
+  // where the model does.
   Vector rate(double lambda, const ConstVectorRef& q) const;
   // The largest component of it at the start, N: of dead loads the largest load.
   double largest_load() const { return largest_load_; }
   const PathTimes& times() const { return times_; }
+  bool moves_supports() const { return times_.begin != times_.end; }
 
   int num_dofs() const override { return model_.num_dofs(); }
   const Traits& traits() const override { return model_.traits(); }

@@ -210,15 +210,20 @@ bool LoadStepper::jump() {
 }
 
 bool LoadStepper::branch_off() {
-  const Vector& mode = tracer_->place().response.weakest;
-  for (const double share : {0.02, 0.1, 0.005}) {  // of the motion's size
-    auto next = tracer_->aside(share * length_ / mode.lpNorm<Eigen::Infinity>() * mode);
-    if (!next || next->response.unstable.value_or(0) > 0 || !(next->tangent.lambda > 0)) continue;
-    step_ = tracer_->distance(next->point);
-    tracer_->move_to(std::move(*next));
-    return true;
-  }
+  const Vector& weakest = tracer_->place().response.weakest;
+  const Vector mode = length_ / weakest.lpNorm<Eigen::Infinity>() * weakest;
+  for (const double share : {0.02, 0.1, 0.005})  // of the motion's size
+    for (const double side : {1.0, -1.0})        // of an unsymmetric body one only is stable
+      if (move_aside(side * share * mode)) return true;
   return false;
+}
+
+bool LoadStepper::move_aside(const Vector& shift) {
+  auto next = tracer_->aside(shift);
+  if (!next || next->response.unstable.value_or(0) > 0 || !(next->tangent.lambda > 0)) return false;
+  step_ = tracer_->distance(next->point);
+  tracer_->move_to(std::move(*next));
+  return true;
 }
 
 // Pushed aside along the weakest direction, each time that it rests where it is unstable.

@@ -77,6 +77,7 @@ class LoadStepper {
   bool leave();
   bool jump();
   bool branch_off();
+  bool move_aside(const Vector& shift);
   bool settle(double load_factor);
   void note_turn(const Place& next);
   void adapt();

@@ -71,7 +71,7 @@ std::optional<PathTracer::Place> PathTracer::beyond(double ds) {
   if (!attempt_.found) return std::nullopt;
   if (distance(next.point, guess) > ds) return refuse("Newton's corrections led far away");
   auto response = solver_.respond(next.point);
-  if (!response) return refuse("the stiffness is singular");
+  if (!response) return refuse("the stiffness is singular, or cannot be evaluated");
   next.response = std::move(*response);
   next.tangent = unit_tangent(next.response);
   next.attempt = attempt_;
@@ -93,7 +93,7 @@ std::optional<PathTracer::Place> PathTracer::back_to_one(Place past) {
   attempt_.iterations += first.iterations;
   if (!attempt_.found) return std::nullopt;
   auto response = solver_.respond(point);
-  if (!response) return refuse("the stiffness is singular");
+  if (!response) return refuse("the stiffness is singular, or cannot be evaluated");
   const PathPoint tangent = unit_tangent(*response);
   return Place{std::move(point), std::move(*response), tangent, attempt_};
 }
@@ -101,10 +101,12 @@ std::optional<PathTracer::Place> PathTracer::back_to_one(Place past) {
 std::optional<PathTracer::Place> PathTracer::aside(const Vector& shift) {
   Place next;
   next.point = {place_.point.q + shift, place_.point.lambda};
+  const PathPoint guess = next.point;
   attempt_ = solver_.solve(place_.point, next.point, {shift / shift.squaredNorm(), 0});
   if (!attempt_.found) return std::nullopt;
+  if (distance(next.point, guess) > distance(guess)) return refuse("Newton's corrections led far away");
   auto response = solver_.respond(next.point);
-  if (!response) return refuse("the stiffness is singular");
+  if (!response) return refuse("the stiffness is singular, or cannot be evaluated");
   next.response = std::move(*response);
   next.tangent = unit_tangent(next.response);
   next.attempt = attempt_;
@@ -112,7 +114,7 @@ std::optional<PathTracer::Place> PathTracer::aside(const Vector& shift) {
     next.tangent.q *= -1;
     next.tangent.lambda *= -1;
   }
-  return next;
+  return next.point.lambda > 1 && next.tangent.lambda > 0 ? back_to_one(std::move(next)) : next;
 }
 
 std::nullopt_t PathTracer::refuse(const char* why) {

@@ -33,6 +33,7 @@ class PathTracer {
 
   // An equilibrium whose displacement from the present place has `shift`, m, along itself: on the path that crosses
   // this one near here, if `shift` is along the null vector of K at the crossing. Its tangent leads away from here.
+  // Where that path rises beyond lambda = 1, its equilibrium at 1. None where it was not found or is far away.
   std::optional<Place> aside(const Vector& shift);
 
   // To an equilibrium found by beyond() or aside(); or to one on whatever branch, from where lambda rises.

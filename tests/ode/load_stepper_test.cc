@@ -38,7 +38,8 @@ class Truss : public SmallModel {
 };
 
 struct Analysis {
-  Analysis(const Model& model, const LoadStepping& stepping, const std::string& solver = "{type: kinsol}", double t = 0)
+  Analysis(const Model& model, const LoadStepping& stepping, const std::string& solver = "{type: kinsol}",
+           const PathTimes& t = 0)
       : path(model, t, Vector::Zero(model.num_dofs())),
         solver_(Registry<EquilibriumChoice>::read(Config::from_text(solver))
                     ->make(path, {std::max(path.largest_load(), 1e-300), 0.1})),
@@ -174,19 +175,19 @@ TEST(VonMisesTruss, JumpsToTheOtherBranchWhenItMayAndMust) {
 }
 
 // A bar of EA = 1 from (0, 0) to (1, 0) pressed along itself; its end is held sideways by a spring of force
-// k y + c y^3. Upright its length is l = 1 - P and its stiffness sideways k - P/l: it buckles at P = k/(1 + k). Aside
-// its force N is l (k + c y^2), and P = x (k + c y^2).
+// k y + s y^2 + c y^3. Upright its length is l = 1 - P and its stiffness sideways k - P/l: it buckles at P = k/(1 + k).
+// Aside its force N is l (k + s y + c y^2), and P = x (k + s y + c y^2).
 class Strut : public SmallModel {
  public:
-  explicit Strut(double load) : SmallModel(Matrix::Identity(2, 2)), load_(load) {}
+  explicit Strut(double load, double skew = 0) : SmallModel(Matrix::Identity(2, 2)), load_(load), skew_(skew) {}
   static constexpr double kSpring = 0.01, kCubic = 1;
   static double critical_load() { return kSpring / (1 + kSpring); }
-  static double sideways(double y) { return kSpring + kCubic * y * y; }
+  double sideways(double y) const { return kSpring + skew_ * y + kCubic * y * y; }
 
   void force(double, const ConstVectorRef& q, const ConstVectorRef&, VectorRef f) const override {
     const double x = 1 + q[0], y = q[1], l = std::hypot(x, y);
     f[0] = -load_ - (l - 1) * x / l;
-    f[1] = -(l - 1) * y / l - kSpring * y - kCubic * y * y * y;
+    f[1] = -(l - 1) * y / l - sideways(y) * y;
   }
   State initial() const override { return {0, Vector::Zero(2), Vector::Zero(2)}; }
   double end() const override { return 1; }
@@ -197,10 +198,10 @@ class Strut : public SmallModel {
     const double l = std::hypot(1 + q[0], q[1]);
     Matrix K = n * n.transpose();
     if (kind == TangentKind::exact) K += (1 - 1 / l) * (Matrix::Identity(2, 2) - n * n.transpose());
-    K(1, 1) += kSpring + 3 * kCubic * q[1] * q[1];
+    K(1, 1) += kSpring + 2 * skew_ * q[1] + 3 * kCubic * q[1] * q[1];
     return K;
   }
-  double load_;
+  double load_, skew_;  // s
 };
 
 TEST(Strut, IsFollowedUpToItsBifurcation) {
@@ -231,9 +232,37 @@ TEST(Strut, LeavesItsUprightPathIfItMayJump) {
   EXPECT_EQ(analysis.to_the_end(), "");
   const Vector& q = analysis.stepper.state().q;
   EXPECT_GT(std::abs(q[1]), 0.05);
-  EXPECT_NEAR((1 + q[0]) * Strut::sideways(q[1]), load, 1e-8);
+  EXPECT_NEAR((1 + q[0]) * strut.sideways(q[1]), load, 1e-8);
   EXPECT_EQ(analysis.stepper.jumps(), 1);
   EXPECT_EQ(analysis.stepper.unstable(), 0);
+}
+
+// The path that crosses the upright one passes all loads within the first step onto it.
+TEST(Strut, ThatBucklesShortOfAllLoadsRestsAsideUnderThem) {
+  for (const double beyond : {1e-2, 1e-3, 1e-4, 1e-5}) {
+    const double load = (1 + beyond) * Strut::critical_load();
+    const Strut strut(load);
+    Analysis analysis(strut, {.at_limit = AtLimit::jump});
+    EXPECT_EQ(analysis.to_the_end(), "") << beyond;
+    for (const State& s : analysis.states) EXPECT_LE(s.t, 1) << beyond;
+    const Vector& q = analysis.stepper.state().q;
+    EXPECT_GT(std::abs(q[1]), 0.5 * std::sqrt(beyond * Strut::kSpring)) << beyond;  // y^2 = beyond k
+    EXPECT_NEAR((1 + q[0]) * strut.sideways(q[1]), load, 1e-8 * load / std::abs(q[1])) << beyond;  // f[1] over y
+    EXPECT_EQ(analysis.stepper.unstable(), 0) << beyond;
+  }
+}
+
+// On one side the crossing path rises and is stable, on the other it falls.
+TEST(Strut, OfUnequalSidesLeavesToTheOneOnWhichItIsStable) {
+  for (const double skew : {0.05, -0.05}) {
+    const double load = 2 * Strut::critical_load();
+    const Strut strut(load, skew);
+    Analysis analysis(strut, {.at_limit = AtLimit::jump});
+    EXPECT_EQ(analysis.to_the_end(), "") << skew;
+    const Vector& q = analysis.stepper.state().q;
+    EXPECT_GT(q[1] * skew, 0) << skew;
+    EXPECT_NEAR((1 + q[0]) * strut.sideways(q[1]), load, 1e-8) << skew;
+  }
 }
 
 // Cannot be evaluated beyond a displacement, which an early Newton step would pass.
@@ -271,6 +300,47 @@ TEST(LoadStepper, SaysHowFarItCameAndWhyNotFurther) {
   EXPECT_NE(message.find("torn"), std::string::npos) << message;
   EXPECT_GT(analysis.stepper.state().t, 0.54);
   EXPECT_LE(analysis.stepper.state().t, 0.55);
+}
+
+// One end of a spring is drawn away; at half its way the model ends.
+class Drawn : public SmallModel {
+ public:
+  Drawn() : SmallModel(scalar(1)) {}
+  void force(double t, const ConstVectorRef& q, const ConstVectorRef&, VectorRef f) const override {
+    if (t > 0.5) throw RecoverableError("torn");
+    f[0] = t - q[0];
+  }
+  State initial() const override { return {0, Vector::Zero(1), Vector::Zero(1)}; }
+  double end() const override { return 1; }
+
+ private:
+  Matrix stiffness(double, const Vector&, const Vector&, TangentKind) const override { return scalar(1); }
+};
+
+TEST(LoadStepper, EndsWhereItsTangentCannotBeEvaluated) {
+  const Drawn spring;
+  Analysis analysis(spring, {.min_step = 1e-3}, "{type: kinsol}", {0, 1});
+  const std::string message = analysis.to_the_end();
+  EXPECT_NE(message.find("no equilibrium was found beyond load factor 0.49"), std::string::npos) << message;
+  EXPECT_GE(analysis.stepper.state().t, 0.5 - 2e-3);
+}
+
+// Of the bar q + 10 q^3 = lambda, which is farther from the start than q; of the truss, which softens, lambda is
+// nearer.
+TEST(PathTracer, FindsAnEquilibriumAsideUnlessItIsFarAway) {
+  const Vector shift = Vector::Constant(1, 0.1 * Truss::kRise);
+  const Truss truss(Truss::limit_load());
+  Analysis soft(truss, {});
+  const auto found = PathTracer(soft.path, *soft.solver_).aside(shift);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->point.q[0], shift[0], 1e-15);
+  EXPECT_NEAR(found->point.lambda, Truss::resistance(0.9 * Truss::kRise) / Truss::limit_load(), 1e-7);
+  Fragile bar;
+  bar.load = 1;
+  Analysis stiff(bar, {});
+  PathTracer tracer(stiff.path, *stiff.solver_);
+  EXPECT_FALSE(tracer.aside(shift));
+  EXPECT_EQ(tracer.attempt().failure_reason, "Newton's corrections led far away");
 }
 
 TEST(LoadStepper, GivesUpAfterTheStepsAllowed) {

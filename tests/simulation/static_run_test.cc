@@ -67,7 +67,8 @@ time: {end: 1}
 }
 
 // Supports go the way with the load factor: the body is in equilibrium with them all along, and what turns does so
-// about its axis.
+// about its axis. By symmetry the middle of a twisted bar turns by half the angle; it is drawn in by what is of second
+// order in the twist.
 TEST_F(StaticRun, MovesSupportsWithTheLoadFactor) {
   write("bar.yaml", R"(
 analysis: static
@@ -90,12 +91,14 @@ output: {probes: {middle: {at: [1, 0, 0], fields: [displacement, nodal_stress]}}
   const auto turned = orthodyn(
       "run bar.yaml --out turned --set 'clamps=[{surface: x0}]' --set 'motions.0={surface: x1, "
       "rotation: {axis: [1, 0, 0], point: [0, 0.05, 0.05], angle: 150 deg}, factor: {type: "
-      "constant}}' --set output.probes.middle.at='[2, 0, 0.05]'");
+      "constant}}' --set output.probes.middle.at='[1, 0, 0.05]'");
   ASSERT_EQ(turned.exit_code, 0) << turned.output;
   for (const auto& row : read_rows(folder_ / "turned/probes.csv")) {
-    const double angle = row[0] * 150 * std::numbers::pi / 180;
-    EXPECT_NEAR(row[2], 0.05 * (1 - std::cos(angle)), 1e-12) << row[0];
-    EXPECT_NEAR(row[3], -0.05 * std::sin(angle), 1e-12) << row[0];
+    const double angle = row[0] * 75 * std::numbers::pi / 180, y = row[2] - 0.05, z = row[3];  // from the axis
+    const double shear = 0.05 * angle;  // of the outer fibres: the distance to the axis times the angle per length
+    EXPECT_NEAR(row[1], 0, 1e-12) << row[0];
+    EXPECT_NEAR(std::atan2(-z, -y), angle, 1e-9) << row[0];
+    EXPECT_NEAR(std::hypot(y, z), 0.05, 0.05 * shear * shear) << row[0];
   }
 }
 
@@ -139,6 +142,24 @@ output: {fields: []}
   const auto exact = orthodyn("run strip.yaml --out exact --quiet --set elasticity.warped_tangent=unsymmetric --set "
                               "statics.solver.linear_solver=klu");
   EXPECT_EQ(exact.exit_code, 0) << exact.output;
+}
+
+// Whatever statics.at_limit: there is neither a limit point nor a bifurcation.
+TEST_F(StaticRun, OfABodyThatIsNotQuiteStraightSaysThatItsStablePathWasFollowed) {
+  write("column.yaml", R"(analysis: static
+mesh: {type: box, size: [1, 0.05, 0.01], cells: [20, 2, 1]}
+materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0}}
+clamps: [{surface: x0}]
+loads: [{surface: x1, force: [-15, 0, 0.015]}]  # Euler's load is 10.3 N
+output: {fields: []}
+)");
+  for (const char* choice : {"stop", "jump"}) {
+    const auto result = orthodyn(std::string("run column.yaml --force --out out --set statics.at_limit=") + choice);
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    for (const char* part : {"sharp turn", "its equilibria stay stable and were followed",
+                             "statics.at_limit acts at limit points and bifurcations only"})
+      EXPECT_NE(result.output.find(part), std::string::npos) << part << "\nin: " << result.output;
+  }
 }
 
 TEST_F(StaticRun, RefusesAFreeBodyBeforeItWritesAnything) {
