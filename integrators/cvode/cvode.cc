@@ -43,7 +43,7 @@ void Cvode::reinitialise(double t) { require(CVodeReInit(memory(), t, y())); }
 
 int Cvode::advance(double t_stop, double& t) {
   require(CVodeSetStopTime(memory(), t_stop));
-  if (!reduced_) return CVode(memory(), t_stop, y(), &t, CV_ONE_STEP);
+  if (!reduced_ && !settings_.full) return CVode(memory(), t_stop, y(), &t, CV_ONE_STEP);  // without a matrix
   require(CVodeSetLSetupFrequency(memory(), setups_.interval()));
   require(CVodeSetJacEvalFrequency(memory(), setups_.interval() == 1 ? 1 : 0));  // 0: the library's own
   const long tangents = statistics_.tangent.count;

@@ -10,18 +10,18 @@ namespace orthodyn::sundials {
 class SetupSchedule {
  public:
   // The largest number of steps between two set-ups, for the next step.
-  long interval() const { return new_left_ > 0 ? 1 : kUsual; }
+  long interval() const { return forced_left_ > 0 ? 1 : kUsual; }
 
   // After a step, in which K was made anew or not.
   void note(bool renewed) {
-    if (new_left_ > 0) {
-      --new_left_;
+    if (forced_left_ > 0) {
+      --forced_left_;
     } else if (!renewed) {
       failures_ = 0;
-      patience_ = kFewest;
+      forced_next_ = kFewest;
     } else if (++failures_ >= kFailures) {
-      new_left_ = patience_;
-      patience_ = std::min(2 * patience_, kMost);
+      forced_left_ = forced_next_;
+      forced_next_ = std::min(2 * forced_next_, kMost);
     }
   }
 
@@ -29,7 +29,8 @@ class SetupSchedule {
   static constexpr long kUsual = 20;             // SUNDIALS' own
   static constexpr int kFailures = 4;            // in a row: an old matrix serves one step of five at best
   static constexpr int kFewest = 4, kMost = 64;  // steps until it is tried again
-  int failures_ = 0, new_left_ = 0, patience_ = kFewest;
+  int failures_ = 0;
+  int forced_left_ = 0, forced_next_ = kFewest;  // steps with a new matrix each: still to come, and next time
 };
 
 }  // namespace orthodyn::sundials
