@@ -5,13 +5,14 @@
 
 #include "lib/config/registry.h"
 #include "lib/config/values.h"
+#include "lib/simulation/checkpoint/resume.h"
+#include "lib/simulation/checkpoint/scene_changes.h"
+#include "lib/simulation/disk_reserve.h"
 #include "lib/simulation/given_terms.h"
 #include "lib/simulation/model_summary.h"
-#include "lib/simulation/checkpoint/resume.h"
-#include "lib/simulation/run_context.h"
 #include "lib/simulation/observers/run_observers.h"
+#include "lib/simulation/run_context.h"
 #include "lib/simulation/run_record.h"
-#include "lib/simulation/checkpoint/scene_changes.h"
 
 namespace orthodyn {
 
@@ -126,11 +127,20 @@ class DynamicAnalysis {
     if (estimator_) all.push_back(&estimator_->recorder());
     if (setup_.scene.output.accumulated_error) all.push_back(&parts_.emplace(*setup_.built.model));
     if (setup_.scene.output.mesh_error) all.push_back(&mesh_error_.emplace(outputs_left(plan)));
+    DiskReserve reserve(folder_.path(), bytes_of_checkpoint());
     const Outcome outcome =
         orthodyn::run(*setup_.built.model, *setup_.integrator, begin.state, plan, all, context_.interrupt);
+    reserve.release();
     const bool kept = keep(outcome, begin.begun, checkpointer);
     resumable = kept || setup_.scene.checkpoint;
     return outcome;
+  }
+
+  // At most: displacements and velocities, one vector of the watch over linear kinematics, and small parts.
+  std::size_t bytes_of_checkpoint() const {
+    constexpr std::size_t kSmallParts = 64 << 10;
+    return 3 * sizeof(double) * static_cast<std::size_t>(setup_.built.model->num_dofs()) + kSmallParts +
+           2 * context_.resolved.size();
   }
 
   // False if it cannot be written: a run that has failed is not to fail in another way.
@@ -161,6 +171,7 @@ class DynamicAnalysis {
       out.energy = {e->last(), e->time(), e->drift(), e->scale(), e->relative_drift(), e->times(),
                     e->states()};
     if (const auto& m = observers.momentum) out.momentum = {m->angular_drift(), m->angular_scale()};
+    out.silent_events = observers.silent_events();
     if (mesh_error_) out.mesh_error = mesh_error_->found();
     out.rtol = Registry<IntegratorChoice>::read(setup_.config.at("integrator"))->settings().rtol;
     if (outcome.status == Outcome::Status::failed) out.failure = failure_place(*setup_.built.model, outcome.last);

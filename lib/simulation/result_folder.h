@@ -16,12 +16,12 @@ enum class Earlier { keep, replace, resume };  // what to do about an earlier re
 class ResultFolder {
  public:
   // Throws ConfigError if the folder holds an earlier result that is to be kept, one that cannot be
-  // resumed, or anything else, and if another run is at work there. Touches nothing yet.
+  // resumed, or anything else, if another run is at work there, and if it cannot be written to. Touches nothing yet.
   // `warn` is told if the folder cannot be locked.
   ResultFolder(std::filesystem::path path, Earlier earlier, std::function<void(const std::string&)> warn);
 
-  // Makes the folder and removes an earlier result from it. Throws RunError, and ConfigError if another
-  // run has been there since.
+  // Makes the folder and removes an earlier result from it. Throws RunError, and ConfigError if it cannot be made or
+  // another run has been there since.
   void prepare();
 
   const std::filesystem::path& path() const { return path_; }

@@ -154,6 +154,25 @@ TEST_F(Resume, ARunThatFilledTheDiskGoesOnWhenThereIsRoom) {
   EXPECT_EQ(read_times(folder_ / "out/beam/frames.pvd").size(), 41u);
 }
 
+// A disk of 1 MB without a byte left, which only root can have.
+TEST_F(Resume, ARunThatFilledAWholeDiskGoesOnWhenThereIsRoom) {
+  const std::string disk = (folder_ / "disk").string();
+  fs::create_directories(disk);
+  if (shell("mount -t tmpfs -o size=1m tmpfs " + disk + " 2>&1").exit_code != 0) GTEST_SKIP() << "no mount";
+  write("swing.yaml", kSwing);
+  const std::string run = "run swing.yaml --quiet --out disk/swing --set integrator.h_max=1e-5 --set output.frames=400";
+  const auto full = orthodyn(run);
+  const auto enlarged = shell("mount -o remount,size=64m " + disk);
+  const auto result = orthodyn(run + " --resume");
+  const bool completed = result.exit_code == 0 && record("disk/swing").at("status") == "completed";
+  shell("umount " + disk);
+  ASSERT_EQ(enlarged.exit_code, 0);
+  EXPECT_EQ(full.exit_code, 3) << full.output;
+  EXPECT_NE(full.output.find("No space left"), std::string::npos) << full.output;
+  EXPECT_EQ(full.output.find("no checkpoint"), std::string::npos) << full.output;
+  EXPECT_TRUE(completed) << result.output;
+}
+
 TEST_F(Resume, ARunThatFilledTheDiskGoesOnThoughItsSceneAsksForNoCheckpoints) {
   write("swing.yaml", kSwing);
   // No file may grow past 24 kB: steps.csv does, and run.json has its room.

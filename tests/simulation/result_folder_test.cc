@@ -40,6 +40,16 @@ TEST_F(ResultFolders, IsMadeOnlyWhenItIsPrepared) {
   EXPECT_TRUE(fs::is_directory(out()));
 }
 
+TEST_F(ResultFolders, ThatCannotBeMadeIsRefusedBeforeAnythingIsWritten) {
+  const auto warn = [](const std::string& warning) { ADD_FAILURE() << warning; };
+  try {
+    ResultFolder("/proc/nope/x", Earlier::keep, warn).prepare();
+    ADD_FAILURE() << "no error";
+  } catch (const ConfigError& e) {
+    EXPECT_NE(std::string(e.what()).find("/proc/nope/x: cannot write there"), std::string::npos) << e.what();
+  }
+}
+
 TEST_F(ResultFolders, ThatIsAFileIsRefused) {
   fs::remove(out());
   write("out", "text");
