@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "lib/core/parse_number.h"
 #include "lib/core/units.h"
@@ -54,6 +56,18 @@ std::vector<WithUnit> entries_with_units(const Config& list, const std::vector<d
   return out;
 }
 
+double apart(double a, double b) { return std::max(std::abs(a / b), std::abs(b / a)); }
+
+// The unit that is most likely missing at x, beside a neighbour: its own, or MPa where 10800 is next to 0.84 GPa.
+std::string likely_unit(double x, const WithUnit& neighbour) {
+  constexpr double kFar = 300, kNear = 30;
+  constexpr std::array<std::pair<const char*, double>, 3> kOthers{{{"GPa", 1e9}, {"MPa", 1e6}, {"kPa", 1e3}}};
+  if (apart(x, neighbour.number) < kFar || !neighbour.unit.ends_with("Pa")) return neighbour.unit;
+  for (const auto& [unit, si] : kOthers)
+    if (apart(x * si, neighbour.si) < kNear) return unit;
+  return neighbour.unit;
+}
+
 // [10.8 GPa, 0.84, 0.46]: a number without a unit that is far from the SI value of every entry that has one, and
 // nearer to the number in front of that unit.
 void refuse_missing_units(const Config& list, const std::vector<double>& si, std::string_view unit) {
@@ -62,14 +76,13 @@ void refuse_missing_units(const Config& list, const std::vector<double>& si, std
   if (others.empty()) return;
   for (std::size_t i = 0; i < si.size(); ++i) {
     if (si[i] == 0 || !list.at(i).reads_as_number()) continue;
-    const auto apart = [&](double x) { return std::max(std::abs(si[i] / x), std::abs(x / si[i])); };
     const auto looks_forgotten = [&](const WithUnit& other) {
-      return apart(other.si) >= kUnlike && apart(other.number) < apart(other.si);
+      return apart(si[i], other.si) >= kUnlike && apart(si[i], other.number) < apart(si[i], other.si);
     };
     if (!std::ranges::all_of(others, looks_forgotten)) continue;
     const WithUnit& other = others.front();
     list.at(i).fail(fmt::format("unit missing: '{0}' is next to '{1}'; write '{0} {2}', or '{0} {3}' if you mean that",
-                                list.at(i).text(), other.text, other.unit, unit),
+                                list.at(i).text(), other.text, likely_unit(si[i], other), unit),
                     InputFault::form);
   }
 }

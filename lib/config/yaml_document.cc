@@ -233,6 +233,7 @@ YAML::Node parse_yaml(const std::string& given, const std::string& file) {
     return root;
   } catch (const YAML::Exception& e) {
     refuse_slip_near(text, file, e.mark);
+    refuse_open_bracket(text, file, e.mark);
     throw ConfigError(mark_text(file, e.mark), "not YAML: " + e.msg);
   }
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <regex>
 #include <sstream>
 #include <vector>
@@ -17,7 +18,7 @@ constexpr std::size_t kLongestLine = 2000;  // of one that is searched: std::reg
 
 std::string advice_for(const std::string& key) { return "put a space after '" + key + ":'"; }
 
-// Without its comment; the comma of a text in quotes is nobody's concern here.
+// Without its comment; also without what follows a " #" in quotes, on which only advice depends.
 std::string code_of(const std::string& line) {
   const auto begin = line.find_first_not_of(' ');
   if (begin != std::string::npos && line[begin] == '#') return "";
@@ -56,11 +57,61 @@ void refuse_indentation(const std::string& line, const std::string& before, cons
                         std::size_t number) {
   static const std::regex key(R"(^ *[A-Za-z_][\w.]*:( .*)?)");
   if (line.find_first_not_of(" \t") > line.find('\t'))
-    refuse_line(file, number, line.find('\t'), "indent it by blanks instead of tabs");
+    refuse_line(file, number, line.find('\t'), "indent with spaces, not tabs");
   if (std::regex_match(line, key) && has_value(before) && indentation(line) > indentation(before))
     refuse_line(file, number, indentation(line),
                 "this line is indented deeper than the one before it, which has a value already; align the two");
 }
+
+struct Bracket {
+  char kind;
+  std::size_t line, column;
+};
+
+// The brackets of a text that are not in quotes, in comments or within words.
+class Brackets {
+ public:
+  // The first that is open at the end of the text, or one that a bracket of the other kind closes.
+  std::optional<Bracket> unclosed(const std::string& text) {
+    for (std::size_t i = 0, line_start = 0; i < text.size(); ++i) {
+      const char c = text[i], before = i > line_start ? text[i - 1] : ' ';
+      const bool is_spaced = i + 1 == text.size() || std::string(" \n").find(text[i + 1]) != std::string::npos;
+      if (c == '\n') {
+        ++line_;
+        line_start = i + 1;
+        begins_ = true;
+      } else if (c == '#' && before == ' ') {
+        i = std::min(text.find('\n', i), text.size()) - 1;
+      } else if (begins_ && (c == '"' || c == '\'')) {
+        i = end_of_quotes(text, i);
+        begins_ = false;
+      } else if ((c == '[' || c == '{') && (begins_ || !open_.empty())) {
+        open_.push_back({c, line_, i - line_start});
+        begins_ = true;
+      } else if ((c == ']' || c == '}') && !open_.empty()) {
+        if ((c == ']') != (open_.back().kind == '[')) return open_.back();
+        open_.pop_back();
+      } else if (c != ' ') {
+        begins_ = c == ',' || ((c == ':' || c == '-') && is_spaced);
+      }
+    }
+    if (open_.empty()) return {};
+    return open_.front();
+  }
+
+ private:
+  std::size_t end_of_quotes(const std::string& text, std::size_t i) {
+    const char quote = text[i];
+    for (++i; i < text.size() && text[i] != quote; ++i)
+      if (text[i] == '\n') ++line_;
+      else if (text[i] == '\\' && quote == '"') ++i;
+    return i;
+  }
+
+  std::vector<Bracket> open_;
+  std::size_t line_ = 0;
+  bool begins_ = true;  // whether a word or a bracket may begin here
+};
 
 }  // namespace
 
@@ -82,6 +133,12 @@ void refuse_slip_near(const std::string& text, const std::string& file, const YA
   if (before == here) return;
   refuse_missing_space(lines[here], file, here);
   refuse_indentation(lines[here], lines[before], file, here);
+}
+
+void refuse_open_bracket(const std::string& text, const std::string& file, const YAML::Mark& mark) {
+  const auto open = Brackets().unclosed(text);
+  if (mark.is_null() || !open || open->line > static_cast<std::size_t>(mark.line)) return;
+  refuse_line(file, open->line, open->column, fmt::format("nothing closes this '{}'", open->kind));
 }
 
 bool is_key_with_value(const YAML::Node& key, const YAML::Node& value) {

@@ -1,5 +1,5 @@
 // Slips of typing that a YAML parser blames on another place, or does not see: a colon without a space behind it, an
-// indentation that fits no line.
+// indentation that fits no line, a bracket that nothing closes.
 #pragma once
 
 #include <string>
@@ -14,6 +14,10 @@ std::string missing_space(const std::string& text);
 // What may be meant where the parser stopped at a mark: throws ConfigError with the line at fault, that of the mark or
 // the one before it. Returns where nothing is found.
 void refuse_slip_near(const std::string& text, const std::string& file, const YAML::Mark& mark);
+
+// The parser stops in the line after a bracket that nothing closes: throws ConfigError with the bracket's place.
+// Returns where the mark lies before it, or there is none.
+void refuse_open_bracket(const std::string& text, const std::string& file, const YAML::Mark& mark);
 
 // A key such as "end:0.1" or "clamps:[{surface", which can only be a key and the beginning of its value.
 bool is_key_with_value(const YAML::Node& key, const YAML::Node& value);

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <udunits2.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -78,7 +80,7 @@ bool same_dimension(const ut_unit* a, const ut_unit* b) {
   return ratio && ut_is_dimensionless(ratio.get()) != 0 && has_angle(a) == has_angle(b);
 }
 
-// "%", "ppm": a number in words.
+// "%", "ppm": dimensionless, with a scale.
 bool is_ratio(const ut_unit* unit) { return ut_is_dimensionless(unit) != 0 && !has_angle(unit); }
 
 double size_of_ratio(const ut_unit* unit) {
@@ -92,6 +94,23 @@ bool has_factor(const std::string& unit) {
   for (std::size_t i = 0; i < unit.size(); ++i)
     if (unit[i] >= '0' && unit[i] <= '9' && (i == 0 || unit[i - 1] == ' ')) return true;
   return false;
+}
+
+// "10,8 GPa" leaves ",8 GPa" behind its number.
+bool is_decimal_comma(const std::string& unit) {
+  return unit.size() > 1 && unit[0] == ',' && std::isdigit(static_cast<unsigned char>(unit[1])) != 0;
+}
+
+// "; did you mean 'GPa'?" of an unknown unit that is a usual one but for capitals.
+std::string other_capitals(const std::string& unknown) {
+  constexpr std::array<const char*, 18> kUsual{"GPa", "MPa", "kPa", "Pa",  "mm", "cm",  "km",  "m",   "ms",
+                                               "s",   "kg",  "kN",  "MN",  "N",  "kHz", "MHz", "Hz", "kg/m^3"};
+  const auto same = [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+  };
+  for (const std::string usual : kUsual)
+    if (std::ranges::equal(unknown, usual, same)) return fmt::format("; did you mean '{}'?", usual);
+  return "";
 }
 
 // "length (m)" of a unit that the user gave.
@@ -133,8 +152,13 @@ double quantity_in(const std::string& text, const std::string& unit) {
   const auto parts = split_quantity(text);
   if (!parts) fail("'" + text + "'");
   const auto& [number, name] = *parts;
+  if (is_decimal_comma(name)) {
+    std::string with_point = text;
+    with_point[text.find(',')] = '.';
+    fail(fmt::format("'{}', with a decimal comma; write '{}'", text, with_point));
+  }
   const Unit given = has_factor(name.starts_with("1/") ? name.substr(2) : name) ? Unit() : parse(name);
-  if (!given) fail(fmt::format("'{}': the unit '{}' is not known", text, name));
+  if (!given) fail(fmt::format("'{}': the unit '{}' is not known{}", text, name, other_capitals(name)));
   if (unit.empty() && is_ratio(given.get()))
     fail(fmt::format("'{}': {} is no unit here; write {:.6g}", text, name, number * size_of_ratio(given.get())));
   if (unit.empty()) fail(fmt::format("'{}', {}", text, with_article(describe(given.get()))));

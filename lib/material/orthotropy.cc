@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -87,6 +88,53 @@ std::string likely_swap(const Ratios& all, Vec3 r) {
                      ratio.name, ratio.other, ratio.other[3], ratio.other[2]);
 }
 
+double apart(double a, double b) { return std::max(a / b, b / a); }
+
+// The ratios stay as the user knows them.
+OrthotropicConstants with_young(OrthotropicConstants c, const Vec3& young, const std::array<bool, 3>& reversed) {
+  const Vec3 factor = young.cwiseQuotient(c.young);
+  if (reversed[0]) c.nu12 *= factor[0] / factor[1];
+  if (reversed[1]) c.nu23 *= factor[1] / factor[2];
+  if (reversed[2]) c.nu13 *= factor[0] / factor[2];
+  c.young = young;
+  return c;
+}
+
+// One modulus whose unit is likely another one: a thousand times as large or as small it is near to the others, and the
+// set is stable.
+std::string likely_unit_slip(const OrthotropicConstants& c, const std::array<bool, 3>& reversed) {
+  constexpr double kFar = 30;
+  for (int i = 0; i < 3; ++i) {
+    const double neighbour = c.young[(i + 1) % 3], other = c.young[(i + 2) % 3];
+    for (const double factor : {1e3, 1e-3}) {
+      Vec3 meant = c.young;
+      meant[i] *= factor;
+      const auto fits = [&](double E) { return apart(c.young[i], E) > kFar && apart(meant[i], E) < kFar; };
+      if (fits(neighbour) && fits(other) && is_stable(with_young(c, meant, reversed)))
+        return fmt::format("Is E{} = {:.4g} Pa of the same unit as the other two, {:.4g} and {:.4g} Pa? With {:.4g} Pa "
+                           "the constants are those of a stable material", i + 1, c.young[i],
+                           std::max(neighbour, other), std::min(neighbour, other), meant[i]);
+    }
+  }
+  return "";
+}
+
+// Tables give the stiffest direction first.
+std::string likely_order_slip(const OrthotropicConstants& c, const std::array<bool, 3>& reversed) {
+  Vec3 meant = c.young;
+  std::sort(meant.begin(), meant.end(), std::greater<>());
+  if (meant == c.young || !is_stable(with_young(c, meant, reversed))) return "";
+  return fmt::format("Are the moduli in the order of the axes 1, 2, 3? With {:.4g}, {:.4g}, {:.4g} Pa the constants "
+                     "are those of a stable material", meant[0], meant[1], meant[2]);
+}
+
+// What to look at before the ratios, or nothing.
+std::string likely_modulus_slip(const OrthotropicConstants& c, const std::array<bool, 3>& reversed) {
+  std::string slip = likely_unit_slip(c, reversed);
+  if (slip.empty()) slip = likely_order_slip(c, reversed);
+  return slip.empty() ? "" : slip + ". Otherwise ";
+}
+
 // C's smallest eigenvalue, where C exists.
 std::string smallest_eigenvalue(const OrthotropicConstants& c, const Vec3& r) {
   const double lambda = rho_eigenvalues(c)[0];
@@ -160,9 +208,9 @@ std::string explain_instability(const OrthotropicConstants& c, const std::array<
   const Ratios all = ratios(c, reversed);
   const double factor = stabilising_factor(c);
   return fmt::format(
-      "{} make the stiffness indefinite: {} ({}). {}{} Nearest stable set (all ratios times {:.4g}): {}",
-      listed(all, "{}={:.4g}"), violated_inequality(all, r), smallest_eigenvalue(c, r), allowed_range(all, r),
-      likely_swap(all, r), factor, listed(all, "{}: {:.6g}", factor));
+      "{}{} make the stiffness indefinite: {} ({}). {}{} Nearest stable set (all ratios times {:.4g}): {}",
+      likely_modulus_slip(c, reversed), listed(all, "{}={:.4g}"), violated_inequality(all, r),
+      smallest_eigenvalue(c, r), allowed_range(all, r), likely_swap(all, r), factor, listed(all, "{}: {:.6g}", factor));
 }
 
 std::string explain_shrinking(const OrthotropicConstants& c, const std::array<bool, 3>& reversed) {

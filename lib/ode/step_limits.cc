@@ -15,6 +15,7 @@ constexpr int kLeast = 6;            // intervals between samples in the shortes
 constexpr double kClose = 0.01;      // to a cubic, relative to the variation within the part,
 constexpr double kNegligible = 1e-4; // or to the whole range, which is more than round-off
 constexpr double kJump = 0.01;       // of the range, within the shortest part
+constexpr double kKink = 1e-3;       // likewise, from one sample to the next beside those around
 
 class Parts {
  public:
@@ -43,12 +44,25 @@ class Parts {
   void divide(std::size_t first, std::size_t last, std::vector<std::size_t>& ends) {
     if (is_close_to_a_cubic(first, last)) return ends.push_back(last);
     if (last - first == kLeast) {
-      if (!unresolved_ && variation(first, last) > kJump * range_) unresolved_ = (first + last) / 2;
+      if (!unresolved_ && variation(first, last) > kJump * range_ && is_more_than_a_kink(first, last))
+        unresolved_ = (first + last) / 2;
       return ends.push_back(last);
     }
     const std::size_t middle = (first + last) / 2;
     divide(first, middle, ends);
     divide(middle, last, ends);
+  }
+
+  double change(std::size_t i) const { return f_[i + 1] - f_[i]; }
+
+  // At a kink alone, what changes from one sample to the next is between what changes before and after it.
+  bool is_more_than_a_kink(std::size_t first, std::size_t last) const {
+    for (std::size_t i = first > 0 ? first - 1 : first; i <= last && i + 1 < f_.size(); ++i) {
+      const double before = change(i > 0 ? i - 1 : i + 1), after = change(i + 2 < f_.size() ? i + 1 : i - 1);
+      const double beyond = std::max(std::min(before, after) - change(i), change(i) - std::max(before, after));
+      if (beyond > kKink * range_) return true;
+    }
+    return false;
   }
 
   // That through four of its samples at equal distances.

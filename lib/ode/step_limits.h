@@ -30,7 +30,8 @@ class StepLimits {
   // The ends of all parts, s.
   std::vector<double> ends() const;
 
-  // Where a function changes by more than a hundredth of its range between two samples, if it does: s.
+  // Where a function changes by more than a hundredth of its range within the shortest part, if it does, and by more
+  // than a kink: s.
   std::optional<double> unresolved() const { return unresolved_; }
   // As many parts are told apart.
   static constexpr int kMostParts = 1 << 14;

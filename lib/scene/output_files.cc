@@ -1,5 +1,7 @@
 #include "lib/scene/output_files.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -29,6 +31,18 @@ Names read_names(const Config& c, const Rule& r) {
   return out;
 }
 
+// A field of cells that nodes have by another name, such as nodal_stress.
+void refuse_cell_fields(const Config& c, const NodeFields& names) {
+  const auto all = FemModel(FemModel::Parts{}).outputs();
+  const auto is_known = [&](const std::string& name, Location location) {
+    return std::ranges::any_of(all, [&](const auto& info) { return info.name == name && info.location == location; });
+  };
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (is_known(names[i], Location::cell) && is_known("nodal_" + names[i], Location::node))
+      c.at(i).fail(fmt::format("'{0}' is a field of cells, and a probe is at a node; did you mean 'nodal_{0}'?",
+                               names[i]));
+}
+
 Shape shape_of_names(const std::vector<Location>& locations) {
   Shape name{.kind = Shape::Kind::word};
   for (const auto& info : FemModel(FemModel::Parts{}).outputs())
@@ -40,7 +54,11 @@ Shape shape_of_names(const std::vector<Location>& locations) {
 }  // namespace
 
 Shape Value<NodeFields>::shape() { return shape_of_names({Location::node}); }
-NodeFields Value<NodeFields>::read(const Config& c, const Rule& r) { return read_names<NodeFields>(c, r); }
+NodeFields Value<NodeFields>::read(const Config& c, const Rule& r) {
+  NodeFields names = read_names<NodeFields>(c, r);
+  refuse_cell_fields(c, names);
+  return names;
+}
 
 Shape Value<FrameFields>::shape() { return shape_of_names({Location::node, Location::cell}); }
 FrameFields Value<FrameFields>::read(const Config& c, const Rule& r) { return read_names<FrameFields>(c, r); }

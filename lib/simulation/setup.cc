@@ -167,6 +167,9 @@ Setup set_up(const Config& input, bool linear_so_far, bool is_timed) {
     integrator = make_integrator(config, scene, task, *built.model);
     wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     cpu = cpu_seconds_now() - begin_cpu;
+    const bool told = built.model->num_dofs() <= kLargestForSlips;
+    if (statics && !told && scene.start == Start::rest)
+      append(response_slips(config, scene, built, *statics), built.warnings);
   }
   if (!blas_is_openblas())
     built.warnings.push_back("the BLAS in use is not OpenBLAS; large factorisations will be several times slower "

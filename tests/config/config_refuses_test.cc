@@ -29,7 +29,7 @@ TEST(ConfigRefuses, AnEmptyFile) {
 }
 
 TEST(ConfigRefuses, WhatIsNotYamlWithItsLine) {
-  const std::string message = refusal_of("a: 1\nb: [1, 2\nc: 3\n");
+  const std::string message = refusal_of("a: 1\nb: 2\nc: *none\n");
   EXPECT_TRUE(starts(message, "a.yaml:3:"));
   EXPECT_TRUE(holds(message, "not YAML"));
 }
@@ -52,7 +52,20 @@ TEST(ConfigRefuses, NoColonWithinATextOrAQuotedKey) {
 TEST(ConfigRefuses, ALineThatIsIndentedBelowAValue) {
   EXPECT_TRUE(holds(refusal_of("mesh:\n  size: [1, 2]\n    cells: [1, 1]\n"),
                     "a.yaml:3:5: not YAML: this line is indented deeper"));
-  EXPECT_TRUE(holds(refusal_of("mesh:\n\tsize: 1\n"), "blanks instead of tabs"));
+  EXPECT_TRUE(holds(refusal_of("mesh:\n\tsize: 1\n"), "indent with spaces, not tabs"));
+}
+
+// yaml-cpp blames the line behind it.
+TEST(ConfigRefuses, ABracketThatNothingCloses) {
+  EXPECT_EQ(refusal_of("a: 1\nb: [{c: 1}\nd: [3]\n"), "a.yaml:2:4: not YAML: nothing closes this '['");
+  EXPECT_EQ(refusal_of("a: 1\nb: [{c: 1]\nd: 3\n"), "a.yaml:2:5: not YAML: nothing closes this '{'");
+  EXPECT_EQ(refusal_of("a: x[0  # [\nb: '['\nc: \"\\\"[\"\nd:\n  - [1, it's\ne: 3\n"),
+            "a.yaml:5:5: not YAML: nothing closes this '['");
+}
+
+TEST(ConfigRefuses, NoBracketWhereAnotherThingIsWrong) {
+  EXPECT_FALSE(holds(refusal_of("a: [1,\n  {b: 1}, 2]\nc: *none\n"), "nothing closes"));
+  EXPECT_FALSE(holds(refusal_of("c: *none\na: [1\n"), "nothing closes"));
 }
 
 TEST(ConfigRefuses, SeveralDocuments) {

@@ -92,7 +92,7 @@ TEST_F(Include, AListIsNoSection) {
 
 TEST_F(Include, AnErrorOfSyntaxNamesTheIncludedFile) {
   write("bad.yaml", "a: [1\n");
-  EXPECT_TRUE(holds(refusal([&] { read("include: bad.yaml\n"); }), place("bad.yaml") + ":2:1: not YAML"));
+  EXPECT_TRUE(holds(refusal([&] { read("include: bad.yaml\n"); }), place("bad.yaml") + ":1:4: not YAML"));
 }
 
 TEST_F(Include, AnAliasedSectionIsRefused) {

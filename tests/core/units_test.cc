@@ -66,7 +66,18 @@ TEST(Units, TheWrongDimensionIsRefusedWithBothNames) {
 
 TEST(Units, AnUnknownUnitIsNamed) {
   EXPECT_EQ(refusal_of("3 gpa", {.unit = "Pa"}),
-            "a.yaml:1:1: expected a stress or stiffness (Pa), found '3 gpa': the unit 'gpa' is not known");
+            "a.yaml:1:1: expected a stress or stiffness (Pa), found '3 gpa': the unit 'gpa' is not known; did you mean "
+            "'GPa'?");
+  EXPECT_TRUE(holds(refusal_of("3 KN", {.unit = "N"}), "did you mean 'kN'?"));
+  EXPECT_FALSE(holds(refusal_of("3 gpx", {.unit = "Pa"}), "did you mean"));
+}
+
+TEST(Units, ADecimalCommaIsNamed) {
+  EXPECT_EQ(refusal_of("'10,8 GPa'", {.unit = "Pa"}),
+            "a.yaml:1:1: expected a stress or stiffness (Pa), found '10,8 GPa', with a decimal comma; write "
+            "'10.8 GPa'");
+  EXPECT_TRUE(
+      holds(refusal_of("0,44", {}), "expected a plain number, found '0,44', with a decimal comma; write '0.44'"));
 }
 
 TEST(Units, AKeyWithoutDimensionTakesPlainNumbersOnly) {

@@ -83,6 +83,17 @@ TEST(MaterialRefuses, NumbersThatAreNotFinite) {
   EXPECT_TRUE(holds(refusal_of(orthotropic("nu12: 0, nu23: 0, nu13: 0", "[inf, 1, 1]")), "young.0: expected a finite"));
 }
 
+// Spruce with one modulus in MPa, and with E1 and E3 exchanged.
+TEST(MaterialRefuses, UnstableSetsWhoseModuliAreToBlame) {
+  const std::string ratios = "nu12: 0.44, nu23: 0.44, nu13: 0.53";
+  EXPECT_TRUE(holds(refusal_of(orthotropic(ratios, "[10.8e6, 0.84e9, 0.46e9]")),
+                    "Is E1 = 1.08e+07 Pa of the same unit as the other two, 8.4e+08 and 4.6e+08 Pa? With 1.08e+10 Pa "
+                    "the constants are those of a stable material. Otherwise nu12=0.44, "));
+  EXPECT_TRUE(holds(refusal_of(orthotropic(ratios, "[0.46e9, 0.84e9, 10.8e9]")),
+                    "Are the moduli in the order of the axes 1, 2, 3? With 1.08e+10, 8.4e+08, 4.6e+08 Pa"));
+  EXPECT_FALSE(holds(refusal_of(orthotropic("nu12: 0.44, nu23: 1.7, nu13: 0.53", "[10.8e9, 0.84e9, 0.46e9]")), "Is E"));
+}
+
 // USDA Wood Handbook (FPL-GTR-282), tables 5-1 and 5-2: L = axis 1, R = 2, T = 3; moduli over E_L.
 struct Wood {
   const char* name;

@@ -69,6 +69,21 @@ TEST(StepLimits, KnowAJumpThatIsNoKink) {
   EXPECT_EQ(told.latest_end(0), kInfinite);
 }
 
+TEST(StepLimits, TakeAKinkForNoJump) {
+  const double width = 2.5e-3;  // of a half sine that begins and ends between samples
+  for (const double begin : {0.0, 0.3001234}) {
+    const auto half_sine = [&](double t) {
+      return t > begin && t < begin + width ? std::sin(std::numbers::pi * (t - begin) / width) : 0;
+    };
+    const auto limits = StepLimits::of(half_sine, 0, 1, {});
+    EXPECT_FALSE(limits.unresolved()) << *limits.unresolved();
+    const auto ends = longest_steps(limits, 0, 1);
+    EXPECT_TRUE(std::ranges::any_of(ends, [&](double t) { return t > begin && t < begin + width; }));
+  }
+  const auto triangle = [](double t) { return std::max(0.0, 1 - std::abs(t - 0.3) / 1e-5); };  // between two samples
+  EXPECT_TRUE(StepLimits::of(triangle, 0, 1, {}).unresolved());
+}
+
 TEST(StepLimits, KnowAnOscillationThatIsTooFastToBeSampled) {
   EXPECT_TRUE(StepLimits::of([](double t) { return std::sin(1e6 * t); }, 0, 1, {}).unresolved());
   EXPECT_FALSE(StepLimits::of([](double t) { return std::sin(1e4 * t); }, 0, 1, {}).unresolved());

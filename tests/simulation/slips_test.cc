@@ -96,8 +96,21 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"density_in_g_per_cm3", "450", "0.45", kWarned, "Is it in g/cm^3?"},
         Slip{"density_in_t_per_m3_as_0_4", "450", "0.4", kWarned, "faster than in any solid"},
         Slip{"density_in_t_per_mm3", "450", "4.5e-10", kWarned, "Is it in t/mm^3"},
-        Slip{"density_in_g_per_m3", "450", "450000", kWarned, "beyond that of any metal"},
-        Slip{"density_in_kg_per_cm3", "450", "450 g/cm^3", kWarned, "beyond that of any metal"},
+        Slip{"density_in_g_per_m3", "450", "450000", kWarned,
+             "beyond that of any metal: is it in g/m^3? Then write 450"},
+        Slip{"density_in_kg_per_cm3", "450", "450 g/cm^3", kWarned,
+             "beyond that of any metal: is it 450 kg/m^3, or 0.45 g/cm^3?"},
+        Slip{"a_modulus_in_mpa_beside_gpa", "0.46 GPa", "0.46 MPa", kWarned,
+             "E3 = 0.46 MPa is 1,826 times less than E2 = 0.84 GPa: is its unit GPa, too?"},
+        Slip{"a_modulus_in_tpa", "10.8 GPa", "10.8 TPa", kWarned, "E1 = 10.8 TPa is 12,857 times more than E2"},
+        Slip{"an_isotropic_modulus_in_tpa", kWood, "{type: isotropic, density: 450, young: 10.8 TPa, nu: 0.3}", kWarned,
+             "are beyond those of diamond"},
+        Slip{"one_modulus_in_mpa_and_none_told", "[10.8 GPa, 0.84 GPa", "[10800, 0.84 GPa", kRefused,
+             "write '10800 MPa', or '10800 Pa'"},
+        Slip{"a_decimal_comma", "[10.8 GPa", "['10,8 GPa'", kRefused, "with a decimal comma; write '10.8 GPa'"},
+        Slip{"a_unit_in_other_letters", "0.46 GPa", "0.46 Gpa", kRefused, "did you mean 'GPa'?"},
+        Slip{"oblique_directions", "{material: wood}", "{material: wood, axes: {first: [1, 1, 0], second: [0, 1, 0]}}",
+             kWarned, "'second' is not normal to 'first', at 45 deg to it: axis 2 is its part normal to axis 1, [-0.7"},
         Slip{"poisson_in_per_cent", "nu: 0.3", "nu: 30", kRefused, "found 30"},
         Slip{"poisson_of_a_half", "nu: 0.3", "nu: 0.5", kRefused, "0.5"},
         Slip{"angle_in_degrees", "{material: wood}",
@@ -119,6 +132,8 @@ INSTANTIATE_TEST_SUITE_P(
              kWarned, "terms.0.nearest: the point is 499 m outside"},
         Slip{"a_box_of_clamps_in_mm", "{surface: x0}", "{box: {min: [100, 0, 0], max: [200, 100, 100]}}", kRefused,
              "selects no node"},
+        Slip{"a_clamp_twice", "{surface: x0}", "{surface: x0}, {surface: x0}", kWarned,
+             "clamps.1: the same clamp as clamps.0"},
         Slip{"a_plane_of_clamps_in_mm", "{surface: x0}", "{plane: {point: [1000, 0, 0], normal: [1, 0, 0]}}", kRefused,
              "selects no node"},
         Slip{"a_box_in_mm_that_holds_all", "{surface: x0}", "{box: {min: [0, 0, 0], max: [100, 100, 100]}}", kRefused,
@@ -139,11 +154,16 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"a_traction_twice_in_gpa", "force: [0, 0, -100]", "traction: [0, 0, -1e12]", kRefused, "are forces in N"},
         Slip{"an_unseen_force", "gravity: [0, 0, -9.81]\nloads: [{surface: x1, force: [0, 0, -100]}]",
              "loads: [{surface: x1, force: [0, 0, -1e-9]}]", kWarned, "too little to be seen"},
-        Slip{"no_force", "-100]", "0]", kWarned, "loads.0: traction on x1 is zero"},
+        Slip{"no_force", "-100]", "0]", kWarned, "loads.0: force on x1 is zero"},
+        Slip{"no_traction", "force: [0, 0, -100]", "traction: [0, 0, 0]", kWarned, "loads.0: traction on x1 is zero"},
+        Slip{"a_force_far_too_large", "-100]", "-5 MN]", kWarned, "times its length (by linear statics)"},
+        Slip{"a_force_given_as_traction", "gravity: [0, 0, -9.81]\nloads: [{surface: x1, force: [0, 0, -100]}]",
+             "loads: [{surface: x1, traction: [0, 0, -50]}]", kWarned, "is a force in N meant?"},
         Slip{"a_formula_of_nothing", "force: [0, 0, -100]", "traction: [0, 0, \"0*z\"]", kWarned, "is zero"},
-        Slip{"a_load_on_the_clamp", "surface: x1", "surface: x0", kWarned, "acts on held nodes only"},
+        Slip{"a_load_on_the_clamp", "surface: x1", "surface: x0", kWarned,
+             "loads.0: force on x0 acts on held nodes only"},
         Slip{"a_point_load_on_the_clamp", kLoad,
-             "terms: [{type: point_load, nearest: [0, 0, 0], force: [0, 0, -1]}]", kWarned, "acts on held nodes only"},
+             "terms: [{type: point_load, nearest: [0, 0, 0], force: [0, 0, -1]}]", kWarned, "Is it the wrong point?"},
         Slip{"a_load_after_the_end", kLoad, load_with("{type: ramp, start: 5, end: 6}"), kWarned, "begins at 5 s"},
         Slip{"a_table_after_the_end", kLoad, load_with("{type: table, points: [[100, 0], [200, 1]]}"), kWarned,
              "it is 0 during the whole run"},
@@ -172,6 +192,7 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"a_run_of_nothing", kTime, "time: {end: 5e-7}", kWarned, "a wave goes through"},
         Slip{"a_run_in_ms", kTime, "time: {end: 5e6}", kWarned, "is the end, 5e+06 s, in ms?"},
         Slip{"metres_for_milliseconds", kTime, "time: {end: 500 m}", kRefused, "a length (m)"},
+        Slip{"seconds_for_milliseconds", kTime, "time: {end: 500}", kWarned, "is the end, 500 s, in ms?"},
         Slip{"frames_beyond_the_end", "probes: {tip", "interval: 5, probes: {tip", kWarned, "is longer than the run"},
         Slip{"a_history_beyond_the_end", "probes: {tip", "history: {interval: 5}, probes: {tip", kWarned,
              "the history is its start and its end"},
@@ -186,6 +207,9 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"a_ground_upside_down", "clamps: [{surface: x0}]\ngravity: [0, 0, -9.81]\n" + kLoad,
              "terms: [{type: ground, point: [0, 0, -0.1], normal: [0, 0, -1], stiffness: 1e6}]", kWarned,
              "the body begins below the ground"},
+        Slip{"a_ground_within_the_body", "clamps: [{surface: x0}]\ngravity: [0, 0, -9.81]\n" + kLoad,
+             "terms: [{type: ground, point: [0, 0, 0.005], stiffness: 1e6}]", kWarned,
+             "the body begins partly in the ground, 0.005 m deep"},
         Slip{"an_angle_with_the_wrong_unit", "{material: wood}",
              "{material: wood, axes: {type: axis_angle, axis: [0, 0, 1], angle: 30 rad}}", kWarned,
              "30 rad is 4.77 turns"},
@@ -204,8 +228,9 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"a_damping_ratio_of_a_region", "{material: wood}", "{material: wood, stiffness_damping: 0.05}", kWarned,
              "Is it meant as a damping ratio?"},
         Slip{"drag_like_honey", "stiffness: 1e-5", "mass: 1e9", kWarned, "stops every motion"},
+        Slip{"drag_of_another_unit", "stiffness: 1e-5", "mass: 1e4", kWarned, "stops every motion"},
         Slip{"an_event_below_zero", kTime, kTime + "\nevents: [{quantity: energy.kinetic, crosses: -1}]", kWarned,
-             "never is below 0"},
+             "is never below 0"},
         Slip{"an_event_far_away", kTime, kTime + "\nevents: [{quantity: tip.displacement.z, crosses: 500}]", kWarned,
              "500 times the length of the body"},
         Slip{"an_event_farther_than_the_body_is_long", kTime,
@@ -215,7 +240,8 @@ INSTANTIATE_TEST_SUITE_P(
              kTime + "\nevents: [{quantity: von_mises.largest, crosses: 5}]", kWarned,
              "is the unit missing, such as MPa?"},
         Slip{"an_event_at_a_stress_with_a_unit_too_many", kTime,
-             kTime + "\nevents: [{quantity: von_mises.largest, crosses: 5e6 GPa}]", kWarned, "a unit too many"},
+             kTime + "\nevents: [{quantity: von_mises.largest, crosses: 5e6 GPa}]", kWarned,
+             "Is its unit one too large?"},
         Slip{"an_event_too_fast", kTime, kTime + "\nevents: [{quantity: tip.velocity.z, crosses: 1e6}]", kWarned,
              "faster than the waves"},
         Slip{"an_event_of_another_dimension", kTime, kTime + "\nevents: [{quantity: tip.velocity.z, crosses: 5 mm}]",
@@ -257,6 +283,10 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"more_digits_than_there_are", kRtol, "rtol: 1e-16", kRefused, "must be in [1e-14, 1)"},
         Slip{"nearly_more_digits", kRtol, "rtol: 2e-14", kWarned, "below what round-off allows"},
         Slip{"a_scale_in_mm", kRtol, "rtol: 1e-4, position_scale: 1e6", kWarned, "errors are not seen"},
+        Slip{"a_scale_far_beyond_the_body", kRtol, "rtol: 1e-4, position_scale: 100", kWarned,
+             "100 is 100 times what the body allows (1 m)"},
+        Slip{"a_step_longer_than_a_period", "{type: tr_bdf2, rtol: 1e-4}", "{type: newmark, step: 0.05}", kWarned,
+             "cannot follow the vibration that the loads start"},
         Slip{"a_scale_of_nothing", kRtol, "rtol: 1e-4, position_scale: 1e-15", kWarned,
              "round-off is taken for errors"},
         Slip{"a_speed_beyond_all", kRtol, "rtol: 1e-4, velocity_scale: 1e9", kWarned, "errors are not seen"},
@@ -266,6 +296,31 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"a_least_step_as_long_as_the_run", kRtol, "rtol: 1e-4, h_min: 0.5", kWarned, "cannot follow an error"},
         Slip{"a_largest_step_of_nothing", kRtol, "rtol: 1e-4, h_max: 1e-12", kWarned, "such steps"}),
     [](const auto& slip) { return slip.param.name; });
+
+TEST(Slips, AreNoneWhereOnlyAnotherSurfaceIsBelowTheGround) {
+  const std::string ground = "terms: [{type: ground, surface: z1, point: [0, 0, 0.05], stiffness: 1e6}]";
+  EXPECT_EQ(said_of(replaced(kCantilever, kLoad, ground)).words, "");
+}
+
+TEST(Slips, OfALoadWithoutAValueTellOnlyOfTheTimeBefore) {
+  const std::string load = "loads: [{surface: x1, force: [0, 0, -100 kN], factor: {type: expression, formula: "
+                           "\"sqrt(0.25-t)\"}}]";
+  const std::string free = replaced(kCantilever, "clamps: [{surface: x0}]\n", "");
+  EXPECT_THAT(said_of(replaced(free, kLoad, load)).words, HasSubstr("m away until 0.24"));
+}
+
+// What is said of it is said by the run.
+TEST(Slips, AreNoneOfAPulseThatIsTooShortToBeSampled) {
+  const std::string pulse = load_with("{type: expression, formula: \"max(0, 1-abs(t-0.25)/2e-7)\"}");
+  EXPECT_EQ(said_of(replaced(kCantilever, kLoad, pulse)).words, "");
+}
+
+TEST(Slips, AFieldOfCellsIsNotAProbes) {
+  const Said said = said_of(replaced(kCantilever, "0.05]}}}", "0.05], fields: [stress]}}}"));
+  EXPECT_TRUE(said.refused);
+  EXPECT_THAT(said.words,
+              HasSubstr("'stress' is a field of cells, and a probe is at a node; did you mean 'nodal_stress'?"));
+}
 
 TEST(Slips, AreNoneInASoundScene) { EXPECT_EQ(said_of(kCantilever).words, ""); }
 
@@ -293,7 +348,7 @@ const std::map<std::string, std::string> kMeant{
     {"kilometre", "is it meant in mm"},          {"nano", "scaled twice"},
     {"tiny", "scaled twice"},                    {"picometre", "too little to be seen"},
     {"random_far", "more than the length"},      {"spun_arm", "the ramp ends at 2 s"},
-    {"buckling", "the ramp ends at 400 s"}};
+    {"buckling", "the ramp ends at 400 s"},      {"thousand_revolutions", "'second' is not normal to 'first'"}};
 
 TEST(ShippedScenes, CauseNoFalseAlarm) {
   const fs::path configs = fs::path(ORTHODYN_SOURCE_DIR) / "configs";

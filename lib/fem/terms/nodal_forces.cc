@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "lib/core/words.h"
 #include "lib/config/csv_table.h"
 #include "lib/fem/term_choice.h"
 #include "lib/fem/terms/dead_load.h"
@@ -41,7 +42,7 @@ class NodalForcesChoice : public TermChoice {
   std::unique_ptr<Term> make(const Discretization& body) const override {
     const auto name = "nodal forces of " + std::filesystem::path(file_.path).filename().string();
     NodalForces forces = read(body.mesh);
-    std::string amount = fmt::format("{} nodes", forces.size());
+    std::string amount = counted(static_cast<long>(forces.size()), "node");
     return std::make_unique<DeadLoad>(name, std::move(forces), factor_, std::move(amount));
   }
 

@@ -1,6 +1,7 @@
 // The term `point_load`.
 #include <fmt/format.h>
 
+#include "lib/core/words.h"
 #include "lib/fem/term_choice.h"
 #include "lib/fem/terms/dead_load.h"
 #include "lib/mesh/selection.h"
@@ -25,7 +26,7 @@ class PointLoadChoice : public TermChoice, public Selection {
     NodalForces forces;
     for (const int node : selected) forces.emplace_back(node, force_ / static_cast<double>(selected.size()));
     return std::make_unique<DeadLoad>("point load", std::move(forces), factor_,
-                                      fmt::format("{} nodes", selected.size()));
+                                      counted(static_cast<long>(selected.size()), "node"));
   }
 
   void declare(Traits& traits) const override { declare_load(*factor_, traits); }

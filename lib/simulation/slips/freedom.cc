@@ -2,8 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "lib/fem/surface.h"
+#include "lib/mesh/selection.h"
 #include "lib/simulation/slips/subject.h"
 
 namespace orthodyn::slip {
@@ -11,14 +15,14 @@ namespace orthodyn::slip {
 namespace {
 
 constexpr double kFarAway = 100;  // lengths of the body
-constexpr double kInside = 0.1;   // of the body's length, below the ground at the start
+constexpr double kInside = 0.02;  // of the body's height over the ground, below it at the start
 
 Vec3 total_load(const Subject& subject, double t) {
   const auto& parts = subject.built.model->parts();
   const NodalExpansion nodal(parts, t, subject.built.initial.q, Vector::Zero(subject.built.model->num_dofs()));
   NodalVector f = NodalVector::Zero(3, nodal.x.cols());
-  for (std::size_t k = subject.scene.gravity ? 1 : 0; k < parts.loads.size(); ++k)
-    parts.loads[k]->add_force(nodal.state(), f);
+  for (const auto& load : parts.loads)
+    if (load->energy_kind() != EnergyKind::gravitational) load->add_force(nodal.state(), f);
   return f.rowwise().sum();
 }
 
@@ -29,8 +33,13 @@ double total_mass(const FemModel& model) {
   return weighted.sum() / 3;
 }
 
-// Where the loads alone take the centre of mass, from rest, m; gravity is left out: things may fall.
-double carried_away(const Subject& subject) {
+struct Way {
+  double farthest = 0;  // m
+  double until = 0;     // s
+};
+
+// Where the loads alone take the centre of mass, from rest; gravity is left out: things may fall.
+Way carried_away(const Subject& subject) {
   Vec3 way = Vec3::Zero(), speed = way, before = way;
   double farthest = 0, last = subject.start();
   visit_times(subject, [&](double t) {
@@ -42,18 +51,27 @@ double carried_away(const Subject& subject) {
     last = t;
     farthest = std::max(farthest, way.norm());
   });
-  return farthest / total_mass(*subject.built.model);
+  return {farthest / total_mass(*subject.built.model), last};
 }
 
 void add_drift_slip(const Subject& subject, Warnings& out) {
   const Scene& scene = subject.scene;
   if (!subject.moves() || subject.held() || scene.loads.empty() || !scene.terms.empty() || !scene.motions.empty())
     return;
-  const double way = carried_away(subject);
+  const auto [way, until] = carried_away(subject);
   if (way > kFarAway * subject.extent)
     out.push_back(fmt::format("{}: nothing holds the body, and they carry it {:.3g} m away until {:.4g} s, {:.0f} "
                               "times its length: is a clamp missing?", subject.config.at("loads").where(), way,
-                              subject.end(), way / subject.extent));
+                              until, way / subject.extent));
+}
+
+// Of the surface that can touch the ground.
+std::vector<int> touching_nodes(const Config& term, const TetMesh& mesh) {
+  std::optional<std::string> surface;
+  if (term.has("surface") && !term.at("surface").is_null()) surface = term.at("surface").text();
+  std::vector<int> nodes;
+  for (const auto& [node, area] : node_areas(mesh, surface_or_all(mesh, surface, Origin()))) nodes.push_back(node);
+  return nodes;
 }
 
 void add_ground_slips(const Subject& subject, Warnings& out) {
@@ -70,10 +88,12 @@ void add_ground_slips(const Subject& subject, Warnings& out) {
     };
     const Vec3 point = given("point", Vec3::Zero(), "m"), normal = given("normal", Vec3::UnitZ(), "").normalized();
     const Eigen::RowVectorXd depth = -(normal.transpose() * (nodal.x.colwise() - point));
-    if (depth.maxCoeff() < kInside * subject.extent) continue;
+    double deepest = 0;
+    for (const int node : touching_nodes(term, model.parts().mesh)) deepest = std::max(deepest, depth[node]);
+    if (deepest <= kInside * (depth.maxCoeff() - depth.minCoeff())) continue;
     out.push_back(fmt::format("{}: the body begins {} the ground, {:.3g} m deep, and is thrown out of it: is 'point' "
                               "in m and on the ground, and does 'normal' point away from the ground?",
-                              term.where(), depth.minCoeff() > 0 ? "below" : "partly in", depth.maxCoeff()));
+                              term.where(), depth.minCoeff() > 0 ? "below" : "partly in", deepest));
   }
 }
 

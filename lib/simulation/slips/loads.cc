@@ -32,10 +32,12 @@ double largest_within(const TimeFunction& factor, const Subject& subject) {
   return largest;
 }
 
-// A formula may have no value somewhere: the run will tell, if it comes so far.
+// Steps are limited by a pulse that is too short for these samples: of that the run tells. A formula may have no value
+// somewhere: the run will tell, if it comes so far.
 bool acts_within(const TimeFunction& factor, const Subject& subject) {
   try {
-    return largest_within(factor, subject) > 0;
+    if (largest_within(factor, subject) > 0) return true;
+    return !subject.is_static() && !factor.step_limits(subject.start(), subject.end()).ends().empty();
   } catch (const ConfigError&) {
     return true;
   }
@@ -49,16 +51,29 @@ void add_factor_slips(const Subject& subject, const Config& section, Warnings& o
     const auto kinks = factor->kinks();
     const auto later = std::find_if(kinks.begin(), kinks.end(), [&](double t) { return t >= subject.end(); });
     if (subject.is_static()) {
-      out.push_back(fmt::format("{}: it is 0 at the time of the statics, {:.4g} s (time.end): nothing of what it "
-                                "multiplies acts", given.where(), subject.end()));
+      out.push_back(fmt::format("{}: it is 0 at the time of the statics, {:.4g} s (time.end): what it multiplies does "
+                                "not act", given.where(), subject.end()));
     } else if (later != kinks.end()) {
       out.push_back(fmt::format("{}: it is 0 during the whole run, from {:.4g} to {:.4g} s, and begins at {:.4g} s: is "
                                 "that in ms, or time.end too early?",
                                 given.where(), subject.start(), subject.end(), *later));
     } else {
-      out.push_back(fmt::format("{}: it is 0 during the whole run: nothing of what it multiplies acts", given.where()));
+      out.push_back(fmt::format("{}: it is 0 during the whole run: what it multiplies never acts", given.where()));
     }
   });
+}
+
+// Of its factor the rules above tell.
+bool never_acts(const Config& given, const Subject& subject) {
+  if (!given.is_map() || !given.has("factor") || !names_a_factor(given.at("factor"))) return false;
+  return Registry<TimeFunction>::read(given.at("factor"))->peak(subject.start(), subject.end()) == 0;
+}
+
+// That of a load by the key that the user gave: "force on x1".
+std::string name_of(const Config& given, const Term& term) {
+  const std::string name = term.name();
+  const auto on = name.find(" on ");
+  return given.is_map() && given.has("force") && on != std::string::npos ? "force" + name.substr(on) : name;
 }
 
 // Of loads on surfaces and of point loads: forces on all nodes that are zero, or that held nodes take alone.
@@ -76,15 +91,16 @@ void add_idle_loads(const Subject& subject, Warnings& out) {
     model.parts().loads[k]->add_peak_force(nodal.state(), subject.end(), f);
     Vector free(model.num_dofs());
     model.parts().dofs->restrict_to(f, free);
-    const std::string name = model.parts().loads[k]->name();
     const std::size_t first = subject.scene.gravity ? 1 : 0, loads = first + subject.scene.loads.size();
-    const std::string place = is_gravity ? subject.config.at("gravity").where()
-                              : k < loads ? subject.config.at("loads").at(k - first).where()
-                                          : subject.config.at("terms").at(k - loads).where();
+    const Config given = is_gravity  ? subject.config.at("gravity")
+                         : k < loads ? subject.config.at("loads").at(k - first)
+                                     : subject.config.at("terms").at(k - loads);
+    const std::string place = given.where(), name = name_of(given, *model.parts().loads[k]);
+    if (f.isZero(0) && never_acts(given, subject)) continue;
     if (f.isZero(0)) out.push_back(fmt::format("{}: {} is zero: it does nothing; give it a value", place, name));
     else if (free.isZero(0))
       out.push_back(fmt::format("{}: {} acts on held nodes only: the supports take all of it, and nothing moves. Is it "
-                                "the wrong surface?", place, name));
+                                "the wrong {}?", place, name, given.has("nearest") ? "point" : "surface"));
   }
 }
 

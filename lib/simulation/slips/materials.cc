@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "lib/core/symmetric_eigen.h"
+#include "lib/core/units.h"
 #include "lib/simulation/slips/subject.h"
 
 namespace orthodyn::slip {
@@ -14,21 +18,90 @@ namespace {
 constexpr double kFastest = 25e3;     // m/s; diamond has 18,000
 constexpr double kSlowest = 0.3;      // m/s; a gel of 100 Pa has as much
 constexpr double kDensest = 30e3;     // kg/m^3; osmium has 22,600
+constexpr double kStiffest = 2e12;    // Pa; diamond has 1.3e12
+// Between moduli of one material, by which two units are told from two stiffnesses.
+constexpr double kMostApart = 300, kUsuallyApart = 60;
 constexpr double kMostUnlike = 1e-7;  // of the eigenvalues of C
 constexpr double kSoftest = 1e3;      // Pa
 constexpr double kWeakest = 1e-6;     // strength over the softest modulus; the weakest woods and foams have 1e-3
 
-std::string slip_of(const Material& material) {
+double apart(double a, double b) { return std::max(a / b, b / a); }
+
+// A modulus that the user gave with its unit.
+struct Modulus {
+  std::string name;
+  NumberWithUnit given;
+  double si;  // Pa
+  std::string text() const { return fmt::format("{} = {:.6g} {}", name, given.number, given.unit); }
+};
+
+void add_modulus(const std::string& name, const Config& value, std::vector<Modulus>& all) {
+  if (!value.is_scalar() || value.reads_as_number()) return;
+  if (const auto given = split_quantity(value.text()))
+    all.push_back({name, *given, read_number(value, {.unit = "Pa"})});
+}
+
+// [10.8 GPa, 0.84 GPa, 0.46 MPa]: one that is far from all others, and near to them with their unit.
+std::string odd_unit(const std::vector<Modulus>& moduli) {
+  for (const Modulus& odd : moduli) {
+    const Modulus* nearest = nullptr;
+    bool fits = true;
+    for (const Modulus& other : moduli) {
+      if (&other == &odd) continue;
+      fits = fits && other.given.unit != odd.given.unit && apart(other.si, odd.si) > kMostApart &&
+             apart(other.given.number, odd.given.number) < kUsuallyApart;
+      if (!nearest || apart(other.si, odd.si) < apart(nearest->si, odd.si)) nearest = &other;
+    }
+    if (nearest && fits)
+      return fmt::format("{} is {} times {} than {}: is its unit {}, too?", odd.text(),
+                         shown_factor(apart(odd.si, nearest->si)), odd.si < nearest->si ? "less" : "more",
+                         nearest->text(), nearest->given.unit);
+  }
+  return "";
+}
+
+std::string odd_modulus(const Config& material) {
+  std::vector<Modulus> young, shear;
+  if (material.has("young") && material.at("young").is_sequence())
+    for (std::size_t i = 0; i < material.at("young").size(); ++i)
+      add_modulus(fmt::format("E{}", i + 1), material.at("young").at(i), young);
+  for (const char* key : {"g12", "g23", "g13"})
+    if (material.has(key)) add_modulus(key, material.at(key), shear);
+  const std::string odd = odd_unit(young);
+  return odd.empty() ? odd_unit(shear) : odd;
+}
+
+// `given`: as the user wrote it, if he did.
+std::string dense_slip(double density, const std::optional<Config>& given) {
+  const auto parts = given && given->is_scalar() && !given->reads_as_number() ? split_quantity(given->text())
+                                                                               : std::optional<NumberWithUnit>();
+  if (!parts || parts->number > kDensest || density > 1000 * kDensest)
+    return fmt::format("the density {:.4g} kg/m^3 is beyond that of any metal: is it in g/m^3? Then write {:.4g}",
+                       density, density / 1000);
+  return fmt::format("the density {} is {:.4g} kg/m^3, beyond that of any metal: is it {:.6g} kg/m^3, or {:.6g} {}?",
+                     given->text(), density, parts->number, parts->number / 1000, parts->unit);
+}
+
+std::string wave_slip(double wave, double density, double stiffest) {
+  const std::string finding =
+      fmt::format("waves would travel at {:.3g} m/s, faster than in any solid (diamond: 18000 m/s): ", wave);
+  if (stiffest > kStiffest)
+    return finding + fmt::format("moduli of {:.3g} Pa are beyond those of diamond (1.3e+12 Pa). Is their unit GPa or "
+                                 "MPa?", stiffest);
+  return finding + fmt::format("the density {:.4g} kg/m^3 is too small for moduli up to {:.3g} Pa. Is it in {}? Or are "
+                               "the moduli of a wrong unit?", density, stiffest,
+                               density < 1e-3 ? "t/mm^3 (orthodyn computes in m, kg, s)" : "g/cm^3");
+}
+
+// `given`: the section of the scene, none for a material of the mesh's file.
+std::string slip_of(const Material& material, const std::optional<Config>& given) {
+  if (given)
+    if (const std::string odd = odd_modulus(*given); !odd.empty()) return odd;
   const double density = material.density(), wave = fastest_wave(material);
   const Vec6 lambda = symmetric_eigenvalues(voigt(material.stiffness()));
   const double stiffest = lambda.maxCoeff(), softest = lambda.minCoeff();
-  if (density > kDensest)
-    return fmt::format("the density {:.4g} kg/m^3 is beyond that of any metal: is its unit g/m^3, or is it in kg/m^3 "
-                       "already and has a unit too many?", density);
-  if (wave > kFastest)
-    return fmt::format("waves would travel at {:.3g} m/s, faster than in any solid (diamond: 18000 m/s): the density "
-                       "{:.4g} kg/m^3 is too small for moduli up to {:.3g} Pa. Is it in {}?",
-                       wave, density, stiffest, density < 1e-3 ? "t/mm^3 (orthodyn computes in m, kg, s)" : "g/cm^3");
+  if (density > kDensest) return dense_slip(density, given ? value_at(*given, {"density"}) : given);
+  if (wave > kFastest) return wave_slip(wave, density, stiffest);
   if (softest < kMostUnlike * stiffest)
     return fmt::format("its moduli differ by a factor {:.1g} (eigenvalues of C {:.3g} to {:.3g} Pa): does one of them "
                        "lack its unit, such as GPa?", stiffest / softest, softest, stiffest);
@@ -49,9 +122,9 @@ std::string slip_of(const Material& material) {
 
 void add_material_slips(const Subject& subject, Warnings& out) {
   for (const auto& [name, material] : subject.scene.materials) {
-    const std::string slip = slip_of(*material);
-    if (slip.empty()) continue;
     const auto place = value_at(subject.config, {"materials", name});
+    const std::string slip = slip_of(*material, place);
+    if (slip.empty()) continue;
     out.push_back(fmt::format("{}: {}", place ? place->where() : "materials." + name, slip));
   }
 }

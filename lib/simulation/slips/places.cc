@@ -17,6 +17,7 @@ constexpr double kTiny = 1e-6;      // m
 // Together those of nothing but millimetres and MPa taken for m and Pa.
 constexpr double kLong = 15;  // m
 constexpr double kSlow = 30;  // m/s
+constexpr double kOblique = 0.02;  // cosine; directions are given by two or three digits
 constexpr double kTurn = 2 * std::numbers::pi;
 
 void add_size_slip(const Subject& subject, Warnings& out) {
@@ -58,12 +59,46 @@ void add_angle_slips(const Subject& subject, Warnings& out) {
   });
 }
 
+std::string shown_direction(const Vec3& direction) {
+  const Vec3 d = direction.normalized();
+  return fmt::format("[{:.3g}, {:.3g}, {:.3g}]", d[0], d[1], d[2]);
+}
+
+// A second direction that is not across the first.
+void add_direction_slips(const Subject& subject, Warnings& out) {
+  visit_keys(subject.config, "axes", [&](const Config& axes) {
+    if (!axes.is_map() || axes.has("third") || !axes.has("first") || !axes.has("second")) return;
+    if (axes.has("type") && axes.at("type").text() != "directions") return;  // a plugin's own
+    const Vec3 first = Value<Vec3>::read(axes.at("first"), {}).stableNormalized();
+    const Vec3 second = Value<Vec3>::read(axes.at("second"), {}).stableNormalized();
+    const double overlap = first.dot(second);
+    if (std::abs(overlap) <= kOblique) return;
+    out.push_back(fmt::format("{}: 'second' is not normal to 'first', at {:.0f} deg to it: axis 2 is its part normal "
+                              "to axis 1, {}", axes.where(), std::acos(overlap) * 180 / std::numbers::pi,
+                              shown_direction(second - overlap * first)));
+  });
+}
+
+void add_repeated_clamps(const Subject& subject, Warnings& out) {
+  if (!subject.config.has("clamps")) return;
+  const Config clamps = subject.config.at("clamps");
+  for (std::size_t i = 0; i < clamps.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (clamps.at(i).yaml() == clamps.at(k).yaml()) {
+        out.push_back(fmt::format("{}: the same clamp as clamps.{}: it holds nothing more. Is it the wrong place?",
+                                  clamps.at(i).where(), k));
+        break;
+      }
+}
+
 }  // namespace
 
 void add_place_slips(const Subject& subject, Warnings& out) {
   add_size_slip(subject, out);
   add_anchor_slips(subject, out);
   add_angle_slips(subject, out);
+  add_direction_slips(subject, out);
+  add_repeated_clamps(subject, out);
   const TetMesh& mesh = subject.built.model->parts().mesh;
   const auto check = [&](const Config& place, const std::string& what, const Vec3& point) {
     const double outside = distance(point, subject.box);

@@ -8,7 +8,7 @@ namespace orthodyn::slip {
 namespace {
 
 constexpr double kCoarsest = 0.1, kFinest = 1e-13;  // of rtol
-constexpr double kLargestScale = 1e3, kSmallestScale = 1e-12;  // of the body's length
+constexpr double kLargestScale = 30, kSmallestScale = 1e-12;  // of the body's length, of the waves in it
 constexpr double kMostSteps = 1e9;
 constexpr double kLargestLeast = 0.1;  // step, of the run
 
@@ -29,8 +29,8 @@ void add_scale_slip(const Subject& subject, const char* key, const char* unit, d
   if (!scale || scale->text() == "auto") return;
   const double share = read_number(*scale, {.unit = unit}) / natural;
   if (share > kLargestScale)
-    out.push_back(fmt::format("{}: {} is {:.1g} times what the body allows ({:.3g} {}): errors are not seen. Is it in "
-                              "mm?", scale->where(), scale->text(), share, natural, unit));
+    out.push_back(fmt::format("{}: {} is {} times what the body allows ({:.3g} {}): errors are not seen. Is it in "
+                              "mm?", scale->where(), scale->text(), shown_factor(share), natural, unit));
   if (share < kSmallestScale)
     out.push_back(fmt::format("{}: {} is {:.1g} of what the body allows ({:.3g} {}): round-off is taken for errors",
                               scale->where(), scale->text(), share, natural, unit));

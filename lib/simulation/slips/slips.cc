@@ -1,5 +1,7 @@
 #include "lib/simulation/slips/slips.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -60,6 +62,13 @@ void visit_times(const Subject& subject, const std::function<void(double)>& visi
     for (const double t : times) visit(t);
   } catch (const ConfigError&) {
   }
+}
+
+std::string shown_factor(double x) {
+  if (std::abs(x) < 10 || std::abs(x) >= 1e6) return fmt::format("{:.2g}", x);
+  std::string digits = fmt::format("{:.0f}", x);
+  if (digits.size() > 3) digits.insert(digits.size() - 3, ",");
+  return digits;
 }
 
 double fastest_wave(const Material& material) {

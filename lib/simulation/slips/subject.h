@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,12 @@ struct Subject {
   // The shortest side of the box over the longest.
   double slenderness() const { return box.size().minCoeff() / extent; }
   double crossing() const { return extent / wave; }  // s, of a wave along the body
+  // rad/s, of the lowest vibration along a cantilever, and about that of its bending.
+  double lowest_along() const { return std::numbers::pi / 2 / crossing(); }
+  double lowest_bending() const { return kBending * slenderness() * lowest_along(); }
+
+  // Of a cantilever's lowest frequencies in bending and along itself, 1.015 h/L^2 and pi/2/L, times L/h.
+  static constexpr double kBending = 0.65;
 };
 
 void add_material_slips(const Subject& subject, Warnings& out);
@@ -55,6 +62,9 @@ bool names_a_factor(const Config& section);
 // For times in s, ascending, from start to end: some between each two where loads and motions are not smooth. Ends
 // early where a formula has no value: the run will tell, if it comes so far.
 void visit_times(const Subject& subject, const std::function<void(double)>& visit);
+
+// "18,000" of a large number, "1.8" of a small one.
+std::string shown_factor(double x);
 
 // m/s, of the fastest wave in a material: sqrt(max C_ii / density).
 double fastest_wave(const Material& material);

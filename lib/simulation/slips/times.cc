@@ -1,6 +1,9 @@
 // Times that do not go with the run, and a run that does not go with the body.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <numbers>
+
 #include "lib/simulation/slips/subject.h"
 
 namespace orthodyn::slip {
@@ -9,7 +12,20 @@ namespace {
 
 constexpr double kShortest = 1e-2;  // of the time that a wave takes along the body
 constexpr double kLongest = 1e9;
+constexpr double kMostPeriods = 3000;  // of bending
+constexpr double kLongRun = 10;        // s
+constexpr double kEarly = 0.01;        // of the run
 constexpr double kFewest = 0.01, kMost = 1e6;  // cycles of a sine
+
+// A body that creeps, or whose loads and supports change late, has a reason for a long run.
+bool only_swings(const Subject& subject) {
+  const double omega = subject.lowest_bending();
+  if (const auto& damping = subject.scene.damping)
+    if (damping->mass / omega + damping->stiffness * omega > 2) return false;
+  if (!subject.built.model->traits().time_dependent) return true;
+  const auto ends = subject.built.model->breakpoints(subject.start(), subject.end());
+  return !ends.empty() && *std::ranges::max_element(ends) < subject.start() + kEarly * subject.span();
+}
 
 void add_span_slip(const Subject& subject, Warnings& out) {
   const double crossings = subject.span() / subject.crossing();
@@ -21,6 +37,12 @@ void add_span_slip(const Subject& subject, Warnings& out) {
   if (crossings > kLongest)
     out.push_back(fmt::format("{}: in {:.3g} s a wave goes through the body {:.2g} times: is the end, {:.4g} s, in ms?",
                               place, subject.span(), crossings, subject.end()));
+  const double periods = subject.span() * subject.lowest_bending() / (2 * std::numbers::pi);
+  const bool is_long = crossings <= kLongest && subject.span() > kLongRun && periods > kMostPeriods;
+  if (is_long && subject.held() && only_swings(subject))
+    out.push_back(fmt::format("{}: in {:.4g} s the body swings about {} times (a period of its lowest vibration is "
+                              "about {:.2g} s): is the end, {:.4g} s, in ms?", place, subject.span(),
+                              shown_factor(periods), subject.span() / periods, subject.end()));
 }
 
 void add_factor_times(const Subject& subject, const Config& section, Warnings& out) {
