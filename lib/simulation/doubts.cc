@@ -55,10 +55,12 @@ constexpr const char* kBuckles =
     "corotational; analysis: buckling tells the load factors";
 
 std::string linearity_sentence(double error) {
-  return fmt::format(
-      "linear kinematics are off by {} of the motion: rotations or stretches are too large for them. Take "
-      "elasticity.kinematics: auto, or corotational",
-      std::isfinite(error) ? fmt::format("about {:.2g}", error) : "as much as the size");
+  constexpr const char* kRemedy = "Take elasticity.kinematics: auto, or corotational";
+  if (!std::isfinite(error))
+    return fmt::format("how far linear kinematics are off could not be estimated, for rotations or stretches are too "
+                       "large for them. {}", kRemedy);
+  return fmt::format("linear kinematics are off by about {:.2g} of the motion: rotations or stretches are too large "
+                     "for them. {}", error, kRemedy);
 }
 
 // What steps may have missed of loads and of the motion of supports.
@@ -73,6 +75,16 @@ void add_doubts(const Outcome& outcome, std::vector<std::string>& all) {
         fmt::format("a formula of a load or a support jumps, or changes within less than a {}th of the run, at t = "
                     "{:.4g} s: steps may miss it. Name the times of jumps by `kinks`, or set integrator.h_max",
                     StepLimits::kMostParts, *outcome.unresolved));
+}
+
+void add_few_states(const std::vector<RecordedExtreme>& extremes, std::vector<std::string>& all) {
+  constexpr long kFewStates = 50;
+  const auto few = std::find_if(extremes.begin(), extremes.end(),
+                                [](const RecordedExtreme& extreme) { return extreme.states < kFewStates; });
+  if (few != extremes.end())
+    all.push_back(fmt::format("extremes are those of {}: peaks between them are missed; output.history: {{steps: "
+                              "true}} looks at every step",
+                              counted(few->states, "state")));
 }
 
 void add_doubts(const EquilibriumResult& equilibrium, std::vector<std::string>& all) {
@@ -97,6 +109,8 @@ std::vector<std::string> doubts(const RunResult& result) {
     all.push_back(fmt::format("{} (the most at {} {:.4g}{})", strain->sentence,
                               result.equilibrium ? "load factor" : "t =", strain->time,
                               result.equilibrium ? "" : " s"));
+  for (auto& sentence : exceeded_strengths(result.extremes, !result.motion)) all.push_back(std::move(sentence));
+  if (result.motion) add_few_states(result.extremes, all);
   const auto& mesh = result.motion ? result.motion->mesh_error
                                    : result.equilibrium ? result.equilibrium->mesh_error : std::nullopt;
   if (mesh && mesh->relative > kCoarseMesh) all.push_back(mesh_sentence(result.model, mesh->relative));

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lib/linear/solver.h"
+#include "lib/simulation/observers/run_observers.h"
 #include "lib/simulation/setup.h"
 #include "lib/simulation/volume.h"
 
@@ -22,7 +23,7 @@ constexpr double kIterations = 4, kFewestTangents = 0.05, kMostTangents = 1, kSt
 constexpr double kSpread = 5;           // of the number of steps, to both sides
 constexpr double kScaleOfMotion = 0.1;  // a position scale is about a tenth of the motion
 constexpr double kUsualSafety = 0.9;
-constexpr double kSpreadOfContact = 15;  // upwards: nobody knows how often and how long the body touches something
+constexpr double kSpreadOfContact = 15;  // upwards: how often and how long the body touches something is not known
 constexpr double kFewestSteps = 10;      // until an event may end the run
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
@@ -117,6 +118,57 @@ void add_buckling(RunCost& cost) {
   cost.steps = {1, 1};
 }
 
+// Evaluated on a view of its own, as a time of outputs has one; the second time, when what is kept for all views is
+// made.
+template <class Look>
+double seconds_of(const Setup& setup, const Look& look) {
+  double seconds = 0;
+  for (int k = 0; k < 2; ++k) {
+    const auto begin = std::chrono::steady_clock::now();
+    look(ObservedState(*setup.built.model, setup.built.initial));
+    seconds = seconds_since(begin);
+  }
+  return seconds;
+}
+
+// At the two points at which the work of loads and of damping is integrated.
+double seconds_of_powers(const Setup& setup) {
+  const Traits& traits = setup.built.model->traits();
+  return 2 * seconds_of(setup, [&](const ObservedState& at) {
+           if (traits.dissipative) at.evaluate("power.dissipated");
+           if (traits.loaded) at.evaluate("power.loads");
+         });
+}
+
+double seconds_of_row(const Setup& setup) {
+  const FemModel& model = *setup.built.model;
+  const Output& output = setup.scene.output;
+  ExtremeRecorder extremes(output.extremes, model, output.origin);
+  const auto columns = probe_columns(setup.scene, model);
+  const double state = seconds_of(setup, [&](const ObservedState& at) {
+    for (const auto& column : columns) at.evaluate(column.field);
+    extremes.on_history(at);
+    if (!setup.integrator) return;
+    if (output.momentum) MomentumMeter().on_start(at);
+    if (output.energy) EnergyMeter(model, *setup.integrator).on_start(at);
+  });
+  return setup.integrator && output.energy ? state + seconds_of_powers(setup) : state;
+}
+
+double seconds_of_frame(const Setup& setup) {
+  return seconds_of(setup, [&](const ObservedState& at) {
+    for (const auto& field : setup.scene.output.fields) at.evaluate(field);
+  });
+}
+
+void add_outputs(const Setup& setup, RunCost& cost) {
+  const Volume volume = volume_of(setup);
+  cost.row = seconds_of_row(setup);
+  cost.frame = seconds_of_frame(setup);
+  cost.frames = volume.frames;
+  cost.rows = volume.rows > 0 ? CostRange{volume.rows, volume.rows} : cost.steps;
+}
+
 }  // namespace
 
 RunCost run_cost(const Setup& setup, const std::vector<TermCost>& costs) {
@@ -126,6 +178,7 @@ RunCost run_cost(const Setup& setup, const std::vector<TermCost>& costs) {
   if (is_implicit) measure_factor(setup, cost);
   if (is_static) {
     setup.scene.buckling ? add_buckling(cost) : add_load_steps(*setup.scene.statics, cost);
+    if (!setup.scene.buckling) add_outputs(setup, cost);
     return cost;
   }
   if (is_implicit) {
@@ -139,6 +192,7 @@ RunCost run_cost(const Setup& setup, const std::vector<TermCost>& costs) {
   cost.has_contact = is_implicit && has_contact(*setup.built.model);
   cost.may_end_early = may_end_early(setup.scene);
   cost.steps = steps_of(setup, is_implicit, cost);
+  add_outputs(setup, cost);
   return cost;
 }
 

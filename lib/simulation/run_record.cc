@@ -21,7 +21,7 @@ Json begin_json(const std::string& scene, const std::vector<std::string>& set, c
            {"set", set},
            {"versions", versions_json()},
            {"machine", machine_json()},
-           {"threads", threads()},
+           {"threads", loop_threads()},
            {"model", {{"given", given}}}};
   for (const auto& r : restarts)
     out["restarts"].push_back({{"time", r.time}, {"at", r.at}, {"after", r.after}, {"changed", r.changed}});

@@ -73,6 +73,7 @@ struct MotionResult {
   std::optional<ErrorEstimate> error = {};           // if it was asked for
   std::optional<MeshError> mesh_error = {};          // of a body that is deformed
   std::optional<double> rtol = {};                   // of the integrator
+  std::vector<std::string> silent_events = {};       // that were asked for and never happened
 };
 
 // Where a probe's node has gone, m, and how far the mesh puts that off: true less computed.

@@ -53,7 +53,7 @@ double rows_of(const Scene& scene, double frames) {
 [[noreturn]] void refuse(const Setup& setup, const char* section, double count, const char* what, double bytes_each,
                          const char* remedy) {
   (setup.config.has(section) && !setup.config.at(section).is_null() ? setup.config.at(section) : setup.config)
-      .fail(fmt::format("makes {:.7g} {} ({} of disk): {}; if they are meant, say --yes", count, what,
+      .fail(fmt::format("makes {:.7g} {} ({} of disk): {}; add --yes if that is meant", count, what,
                         shown_bytes(count * bytes_each), remedy));
 }
 

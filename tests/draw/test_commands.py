@@ -17,6 +17,7 @@ from tiny_result import POINTS, Vtu, fields_at, write_curves, write_result  # no
 
 from draw import animation  # noqa: E402
 from draw.compare import _difference  # noqa: E402
+from draw.curves import relative_drift  # noqa: E402
 from draw.scene import PictureSpec, Scene  # noqa: E402
 from draw.series import Series  # noqa: E402
 from draw.table import Table  # noqa: E402
@@ -74,6 +75,13 @@ class Commands(InAFolder):
             with self.subTest(kind=kind):
                 self.assertEqual(self.picture(kind, self.result)[1][0], 1600)
 
+    def test_the_drift_is_relative_to_the_largest_kinetic_or_elastic_energy(self):
+        path = self.result / "energy.csv"
+        path.write_text("t [s],kinetic [J],elastic [J],loads [J],balance [J]\n0,0,0,0,0\n1,1,2,10,-0.5\n2,1,1,10,0.1\n")
+        self.assertEqual(relative_drift(Table(path)), 0.5 / 2)
+        (self.result / "run.json").write_text('{"energy": {"balance_drift": 0.6, "scale": 3}}')
+        self.assertEqual(relative_drift(Table(path)), 0.6 / 3)
+
     def test_all_writes_what_the_folder_has_and_names_it(self):
         (self.result / "momentum.csv").unlink()
         code, out, err = self.run_draw("all", self.result)
@@ -81,6 +89,31 @@ class Commands(InAFolder):
         self.assertEqual([Path(p).name for p in out],
                          ["strip.png", "animation.gif", "energy.png", "steps.png", "probes.png"])
         self.assertTrue(all(Path(p).stat().st_size > 1000 for p in out))
+
+
+class OfASmallMotion(InAFolder):
+    """The body of two tets, of an extent of 1 m, moves by 4 mm at its peak."""
+    def setUp(self):
+        super().setUp()
+        times = [0.1 * k for k in range(11)]
+        self.result = write_result(self.folder / "r", times)
+        for k, _ in enumerate(times):
+            node, cell = fields_at(0)
+            node["displacement"] = np.zeros((5, 3))
+            node["displacement"][4, 0] = 4e-3 if k == 3 else 1e-4 * (k % 2)
+            (self.result / f"frames/frame_{k:05d}.vtu").write_bytes(Vtu().content(node, cell))
+
+    def test_all_says_by_how_much_to_enlarge_it(self):
+        code, _, err = self.run_draw("all", self.result)
+        self.assertEqual((code, err), (0, ["draw: the largest motion is 0.4 % of the body: --scale 20 shows it"]))
+        self.assertEqual(self.run_draw("all", self.result, "--scale", 20)[2], [])
+
+    def test_a_strip_has_the_frame_of_the_largest_displacement(self):
+        frames = Series(self.result)
+        self.assertEqual(frames.evenly(6), [0, 2, 4, 6, 8, 10])
+        self.assertIn(3, frames.telling(6))
+        self.assertEqual((len(frames.telling(6)), frames.telling(6)[0], frames.telling(6)[-1]), (6, 0, 10))
+        self.assertEqual(frames.telling(2), [0, 10])
 
 
 class OfStatics(InAFolder):
@@ -168,6 +201,17 @@ class Failures(InAFolder):
         self.fails_with(r"no frame 7; there are 2 frames \(0 to 1\)", "frame", self.result, "--index", 7)
         self.fails_with("invalid choice: 'fram'", "fram", self.result)
         self.fails_with("'1;2' should be 2 numbers", "frame", self.result, "--view", "1;2")
+
+    def test_a_time_outside_of_the_run_is_refused_with_its_span(self):
+        self.fails_with("no frame at the time 50 s; its frames are from 0 to 1 s", "frame", self.result, "--time", 50)
+        self.fails_with("no frame at the time -1 s", "strip", self.result, "--times", "-1,0.5")
+
+    def test_a_motion_has_no_load_path(self):
+        write_curves(self.result)
+        (self.result / "run.json").write_text('{"status": "completed"}')
+        self.fails_with("not a static analysis, so there is no load path; draw its probes", "load", self.result)
+        (self.result / "run.json").unlink()
+        self.fails_with("is it a static analysis", "load", self.result)
 
     def test_grain_without_material_axes_is_refused(self):
         (self.result / "frames/frame_00001.vtu").write_bytes(Vtu().content({"displacement": POINTS}, {}))

@@ -88,6 +88,31 @@ class TheNumbers(OfAComparison):
         self.assertIn("cvode_bdf and ida_bdf are fastest, 0.24 s to 0.25 s; next is arkode_dirk with 0.50 s.",
                       Page(self.html(self.small(answers=answers))).text)
 
+    def test_the_smallest_error_that_several_reach_has_an_answer_too(self):
+        def answer(target, *seconds):
+            names = ("cvode_bdf", "ida_bdf", "arkode_dirk")
+            return {"problem": "damped_beam", "error": "displacement.l2", "target": target,
+                    "methods": [{"method": m, "seconds": s, "best_error": 2e-5} for m, s in zip(names, seconds)]}
+        content = self.small(answers=[answer(1e-3, 0.2, 0.3, 0.4), answer(1e-4, None, 0.5, 0.4), answer(1e-5, None, None, 2)])
+        text = Page(self.html(content)).text
+        self.assertIn("To reach an error of 1e-4 (0.01 %) on damped_beam: arkode_dirk 0.40 s, ida_bdf 0.50 s", text)
+        self.assertNotIn("To reach an error of 1e-5", text)
+
+    def test_the_named_quantities_are_in_the_answer(self):
+        content = self.small()
+        for point in content["points"]:
+            if point["errors"]:
+                point["errors"]["quantities"] = {"von_mises.largest": {"l2": 0.032, "final": 0.1, "max": 0.2}}
+        self.assertRegex(Page(self.html(content)).text, "the named quantities are off by, relative to their largest size: "
+                         r"von_mises.largest 3.2e-2 \(over time \(L2\)\)")
+        self.assertNotIn("the named quantities", Page(self.html(self.small())).text)
+
+    def test_names_of_methods_with_a_fixed_step_are_whole(self):
+        content = self.small()
+        content["methods"][0]["label"] = "generalized_alpha, fixed step"
+        self.assertNotIn("…", re.sub(r"<script.*?</script>", "", self.html(content), flags=re.S).split("<section", 1)[1]
+                         .split("<h2>Details", 1)[0].replace("error of …", ""))
+
     def test_several_problems_have_a_table_of_all(self):
         content = self.small(problems=3, methods=2, points=2)
         content["answers"] = [{"problem": p["id"], "error": "displacement.l2", "target": 1e-2, "methods": [

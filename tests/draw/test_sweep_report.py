@@ -83,6 +83,13 @@ class ThePage(OfASweep):
         self.assertIn("Difference from the closed form", text)
         self.assertNotRegex(text, r'(src|href)="https?:')
 
+    def test_it_tells_what_points_warned_of(self):
+        content = sweep({"angle": ANGLES})
+        self.assertNotIn("Warnings", self.page_of(content)[1].text)
+        content["points"][1]["warnings"] = ["scene.yaml:3: the density is too small"]
+        self.assertIn("Warnings of 1 of", self.page_of(content)[1].text)
+        self.assertIn("scene.yaml:3: the density is too small", self.page_of(content)[1].text)
+
     def test_it_begins_with_what_changes_by_how_much_and_where(self):
         _, page = self.page_of(sweep({"angle": ANGLES}))
         self.assertIn("Deflection rises from 1 mm (angle 0) to 91 mm (angle 90), a factor of 91; at most 0.99 % from "
@@ -91,6 +98,29 @@ class ThePage(OfASweep):
         content["points"][3]["figures"]["f"] = 0.2
         self.assertIn("Deflection ranges from 1 mm (mesh coarse, angle 0) to 200 mm (mesh coarse, angle 90)",
                       self.page_of(content)[1].text)
+
+    def exposures(self, values, **changes):
+        """A sweep over the angle with these exposures."""
+        content = sweep({"angle": ANGLES}, closed_form="", **changes)
+        content["figures"][0].update(name="f", title="max_stress", unit="", factor=1, fails_at_one=True)
+        for point, value in zip(content["points"], values):
+            point["figures"]["f"] = value
+        return content
+
+    def test_an_exposure_says_where_the_material_fails(self):
+        text, page = self.page_of(self.exposures([0.5, 0.8, 1.2, 3]))
+        self.assertIn("max_stress rises from 0.5 (angle 0) to 3 (angle 90), a factor of 6; 1 fails, which it crosses at "
+                      "angle 45 by interpolation.", page.text)
+        self.assertIn(">fails</text>", text)
+        self.assertIn("1 fails, which it crosses at angle 15 and 75", self.page_of(self.exposures([2, 0, 0, 2]))[1].text)
+        self.assertIn("1 fails, and no point reaches it", self.page_of(self.exposures([0.5, 0.8, 0.7, 0.3]))[1].text)
+        self.assertIn("1 fails, as all points do", self.page_of(self.exposures([1.5, 1.8, 1.7, 1.3]))[1].text)
+        self.assertNotIn("1 fails", self.page_of(sweep({"angle": ANGLES}))[1].text)
+
+    def test_names_keep_their_case_at_the_start_of_a_sentence(self):
+        content = sweep({"angle": ANGLES}, closed_form="")
+        content["figures"][0]["title"] = "f"
+        self.assertIn("f rises from 1 mm", self.page_of(content)[1].text)
 
     def test_columns_that_say_nothing_are_named_once_below_the_table(self):
         content = sweep({"angle": ANGLES, "mesh": ["fine"]}, closed_form="")

@@ -49,6 +49,12 @@ TEST_F(CommandLine, APluginIsRefusedBeforeAndAfterTheCommandUnlessItAddsSomethin
   }
 }
 
+TEST_F(CommandLine, APluginBeforeTheSceneLeavesTheSceneAlone) {
+  write("text.so", "no library");
+  const auto refused = orthodyn("check --plugin text.so swing.yaml");
+  EXPECT_NE(refused.output.find("text.so cannot be loaded"), std::string::npos) << refused.output;
+}
+
 TEST_F(CommandLine, RunWritesEverythingThatItPromises) {
   write("swing.yaml", kSwing);
   const auto result = orthodyn("run swing.yaml");

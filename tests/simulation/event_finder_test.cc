@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "lib/core/errors.h"
+#include "tests/simulation/run_program.h"
 
 namespace orthodyn::event_finder_test {
 namespace {
@@ -112,6 +113,27 @@ TEST(EventFinder, SaysWhichQuantityIsNotFinite) {
   } catch (const RunError& e) {
     EXPECT_NE(std::string(e.what()).find("event 'e' at t = 1"), std::string::npos) << e.what();
   }
+}
+
+TEST(Events, ThatNeverHappenedAreNamed) {
+  const auto wave = [](double t) { return std::sin(t); };
+  EventFinder finder({{"middle", first, 0.5}, {"top", first, 1.5}});
+  EXPECT_EQ(finder.silent(), (std::vector<std::string>{"middle", "top"}));
+  crossings(finder, wave, 0.1, 30);
+  EXPECT_EQ(finder.silent(), std::vector<std::string>{"top"});
+  Archive archive;
+  finder.save(archive);
+  EventFinder later({{"middle", first, 0.5}, {"top", first, 1.5}});
+  later.restore(archive);
+  EXPECT_EQ(later.silent(), std::vector<std::string>{"top"});
+}
+
+using SilentEvents = InFolder;
+
+TEST_F(SilentEvents, AreNamedInTheSummary) {
+  write("swing.yaml", std::string(kSwing) + "events: [{quantity: tip.displacement.z, crosses: 5, name: landing}]\n");
+  const auto result = orthodyn("run swing.yaml");
+  EXPECT_NE(result.output.find("events          never happened: landing"), std::string::npos) << result.output;
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "lib/simulation/json.h"
+#include "lib/simulation/observers/extremes.h"
+#include "lib/simulation/observers/strain_watch.h"
+#include "lib/simulation/setup.h"
 #include "tests/simulation/result_reader.h"
 #include "tests/simulation/run_program.h"
 
@@ -40,12 +43,73 @@ TEST_F(FewFrames, DoNotHideAStrainLimitThatWasPassed) {
 
 TEST_F(FewFrames, AreToldBesideExtremesAndStepsFindMore) {
   const auto few = run_strip("few", "");
-  EXPECT_NE(few.output.find("of 2 states; output.history: {steps: true} looks at every step"), std::string::npos)
-      << few.output;
+  EXPECT_NE(few.output.find("warning: extremes are those of 2 states"), std::string::npos) << few.output;
+  EXPECT_NE(few.output.find("output.history: {steps: true} looks at every step"), std::string::npos) << few.output;
   EXPECT_EQ(extreme("few").at("states"), 2);
   const auto all = run_strip("all", " --set 'output.history={steps: true}'");
   EXPECT_EQ(all.output.find("looks at every step"), std::string::npos) << all.output;
   EXPECT_GT(extreme("all").at("value").get<double>(), 2 * extreme("few").at("value").get<double>());
+}
+
+TEST_F(FewFrames, AStrengthThatIsExceededIsAWarning) {
+  const auto result = run_strip("strong", " --set 'output.extremes=[max_stress.largest]'");
+  const std::string sentence = "the strength is exceeded from 1 on, at (";
+  EXPECT_NE(result.output.find("warning: max_stress reaches "), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find(sentence), std::string::npos) << result.output;
+  EXPECT_NE(read_text(folder_ / "strong/run.json").find(sentence), std::string::npos);
+}
+
+TEST_F(FewFrames, AHistoryThatIsDenserThanTheStepsIsCountedByItsStates) {
+  const auto result =
+      run_strip("dense", " --set 'output.history={interval: 1e-5}' --set output.extremes=[] --integrator cvode_bdf");
+  EXPECT_NE(result.output.find("outputs, events  20001 states x"), std::string::npos) << result.output;
+}
+
+// States of which only the elastic energy is told, and it is none.
+class AtRest : public OutputSource {
+ public:
+  std::unique_ptr<StateView> view(const State&) const override { return std::make_unique<View>(looks); }
+  mutable int looks = 0;
+
+ private:
+  struct View : StateView {
+    explicit View(int& count) : looks(count) {}
+    std::vector<double> evaluate(const std::string&) const override { return ++looks, std::vector{0.0}; }
+    int& looks;
+  };
+};
+
+TEST_F(FewFrames, ALookAtTheStrainsKeepsItsCadenceWhereARunIsResumed) {
+  const orthodyn::Setup setup = set_up(Config::from_file((folder_ / "strip.yaml").string()));
+  const auto watch = [&] { return StrainWatch::of_motion(*setup.built.model, 200); };  // a look a second
+  const AtRest source;
+  StrainWatch before = watch(), after = watch();
+  const auto step_to = [&](StrainWatch& observer, double t) {
+    const State state{t, {}, {}};
+    observer.on_step({}, {source, state}, *setup.integrator);
+    return source.looks;
+  };
+  EXPECT_EQ(step_to(before, 0.5), 1);
+  Archive archive;
+  before.save(archive);
+  after.restore(archive);
+  EXPECT_EQ(step_to(after, 1.25), 1);
+  EXPECT_EQ(step_to(after, 1.5), 2);
+}
+
+RecordedExtreme extreme_of(const std::string& quantity, double value) {
+  return {quantity, "", value, 0.3, 7, {0.1, 0.2, 0}, 5};
+}
+
+TEST(ExceededStrengths, AreThoseOfExposuresAboveOne) {
+  EXPECT_EQ(exceeded_strengths({extreme_of("max_stress.largest", 3.7)}, false),
+            std::vector<std::string>{"max_stress reaches 3.7: the strength is exceeded from 1 on, at (0.1, 0.2, 0) m, "
+                                     "at t = 0.3 s"});
+  EXPECT_EQ(exceeded_strengths({extreme_of("grip.tsai_wu.largest", 2)}, true),
+            std::vector<std::string>{"grip.tsai_wu reaches 2: the strength is exceeded from 1 on, at (0.1, 0.2, 0) m, "
+                                     "at load factor 0.3"});
+  EXPECT_TRUE(exceeded_strengths({extreme_of("hashin.largest", 1), extreme_of("von_mises.largest", 4e6),
+                                  extreme_of("max_stress.smallest", 2)}, false).empty());
 }
 
 }  // namespace

@@ -114,6 +114,20 @@ TEST_F(Check, ForetellsTheStepsOfContactAndEvents) {
   }
 }
 
+// Extremes of a dense history take most of the time of this run.
+TEST_F(Check, CountsOutputs) {
+  Config config = Config::from_text(kBeam);
+  config.override_with("output={frames: 5, history: {interval: 1e-5}, extremes: [von_mises.largest]}");
+  const orthodyn::Setup setup = set_up(config);
+  setup.integrator->start(setup.built.initial);
+  const RunCost cost = run_cost(setup, term_costs(*setup.built.model, setup.built.initial, 0.01));
+  EXPECT_EQ(cost.rows.least, 10000);
+  EXPECT_EQ(cost.rows.most, 10000);
+  EXPECT_EQ(cost.frames, 5);
+  EXPECT_GT(cost.row, 0);
+  EXPECT_GE(cost.seconds().least, 10000 * cost.row);
+}
+
 TEST_F(Check, SaysWhyStepsOfContactAndEventsAreUncertain) {
   write("block.yaml", kBouncing);
   const auto said = orthodyn("check block.yaml");
@@ -129,7 +143,7 @@ TEST_F(Check, MeasuresEachTerm) {
   const auto said = orthodyn("check beam.yaml");
   ASSERT_EQ(said.exit_code, 0) << said.output;
   for (const char* part : {"cost of one evaluation, measured", "elasticity of region body", "elasticity of region tip",
-                           "gravity", "traction on x1", "could be left out at an accuracy of 1e-03"})
+                           "gravity", "traction on x1", "rows of tables", "could be left out at an accuracy of 1e-03"})
     EXPECT_NE(said.output.find(part), std::string::npos) << part << "\nin: " << said.output;
 }
 

@@ -171,6 +171,9 @@ TEST_F(Expand, RefusesWithPlaceAndRemedy) {
             std::string::npos);
   EXPECT_NE(refusal(good + "tolerances: [1e-3]\nreference: {integrator: {type: arkod_dirk}}\n").find("c.yaml:3:32"),
             std::string::npos);
+  const std::string tight = refusal(good + "integrators: [cvode_bdf]\ntolerances: [1e-3, 1e-16]\n");
+  EXPECT_NE(tight.find("c.yaml:3:"), std::string::npos) << tight;
+  EXPECT_NE(tight.find(": tolerances: "), std::string::npos) << tight;
 }
 
 TEST(HeadComment, IsOneLineOfText) {

@@ -74,6 +74,23 @@ quantities:
   }
 }
 
+TEST_F(SweepCommand, KnowsWhichFiguresFailAtOne) {
+  write("s.yaml", R"(scene:
+  file: scene.yaml
+  set: {materials.soft.strength: {tension: 1e4, compression: 1e4, shear: 1e4}}
+vary: {time.end: [0.01]}
+quantities:
+  exposure: {quantity: max_stress.largest, take: max}
+  when: {quantity: max_stress.largest, take: time_of_max}
+  stress: {quantity: von_mises.largest}
+)");
+  const auto done = sweep();
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  const Json told = table();
+  for (const auto& figure : told.at("figures"))
+    EXPECT_EQ(figure.at("fails_at_one").get<bool>(), figure.at("name") == "exposure") << figure.dump();
+}
+
 TEST_F(SweepCommand, KnowsEveryTakeWithItsUnit) {
   const std::map<std::string, std::string> others{{"time_of_max", "s"}, {"time_of_min", "s"}, {"onset", "s"},
                                                   {"frequency", "Hz"},  {"drift", ""},        {"gain", ""}};
@@ -119,9 +136,27 @@ quantities: {steps: {cost: steps}, hertz: {mode: 1}}
   const std::string csv = read_text(folder_ / "out/sweeps/s/sweep.csv");
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
             "point,young [Pa],density [g/cm^3],force.0 [N],nu,steps,hertz [Hz],status,reason,message,"
-            "wall_seconds [s],cpu_seconds [s],mesh_error,unknowns,folder");
+            "wall_seconds [s],cpu_seconds [s],mesh_error,warnings,unknowns,folder");
   std::istringstream lines(csv);
-  for (std::string line; std::getline(lines, line);) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 14) << line;
+  for (std::string line; std::getline(lines, line);) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 15) << line;
+}
+
+TEST_F(SweepCommand, TellsWhatALaterPointWarnsOf) {
+  write("pull.yaml", R"(
+analysis: static
+mesh: {type: box, size: [1, 0.1, 0.1], cells: [4, 1, 1], order: 2}
+materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0.3}}
+clamps: [{surface: x0}]
+loads: [{surface: x1, force: [0, 0, -1]}]
+output: {probes: {tip: {at: [1, 0.05, 0.05]}}}
+)");
+  write("s.yaml", "scene: pull.yaml\nvary: {materials.m.density: [1000, 0.5]}\nquantities: {sag: {quantity: "
+                  "tip.displacement.z}}\n");
+  const auto done = sweep();
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  EXPECT_NE(done.output.find("warning: 1 of 2 points have warnings of their own"), std::string::npos) << done.output;
+  EXPECT_TRUE(table().at("points")[0].at("warnings").empty());
+  EXPECT_NE(table().at("points")[1].at("warnings")[0].get<std::string>().find("density"), std::string::npos);
 }
 
 TEST_F(SweepCommand, TellsOfACoarseMesh) {

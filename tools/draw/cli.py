@@ -112,7 +112,8 @@ def _parser():
     strip = body("strip", "Several frames side by side as PNG, with one view and one colour range.")
     which = strip.add_mutually_exclusive_group()
     which.add_argument("--times", type=_numbers, metavar="T1,T2,...", help="the frames nearest to these seconds")
-    which.add_argument("--count", type=_count, default=6, metavar="N", help="N frames over the whole time (default 6)")
+    which.add_argument("--count", type=_count, default=6, metavar="N",
+                       help="N frames over the whole time, that of the largest displacement among them (default 6)")
 
     animate = body("animate", "All frames as GIF below 4 MB.")
     animate.add_argument("--fps", type=_positive, default=15.0, help="frames per second (default 15)")
@@ -166,7 +167,7 @@ def _out(args, name):
 def _frame(args):
     from . import picture, scene, series
     frames = series.Series(args.result)
-    index = frames.index_at(args.time) if args.time is not None else frames.checked_index(
+    index = frames.asked_at(args.time) if args.time is not None else frames.checked_index(
         -1 if args.index is None else args.index)
     yield picture.draw_frame(scene.Scene(frames, [index], scene.PictureSpec(**_picture_spec(args))), index,
                              _out(args, f"frame_{index:05d}.png"), args.size)
@@ -175,7 +176,7 @@ def _frame(args):
 def _strip(args):
     from . import picture, scene, series
     frames = series.Series(args.result)
-    indices = [frames.index_at(t) for t in args.times] if args.times else frames.evenly(args.count)
+    indices = [frames.asked_at(t) for t in args.times] if args.times else frames.telling(args.count)
     spec = scene.PictureSpec(**_picture_spec(args))
     yield picture.draw_strip(scene.Scene(frames, indices, spec), indices, _out(args, "strip.png"))
 
@@ -204,6 +205,21 @@ def _compare(args):
     yield from draw_comparison(args.results, args.out or Path(args.results[-1]) / "pictures")
 
 
+SMALL, VISIBLE = 0.02, 0.1  # shares of the body: a motion below the one is not seen, one of the other is
+
+
+def _hint_of_scale(args):
+    """Enlarging is the user's choice; that the motion cannot be seen is said."""
+    from . import series, units
+    if args.scale != 1:
+        return
+    _, largest, extent = series.Series(args.result).peak
+    if 0 < largest < SMALL * extent:
+        scale = units.round_length(VISIBLE * extent / largest)
+        print(f"draw: the largest motion is {100 * largest / extent:.2g} % of the body: --scale {scale:g} shows it",
+              file=sys.stderr)
+
+
 def _all(args):
     """What the folder has; the rest is left out with a word on stderr."""
     from .curves import CURVES
@@ -222,6 +238,8 @@ def _all(args):
         if present:
             args.command = name
             yield from run(args)
+    if (folder / "frames.pvd").is_file():
+        _hint_of_scale(args)
 
 
 def _report(args):

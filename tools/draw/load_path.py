@@ -6,7 +6,7 @@ from matplotlib.lines import Line2D
 
 from .chart import COLOURS, panels, title
 from .errors import DrawError
-from .series import is_static
+from .series import analysis, is_static
 from .style import save
 from .table import Table
 from .units import prefix
@@ -25,7 +25,7 @@ def _displacements(folder):
             continue
         table = Table(folder / name)
         columns = [c for c in table.others() if "displacement" in c.name]
-        if columns:
+        if columns and table.axis.name == "load_factor":
             return table["load_factor"].values, columns
     raise DrawError(f"{folder}: no displacements in {' or '.join(FILES)}; is it a static analysis?")
 
@@ -71,7 +71,17 @@ def _plot_path(panel, x, factors, jumps, colour):
         panel.plot(x[i:i + 2], factors[i:i + 2], lw=1, ls=":", color=colour)
 
 
+def _require_static(folder):
+    """A run without a run.json is told by its tables."""
+    kind = analysis(folder)
+    if (folder / "run.json").is_file() and kind != "static":
+        raise DrawError(f"{folder}: not a static analysis, so there is no load path; "
+                        + ("draw its shapes (draw modes)" if kind == "buckling" else
+                           "draw its probes (draw probes) or energies (draw energy) over time"))
+
+
 def draw_load_path(folder, path):
+    _require_static(folder)
     factors, columns = _displacements(folder)
     critical, jumped = _critical(folder)
     jumps = _jumps(factors, critical, jumped)

@@ -30,6 +30,9 @@ def is_static(folder):
     return analysis(folder) == "static"
 
 
+MOST_LOOKS = 200
+
+
 class Series:
     """Times and frames of one run; frames are read when asked for."""
 
@@ -62,6 +65,36 @@ class Series:
     def index_at(self, time):
         """Frame nearest to `time`."""
         return int(np.argmin(np.abs(self.times - time)))
+
+    @functools.cached_property
+    def peak(self):
+        """(frame, displacement in m, extent of the body in m) of the largest displacement; (None, 0, extent) without one.
+        Of very many frames every k-th is looked at."""
+        best, largest = None, 0.0
+        for index in range(0, len(self), -(-len(self) // MOST_LOOKS)):
+            moved = read_vtu(self.paths[index]).node_fields.get("displacement")
+            size = np.linalg.norm(moved, axis=1).max() if moved is not None and len(moved) else 0.0
+            if np.isfinite(size) and size > largest:
+                best, largest = index, float(size)
+        return best, largest, float(np.ptp(self.frame(0).points, axis=0).max())
+
+    def telling(self, count):
+        """As evenly(), but for the frame of the largest displacement in the place of the inner one nearest to it."""
+        chosen, (peak, _, _) = self.evenly(count), self.peak
+        if peak is None or peak in chosen or len(chosen) < 3:
+            return chosen
+        given_up = min(chosen[1:-1], key=lambda k: abs(self.times[k] - self.times[peak]))
+        return sorted({peak, *chosen} - {given_up})
+
+    def asked_at(self, time):
+        """Frame nearest to a time that the user names, which must be within the frames' span."""
+        first, last = self.times[0], self.times[-1]
+        room = 1e-6 * max(abs(first), abs(last))
+        if not first - room <= time <= last + room:
+            what = ("load factor", "") if is_static(self.folder) else ("time", " s")
+            raise DrawError(f"{self.folder}: no frame at the {what[0]} {time:g}{what[1]}; its frames are from {first:g} to "
+                            f"{last:g}{what[1]}")
+        return self.index_at(time)
 
     def checked_index(self, index):
         """`index`, negative ones counted from the end."""

@@ -128,9 +128,18 @@ std::string shown_steps(const RunCost& cost) {
   const char* const early = cost.may_end_early ? "; an event may end the run before its time" : "";
   if (cost.fixed_steps) return fmt::format("{:.0f}, as given{}", cost.steps.most, early);
   return fmt::format("{:.0f} to {:.0f}, chosen as it goes: {}{}", cost.steps.least, cost.steps.most,
-                     cost.has_contact ? "small while the body touches the ground, and nobody knows how often it will"
+                     cost.has_contact ? "small while the body touches the ground, and the number of contacts is not "
+                                        "known in advance"
                                       : "right to an order of magnitude",
                      early);
+}
+
+// "2500 rows of tables, 5.6 ms each; 100 frames, 8 ms each".
+std::string shown_outputs(const RunCost& cost) {
+  const std::string rows = cost.rows.least == cost.rows.most ? fmt::format("{:.0f} rows of tables", cost.rows.most)
+                                                             : "a row of tables each step";
+  return fmt::format("{}, {:.3g} ms each; {:.0f} frames, {:.3g} ms each", rows, 1e3 * cost.row, cost.frames,
+                     1e3 * cost.frame);
 }
 
 // Of this machine, as it is used now.
@@ -143,6 +152,7 @@ void print_time(const Setup& setup, const std::vector<TermCost>& terms) {
   if (!setup.scene.buckling) {
     fmt::print("  {}steps {}\n", setup.integrator ? "" : "load ", shown_steps(cost));
     fmt::print("  of {} each\n", shown_seconds(cost.step));
+    fmt::print("  outputs {}\n", shown_outputs(cost));
   }
   fmt::print("  in all {}\n", shown_seconds(cost.seconds()));
 }

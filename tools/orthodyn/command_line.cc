@@ -76,6 +76,8 @@ CommandOption& CommandOption::choice(const std::vector<std::string>& words) {
   return *this;
 }
 
+CommandOption& CommandOption::one_each() { return option_.allow_extra_args(false), *this; }
+
 CommandOption& CommandOption::show_default() { return option_.capture_default_str(), *this; }
 
 template <class Value>
@@ -111,7 +113,8 @@ CommandLine parse_command_line(int argc, char** argv) {
   program.set_version_flag("--version", orthodyn_version());
   CommandOptions(program)
       .repeated("--plugin", out.plugins, "A shared library with materials, terms, integrators or meshes of your own.")
-      .type("FILE.so");
+      .type("FILE.so")
+      .one_each();
   std::map<std::string, std::function<int()>> runs;
   for (const Command& command : commands()) runs[command.text.name] = add_command(program, command);
   try {

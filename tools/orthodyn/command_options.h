@@ -28,6 +28,8 @@ class CommandOption {
   CommandOption& choice(const std::vector<std::string>& words);
   // `--help` shows the value that the variable has now.
   CommandOption& show_default();
+  // Of repeated(): what follows the first value is no value of it.
+  CommandOption& one_each();
 
  private:
   CLI::App& command_;

@@ -80,11 +80,20 @@ std::vector<Config> scenes_of(const Design& design) {
   return scenes;
 }
 
-// Before hours of points that do not have them.
-void require_quantities(const Comparison& comparison, const Config& config, const std::vector<Config>& scenes) {
-  if (comparison.quantities.empty()) return;
-  for (const Config& scene : scenes)
-    followed_quantities(set_up(scene), comparison.quantities, {config.at("quantities").where()});
+// Slips of the scenes, each once; and that they have the quantities, before hours of points that do not.
+void look_at(const Comparison& comparison, const Config& config, const std::vector<Config>& scenes) {
+  if (comparison.quantities.empty()) {
+    SlipTeller teller;
+    for (const Config& scene : scenes) teller.tell(scene);
+    return;
+  }
+  std::set<std::string> warnings;  // told when all scenes are found to be right
+  for (const Config& scene : scenes) {
+    const Setup setup = set_up(scene);
+    followed_quantities(setup, comparison.quantities, {config.at("quantities").where()});
+    warnings.insert(setup.built.warnings.begin(), setup.built.warnings.end());
+  }
+  for (const auto& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 
 int compare(const StudyArguments& arguments) {
@@ -92,10 +101,7 @@ int compare(const StudyArguments& arguments) {
   const Comparison comparison = read_comparison(config);
   require_usual_number(arguments, number_of_points(comparison));
   Design design = expand(comparison);
-  const std::vector<Config> scenes = scenes_of(design);
-  require_quantities(comparison, config, scenes);
-  SlipTeller teller;
-  for (const Config& scene : scenes) teller.tell(scene);
+  look_at(comparison, config, scenes_of(design));
   const StudyFolder place(folder_for(arguments, "out/comparisons", comparison.name), "comparison", arguments.file);
   const fs::path& folder = place.path();
 

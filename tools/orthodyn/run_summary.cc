@@ -17,12 +17,23 @@ namespace {
 // An error of a tenth of the motion: curves no longer lie over each other.
 constexpr double kUnresolved = 0.1;
 
-void print_cost(const char* name, const Cost& c) {
-  fmt::print("  {:<15} {:6} x {:9.3f} ms = {:8.3f} s\n", name, c.count,
+void print_cost(const char* name, const Cost& c, const char* what = "") {
+  fmt::print("  {:<15} {:6}{} x {:9.3f} ms = {:8.3f} s\n", name, c.count, what,
              c.count ? 1e3 * c.seconds / static_cast<double>(c.count) : 0, c.seconds);
 }
 
-void print_costs(const Statistics& s) {
+// Of the states that were looked at, where there are more of them than steps.
+void print_observation(const RunResult& result, Cost cost) {
+  long states = 0;
+  if (const auto& energy = result.motion->energy) states = static_cast<long>(energy->states);
+  for (const auto& extreme : result.extremes) states = std::max(states, extreme.states);
+  const bool are_more = states > cost.count;
+  if (are_more) cost.count = states;
+  print_cost("outputs, events", cost, are_more ? " states" : " steps");
+}
+
+void print_costs(const RunResult& result) {
+  const Statistics& s = result.motion->effort.statistics;
   fmt::print("  {:<15} {} ({} rejected), {}", "steps", s.steps, s.rejected_steps,
              counted(s.newton_iterations, "Newton iteration"));
   if (s.gauss_newton_fallbacks > 0)
@@ -33,7 +44,7 @@ void print_costs(const Statistics& s) {
   print_cost("factorisation", s.factorization);
   print_cost("solve", s.solve);
   if (s.modes.count > 0) print_cost("modes", s.modes);
-  if (s.observation.count > 0) print_cost("outputs, events", s.observation);
+  if (s.observation.count > 0) print_observation(result, s.observation);
 }
 
 void print_energy(const EnergySummary& energy) {
@@ -61,16 +72,13 @@ std::string three(const Vec3& v, const char* format) {
   return fmt::format("({}, {}, {})", number(v[0]), number(v[1]), number(v[2]));
 }
 
-constexpr long kFewStates = 50;
-constexpr const char* kMoreStates = "; output.history: {steps: true} looks at every step";
-
-void print_extremes(const RunResult& result, const char* time, const char* unit) {
+void print_extremes(const RunResult& result, bool is_static) {
   for (const auto& e : result.extremes) {
     if (e.node < 0) fmt::print("  {}: no node has a value\n", e.quantity);
     else
-      fmt::print("  {}: {:.4g}{} at {} m, {} {:.4g}{}, of {}{}\n", e.quantity, e.value,
-                 e.unit.empty() ? "" : " " + e.unit, three(e.place, "{:.4g}"), time, e.time, unit,
-                 counted(e.states, "state"), e.states < kFewStates && *unit ? kMoreStates : "");
+      fmt::print("  {}: {:.4g}{} at {} m, {} {:.4g}{}, of {}\n", e.quantity, e.value,
+                 e.unit.empty() ? "" : " " + e.unit, three(e.place, "{:.4g}"), is_static ? "at load factor" : "at t =",
+                 e.time, is_static ? "" : " s", counted(e.states, "state"));
   }
 }
 
@@ -83,7 +91,7 @@ void print_motion(const RunResult& result, const MotionResult& motion) {
   fmt::print("  {:<15} {}\n", "elasticity", result.model.elasticity);
   if (!result.model.kinematics.empty()) fmt::print("  {:<15} {}\n", "kinematics", result.model.kinematics);
   for (const auto& [key, value] : motion.decisions) fmt::print("  {:<15} {}\n", key, shortened(value));
-  print_costs(motion.effort.statistics);
+  print_costs(result);
   if (motion.energy) print_energy(*motion.energy);
   if (motion.momentum && motion.momentum->angular_scale > 0)
     fmt::print("  {:<15} {:.3g} of the initial angular momentum\n", "momentum drift",
@@ -94,10 +102,18 @@ void print_motion(const RunResult& result, const MotionResult& motion) {
         "s)\n",
         "error", e->error, e->since, e->parts, e->parts == 1 ? "" : "s", e->steps, e->against, e->wall_seconds);
   print_errors(result, 15);
-  print_extremes(result, "at t =", " s");
+  print_extremes(result, false);
+  if (!motion.silent_events.empty())
+    fmt::print("  {:<15} never happened: {}\n", "events", join(motion.silent_events));
   fmt::print("  {:<15} {:.4g} in element {} at t = {:.4g} s{}\n", "smallest det F", motion.det_f.value,
              motion.det_f.element, motion.det_f.time, motion.det_f.value <= 0 ? ": INVERTED" : "");
   fmt::print("  {:<15} {}\n", "results", result.folder.string());
+}
+
+std::string what_turns(const CriticalPoint& turn) {
+  return fmt::format(": the body buckles there, or loses a support; its equilibria {} followed (statics.at_limit acts "
+                     "at limit points and bifurcations only)",
+                     turn.unstable ? "stay stable and were" : "were");
 }
 
 void print_equilibrium(const RunResult& result, const EquilibriumResult& equilibrium) {
@@ -109,7 +125,7 @@ void print_equilibrium(const RunResult& result, const EquilibriumResult& equilib
   for (const CriticalPoint& point : equilibrium.critical_points)
     fmt::print("  {:<20} at load factor {:.6g} +- {:.1g}{}\n", words_of(point.kind), point.load_factor,
                point.uncertainty,
-               point.kind == CriticalPoint::Kind::turn ? ": the body buckles there, or loses a support" : "");
+               point.kind == CriticalPoint::Kind::turn ? what_turns(point) : "");
   if (equilibrium.jumps > 0)
     fmt::print("  {:<20} {}, down the energy to a stable equilibrium on another path\n", "jumps", equilibrium.jumps);
   if (equilibrium.unstable.value_or(0) > 0)
@@ -121,7 +137,7 @@ void print_equilibrium(const RunResult& result, const EquilibriumResult& equilib
   fmt::print("  {:<20} {:.2g} N, {:.2g} of the largest load on a coordinate\n", "residual", equilibrium.residual,
              equilibrium.residual / std::max(equilibrium.largest_load, 1e-300));
   print_errors(result, 20);
-  print_extremes(result, "at load factor", "");
+  print_extremes(result, true);
   for (const auto& [probe, value, error] : equilibrium.probes)
     fmt::print("  {:<20} moved by {} m{}\n", probe, three(value, "{:.6g}"),
                error.allFinite() ? fmt::format("; its error due to the mesh is about {} m", three(error, "{:.1e}"))

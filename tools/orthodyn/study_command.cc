@@ -36,8 +36,8 @@ void require_usual_number(const StudyArguments& arguments, double points) {
   constexpr double kBytesOfPoint = 16e3;  // its scene, input and result, a block each
   if (arguments.yes || points < kMostUnasked) return;
   throw ConfigError(arguments.file,
-                    fmt::format("makes {:.7g} points (about {} of disk); take fewer values, and if they are meant, say "
-                                "--yes", points, shown_bytes(points * kBytesOfPoint)));
+                    fmt::format("makes {:.7g} points (about {} of disk); take fewer values, or add --yes if that is "
+                                "meant", points, shown_bytes(points * kBytesOfPoint)));
 }
 
 void SlipTeller::tell(const Config& scene) {

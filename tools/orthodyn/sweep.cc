@@ -9,13 +9,13 @@
 #include <optional>
 
 #include "lib/core/units.h"
-#include "lib/simulation/errors/mesh_error.h"
 #include "lib/simulation/files.h"
 #include "lib/study/jobs/json_values.h"
 #include "lib/study/sweep/sweep_table.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/failure_summary.h"
 #include "tools/orthodyn/job_array.h"
+#include "tools/orthodyn/point_warnings.h"
 #include "tools/orthodyn/progress_reporter.h"
 #include "tools/orthodyn/study_command.h"
 #include "tools/orthodyn/study_folder.h"
@@ -163,7 +163,7 @@ class SweepCommand {
   }
 
   void show() const {
-    warn_of_coarse_meshes(write_table());
+    tell_warnings_of_points(write_table());
     if (!arguments_.quiet) fmt::print("table   {}\n", (folder_ / "sweep.csv").string());
     show_report(folder_, arguments_);
   }
@@ -201,22 +201,6 @@ class SweepCommand {
     if (missing.size() > kListed) fmt::print(stderr, "  ...\n");
     fmt::print(stderr, "to compute them, run the same command without --collect, or submit the array again\n");
     return 3;
-  }
-
-  static void warn_of_coarse_meshes(const Json& table) {
-    const Json* worst = nullptr;
-    std::size_t count = 0;
-    for (const auto& point : table.at("points")) {
-      if (!point.at("mesh_error").is_number() || !(point.at("mesh_error") > kCoarseMesh)) continue;
-      ++count;
-      if (!worst || point.at("mesh_error") > worst->at("mesh_error")) worst = &point;
-    }
-    if (!worst) return;
-    fmt::print(stderr,
-               "warning: the mesh is coarse for {} of {} points: of the elastic energy up to {:.2g} is its error ({}). "
-               "Deflections are too small and frequencies too high; orthodyn converge tells by how much\n",
-               count, table.at("points").size(), worst->at("mesh_error").get<double>(),
-               worst->at("title").get<std::string>());
   }
 
   void warn_of_impossible_points() const {

@@ -67,7 +67,9 @@ CaseResult unreadable(const std::string& file, const ConfigError& error) {
 
 void read_case(const std::string& file, const SceneChanges& changes, Cases& cases) {
   Config config = read_scene_file(file, changes);
-  const Scene scene = set_up(config).scene;
+  const Setup setup = set_up(config);
+  for (const auto& warning : setup.built.warnings) print_notice(fmt::format("warning: {}\n", warning));
+  const Scene& scene = setup.scene;
   require_expectations(scene, config);
   cases.widths.name = std::max(cases.widths.name, fs::path(file).stem().string().size());
   for (const auto& e : scene.expect) cases.widths.quantity = std::max(cases.widths.quantity, e.title().size());

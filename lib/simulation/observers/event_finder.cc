@@ -84,22 +84,36 @@ std::vector<Crossing> EventFinder::find(double begin, double end, const OutputSo
   std::stable_sort(found.begin(), found.end(),
                    [](const Crossing& a, const Crossing& b) { return a.state.t < b.state.t; });
   const auto stop = std::find_if(found.begin(), found.end(), [](const Crossing& c) { return c.event->stops; });
-  if (stop == found.end()) return found;
+  if (stop == found.end()) return noted(std::move(found));
   found.erase(stop + 1, found.end());
   // A run that goes on from there has not seen the rest of the step.
   const Sample there = sample(found.back().state.t, source, interpolate);
   for (std::size_t k = 0; k < events_.size(); ++k)
     side_[k] = &events_[k] != found.back().event ? sign(there.excess[k]) : found.back().upward ? 1 : -1;
+  return noted(std::move(found));
+}
+
+std::vector<Crossing> EventFinder::noted(std::vector<Crossing> found) {
+  for (const Crossing& c : found) ++happened_[static_cast<std::size_t>(c.event - events_.data())];
   return found;
+}
+
+std::vector<std::string> EventFinder::silent() const {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < events_.size(); ++k)
+    if (happened_[k] == 0) names.push_back(events_[k].name);
+  return names;
 }
 
 void EventFinder::save(Archive& archive) const {
   archive.put("sides", std::vector<double>(side_.begin(), side_.end()));
+  archive.put("happened", happened_);
 }
 
 void EventFinder::restore(const Archive& archive) {
   const auto& sides = archive.numbers("sides", side_.size());
   std::transform(sides.begin(), sides.end(), side_.begin(), [](double side) { return sign(side); });
+  if (archive.has("happened")) happened_ = archive.numbers("happened", events_.size());
 }
 
 }  // namespace orthodyn

@@ -18,7 +18,8 @@ class EventFinder {
  public:
   using Interpolate = std::function<void(double t, State& out)>;
 
-  explicit EventFinder(std::vector<Event> events) : events_(std::move(events)), side_(events_.size(), 0) {}
+  explicit EventFinder(std::vector<Event> events)
+      : events_(std::move(events)), side_(events_.size(), 0), happened_(events_.size(), 0) {}
 
   bool empty() const { return events_.empty(); }
 
@@ -29,6 +30,9 @@ class EventFinder {
   // quantities are of.
   std::vector<Crossing> find(double begin, double end, const OutputSource& source, const Interpolate& interpolate);
 
+  // The names of those that were never found so far.
+  std::vector<std::string> silent() const;
+
   void save(Archive& archive) const;
   void restore(const Archive& archive);
 
@@ -37,10 +41,12 @@ class EventFinder {
     double t;
     std::vector<double> excess;  // of each event's quantity over its value
   };
+  std::vector<Crossing> noted(std::vector<Crossing> found);
   Sample sample(double t, const OutputSource& source, const Interpolate& interpolate) const;
 
   std::vector<Event> events_;
-  std::vector<int> side_;  // of its value, where each quantity was last seen
+  std::vector<int> side_;         // of its value, where each quantity was last seen
+  std::vector<double> happened_;  // how often each
 };
 
 }  // namespace orthodyn

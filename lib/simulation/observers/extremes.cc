@@ -2,9 +2,30 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "lib/fem/fem_model.h"
 
 namespace orthodyn {
+
+bool is_exposure(const std::string& quantity) {
+  const std::string parts = "." + quantity + ".";
+  constexpr std::array kExposures{".max_stress.", ".tsai_wu.", ".hashin."};
+  return std::any_of(kExposures.begin(), kExposures.end(),
+                     [&](const char* name) { return parts.find(name) != std::string::npos; });
+}
+
+std::vector<std::string> exceeded_strengths(const std::vector<RecordedExtreme>& extremes, bool is_static) {
+  std::vector<std::string> all;
+  for (const auto& e : extremes)
+    if (e.node >= 0 && e.value > 1 && e.quantity.ends_with(".largest") && is_exposure(e.quantity))
+      all.push_back(fmt::format("{} reaches {:.3g}: the strength is exceeded from 1 on, at ({:.4g}, {:.4g}, {:.4g}) m, "
+                                "{} {:.4g}{}",
+                                e.quantity.substr(0, e.quantity.rfind('.')), e.value, e.place[0], e.place[1],
+                                e.place[2], is_static ? "at load factor" : "at t =", e.time, is_static ? "" : " s"));
+  return all;
+}
 
 ExtremeRecorder::ExtremeRecorder(const std::vector<std::string>& quantities, const FemModel& model,
                                  const Origin& origin)

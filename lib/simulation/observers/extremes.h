@@ -19,6 +19,12 @@ struct RecordedExtreme {
   long states = 0;            // that were looked at
 };
 
+// Whether a quantity is an exposure, max_stress, tsai_wu or hashin of a node, a region or the body, of which 1 fails.
+bool is_exposure(const std::string& quantity);
+
+// A sentence for each exposure that went beyond 1. Of a static analysis times are load factors.
+std::vector<std::string> exceeded_strengths(const std::vector<RecordedExtreme>& extremes, bool is_static);
+
 class ExtremeRecorder : public Observer {
  public:
   // `quantities`: such as find_extreme() takes. The model must outlive it. Throws ConfigError at `origin`.

@@ -25,6 +25,7 @@ class RunObservers {
 
   // The events that the run is to find; null if there are none.
   EventFinder* events() { return finder_.empty() ? nullptr : &finder_; }
+  std::vector<std::string> silent_events() const { return finder_.silent(); }
 
   // Those that a checkpoint keeps, by name.
   NamedObservers kept();

@@ -16,11 +16,13 @@ void StrainWatch::look_at(const ObservedState& observed) {
 }
 
 void StrainWatch::save(Archive& archive) {
+  archive.put("last_look", last_look_);
   archive.put("largest_energy", largest_energy_);
   archive.put("worst", std::vector{worst_ ? worst_->share : 0, worst_ ? worst_->time : 0});
 }
 
 void StrainWatch::restore(const Archive& archive) {
+  if (archive.has("last_look")) last_look_ = archive.number("last_look");  // older checkpoints have none
   largest_energy_ = archive.number("largest_energy");
   const auto& worst = archive.numbers("worst", 2);
   if (worst[0] > 0)

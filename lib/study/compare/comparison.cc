@@ -135,6 +135,8 @@ Comparison read_comparison(const Config& config) {
   Comparison comparison = Comparison::spec().read(config);
   comparison.name = stem(config.file());
   if (comparison.title.empty()) comparison.title = comparison.name;
+  if (config.has("tolerances")) comparison.tolerances_at = {config.at("tolerances").where()};
+  if (config.has("steps")) comparison.steps_at = {config.at("steps").where()};
   comparison.integrators = expand_all(comparison.integrators);
   check_varied_options(comparison, config);
   refuse_unused(config, "tolerances", comparison.tolerances, comparison, "rtol");

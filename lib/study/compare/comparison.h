@@ -29,6 +29,7 @@ struct Comparison {
   std::vector<SceneEntry> scenes;
   std::vector<IntegratorEntry> integrators;  // `all`: every one of the registry
   std::vector<double> tolerances, steps;
+  Origin tolerances_at = {}, steps_at = {};  // their places in the file
   Named<std::vector<YamlText>> vary;  // by path in a scene
   std::vector<std::string> quantities = {};  // whose errors are measured beside displacement and velocity
   int repeats = 3, samples = 100;

@@ -41,10 +41,22 @@ std::vector<Variant> combinations(const Comparison& comparison,
 bool is_of_integrator(const std::string& path) { return path.starts_with(kIntegratorPrefix); }
 
 // With a fixed step rtol is of Newton's method alone, which must not limit what the step can reach.
-std::string newton_tolerance(const std::vector<double>& tolerances) {
+YamlText newton_tolerance(const Comparison& comparison) {
+  const auto& tolerances = comparison.tolerances;
   const double usual = 1e-6;
-  if (tolerances.empty()) return number_text(usual);
-  return number_text(std::min(usual, *std::min_element(tolerances.begin(), tolerances.end())));
+  if (tolerances.empty()) return {number_text(usual)};
+  return {number_text(std::min(usual, *std::min_element(tolerances.begin(), tolerances.end()))),
+          comparison.tolerances_at};
+}
+
+// Where the file says what controls the error.
+Origin origin_of(const Comparison& comparison, Method::Control control) {
+  switch (control) {
+    case Method::Control::rtol: return comparison.tolerances_at;
+    case Method::Control::step: return comparison.steps_at;
+    case Method::Control::safety: break;
+  }
+  return {};
 }
 
 // What controls the error of an integrator, of what the comparison gives.
@@ -81,7 +93,7 @@ void add_methods(const Comparison& comparison, const IntegratorEntry& entry, con
   if (fixed) {
     method.control = Method::Control::step;
     if (adaptive) method.label = label + ", fixed step";
-    if (has_key(entry.type, "rtol")) method.set.emplace_back("rtol", YamlText{newton_tolerance(comparison.tolerances)});
+    if (has_key(entry.type, "rtol")) method.set.emplace_back("rtol", newton_tolerance(comparison));
     methods.push_back(method);
   }
   if (by_limit) {
@@ -194,7 +206,8 @@ Design expand(const Comparison& comparison) {
   for (auto& [kind, values] : controls) std::sort(values.rbegin(), values.rend());
   for (std::size_t p = 0; p < design.problems.size(); ++p)
     for (std::size_t m = 0; m < design.methods.size(); ++m)
-      for (const double control : controls.at(design.methods[m].control)) design.points.push_back({p, m, control});
+      for (const double control : controls.at(design.methods[m].control))
+        design.points.push_back({p, m, control, origin_of(comparison, design.methods[m].control)});
   for (const auto& point : design.points) check_point(design, point);
   choose_references(comparison, design);
   return design;

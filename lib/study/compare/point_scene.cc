@@ -46,7 +46,7 @@ Config reference_scene(const Group& group, const Method& method) {
 Config point_scene(const Design& design, const Point& point) {
   const Method& method = design.methods[point.method];
   Assignments options = method.set;
-  options.emplace_back(control_word(method.control), YamlText{number_text(point.control)});
+  options.emplace_back(control_word(method.control), YamlText{number_text(point.control), point.control_at});
   const auto kept = [&](const std::string& key) { return is_kept_by_methods(key, method.control); };
   return scene_of(design.problems[point.problem].scene, method.integrator, kept, options);
 }

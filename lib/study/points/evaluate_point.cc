@@ -136,6 +136,7 @@ class Evaluation {
     start_again_if_outgrown(config_, [&](const Config& config, const std::string& given_up) {
       result_.failure.reset();
       Setup setup = set_up(config);
+      result_.warnings = setup.built.warnings;
       if (!given_up.empty()) {
         setup.note_given_up(given_up);
         given_up_ = *result_.cost;

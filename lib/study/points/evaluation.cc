@@ -100,6 +100,7 @@ Json to_json(const EvaluationResult& r) {
   if (!r.frame.empty()) json["frame"] = r.frame;
   if (r.mesh_error) json["mesh_error"] = *r.mesh_error;
   if (!r.kinematics.empty()) json["kinematics"] = r.kinematics;
+  if (!r.warnings.empty()) json["warnings"] = r.warnings;
   return json;
 }
 
@@ -115,6 +116,7 @@ EvaluationResult evaluation_from(const Json& json) {
   if (model.is_object()) r.unknowns = model.at("unknowns"), r.elements = model.at("elements");
   r.frame = json.value("frame", "");
   r.kinematics = json.value("kinematics", "");
+  r.warnings = json.value("warnings", std::vector<std::string>());
   if (json.contains("mesh_error")) r.mesh_error = json.at("mesh_error").get<double>();
   return r;
 }

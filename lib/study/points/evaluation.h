@@ -45,6 +45,7 @@ struct EvaluationResult {
   std::string frame;                              // the file of the picture's state; "" for none
   std::optional<double> mesh_error;               // MeshError::relative
   std::string kinematics;                         // what was taken for `auto`, and why; "" where the scene says which
+  std::vector<std::string> warnings;              // of the scene's set-up: slips, strain limits
 };
 
 Json to_json(const EvaluationResult& result);

@@ -5,6 +5,7 @@
 
 #include "lib/core/units.h"
 #include "lib/simulation/machine.h"
+#include "lib/simulation/observers/extremes.h"
 #include "lib/study/jobs/json_values.h"
 #include "lib/study/sweep/key_unit.h"
 
@@ -27,6 +28,12 @@ Json variables_json(const Sweep& sweep, const std::vector<Point>& points) {
   return all;
 }
 
+// An exposure itself, not when or how often it is one.
+bool fails_at_one(const WantedFigure& f) {
+  const bool is_value = f.take == Take::end || f.take == Take::max || f.take == Take::min || f.take == Take::mean;
+  return is_exposure(f.quantity) && is_value && !f.settled_within;
+}
+
 // The unit that people see, and what one of it is in SI.
 Json figures_json(const Sweep& sweep, const std::map<std::string, std::string>& units) {
   Json all = Json::array();
@@ -38,7 +45,8 @@ Json figures_json(const Sweep& sweep, const std::map<std::string, std::string>& 
                    {"unit", f.unit.empty() ? si : f.unit},
                    {"factor", f.unit.empty() ? 1 : si_factor(f.unit)},
                    {"scale", Value<Scale>::yaml(f.scale)},
-                   {"closed_form", f.closed_form}});
+                   {"closed_form", f.closed_form},
+                   {"fails_at_one", fails_at_one(f)}});
   }
   return all;
 }
@@ -88,7 +96,7 @@ Json point_json(const Sweep& sweep, const Point& point, const std::optional<Job>
     out["figures"][name] = member(member(computed, "figures"), name);
     out["closed_forms"][name] = finite_or_null(point.closed_forms[q]);
   }
-  for (const char* key : {"reason", "message", "cost", "model", "frame", "mesh_error"})
+  for (const char* key : {"reason", "message", "cost", "model", "frame", "mesh_error", "warnings"})
     out[key] = member(computed, key);
   return out;
 }
@@ -172,7 +180,13 @@ std::string csv_head(const Json& table) {
   out += ",status,reason,message";
   for (const auto& [cost, heading] : kCosts)
     if (!has_figure(table, cost)) out += std::string(",") + heading;
-  return out + ",mesh_error,unknowns,folder\n";
+  return out + ",mesh_error,warnings,unknowns,folder\n";
+}
+
+Json joined(const Json& texts) {
+  std::string out;
+  for (const auto& text : texts) out += (out.empty() ? "" : "; ") + text.get<std::string>();
+  return out.empty() ? Json() : Json(out);
 }
 
 std::string csv_row(const Json& table, const Json& point, std::size_t number) {
@@ -191,6 +205,7 @@ std::string csv_row(const Json& table, const Json& point, std::size_t number) {
   for (const auto& [cost, heading] : kCosts)
     if (!has_figure(table, cost)) add(member(point.at("cost"), cost));
   add(point.at("mesh_error"));
+  add(joined(point.at("warnings")));
   add(member(point.at("model"), "unknowns"));
   add(point.at("folder"));
   return out + "\n";

@@ -2,7 +2,7 @@
 import math
 
 from . import measures, formatting
-from .comparable import main_target
+from .comparable import main_target, representatives
 from .front_answer import front_answer
 from .markup import Html, joined, scrolling, tag
 from .method_name import method_name
@@ -105,9 +105,29 @@ def _nothing_reached(comparison):
     return "No method has reached any of the errors asked for; the table says how far each one came."
 
 
-def sentence(comparison, problem):
+def _tightest(comparison, problem):
+    """The answer for the smallest error that several methods reach, where that is below the main one."""
+    main = _main(comparison, problem)
+    found = [a for a in _answers(comparison, problem) if len(_ranked(a)) > 1 and main and a.target < main.target]
+    return found[-1] if found else None
+
+
+def _quantities(comparison, problem):
+    """How far off the named quantities are in the fastest run that reaches the main target."""
+    measure = measures.primary(comparison)
+    point = next((p for p, reached in representatives(comparison, problem) if reached), None)
+    kind = measure.rsplit(".", 1)[-1]
+    errors = [(name, point.error(f"quantities.{name}.{kind}")) for name in problem.quantity_scales] if point else []
+    parts = [f"{name} {formatting.exponent(error)}" for name, error in errors if formatting.known(error)]
+    if not parts:
+        return None
+    return tag("p", f"In the fastest run with that error, {_label(comparison, point.method)} with "
+               f"{formatting.control(point.control)}, the named quantities are off by, relative to their largest size: "
+               f"{', '.join(parts)} ({measures.KINDS.get(kind, kind)}).")
+
+
+def sentence(comparison, problem, answer):
     """To reach an error of 1e-3 on damped_beam: a 0.2 s, b 0.3 s; c did not reach it, best 3e-3."""
-    answer = _main(comparison, problem)
     if not answer:
         return None
     ranked = _ranked(answer)
@@ -234,7 +254,8 @@ def answer_section(comparison):
     parts = [headline(comparison), tag("p", MEANING, class_="scene"), overview(comparison)]
     for problem in comparison.problems:
         size = f"{formatting.count(problem.unknowns)} unknowns" if formatting.known(problem.unknowns) else ""
-        content = [sentence(comparison, problem), table(comparison, problem)]
+        content = [sentence(comparison, problem, _main(comparison, problem)), _quantities(comparison, problem),
+                   sentence(comparison, problem, _tightest(comparison, problem)), table(comparison, problem)]
         if not any(content):
             content = [tag("p", _why_no_answer(comparison, problem), class_="empty")]
         parts.append(tag("div", tag("h3", problem.label, " ", tag("small", size)),

@@ -4,7 +4,7 @@ import numpy as np
 from . import measures, theme, formatting
 from .comparable import representatives, target_of
 from .comparison import PARTS
-from .layout import LETTER, PixelLayout, shortened, styled
+from .layout import LABEL, LETTER, PixelLayout, shortened, styled
 from .theme import LIGHT
 
 NAMES = {"force": "force", "tangent": "tangent", "factorization": "factorisation", "solve": "solve", "rest": "rest"}
@@ -60,7 +60,7 @@ def draw_cost_breakdown(comparison, problem, width):
     largest = _scale(found)
     notes = [_note(point, reached, measure, narrow, sum(parts_of(point).values()) > largest)
              for point, reached in found]
-    labels = [shortened(_method(comparison, point).label, 26) for point, _ in found]
+    labels = [shortened(_method(comparison, point).label, LABEL) for point, _ in found]
     left = 2 if narrow else 36 + LETTER * max(map(len, labels))
     across = width - left - LETTER * max(map(len, notes)) - 10
     pitch, top = (46, 94) if narrow else (32, 62)

@@ -6,7 +6,7 @@ import numpy as np
 
 from . import formatting
 from .comparable import USUAL, representatives
-from .layout import WIDE, PixelLayout, legend_columns, legend_height, shortened, side_margin, styled
+from .layout import CONTROL, LABEL, WIDE, PixelLayout, legend_columns, legend_height, shortened, side_margin, styled
 from .runs import end_fraction, label_right
 from .scale import error_tick, limits, positive, set_log
 from .theme import LIGHT, colour, dashes
@@ -77,9 +77,9 @@ def draw_energy_drift(comparison, problem, width):
         return None
     indices = [comparison.method_index(p.method) for p in found]
     shared = shared_tolerance(comparison, problem)
-    entries = [(k, shortened(_name(comparison, p, shared), 30), False) for k, p in zip(indices, found)]
+    entries = [(k, shortened(_name(comparison, p, shared), LABEL + CONTROL), False) for k, p in zip(indices, found)]
     columns, narrow = legend_columns(entries), width < WIDE
-    left, right, height = (50, 20, 230) if narrow else (54, side_margin(entries), 270)
+    left, right, height = (50, 20, 230) if narrow else (54, side_margin(entries, most=0.44 * WIDE), 270)
     box = (left, 40, width - left - right, height)
     layout = PixelLayout(width, 40 + height + 62 + (legend_height(entries, columns) if narrow else 0),
                   _description(comparison, problem, found))

@@ -12,6 +12,8 @@ from .theme import LIGHT
 PIXELS_PER_INCH = 72  # per inch: one point is one pixel of the page
 WIDE, NARROW = 780, 350
 LETTER = 7.0  # px, a letter of size 12, for margins
+LABEL = 32  # letters of a method's name in a figure: "generalized_alpha, fixed step" is whole
+CONTROL = 14  # letters of ", step 200 µs" after it
 
 STYLE = {
     "font.family": "DejaVu Sans", "font.size": 12, "text.color": LIGHT["ink"], "text.parse_math": False,

@@ -4,7 +4,7 @@ import numpy as np
 from . import measures, formatting
 from .runs import (LANE_GAP, draw_lane, draw_runs, draw_unresolved, end_fraction, label_right, lane_height,
                    say_nothing_finished)
-from .layout import WIDE, PixelLayout, legend_columns, legend_height, shortened, side_margin, styled
+from .layout import LABEL, WIDE, PixelLayout, legend_columns, legend_height, shortened, side_margin, styled
 from .scale import error_tick, limits, positive, seconds_tick, set_log
 from .theme import LIGHT
 from .work_precision import error_limits, title_of, unresolved_words
@@ -40,7 +40,7 @@ def _entries(comparison, problem, measure, indices):
         method = comparison.methods[k]
         slope = comparison.slope(problem, method.id, measure)
         note = f", slope {slope:.2f}" if formatting.known(slope) else ""
-        entries.append((k, shortened(method.label, 20 if note else 26) + note, False))
+        entries.append((k, shortened(method.label, LABEL) + note, False))
     return entries
 
 
@@ -122,7 +122,7 @@ def draw_error_against_control(comparison, problem, measure, width):
     entries = _entries(comparison, problem, measure, drawn)
     lanes = max(lane_height(_failing(comparison, problem, kind)) for kind in kinds)
     columns = legend_columns(entries)
-    boxes = _boxes(width, kinds, lanes, side_margin(entries), not drawn)
+    boxes = _boxes(width, kinds, lanes, side_margin(entries, most=0.44 * WIDE), not drawn)
     bottom = boxes[-1][1] + boxes[-1][3] + 62
     layout = PixelLayout(width, bottom + (legend_height(entries, columns) if width < WIDE else 0),
                   _description(problem, measure, entries))

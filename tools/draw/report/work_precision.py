@@ -4,7 +4,7 @@ import numpy as np
 from . import measures, formatting
 from .runs import (LANE_GAP, draw_lane, draw_runs, draw_unresolved, end_fraction, label_right, lane_height,
                    say_nothing_finished)
-from .layout import WIDE, PixelLayout, legend_columns, legend_height, shortened, side_margin, styled
+from .layout import LABEL, WIDE, PixelLayout, legend_columns, legend_height, shortened, side_margin, styled
 from .scale import error_tick, limits, positive, seconds_tick, set_log
 from .theme import LIGHT, colour
 
@@ -46,7 +46,7 @@ def title_of(measure):
 def _entries(comparison, problem, runs):
     """Labels of the methods that ran: (index, words, whether all its runs failed)."""
     ran = {p.method for p in comparison.points_of(problem)}
-    return [(k, shortened(m.label, 26), not runs[k]) for k, m in enumerate(comparison.methods) if m.id in ran]
+    return [(k, shortened(m.label, LABEL), not runs[k]) for k, m in enumerate(comparison.methods) if m.id in ran]
 
 
 def _description(problem, measure, runs, comparison):

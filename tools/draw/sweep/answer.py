@@ -58,6 +58,30 @@ def _change(sweep, figure):
             f"to {words(figure, last[0])} ({where(sweep, last[1])}){much}")
 
 
+def _crossings(variable, found, limit):
+    """Values of the variable at which the figure passes the limit, interpolated between points."""
+    place, back = (math.log, math.exp) if variable.log else (float, float)
+    rows = [(place(point["values"][variable.name]), value) for value, point in found]
+    return [back(x + (limit - a) / (b - a) * (y - x)) for (x, a), (y, b) in zip(rows, rows[1:])
+            if (a < limit) != (b < limit)]
+
+
+def _failure(sweep, figure):
+    """'; 1 fails, which it crosses at theta 12.3 deg', of exposures."""
+    limit, found = figure.failure, _valued(sweep, figure)
+    if not math.isfinite(limit) or not found:
+        return ""
+    fails = f"; {words(figure, limit)} fails, "
+    above = sum(value >= limit for value, _ in found)
+    if above in (0, len(found)):
+        return fails + ("and no point reaches it" if not above else "as all points do")
+    if len(sweep.variables) > 1 or not sweep.variables[0].numeric:
+        return fails + f"as {above} of {formatting.plural(len(found), 'point')} do"
+    variable = sweep.variables[0]
+    at = formatting.joined(variable.words(x) for x in _crossings(variable, found, limit))
+    return fails + f"which it crosses at {variable.name} {at} by interpolation"
+
+
 def _closed_form(sweep, figure):
     gaps = [(abs(figure.difference(p)), p) for p in sweep.done if math.isfinite(figure.difference(p))]
     if not gaps:
@@ -88,12 +112,29 @@ def _suspected(sweep, figure):
     return ". All integrators agree with each other and not with the closed form: the formula is suspected"
 
 
+def _capitalised(figure):
+    """The title at the start of a sentence; names of keys and of figures stay as they are."""
+    is_name = figure.title == figure.name or "_" in figure.title or "." in figure.title
+    return figure.title if is_name else figure.title[:1].upper() + figure.title[1:]
+
+
 def _sentence(sweep, figure):
     change = _change(sweep, figure)
     if change is None:
         return None
-    title = figure.title[:1].upper() + figure.title[1:]
-    return joined([tag("strong", title), f" {change}{_closed_form(sweep, figure)}{_suspected(sweep, figure)}."])
+    return joined([tag("strong", _capitalised(figure)),
+                   f" {change}{_failure(sweep, figure)}{_closed_form(sweep, figure)}{_suspected(sweep, figure)}."])
+
+
+def _warnings(sweep):
+    """What the program warned of at some points: slips of input, strains beyond the law's limits."""
+    warned = [p for p in sweep.points if p.get("warnings")]
+    if not warned:
+        return None
+    first = warned[0]
+    return tag("p", tag("strong", "Warnings"), f" of {len(warned)} of "
+               f"{formatting.plural(len(sweep.points), 'point')} (column warnings of sweep.csv); that with "
+               f"{first['title']}: {first['warnings'][0]}")
 
 
 def answer(sweep):
@@ -111,4 +152,5 @@ def answer(sweep):
         tag("p", tag("strong", "The mesh is coarse"), f" for {len(coarse)} of "
             f"{formatting.plural(len(sweep.points), 'point')}: of the elastic energy up to "
             f"{formatting.general(100 * worst, 2)}{formatting.THIN}% is its error. Deflections are too small and "
-            "frequencies too high; `orthodyn converge` tells by how much.") if coarse else None])
+            "frequencies too high; `orthodyn converge` tells by how much.") if coarse else None,
+        _warnings(sweep)])

@@ -115,6 +115,15 @@ def _annotate(layout, axes, box, plan, sweep, title, entries, columns):
         label_right(layout, box, entries, [0] * len(entries))
 
 
+def _failure_line(axes, limit):
+    """Thin, and only where the axis comes near it: it is not to squeeze the points."""
+    low, high = axes.get_ylim()
+    if low <= limit <= high:
+        axes.axhline(limit, color=LIGHT["muted"], lw=0.8, zorder=1)
+        axes.annotate("fails", (1, limit), xycoords=axes.get_yaxis_transform(), xytext=(-2, 2),
+                      textcoords="offset points", ha="right", va="bottom", fontsize=10, color=LIGHT["muted"])
+
+
 def _drawn(plan, sweep, width, height, title, value, log, closed=None):
     entries = _entries(plan, sweep)
     layout, box, columns = _layout(width, entries, height)
@@ -138,7 +147,9 @@ def draw_curves(plan, sweep, width):
     figure = plan.figure
     title = figure.heading + (f"   ({plan.title})" if plan.title else "")
     closed = figure.closed if figure.closed_form else None
-    layout, _, lines = _drawn(plan, sweep, width, 240 if width < WIDE else 320, title, figure.value, figure.log, closed)
+    layout, axes, lines = _drawn(plan, sweep, width, 240 if width < WIDE else 320, title, figure.value, figure.log,
+                                 closed)
+    _failure_line(axes, figure.failure)
     layout.description = _description(plan, sweep, lines)
     return layout
 

@@ -31,6 +31,8 @@ def draw_dot_plot(plan, sweep, width):
         set_log(axes, "x", *limits(values, least=0.5), power_tick, most)
     else:
         scaled(axes, "x", values + [0], False, most)
+    if axes.get_xlim()[0] <= plan.figure.failure <= axes.get_xlim()[1]:
+        axes.axvline(plan.figure.failure, color=LIGHT["muted"], lw=0.8, zorder=1)
     axes.set_ylim(len(names) - 0.5, -0.5)
     axes.set_yticks(range(len(names)), labels)
     for k, p in rows:

@@ -41,10 +41,16 @@ class Figure:
     factor: float
     log: bool
     closed_form: str
+    fails_at_one: bool = False  # an exposure to failure
 
     @property
     def heading(self):
         return f"{self.title} [{self.unit}]" if self.unit else self.title
+
+    @property
+    def failure(self):
+        """The value from which on the material fails, in the figure's unit; nan for what is no exposure."""
+        return 1 / self.factor if self.fails_at_one else math.nan
 
     def value(self, point):
         return _scaled(point["figures"].get(self.name), self.factor)
@@ -123,7 +129,8 @@ def _without_noise(points, figures):
 def _sweep(found):
     variables = [Variable(v["name"], v.get("path", ""), v["unit"], v["numeric"], v["scale"] == "log")
                  for v in found["variables"]]
-    figures = [Figure(f["name"], f["title"], f["unit"], f["factor"], f["scale"] == "log", f["closed_form"])
+    figures = [Figure(f["name"], f["title"], f["unit"], f["factor"], f["scale"] == "log", f["closed_form"],
+                      f.get("fails_at_one", False))
                for f in found["figures"]]
     points = _without_noise([{**p, "index": k} for k, p in enumerate(found["points"])], figures)
     return Sweep(found["title"], found["description"], found["combine"], variables, figures, found["plots"],

@@ -1,0 +1,75 @@
+#include "tools/orthodyn/point_warnings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <set>
+#include <string>
+
+#include "lib/simulation/errors/mesh_error.h"
+
+namespace orthodyn::study::sweep {
+
+namespace {
+
+void warn_of_coarse_meshes(const Json& table) {
+  const Json* worst = nullptr;
+  std::size_t count = 0;
+  for (const auto& point : table.at("points")) {
+    if (!point.at("mesh_error").is_number() || !(point.at("mesh_error") > kCoarseMesh)) continue;
+    ++count;
+    if (!worst || point.at("mesh_error") > worst->at("mesh_error")) worst = &point;
+  }
+  if (!worst) return;
+  fmt::print(stderr,
+             "warning: the mesh is coarse for {} of {} points: of the elastic energy up to {:.2g} is its error ({}). "
+             "Deflections are too small and frequencies too high; orthodyn converge tells by how much\n",
+             count, table.at("points").size(), worst->at("mesh_error").get<double>(),
+             worst->at("title").get<std::string>());
+}
+
+// What a warning says, without the point's folder and figures.
+std::string kind_of(const std::string& warning) {
+  const auto scene = warning.find("scene.yaml");
+  std::string kind = scene == std::string::npos ? warning : warning.substr(scene);
+  std::erase_if(kind, [](unsigned char c) { return !std::isalpha(c); });
+  return kind;
+}
+
+std::set<std::string> kinds_of(const Json& point) {
+  std::set<std::string> kinds;
+  for (const auto& warning : point.at("warnings")) kinds.insert(kind_of(warning.get<std::string>()));
+  return kinds;
+}
+
+// But for those of the first point's kinds, which were told before the run.
+void warn_of_points(const Json& table) {
+  const Json& points = table.at("points");
+  const std::set<std::string> told = points.empty() ? std::set<std::string>() : kinds_of(points.front());
+  std::string example;
+  std::size_t count = 0;
+  for (const auto& point : points) {
+    const Json& warnings = point.at("warnings");
+    const auto other = std::find_if(warnings.begin(), warnings.end(), [&](const Json& warning) {
+      return !told.contains(kind_of(warning.get<std::string>()));
+    });
+    if (other == warnings.end()) continue;
+    if (++count == 1) example = fmt::format("{}: {}", point.at("title").get<std::string>(), other->get<std::string>());
+  }
+  if (count > 0)
+    fmt::print(stderr,
+               "warning: {} of {} points have warnings of their own (column 'warnings' of sweep.csv); that "
+               "with {}\n",
+               count, points.size(), example);
+}
+
+}  // namespace
+
+void tell_warnings_of_points(const Json& table) {
+  warn_of_coarse_meshes(table);
+  warn_of_points(table);
+}
+
+}  // namespace orthodyn::study::sweep
