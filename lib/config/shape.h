@@ -37,6 +37,7 @@ struct Shape {
   Kind kind = Kind::anything;
   std::string words = {};             // for people, where the kind does not say it all: "formula of x, y, z"
   std::vector<std::string> names = {};  // word: the allowed ones
+  bool behind_name = false;             // word: each of them behind any name and a dot
   std::vector<Shape> items = {};        // list and named: of each; either: the possible ones
   std::size_t count = 0;           // list: 0 for any
   std::string title = {};               // section and choice: the C++ type's name, which tells them apart

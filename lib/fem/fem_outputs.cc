@@ -245,6 +245,11 @@ std::vector<OutputInfo> FemModel::outputs() const {
   std::vector<OutputInfo> infos;
   for (const auto& output : all_outputs()) infos.push_back(output.info);
   for (const auto& output : reaction_outputs(parts_.supports)) infos.push_back(output.info);
+  for (const auto& term : parts_.elastic)
+    for (OutputInfo info : region_fields()) {
+      info.name = term->region() + "." + info.name;
+      infos.push_back(std::move(info));
+    }
   return infos;
 }
 

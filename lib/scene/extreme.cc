@@ -14,9 +14,19 @@ namespace orthodyn {
 
 namespace {
 
+// FIELD or REGION.FIELD.
 bool needs_strength(const std::string& field) {
   const auto& all = derived_fields();
-  return std::any_of(all.begin(), all.end(), [&](const auto& f) { return f.name == field && f.needs_strength; });
+  return std::any_of(all.begin(), all.end(), [&](const auto& f) {
+    return f.needs_strength && (f.name == field || field.ends_with(std::string(".") + f.name));
+  });
+}
+
+// Of REGION.FIELD; null for a field of all regions.
+const ElasticTerm* region_of(const std::string& field, const FemModel& model) {
+  for (const auto& term : model.parts().elastic)
+    if (field.starts_with(term->region() + ".")) return term.get();
+  return nullptr;
 }
 
 // A field of one region, or of all of them where `region` is "".
@@ -81,17 +91,23 @@ void fail_without_strength(const std::string& field, const std::string& what, co
 void require_strengths(const std::string& field, const std::string& region, const FemModel& model,
                        const Origin& origin) {
   if (!needs_strength(field)) return;
+  const ElasticTerm* const named = region_of(field, model);
+  const std::string& wanted = named ? named->region() : region;
   for (const auto& term : model.parts().elastic)
-    if ((region.empty() || term->region() == region) && term->definition().strength) return;
-  fail_without_strength(field, region.empty() ? "a material" : "the material of region " + region, origin);
+    if ((wanted.empty() || term->region() == wanted) && term->definition().strength) return;
+  fail_without_strength(field, wanted.empty() ? "a material" : "the material of region " + wanted, origin);
 }
 
-void require_strengths_at(const std::string& field, int node, const FemModel& model, const Origin& origin) {
-  if (!needs_strength(field)) return;
+void require_field_at(const std::string& field, int node, const FemModel& model, const Origin& origin) {
   const ElementMesh mesh(model.parts().mesh);
+  const ElasticTerm* const named = region_of(field, model);
+  if (named && !has_node(mesh, *named, node))
+    origin.fail(fmt::format("'{}': the probe's node is not of region {}; move the probe, or take the field without a "
+                            "region", field, named->region()));
+  if (!needs_strength(field)) return;
   std::string region;
   for (const auto& term : model.parts().elastic) {
-    if (!has_node(mesh, *term, node)) continue;
+    if ((named && term.get() != named) || !has_node(mesh, *term, node)) continue;
     if (term->definition().strength) return;
     region = term->region();
   }

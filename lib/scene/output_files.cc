@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lib/fem/fem_model.h"
+#include "lib/fem/nodal_fields.h"
 
 namespace orthodyn {
 
@@ -48,7 +49,10 @@ Shape shape_of_names(const std::vector<Location>& locations) {
   for (const auto& info : FemModel(FemModel::Parts{}).outputs())
     if (std::find(locations.begin(), locations.end(), info.location) != locations.end())
       name.names.push_back(info.name);
-  return list_shape(std::move(name), 0, "list of fields");
+  Shape in_region{.kind = Shape::Kind::word, .words = "REGION.FIELD", .behind_name = true};
+  for (const auto& info : region_fields()) in_region.names.push_back(info.name);
+  return list_shape({.kind = Shape::Kind::either, .items = {std::move(name), std::move(in_region)}}, 0,
+                    "list of fields");
 }
 
 }  // namespace
@@ -68,7 +72,9 @@ const Spec<Probe>& Probe::spec() {
       Spec<Probe>()
           .key("at", &Probe::at, "The node nearest to this point of the rest shape.",
                {.required = true, .unit = "m"})
-          .key("fields", &Probe::fields, "Node fields to record.");
+          .key("fields", &Probe::fields,
+               "Node fields to record; of stress and strain also REGION.FIELD, at a node of several regions the value "
+               "of one.");
   return s;
 }
 

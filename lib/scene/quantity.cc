@@ -91,7 +91,7 @@ Quantity find_quantity(const std::string& name, const Scene& scene, const FemMod
     const std::string rest = after(name, source_name);
     const auto components = source.components();
     if (name == source_name || std::find(components.begin(), components.end(), rest) != components.end()) {
-      if (source.node >= 0) require_strengths_at(source.info.name, source.node, model, origin);
+      if (source.node >= 0) require_field_at(source.info.name, source.node, model, origin);
       return make_quantity(name, source, rest);
     }
     known.push_back(source_name);

@@ -51,8 +51,8 @@ std::optional<FindExtreme> find_extreme(const std::string& name, const FemModel&
 void require_strengths(const std::string& field, const std::string& region, const FemModel& model,
                        const Origin& origin);
 
-// The same for a node, of which a region with strengths must be.
-void require_strengths_at(const std::string& field, int node, const FemModel& model, const Origin& origin);
+// The same for a node, of which a region with strengths must be; of REGION.FIELD that very region.
+void require_field_at(const std::string& field, int node, const FemModel& model, const Origin& origin);
 
 // The SI unit of such a quantity; "" for a plain number.
 std::string unit_of_extreme(const std::string& name);

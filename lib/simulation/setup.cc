@@ -28,12 +28,16 @@ void append(Warnings more, Warnings& all) {
 // Every name in `fields` must be an output of the model at one of the given places.
 void check_fields(const Model& model, const std::vector<std::string>& fields, std::vector<Location> allowed,
                   const Origin& origin) {
-  std::vector<std::string> names;
-  for (const auto& info : model.outputs())
-    if (std::find(allowed.begin(), allowed.end(), info.location) != allowed.end()) names.push_back(info.name);
+  std::vector<std::string> names, short_names;
+  for (const auto& info : model.outputs()) {
+    if (std::find(allowed.begin(), allowed.end(), info.location) == allowed.end()) continue;
+    names.push_back(info.name);
+    if (info.name.find('.') == std::string::npos) short_names.push_back(info.name);
+  }
   for (const auto& field : fields) {
     if (std::find(names.begin(), names.end(), field) != names.end()) continue;
-    origin.fail(fmt::format("unknown field '{}'{}; known: {}", field, did_you_mean(field, names), join(names)));
+    origin.fail(fmt::format("unknown field '{}'{}; known: {}; those of stress and strain also as REGION.FIELD", field,
+                            did_you_mean(field, names), join(short_names)));
   }
 }
 
@@ -43,7 +47,7 @@ void check_outputs(const Scene& scene, const FemModel& model) {
   for (const auto& [name, probe] : scene.output.probes) {
     check_fields(model, probe.fields, {Location::node}, probe.origin);
     for (const auto& field : probe.fields)
-      require_strengths_at(field, nearest_node(model.parts().mesh, probe.at), model, probe.origin);
+      require_field_at(field, nearest_node(model.parts().mesh, probe.at), model, probe.origin);
   }
   ExtremeRecorder(scene.output.extremes, model, scene.output.origin);  // throws
 }

@@ -92,7 +92,7 @@ class SchemaWriter {
       case Shape::Kind::boolean: return {{"type", "boolean"}};
       case Shape::Kind::text: return {{"type", {"string", "number", "boolean"}}};
       case Shape::Kind::file: return {{"type", "string"}};
-      case Shape::Kind::word: return {{"enum", shape.names}};
+      case Shape::Kind::word: return word(shape);
       case Shape::Kind::list: return list(shape, key);
       case Shape::Kind::named: return named(shape, key);
       case Shape::Kind::section:
@@ -102,6 +102,11 @@ class SchemaWriter {
       case Shape::Kind::anything: break;
     }
     return Schema::object();
+  }
+
+  static Schema word(const Shape& shape) {
+    if (!shape.behind_name) return {{"enum", shape.names}};
+    return {{"type", "string"}, {"pattern", fmt::format(R"(^.+\.({})$)", fmt::join(shape.names, "|"))}};
   }
 
   static Schema number(const char* type, const Range& range) {

@@ -1,0 +1,60 @@
+// Stress and strain of one region, as fields of frames and probes: at a border each region has values of its own.
+#include <gtest/gtest.h>
+
+#include "lib/simulation/json.h"
+#include "tests/simulation/result_reader.h"
+#include "tests/simulation/run_program.h"
+
+namespace orthodyn::region_fields_test {
+namespace {
+
+constexpr double kStrain = 1e-3, kSoft = 1e6, kStiff = 4e6;  // -, Pa
+
+// Two layers that are stretched alike.
+class RegionFields : public InFolder {
+ protected:
+  RegionFields() {
+    write("layers.yaml", R"(
+analysis: static
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [4, 2, 2], parts: {upper: {min: [0, 0, 0.1], max: [1, 0.2, 0.2]}}}
+materials:
+  soft: {type: isotropic, density: 1000, young: 1e6, nu: 0}
+  stiff: {type: isotropic, density: 1000, young: 4e6, nu: 0, strength: {tension: 8e3, compression: 8e3, shear: 8e3}}
+regions: {body: {material: soft}, upper: {material: stiff}}
+clamps: [{surface: x0}]
+motions: [{surface: x1, translation: [0.001, 0, 0], factor: {type: ramp, end: 1}}]
+time: {end: 1}
+output:
+  fields: [displacement, upper.nodal_stress]
+  probes:
+    border: {at: [0.5, 0.1, 0.1], fields: [body.von_mises, upper.von_mises, upper.max_stress]}
+)");
+  }
+};
+
+TEST_F(RegionFields, AreThoseOfEachSideOfABorder) {
+  const auto result = orthodyn("run layers.yaml --quiet --out out");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  const auto last = read_rows(folder_ / "out/probes.csv").back();
+  ASSERT_EQ(last.size(), 4u);
+  EXPECT_NEAR(last[1], kSoft * kStrain, 0.01 * kSoft * kStrain);
+  EXPECT_NEAR(last[2], kStiff * kStrain, 0.01 * kStiff * kStrain);
+  EXPECT_NEAR(last[3], kStiff * kStrain / 8e3, 0.01);
+  EXPECT_NE(read_text(folder_ / "out/frames/frame_00000.vtu").find("\"upper.nodal_stress\""), std::string::npos);
+}
+
+TEST_F(RegionFields, AreRefusedWhereTheRegionIsNotOrHasNoStrength) {
+  const std::string run = "run layers.yaml --quiet --out out --set output.probes.border.";
+  const auto elsewhere = orthodyn(run + "'at=[0.5, 0.1, 0]'");
+  EXPECT_EQ(elsewhere.exit_code, 2);
+  EXPECT_NE(elsewhere.output.find("'upper.von_mises': the probe's node is not of region upper"), std::string::npos)
+      << elsewhere.output;
+  const auto weak = orthodyn(run + "fields=[body.max_stress]");
+  EXPECT_EQ(weak.exit_code, 2);
+  EXPECT_NE(weak.output.find("needs the strengths of the material of region body"), std::string::npos) << weak.output;
+  const auto unknown = orthodyn(run + "fields=[uper.von_mises]");
+  EXPECT_NE(unknown.output.find("did you mean 'upper.von_mises'"), std::string::npos) << unknown.output;
+}
+
+}  // namespace
+}  // namespace orthodyn::region_fields_test
