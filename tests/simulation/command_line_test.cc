@@ -49,6 +49,26 @@ TEST_F(CommandLine, APluginIsRefusedBeforeAndAfterTheCommandUnlessItAddsSomethin
   }
 }
 
+// A bound from below: of that which the method finds for itself, with damping and without.
+TEST_F(CommandLine, CheckTellsACriticalStepThatHolds) {
+  write("swing.yaml", kSwing);
+  const auto number_after = [](const std::string& text, const std::string& words) {
+    const auto at = text.find(words);
+    return at == std::string::npos ? 0 : std::stod(text.substr(at + words.size()));
+  };
+  for (const char* damping : {"null", "{stiffness: 0.01}", "{stiffness: 1}"}) {
+    const std::string with_damping = std::string(" swing.yaml --set time.end=1 --set 'damping=") + damping + "'";
+    const double told =
+        number_after(orthodyn("check" + with_damping).output, "critical step of an explicit scheme at least ");
+    const auto run =
+        orthodyn("run" + with_damping + " --set 'integrator={type: central_differences, step: 0.5}'").output;
+    const double found = number_after(run, "above the critical step, ");
+    EXPECT_GT(told, 0) << damping;
+    EXPECT_LE(told, found) << damping << run;
+    EXPECT_GT(told, 0.2 * found) << damping << run;
+  }
+}
+
 TEST_F(CommandLine, APluginBeforeTheSceneLeavesTheSceneAlone) {
   write("text.so", "no library");
   const auto refused = orthodyn("check --plugin text.so swing.yaml");

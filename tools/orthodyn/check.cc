@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -77,10 +78,18 @@ void print_memory(const FemModel& model, const std::string& solver, std::size_t 
   if (factor_bytes > 0) line("factorisation", factor_bytes);
 }
 
+// s, of central_differences: 2/omega (sqrt(1 + 4 xi^2) - 2 xi), xi by damping of the stiffness.
+double critical_step(const FemModel& model) {
+  double beta = 0;
+  for (const auto& term : model.parts().elastic) beta = std::max(beta, term->definition().beta);
+  const double omega = model.frequency_bound(), xi = beta * omega / 2;
+  return 2 / omega / (std::sqrt(1 + 4 * xi * xi) + 2 * xi);
+}
+
 void print_dynamics(Setup& setup) {
   const FemModel& model = *setup.built.model;
   setup.integrator->start(setup.built.initial);
-  fmt::print("  critical step of an explicit scheme at least {:.4g} s\n", 2 / model.frequency_bound());
+  fmt::print("  critical step of an explicit scheme at least {:.4g} s\n", critical_step(model));
   const auto breakpoints = model.breakpoints(setup.scene.time.start, setup.scene.time.end);
   if (!breakpoints.empty())
     fmt::print("  restarts at kinks of loads and motions: {} s\n", fmt::join(breakpoints, ", "));
