@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <vector>
 
@@ -26,9 +25,12 @@ struct Excess {
   double severity() const { return worst / limit.strain; }
 };
 
+// A column for each point, as ElasticTerm::strains() has them.
+using Strains = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+using AxialStrains = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+
 // Of all axes and signs the limit that is exceeded most; count 0 if none is.
-Excess find_excess(const ElasticTerm& term, const std::array<AxisLimits, 3>& limits,
-                   const std::function<Vec3(int k, int point)>& strain) {
+Excess find_excess(const ElasticTerm& term, const std::array<AxisLimits, 3>& limits, const AxialStrains& strains) {
   std::array<std::array<Excess, 2>, 3> found;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto& [compression, tension] = limits[axis];
@@ -37,18 +39,15 @@ Excess find_excess(const ElasticTerm& term, const std::array<AxisLimits, 3>& lim
       if (limit) found[axis][side] = {static_cast<int>(axis), 0, 0, *limit};
     }
   }
-  std::vector<Vec3> e(static_cast<std::size_t>(term.num_points()));
   for (int k = 0; k < term.size(); ++k) {
-    for (std::size_t p = 0; p < e.size(); ++p) e[p] = strain(k, static_cast<int>(p));
+    const auto e = strains.middleCols(k * term.num_points(), term.num_points());
     for (auto& sides : found)
       for (Excess& one : sides) {
         if (one.limit.strain == 0) continue;
-        const auto share = [&](const Vec3& at) { return at[one.axis] / one.limit.strain; };
-        const Vec3& most = *std::max_element(e.begin(), e.end(),
-                                             [&](const Vec3& a, const Vec3& b) { return share(a) < share(b); });
-        if (!(share(most) > 1)) continue;
+        const double share = (e.row(one.axis) / one.limit.strain).maxCoeff();
+        if (!(share > 1)) continue;
         ++one.count;
-        if (std::abs(most[one.axis]) > std::abs(one.worst)) one.worst = most[one.axis];
+        if (share > one.severity()) one.worst = share * one.limit.strain;
       }
   }
   Excess most;
@@ -73,8 +72,12 @@ std::string warning(const ElasticTerm& term, const Excess& e, const std::string&
       term.region(), cause, e.count, term.size(), e.axis + 1, 100 * e.worst, 100 * e.limit.strain, means);
 }
 
-Vec3 along_axes(const Mat36& equivalent, const Mat3& e) {
-  return equivalent * (Vec6() << e.diagonal(), 2 * e(0, 1), 2 * e(1, 2), 2 * e(2, 0)).finished();
+Strains small_strains(const ElasticTerm& term, const NodalVector& u) {
+  Strains out(6, term.size() * term.num_points());
+  for (int k = 0; k < term.size(); ++k)
+    for (int p = 0; p < term.num_points(); ++p)
+      out.col(k * term.num_points() + p) = voigt_strain<double>(term.small_strain(k, p, u));
+  return out;
 }
 
 // By a body of this material.
@@ -108,17 +111,13 @@ Warnings strain_warnings(const FemModel& model, const std::vector<Stiffness>& st
     const auto& term = model.parts().elastic[r];
     const auto limits = strain_limits(stiffness[r]);
     const Mat36 equivalent = stress_over_young(stiffness[r]);
-    const auto check = [&](const std::string& cause, const std::function<Mat3(int, int)>& strain) {
-      const Excess excess =
-          find_excess(*term, limits, [&](int k, int p) { return along_axes(equivalent, strain(k, p)); });
+    const auto check = [&](const std::string& cause, const Strains& strains) {
+      const Excess excess = find_excess(*term, limits, equivalent * strains);
       if (excess.count > 0) out.push_back(warning(*term, excess, cause));
     };
     if (statics.exists())
-      check("twice the linear static response to the loads puts",
-           [&](int k, int p) -> Mat3 { return kOvershoot * term->small_strain(k, p, u); });
-    if (!initial.q.isZero(0))
-      check("the initial deformation puts",
-            [&](int k, int p) { return term->observe_point(k, p, start.state()).strain; });
+      check("twice the linear static response to the loads puts", kOvershoot * small_strains(*term, u));
+    if (!initial.q.isZero(0)) check("the initial deformation puts", term->strains(start.state()));
   }
   return out;
 }
@@ -132,9 +131,7 @@ std::optional<StrainExcess> strain_excess(const FemModel& model, const NodalStat
     const auto limits = strain_limits(stiffness);
     const double far_off = smallest(limits) / (kMargin * equivalent.rowwise().norm().maxCoeff());
     if (term->largest_green_strain(state) < far_off) continue;
-    const Excess excess = find_excess(*term, limits, [&](int k, int p) {
-      return along_axes(equivalent, term->observe_point(k, p, state).strain);
-    });
+    const Excess excess = find_excess(*term, limits, equivalent * term->strains(state));
     if (excess.count > 0 && (!worst || excess.severity() > worst->share))
       worst = {excess.severity(), warning(*term, excess, "the motion put")};
   }

@@ -29,6 +29,12 @@ T contract(const Mat3T<T>& A, const Mat3T<T>& B) {
   return A.cwiseProduct(B).sum();
 }
 
+// Of a symmetric strain the Voigt form, with engineering shear (stiffness.h).
+template <class T>
+Eigen::Matrix<T, 6, 1> voigt_strain(const Mat3T<T>& e) {
+  return {e(0, 0), e(1, 1), e(2, 2), T(2) * e(0, 1), T(2) * e(1, 2), T(2) * e(2, 0)};
+}
+
 template <class T>
 Mat3T<T> cofactor_of_symmetric(const Mat3T<T>& A) {
   Mat3T<T> C;

@@ -36,11 +36,19 @@ class RotatingLaw {
 
   // Energy per volume of a batch; right in the lanes of `good`.
   template <class Axes>
-  Batch batch_energy(const Mat3T<Batch>& H, const Axes& Q, Batch::Mask& good) const {
+  [[gnu::flatten]] Batch batch_energy(const Mat3T<Batch>& H, const Axes& Q, Batch::Mask& good) const {
     Polar<Batch> p;
     good = regular_polar(H, Q, p);
     const Mat3T<Batch> e = stretch_strain<Batch>(H, Q, p.S);
     return Batch(0.5) * contract<Batch>(C_.stress(e), e);
+  }
+
+  // S - I of a batch, right in the lanes of `good`.
+  template <class Axes>
+  [[gnu::flatten]] Mat3T<Batch> batch_strain(const Mat3T<Batch>& H, const Axes& Q, Batch::Mask& good) const {
+    Polar<Batch> p;
+    good = regular_polar(H, Q, p);
+    return stretch_strain<Batch>(H, Q, p.S);
   }
 
   // Power per volume that damping takes, beta chi dS:C:dS, W/m^3.
@@ -52,7 +60,7 @@ class RotatingLaw {
 
   // The same for a batch; right in the lanes of `good`.
   template <class Axes>
-  Batch batch_dissipation(const Mat3T<Batch>& H, const Axes& Q, const Mat3T<Batch>& F_rate, double beta,
+  [[gnu::flatten]] Batch batch_dissipation(const Mat3T<Batch>& H, const Axes& Q, const Mat3T<Batch>& F_rate, double beta,
                           Batch::Mask& good) const {
     Polar<Batch> p;
     good = regular_polar(H, Q, p);

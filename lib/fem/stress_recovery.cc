@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -21,14 +22,20 @@ constexpr double kFlat = 1e-6;       // thickness of a flat patch, of its width
 constexpr double kSmallStep = 1e-6;  // of the body's smallest extent
 
 // Beside the constant.
-int coefficients(int degree) { return degree == 1 ? 3 : 9; }
+constexpr int kLinear = 3, kQuadratic = 9;
+int coefficients(int degree) { return degree == 1 ? kLinear : kQuadratic; }
 
 // x, y, z and for degree 2 their products.
-Vector monomials(const Vec3& x, int degree) {
-  Vector m(coefficients(degree));
-  m.head<3>() = x;
-  if (degree == 2) m.tail<6>() << x[0] * x[0], x[1] * x[1], x[2] * x[2], x[0] * x[1], x[1] * x[2], x[2] * x[0];
+template <int kCoefficients>
+Eigen::Matrix<double, kCoefficients, 1> monomials(const Vec3& x) {
+  Eigen::Matrix<double, kCoefficients, 1> m;
+  m.template head<3>() = x;
+  if constexpr (kCoefficients == kQuadratic)
+    m.template tail<6>() << x[0] * x[0], x[1] * x[1], x[2] * x[2], x[0] * x[1], x[1] * x[2], x[2] * x[0];
   return m;
+}
+Vector monomials(const Vec3& x, int degree) {
+  return degree == 1 ? Vector(monomials<kLinear>(x)) : Vector(monomials<kQuadratic>(x));
 }
 
 // The elements at each corner.
@@ -106,12 +113,6 @@ std::pair<PatchFit, bool> fit(const Eigen::Matrix3Xd& places, const Vec3& centre
   return {{centre, to_patch, means, std::move(inverse)}, determined};
 }
 
-// Stress in the axes of space at rest, Pa, from the strain in material axes.
-Vec6 stress_at_rest(const Mat6& C, const Mat3& strain, const Mat3& axes) {
-  const Vec6 e = (Vec6() << strain.diagonal(), 2 * strain(0, 1), 2 * strain(1, 2), 2 * strain(2, 0)).finished();
-  return stress_rotation(axes) * (C * e);
-}
-
 SixColumns at_points(const ElasticTerm& term, const std::function<Vec6(int k, int point)>& value) {
   SixColumns out(term.size() * term.num_points(), 6);
   for (int k = 0; k < term.size(); ++k)
@@ -119,10 +120,12 @@ SixColumns at_points(const ElasticTerm& term, const std::function<Vec6(int k, in
   return out;
 }
 
+// In the axes of space at rest, Pa.
 SixColumns stresses(const ElasticTerm& term, const NodalState& s) {
   const Mat6 C = term.stiffness();
-  return at_points(term, [&](int k, int p) {
-    return stress_at_rest(C, term.observe_point(k, p, s).strain, term.axes_at_rest(k, p));
+  const auto strains = term.strains(s);
+  return at_points(term, [&](int k, int p) -> Vec6 {
+    return stress_rotation(term.axes_at_rest(k, p)) * (C * strains.col(k * term.num_points() + p));
   });
 }
 
@@ -131,24 +134,31 @@ class EnergyOfStress {
  public:
   EnergyOfStress(const ElementMesh& mesh, const ElasticTerm& term)
       : mesh_(mesh), term_(term), compliance_(Mat6(term.stiffness().inverse())),
-        shares_(mesh.type.consistent_mass(positions(0), 1) / volume(0)) {}
+        shares_(mesh.type.consistent_mass(positions(0), 1) / volume(0)) {
+    if (term.definition().axes.uniform()) in_space_ = compliance_in_space(0);
+  }
 
   double volume(int k) const { return mesh_.type.lumped_mass(positions(k), 1).sum(); }
 
   // a : C^-1 : b / 2, J. As shares of the volume the integrals are the same for all elements with straight edges.
   double operator()(int k, const SixColumns& a, const SixColumns& b) const {
-    // C^-1 in space: with sigma' = K sigma it is K C^-1' K^T for K that of the inverse rotation.
-    const Mat6 to_material = stress_rotation(term_.axes_at_rest(k, 0).transpose());
-    const Mat6 compliance = to_material.transpose() * compliance_ * to_material;
-    return 0.5 * volume(k) * (a.transpose() * shares_ * b * compliance).trace();
+    const Mat6 compliance = in_space_ ? *in_space_ : compliance_in_space(k);
+    return 0.5 * volume(k) * (a.transpose() * shares_ * b).cwiseProduct(compliance).sum();
   }
 
  private:
+  // With sigma' = K sigma it is K C^-1' K^T for K that of the inverse rotation.
+  Mat6 compliance_in_space(int k) const {
+    const Mat6 to_material = stress_rotation(term_.axes_at_rest(k, 0).transpose());
+    return to_material.transpose() * compliance_ * to_material;
+  }
+
   ElementType::Nodes positions(int k) const { return mesh_.positions(static_cast<std::size_t>(term_.cell(k))); }
 
   const ElementMesh& mesh_;
   const ElasticTerm& term_;
   Mat6 compliance_;
+  std::optional<Mat6> in_space_;  // where it is the same for all elements
   Eigen::MatrixXd shares_;
 };
 
@@ -242,21 +252,32 @@ Eigen::Matrix3Xd RegionRecovery::places_of(const std::vector<int>& elements) con
 }
 
 SixColumns RegionRecovery::at_nodes(const ElementMesh& mesh, const SixColumns& at_points) const {
-  const int degree = mesh.type.degree();
+  return mesh.type.degree() == 1 ? at_nodes_with<kLinear>(mesh, at_points) : at_nodes_with<kQuadratic>(mesh, at_points);
+}
+
+template <int kCoefficients>
+SixColumns RegionRecovery::at_nodes_with(const ElementMesh& mesh, const SixColumns& at_points) const {
+  using Coefficients = Eigen::Matrix<double, kCoefficients, 1>;
+  using Row = Eigen::Matrix<double, 1, 6>;
   SixColumns out = SixColumns::Zero(static_cast<Eigen::Index>(nodes_.size()), 6);
-  SixColumns values;
   for (const auto& [row, elements, fit, middles] : patches_) {
-    values.resize(per_element_ * static_cast<Eigen::Index>(elements.size()), 6);
-    for (std::size_t i = 0; i < elements.size(); ++i)
-      values.middleRows(per_element_ * static_cast<Eigen::Index>(i), per_element_) =
-          at_points.middleRows(per_element_ * elements[i], per_element_);
-    const Eigen::RowVectorXd mean = values.colwise().mean();
-    values.rowwise() -= mean;
-    const Eigen::MatrixXd A = monomials_at(places_of(elements), fit.centre, fit.to_patch, degree);
-    const Eigen::MatrixXd slopes = fit.inverse * (A.transpose() * values - fit.means * values.colwise().sum());
-    const auto value_at = [&](int node) -> Eigen::RowVectorXd {
-      const Vec3& place = mesh.nodes[static_cast<std::size_t>(nodes_[static_cast<std::size_t>(node)])];
-      return mean + (monomials(fit.to_patch * (place - fit.centre), degree) - fit.means).transpose() * slopes;
+    const Coefficients means = fit.means;
+    const auto relative = [&](const Vec3& place) -> Coefficients {
+      return monomials<kCoefficients>(fit.to_patch * (place - fit.centre)) - means;
+    };
+    Row sum = Row::Zero();
+    Eigen::Matrix<double, kCoefficients, 6> moments = Eigen::Matrix<double, kCoefficients, 6>::Zero();
+    for (const int element : elements)
+      for (Eigen::Index point = per_element_ * element; point < per_element_ * (element + 1); ++point) {
+        const Row value = at_points.row(point);
+        sum += value;
+        moments += relative(places_.col(point)) * value;
+      }
+    const Row mean = sum / static_cast<double>(per_element_ * static_cast<Eigen::Index>(elements.size()));
+    const Eigen::Matrix<double, kCoefficients, 6> slopes = fit.inverse * moments;
+    const auto value_at = [&](int node) -> Row {
+      return mean + relative(mesh.nodes[static_cast<std::size_t>(nodes_[static_cast<std::size_t>(node)])]).transpose() *
+                        slopes;
     };
     out.row(row) = value_at(row);
     for (const int middle : middles) out.row(middle) += 0.5 * value_at(middle);

@@ -52,6 +52,8 @@ class RegionRecovery {
 
   void add_middles(const ElementType& type, const std::vector<int>& patch_of);
   Eigen::Matrix3Xd places_of(const std::vector<int>& elements) const;
+  template <int kCoefficients>
+  SixColumns at_nodes_with(const ElementMesh& mesh, const SixColumns& at_points) const;
 
   std::vector<int> nodes_;
   Cells cells_;

@@ -7,7 +7,7 @@
 namespace orthodyn {
 
 // Below this number of unknowns a second BLAS thread costs more than it gives.
-inline constexpr int kBlasThreadsFrom = 15'000;
+inline constexpr int kBlasThreadsFrom = 40'000;
 
 // E.g. "OpenBLAS 0.3.21 ...", or "unknown (not OpenBLAS)".
 std::string blas_name();

@@ -8,15 +8,12 @@
 #include "lib/core/errors.h"
 #include "lib/core/versions.h"
 #include "lib/linear/blas.h"
+#include "lib/linear/openmp.h"
 #include "lib/linear/room.h"
 #include "lib/linear/solver.h"
 
 namespace orthodyn {
 namespace {
-
-// Operations per entry of the factor from which dense blocks pay (CHOLMOD's own limit is 40). On
-// beams of tetrahedra the two are level at 5,000 to 6,000 unknowns.
-constexpr double kSupernodalFrom = 160;
 
 // Below this size minimum degree gives as little fill as nested dissection, and is found sooner.
 constexpr int kNestedDissectionFrom = 50'000;
@@ -31,11 +28,8 @@ class Cholmod : public LinearSolver {
     common_.quick_return_if_not_posdef = 1;
 #ifdef ORTHODYN_GPL
     common_.supernodal = definite == Definite::yes ? CHOLMOD_AUTO : CHOLMOD_SIMPLICIAL;
-    common_.supernodal_switch = kSupernodalFrom;
-    // Wider supernodes than CHOLMOD's own (4, 16, 48 columns with 0.8, 0.1, 0.05 zeros): blocks of
-    // three unknowns a node fill them, and BLAS runs 14 % faster for 23 % more memory.
-    common_.nrelax[0] = 8, common_.nrelax[1] = 32, common_.nrelax[2] = 96;
-    common_.zrelax[0] = 0.8, common_.zrelax[1] = 0.2, common_.zrelax[2] = 0.1;
+    // Columns of narrow supernodes that are merged, with many zeros (CHOLMOD's own: 4 and 16).
+    common_.nrelax[0] = 16, common_.nrelax[1] = 24;
 #else
     common_.supernodal = CHOLMOD_SIMPLICIAL;
 #endif
@@ -73,6 +67,7 @@ class Cholmod : public LinearSolver {
 
   FactorStatus factor(const double* values) override {
     const BlasThreadLimit threads(most_threads());
+    const SerialOpenMp serial;
     if (factor_->xtype == CHOLMOD_PATTERN)  // the first on this pattern
       require_room_of_factor(factor_bytes(), "the Cholesky factor",
                    "use a coarser mesh, or an explicit integrator (central_differences), which has no factor");
@@ -90,6 +85,7 @@ class Cholmod : public LinearSolver {
 
   void solve(const ConstVectorRef& b, VectorRef x) override {
     const BlasThreadLimit threads(most_threads());
+    const SerialOpenMp serial;
     cholmod_dense view{};
     view.nrow = static_cast<std::size_t>(b.size());
     view.ncol = 1;

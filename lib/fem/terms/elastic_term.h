@@ -40,6 +40,10 @@ class ElasticTerm : public Term {
   virtual int num_points() const = 0;
   virtual PointObservation observe_point(int k, int point, const NodalState& s) const = 0;
 
+  // The strains that are observed at all points, in Voigt form with engineering shear: a column each, those of an
+  // element beside each other. Far cheaper than one by one.
+  virtual Eigen::Matrix<double, 6, Eigen::Dynamic> strains(const NodalState& s) const = 0;
+
   // The largest norm of Green's strain (F^T F - I)/2 at all points: far cheaper than what is observed.
   virtual double largest_green_strain(const NodalState& s) const = 0;
 

@@ -124,6 +124,22 @@ class ElasticTermOf final : public ElasticTerm {
     return orthodyn::small_strain<double>(elements_.gradient(k, p, u), axes().of(k, p));
   }
 
+  Eigen::Matrix<double, 6, Eigen::Dynamic> strains(const NodalState& s) const override {
+    Eigen::Matrix<double, 6, Eigen::Dynamic> out(6, size() * E::kPoints);
+    for_each_batch_point([&](int b, int p) {
+      Batch::Mask good;
+      const auto all_lanes = voigt_strain<Batch>(
+          law_.batch_strain(elements_.gradients(b, p, s.u), axes().batch(b, p), good));
+      for (int l = 0; l < elements_.lanes(b); ++l) {
+        const int k = b * Batch::kLanes + l;
+        auto own = out.col(k * E::kPoints + p);
+        if (!good[l]) own = voigt_strain<double>(observe_point(k, p, s).strain);
+        else for (int i = 0; i < 6; ++i) own[i] = all_lanes[i][l];
+      }
+    });
+    return out;
+  }
+
   double largest_green_strain(const NodalState& s) const override {
     const auto of_group = [&](const ElementGroups::Range& group) {
       double largest = 0;
