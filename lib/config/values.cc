@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "lib/core/apart.h"
 #include "lib/core/parse_number.h"
 #include "lib/core/units.h"
 
@@ -55,8 +56,6 @@ std::vector<WithUnit> entries_with_units(const Config& list, const std::vector<d
   }
   return out;
 }
-
-double apart(double a, double b) { return std::max(std::abs(a / b), std::abs(b / a)); }
 
 // The unit that is most likely missing at x, beside a neighbour: its own, or MPa where 10800 is next to 0.84 GPa.
 std::string likely_unit(double x, const WithUnit& neighbour) {

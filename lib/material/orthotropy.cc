@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/core/apart.h"
 #include "lib/core/symmetric_eigen.h"
 
 namespace orthodyn {
@@ -87,8 +88,6 @@ std::string likely_swap(const Ratios& all, Vec3 r) {
   return fmt::format(" If your source means by {0} the contraction along {2} when stretched along {3}, give it as {1}.",
                      ratio.name, ratio.other, ratio.other[3], ratio.other[2]);
 }
-
-double apart(double a, double b) { return std::max(a / b, b / a); }
 
 // The ratios stay as the user knows them.
 OrthotropicConstants with_young(OrthotropicConstants c, const Vec3& young, const std::array<bool, 3>& reversed) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/apart.h"
 #include "lib/core/symmetric_eigen.h"
 #include "lib/core/units.h"
 #include "lib/simulation/slips/subject.h"
@@ -24,8 +25,6 @@ constexpr double kMostApart = 300, kUsuallyApart = 60;
 constexpr double kMostUnlike = 1e-7;  // of the eigenvalues of C
 constexpr double kSoftest = 1e3;      // Pa
 constexpr double kWeakest = 1e-6;     // strength over the softest modulus; the weakest woods and foams have 1e-3
-
-double apart(double a, double b) { return std::max(a / b, b / a); }
 
 // A modulus that the user gave with its unit.
 struct Modulus {
