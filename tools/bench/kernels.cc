@@ -1,5 +1,5 @@
-// Forces, tangents and what follows from them, in nanoseconds an element: of processor time on one thread, of real time
-// on several.
+// Forces, tangents and what follows from them, in nanoseconds an element. Real time: processor time of one thread would
+// hide what it waits for others.
 #include <benchmark/benchmark.h>
 
 #include <fmt/format.h>
@@ -17,6 +17,7 @@ using Body = std::shared_ptr<const BentBeam>;
 
 void count(benchmark::State& state, const BentBeam& beam) {
   state.SetItemsProcessed(state.iterations() * beam.num_elements());
+  state.counters["elements"] = beam.num_elements();
   state.counters["unknowns"] = beam.model().num_dofs();
 }
 
@@ -68,6 +69,7 @@ void factorisation(benchmark::State& state, const BentBeam& beam) {
   Factored factored(beam);
   for (auto _ : state) factored.solver->factor(factored.values.data());
   count(state, beam);
+  state.counters["bytes"] = static_cast<double>(factored.solver->factor_bytes());
 }
 
 void solve(benchmark::State& state, const BentBeam& beam) {
@@ -103,7 +105,8 @@ class Later {
 void add(const std::string& what, const std::string& of, const std::shared_ptr<Later>& beam,
          void (*measure)(benchmark::State&, const BentBeam&)) {
   benchmark::RegisterBenchmark((what + "/" + of).c_str(),
-                               [beam, measure](benchmark::State& state) { measure(state, beam->get()); });
+                               [beam, measure](benchmark::State& state) { measure(state, beam->get()); })
+      ->UseRealTime();
 }
 
 // With as many threads as the machine has.
@@ -120,11 +123,16 @@ void add_threaded(const std::string& what, const std::string& of, const std::sha
 
 }  // namespace
 
+namespace {
+
+struct Size {
+  int across;
+  const char* name;
+};
+
+}  // namespace
+
 void register_kernels(bool large) {
-  struct Size {
-    int across;
-    const char* name;
-  };
   std::vector<Size> sizes{{5, "2,700"}, {9, "13,500"}};
   if (large) sizes.push_back({15, "57,600"});
   for (const auto& [across, name] : sizes) {
@@ -151,6 +159,20 @@ void register_kernels(bool large) {
   const auto quadratic = std::make_shared<Later>(Beam{false, 2}, 4);
   add("force, quadratic elements", "6,480", quadratic, force);
   add("tangent, quadratic elements", "6,480", quadratic, tangent);
+}
+
+void register_growth() {
+  const std::vector<Size> sizes{{5, "3,125"},   {7, "8,575"},    {10, "25,000"},  {14, "68,600"},
+                                {20, "200,000"}, {27, "492,075"}, {34, "982,600"}};
+  for (const auto& [across, elements] : sizes) {
+    const auto beam = std::make_shared<Later>(Beam{}, across);
+    const std::string n = std::string(elements) + " elements";
+    add("force", n, beam, force);
+    add("tangent", n, beam, tangent);
+    add("symbolic analysis", n, beam, analysis);
+    add("factorisation", n, beam, factorisation);
+    add("solve", n, beam, solve);
+  }
 }
 
 }  // namespace orthodyn::bench

@@ -16,12 +16,16 @@ struct Request {
   std::string filter = ".*";
   std::filesystem::path json, compare;
   int repetitions = 5;
-  bool large = false;
+  bool large = false, growth = false;
 };
 
 std::vector<orthodyn::bench::Result> measure(const Request& request) {
-  orthodyn::bench::register_memory();
-  orthodyn::bench::register_kernels(request.large);
+  if (request.growth) {
+    orthodyn::bench::register_growth();
+  } else {
+    orthodyn::bench::register_memory();
+    orthodyn::bench::register_kernels(request.large);
+  }
   std::vector<std::string> arguments{"orthodyn_bench", "--benchmark_filter=" + request.filter,
                                      fmt::format("--benchmark_repetitions={}", request.repetitions),
                                      "--benchmark_min_time=0.1", "--benchmark_enable_random_interleaving=false"};
@@ -38,8 +42,8 @@ std::vector<orthodyn::bench::Result> measure(const Request& request) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Times of forces, tangents, factorisations and solves, in nanoseconds of processor time an element: the "
-               "least of several repetitions. Trust ratios of one machine, not seconds.");
+  CLI::App app("Times of forces, tangents, factorisations and solves, in nanoseconds an element: the least of several "
+               "repetitions. Trust ratios of one machine, not seconds.");
   Request request;
   app.add_option("--filter", request.filter, "Regular expression of what is measured, such as '^tangent'");
   app.add_option("--json", request.json, "Writes the figures to a file");
@@ -47,6 +51,8 @@ int main(int argc, char** argv) {
                                                "were lost")->check(CLI::ExistingFile);
   app.add_option("--repetitions", request.repetitions, "Of each measurement")->check(CLI::Range(1, 1000));
   app.add_flag("--large", request.large, "With 57,600 unknowns, too");
+  app.add_flag("--growth", request.growth, "From 3,000 elements to a million instead, for tools/bench/growth.py: 16 GB, "
+                                           "and an hour unless --repetitions is 1");
   CLI11_PARSE(app, argc, argv);
   try {
     std::map<std::string, double> before;

@@ -27,15 +27,18 @@ Json context() {
 void Collector::ReportRuns(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
-    const std::string name = run.run_name.function_name;
+    const std::string name = run.run_name.function_name;  // without what Google Benchmark adds
     const double nanoseconds = 1e9 / run.counters.at("items_per_second").value;
     const auto found = std::find_if(results_.begin(), results_.end(), [&](const Result& r) { return r.name == name; });
     if (found != results_.end()) {
       found->nanoseconds = std::min(found->nanoseconds, nanoseconds);
       continue;
     }
-    const auto unknowns = run.counters.find("unknowns");
-    results_.push_back({name, nanoseconds, unknowns == run.counters.end() ? 0 : unknowns->second.value});
+    const auto counted = [&](const char* what) {
+      const auto counter = run.counters.find(what);
+      return counter == run.counters.end() ? 0 : counter->second.value;
+    };
+    results_.push_back({name, nanoseconds, counted("elements"), counted("unknowns"), counted("bytes")});
     fmt::print(stderr, "{}\n", name);
   }
 }
@@ -43,7 +46,11 @@ void Collector::ReportRuns(const std::vector<Run>& runs) {
 Json to_json(const std::vector<Result>& results) {
   Json out = context();
   for (const Result& r : results)
-    out["results"].push_back({{"name", r.name}, {"nanoseconds_per_element", r.nanoseconds}, {"unknowns", r.unknowns}});
+    out["results"].push_back({{"name", r.name},
+                              {"nanoseconds_per_element", r.nanoseconds},
+                              {"elements", r.elements},
+                              {"unknowns", r.unknowns},
+                              {"bytes", r.bytes}});
   return out;
 }
 

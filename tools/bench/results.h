@@ -14,8 +14,8 @@ namespace orthodyn::bench {
 
 struct Result {
   std::string name;
-  double nanoseconds = 0;  // of processor time an element: the least of all repetitions
-  double unknowns = 0;     // 0 where there are none
+  double nanoseconds = 0;  // an element: the least of all repetitions
+  double elements = 0, unknowns = 0, bytes = 0;  // 0 where there are none; bytes of a factor
 };
 
 // Collects the least time of each benchmark's repetitions, and tells on standard error what is being measured.

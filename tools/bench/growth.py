@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""Draws how times and memory grow with the number of elements, from a file of `orthodyn_bench --growth --json`:
+    tools/bench/growth.py growth.json growth.svg"""
+import json
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+TIMES = ["force", "tangent", "solve", "symbolic analysis", "factorisation"]
+
+
+def read(file):
+    """Of each measurement the elements, and seconds and bytes."""
+    found = {}
+    for result in json.load(open(file))["results"]:
+        elements = result["elements"]
+        seconds = 1e-9 * result["nanoseconds_per_element"] * elements
+        found.setdefault(result["name"].split("/")[0], []).append((elements, seconds, result["bytes"]))
+    return {name: np.array(sorted(rows)) for name, rows in found.items()}
+
+
+def slope(x, y):
+    """Of the upper half, on logarithmic axes."""
+    upper = slice(len(x) // 2, None)
+    return np.polyfit(np.log(x[upper]), np.log(y[upper]), 1)[0]
+
+
+def draw(axes, rows, column, name):
+    x, y = rows[:, 0], rows[:, column]
+    line, = axes.loglog(x, y, marker="o", markersize=3)
+    axes.annotate(f"{name}, slope {slope(x, y):.2f}", (x[-1], y[-1]), xytext=(6, 0), textcoords="offset points",
+                  va="center", fontsize=8, color=line.get_color())
+
+
+def main(source, target):
+    found = read(source)
+    figure, (times, memory) = plt.subplots(1, 2, figsize=(11, 4.2), width_ratios=(3, 2))
+    for name in TIMES:
+        draw(times, found[name], 1, name)
+    draw(memory, found["factorisation"], 2, "factor")
+    times.set_ylabel("s, one thread")
+    memory.set_ylabel("bytes")
+    for axes in (times, memory):
+        axes.set_xlabel("tetrahedra")
+        axes.set_xlim(right=1.2e8 if axes is times else 3e7)
+        axes.set_xticks([1e3, 1e4, 1e5, 1e6])
+        axes.spines[["top", "right"]].set_visible(False)
+        axes.grid(alpha=0.3)
+    figure.tight_layout()
+    figure.savefig(target)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    main(*sys.argv[1:])
