@@ -95,14 +95,17 @@ Reason Cvode::classify(int flag) const {
 std::size_t Cvode::workspace_bytes() const {
   long reals = 0, integers = 0;
   CVodeGetWorkSpace(memory(), &reals, &integers);
-  return static_cast<std::size_t>(reals) * sizeof(sunrealtype);
+  return static_cast<std::size_t>(reals) * sizeof(sunrealtype) + (newton_ ? newton_->bytes() : 0);
 }
 
 void Cvode::attach_newton() {
-  if (!model_.traits().smooth) {
-    newton_.emplace(settings_.options.rtol, y(), context_);
+  if (model_.traits().smooth) {
+    newton_.emplace(y(), context_);
     require(CVodeSetNonlinearSolver(memory(), newton_->get()));
-    newton_->replace_test();
+  } else {
+    newton_at_kinks_.emplace(settings_.options.rtol, y(), context_);
+    require(CVodeSetNonlinearSolver(memory(), newton_at_kinks_->get()));
+    newton_at_kinks_->replace_test();
   }
   settings_.full ? attach_full() : attach_reduced();
   // A drifting gamma costs a refactorisation only from 50 % on: 10-20 % fewer of them.

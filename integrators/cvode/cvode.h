@@ -8,6 +8,7 @@
 
 #include "integrators/sundials/first_order.h"
 #include "integrators/sundials/newton_at_kinks.h"
+#include "integrators/sundials/secant_newton.h"
 #include "integrators/sundials/setup_schedule.h"
 
 namespace orthodyn::sundials {
@@ -45,7 +46,8 @@ class Cvode : public FirstOrderIntegrator {
 
   int max_order_;
   SetupSchedule setups_;
-  std::optional<NewtonAtKinks> newton_;
+  std::optional<SecantNewton> newton_;
+  std::optional<NewtonAtKinks> newton_at_kinks_;
   std::unique_ptr<void, FreeMemory> memory_;
 };
 

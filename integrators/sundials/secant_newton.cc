@@ -1,0 +1,137 @@
+#include "integrators/sundials/secant_newton.h"
+
+#include <sunnonlinsol/sunnonlinsol_newton.h>
+
+#include <algorithm>
+#include <utility>
+
+#include <Eigen/Cholesky>
+
+namespace orthodyn::sundials {
+
+namespace {
+
+constexpr double kFastest = 0.3;  // factor by which a rate falls from one estimate to the next, as in CVODE
+constexpr double kGivenUp = 2;    // growth of a correction at which the solve is given up, as in CVODE
+
+}  // namespace
+
+SecantNewton::SecantNewton(N_Vector y, SUNContext context)
+    : newton_(SUNNonlinSol_Newton(y, context)), solver_(SUNNonlinSolNewEmpty(context)) {
+  if (!newton_ || !solver_) throw RunError("SUNDIALS could not create Newton's iteration", Reason::out_of_memory);
+  solver_->content = this;
+  delegate();
+}
+
+void SecantNewton::delegate() {
+  auto& ops = *solver_->ops;
+  ops.gettype = [](SUNNonlinearSolver) { return SUNNONLINEARSOLVER_ROOTFIND; };
+  ops.initialize = [](SUNNonlinearSolver S) { return SUNNonlinSolInitialize(of(S).newton_.get()); };
+  ops.solve = [](SUNNonlinearSolver S, N_Vector y0, N_Vector y, N_Vector w, sunrealtype tolerance,
+                 sunbooleantype set_up, void* memory) {
+    return of(S).solve(y0, y, w, tolerance, set_up, memory);
+  };
+  ops.free = [](SUNNonlinearSolver S) {
+    S->content = nullptr;
+    SUNNonlinSolFreeEmpty(S);
+    return 0;
+  };
+  ops.setsysfn = [](SUNNonlinearSolver S, SUNNonlinSolSysFn f) {
+    of(S).system_ = f;
+    return SUNNonlinSolSetSysFn(of(S).newton_.get(), [](N_Vector y, N_Vector F, void* me) {
+      auto& s = *static_cast<SecantNewton*>(me);
+      return s.system_(y, F, s.memory_);
+    });
+  };
+  ops.setlsetupfn = [](SUNNonlinearSolver S, SUNNonlinSolLSetupFn f) {
+    of(S).set_up_ = f;
+    return SUNNonlinSolSetLSetupFn(of(S).newton_.get(), [](sunbooleantype bad, sunbooleantype* current, void* me) {
+      auto& s = *static_cast<SecantNewton*>(me);
+      s.first_rate_ = 1;
+      return s.set_up_(bad, current, s.memory_);
+    });
+  };
+  ops.setlsolvefn = [](SUNNonlinearSolver S, SUNNonlinSolLSolveFn f) {
+    of(S).solve_ = f;
+    return SUNNonlinSolSetLSolveFn(of(S).newton_.get(),
+                                   [](N_Vector b, void* me) { return static_cast<SecantNewton*>(me)->correct(b); });
+  };
+  ops.setctestfn = [](SUNNonlinearSolver S, SUNNonlinSolConvTestFn, void*) {
+    return SUNNonlinSolSetConvTestFn(
+        of(S).newton_.get(),
+        [](SUNNonlinearSolver, N_Vector, N_Vector step, sunrealtype tolerance, N_Vector weights, void* me) {
+          return static_cast<SecantNewton*>(me)->test(N_VWrmsNorm(step, weights), tolerance);
+        },
+        &of(S));
+  };
+  ops.setmaxiters = [](SUNNonlinearSolver S, int most) { return SUNNonlinSolSetMaxIters(of(S).newton_.get(), most); };
+  ops.getnumiters = [](SUNNonlinearSolver S, long* n) { return SUNNonlinSolGetNumIters(of(S).newton_.get(), n); };
+  ops.getcuriter = [](SUNNonlinearSolver S, int* n) { return SUNNonlinSolGetCurIter(of(S).newton_.get(), n); };
+  ops.getnumconvfails = [](SUNNonlinearSolver S, long* n) {
+    return SUNNonlinSolGetNumConvFails(of(S).newton_.get(), n);
+  };
+}
+
+int SecantNewton::solve(N_Vector y0, N_Vector y, N_Vector weights, sunrealtype tolerance, sunbooleantype set_up,
+                        void* memory) {
+  memory_ = memory;
+  weights_ = weights;
+  return SUNNonlinSolSolve(newton_.get(), y0, y, weights, tolerance, set_up, this);
+}
+
+int SecantNewton::iteration() const {
+  int i = 0;
+  SUNNonlinSolGetCurIter(newton_.get(), &i);
+  return i;
+}
+
+int SecantNewton::correct(N_Vector b) {
+  if (const int flag = solve_(b, memory_); flag != 0) return flag;
+  auto d = view(b);
+  const Vector plain = d;
+  if (iteration() == 0) {  // of another step, or with another matrix
+    known_ = 0;
+  } else {
+    if (iteration() == 1) first_rate_ = std::max(kFastest * first_rate_, N_VWrmsNorm(b, weights_) / first_size_);
+    effect_[0] += plain;
+    change_[0] += effect_[0];
+    known_ = std::min(known_ + 1, kDepth);
+    improve(d);
+  }
+  std::rotate(change_.rbegin(), change_.rbegin() + 1, change_.rend());
+  std::rotate(effect_.rbegin(), effect_.rbegin() + 1, effect_.rend());
+  change_[0] = d;
+  effect_[0] = -plain;
+  return 0;
+}
+
+int SecantNewton::test(double size, double tolerance) {
+  if (iteration() == 0) {
+    first_size_ = size;
+    rate_ = first_rate_;
+  } else {
+    rate_ = std::max(kFastest * rate_, size / last_size_);
+  }
+  const double last = std::exchange(last_size_, size);
+  if (size * std::min(1.0, rate_) <= tolerance) return 0;
+  return iteration() > 0 && size > kGivenUp * last ? SUN_NLS_CONV_RECVR : SUN_NLS_CONTINUE;
+}
+
+void SecantNewton::improve(VectorRef d) const {
+  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kDepth, kDepth>;
+  const auto product = [&](const auto& x, const auto& y) {
+    return view(weights_).cwiseAbs2().cwiseProduct(x).dot(y);
+  };
+  Small A(known_, known_);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kDepth, 1> b(known_);
+  for (int i = 0; i < known_; ++i) {
+    const Vector& effect = effect_[static_cast<std::size_t>(i)];
+    b[i] = product(effect, d);
+    for (int j = 0; j <= i; ++j) A(i, j) = A(j, i) = product(effect, effect_[static_cast<std::size_t>(j)]);
+  }
+  const auto g = A.ldlt().solve(b).eval();
+  if (!g.allFinite()) return;
+  for (int i = 0; i < known_; ++i) d -= g[i] * change_[static_cast<std::size_t>(i)];
+}
+
+}  // namespace orthodyn::sundials

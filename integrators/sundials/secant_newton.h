@@ -1,0 +1,59 @@
+// Newton's method with the matrix of earlier steps, its corrections improved by the secants of the last two (Anderson
+// 1965, type II of depth 2).
+//
+// With a matrix that is off by its gamma or by the motion since, corrections d_k = -A^-1 F(x_k) shrink by a constant
+// factor along few directions. What the last steps x_i changed of d is known without another force:
+//     dx = d_k - sum_i g_i (dx_i + dd_i),   g minimises |d_k - sum_i g_i dd_i|,
+// with the norm of the error test. The matrix serves longer, and fewer are factorised.
+//
+// Its own test of convergence: the libraries judge the first correction, which no secant improves, by the rate of those
+// of earlier steps, and would take it too soon.
+#pragma once
+
+#include <sundials/sundials_nonlinearsolver.h>
+
+#include <array>
+
+#include "integrators/sundials/handles.h"
+
+namespace orthodyn::sundials {
+
+class SecantNewton {
+ public:
+  SecantNewton(N_Vector y, SUNContext context);
+  SecantNewton(const SecantNewton&) = delete;
+  SecantNewton& operator=(const SecantNewton&) = delete;
+
+  // To be handed to the library; this must outlive it.
+  SUNNonlinearSolver get() const { return solver_.get(); }
+
+  std::size_t bytes() const { return 2 * kDepth * static_cast<std::size_t>(change_[0].size()) * sizeof(double); }
+
+ private:
+  static constexpr int kDepth = 2;
+
+  static SecantNewton& of(SUNNonlinearSolver solver) { return *static_cast<SecantNewton*>(solver->content); }
+  void delegate();
+  int solve(N_Vector y0, N_Vector y, N_Vector weights, sunrealtype tolerance, sunbooleantype set_up, void* memory);
+  int correct(N_Vector b);  // the linear solve of one iteration, and what the secants make of it
+  void improve(VectorRef d) const;
+  int test(double size, double tolerance);
+  int iteration() const;
+
+  // SUNDIALS' own iteration does the work; what it calls comes through here.
+  Owned<SUNNonlinearSolver, SUNNonlinSolFree> newton_, solver_;
+  SUNNonlinSolSysFn system_ = nullptr;
+  SUNNonlinSolLSetupFn set_up_ = nullptr;
+  SUNNonlinSolLSolveFn solve_ = nullptr;
+  void* memory_ = nullptr;      // of the integrator
+  N_Vector weights_ = nullptr;  // of this solve
+  // dx_i + dd_i and dd_i, the latest first; between two iterations dx and -d of the last one.
+  std::array<Vector, kDepth> change_, effect_;
+  int known_ = 0;  // secants
+  // Sizes are norms of the error test.
+  double first_size_ = 0, last_size_ = 0;  // of the first and the last correction of this solve
+  double first_rate_ = 1;                  // by which the first correction leaves errors, from the last solves
+  double rate_ = 1;                        // by which corrections shrink
+};
+
+}  // namespace orthodyn::sundials

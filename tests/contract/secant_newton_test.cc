@@ -1,0 +1,78 @@
+#include "integrators/sundials/secant_newton.h"
+
+#include <gtest/gtest.h>
+
+namespace orthodyn::secant_newton_test {
+namespace {
+
+using namespace sundials;
+
+// F(x) = x - 1, stretched along each axis, with the unit matrix in place of its derivative.
+struct Problem {
+  Vector stretch;
+  int solves = 0;
+
+  static int system(N_Vector x, N_Vector F, void* me) {
+    const auto& stretch = static_cast<Problem*>(me)->stretch;
+    view(F) = stretch.cwiseProduct(view(x) - Vector::Ones(stretch.size()));
+    return 0;
+  }
+  static int solve(N_Vector, void* me) {
+    ++static_cast<Problem*>(me)->solves;
+    return 0;
+  }
+  static int test(SUNNonlinearSolver, N_Vector, N_Vector d, sunrealtype tolerance, N_Vector weights, void*) {
+    return N_VWrmsNorm(d, weights) <= tolerance ? 0 : SUN_NLS_CONTINUE;
+  }
+
+  // From zero, until corrections are below 1e-12.
+  Vector solution(SUNNonlinearSolver solver, SUNContext context) {
+    const OwnedVector y0 = make_vector(stretch.size(), context), y = make_vector(stretch.size(), context),
+                      weights = make_vector(stretch.size(), context);
+    view(weights.get()).setLinSpaced(0.5, 2);
+    SUNNonlinSolSetSysFn(solver, system);
+    SUNNonlinSolSetLSolveFn(solver, solve);
+    SUNNonlinSolSetConvTestFn(solver, test, nullptr);
+    SUNNonlinSolSetMaxIters(solver, 100);
+    SUNNonlinSolInitialize(solver);
+    solves = 0;
+    EXPECT_EQ(SUNNonlinSolSolve(solver, y0.get(), y.get(), weights.get(), 1e-12, 0, this), 0);
+    return view(y.get());
+  }
+};
+
+// What a matrix of another gamma does: stiff and soft directions are off by one factor each. Of two factors the secants
+// of two steps know all: the third correction is exact, and the fourth finds nothing to do. Without them each step takes
+// the error down by 0.6, to 1e-12 in 55.
+TEST(SecantNewton, SolvesAtOnceWhatIsOffByTwoFactors) {
+  const Context context;
+  Problem problem{(Vector(6) << 0.5, 0.5, 1.6, 0.5, 1.6, 1.6).finished()};
+  const OwnedVector y = make_vector(6, context);
+  const SecantNewton newton(y.get(), context);
+  for (const char* time : {"first", "second"}) {  // nothing is left of the first
+    SCOPED_TRACE(time);
+    EXPECT_LE((problem.solution(newton.get(), context) - Vector::Ones(6)).norm(), 1e-12);
+    EXPECT_EQ(problem.solves, 4);
+  }
+}
+
+TEST(SecantNewton, ConvergesWithManyFactors) {
+  const Context context;
+  Problem problem{Vector::LinSpaced(40, 0.4, 1.6)};
+  const OwnedVector y = make_vector(40, context);
+  const SecantNewton newton(y.get(), context);
+  EXPECT_LE((problem.solution(newton.get(), context) - Vector::Ones(40)).norm(), 1e-10);
+}
+
+// The second correction is zero, and with it what the secants are found from.
+TEST(SecantNewton, TakesAnExactMatrix) {
+  const Context context;
+  Problem problem{Vector::Ones(6)};
+  const OwnedVector y = make_vector(6, context);
+  const SecantNewton newton(y.get(), context);
+  EXPECT_EQ(problem.solution(newton.get(), context), Vector(Vector::Ones(6)));
+  EXPECT_EQ(problem.solves, 2);
+}
+
+}  // namespace
+}  // namespace orthodyn::secant_newton_test
