@@ -2,7 +2,13 @@
 include(CMakePackageConfigHelpers)
 set(_config ${CMAKE_INSTALL_LIBDIR}/cmake/orthodyn)
 
-install(TARGETS orthodyn EXPORT orthodynTargets)
+# Where the system's loader looks first on a processor of that level, beside a library for all others (tools/package).
+set(_library ${CMAKE_INSTALL_LIBDIR})
+if(ORTHODYN_PROCESSOR MATCHES "^x86-64-v[2-4]$")
+  string(APPEND _library /glibc-hwcaps/${ORTHODYN_PROCESSOR})
+endif()
+
+install(TARGETS orthodyn EXPORT orthodynTargets LIBRARY DESTINATION ${_library} COMPONENT library)
 install(TARGETS orthodyn_cli)
 install(DIRECTORY lib DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/orthodyn FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY tools/draw DESTINATION ${CMAKE_INSTALL_DATADIR}/orthodyn USE_SOURCE_PERMISSIONS

@@ -9,10 +9,12 @@ target_compile_options(orthodyn_options INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-uninitialized -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds>
   # Batches are passed within one library only.
   -Wno-psabi)
-if(ORTHODYN_NATIVE)
-  set(ORTHODYN_ARCH_OPTION -march=native)
-  target_compile_options(orthodyn_options INTERFACE ${ORTHODYN_ARCH_OPTION})
+if(ORTHODYN_PROCESSOR)
+  target_compile_options(orthodyn_options INTERFACE -march=${ORTHODYN_PROCESSOR})
 endif()
+# Eigen's own depend on the processor; with these a program may be compiled for another one than the library.
+set(ORTHODYN_EIGEN_ALIGNMENT EIGEN_MAX_ALIGN_BYTES=64 EIGEN_MAX_STATIC_ALIGN_BYTES=64)
+target_compile_definitions(orthodyn_options INTERFACE ${ORTHODYN_EIGEN_ALIGNMENT})
 if(ORTHODYN_SANITIZE)
   # But for what the address sanitizer sees, too, of every pointer: a quarter of the build time.
   target_compile_options(orthodyn_options INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer
@@ -59,8 +61,7 @@ function(orthodyn_library)
   target_include_directories(orthodyn PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/orthodyn>)
   target_compile_features(orthodyn PUBLIC cxx_std_20)
-  # Eigen's alignment depends on it: users of the headers must have the same.
-  target_compile_options(orthodyn PUBLIC ${ORTHODYN_ARCH_OPTION})
+  target_compile_definitions(orthodyn PUBLIC ${ORTHODYN_EIGEN_ALIGNMENT})
   target_link_libraries(orthodyn PUBLIC Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json PRIVATE
     yaml-cpp muparser::muparser Udunits2::udunits2 pugixml::pugixml ZLIB::ZLIB TBB::tbb SuiteSparse::cholmod SuiteSparse::klu
     ${CMAKE_DL_LIBS}

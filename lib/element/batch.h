@@ -11,13 +11,19 @@
 
 namespace orthodyn {
 
+// The number of lanes is part of the name: what is compiled for another kind of processor than the library does not
+// link with it where both use batches.
+#if defined(__AVX512F__)
+inline constexpr int kBatchLanes = 8;
+inline namespace lanes_8 {
+#else
+inline constexpr int kBatchLanes = 4;
+inline namespace lanes_4 {
+#endif
+
 class Batch {
  public:
-#if defined(__AVX512F__)
-  static constexpr int kLanes = 8;
-#else
-  static constexpr int kLanes = 4;
-#endif
+  static constexpr int kLanes = kBatchLanes;
   using Pack = double __attribute__((vector_size(kLanes * sizeof(double))));
   using Mask = std::int64_t __attribute__((vector_size(kLanes * sizeof(double))));
 
@@ -50,6 +56,11 @@ class Batch {
  private:
   Pack v_;
 };
+
+}  // namespace lanes_*
+
+// What the library was compiled for: "AVX-512", "AVX2", ...
+const char* vector_instructions();
 
 inline Batch sqrt(const Batch& x) {
   Batch::Pack root;

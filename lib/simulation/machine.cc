@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "lib/core/versions.h"
+#include "lib/element/batch.h"
 #include "lib/linear/blas.h"
 
 namespace orthodyn {
@@ -26,7 +27,10 @@ std::string processor() {
 
 Json machine_json() {
   const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  return {{"processor", processor()}, {"cores", std::thread::hardware_concurrency()}, {"memory_bytes", memory}};
+  return {{"processor", processor()},
+          {"cores", std::thread::hardware_concurrency()},
+          {"memory_bytes", memory},
+          {"vectors", vector_instructions()}};
 }
 
 Json versions_json() {
