@@ -4,7 +4,7 @@ set(_config ${CMAKE_INSTALL_LIBDIR}/cmake/orthodyn)
 
 # Where the system's loader looks first on a processor of that level, beside a library for all others (tools/package).
 set(_library ${CMAKE_INSTALL_LIBDIR})
-if(ORTHODYN_PROCESSOR MATCHES "^x86-64-v[2-4]$")
+if(ORTHODYN_HWCAPS)
   string(APPEND _library /glibc-hwcaps/${ORTHODYN_PROCESSOR})
 endif()
 

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <utility>
 
-#include <Eigen/Cholesky>
-
 namespace orthodyn::sundials {
 
 namespace {
 
 constexpr double kFastest = 0.3;  // factor by which a rate falls from one estimate to the next, as in CVODE
+constexpr double kParallel = 1e-12;  // of a secant's square, what is not along the other one
 constexpr double kGivenUp = 2;    // growth of a correction at which the solve is given up, as in CVODE
 
 }  // namespace
@@ -20,6 +19,9 @@ SecantNewton::SecantNewton(N_Vector y, SUNContext context)
     : newton_(SUNNonlinSol_Newton(y, context)), solver_(SUNNonlinSolNewEmpty(context)) {
   if (!newton_ || !solver_) throw RunError("SUNDIALS could not create Newton's iteration", Reason::out_of_memory);
   solver_->content = this;
+  plain_.setZero(view(y).size());
+  change_.fill(plain_);
+  effect_.fill(plain_);
   delegate();
 }
 
@@ -88,12 +90,12 @@ int SecantNewton::iteration() const {
 int SecantNewton::correct(N_Vector b) {
   if (const int flag = solve_(b, memory_); flag != 0) return flag;
   auto d = view(b);
-  const Vector plain = d;
+  plain_ = d;
   if (iteration() == 0) {  // of another step, or with another matrix
     known_ = 0;
   } else {
     if (iteration() == 1) first_rate_ = std::max(kFastest * first_rate_, N_VWrmsNorm(b, weights_) / first_size_);
-    effect_[0] += plain;
+    effect_[0] += plain_;
     change_[0] += effect_[0];
     known_ = std::min(known_ + 1, kDepth);
     improve(d);
@@ -101,7 +103,7 @@ int SecantNewton::correct(N_Vector b) {
   std::rotate(change_.rbegin(), change_.rbegin() + 1, change_.rend());
   std::rotate(effect_.rbegin(), effect_.rbegin() + 1, effect_.rend());
   change_[0] = d;
-  effect_[0] = -plain;
+  effect_[0] = -plain_;
   return 0;
 }
 
@@ -118,20 +120,22 @@ int SecantNewton::test(double size, double tolerance) {
 }
 
 void SecantNewton::improve(VectorRef d) const {
-  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kDepth, kDepth>;
   const auto product = [&](const auto& x, const auto& y) {
     return view(weights_).cwiseAbs2().cwiseProduct(x).dot(y);
   };
-  Small A(known_, known_);
-  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kDepth, 1> b(known_);
-  for (int i = 0; i < known_; ++i) {
-    const Vector& effect = effect_[static_cast<std::size_t>(i)];
-    b[i] = product(effect, d);
-    for (int j = 0; j <= i; ++j) A(i, j) = A(j, i) = product(effect, effect_[static_cast<std::size_t>(j)]);
+  const auto& [first, second] = effect_;
+  const double a11 = product(first, first), b1 = product(first, d);
+  if (!(a11 > 0)) return;
+  double g1 = b1 / a11, g2 = 0;
+  if (known_ == 2) {
+    const double a12 = product(first, second), a22 = product(second, second);
+    const double pivot = a22 - a12 * a12 / a11;  // small where the two tell the same
+    if (pivot > kParallel * a22) {
+      g2 = (product(second, d) - a12 * g1) / pivot;
+      g1 -= a12 / a11 * g2;
+    }
   }
-  const auto g = A.ldlt().solve(b).eval();
-  if (!g.allFinite()) return;
-  for (int i = 0; i < known_; ++i) d -= g[i] * change_[static_cast<std::size_t>(i)];
+  d -= g1 * change_[0] + g2 * change_[1];
 }
 
 }  // namespace orthodyn::sundials

@@ -24,10 +24,11 @@ class SecantNewton {
   SecantNewton(const SecantNewton&) = delete;
   SecantNewton& operator=(const SecantNewton&) = delete;
 
-  // To be handed to the library; this must outlive it.
+  // To be handed to the library, whose test of convergence is ignored; this must outlive it.
   SUNNonlinearSolver get() const { return solver_.get(); }
 
-  std::size_t bytes() const { return 2 * kDepth * static_cast<std::size_t>(change_[0].size()) * sizeof(double); }
+  // With the vector that SUNDIALS' iteration has.
+  std::size_t bytes() const { return (2 * kDepth + 2) * static_cast<std::size_t>(plain_.size()) * sizeof(double); }
 
  private:
   static constexpr int kDepth = 2;
@@ -49,6 +50,7 @@ class SecantNewton {
   N_Vector weights_ = nullptr;  // of this solve
   // dx_i + dd_i and dd_i, the latest first; between two iterations dx and -d of the last one.
   std::array<Vector, kDepth> change_, effect_;
+  Vector plain_;   // d; nothing is allocated in SUNDIALS' calls
   int known_ = 0;  // secants
   // Sizes are norms of the error test.
   double first_size_ = 0, last_size_ = 0;  // of the first and the last correction of this solve

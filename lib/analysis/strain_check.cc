@@ -44,7 +44,7 @@ Excess find_excess(const ElasticTerm& term, const std::array<AxisLimits, 3>& lim
     for (auto& sides : found)
       for (Excess& one : sides) {
         if (one.limit.strain == 0) continue;
-        const double share = (e.row(one.axis) / one.limit.strain).maxCoeff();
+        const double share = (e.row(one.axis) / one.limit.strain).maxCoeff<Eigen::PropagateNumbers>();
         if (!(share > 1)) continue;
         ++one.count;
         if (share > one.severity()) one.worst = share * one.limit.strain;

@@ -11,8 +11,9 @@
 
 namespace orthodyn {
 
-// The number of lanes is part of the name: what is compiled for another kind of processor than the library does not
-// link with it where both use batches.
+// The number of lanes is part of the name: an element or a law that is compiled for another kind of processor than the
+// library does not load with it, for its polar decomposition (polar.h) is missing. What holds or returns batches but
+// calls none is not protected.
 #if defined(__AVX512F__)
 inline constexpr int kBatchLanes = 8;
 inline namespace lanes_8 {

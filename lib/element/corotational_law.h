@@ -69,10 +69,10 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
   }
 
   // stress() for a batch of points; right in the lanes of `good`, the others (inverted, singular) are
-  // to be done one by one.
+  // to be done one by one. Flattened, as others: batches that pass through a call pass through memory.
   template <class Axes>
-  [[gnu::flatten]] Mat3T<Batch> batch_stress(const Mat3T<Batch>& H, const Axes& Q, const Mat3T<Batch>* F_rate, double beta,
-                            Batch::Mask& good) const {
+  [[gnu::flatten]] Mat3T<Batch> batch_stress(const Mat3T<Batch>& H, const Axes& Q, const Mat3T<Batch>* F_rate,
+                                             double beta, Batch::Mask& good) const {
     Polar<Batch> p;
     good = this->regular_polar(H, Q, p);
     Mat3T<Batch> P = p.R * regular_stress<Batch>(p, stretch_strain<Batch>(H, Q, p.S));

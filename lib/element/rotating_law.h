@@ -60,8 +60,8 @@ class RotatingLaw {
 
   // The same for a batch; right in the lanes of `good`.
   template <class Axes>
-  [[gnu::flatten]] Batch batch_dissipation(const Mat3T<Batch>& H, const Axes& Q, const Mat3T<Batch>& F_rate, double beta,
-                          Batch::Mask& good) const {
+  [[gnu::flatten]] Batch batch_dissipation(const Mat3T<Batch>& H, const Axes& Q, const Mat3T<Batch>& F_rate,
+                                           double beta, Batch::Mask& good) const {
     Polar<Batch> p;
     good = regular_polar(H, Q, p);
     return contract<Batch>(viscous_stress<Batch>(p, C_, Batch(beta), F_rate), F_rate);

@@ -142,7 +142,8 @@ template <Element E>
 }
 
 template <Element E>
-[[gnu::noipa, gnu::flatten]] void ElementBatches<E>::add_forces(int batch, int p, const Mat3T<Batch>& P, NodalVector& f) const {
+[[gnu::noipa, gnu::flatten]] void ElementBatches<E>::add_forces(int batch, int p, const Mat3T<Batch>& P,
+                                                                NodalVector& f) const {
   const One& one = batches_[static_cast<std::size_t>(batch)];
   const Point& point = at_point(batch, p);
   const Batch volume = Batch::load(point.volume);

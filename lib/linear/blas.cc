@@ -60,6 +60,12 @@ std::string blas_name() {
 
 bool blas_is_openblas() { return find<char*()>("openblas_get_config") != nullptr; }
 
+bool blas_uses_openmp() {
+  constexpr int kOpenMp = 2;  // OPENBLAS_OPENMP of its cblas.h
+  auto* parallel = find<int()>("openblas_get_parallel");
+  return parallel != nullptr && parallel() == kOpenMp;
+}
+
 BlasThreadLimit::BlasThreadLimit(std::optional<int> most) : most_(most) {
   if (most_) thread_count().limit(*most_);
 }

@@ -115,7 +115,7 @@ class Cholmod : public LinearSolver {
 
  private:
   std::optional<int> most_threads() const {
-    return pattern_->n < kBlasThreadsFrom ? std::optional(1) : std::nullopt;
+    return pattern_->n < kBlasThreadsFrom || blas_uses_openmp() ? std::optional(1) : std::nullopt;
   }
 
   // CHOLMOD takes pointers to non-const, and reads only.

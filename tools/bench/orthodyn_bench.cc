@@ -51,8 +51,9 @@ int main(int argc, char** argv) {
                                                "were lost")->check(CLI::ExistingFile);
   app.add_option("--repetitions", request.repetitions, "Of each measurement")->check(CLI::Range(1, 1000));
   app.add_flag("--large", request.large, "With 57,600 unknowns, too");
-  app.add_flag("--growth", request.growth, "From 3,000 elements to a million instead, for tools/bench/growth.py: 16 GB, "
-                                           "and an hour unless --repetitions is 1");
+  app.add_flag("--growth", request.growth,
+               "From 3,000 elements to a million instead, for tools/bench/growth.py: 16 GB; an hour, less by "
+               "--repetitions 1");
   CLI11_PARSE(app, argc, argv);
   try {
     std::map<std::string, double> before;
