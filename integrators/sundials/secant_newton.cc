@@ -9,9 +9,9 @@ namespace orthodyn::sundials {
 
 namespace {
 
-constexpr double kFastest = 0.3;  // factor by which a rate falls from one estimate to the next, as in CVODE
+constexpr double kFastest = 0.3;     // factor by which a rate falls from one estimate to the next, as in CVODE
 constexpr double kParallel = 1e-12;  // of a secant's square, what is not along the other one
-constexpr double kGivenUp = 2;    // growth of a correction at which the solve is given up, as in CVODE
+constexpr double kGivenUp = 2;       // growth of a correction at which the solve is given up, as in CVODE
 
 }  // namespace
 
@@ -135,7 +135,8 @@ void SecantNewton::improve(VectorRef d) const {
       g1 -= a12 / a11 * g2;
     }
   }
-  d -= g1 * change_[0] + g2 * change_[1];
+  d -= g1 * change_[0];
+  if (g2 != 0) d -= g2 * change_[1];  // of one known secant the other holds what a solve before left, perhaps NaN
 }
 
 }  // namespace orthodyn::sundials

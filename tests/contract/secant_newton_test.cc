@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace orthodyn::secant_newton_test {
 namespace {
 
@@ -22,8 +24,8 @@ struct Problem {
     return 0;
   }
 
-  // From zero, until errors are estimated to be below 1e-12.
-  Vector solution(SUNNonlinearSolver solver, SUNContext context) {
+  // From zero, until errors are estimated to be below 1e-12; returns SUNDIALS' flag.
+  int solve_from_zero(SUNNonlinearSolver solver, SUNContext context, Vector* x) {
     const OwnedVector y0 = make_vector(stretch.size(), context), y = make_vector(stretch.size(), context),
                       weights = make_vector(stretch.size(), context);
     view(weights.get()).setLinSpaced(0.5, 2);
@@ -33,8 +35,14 @@ struct Problem {
     SUNNonlinSolSetMaxIters(solver, 100);
     SUNNonlinSolInitialize(solver);
     solves = 0;
-    EXPECT_EQ(SUNNonlinSolSolve(solver, y0.get(), y.get(), weights.get(), 1e-12, 0, this), 0);
-    return view(y.get());
+    const int flag = SUNNonlinSolSolve(solver, y0.get(), y.get(), weights.get(), 1e-12, 0, this);
+    if (x) *x = view(y.get());
+    return flag;
+  }
+  Vector solution(SUNNonlinearSolver solver, SUNContext context) {
+    Vector x;
+    EXPECT_EQ(solve_from_zero(solver, context, &x), 0);
+    return x;
   }
 };
 
@@ -70,6 +78,16 @@ TEST(SecantNewton, SolvesAtOnceWhatIsOffByOneFactor) {
   const SecantNewton newton(y.get(), context);
   EXPECT_LE((problem.solution(newton.get(), context) - Vector::Ones(6)).norm(), 1e-12);
   EXPECT_EQ(problem.solves, 3);
+}
+
+TEST(SecantNewton, ForgetsASolveThatWentWrong) {
+  const Context context;
+  const OwnedVector y = make_vector(6, context);
+  const SecantNewton newton(y.get(), context);
+  Problem wrong{Vector::Constant(6, std::numeric_limits<double>::quiet_NaN())};
+  EXPECT_NE(wrong.solve_from_zero(newton.get(), context, nullptr), 0);
+  Problem problem{Vector::Constant(6, 1.6)};
+  EXPECT_LE((problem.solution(newton.get(), context) - Vector::Ones(6)).norm(), 1e-12);
 }
 
 // The second correction is zero.
