@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "lib/core/errors.h"
 
@@ -24,8 +25,7 @@ double stiffness_to_come(const Model& model) {
 }  // namespace
 
 CriticalStep::CriticalStep(const Model& model, Statistics& statistics)
-    : model_(model), statistics_(statistics), reserve_(stiffness_to_come(model)), stiffness_(model), damping_(model),
-      values_(model.pattern().row.size()) {}
+    : model_(model), statistics_(statistics), reserve_(stiffness_to_come(model)), stiffness_(model), damping_(model) {}
 
 double CriticalStep::limit(const State& state, double reserve) {
   const Measure measure(statistics_.tangent);
@@ -33,14 +33,16 @@ double CriticalStep::limit(const State& state, double reserve) {
   const double present = largest({0, 0, 1}, stiffness_), delta = largest({0, 1, 0}, damping_);
   const double kappa = reserve + present;
   damping_time_ = present > 0 ? delta / present : 0;
+  if (!model_.traits().linear) linearization_ = {};  // the steps between two calls need no matrix
   if (!std::isfinite(kappa + delta)) throw RecoverableError("the stiffness is not finite");
   return 2 / (delta + std::sqrt(delta * delta + kappa));
 }
 
 double CriticalStep::largest(const Weights& weights, SpectralBound& bound) {
-  model_.combine(weights, linearization_, values_.data());
-  const bool absent = std::all_of(values_.begin(), values_.end(), [](double x) { return x == 0; });
-  return absent ? 0 : bound.largest(values_.data());
+  std::vector<double> values(model_.pattern().row.size());
+  model_.combine(weights, linearization_, values.data());
+  const bool absent = std::all_of(values.begin(), values.end(), [](double x) { return x == 0; });
+  return absent ? 0 : bound.largest(values.data());
 }
 
 void refuse_a_run_without_end(const std::string& name, const Model& model, const Task& task, double reach,

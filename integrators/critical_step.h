@@ -44,7 +44,6 @@ class CriticalStep {
   double reserve_, damping_time_ = 0;
   SpectralBound stiffness_, damping_;
   Linearization linearization_;
-  std::vector<double> values_;
 };
 
 // Refuses a run that an explicit method of variable step would not end within max_steps, each of them at most

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace orthodyn {
 
@@ -25,9 +27,9 @@ Vector random_vector(int n) {
 
 }  // namespace
 
-// Lanczos vectors V and M V, and the tridiagonal matrix.
+// The tridiagonal matrix, and Lanczos vectors in single precision: from them the next call starts.
 struct SpectralBound::Basis {
-  explicit Basis(Eigen::Index n, int size) : v(n, size), mv(n, size), diagonal(size), beside(size) {}
+  explicit Basis(int size) : diagonal(size), beside(size) {}
 
   // The largest eigenpair of the leading k x k part.
   std::pair<double, Vector> largest(int k) const {
@@ -35,8 +37,13 @@ struct SpectralBound::Basis {
     modes.computeFromTridiagonal(diagonal.head(k), beside.head(k - 1));
     return {modes.eigenvalues()[k - 1], modes.eigenvectors().col(k - 1)};
   }
+  Vector combined(const Vector& shape) const {
+    Vector sum = Vector::Zero(v.front().size());
+    for (std::size_t k = 0; k < v.size(); ++k) sum += shape[static_cast<Eigen::Index>(k)] * v[k].cast<double>();
+    return sum;
+  }
 
-  Eigen::MatrixXd v, mv;
+  std::vector<Eigen::VectorXf> v;
   Vector diagonal, beside;
 };
 
@@ -53,10 +60,12 @@ Vector SpectralBound::start() const {
   return ritz_ / ritz_.norm() + kFreshPart * random_ / random_.norm();
 }
 
+// Each vector is made orthogonal to the two before it alone: the others stay so until an eigenvalue is known far better
+// than is asked for here (Paige 1971), and all of them would take more time and memory than the matrix.
 double SpectralBound::largest(const double* values) {
   const int n = model_.num_dofs(), most = std::min(n, kMaxIterations);
-  Basis basis(n, most);
-  Vector w = start(), mw(n), au(n);
+  Basis basis(most);
+  Vector w = start(), v = Vector::Zero(n), before(n), mw(n), av(n);
   double scale = 0;  // of the eigenvalues met
   for (int k = 0;; ++k) {
     model_.multiply_mass(w, mw);
@@ -68,18 +77,18 @@ double SpectralBound::largest(const double* values) {
       const double residual = norm * std::abs(shape[k - 1]);
       const bool converged = k >= kMinIterations && residual <= kResidual * value;
       if (converged || k == most || norm <= kBreakdown * scale) {
-        ritz_ = basis.v.leftCols(k) * shape;
+        ritz_ = basis.combined(shape);
         return std::max(value + residual, 0.0);
       }
     }
-    basis.v.col(k) = w / norm;
-    basis.mv.col(k) = mw / norm;
-    multiply(values, basis.v.col(k), au);
-    basis.diagonal[k] = basis.v.col(k).dot(au);
-    model_.solve_mass(au);
-    w = au;
-    for (int pass = 0; pass < 2; ++pass)  // twice is enough: orthogonal to round-off
-      w -= basis.v.leftCols(k + 1) * (basis.mv.leftCols(k + 1).transpose() * w).eval();
+    before.swap(v);
+    v = w / norm;
+    basis.v.push_back(v.cast<float>());
+    multiply(values, v, av);
+    basis.diagonal[k] = v.dot(av);
+    model_.solve_mass(av);
+    w = av - basis.diagonal[k] * v;
+    if (k > 0) w -= norm * before;
   }
 }
 
