@@ -17,7 +17,9 @@ struct ElementMesh;
 
 class ElementType {
  public:
-  using Nodes = Eigen::Matrix<double, 3, Eigen::Dynamic>;  // positions at rest, a column per node, m
+  static constexpr int kMostNodes = 10;
+  // Positions at rest, a column per node, m.
+  using Nodes = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMostNodes>;
 
   virtual ~ElementType() = default;
 

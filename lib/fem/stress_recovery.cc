@@ -124,10 +124,18 @@ SixColumns at_points(const ElasticTerm& term, const std::function<Vec6(int k, in
 SixColumns stresses(const ElasticTerm& term, const NodalState& s) {
   const Mat6 C = term.stiffness();
   const auto strains = term.strains(s);
-  return at_points(term, [&](int k, int p) -> Vec6 {
-    return stress_rotation(term.axes_at_rest(k, p)) * (C * strains.col(k * term.num_points() + p));
-  });
+  SixColumns out(strains.cols(), 6);
+  for (Eigen::Index i = 0; i < strains.cols(); ++i) {
+    const auto k = static_cast<int>(i / term.num_points()), p = static_cast<int>(i % term.num_points());
+    out.row(i) = (stress_rotation(term.axes_at_rest(k, p)) * (C * strains.col(i))).transpose();
+  }
+  return out;
 }
+
+// Of one element, a row for each of its nodes or points.
+constexpr int kMostNodes = ElementType::kMostNodes;
+using ElementRows = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor, kMostNodes, 6>;
+using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostNodes, kMostNodes>;
 
 // Integrals over the elements of a term of products of stresses that are given at their nodes.
 class EnergyOfStress {
@@ -140,10 +148,12 @@ class EnergyOfStress {
 
   double volume(int k) const { return mesh_.type.lumped_mass(positions(k), 1).sum(); }
 
-  // a : C^-1 : b / 2, J. As shares of the volume the integrals are the same for all elements with straight edges.
-  double operator()(int k, const SixColumns& a, const SixColumns& b) const {
+  // The mean of a : C^-1 : b / 2, J/m^3. As shares of the volume the integrals are the same for all elements with
+  // straight edges.
+  double density(int k, const ElementRows& a, const ElementRows& b) const {
     const Mat6 compliance = in_space_ ? *in_space_ : compliance_in_space(k);
-    return 0.5 * volume(k) * (a.transpose() * shares_ * b).cwiseProduct(compliance).sum();
+    const ElementRows of_b = shares_.lazyProduct(b);
+    return 0.5 * a.lazyProduct(compliance).cwiseProduct(of_b).sum();
   }
 
  private:
@@ -159,37 +169,54 @@ class EnergyOfStress {
   const ElasticTerm& term_;
   Mat6 compliance_;
   std::optional<Mat6> in_space_;  // where it is the same for all elements
-  Eigen::MatrixXd shares_;
+  ElementMatrix shares_;
 };
 
-// Recovered less computed, at the nodes of each element.
-SixColumns misfit_of_region(const ElementMesh& mesh, const RegionRecovery& recovery, const SixColumns& computed) {
-  const SixColumns recovered = recovery.at_nodes(mesh, computed);
-  const Eigen::MatrixXd extrapolation = mesh.type.points_to_nodes();
-  const Eigen::Index points = extrapolation.cols(), nodes = extrapolation.rows();
-  SixColumns out(nodes * static_cast<Eigen::Index>(recovery.cells().size()), 6);
-  for (Eigen::Index k = 0; k < out.rows() / nodes; ++k) {
-    auto own = out.middleRows(nodes * k, nodes);
-    own = -extrapolation * computed.middleRows(points * k, points);
-    const auto rows = recovery.cells()[static_cast<std::size_t>(k)];
-    for (std::size_t a = 0; a < rows.size(); ++a) own.row(static_cast<Eigen::Index>(a)) += recovered.row(rows[a]);
+// Of the elements of a region, at their nodes: what was computed at their points, and the recovered less that.
+class NodalStresses {
+ public:
+  NodalStresses(const ElementMesh& mesh, const RegionRecovery& recovery, const SixColumns& computed)
+      : cells_(recovery.cells()), computed_(computed), recovered_(recovery.at_nodes(mesh, computed)),
+        extrapolation_(mesh.type.points_to_nodes()) {}
+
+  Eigen::Index nodes() const { return extrapolation_.rows(); }
+  ElementRows computed(Eigen::Index k) const {
+    const Eigen::Index points = extrapolation_.cols();
+    return extrapolation_.lazyProduct(computed_.middleRows(points * k, points));
   }
+  ElementRows misfit(Eigen::Index k, const ElementRows& computed) const {
+    ElementRows out = -computed;
+    const auto rows = cells_[static_cast<std::size_t>(k)];
+    for (std::size_t a = 0; a < rows.size(); ++a) out.row(static_cast<Eigen::Index>(a)) += recovered_.row(rows[a]);
+    return out;
+  }
+
+ private:
+  const Cells& cells_;
+  const SixColumns& computed_;
+  SixColumns recovered_;
+  ElementMatrix extrapolation_;
+};
+
+SixColumns misfit_of_region(const ElementMesh& mesh, const RegionRecovery& recovery, const SixColumns& computed) {
+  const NodalStresses at(mesh, recovery, computed);
+  SixColumns out(at.nodes() * static_cast<Eigen::Index>(recovery.cells().size()), 6);
+  for (Eigen::Index k = 0; k < out.rows() / at.nodes(); ++k)
+    out.middleRows(at.nodes() * k, at.nodes()) = at.misfit(k, at.computed(k));
   return out;
 }
 
 RegionMeshError mesh_error(const ElementMesh& mesh, const ElasticTerm& term, const RegionRecovery& recovery,
                            const NodalState& s) {
-  const SixColumns computed = stresses(term, s), misfit = misfit_of_region(mesh, recovery, computed);
-  const Eigen::MatrixXd extrapolation = mesh.type.points_to_nodes();
-  const Eigen::Index points = extrapolation.cols(), nodes = extrapolation.rows();
+  const SixColumns stress = stresses(term, s);
+  const NodalStresses at(mesh, recovery, stress);
   const EnergyOfStress energy(mesh, term);
   RegionMeshError out{Vector(term.size()), Vector(term.size()), 0};
   for (int k = 0; k < term.size(); ++k) {
-    const SixColumns own = extrapolation * computed.middleRows(points * k, points);
-    const SixColumns difference = misfit.middleRows(nodes * k, nodes);
+    const ElementRows computed = at.computed(k), misfit = at.misfit(k, computed);
     out.volume[k] = energy.volume(k);
-    out.error[k] = energy(k, difference, difference);
-    out.energy += energy(k, own, own);
+    out.error[k] = out.volume[k] * energy.density(k, misfit, misfit);
+    out.energy += out.volume[k] * energy.density(k, computed, computed);
   }
   return out;
 }
@@ -198,6 +225,7 @@ RegionMeshError mesh_error(const ElementMesh& mesh, const ElasticTerm& term, con
 
 RegionRecovery::RegionRecovery(const ElementMesh& mesh, const ElasticTerm& term) : per_element_(term.num_points()) {
   std::vector<int> row_of(mesh.nodes.size(), -1), all;
+  all.reserve(static_cast<std::size_t>(term.size() * mesh.cells.nodes_per_cell()));
   for (int k = 0; k < term.size(); ++k)
     for (const int node : mesh.cells[static_cast<std::size_t>(term.cell(k))]) {
       int& row = row_of[static_cast<std::size_t>(node)];
@@ -216,6 +244,7 @@ RegionRecovery::RegionRecovery(const ElementMesh& mesh, const ElasticTerm& term)
   const int degree = mesh.type.degree();
   Neighbours neighbours(cells_, mesh.type.num_corners(), nodes_.size());
   std::vector<int> patch_of(nodes_.size(), -1);
+  if (degree == 1) patches_.reserve(nodes_.size());
   for (int row = 0; row < static_cast<int>(nodes_.size()); ++row) {
     std::vector<int> elements = neighbours.patch(row);
     if (elements.empty()) continue;
@@ -224,6 +253,7 @@ RegionRecovery::RegionRecovery(const ElementMesh& mesh, const ElasticTerm& term)
     for (int ring = 0; !determined && ring < kMostRings && neighbours.grow(row, elements); ++ring)
       std::tie(found, determined) = fit(places_of(elements), centre, degree);
     patch_of[static_cast<std::size_t>(row)] = static_cast<int>(patches_.size());
+    elements.shrink_to_fit();
     patches_.push_back({row, std::move(elements), std::move(found), {}});
   }
   add_middles(mesh.type, patch_of);
@@ -357,7 +387,8 @@ double StressRecovery::product(const StressMisfit& a, const StressMisfit& b) con
     const EnergyOfStress energy(mesh, *terms_[r]);
     const Eigen::Index nodes = a[r].rows() / terms_[r]->size();
     for (int k = 0; k < terms_[r]->size(); ++k)
-      sum += 2 * energy(k, a[r].middleRows(nodes * k, nodes), b[r].middleRows(nodes * k, nodes));
+      sum += 2 * energy.volume(k) *
+             energy.density(k, a[r].middleRows(nodes * k, nodes), b[r].middleRows(nodes * k, nodes));
   }
   return sum;
 }
