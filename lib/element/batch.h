@@ -12,15 +12,24 @@
 namespace orthodyn {
 
 // The number of lanes is part of the name: an element or a law that is compiled for another kind of processor than the
-// library does not load with it, for its polar decomposition (polar.h) is missing. What holds or returns batches but
-// calls none is not protected.
+// library does not load with it, for its polar decomposition (polar.h) is missing. So are the names of what holds
+// batches.
 #if defined(__AVX512F__)
 inline constexpr int kBatchLanes = 8;
-inline namespace lanes_8 {
+#define ORTHODYN_LANES lanes_8
 #else
 inline constexpr int kBatchLanes = 4;
-inline namespace lanes_4 {
+#define ORTHODYN_LANES lanes_4
 #endif
+
+// For kernels of a batch: all that they call is compiled into them. Not with sanitizers, which would take minutes.
+#if defined(__SANITIZE_ADDRESS__)
+#define ORTHODYN_FLATTEN
+#else
+#define ORTHODYN_FLATTEN [[gnu::flatten]]
+#endif
+
+inline namespace ORTHODYN_LANES {
 
 class Batch {
  public:
@@ -58,7 +67,7 @@ class Batch {
   Pack v_;
 };
 
-}  // namespace lanes_*
+}  // namespace ORTHODYN_LANES
 
 // What the library was compiled for: "AVX-512", "AVX2", ...
 const char* vector_instructions();

@@ -71,7 +71,7 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
   // stress() for a batch of points; right in the lanes of `good`, the others (inverted, singular) are
   // to be done one by one. Flattened, as others: batches that pass through a call pass through memory.
   template <class Axes>
-  [[gnu::flatten]] Mat3T<Batch> batch_stress(const Mat3T<Batch>& H, const Axes& Q, const Mat3T<Batch>* F_rate,
+  ORTHODYN_FLATTEN Mat3T<Batch> batch_stress(const Mat3T<Batch>& H, const Axes& Q, const Mat3T<Batch>* F_rate,
                                              double beta, Batch::Mask& good) const {
     Polar<Batch> p;
     good = this->regular_polar(H, Q, p);

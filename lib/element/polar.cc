@@ -84,7 +84,7 @@ namespace {
 
 }  // namespace
 
-[[gnu::flatten]] Batch::Mask polar(const Mat3T<Batch>& F, Polar<Batch>& p) {
+ORTHODYN_FLATTEN Batch::Mask polar(const Mat3T<Batch>& F, Polar<Batch>& p) {
   if (Batch::Mask good; decompose_near_rotation<Batch>(F, p, good)) return good;
   return far_polar(F, p);
 }

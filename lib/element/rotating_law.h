@@ -36,7 +36,7 @@ class RotatingLaw {
 
   // Energy per volume of a batch; right in the lanes of `good`.
   template <class Axes>
-  [[gnu::flatten]] Batch batch_energy(const Mat3T<Batch>& H, const Axes& Q, Batch::Mask& good) const {
+  ORTHODYN_FLATTEN Batch batch_energy(const Mat3T<Batch>& H, const Axes& Q, Batch::Mask& good) const {
     Polar<Batch> p;
     good = regular_polar(H, Q, p);
     const Mat3T<Batch> e = stretch_strain<Batch>(H, Q, p.S);
@@ -45,7 +45,7 @@ class RotatingLaw {
 
   // S - I of a batch, right in the lanes of `good`.
   template <class Axes>
-  [[gnu::flatten]] Mat3T<Batch> batch_strain(const Mat3T<Batch>& H, const Axes& Q, Batch::Mask& good) const {
+  ORTHODYN_FLATTEN Mat3T<Batch> batch_strain(const Mat3T<Batch>& H, const Axes& Q, Batch::Mask& good) const {
     Polar<Batch> p;
     good = regular_polar(H, Q, p);
     return stretch_strain<Batch>(H, Q, p.S);
@@ -60,7 +60,7 @@ class RotatingLaw {
 
   // The same for a batch; right in the lanes of `good`.
   template <class Axes>
-  [[gnu::flatten]] Batch batch_dissipation(const Mat3T<Batch>& H, const Axes& Q, const Mat3T<Batch>& F_rate,
+  ORTHODYN_FLATTEN Batch batch_dissipation(const Mat3T<Batch>& H, const Axes& Q, const Mat3T<Batch>& F_rate,
                                            double beta, Batch::Mask& good) const {
     Polar<Batch> p;
     good = regular_polar(H, Q, p);

@@ -10,6 +10,8 @@
 
 namespace orthodyn {
 
+inline namespace ORTHODYN_LANES {
+
 class ElementAxes {
  public:
   ElementAxes(const Mat3& all) : all_(all) {}  // NOLINT: a rotation is the axes of all elements
@@ -37,5 +39,7 @@ class ElementAxes {
   int points_ = 1;
   std::vector<Pack> packs_;  // of each batch those of its points
 };
+
+}  // namespace ORTHODYN_LANES
 
 }  // namespace orthodyn

@@ -17,6 +17,8 @@
 
 namespace orthodyn {
 
+inline namespace ORTHODYN_LANES {
+
 template <Element E>
 class ElementBatches {
  public:
@@ -122,7 +124,8 @@ auto ElementBatches<E>::differences_of(const Nodes& nodes, const NodalVector& u)
 
 // The two below are compiled apart from the laws' kernels, with which they would compete for registers.
 template <Element E>
-[[gnu::noipa, gnu::flatten]] Mat3T<Batch> ElementBatches<E>::gradients(int batch, int p, const NodalVector& u) const {
+[[gnu::noipa]] ORTHODYN_FLATTEN Mat3T<Batch> ElementBatches<E>::gradients(int batch, int p,
+                                                                         const NodalVector& u) const {
   const One& one = batches_[static_cast<std::size_t>(batch)];
   alignas(64) double corner[kCoordinates][kLanes];
   for (std::size_t l = 0; l < kLanes; ++l)
@@ -142,8 +145,8 @@ template <Element E>
 }
 
 template <Element E>
-[[gnu::noipa, gnu::flatten]] void ElementBatches<E>::add_forces(int batch, int p, const Mat3T<Batch>& P,
-                                                                NodalVector& f) const {
+[[gnu::noipa]] ORTHODYN_FLATTEN void ElementBatches<E>::add_forces(int batch, int p, const Mat3T<Batch>& P,
+                                                                  NodalVector& f) const {
   const One& one = batches_[static_cast<std::size_t>(batch)];
   const Point& point = at_point(batch, p);
   const Batch volume = Batch::load(point.volume);
@@ -174,5 +177,7 @@ void ElementBatches<E>::add_force(int k, int p, const Mat3& P, NodalVector& f) c
   for (int a = 1; a < kNodes; ++a) f.col(all[static_cast<std::size_t>(a)]) += forces.col(a - 1);
   f.col(all[0]) -= forces.rowwise().sum();
 }
+
+}  // namespace ORTHODYN_LANES
 
 }  // namespace orthodyn

@@ -194,7 +194,7 @@ class ElasticTermOf final : public ElasticTerm {
   bool damped() const { return region_.beta > 0; }
 
   // Of |F^T F - I|^2.
-  [[gnu::flatten]] double largest_square(int b, int p, const NodalState& s) const {
+  ORTHODYN_FLATTEN double largest_square(int b, int p, const NodalState& s) const {
     const Mat3T<Batch> F = deformation_gradient<Batch>(elements_.gradients(b, p, s.u), axes().batch(b, p));
     Batch square(0);
     for (int i = 0; i < 3; ++i)
