@@ -1,11 +1,15 @@
-// Tangents that are computed for a batch of elements at a time are those of the elements one by one.
+// Tangents and strains that are computed for a batch of elements at a time are those of the elements one by one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>
 
+#include "lib/fem/block_pattern.h"
+#include "lib/fem/dof_map.h"
 #include "lib/fem/element_mesh.h"
 #include "lib/fem/element_type.h"
+#include "lib/fem/terms/elastic_term.h"
+#include "lib/material/stiffness.h"
 #include "lib/mesh/box.h"
 #include "lib/mesh/quadratic.h"
 #include "tests/element/states.h"
@@ -42,13 +46,27 @@ class BatchTangent : public testing::TestWithParam<int> {  // order of the eleme
     return out;
   }
 
+  std::unique_ptr<ElasticTerm> term(const std::vector<int>& cells) const {
+    return elements_.type.elastic_term(elements_, {"body", cells, fibre(10), Random(5).rotation(), kBeta, {}},
+                                       pattern_);
+  }
+  std::vector<int> all_cells() const {
+    std::vector<int> all(elements_.cells.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+  // With the element at one node turned inside out, if wanted.
+  NodalVector displacement(Random& random, bool inverted) const {
+    NodalVector u = NodalVector::NullaryExpr(3, num_nodes(), [&] { return random.between(-0.03, 0.03); });
+    if (inverted) u.col(7) += Vec3(0.9, 0.7, 0.8);
+    return u;
+  }
+
   Sparse tangent(const std::vector<int>& cells, const NodalVector& u, TangentKind kind) const {
-    const auto term = elements_.type.elastic_term(
-        elements_, {"body", cells, fibre(10), Random(5).rotation(), kBeta, {}}, pattern_);
     Sparse out{std::vector<double>(pattern_.pattern().row.size(), 0), {}};
     out.D = out.K;
     const NodalVector x = rest_ + u, still = NodalVector::Zero(3, num_nodes());
-    term->add_tangent({0, x, u, still}, kind, out.K.data(), out.D.data());
+    term(cells)->add_tangent({0, x, u, still}, kind, out.K.data(), out.D.data());
     return out;
   }
 
@@ -70,11 +88,9 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 // others it takes them along.
 TEST_P(BatchTangent, IsTheSumOfThatOfItsElements) {
   Random random(6);
-  std::vector<int> all(elements_.cells.size());
-  std::iota(all.begin(), all.end(), 0);
+  const std::vector<int> all = all_cells();
   for (const bool inverted : {false, true}) {
-    NodalVector u = NodalVector::NullaryExpr(3, num_nodes(), [&] { return random.between(-0.03, 0.03); });
-    if (inverted) u.col(7) += Vec3(0.9, 0.7, 0.8);
+    const NodalVector u = displacement(random, inverted);
     for (const auto kind : {TangentKind::exact, TangentKind::gauss_newton}) {
       const Sparse together = tangent(all, u, kind);
       Sparse sum{std::vector<double>(together.K.size(), 0), std::vector<double>(together.K.size(), 0)};
@@ -90,6 +106,29 @@ TEST_P(BatchTangent, IsTheSumOfThatOfItsElements) {
       EXPECT_LE(largest_difference(together.D, sum.D), 1e-12 * size) << inverted;
     }
   }
+}
+
+// Of the first elements, of ever fewer: each is once the last of a batch that is not full.
+TEST_P(BatchTangent, StrainsAreThoseOfItsPoints) {
+  Random random(8);
+  int num_inverted = 0;
+  for (const bool inverted : {false, true}) {
+    const NodalVector u = displacement(random, inverted), x = rest_ + u, still = NodalVector::Zero(3, num_nodes());
+    const NodalState s{0, x, u, still};
+    for (std::vector<int> cells = all_cells(); !cells.empty(); cells.pop_back()) {
+      const auto elastic = term(cells);
+      const auto strains = elastic->strains(s);
+      ASSERT_EQ(strains.cols(), elastic->size() * elastic->num_points());
+      for (int k = 0; k < elastic->size(); ++k)
+        for (int p = 0; p < elastic->num_points(); ++p) {
+          const Vec6 expected = voigt_strain<double>(elastic->observe_point(k, p, s).strain);
+          num_inverted += elastic->det_F(k, s) <= 0;
+          EXPECT_LE((strains.col(k * elastic->num_points() + p) - expected).norm(), 1e-13 * (1 + expected.norm()))
+              << "element " << k << " of " << cells.size();
+        }
+    }
+  }
+  EXPECT_GT(num_inverted, 0);
 }
 
 }  // namespace

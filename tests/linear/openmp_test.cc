@@ -1,0 +1,55 @@
+// A library's parallel loops are its caller's alone while SerialOpenMp lives, and parallel again afterwards.
+#include "lib/linear/openmp.h"
+
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "lib/linear/solver.h"
+
+namespace orthodyn::openmp_test {
+namespace {
+
+// As loaded with CHOLMOD; null where that does without OpenMP.
+int (*levels())() {
+  solver_registry();
+  return reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "omp_get_max_active_levels"));
+}
+
+class OpenMp : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!levels()) GTEST_SKIP() << "no OpenMP is loaded";
+  }
+};
+
+TEST_F(OpenMp, HasNoParallelLevelsWithinAndTheFormerOnesAfterwards) {
+  const int before = levels()();
+  ASSERT_GT(before, 0);
+  {
+    const SerialOpenMp outer;
+    EXPECT_EQ(levels()(), 0);
+    {
+      const SerialOpenMp inner;
+      EXPECT_EQ(levels()(), 0);
+    }
+    EXPECT_EQ(levels()(), 0);
+  }
+  EXPECT_EQ(levels()(), before);
+}
+
+TEST_F(OpenMp, IsParallelAgainAfterAnException) {
+  const int before = levels()();
+  ASSERT_GT(before, 0);
+  EXPECT_THROW(
+      {
+        const SerialOpenMp serial;
+        throw std::runtime_error("a factorisation that does not fit");
+      },
+      std::runtime_error);
+  EXPECT_EQ(levels()(), before);
+}
+
+}  // namespace
+}  // namespace orthodyn::openmp_test
