@@ -24,9 +24,8 @@ def read(file):
 
 
 def slope(x, y):
-    """Of the upper half, on logarithmic axes."""
-    upper = slice(len(x) // 2, None)
-    return np.polyfit(np.log(x[upper]), np.log(y[upper]), 1)[0]
+    """Of the three largest, on logarithmic axes."""
+    return np.polyfit(np.log(x[-3:]), np.log(y[-3:]), 1)[0]
 
 
 def draw(axes, rows, column, name):
@@ -38,6 +37,9 @@ def draw(axes, rows, column, name):
 
 def main(source, target):
     found = read(source)
+    missing = [name for name in TIMES if name not in found]
+    if missing:
+        sys.exit(f"{source}: no {missing[0]}; it must come from `orthodyn_bench --growth --json FILE`")
     figure, (times, memory) = plt.subplots(1, 2, figsize=(11, 4.2), width_ratios=(3, 2))
     for name in TIMES:
         draw(times, found[name], 1, name)
@@ -48,6 +50,7 @@ def main(source, target):
         axes.set_xlabel("tetrahedra")
         axes.set_xlim(right=1.2e8 if axes is times else 3e7)
         axes.set_xticks([1e3, 1e4, 1e5, 1e6])
+        axes.minorticks_off()
         axes.spines[["top", "right"]].set_visible(False)
         axes.grid(alpha=0.3)
     figure.tight_layout()
