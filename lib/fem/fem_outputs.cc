@@ -146,8 +146,8 @@ double imbalance(const View& view) {
 Values smallest_det_f(const View& view) {
   Values out{std::numeric_limits<double>::infinity(), -1};
   for (const auto& term : view.parts().elastic)
-    for (int k = 0; k < term->size(); ++k)
-      if (const double d = term->det_F(k, view.state()); d < out[0]) out = {d, static_cast<double>(term->cell(k))};
+    if (const auto [value, k] = term->smallest_det_F(view.state()); value < out[0])
+      out = {value, static_cast<double>(term->cell(k))};
   return out;
 }
 

@@ -131,5 +131,22 @@ TEST_P(BatchTangent, StrainsAreThoseOfItsPoints) {
   EXPECT_GT(num_inverted, 0);
 }
 
+TEST_P(BatchTangent, TheSmallestDetFIsThatOfAllElements) {
+  Random random(9);
+  for (const bool inverted : {false, true}) {
+    const NodalVector u = displacement(random, inverted), x = rest_ + u, still = NodalVector::Zero(3, num_nodes());
+    const NodalState s{0, x, u, still};
+    for (std::vector<int> cells = all_cells(); !cells.empty(); cells.pop_back()) {
+      const auto elastic = term(cells);
+      int smallest = 0;
+      for (int k = 1; k < elastic->size(); ++k)
+        if (elastic->det_F(k, s) < elastic->det_F(smallest, s)) smallest = k;
+      const auto found = elastic->smallest_det_F(s);
+      EXPECT_EQ(found.element, smallest);
+      EXPECT_EQ(found.value, elastic->det_F(smallest, s));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace orthodyn::batch_tangent_test

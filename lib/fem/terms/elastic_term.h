@@ -57,6 +57,13 @@ class ElasticTerm : public Term {
   // The smallest of the element's points; not positive where it is inverted.
   virtual double det_F(int k, const NodalState& s) const = 0;
 
+  // The element where that is smallest: far cheaper than to ask for each.
+  struct SmallestDetF {
+    double value;
+    int element;
+  };
+  virtual SmallestDetF smallest_det_F(const NodalState& s) const = 0;
+
   // Upper bound of the squared angular frequency of any element about rest with lumped masses, 1/s^2;
   // density in kg/m^3. Critical steps of explicit schemes are 2 / omega.
   virtual double max_frequency_squared(double density) const = 0;

@@ -168,6 +168,21 @@ class ElasticTermOf final : public ElasticTerm {
     return smallest;
   }
 
+  SmallestDetF smallest_det_F(const NodalState& s) const override {
+    const std::vector<double> all = groups_.of_each([&](const ElementGroups::Range& group) {
+      double smallest = std::numeric_limits<double>::infinity();
+      visit_batches(group, [&](int b) {
+        for (int p = 0; p < E::kPoints; ++p) smallest = std::min(smallest, smallest_determinant(b, p, s));
+      });
+      return smallest;
+    });
+    const auto group = static_cast<int>(std::min_element(all.begin(), all.end()) - all.begin());
+    SmallestDetF smallest{std::numeric_limits<double>::infinity(), -1};
+    for (auto [k, end] = groups_.elements(group); k < end; ++k)
+      if (const double d = det_F(k, s); d < smallest.value) smallest = {d, k};
+    return smallest;
+  }
+
   PointObservation observe(int k, const NodalState& s) const override {
     return law_.observe(mean_gradient(k, s.u), axes().mean(k));
   }
@@ -206,6 +221,16 @@ class ElasticTermOf final : public ElasticTerm {
     double largest = 0;
     for (int l = 0; l < elements_.lanes(b); ++l) largest = std::max(largest, square[l]);
     return largest;
+  }
+
+  ORTHODYN_FLATTEN double smallest_determinant(int b, int p, const NodalState& s) const {
+    const Mat3T<Batch> F = deformation_gradient<Batch>(elements_.gradients(b, p, s.u), axes().batch(b, p));
+    const Batch det_F = F(0, 0) * (F(1, 1) * F(2, 2) - F(1, 2) * F(2, 1)) -
+                        F(0, 1) * (F(1, 0) * F(2, 2) - F(1, 2) * F(2, 0)) +
+                        F(0, 2) * (F(1, 0) * F(2, 1) - F(1, 1) * F(2, 0));
+    double smallest = std::numeric_limits<double>::infinity();
+    for (int l = 0; l < elements_.lanes(b); ++l) smallest = std::min(smallest, det_F[l]);
+    return smallest;
   }
 
   template <class Visit>
