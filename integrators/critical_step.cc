@@ -29,18 +29,18 @@ CriticalStep::CriticalStep(const Model& model, Statistics& statistics)
 
 double CriticalStep::limit(const State& state, double reserve) {
   const Measure measure(statistics_.tangent);
-  model_.linearize(state.t, state.q, state.v, TangentKind::exact, linearization_);
-  const double present = largest({0, 0, 1}, stiffness_), delta = largest({0, 1, 0}, damping_);
+  Linearization at;
+  model_.linearize(state.t, state.q, state.v, TangentKind::exact, at);
+  const double present = largest(at, {0, 0, 1}, stiffness_), delta = largest(at, {0, 1, 0}, damping_);
   const double kappa = reserve + present;
   damping_time_ = present > 0 ? delta / present : 0;
-  if (!model_.traits().linear) linearization_ = {};  // the steps between two calls need no matrix
   if (!std::isfinite(kappa + delta)) throw RecoverableError("the stiffness is not finite");
   return 2 / (delta + std::sqrt(delta * delta + kappa));
 }
 
-double CriticalStep::largest(const Weights& weights, SpectralBound& bound) {
+double CriticalStep::largest(const Linearization& at, const Weights& weights, SpectralBound& bound) {
   std::vector<double> values(model_.pattern().row.size());
-  model_.combine(weights, linearization_, values.data());
+  model_.combine(weights, at, values.data());
   const bool absent = std::all_of(values.begin(), values.end(), [](double x) { return x == 0; });
   return absent ? 0 : bound.largest(values.data());
 }

@@ -37,13 +37,12 @@ class CriticalStep {
 
  private:
   double limit(const State& state, double reserve);
-  double largest(const Weights& weights, SpectralBound& bound);
+  double largest(const Linearization& at, const Weights& weights, SpectralBound& bound);
 
   const Model& model_;
   Statistics& statistics_;
   double reserve_, damping_time_ = 0;
   SpectralBound stiffness_, damping_;
-  Linearization linearization_;
 };
 
 // Refuses a run that an explicit method of variable step would not end within max_steps, each of them at most

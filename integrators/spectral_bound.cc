@@ -60,8 +60,9 @@ Vector SpectralBound::start() const {
   return ritz_ / ritz_.norm() + kFreshPart * random_ / random_.norm();
 }
 
-// Each vector is made orthogonal to the two before it alone: the others stay so until an eigenvalue is known far better
-// than is asked for here (Paige 1971), and all of them would take more time and memory than the matrix.
+// Each vector is made orthogonal to the two before it alone: all of them would take more time and memory than the
+// matrix. The others stay so until an eigenvalue is known to half of the digits (Paige 1971). Where that comes before
+// kMinIterations, copies of it appear, which are not above it: the bound remains one.
 double SpectralBound::largest(const double* values) {
   const int n = model_.num_dofs(), most = std::min(n, kMaxIterations);
   Basis basis(most);
@@ -87,8 +88,7 @@ double SpectralBound::largest(const double* values) {
     multiply(values, v, av);
     basis.diagonal[k] = v.dot(av);
     model_.solve_mass(av);
-    w = av - basis.diagonal[k] * v;
-    if (k > 0) w -= norm * before;
+    w = av - basis.diagonal[k] * v - norm * before;  // 0 before the first
   }
 }
 

@@ -12,8 +12,8 @@
 namespace orthodyn {
 
 // The number of lanes is part of the name: an element or a law that is compiled for another kind of processor than the
-// library does not load with it, for its polar decomposition (polar.h) is missing. So are the names of what holds
-// batches.
+// library does not load with it, for its polar decomposition (polar.h) is missing. ElementAxes and ElementBatches, whose
+// layout depends on it, have it in their names, too.
 #if defined(__AVX512F__)
 inline constexpr int kBatchLanes = 8;
 #define ORTHODYN_LANES lanes_8
@@ -22,7 +22,8 @@ inline constexpr int kBatchLanes = 4;
 #define ORTHODYN_LANES lanes_4
 #endif
 
-// For kernels of a batch: all that they call is compiled into them. Not with sanitizers, which would take minutes.
+// For kernels of a batch: all that they call is compiled into them. Not with the address sanitizer: they would take
+// minutes to compile.
 #if defined(__SANITIZE_ADDRESS__)
 #define ORTHODYN_FLATTEN
 #else

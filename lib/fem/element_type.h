@@ -17,7 +17,7 @@ struct ElementMesh;
 
 class ElementType {
  public:
-  static constexpr int kMostNodes = 10;
+  static constexpr int kMostNodes = 10;  // and points: matrices of one element need no allocation
   // Positions at rest, a column per node, m.
   using Nodes = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMostNodes>;
 

@@ -11,6 +11,8 @@ namespace orthodyn {
 
 template <Element E>
 class ElementTypeOf final : public ElementType {
+  static_assert(E::kNodes <= kMostNodes && E::kPoints <= kMostNodes, "raise ElementType::kMostNodes");
+
  public:
   const char* name() const override { return E::kName; }
   int num_nodes() const override { return E::kNodes; }

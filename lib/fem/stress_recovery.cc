@@ -244,7 +244,6 @@ RegionRecovery::RegionRecovery(const ElementMesh& mesh, const ElasticTerm& term)
   const int degree = mesh.type.degree();
   Neighbours neighbours(cells_, mesh.type.num_corners(), nodes_.size());
   std::vector<int> patch_of(nodes_.size(), -1);
-  if (degree == 1) patches_.reserve(nodes_.size());
   for (int row = 0; row < static_cast<int>(nodes_.size()); ++row) {
     std::vector<int> elements = neighbours.patch(row);
     if (elements.empty()) continue;
@@ -256,6 +255,7 @@ RegionRecovery::RegionRecovery(const ElementMesh& mesh, const ElasticTerm& term)
     elements.shrink_to_fit();
     patches_.push_back({row, std::move(elements), std::move(found), {}});
   }
+  patches_.shrink_to_fit();
   add_middles(mesh.type, patch_of);
 }
 

@@ -56,7 +56,7 @@ class Threads : public testing::TestWithParam<Case> {
       keep(f);
     }
     const auto view = model.view({0, q_, v_});
-    for (const char* name : {"energy.elastic", "power.dissipated"}) keep(view->evaluate(name));
+    for (const char* name : {"energy.elastic", "power.dissipated", "det_f.smallest"}) keep(view->evaluate(name));
     return all;
   }
 

@@ -57,7 +57,8 @@ class ElasticTerm : public Term {
   // The smallest of the element's points; not positive where it is inverted.
   virtual double det_F(int k, const NodalState& s) const = 0;
 
-  // The element where that is smallest: far cheaper than to ask for each.
+  // The element where that is smallest, to round-off: far cheaper than to ask for each. Infinite, of element -1, where
+  // none is a number.
   struct SmallestDetF {
     double value;
     int element;

@@ -171,15 +171,17 @@ class ElasticTermOf final : public ElasticTerm {
   SmallestDetF smallest_det_F(const NodalState& s) const override {
     const std::vector<double> all = groups_.of_each([&](const ElementGroups::Range& group) {
       double smallest = std::numeric_limits<double>::infinity();
-      visit_batches(group, [&](int b) {
-        for (int p = 0; p < E::kPoints; ++p) smallest = std::min(smallest, smallest_determinant(b, p, s));
-      });
+      visit_batches(group, [&](int b) { smallest = std::min(smallest, smallest_determinant(b, s)); });
       return smallest;
     });
-    const auto group = static_cast<int>(std::min_element(all.begin(), all.end()) - all.begin());
+    const auto least = std::min_element(all.begin(), all.end());
     SmallestDetF smallest{std::numeric_limits<double>::infinity(), -1};
-    for (auto [k, end] = groups_.elements(group); k < end; ++k)
-      if (const double d = det_F(k, s); d < smallest.value) smallest = {d, k};
+    visit_batches(groups_.elements(static_cast<int>(least - all.begin())), [&](int b) {
+      if (smallest_determinant(b, s) != *least) return;
+      for_each_lane(b, [&](int k) {
+        if (const double d = det_F(k, s); d < smallest.value) smallest = {d, k};
+      });
+    });
     return smallest;
   }
 
@@ -223,14 +225,20 @@ class ElasticTermOf final : public ElasticTerm {
     return largest;
   }
 
-  ORTHODYN_FLATTEN double smallest_determinant(int b, int p, const NodalState& s) const {
-    const Mat3T<Batch> F = deformation_gradient<Batch>(elements_.gradients(b, p, s.u), axes().batch(b, p));
-    const Batch det_F = F(0, 0) * (F(1, 1) * F(2, 2) - F(1, 2) * F(2, 1)) -
-                        F(0, 1) * (F(1, 0) * F(2, 2) - F(1, 2) * F(2, 0)) +
-                        F(0, 2) * (F(1, 0) * F(2, 1) - F(1, 1) * F(2, 0));
+  // Of the elements of a batch, at all points; infinite where none is a number.
+  double smallest_determinant(int b, const NodalState& s) const {
     double smallest = std::numeric_limits<double>::infinity();
-    for (int l = 0; l < elements_.lanes(b); ++l) smallest = std::min(smallest, det_F[l]);
+    for (int p = 0; p < E::kPoints; ++p) {
+      const Batch all = determinants(b, p, s);
+      for (int l = 0; l < elements_.lanes(b); ++l) smallest = std::min(smallest, all[l]);
+    }
     return smallest;
+  }
+
+  ORTHODYN_FLATTEN Batch determinants(int b, int p, const NodalState& s) const {
+    const Mat3T<Batch> F = deformation_gradient<Batch>(elements_.gradients(b, p, s.u), axes().batch(b, p));
+    return F(0, 0) * (F(1, 1) * F(2, 2) - F(1, 2) * F(2, 1)) - F(0, 1) * (F(1, 0) * F(2, 2) - F(1, 2) * F(2, 0)) +
+           F(0, 2) * (F(1, 0) * F(2, 1) - F(1, 1) * F(2, 0));
   }
 
   template <class Visit>

@@ -1,4 +1,5 @@
-// Tangents and strains that are computed for a batch of elements at a time are those of the elements one by one.
+// Tangents, strains and the smallest det F that are computed for a batch of elements at a time are those of the
+// elements one by one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 #include "lib/mesh/quadratic.h"
 #include "tests/element/states.h"
 
-namespace orthodyn::batch_tangent_test {
+namespace orthodyn::batched_elements_test {
 namespace {
 
 constexpr double kBeta = 0.02;
@@ -29,9 +30,9 @@ struct Sparse {
   std::vector<double> K, D;
 };
 
-class BatchTangent : public testing::TestWithParam<int> {  // order of the elements
+class BatchedElements : public testing::TestWithParam<int> {  // order of the elements
  protected:
-  BatchTangent()
+  BatchedElements()
       : mesh_(block(GetParam())), elements_(mesh_), dofs_(num_nodes(), clamps()),
         pattern_(elements_.cells, dofs_, true), rest_(3, num_nodes()) {
     for (int i = 0; i < num_nodes(); ++i) rest_.col(i) = mesh_.nodes[static_cast<std::size_t>(i)];
@@ -76,7 +77,7 @@ class BatchTangent : public testing::TestWithParam<int> {  // order of the eleme
   BlockPattern pattern_;
   NodalVector rest_;
 };
-INSTANTIATE_TEST_SUITE_P(Orders, BatchTangent, testing::Values(1, 2));
+INSTANTIATE_TEST_SUITE_P(Orders, BatchedElements, testing::Values(1, 2));
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
   double largest = 0;
@@ -86,7 +87,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 
 // Alone an element fills its batch with copies of itself: inverted, the batch goes to the scalar law; together with
 // others it takes them along.
-TEST_P(BatchTangent, IsTheSumOfThatOfItsElements) {
+TEST_P(BatchedElements, TangentIsTheSumOfThatOfEach) {
   Random random(6);
   const std::vector<int> all = all_cells();
   for (const bool inverted : {false, true}) {
@@ -109,7 +110,7 @@ TEST_P(BatchTangent, IsTheSumOfThatOfItsElements) {
 }
 
 // Of the first elements, of ever fewer: each is once the last of a batch that is not full.
-TEST_P(BatchTangent, StrainsAreThoseOfItsPoints) {
+TEST_P(BatchedElements, StrainsAreThoseOfItsPoints) {
   Random random(8);
   int num_inverted = 0;
   for (const bool inverted : {false, true}) {
@@ -131,7 +132,7 @@ TEST_P(BatchTangent, StrainsAreThoseOfItsPoints) {
   EXPECT_GT(num_inverted, 0);
 }
 
-TEST_P(BatchTangent, TheSmallestDetFIsThatOfAllElements) {
+TEST_P(BatchedElements, TheSmallestDetFIsThatOfAllElements) {
   Random random(9);
   for (const bool inverted : {false, true}) {
     const NodalVector u = displacement(random, inverted), x = rest_ + u, still = NodalVector::Zero(3, num_nodes());
@@ -149,4 +150,4 @@ TEST_P(BatchTangent, TheSmallestDetFIsThatOfAllElements) {
 }
 
 }  // namespace
-}  // namespace orthodyn::batch_tangent_test
+}  // namespace orthodyn::batched_elements_test
