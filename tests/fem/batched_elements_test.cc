@@ -56,7 +56,7 @@ class BatchedElements : public testing::TestWithParam<int> {  // order of the el
     std::iota(all.begin(), all.end(), 0);
     return all;
   }
-  // With the element at one node turned inside out, if wanted.
+  // With elements at one node inverted, if wanted.
   NodalVector displacement(Random& random, bool inverted) const {
     NodalVector u = NodalVector::NullaryExpr(3, num_nodes(), [&] { return random.between(-0.03, 0.03); });
     if (inverted) u.col(7) += Vec3(0.9, 0.7, 0.8);

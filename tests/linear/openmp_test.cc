@@ -11,10 +11,11 @@
 namespace orthodyn::openmp_test {
 namespace {
 
-// As loaded with CHOLMOD; null where that does without OpenMP.
-int (*levels())() {
+// How many nested loops may run in parallel; of the OpenMP that CHOLMOD loads, null where it does without.
+using Levels = int (*)();
+Levels levels() {
   solver_registry();
-  return reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "omp_get_max_active_levels"));
+  return reinterpret_cast<Levels>(dlsym(RTLD_DEFAULT, "omp_get_max_active_levels"));
 }
 
 class OpenMp : public testing::Test {

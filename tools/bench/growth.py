@@ -39,7 +39,8 @@ def main(source, target):
     found = read(source)
     missing = [name for name in TIMES if len(found.get(name, [])) < 3]
     if missing:
-        sys.exit(f"{source}: fewer than three sizes of {missing[0]}; it must come from `orthodyn_bench --growth --json FILE`")
+        sys.exit(f"{source}: fewer than three sizes of {missing[0]}; "
+                 "it must come from `orthodyn_bench --growth --json FILE`")
     figure, (times, memory) = plt.subplots(1, 2, figsize=(11, 4.2), width_ratios=(3, 2))
     for name in TIMES:
         draw(times, found[name], 1, name)
