@@ -8,6 +8,7 @@
 #include <memory>
 #include <type_traits>
 
+#include "integrators/sundials/vector_operations.h"
 #include "integrators/sundials/version.h"
 #include "lib/core/errors.h"
 #include "lib/core/types.h"
@@ -47,6 +48,7 @@ class Context {
 inline OwnedVector make_vector(Eigen::Index size, SUNContext context) {
   OwnedVector v(N_VNew_Serial(static_cast<sunindextype>(size), context));
   if (!v) throw RunError("SUNDIALS could not allocate a vector", Reason::out_of_memory);
+  use_fast_operations(v.get());
   N_VConst(0, v.get());
   return v;
 }
