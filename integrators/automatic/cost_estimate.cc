@@ -14,9 +14,9 @@ namespace orthodyn {
 
 namespace {
 
-// Measured: a force takes about 2.2 ns per entry of the tangent's lower triangle, a tangent ten forces, a solve 1 ns
-// per entry of the factor, a factorisation 0.15 ns per multiplication.
-constexpr double kForce = 2.2, kTangent = 10, kSolve = 1, kFactor = 0.15;
+// Measured: a force takes about 2.2 ns per entry of the tangent's lower triangle, a tangent five forces, a solve 1 ns
+// per entry of the factor, a factorisation 0.1 ns per multiplication.
+constexpr double kForce = 2.2, kTangent = 5, kSolve = 1, kFactor = 0.1;
 constexpr double kBytesPerEntry = 10;  // of the factor, workspace included
 
 // Of an L-stable method of order two, measured at rtol 1e-3: steps for each radian of the motion, iterations for each

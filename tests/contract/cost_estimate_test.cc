@@ -24,8 +24,8 @@ CostEstimate implicit_only(double damping_ratio = 0) {
 }
 
 // At rtol 1e-3 the safety is sqrt(0.1) by the energy, and an implicit method takes 10 + 7 phase = 80 steps of
-// 4 (1 + 1) forces for Newton's iterations and 0.3 (10 + 10) for tangents and factors.
-constexpr double kImplicitCost = 80 * (8 + 6);
+// 4 (1 + 1) forces for Newton's iterations and 0.3 (5 + 10) for tangents and factors.
+constexpr double kImplicitCost = 80 * (8 + 4.5);
 const double kSafetyByEnergy = std::sqrt(0.1);
 
 CostEstimate with_explicit_cost(double forces) {

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Draws how times and memory grow with the number of elements, from a file of `orthodyn_bench --growth --json`:
-    tools/bench/growth.py growth.json growth.svg"""
+"""Draws how times and memory grow with the number of elements, from a file of `orthodyn_bench --growth --json` and,
+for a whole step, from results of runs of one scene on several meshes, if there are any:
+    tools/bench/growth.py growth.json growth.svg [RESULT/run.json ...]"""
 import json
 import sys
 
@@ -23,6 +24,16 @@ def read(file):
     return {name: np.array(sorted(rows)) for name, rows in found.items()}
 
 
+def read_steps(files):
+    """Of each run the elements and the seconds of a step, without its outputs."""
+    rows = []
+    for file in files:
+        run = json.load(open(file))
+        seconds = run["wall_seconds"] - run["statistics"]["observation"]["seconds"]
+        rows.append((run["model"]["elements"], seconds / run["statistics"]["steps"]))
+    return np.array(sorted(rows))
+
+
 def slope(x, y):
     """Of the three largest, on logarithmic axes."""
     return np.polyfit(np.log(x[-3:]), np.log(y[-3:]), 1)[0]
@@ -35,7 +46,7 @@ def draw(axes, rows, column, name):
                   va="center", fontsize=8, color=line.get_color())
 
 
-def main(source, target):
+def main(source, target, *runs):
     found = read(source)
     missing = [name for name in TIMES if len(found.get(name, [])) < 3]
     if missing:
@@ -44,6 +55,8 @@ def main(source, target):
     figure, (times, memory) = plt.subplots(1, 2, figsize=(11, 4.2), width_ratios=(3, 2))
     for name in TIMES:
         draw(times, found[name], 1, name)
+    if len(runs) >= 3:
+        draw(times, read_steps(runs), 1, "a step")
     draw(memory, found["factorisation"], 2, "factor")
     times.set_ylabel("s, one thread")
     memory.set_ylabel("bytes")
@@ -59,6 +72,6 @@ def main(source, target):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
+    if len(sys.argv) < 3:
         sys.exit(__doc__)
     main(*sys.argv[1:])

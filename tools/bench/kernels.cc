@@ -121,10 +121,6 @@ void add_threaded(const std::string& what, const std::string& of, const std::sha
   })->UseRealTime();
 }
 
-}  // namespace
-
-namespace {
-
 struct Size {
   int across;
   const char* name;

@@ -3,9 +3,11 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include <fstream>
+#include <filesystem>
+#include <optional>
 
 #include "lib/core/errors.h"
+#include "lib/core/write_file.h"
 #include "lib/linear/blas.h"
 #include "tools/bench/register.h"
 #include "tools/bench/results.h"
@@ -52,15 +54,17 @@ int main(int argc, char** argv) {
   app.add_option("--repetitions", request.repetitions, "Of each measurement")->check(CLI::Range(1, 1000));
   app.add_flag("--large", request.large, "With 57,600 unknowns, too");
   app.add_flag("--growth", request.growth,
-               "From 3,000 elements to a million instead, for tools/bench/growth.py: 16 GB; an hour, less by "
-               "--repetitions 1");
+               "From 3,000 elements to a million instead, for tools/bench/growth.py: 16 GB of memory; an hour, or 5 "
+               "minutes with --repetitions 1");
   CLI11_PARSE(app, argc, argv);
   try {
-    std::map<std::string, double> before;
-    if (!request.compare.empty()) before = orthodyn::bench::read_times(request.compare);
+    std::optional<orthodyn::bench::Before> before;
+    if (!request.compare.empty()) before = orthodyn::bench::read_before(request.compare);
     const auto results = measure(request);
+    if (results.empty()) throw orthodyn::ConfigError(fmt::format("--filter: nothing matches '{}'", request.filter));
     const int lost = orthodyn::bench::print(results, before);
-    if (!request.json.empty()) std::ofstream(request.json) << orthodyn::bench::to_json(results).dump(1) << '\n';
+    if (!request.json.empty())
+      orthodyn::write_file(request.json, {orthodyn::bench::to_json(results).dump(1), "\n"});
     return lost > 0 ? 1 : 0;
   } catch (const std::exception& e) {
     fmt::print(stderr, "error: {}\n", e.what());

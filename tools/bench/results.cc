@@ -19,6 +19,7 @@ Json context() {
   Json out{{"machine", machine_json()}, {"versions", versions_json()}, {"time", utc_now()}};
   out["compiler"] = fmt::format("{} {}", ORTHODYN_COMPILER, ORTHODYN_FLAGS);
   out["blas"] = blas_name();
+  out["clock"] = "real";
   return out;
 }
 
@@ -26,7 +27,7 @@ Json context() {
 
 void Collector::ReportRuns(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
-    if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
+    if (run.run_type != Run::RT_Iteration) continue;
     const std::string name = run.run_name.function_name;  // without what Google Benchmark adds
     const double nanoseconds = 1e9 / run.counters.at("items_per_second").value;
     const auto found = std::find_if(results_.begin(), results_.end(), [&](const Result& r) { return r.name == name; });
@@ -45,6 +46,7 @@ void Collector::ReportRuns(const std::vector<Run>& runs) {
 
 Json to_json(const std::vector<Result>& results) {
   Json out = context();
+  out["results"] = Json::array();
   for (const Result& r : results)
     out["results"].push_back({{"name", r.name},
                               {"nanoseconds_per_element", r.nanoseconds},
@@ -54,33 +56,46 @@ Json to_json(const std::vector<Result>& results) {
   return out;
 }
 
-std::map<std::string, double> read_times(const std::filesystem::path& file) {
+Before read_before(const std::filesystem::path& file) {
   std::ifstream in(file);
-  const Json document = Json::parse(in, nullptr, false);
-  std::map<std::string, double> times;
+  Before before{Json::parse(in, nullptr, false), {}};
   try {
-    for (const auto& r : document.at("results")) times[r.at("name")] = r.at("nanoseconds_per_element");
+    for (const auto& r : before.context.at("results"))
+      before.nanoseconds[r.at("name")] = r.at("nanoseconds_per_element");
   } catch (const Json::exception&) {
     throw ConfigError(fmt::format("{}: not a file of orthodyn_bench --json", file.string()));
   }
-  return times;
+  if (before.context.value("clock", "") != "real")
+    throw ConfigError(fmt::format("{}: measured in processor time, by an earlier version; measure again with the program "
+                                  "of then and this orthodyn_bench", file.string()));
+  return before;
 }
 
-int print(const std::vector<Result>& results, const std::map<std::string, double>& before) {
+int print(const std::vector<Result>& results, const std::optional<Before>& before) {
   const Json at = context();
   fmt::print("{}\n{}\n{}\n{}\n\n", at["machine"].dump(), at["versions"].dump(), at["compiler"].get<std::string>(),
              at["blas"].get<std::string>());
-  fmt::print("{:40} {:>12}{}\n", "one thread, or several", "ns/element", before.empty() ? "" : "     before   ratio");
+  fmt::print("{:40} {:>12}{}\n", "one thread, or several", "ns/element", before ? "     before   ratio" : "");
   int lost = 0;
+  auto left = before ? before->nanoseconds : std::map<std::string, double>();
   for (const Result& r : results) {
     std::string compared;
-    if (const auto old = before.find(r.name); old != before.end()) {
+    if (const auto old = left.find(r.name); old != left.end()) {
       const double ratio = r.nanoseconds / old->second;
       compared = fmt::format("{:>11.4g} {:>7.2f}{}", old->second, ratio, ratio > kLost ? "  slower" : "");
       if (ratio > kLost) ++lost;
+      left.erase(old);
+    } else if (before) {
+      compared = "          -       -  not measured before";
     }
     fmt::print("{:40} {:>12.4g}{}\n", r.name, r.nanoseconds, compared);
   }
+  for (const auto& [name, nanoseconds] : left)
+    fmt::print("{:40} {:>12}{:>11.4g}       -  not measured now\n", name, "-", nanoseconds);
+  if (!before) return lost;
+  for (const char* what : {"machine", "compiler", "blas"})
+    if (before->context.value(what, Json()) != at[what])
+      fmt::print("another {} before, so that ratios tell of both: {}\n", what, before->context.value(what, Json()).dump());
   return lost;
 }
 

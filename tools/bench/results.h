@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,13 +30,19 @@ class Collector : public benchmark::BenchmarkReporter {
   std::vector<Result> results_;
 };
 
+// Results of an earlier run, and where it ran.
+struct Before {
+  Json context;
+  std::map<std::string, double> nanoseconds;  // an element, by name
+};
+
 Json to_json(const std::vector<Result>& results);
 
-// Throws ConfigError if the file is none of to_json().
-std::map<std::string, double> read_times(const std::filesystem::path& file);
+// Throws ConfigError if the file is none of to_json(), or of a version that measured processor time.
+Before read_before(const std::filesystem::path& file);
 
-// Prints machine, versions and a line for each result; with `before`, the ratios, and a mark where more than 10 % were
-// lost. How many lines have one.
-int print(const std::vector<Result>& results, const std::map<std::string, double>& before);
+// Prints machine, versions and a line for each result; with `before` the ratios, a mark where more than 10 % were lost,
+// and what cannot be compared. How many lines have a mark.
+int print(const std::vector<Result>& results, const std::optional<Before>& before);
 
 }  // namespace orthodyn::bench
