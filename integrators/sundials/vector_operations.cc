@@ -3,12 +3,15 @@
 #include <nvector/nvector_serial.h>
 
 #include <cmath>
+#include <type_traits>
 
 #include "lib/core/types.h"
 
 namespace orthodyn::sundials {
 
 namespace {
+
+static_assert(std::is_same_v<sunrealtype, double>);
 
 using Index = Eigen::Index;
 
@@ -44,7 +47,12 @@ double sum(Index n, const Term& term) {
   return total;
 }
 
+// z may be x or y. A difference of equal numbers is 0 for any weight.
 void linear_sum(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
+  if (a == -b)
+    return for_each_part(length(z), [=]<int size>(Index i) {
+      part<size>(z, i) = a * (part<size>(x, i) - part<size>(y, i));
+    });
   for_each_part(length(z), [=]<int size>(Index i) { part<size>(z, i) = a * part<size>(x, i) + b * part<size>(y, i); });
 }
 
@@ -70,6 +78,7 @@ double wrms_norm(N_Vector x, N_Vector w) {
 
 // z = sum of c_k x_k; z may be one of them.
 int linear_combination(int count, double* c, N_Vector* x, N_Vector z) {
+  if (count < 1) return -1;
   for_each_part(length(z), [=]<int size>(Index i) {
     Part<size> sums = c[0] * part<size>(x[0], i);
     for (int k = 1; k < count; ++k) sums += c[k] * part<size>(x[k], i);

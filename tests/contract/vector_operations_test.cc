@@ -47,10 +47,12 @@ TEST_P(VectorOperations, MayWriteToWhatTheyRead) {
   const OwnedVector x = vector_of(x_), y = vector_of(y_);
   N_VLinearSum(2, x.get(), 1, y.get(), x.get());
   expect_equal(x.get(), 2 * x_ + y_);
+  N_VLinearSum(-1, x.get(), 1, y.get(), y.get());
+  expect_equal(y.get(), -2 * x_);
   N_VLinearSum(1, x.get(), 3, x.get(), x.get());
   expect_equal(x.get(), 4 * (2 * x_ + y_));
   N_VScale(0.5, y.get(), y.get());
-  expect_equal(y.get(), 0.5 * y_);
+  expect_equal(y.get(), -x_);
 }
 
 TEST_P(VectorOperations, CombineSeveralAtOnce) {
@@ -60,6 +62,10 @@ TEST_P(VectorOperations, CombineSeveralAtOnce) {
   ASSERT_EQ(N_VLinearCombination(3, weights, three, x.get()), 0);
   const Vector combined = x_ - 0.25 * y_ + 3 * (x_ + y_);
   for (Eigen::Index i = 0; i < n_; ++i) EXPECT_NEAR(view(x.get())[i], combined[i], 1e-14 * combined.norm());
+  ASSERT_EQ(N_VLinearCombination(2, weights, three + 1, z.get()), 0);  // onto the last of them
+  const Vector pair = y_ - 0.25 * (x_ + y_);
+  for (Eigen::Index i = 0; i < n_; ++i) EXPECT_NEAR(view(z.get())[i], pair[i], 1e-14 * combined.norm());
+  view(z.get()) = x_ + y_;
 
   N_Vector sums[] = {y.get(), z.get()};
   const Vector shared = view(x.get());
@@ -80,24 +86,46 @@ TEST_P(VectorOperations, NormsTellOfEntriesThatAreNoNumbers) {
   }
 }
 
+TEST_P(VectorOperations, DifferencesOfEqualsAreZero) {
+  const OwnedVector x = vector_of(x_), y = vector_of(x_);
+  N_VLinearSum(1 / 3.0, x.get(), -1 / 3.0, y.get(), x.get());
+  EXPECT_EQ(view(x.get()).norm(), 0);
+}
+
 // A run repeated in another place of the memory takes the same steps.
 TEST_P(VectorOperations, DoNotDependOnAddresses) {
-  Vector room(n_ + 8);
-  const auto norm_at = [&](Eigen::Index begin) {
+  Vector room(2 * n_ + 16);
+  const auto results_at = [&](Eigen::Index begin) {
     room.segment(begin, n_) = x_;
-    const OwnedVector x(N_VMake_Serial(static_cast<sunindextype>(n_), room.data() + begin, context_));
-    use_fast_operations(x.get());
-    N_VLinearSum(1 / 3.0, x.get(), 1 / 7.0, x.get(), x.get());
-    return N_VWrmsNorm(x.get(), x.get());
+    room.segment(n_ + 8, n_) = y_;
+    const auto at = [&](Eigen::Index place) {
+      OwnedVector v(N_VMake_Serial(static_cast<sunindextype>(n_), room.data() + place, context_));
+      use_fast_operations(v.get());
+      return v;
+    };
+    const OwnedVector x = at(begin), y = at(n_ + 8), z = make_vector(n_, context_);
+    N_VLinearSum(1 / 3.0, x.get(), 1 / 7.0, y.get(), x.get());
+    double weights[] = {1 / 3.0, 1 / 7.0};
+    N_Vector both[] = {x.get(), y.get()};
+    N_VLinearCombination(2, weights, both, z.get());
+    N_VScaleAddMulti(1, weights, y.get(), both, both);
+    Vector results(2 * n_ + 2);
+    results << view(x.get()), view(z.get()), N_VWrmsNorm(x.get(), y.get()), N_VDotProd(x.get(), y.get());
+    return results;
   };
-  const double first = norm_at(0);
-  for (Eigen::Index begin = 1; begin < 8; ++begin) EXPECT_EQ(norm_at(begin), first) << begin;
+  const Vector first = results_at(0);
+  for (Eigen::Index begin = 1; begin < 8; ++begin) EXPECT_EQ(results_at(begin), first) << begin;
 }
 
 TEST_P(VectorOperations, AreThoseOfCopies) {
   const OwnedVector x = vector_of(x_), copy(N_VClone(x.get()));
+  EXPECT_NE(x->ops->nvwrmsnorm, N_VWrmsNorm_Serial);
   EXPECT_EQ(copy->ops->nvwrmsnorm, x->ops->nvwrmsnorm);
-  EXPECT_EQ(copy->ops->nvlinearcombination, x->ops->nvlinearcombination);
+  ASSERT_TRUE(copy->ops->nvlinearcombination);
+  double one[] = {1};
+  N_Vector source[] = {x.get()};
+  ASSERT_EQ(N_VLinearCombination(1, one, source, copy.get()), 0);
+  expect_equal(copy.get(), x_);
 }
 
 INSTANTIATE_TEST_SUITE_P(Lengths, VectorOperations, testing::ValuesIn(kLengths));

@@ -25,7 +25,7 @@ def read(file):
 
 
 def read_steps(files):
-    """Of each run the elements and the seconds of a step, without its outputs."""
+    """Of each run the elements and the seconds of a step: all of the run but its outputs, divided by its steps."""
     rows = []
     for file in files:
         run = json.load(open(file))
@@ -52,10 +52,12 @@ def main(source, target, *runs):
     if missing:
         sys.exit(f"{source}: fewer than three sizes of {missing[0]}; "
                  "it must come from `orthodyn_bench --growth --json FILE`")
+    if runs and len(runs) < 3:
+        sys.exit("a slope needs runs on three meshes")
     figure, (times, memory) = plt.subplots(1, 2, figsize=(11, 4.2), width_ratios=(3, 2))
     for name in TIMES:
         draw(times, found[name], 1, name)
-    if len(runs) >= 3:
+    if runs:
         draw(times, read_steps(runs), 1, "a step")
     draw(memory, found["factorisation"], 2, "factor")
     times.set_ylabel("s, one thread")
