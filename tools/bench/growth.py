@@ -39,10 +39,10 @@ def slope(x, y):
     return np.polyfit(np.log(x[-3:]), np.log(y[-3:]), 1)[0]
 
 
-def draw(axes, rows, column, name):
+def draw(axes, rows, column, name, label_at=(6, 0)):
     x, y = rows[:, 0], rows[:, column]
     line, = axes.loglog(x, y, marker="o", markersize=3)
-    axes.annotate(f"{name}, slope {slope(x, y):.2f}", (x[-1], y[-1]), xytext=(6, 0), textcoords="offset points",
+    axes.annotate(f"{name}, slope {slope(x, y):.2f}", (x[-1], y[-1]), xytext=label_at, textcoords="offset points",
                   va="center", fontsize=8, color=line.get_color())
 
 
@@ -58,7 +58,7 @@ def main(source, target, *runs):
     for name in TIMES:
         draw(times, found[name], 1, name)
     if runs:
-        draw(times, read_steps(runs), 1, "a step")
+        draw(times, read_steps(runs), 1, "a step", label_at=(6, 8))
     draw(memory, found["factorisation"], 2, "factor")
     times.set_ylabel("s, one thread")
     memory.set_ylabel("bytes")
