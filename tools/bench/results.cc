@@ -66,8 +66,8 @@ Before read_before(const std::filesystem::path& file) {
     throw ConfigError(fmt::format("{}: not a file of orthodyn_bench --json", file.string()));
   }
   if (before.context.value("clock", "") != "real")
-    throw ConfigError(fmt::format("{}: measured in processor time, by an earlier version; measure again with the program "
-                                  "of then and this orthodyn_bench", file.string()));
+    throw ConfigError(fmt::format("{}: an earlier version measured it in processor time; measure it again in real time",
+                                  file.string()));
   return before;
 }
 
@@ -93,9 +93,10 @@ int print(const std::vector<Result>& results, const std::optional<Before>& befor
   for (const auto& [name, nanoseconds] : left)
     fmt::print("{:40} {:>12}{:>11.4g}       -  not measured now\n", name, "-", nanoseconds);
   if (!before) return lost;
-  for (const char* what : {"machine", "compiler", "blas"})
-    if (before->context.value(what, Json()) != at[what])
-      fmt::print("another {} before, so that ratios tell of both: {}\n", what, before->context.value(what, Json()).dump());
+  for (const char* what : {"machine", "compiler", "blas"}) {
+    const Json then = before->context.value(what, Json());
+    if (then != at[what]) fmt::print("another {} before, so that ratios tell of both: {}\n", what, then.dump());
+  }
   return lost;
 }
 
