@@ -23,7 +23,7 @@ class VectorOperations : public testing::TestWithParam<int> {
     return v;
   }
   static void expect_equal(N_Vector v, const Vector& expected) {
-    for (Eigen::Index i = 0; i < expected.size(); ++i) EXPECT_DOUBLE_EQ(view(v)[i], expected[i]) << i;
+    for (Eigen::Index i = 0; i < expected.size(); ++i) EXPECT_NEAR(view(v)[i], expected[i], 1e-14) << i;
   }
 
   Context context_;
