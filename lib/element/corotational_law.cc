@@ -53,16 +53,6 @@ template <class T>
 
 }  // namespace
 
-Mat3 solve_lyapunov(const Mat3& S, const Mat3& B) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> modes(S);
-  const Mat3& V = modes.eigenvectors();
-  const Vec3& s = modes.eigenvalues();
-  Mat3 X = V.transpose() * B * V;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) X(i, j) /= s[i] + s[j];
-  return V * X * V.transpose();
-}
-
 template <class C, class T>
 TangentFormOf<C, T> gauss_newton_form(const Polar<T>& p, const C& stiffness) {
   TangentFormOf<C, T> form;

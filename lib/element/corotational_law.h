@@ -14,13 +14,11 @@
 #pragma once
 
 #include "lib/core/errors.h"
+#include "lib/element/lyapunov.h"
 #include "lib/element/rotating_law.h"
 #include "lib/element/tangent_form.h"
 
 namespace orthodyn {
-
-// X with S X + X S = B; S and B symmetric, S positive definite.
-Mat3 solve_lyapunov(const Mat3& S, const Mat3& B);
 
 // The positive semidefinite form dS : C : dS, for one point or a batch of them. G is not singular.
 template <class C, class T>
@@ -122,14 +120,21 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
   // sigma, Psi1 - Psi0 = sigma : (S1 - S0) and s (S1 - S0) + (S1 - S0) s = C1 - C0 give s X + X s = 2 sigma.
   // Throws RecoverableError where an end is inverted or blended: C does not know the sign of det F.
   Mat3 mean_stress(const Mat3& H0, const Mat3& H1, const Mat3& Q) const {
-    const Mat3 F0 = deformation_gradient<double>(H0, Q), F1 = deformation_gradient<double>(H1, Q);
-    const auto p0 = polar(F0, Q), p1 = polar(F1, Q);
+    const auto p0 = polar(deformation_gradient<double>(H0, Q), Q), p1 = polar(deformation_gradient<double>(H1, Q), Q);
     for (const auto* p : {&p0, &p1})
       if (!(p->S.determinant() > 0) || !is_regular<double>(p->S, p->det_G))
         throw RecoverableError("an element is inverted or flattened, where steps that keep the energy have no force");
-    const Mat3 S = 0.5 * (p0.S + p1.S);
-    const Mat3 strain = 0.5 * (stretch_strain<double>(H0, Q, p0.S) + stretch_strain<double>(H1, Q, p1.S));
-    return 0.5 * (F0 + F1) * solve_lyapunov(S, 2 * C_.stress(strain));
+    return mean_stress_between<double>(H0, p0, H1, p1, Q);
+  }
+
+  // mean_stress() for a batch of points; right in the lanes of `good`, the others are to be done one by one.
+  template <class Axes>
+  ORTHODYN_FLATTEN Mat3T<Batch> batch_mean_stress(const Mat3T<Batch>& H0, const Mat3T<Batch>& H1, const Axes& Q,
+                                                  Batch::Mask& good) const {
+    Polar<Batch> p0, p1;
+    good = this->regular_polar(H0, Q, p0) & this->regular_polar(H1, Q, p1);
+    good = good & (p0.S.determinant() > Batch(0)) & (p1.S.determinant() > Batch(0));
+    return mean_stress_between<Batch>(H0, p0, H1, p1, Q);
   }
 
   // The stress in the rotated frame, T = sigma + [c] with P = R T, where chi = 1; e = S - I.
@@ -160,6 +165,14 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
   }
 
  private:
+  template <class T, class Axes>
+  Mat3T<T> mean_stress_between(const Mat3T<T>& H0, const Polar<T>& p0, const Mat3T<T>& H1, const Polar<T>& p1,
+                               const Axes& Q) const {
+    const Mat3T<T> S = T(0.5) * (p0.S + p1.S);
+    const Mat3T<T> strains = stretch_strain<T>(H0, Q, p0.S) + stretch_strain<T>(H1, Q, p1.S);  // twice their mean
+    return deformation_gradient<T>(T(0.5) * (H0 + H1), Q) * solve_lyapunov<T>(S, C_.stress(strains));
+  }
+
   // chi must multiply the damping also where an isotropic energy is not blended: dS/dF is unbounded.
   template <class T>
   T damping_weight(const Polar<T>& p, const T& chi, const T& beta) const {

@@ -35,6 +35,11 @@ class LinearLaw {
   Mat3 mean_stress(const Mat3& H0, const Mat3& H1, const Mat3& Q) const {
     return stress<double>(0.5 * (H0 + H1), Q);
   }
+  template <class Axes>
+  Mat3T<Batch> batch_mean_stress(const Mat3T<Batch>& H0, const Mat3T<Batch>& H1, const Axes& Q,
+                                 Batch::Mask& good) const {
+    return batch_stress(Mat3T<Batch>(Batch(0.5) * (H0 + H1)), Q, nullptr, 0, good);
+  }
 
   template <class Axes>
   Mat3T<Batch> batch_stress(const Mat3T<Batch>& H, const Axes& Q, const Mat3T<Batch>* F_rate, double beta,

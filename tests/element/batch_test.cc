@@ -86,6 +86,41 @@ TEST(Batch, OfTheWarpedAndTheLinearLawEqualTheirElements) {
   expect_lanes_equal(LinearLaw(kStiff), 0.2);
 }
 
+template <class Law>
+void expect_mean_stresses_equal(const Law& law, double strain) {
+  const auto F0 = states(strain), F1 = states(-0.5 * strain);
+  Batch::Mask good;
+  const auto P = law.batch_mean_stress(pack_gradients(F0), pack_gradients(F1), kAxes, good);
+  ASSERT_TRUE(all(good));
+  for (std::size_t l = 0; l < Batch::kLanes; ++l) {
+    const Mat3 expected = law.mean_stress(F0[l] - kAxes, F1[l] - kAxes, kAxes);
+    for (int i = 0; i < 9; ++i)
+      EXPECT_NEAR(P(i)[static_cast<int>(l)], expected(i), 1e-13 * (0.1 * kStiff.c11 + expected.norm()));
+  }
+}
+
+TEST(Batch, OfMeanStressesEqualsThoseOfItsElements) {
+  for (const double strain : {1e-6, 0.05, 0.3}) {
+    expect_mean_stresses_equal(CorotationalLaw(kStiff), strain);
+    expect_mean_stresses_equal(CorotationalLaw(IsotropicStiffness{2, 1}), strain);
+    expect_mean_stresses_equal(LinearLaw(kStiff), strain);
+  }
+}
+
+// Also a flattened one: its energy is not blended, but it may have come from either side.
+TEST(Batch, OfMeanStressesLeavesALaneThatIsInvertedAtEitherEnd) {
+  const CorotationalLaw law(kStiff);
+  auto flat = states(0.1);
+  flat[1].col(0).setZero();
+  for (const auto& other : {states(0.1, 1), flat})
+    for (const bool first : {true, false}) {
+      const auto H = pack_gradients(states(0.1)), H_other = pack_gradients(other);
+      Batch::Mask good;
+      law.batch_mean_stress(first ? H_other : H, first ? H : H_other, kAxes, good);
+      for (int l = 0; l < Batch::kLanes; ++l) EXPECT_EQ(good[l] != 0, l != 1) << "lane " << l;
+    }
+}
+
 template <class C>
 void expect_tangents_equal(const C& stiffness, double strain) {
   const CorotationalLaw<C> law(stiffness);

@@ -64,7 +64,9 @@ TEST_P(Groups, OfOneColourShareNoNode) {
       }
     }
     EXPECT_EQ(count, groups.size());
-    if (in_place) EXPECT_LE(groups.colours().size(), 12u);
+    if (in_place) {
+      EXPECT_LE(groups.colours().size(), 12u);
+    }
   }
 }
 

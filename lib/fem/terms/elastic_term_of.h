@@ -11,9 +11,9 @@
 #include <Eigen/Cholesky>
 
 #include "lib/core/symmetric_eigen.h"
+#include "lib/fem/batch_loops.h"
 #include "lib/fem/elastic_region.h"
 #include "lib/fem/element_batches.h"
-#include "lib/fem/element_groups.h"
 #include "lib/fem/element_stiffness.h"
 #include "lib/fem/terms/elastic_term.h"
 
@@ -28,7 +28,7 @@ class ElasticTermOf final : public ElasticTerm {
         law_(law),
         pattern_(pattern),
         elements_(mesh, region_.cells, region_.axes),
-        groups_(mesh, region_.cells) {
+        loops_(mesh, region_.cells) {
     offsets_.reserve(region_.cells.size());
     for (int k = 0; k < size(); ++k) {
       offsets_.emplace_back(elements_.nodes(k), pattern);
@@ -67,25 +67,26 @@ class ElasticTermOf final : public ElasticTerm {
 
   void add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const override {
     if constexpr (Law::kHasEnergy)
-      for_each_element([&](int k) {
-        for (int p = 0; p < E::kPoints; ++p)
-          elements_.add_force(
-              k, p, law_.mean_stress(elements_.gradient(k, p, s0.u), elements_.gradient(k, p, s1.u), axes().of(k, p)),
-              f);
+      for_each_batch_point([&](int b, int p) {
+        Batch::Mask good;
+        const Mat3T<Batch> P = law_.batch_mean_stress(elements_.gradients(b, p, s0.u), elements_.gradients(b, p, s1.u),
+                                                      axes().batch(b, p), good);
+        if (all(good)) elements_.add_forces(b, p, P, f);
+        else add_mean_forces_one_by_one(b, p, s0, s1, f);
       });
   }
 
   void add_tangent(const NodalState& s, TangentKind kind, double* K, double* D) const override {
     double* const damping = damped() ? D : nullptr;
-    for_each_batch([&](int b) {
+    loops_.for_each_batch([&](int b) {
       if (!add_batch_tangent(b, s, kind, K, damping))
-        for_each_lane(b, [&](int k) { add_element_tangent(k, s, kind, K, damping); });
+        loops_.for_each_of(b, [&](int k) { add_element_tangent(k, s, kind, K, damping); });
     });
   }
 
   void add_mixed_tangent(const NodalState& before, const NodalState& s, double* K) const override {
     if constexpr (requires(const Law& law, Mat3 H) { law.mixed_tangent(H, H, H); })
-      for_each_element([&](int k) {
+      loops_.for_each_element([&](int k) {
         add_element(k, K, [&](int p) {
           return law_.mixed_tangent(elements_.gradient(k, p, before.u), elements_.gradient(k, p, s.u), axes().of(k, p));
         });
@@ -141,16 +142,12 @@ class ElasticTermOf final : public ElasticTerm {
   }
 
   double largest_green_strain(const NodalState& s) const override {
-    const auto of_group = [&](const ElementGroups::Range& group) {
+    const auto smallest = loops_.smallest([&](int b) {
       double largest = 0;
-      visit_batches(group, [&](int b) {
-        for (int p = 0; p < E::kPoints; ++p) largest = std::max(largest, largest_square(b, p, s));
-      });
-      return largest;
-    };
-    double largest = 0;
-    for (const double square : groups_.of_each(of_group)) largest = std::max(largest, square);
-    return 0.5 * std::sqrt(largest);
+      for (int p = 0; p < E::kPoints; ++p) largest = std::max(largest, largest_square(b, p, s));
+      return -largest;
+    });
+    return 0.5 * std::sqrt(-smallest.value);
   }
 
   PointObservation observe_point(int k, int p, const NodalState& s) const override {
@@ -169,18 +166,10 @@ class ElasticTermOf final : public ElasticTerm {
   }
 
   SmallestDetF smallest_det_F(const NodalState& s) const override {
-    const std::vector<double> all = groups_.of_each([&](const ElementGroups::Range& group) {
-      double smallest = std::numeric_limits<double>::infinity();
-      visit_batches(group, [&](int b) { smallest = std::min(smallest, smallest_determinant(b, s)); });
-      return smallest;
-    });
-    const auto least = std::min_element(all.begin(), all.end());
+    const auto batch = loops_.smallest([&](int b) { return smallest_determinant(b, s); });
     SmallestDetF smallest{std::numeric_limits<double>::infinity(), -1};
-    visit_batches(groups_.elements(static_cast<int>(least - all.begin())), [&](int b) {
-      if (smallest_determinant(b, s) != *least) return;
-      for_each_lane(b, [&](int k) {
-        if (const double d = det_F(k, s); d < smallest.value) smallest = {d, k};
-      });
+    loops_.for_each_of(batch.batch, [&](int k) {
+      if (const double d = det_F(k, s); d < smallest.value) smallest = {d, k};
     });
     return smallest;
   }
@@ -242,51 +231,25 @@ class ElasticTermOf final : public ElasticTerm {
   }
 
   template <class Visit>
-  static void visit_batches(const ElementGroups::Range& group, Visit&& visit) {
-    for (int b = group.begin / Batch::kLanes; b * Batch::kLanes < group.end; ++b) visit(b);
-  }
-
-  // For what is added to nodes.
-  template <class Visit>
-  void for_each_batch(Visit&& visit) const {
-    groups_.for_each([&](const ElementGroups::Range& group) { visit_batches(group, visit); });
-  }
-
-  template <class Visit>
   void for_each_batch_point(Visit&& visit) const {
-    for_each_batch([&](int b) {
+    loops_.for_each_batch([&](int b) {
       for (int p = 0; p < E::kPoints; ++p) visit(b, p);
     });
-  }
-
-  template <class Visit>
-  void for_each_element(Visit&& visit) const {
-    for_each_batch([&](int b) { for_each_lane(b, visit); });
-  }
-
-  template <class Visit>
-  void for_each_lane(int batch, Visit&& visit) const {
-    for (int l = 0; l < elements_.lanes(batch); ++l) visit(batch * Batch::kLanes + l);
   }
 
   // The volume integral of a density given at a point of whole batches and, where those fail, of elements.
   template <class OfBatch, class OfElement>
   double integrate(OfBatch&& of_batch, OfElement&& of_element) const {
-    const auto of_group = [&](const ElementGroups::Range& group) {
+    return loops_.sum([&](int b) {
       double sum = 0;
-      visit_batches(group, [&](int b) {
-        for (int p = 0; p < E::kPoints; ++p) {
-          Batch::Mask good;
-          const Batch product = elements_.volumes(b, p) * of_batch(b, p, good);
-          if (all(good)) for (int l = 0; l < Batch::kLanes; ++l) sum += product[l];
-          else for_each_lane(b, [&](int k) { sum += elements_.volume(k, p) * of_element(k, p); });
-        }
-      });
+      for (int p = 0; p < E::kPoints; ++p) {
+        Batch::Mask good;
+        const Batch product = elements_.volumes(b, p) * of_batch(b, p, good);
+        if (all(good)) for (int l = 0; l < Batch::kLanes; ++l) sum += product[l];
+        else loops_.for_each_of(b, [&](int k) { sum += elements_.volume(k, p) * of_element(k, p); });
+      }
       return sum;
-    };
-    double sum = 0;
-    for (const double share : groups_.of_each(of_group)) sum += share;
-    return sum;
+    });
   }
 
   // The volume's mean of H, times the mean axes.
@@ -374,7 +337,7 @@ class ElasticTermOf final : public ElasticTerm {
 
   // For batches with an inverted or degenerate element.
   void add_forces_one_by_one(int batch, int p, const NodalState& s, NodalVector& f) const {
-    for_each_lane(batch, [&](int k) {
+    loops_.for_each_of(batch, [&](int k) {
       Mat3 rate;
       if (damped()) rate = elements_.gradient(k, p, s.v);
       elements_.add_force(k, p,
@@ -384,12 +347,18 @@ class ElasticTermOf final : public ElasticTerm {
     });
   }
 
+  void add_mean_forces_one_by_one(int batch, int p, const NodalState& s0, const NodalState& s1, NodalVector& f) const {
+    loops_.for_each_of(batch, [&](int k) {
+      const Mat3 H0 = elements_.gradient(k, p, s0.u), H1 = elements_.gradient(k, p, s1.u);
+      elements_.add_force(k, p, law_.mean_stress(H0, H1, axes().of(k, p)), f);
+    });
+  }
+
   ElasticRegion region_;
   Law law_;
   const BlockPattern& pattern_;
-  static_assert(ElementGroups::kElements % Batch::kLanes == 0);
   ElementBatches<E> elements_;
-  ElementGroups groups_;
+  BatchLoops loops_;
   std::vector<Offsets> offsets_;
   double volume_excess_ = 1;  // the largest ratio of the points' volumes to the element's
 };

@@ -1,0 +1,88 @@
+// Loops over the elements of a region in batches, as many at a time as a Batch has lanes. Groups of batches run in
+// parallel; results are the same for any number of threads.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "lib/element/batch.h"
+#include "lib/fem/element_groups.h"
+
+namespace orthodyn {
+
+inline namespace ORTHODYN_LANES {
+
+class BatchLoops {
+ public:
+  static constexpr int kLanes = Batch::kLanes;
+
+  // Over `cells` of the mesh, in this order, which is by place (element_groups.h).
+  BatchLoops(const ElementMesh& mesh, const std::vector<int>& cells)
+      : size_(static_cast<int>(cells.size())), groups_(mesh, cells) {}
+
+  // visit(batch) for all, where something is added to nodes.
+  template <class Visit>
+  void for_each_batch(Visit&& visit) const {
+    groups_.for_each([&](const ElementGroups::Range& group) { in_group(group, visit); });
+  }
+
+  // visit(k) for the elements of one batch, or for all.
+  template <class Visit>
+  void for_each_of(int batch, Visit&& visit) const {
+    for (int k = batch * kLanes; k < std::min(size_, (batch + 1) * kLanes); ++k) visit(k);
+  }
+  template <class Visit>
+  void for_each_element(Visit&& visit) const {
+    for_each_batch([&](int b) { for_each_of(b, visit); });
+  }
+
+  // of_batch(batch), a number, summed over all.
+  template <class OfBatch>
+  double sum(OfBatch&& of_batch) const {
+    const auto of_group = [&](const ElementGroups::Range& group) {
+      double total = 0;
+      in_group(group, [&](int b) { total += of_batch(b); });
+      return total;
+    };
+    double total = 0;
+    for (const double share : groups_.of_each(of_group)) total += share;
+    return total;
+  }
+
+  // The batch of the smallest of_batch(batch), and that.
+  struct Smallest {
+    double value;
+    int batch;
+  };
+  template <class OfBatch>
+  Smallest smallest(OfBatch&& of_batch) const {
+    const auto of_group = [&](const ElementGroups::Range& group) {
+      double least = std::numeric_limits<double>::infinity();
+      in_group(group, [&](int b) { least = std::min(least, of_batch(b)); });
+      return least;
+    };
+    const std::vector<double> all = groups_.of_each(of_group);
+    const auto least = std::min_element(all.begin(), all.end());
+    int batch = -1;
+    in_group(groups_.elements(static_cast<int>(least - all.begin())), [&](int b) {
+      if (batch < 0 && of_batch(b) == *least) batch = b;
+    });
+    return {*least, batch};
+  }
+
+ private:
+  static_assert(ElementGroups::kElements % kLanes == 0);
+
+  template <class Visit>
+  static void in_group(const ElementGroups::Range& group, Visit&& visit) {
+    for (int b = group.begin / kLanes; b * kLanes < group.end; ++b) visit(b);
+  }
+
+  int size_;
+  ElementGroups groups_;
+};
+
+}  // namespace ORTHODYN_LANES
+
+}  // namespace orthodyn
