@@ -8,6 +8,7 @@
 #include "lib/simulation/json.h"
 #include "lib/simulation/outcome.h"
 #include "lib/simulation/run_record.h"
+#include "lib/simulation/setup_file.h"
 
 namespace orthodyn {
 
@@ -17,7 +18,8 @@ namespace {
 
 constexpr const char* kResultFiles[] = {"frames",       "frames.pvd", "probes.csv", "energy.csv",
                                         "momentum.csv", "steps.csv",  "events.csv", "load_steps.csv",
-                                        "pictures",     "scene.yaml", "checkpoint.cbor", kRunRecordFile};
+                                        "pictures",     "scene.yaml", "checkpoint.cbor", kSetupFile,
+                                        kRunRecordFile};
 
 constexpr const char* kCheckpoint = "checkpoint.cbor";
 constexpr const char* kLock = ".orthodyn-run";  // not run.json, which is renamed over

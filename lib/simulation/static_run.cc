@@ -15,6 +15,7 @@
 #include "lib/simulation/observers/run_observers.h"
 #include "lib/simulation/run_record.h"
 #include "lib/simulation/observers/frames.h"
+#include "lib/simulation/setup_file.h"
 
 namespace orthodyn {
 
@@ -131,6 +132,7 @@ RunResult run_static_analysis(RunContext context) {
   context.folder.prepare();
   const RunRecord record(folder, context.scene, context.set, {}, given_terms(context.setup.config));
   write_file(folder / "scene.yaml", {context.resolved});
+  if (!setup.scene.output.fields.empty()) write_setup(folder / kSetupFile, setup);
   StaticObservers observers(setup, problem, folder, context.listener);
   auto all = observers.all();
   const auto own = context.listener.on_begin(setup);

@@ -70,11 +70,11 @@ class Page(HTMLParser):
 CHROMIUM = shutil.which("chromium")
 
 
-def dom_of(path, width=1280):
-    """The page after its scripts, and what the console said."""
+def dom_of(path, width=1280, *more):
+    """The page after its scripts, and what the console said; `more` options of the browser."""
     with tempfile.TemporaryDirectory() as profile:
         done = subprocess.run(
-            [CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+            [CHROMIUM, "--headless", "--no-sandbox", *(more or ["--disable-gpu"]), "--disable-quic", "--no-first-run",
              "--disable-background-networking", "--disable-component-update", "--disable-sync",
              f"--user-data-dir={profile}", f"--window-size={width},900", "--enable-logging=stderr", "--dump-dom",
              path.as_uri()], capture_output=True, text=True, timeout=90)

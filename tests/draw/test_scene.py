@@ -71,7 +71,7 @@ class Scenes(InAFolder):
 
         frame = scene.series.frame(0)
         values = np.zeros((len(scene.surface.faces), 3))
-        Grain(scene.surface, POINTS, 1.5).add(Recorder(), frame, POINTS, values, scene.colouring, camera)
+        Grain(scene.surface, POINTS, 0.17).add(Recorder(), frame, POINTS, values, scene.colouring, camera)
         self.assertGreater(len(strokes), 2)
         for start, end in strokes:
             step = (end - start) / np.linalg.norm(end - start)

@@ -9,7 +9,7 @@ from . import annotations
 from .body import INK, Paint, add_body, front_faces
 from .camera import Camera, Window
 from .errors import DrawError, unknown
-from .grain import FIELD, Grain
+from .grain import FIELD, SPACING as STROKE_SPACING, Grain
 from .slicing import Section
 from .style import FAINT, pyplot, save
 from .surface import Surface, unit
@@ -86,7 +86,7 @@ class _Surface:
         paint = Paint()
         cells = np.repeat(body.surface.cell[:, None], 3, axis=1).astype(float)
         add_body(paint, body.surface, body.points, cells, body.colours, camera, BUDGET)
-        grain = Grain(body.surface, body.points, metres_per_inch)
+        grain = Grain(body.surface, body.points, STROKE_SPACING * metres_per_inch)
         grain.add(paint, body.frame, body.points, cells, body.colours, camera)
         for outline in filter(len, self.marks):
             flat = camera.flat(outline)
@@ -113,7 +113,7 @@ class _Cut:
         axes.add_collection(PolyCollection(flat, facecolors=rgb, edgecolors=rgb, linewidths=0.3), autolim=False)
         axes.add_collection(LineCollection(self.camera.flat(self.section.outline), colors=[INK], linewidths=0.9),
                             autolim=False)
-        spacing = SPACING * metres_per_inch
+        spacing = STROKE_SPACING * metres_per_inch
         places = self._places(spacing)
         found = self.section.find(flat, places)
         places, cells = places[found >= 0], self.section.cell[found[found >= 0]]

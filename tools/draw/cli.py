@@ -19,6 +19,7 @@ examples:
   draw animate out/beam --every 4 --fps 20
   draw energy out/beam
   draw load out/shelf                                  load over displacement of a static analysis
+  draw view out/beam                                   a page with a 3D view that opens offline
   draw compare out/a out/b                             probes and energies of two runs over each other
   draw report out/compare                              a comparison as one page, report.html
   draw axes out/axes/stem/axes.vtu                     material axes, which `orthodyn check --axes` wrote
@@ -150,6 +151,21 @@ def _parser():
     modes.add_argument("--view", type=lambda s: _numbers(s, 2), default=(-60.0, 20.0), metavar="AZIM,ELEV",
                        help="where the eye is, degrees about the axis that is up (default -60,20)")
     modes.add_argument("--up", choices="xyz", default="z", help="the axis that is up (default z)")
+    view = commands.add_parser("view", help="One or two results as an HTML page with a 3D view.", epilog=COLORS,
+                               description="One or two results side by side as one HTML page with a 3D view, which opens offline.",
+                               formatter_class=argparse.RawDescriptionHelpFormatter)
+    view.add_argument("results", metavar="RESULT", nargs="+", help="a folder that `orthodyn run` wrote, or two")
+    view.add_argument("--out", type=Path, metavar="FILE", help="the page (default: view.html in the first RESULT)")
+    view.add_argument("--volume", action="store_true", help="also what is inside, for the clip plane; a larger page")
+    view.add_argument("--fields", type=lambda s: tuple(s.split(",")), metavar="F1,F2,...",
+                      help="these fields only (default: all but material axes, of which the grain is drawn)")
+    view.add_argument("--every", type=_count, default=1, metavar="K", help="every K-th frame (default 1), and the last")
+    view.add_argument("--time", type=lambda s: _numbers(s, 1)[0], metavar="T", help="begins at the frame nearest to T seconds")
+    view.add_argument("--color", metavar="FIELD[.COMPONENT]", help="begins with this colour, see below")
+    view.add_argument("--scale", type=lambda s: _numbers(s, 1)[0], default=1.0, metavar="S",
+                      help="enlarges the deformation (default 1: true shape)")
+    view.add_argument("--png", type=Path, metavar="FILE", help="a still instead, taken by Chromium")
+    view.add_argument("--size", type=_size, default=(1600, 1000), metavar="WxH", help="pixels of the still (default 1600x1000)")
     every = body("all", "Strip, animation and all curves into RESULT/pictures.")
     every.set_defaults(count=6, times=None, fps=15.0, every=None)
     return parser
@@ -270,7 +286,18 @@ def _modes(args):
     yield draw_modes(args.result, args.out or Path(args.result) / "modes.png", args.count, args.view, args.up)
 
 
-COMMANDS = {"report": _report, "compare": _compare, "load": _load, "axes": _axes, "modes": _modes, "frame": _frame, "strip": _strip, "animate": _animate,
+def _view(args):
+    from .view import page
+    from .view.collect import Extent
+    start = {key: value for key, value in (("time", args.time), ("color", args.color)) if value is not None}
+    start["scale"] = args.scale
+    if args.png:
+        yield page.write_still(args.results, args.png, args.size, start)
+    else:
+        yield page.write_view(args.results, args.out, Extent(args.volume, args.fields, args.every), start)
+
+
+COMMANDS = {"view": _view, "report": _report, "compare": _compare, "load": _load, "axes": _axes, "modes": _modes, "frame": _frame, "strip": _strip, "animate": _animate,
             "all": _all}
 
 

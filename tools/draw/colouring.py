@@ -15,6 +15,9 @@ def _cut(name, low, high):
     return ListedColormap(matplotlib.colormaps[name](np.linspace(low, high, 256)))
 
 
+SEQUENTIAL, DIVERGING = _cut("viridis", 0.06, 1.0), _cut("RdBu_r", 0.06, 0.94)
+
+
 class Colouring:
     """Map and range; `below`, `above`, `has_nan` say what the range leaves out."""
 
@@ -27,8 +30,7 @@ class Colouring:
         self.factor, self.unit = prefix(quantity.unit, max(abs(low), abs(high)))
         self.norm = Normalize(low / self.factor, high / self.factor)
         self.below, self.above = bool((finite < low).any()), bool((finite > high).any())
-        self.map = _cut("RdBu_r", 0.06, 0.94) if quantity.neutral is not None else _cut("viridis", 0.06, 1.0)
-        self.map.set_bad(NOT_A_NUMBER)
+        self.map = (DIVERGING if quantity.neutral is not None else SEQUENTIAL).with_extremes(bad=NOT_A_NUMBER)
 
     def _range(self, finite):
         if finite.size == 0:

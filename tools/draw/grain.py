@@ -16,8 +16,9 @@ PALE = np.array([0.96, 0.96, 0.94])
 class Grain:
     """Where strokes sit is chosen once in the rest shape, so that they travel with the material."""
 
-    def __init__(self, surface, rest, metres_per_inch):
-        self.surface, self.spacing = surface, SPACING * metres_per_inch
+    def __init__(self, surface, rest, spacing):
+        """`spacing` of the strokes in m."""
+        self.surface, self.spacing = surface, spacing
         centres = split_for(len(surface.faces), 40000).centres
         places = np.einsum("sk,fkx->fsx", centres, rest[surface.faces]).reshape(-1, 3)
         thinned = self._thinned(places)
@@ -40,18 +41,25 @@ class Grain:
         seen = self._well_seen(points, camera)[self.face]
         face, weights = self.face[seen], self.weights[seen]
         corners = points[self.surface.faces[face]]
-        axis = unit(frame.cell_fields[FIELD][self.surface.cell[face]].astype(float))
-        normal = unit(area_vectors(corners))
-        along = axis - np.einsum("ix,ix->i", axis, normal)[:, None] * normal
-        half = 0.5 * self.spacing * np.maximum(np.linalg.norm(along, axis=1), 0.02)
-        along = unit(along) * half[:, None]
         place = np.einsum("ik,ikx->ix", weights, corners)
-        ends = [place + self._reach(face, weights, corners, step)[:, None] * step for step in (along, -along)]
         longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=-1).max(axis=1)
         depth = camera.depth(place) + self.spacing + longest  # above the faces it spans and their edges
         behind = colouring(np.einsum("ik,ik->i", weights, values[face]))
         ink = np.where((behind @ LUMINANCE < 0.5)[:, None], PALE, INK)
+        ends = self.ends(frame, points)[:, seen]
         paint.add_segments(*(camera.flat(end) for end in ends), depth, ink, 0.7)
+
+    def ends(self, frame, points):
+        """Both ends (2,s,3) of all strokes."""
+        corners = points[self.surface.faces[self.face]]
+        axis = unit(frame.cell_fields[FIELD][self.surface.cell[self.face]].astype(float))
+        normal = unit(area_vectors(corners))
+        along = axis - np.einsum("ix,ix->i", axis, normal)[:, None] * normal
+        half = 0.5 * self.spacing * np.maximum(np.linalg.norm(along, axis=1), 0.02)
+        along = unit(along) * half[:, None]
+        place = np.einsum("ik,ikx->ix", self.weights, corners)
+        return np.stack([place + self._reach(self.face, self.weights, corners, step)[:, None] * step
+                         for step in (along, -along)])
 
     def _well_seen(self, points, camera):
         normal = unit(area_vectors(points[self.surface.faces]))

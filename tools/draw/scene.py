@@ -7,7 +7,7 @@ from .body import Paint, add_body, draw_ghost
 from .camera import Camera, Window
 from .colouring import Colouring
 from .errors import DrawError
-from .grain import Grain
+from .grain import SPACING, Grain
 from .quantity import find_quantity
 from .series import is_static
 from .surface import Surface
@@ -69,7 +69,7 @@ class Scene:
         """Made once: all panels of a picture are equally large."""
         if self._grain is None:
             inches = axes.get_position().width * axes.figure.get_size_inches()[0]
-            self._grain = Grain(self.surface, rest, np.ptp(axes.get_xlim()) / inches)
+            self._grain = Grain(self.surface, rest, SPACING * np.ptp(axes.get_xlim()) / inches)
         return self._grain
 
     @property

@@ -21,11 +21,26 @@ NUMPY_TYPE = {f"{k}{bits}": f"{c}{bits // 8}" for k, c, sizes in
 
 @dataclass
 class Frame:
-    """Rest positions (n,3), linear tets (m,4) and the fields by name, each (n or m, components)."""
+    """Rest positions (n,3), linear tets (m,4), the fields by name, each (n or m, components), and the cells as they are in
+    the file (c, 4 or 10): one is drawn as `parts` tets beside each other, which share its values."""
     points: np.ndarray
     tets: np.ndarray
     node_fields: dict = field(default_factory=dict)
     cell_fields: dict = field(default_factory=dict)
+    cells: np.ndarray = None
+
+    def __post_init__(self):
+        if self.cells is None:
+            self.cells = self.tets
+
+    @property
+    def parts(self):
+        return len(self.tets) // max(len(self.cells), 1)
+
+    @property
+    def corners(self):
+        """The nodes at corners of cells."""
+        return np.unique(self.cells[:, :4])
 
 
 class _Arrays:
@@ -91,7 +106,7 @@ def _split_appended(path, content):
 
 
 def _tets(arrays, cells, count, num_points):
-    """Tets (m,4), and as how many of them each cell is drawn."""
+    """Tets (m,4), and the cells that they are parts of."""
     named = {a.get("Name"): a for a in cells}
     missing = {"connectivity", "offsets", "types"} - set(named)
     if missing:
@@ -107,7 +122,7 @@ def _tets(arrays, cells, count, num_points):
     nodes = nodes.reshape(count, size).astype(np.int64)
     if nodes.size and (nodes.min() < 0 or nodes.max() >= num_points):
         raise arrays.damaged(f"connectivity names point {nodes.max()}, but there are {num_points} points")
-    return (nodes, 1) if size == 4 else (nodes[:, EIGHTHS].reshape(-1, 4), len(EIGHTHS))
+    return (nodes if size == 4 else nodes[:, EIGHTHS].reshape(-1, 4)), nodes
 
 
 def read_vtu(path):
@@ -132,8 +147,10 @@ def read_vtu(path):
             raise arrays.damaged(f"points have {points.shape[1]} components; 3 belong")
         fields = [{a.get("Name"): arrays.read(a, count) for a in piece.findall(f"{where}/DataArray")}
                   for where, count in (("PointData", num_points), ("CellData", num_cells))]
-        tets, parts = _tets(arrays, piece.find("Cells"), num_cells, num_points)
+        tets, cells = _tets(arrays, piece.find("Cells"), num_cells, num_points)
         of_nodes, of_cells = fields
-        return Frame(points, tets, of_nodes, {name: np.repeat(values, parts, axis=0) for name, values in of_cells.items()})
+        parts = len(tets) // max(len(cells), 1)
+        return Frame(points, tets, of_nodes, {name: np.repeat(values, parts, axis=0) for name, values in of_cells.items()},
+                     cells)
     except (TypeError, ValueError) as error:
         raise arrays.damaged(f"a count or offset is no whole number ({error})") from None

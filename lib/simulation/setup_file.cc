@@ -1,0 +1,36 @@
+#include "lib/simulation/setup_file.h"
+
+#include "lib/simulation/observers/frames.h"
+
+namespace orthodyn {
+
+namespace {
+
+std::vector<double> held(const DofMap& dofs) {
+  std::vector<double> out;
+  for (int i = 0; i < dofs.num_nodes(); ++i)
+    for (const int dof : dofs.node(i)) out.push_back(dof < 0 ? 1 : 0);
+  return out;
+}
+
+std::vector<double> loads(const FemModel& model, const State& initial, double end) {
+  const Vector still = Vector::Zero(model.num_dofs());  // dashpots are silent
+  const NodalExpansion nodal(model.parts(), initial.t, initial.q, still);
+  NodalVector sum = NodalVector::Zero(3, nodal.x.cols());
+  for (const auto& term : model.parts().loads)
+    if (term->energy_kind() == EnergyKind::none) term->add_peak_force(nodal.state(), end, sum);
+  return {sum.data(), sum.data() + sum.size()};
+}
+
+}  // namespace
+
+void write_setup(const std::filesystem::path& file, const Setup& setup) {
+  const FemModel& model = *setup.built.model;
+  const State& initial = setup.built.initial;
+  write_vtu(file, model.geometry(),
+            {{"held", Location::node, 3, held(*model.parts().dofs)},
+             {"load", Location::node, 3, loads(model, initial, setup.scene.time.end)}},
+            &model.parts().mesh);
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,226 @@
+"""The 3D view: what its page holds equals what the frames hold, and its script shows it.
+
+Run with  /usr/bin/python3 -m unittest tests/draw/test_view.py  (Debian's numpy, matplotlib, PIL, chromium).
+"""
+import base64
+import gzip
+import html
+import json
+import re
+import sys
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path[:0] = [str(Path(__file__).resolve().parent)]
+
+import numpy as np  # noqa: E402
+
+from folder_test import InAFolder, TOOLS  # noqa: E402
+from report_page import CHROMIUM, dom_of  # noqa: E402
+from tiny_result import POINTS, Vtu, fields_at, write_curves, write_result  # noqa: E402
+
+from draw.view.blocks import Blocks  # noqa: E402
+from draw.view.collect import Extent  # noqa: E402
+from draw.view.page import page  # noqa: E402
+from draw.view.skin import Skin  # noqa: E402
+from draw.vtu import Frame  # noqa: E402
+
+GPU = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--virtual-time-budget=20000")
+
+
+def unpacked(text):
+    """All blocks of a page by name: kind, numbers, and planes as they are stored."""
+    found = {}
+    for name, about, packed in re.findall(r'id="([^"]*)" data-about="([^"]*)">([^<]*)</script>', text):
+        found[html.unescape(name)] = json.loads(html.unescape(about)), gzip.decompress(base64.b64decode(packed))
+    return found
+
+
+def values(block):
+    """Rows, as web/src/blocks.ts has them."""
+    about, raw = block
+    planes = np.frombuffer(raw, {"u32": "<u4", "f32": "<f4", "linear": "<u2", "half": "<f2"}[about["kind"]])
+    rows = planes.reshape(about["components"], -1).T.astype(float)
+    if about["kind"] == "linear":
+        return np.array(about["low"]) + rows * np.array(about["step"])
+    return rows * about.get("factor", 1)
+
+
+class InBlocks(unittest.TestCase):
+    def kept(self, kind, array):
+        blocks = Blocks()
+        blocks.add("x", kind, array)
+        return values(unpacked(blocks.text())["x"])
+
+    def test_displacements_are_kept_to_a_part_in_130000_of_their_range(self):
+        array = np.random.default_rng(1).uniform(-3, 5, (400, 3)) * [1, 1e-9, 1e6]
+        error = np.abs(self.kept("linear", array) - array).max(axis=0)
+        self.assertTrue((error <= np.ptp(array, axis=0) / 65535 * 0.5001).all())
+
+    def test_fields_are_kept_to_three_digits_over_seven_decades(self):
+        array = np.concatenate([s * 10.0 ** np.linspace(2, 9, 500) for s in (1, -1)])[:, None]
+        self.assertLess(np.abs(self.kept("half", array) / array - 1).max(), 5e-4)
+
+    def test_what_is_not_a_number_stays_so(self):
+        kept = self.kept("half", np.array([[np.nan], [1.0], [0.0]]))
+        self.assertTrue(np.isnan(kept[0, 0]) and kept[1, 0] == 1 and kept[2, 0] == 0)
+
+    def test_what_never_changes_has_no_step(self):
+        self.assertTrue((self.kept("linear", np.full((5, 3), 7.25)) == 7.25).all())
+
+
+def box_frame():
+    """A cube of five tets."""
+    points = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+    tets = np.array([[0, 3, 5, 6], [1, 0, 3, 5], [2, 0, 3, 6], [4, 0, 5, 6], [7, 3, 5, 6]])
+    return Frame(points, tets)
+
+
+class ASkin(unittest.TestCase):
+    def test_of_a_cube_has_a_normal_for_each_face_at_each_corner(self):
+        skin = Skin(box_frame())
+        self.assertEqual((len(skin.faces), skin.normal.max() + 1), (12, 24))
+        self.assertEqual((len(skin.edges), len(skin.creases)), (18, 12))
+
+    def test_of_quadratic_cells_shows_no_edge_between_the_parts_of_a_face(self):
+        middles = [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)]
+        corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+        points = np.concatenate([corners, [0.5 * (corners[a] + corners[b]) for a, b in middles]])
+        from draw.vtu import EIGHTHS
+        skin = Skin(Frame(points, np.array(EIGHTHS), cells=np.arange(10)[None]))
+        self.assertEqual((len(skin.faces), len(skin.edges)), (16, 12))
+        self.assertEqual(set(skin.cell), {0})
+
+
+class OfAResult(InAFolder):
+    def setUp(self):
+        super().setUp()
+        self.times = [0.0, 0.25, 0.5, 1.0]
+        self.result = write_result(self.folder / "r", self.times)
+        write_curves(self.result)
+
+    def page(self, **extent):
+        return page([self.result], Extent(**extent))
+
+
+class APage(OfAResult):
+    def test_holds_the_values_of_each_frame(self):
+        blocks = unpacked(self.page())
+        for k, t in enumerate(self.times):
+            node, cell = fields_at(t)
+            for name, array, tolerance in (("displacement", node["displacement"], 1e-5), ("stress", cell["stress"], 5e-4),
+                                           ("det_f", cell["det_f"], 5e-4)):
+                kept = values(blocks[f"r0/{name}/{k}"])
+                np.testing.assert_allclose(kept, array, rtol=tolerance, atol=tolerance * 1e-2)
+
+    def test_holds_a_field_once_that_never_changes(self):
+        blocks = unpacked(self.page())
+        self.assertIn("r0/region/0", blocks)
+        self.assertNotIn("r0/region/1", blocks)
+
+    def test_holds_what_is_inside_only_where_it_is_asked_for(self):
+        self.assertNotIn("r0/tets", unpacked(self.page()))
+        self.assertEqual(len(values(unpacked(self.page(volume=True))["r0/tets"])), 2)
+
+    def test_holds_the_fields_and_frames_that_are_asked_for(self):
+        blocks = unpacked(self.page(fields=("det_f",), every=2))
+        self.assertEqual({name.split("/")[1] for name in blocks if re.search(r"/\d+$", name)}, {"displacement", "det_f"})
+        self.assertIn("r0/det_f/2", blocks)  # the last frame, though it is none of the second ones
+        self.assertNotIn("r0/det_f/3", blocks)
+
+    def test_shows_where_the_body_is_held_and_loaded(self):
+        held, load = np.zeros((5, 3)), np.zeros((5, 3))
+        held[1], load[4, 2] = 1, -3
+        (self.result / "setup.vtu").write_bytes(Vtu().content({"held": held, "load": load}, {}))
+        blocks = unpacked(self.page())
+        self.assertEqual(values(blocks["r0/held"]).tolist(), [[1]])
+        self.assertEqual(values(blocks["r0/load_values"]).tolist(), [[0, 0, -3]])
+
+    def test_of_three_results_or_an_unknown_field_is_refused(self):
+        self.fails_with("3 results; a view shows one, or two", "view", *3 * [self.result])
+        self.fails_with("no field 'strss'; did you mean 'stress'", "view", self.result, "--fields", "strss")
+
+    def test_is_written_beside_the_frames(self):
+        code, out, err = self.run_draw("view", self.result)
+        self.assertEqual((code, out, err), (0, [str(self.result / "view.html")], []))
+
+    def test_does_not_run_what_a_name_holds(self):
+        evil = write_result(self.folder / "<script>alert(1)<", self.times)
+        self.assertNotIn("<script>alert", page([evil], Extent()))
+
+
+# Reads what is under the pointer at nodes, and a print of the picture, at frames, colours and themes.
+PROBE = """
+<script>
+const said = [];
+for (const kind of ["error", "warn", "log"]) console[kind] = (...words) => said.push(words.join(" "));
+addEventListener("error", e => said.push(e.message));
+orthodynView.then(async view => {
+  const print = () => { let h = 0; for (const c of document.querySelector("canvas").toDataURL()) h = (h * 31 + c.charCodeAt(0)) | 0; return h; };
+  const under = (x, y, z) => { const p = view.place(x, y, z); return view.at(p.x, p.y); };
+  const result = {prints: [], values: []};
+  for (const frame of [0, 2, 3]) {
+    await view.goTo(frame);
+    result.prints.push(print());
+  }
+  for (const colour of ["displacement.magnitude", "det_f", "stress.xx"]) {
+    await view.setColour(colour);
+    result.prints.push(print());
+    result.values.push(under(...POINT));
+  }
+  result.clock = document.querySelector(".clock").textContent;
+  document.querySelector("#clip").value = "0";
+  document.querySelector("#clip").dispatchEvent(new Event("change"));
+  await view.goTo(3);
+  result.prints.push(print());
+  result.fits = document.documentElement.scrollWidth <= innerWidth;
+  result.charts = document.querySelectorAll(".chart").length;
+  document.body.append(Object.assign(document.createElement("pre"), {id: "probe", textContent: JSON.stringify({...result, said})}));
+}).catch(e => document.body.append(Object.assign(document.createElement("pre"), {id: "probe", textContent: JSON.stringify({said: [String(e)]})})));
+</script></body>"""
+
+
+@unittest.skipUnless(CHROMIUM, "chromium is not installed, so the view's script is not tried")
+class InABrowser(OfAResult):
+    def looked_at(self, width, **extent):
+        # A point on a face, at the last frame, about the middle of the mesh.
+        _, cell = fields_at(1.0)
+        corners = 2 * POINTS[[0, 1, 2]]
+        point = corners.mean(axis=0) - 0.5 * (POINTS.min(axis=0) + POINTS.max(axis=0))
+        path = self.folder / "probe.html"
+        path.write_text(self.page(**extent).replace("</body>", PROBE.replace("POINT", json.dumps(point.tolist()))),
+                        encoding="utf-8")
+        dom, console = dom_of(path, width, *GPU)
+        found = re.search(r'<pre id="probe">(.*?)</pre>', dom)
+        self.assertTrue(found, dom[-500:])
+        return json.loads(html.unescape(found.group(1))), console, cell
+
+    def test_pixels_change_with_time_and_field_and_values_are_those_of_the_frames(self):
+        result, console, cell = self.looked_at(1400, volume=True)
+        self.assertEqual((result["said"], console), ([], []))
+        self.assertEqual(len(set(result["prints"])), 7)
+        self.assertEqual(result["clock"], "t = 1.000 s  (4 of 4)")
+        self.assertGreaterEqual(result["charts"], 1)
+        moved, volume, stress = result["values"]
+        self.assertIn("element 0", volume)
+        self.assertIn(f"{cell['det_f'][0, 0]:.2f}", volume)
+        self.assertIn("6.00 MPa", stress)
+        self.assertRegex(moved, "displacement, magnitude: [0-9.]+ (m|mm) ")
+
+    def test_a_phone_shows_all_of_it_within_its_width(self):
+        result, console, _ = self.looked_at(390)
+        self.assertEqual((result["said"], console, result["fits"]), ([], [], True))
+
+
+class TheBundle(unittest.TestCase):
+    def test_is_that_of_the_sources(self):
+        """`npm run bundle` writes the digest of the sources it was made of."""
+        from draw.view.bundle import digest
+        bundle = (TOOLS / "draw/view/viewer.js").read_text(encoding="utf-8")
+        self.assertIn(digest(), bundle[:200], "tools/draw/view/web/src was changed: npm run bundle")
+        self.assertIn("MIT", bundle[:3000])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,222 @@
+"""What a page holds of one result: a description for its script, and blocks of numbers."""
+import json
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..colouring import Colouring
+from ..errors import DrawError, unknown
+from ..grain import FIELD as AXIS
+from ..quantity import component_names, find_quantity, magnitude, von_mises
+from ..series import Series, is_static
+from ..table import Table
+from .setup import add_setup
+from .skin import Skin
+from .strokes import strokes
+
+MOST_ROWS = 20000  # of a table
+SAMPLED = 24  # frames that colour ranges are found from; the smallest and largest values are those of all
+TABLES = ("probes", "energy", "reactions", "momentum")
+NOTES = ("status", "scene", "time_reached", "rtol", "warnings")
+
+
+@dataclass(frozen=True)
+class Extent:
+    """What of a result is taken: also what is inside; these fields, or all; every k-th frame."""
+    volume: bool = False
+    fields: tuple = None
+    every: int = 1
+
+
+class _Shown:
+    """Which nodes and cells of a frame are kept, in this order."""
+
+    def __init__(self, skin, frame, volume):
+        if volume:
+            self.nodes, self.cells = np.arange(len(frame.points)), np.arange(len(frame.tets) // frame.parts)
+        else:
+            self.nodes, self.cells = skin.surface.nodes, np.unique(skin.cell)
+        self.parts = frame.parts
+        self._node, self._cell = (_places(*pair) for pair in ((self.nodes, len(frame.points)),
+                                                              (self.cells, len(frame.tets) // frame.parts)))
+
+    def of(self, frame, name):
+        """Values of a field at what is kept."""
+        if name in frame.node_fields:
+            return frame.node_fields[name][self.nodes]
+        return frame.cell_fields[name][::self.parts][self.cells]
+
+    def node(self, numbers):
+        return self._node[numbers]
+
+    def cell(self, numbers):
+        return self._cell[numbers]
+
+
+def _places(kept, size):
+    place = np.zeros(size, np.int64)
+    place[kept] = np.arange(len(kept))
+    return place
+
+
+def add_result(blocks, key, name, extent):
+    """Adds the blocks of the result in the folder `name`, called `key`/...; returns its description."""
+    series = Series(name)
+    frames = sorted({*range(0, len(series), extent.every), len(series) - 1})
+    first = series.frame(0)
+    if not len(first.tets):
+        raise DrawError(f"{series.paths[0]}: no tetrahedra to show")
+    skin = Skin(first)
+    shown = _Shown(skin, first, extent.volume)
+    fields = _fields(first, extent)
+    centre = 0.5 * (first.points.min(axis=0) + first.points.max(axis=0))
+    _add_mesh(blocks, key, first, skin, shown, centre, extent.volume)
+    return {
+        "name": series.folder.name or str(series.folder), "static": is_static(series.folder), "centre": centre.tolist(),
+        "reach": _reach(series, frames, shown, centre), "times": series.times[frames].tolist(), "frames": frames, "nodes": len(shown.nodes), "faces": len(skin.faces),
+        "cells": len(first.tets) // first.parts, "volume": extent.volume,
+        "fields": _add_frames(blocks, key, series, frames, shown, fields),
+        "quantities": _quantities(series, frames, shown, fields),
+        "strokes": _add_strokes(blocks, key, first, skin),
+        "curves": [curve for table in TABLES for curve in _add_table(blocks, key, series.folder, table)],
+        "setup": add_setup(blocks, key, series.folder, len(first.points), shown), "notes": _notes(series.folder)}
+
+
+def _fields(frame, extent):
+    names = [*frame.node_fields, *frame.cell_fields]
+    for asked in extent.fields or ():
+        if asked not in names:
+            raise unknown("field", asked, names)
+    wanted = extent.fields or [name for name in names if not name.startswith("material_axis")]
+    return ["displacement"] * ("displacement" in names) + [name for name in wanted if name != "displacement"]
+
+
+def _add_mesh(blocks, key, frame, skin, shown, centre, volume):
+    blocks.add(f"{key}/rest", "f32", frame.points[shown.nodes] - centre)
+    blocks.add(f"{key}/number", "u32", shown.nodes)
+    blocks.add(f"{key}/faces", "u32", shown.node(skin.faces))
+    blocks.add(f"{key}/normals", "u32", skin.normal)
+    blocks.add(f"{key}/cell", "u32", shown.cell(skin.cell))
+    blocks.add(f"{key}/cell_number", "u32", shown.cells)
+    blocks.add(f"{key}/edges", "u32", shown.node(skin.edges))
+    blocks.add(f"{key}/creases", "u32", shown.node(skin.creases))
+    if volume:
+        blocks.add(f"{key}/tets", "u32", frame.tets)
+        blocks.add(f"{key}/tet_cell", "u32", np.arange(len(frame.tets)) // frame.parts)
+
+
+def _add_frames(blocks, key, series, frames, shown, fields):
+    """Blocks KEY/FIELD/FRAME; of a field that never changes only the first."""
+    first = series.frame(0)
+    last = series.frame(frames[-1])
+    steady = {name for name in fields if name in ("region",) or
+              (len(frames) > 2 and name != "displacement" and name in last.cell_fields
+               and np.array_equal(shown.of(first, name), shown.of(last, name), equal_nan=True)
+               and np.array_equal(shown.of(first, name), shown.of(series.frame(frames[1]), name), equal_nan=True))}
+    for k, index in enumerate(frames):
+        frame = series.frame(index)
+        if frame.points.shape != first.points.shape or frame.tets.shape != first.tets.shape:
+            raise DrawError(f"{series.paths[index]}: another mesh than in the first frame")
+        for name in fields:
+            if name in steady and k:
+                continue
+            if name not in frame.node_fields and name not in frame.cell_fields:
+                raise DrawError(f"{series.paths[index]}: has no field '{name}', which the first frame has")
+            blocks.add(f"{key}/{name}/{k}", "linear" if name == "displacement" else "half", shown.of(frame, name))
+    return [{"name": name, "on": "nodes" if name in first.node_fields else "cells", "steady": name in steady,
+             "components": shown.of(first, name).shape[1]} for name in fields]
+
+
+def _quantities(series, frames, shown, fields):
+    """All that may colour the body, with ranges over the frames, in the order of the fields."""
+    chosen = [frames[int(i)] for i in np.unique(np.linspace(0, len(frames) - 1, min(SAMPLED, len(frames))).round())]
+    first = series.frame(0)
+    found = []
+    for name in fields:
+        count = shown.of(first, name).shape[1]
+        kinds = _kinds(name, first, count)
+        samples = [[] for _ in kinds]
+        for index in chosen:
+            values = shown.of(series.frame(index), name).astype(float)
+            for kind, sample in zip(kinds, samples):
+                sample.append(_values(kind, values))
+        found += [_described(kind, sample) for kind, sample in zip(kinds, samples)]
+    return found
+
+
+def _kinds(name, frame, count):
+    """The Quantities of one field: what stands for the whole first, then its components."""
+    whole = find_quantity(name, frame)
+    parts = [find_quantity(f"{name}.{part}", frame) for part in component_names(name, count)] if count > 1 else []
+    if count == 6 and whole.kind == "von_mises":
+        parts.append(find_quantity(f"{name}.magnitude", frame))
+    return [whole] + [part for part in parts if part != whole]
+
+
+def _values(quantity, values):
+    if quantity.kind == "von_mises":
+        return von_mises(values)
+    if quantity.kind == "magnitude":
+        return magnitude(values)
+    return values[:, 0 if quantity.kind == "value" else quantity.kind]
+
+
+def _described(quantity, samples):
+    colouring = Colouring(quantity, samples)
+    kind = 0 if quantity.kind == "value" else quantity.kind
+    low, high = colouring.norm.vmin * colouring.factor, colouring.norm.vmax * colouring.factor
+    name = quantity.field if quantity.kind == "value" else f"{quantity.field}.{quantity.label.split()[-1]}"
+    return {"key": f"{quantity.field}.{kind}", "name": name, "field": quantity.field, "kind": kind, "label": quantity.label,
+            "unit": quantity.unit, "low": low, "high": high, "diverging": quantity.neutral is not None,
+            "categories": quantity.categorical}
+
+
+def _add_strokes(blocks, key, frame, skin):
+    if AXIS not in frame.cell_fields:
+        return 0
+    moved = frame.points + frame.node_fields.get("displacement", 0)
+    face, ends = strokes(skin, frame, moved)
+    blocks.add(f"{key}/stroke_face", "u32", face)
+    blocks.add(f"{key}/stroke_ends", "f32", ends.reshape(len(face), 6))
+    return len(face)
+
+
+def _reach(series, frames, shown, centre):
+    """The box that holds the body at all frames, about the centre: smallest and largest coordinates."""
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    for index in frames:
+        frame = series.frame(index)
+        moved = frame.points[shown.nodes] - centre
+        if "displacement" in frame.node_fields:
+            moved = moved + shown.of(frame, "displacement")
+        if not np.isfinite(moved).all():
+            raise DrawError(f"{series.paths[index]}: a displacement is not a finite number")
+        low, high = np.minimum(low, moved.min(axis=0)), np.maximum(high, moved.max(axis=0))
+    return [low.tolist(), high.tolist()]
+
+
+def _add_table(blocks, key, folder, name):
+    """Curves of a table that is there, with one block for all of its columns."""
+    path = folder / f"{name}.csv"
+    if not path.is_file():
+        return []
+    try:
+        table = Table(path)
+    except DrawError:  # no rows, as of a run that has just begun
+        return []
+    stride = -(-len(table.axis.values) // MOST_ROWS)
+    columns = [table.axis, *table.others()]
+    blocks.add(f"{key}/{name}.csv", "f32", np.stack([c.values for c in columns], axis=1)[::stride])
+    return [{"table": name, "column": k, "name": c.name, "unit": c.unit} for k, c in enumerate(columns) if k]
+
+
+def _notes(folder):
+    """Lines about the run, from run.json."""
+    try:
+        record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    notes = {key: record[key] for key in NOTES if key in record}
+    given = record.get("model", {}).get("given", {}) if isinstance(record.get("model"), dict) else {}
+    notes["gravity"] = given.get("gravity") if isinstance(given, dict) else None
+    return notes

@@ -1,0 +1,54 @@
+"""One or two results as one HTML page that opens without a network."""
+import html
+import json
+from pathlib import Path
+
+import numpy as np
+
+from ..colouring import CATEGORIES, DIVERGING, NOT_A_NUMBER, SEQUENTIAL
+from ..errors import DrawError
+from .blocks import Blocks
+from .collect import Extent, add_result
+from .still import take_still
+
+HERE = Path(__file__).resolve().parent
+MOST = 2  # results beside each other
+
+
+def write_view(results, out=None, extent=Extent(), start=None):
+    """Writes the page (default: view.html in the first folder); returns its path."""
+    path = Path(out) if out else Path(results[0]) / "view.html"
+    text = page(results, extent, start)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def write_still(results, out, size, start):
+    """Writes a still of the view as PNG; returns its path."""
+    return take_still(page(results, Extent(), {**start, "still": True}), Path(out), size)
+
+
+def page(results, extent, start=None):
+    if not 1 <= len(results) <= MOST:
+        raise DrawError(f"{len(results)} results; a view shows one, or two side by side")
+    blocks = Blocks()
+    described = [add_result(blocks, f"r{k}", name, extent) for k, name in enumerate(results)]
+    title = " and ".join(d["name"] for d in described)
+    description = json.dumps({"results": described, "maps": _maps(), "start": start or {}}, allow_nan=False).replace("<", "\\u003c")
+    style, script = ((HERE / name).read_text(encoding="utf-8") for name in ("view.css", "viewer.js"))
+    return (f'<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+            f'<meta name="viewport" content="width=device-width, initial-scale=1">\n<title>{html.escape(title)}</title>\n'
+            f'<link rel="icon" href="data:,">\n<style>{style}</style>\n</head>\n<body>\n<div id="view"></div>\n'
+            f'<noscript>The view needs JavaScript.</noscript>\n'
+            f'<script type="application/json" id="description">{description}</script>\n{blocks.text()}\n'
+            f"<script>{script}</script>\n</body>\n</html>\n")
+
+
+def _maps():
+    """Colours from low to high, RGB from 0 to 255."""
+    def whole(map_):
+        return (255 * map_(np.linspace(0, 1, 256))[:, :3]).round().astype(int).tolist()
+    return {"sequential": whole(SEQUENTIAL), "diverging": whole(DIVERGING),
+            "categories": [[int(c[k:k + 2], 16) for k in (1, 3, 5)] for c in CATEGORIES],
+            "nan": [int(NOT_A_NUMBER[k:k + 2], 16) for k in (1, 3, 5)]}

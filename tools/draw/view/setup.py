@@ -1,0 +1,24 @@
+"""Where a body is held and loaded, from setup.vtu, which `orthodyn run` writes beside the frames."""
+import numpy as np
+
+from ..errors import DrawError
+from ..vtu import read_vtu
+
+
+def add_setup(blocks, key, folder, num_points, shown):
+    """Adds nodes that are held, with the components that are, and nodal forces; returns how many there are of each."""
+    path = folder / "setup.vtu"
+    if not path.is_file():
+        return {"held": 0, "loaded": 0}
+    frame = read_vtu(path)
+    if len(frame.points) != num_points:
+        raise DrawError(f"{path}: {len(frame.points)} nodes, but the frames have {num_points}")
+    counts = {}
+    for kind, field in (("held", "held"), ("loaded", "load")):
+        values = frame.node_fields.get(field)
+        nodes = np.zeros(0, int) if values is None else np.intersect1d(np.nonzero(values.any(axis=1))[0], shown.nodes)
+        counts[kind] = len(nodes)
+        if len(nodes):
+            blocks.add(f"{key}/{kind}", "u32", shown.node(nodes))
+            blocks.add(f"{key}/{field}_values", "f32", values[nodes])
+    return counts

@@ -1,0 +1,48 @@
+"""What of a mesh is shown: its faces, edges and, along edges of the shape, corners with normals of their own."""
+import numpy as np
+
+from ..surface import Surface
+
+
+class Skin:
+    """Faces (f,3) of `points`, the cell of each, edges of the mesh and of the shape (e,2), and for each corner of a face
+    the number of its normal (f,3): corners at one node share one unless a sharp edge is between them."""
+
+    def __init__(self, frame):
+        surface = Surface(frame.points, frame.tets)
+        self.surface = surface
+        self.faces, self.parts = surface.faces, frame.parts
+        self.cell = surface.cell // frame.parts
+        start, end = surface.faces.ravel(), np.roll(surface.faces, -1, axis=1).ravel()
+        pairs = np.stack([np.minimum(start, end), np.maximum(start, end)], axis=1)
+        self.edges = np.unique(pairs[self._of_cells(frame, pairs)], axis=0)
+        self.creases = np.unique(pairs[surface.sharp.ravel()], axis=0)
+        self.normal = _normals(surface)
+
+    def _of_cells(self, frame, pairs):
+        """Edges of the cells themselves: not those between the parts of a quadratic face, which join two of its middles."""
+        if frame.parts == 1:
+            return np.ones(len(pairs), bool)
+        corner = np.zeros(len(frame.points), bool)
+        corner[frame.corners] = True
+        return corner[pairs].any(axis=1)
+
+
+def _normals(surface):
+    """The smallest corner that each is joined to over edges that are not sharp, numbered from 0."""
+    face, edge = np.nonzero(~surface.sharp)
+    other = surface.neighbour[face, edge]
+    label = np.arange(surface.faces.size)
+    links = []
+    for end in (0, 1):  # of the edge
+        corner = 3 * face + (edge + end) % 3
+        node = surface.faces.ravel()[corner]
+        links.append((corner, 3 * other + np.argmax(surface.faces[other] == node[:, None], axis=1)))
+    one, two = (np.concatenate(side) for side in zip(*links))
+    while True:
+        least = np.minimum(label[one], label[two])
+        before = label.copy()
+        np.minimum.at(label, one, least)
+        np.minimum.at(label, two, least)
+        if (label == before).all():
+            return np.unique(label, return_inverse=True)[1].reshape(-1, 3)

@@ -1,0 +1,26 @@
+"""Material axis 1 as strokes that move with the faces they lie on."""
+import numpy as np
+
+from ..grain import FIELD, Grain
+from ..surface import area_vectors
+
+COUNT = 2500  # of strokes, were the surface flat and they in rows
+
+
+def strokes(skin, frame, points):
+    """Faces (s,) and the barycentric coordinates of both ends in them (s,2,3); None where frames have no axes."""
+    if FIELD not in frame.cell_fields or not len(skin.faces):
+        return None
+    area = 0.5 * np.linalg.norm(area_vectors(points[skin.faces]), axis=1).sum()
+    grain = Grain(skin.surface, points, np.sqrt(area / COUNT))
+    corners = points[skin.faces[grain.face]]
+    return grain.face, np.stack([_barycentric(corners, end) for end in grain.ends(frame, points)], axis=1)
+
+
+def _barycentric(corners, points):
+    """Of points in the planes of triangles, also of those beyond their edges."""
+    a, b, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0], points - corners[:, 0]
+    aa, ab, bb, av, bv = (np.einsum("ix,ix->i", x, y) for x, y in ((a, a), (a, b), (b, b), (a, v), (b, v)))
+    determinant = np.maximum(aa * bb - ab * ab, 1e-300)
+    second, third = (bb * av - ab * bv) / determinant, (aa * bv - ab * av) / determinant
+    return np.stack([1 - second - third, second, third], axis=1)

@@ -1,0 +1,73 @@
+// What the page says about its results, as collect.py writes it.
+
+export interface Field {
+  name: string;
+  on: "nodes" | "cells";
+  steady: boolean; // only its first frame is there
+  components: number;
+}
+
+export interface Quantity {
+  key: string;
+  name: string; // as --color of `draw` takes it
+  field: string;
+  kind: number | "magnitude" | "von_mises"; // a component, or what is made of all
+  label: string;
+  unit: string;
+  low: number;
+  high: number;
+  diverging: boolean;
+  categories: boolean;
+}
+
+export interface Curve {
+  table: string;
+  column: number;
+  name: string;
+  unit: string;
+}
+
+export interface ResultDescription {
+  name: string;
+  static: boolean; // times are load factors
+  centre: [number, number, number]; // m, that positions are relative to
+  reach: [number[], number[]]; // smallest and largest coordinates over all frames
+  times: number[];
+  frames: number[]; // their numbers in the folder
+  nodes: number;
+  faces: number;
+  cells: number; // of the whole mesh
+  volume: boolean; // nodes and cells inside are there, too
+  fields: Field[];
+  quantities: Quantity[];
+  strokes: number;
+  curves: Curve[];
+  setup: { held: number; loaded: number };
+  notes: {
+    status?: string;
+    scene?: string;
+    time_reached?: number;
+    rtol?: number;
+    warnings?: string[];
+    gravity?: [number, number, number] | null;
+  };
+}
+
+export interface Start {
+  time?: number;
+  color?: string;
+  scale?: number;
+  still?: boolean; // a picture: no controls
+}
+
+export interface Description {
+  results: ResultDescription[];
+  maps: { sequential: number[][]; diverging: number[][]; categories: number[][]; nan: number[] }; // RGB, 0 to 255
+  start: Start;
+}
+
+export function readDescription(): Description {
+  const element = document.getElementById("description");
+  if (!element) throw new Error("the page has no description");
+  return JSON.parse(element.textContent ?? "") as Description;
+}

@@ -1,0 +1,45 @@
+// The colour bar, with a range that can be changed.
+import { button, element } from "./dom";
+import { round, scaled } from "./units";
+import { ticks } from "./curves";
+import type { ColourMap } from "./material";
+import type { Quantity } from "./description";
+
+export class Legend {
+  readonly node = element("div", { class: "legend" });
+
+  constructor(private readonly change: (range: [number, number] | null) => void) {}
+
+  show(quantity: Quantity, map: ColourMap, low: number, high: number): void {
+    const size = scaled(quantity.unit, Math.max(Math.abs(low), Math.abs(high)));
+    const unit = size.unit && size.unit !== "1" ? `, ${size.unit}` : "";
+    const title = element("div", { class: "legend-title" }, quantity.label + unit);
+    if (quantity.categories) {
+      this.node.replaceChildren(title);
+      return;
+    }
+    const bar = element("div", { class: "bar", style: `background:linear-gradient(to right,${css(map)})` });
+    const marks = element("div", { class: "marks" });
+    for (const v of ticks(low / size.factor, high / size.factor, 4)) {
+      const place = (100 * (v * size.factor - low)) / (high - low);
+      marks.append(element("span", { style: `left:${place.toFixed(2)}%` }, round(v)));
+    }
+    const ends = [low, high].map((end, k) => {
+      const input = element("input", { type: "number", step: "any", "aria-label": k ? "largest colour" : "smallest colour" });
+      input.value = String(Number((end / size.factor).toPrecision(4)));
+      input.addEventListener("change", () => {
+        const value = Number(input.value) * size.factor, range: [number, number] = k ? [low, value] : [value, high];
+        if (Number.isFinite(value) && range[0] < range[1]) this.change(range);
+        else input.value = String(Number((end / size.factor).toPrecision(4)));
+      });
+      return input;
+    });
+    const whole = button("↺", "The range of all frames", () => this.change(null));
+    const range = element("div", { class: "range" }, ends[0] as Node, "to", ends[1] as Node, whole);
+    this.node.replaceChildren(title, bar, marks, range);
+  }
+}
+
+function css(map: ColourMap): string {
+  return map.colours.filter((_, k) => k % 15 === 0).map(([r, g, b]) => `rgb(${r},${g},${b})`).join(",");
+}

@@ -1,0 +1,138 @@
+// One result: its mesh, and the fields of its frames, which are unpacked when they are asked for.
+import { floats, hasBlock, integers } from "./blocks";
+import type { Quantity, ResultDescription } from "./description";
+
+const CACHED_BYTES = 400e6;
+
+export interface Mesh {
+  rest: Float32Array; // positions, about the centre
+  number: Uint32Array; // of each node in the file
+  faces: Uint32Array; // three nodes each, counter-clockwise from outside
+  normals: Uint32Array; // of each corner of a face the number of its normal
+  cell: Uint32Array; // of each face
+  cellNumber: Uint32Array; // in the file
+  edges: Uint32Array;
+  creases: Uint32Array;
+  tets: Uint32Array | null; // four nodes each, where what is inside is there
+  tetCell: Uint32Array | null;
+}
+
+export interface Marks {
+  held: Uint32Array; // nodes
+  heldComponents: Float32Array; // three each, 1 where it cannot move
+  loaded: Uint32Array;
+  loads: Float32Array; // N, three each
+}
+
+export interface Strokes {
+  face: Uint32Array;
+  ends: Float32Array; // barycentric coordinates of both ends, six each
+}
+
+export class Result {
+  private readonly cache = new Map<string, Promise<Float32Array>>();
+  private cached = 0;
+
+  private constructor(
+    readonly key: string,
+    readonly about: ResultDescription,
+    readonly mesh: Mesh,
+    readonly strokes: Strokes | null,
+    readonly marks: Marks,
+  ) {}
+
+  static async read(key: string, about: ResultDescription): Promise<Result> {
+    const whole = (name: string) => integers(`${key}/${name}`);
+    const [rest, number, faces, normals, cell, cellNumber, edges, creases] = await Promise.all([
+      floats(`${key}/rest`), whole("number"), whole("faces"), whole("normals"), whole("cell"), whole("cell_number"),
+      whole("edges"), whole("creases"),
+    ]);
+    const tets = about.volume ? await whole("tets") : null, tetCell = about.volume ? await whole("tet_cell") : null;
+    const strokes = about.strokes
+      ? { face: await whole("stroke_face"), ends: await floats(`${key}/stroke_ends`) }
+      : null;
+    const marks = await readMarks(key);
+    return new Result(key, about, { rest, number, faces, normals, cell, cellNumber, edges, creases, tets, tetCell }, strokes, marks);
+  }
+
+  // The frame nearest to a time.
+  frameAt(time: number): number {
+    const times = this.about.times;
+    let best = 0;
+    times.forEach((t, k) => {
+      if (Math.abs(t - time) < Math.abs((times[best] as number) - time)) best = k;
+    });
+    return best;
+  }
+
+  async displacement(frame: number): Promise<Float32Array | null> {
+    return this.about.fields.some((f) => f.name === "displacement") ? this.field("displacement", frame) : null;
+  }
+
+  // One number for each node or cell.
+  async values(quantity: Quantity, frame: number): Promise<Float32Array> {
+    const field = this.about.fields.find((f) => f.name === quantity.field);
+    if (!field) throw new Error(`no field ${quantity.field}`);
+    return scalars(await this.field(field.name, field.steady ? 0 : frame), field.components, quantity.kind);
+  }
+
+  // Unpacks what a later frame needs.
+  prepare(quantity: Quantity, frame: number): void {
+    if (frame >= this.about.times.length) return;
+    void this.displacement(frame);
+    void this.values(quantity, frame);
+  }
+
+  quantity(key: string): Quantity | null {
+    return this.about.quantities.find((q) => q.key === key) ?? null;
+  }
+
+  isOnNodes(quantity: Quantity): boolean {
+    return this.about.fields.some((f) => f.name === quantity.field && f.on === "nodes");
+  }
+
+  private field(name: string, frame: number): Promise<Float32Array> {
+    const id = `${this.key}/${name}/${frame}`, known = this.cache.get(id);
+    if (known) return known;
+    const values = floats(id);
+    this.cache.set(id, values);
+    void values.then((v) => this.makeRoom(v.byteLength));
+    return values;
+  }
+
+  private makeRoom(bytes: number): void {
+    this.cached += bytes;
+    if (this.cached <= CACHED_BYTES) return;
+    this.cache.clear();
+    this.cached = 0;
+  }
+}
+
+async function readMarks(key: string): Promise<Marks> {
+  const none = { nodes: new Uint32Array(0), values: new Float32Array(0) };
+  const read = async (kind: string, values: string) =>
+    hasBlock(`${key}/${kind}`)
+      ? { nodes: await integers(`${key}/${kind}`), values: await floats(`${key}/${values}`) }
+      : none;
+  const held = await read("held", "held_values"), loaded = await read("loaded", "load_values");
+  return { held: held.nodes, heldComponents: held.values, loaded: loaded.nodes, loads: loaded.values };
+}
+
+export function scalars(values: Float32Array, components: number, kind: Quantity["kind"]): Float32Array {
+  if (components === 1) return values;
+  const n = values.length / components, out = new Float32Array(n);
+  for (let k = 0; k < n; ++k) out[k] = scalar(values, k * components, components, kind);
+  return out;
+}
+
+function scalar(v: Float32Array, at: number, components: number, kind: Quantity["kind"]): number {
+  if (typeof kind === "number") return v[at + kind] as number;
+  const x = (i: number) => v[at + i] as number;
+  if (kind === "von_mises") {
+    const normal = (x(0) - x(1)) ** 2 + (x(1) - x(2)) ** 2 + (x(2) - x(0)) ** 2;
+    return Math.sqrt(0.5 * normal + 3 * (x(3) ** 2 + x(4) ** 2 + x(5) ** 2));
+  }
+  let sum = 0;
+  for (let i = 0; i < components; ++i) sum += (components === 6 && i > 2 ? 2 : 1) * x(i) ** 2;
+  return Math.sqrt(sum);
+}
