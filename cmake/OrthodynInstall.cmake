@@ -9,11 +9,11 @@ if(ORTHODYN_HWCAPS)
 endif()
 
 install(TARGETS orthodyn EXPORT orthodynTargets LIBRARY DESTINATION ${_library} COMPONENT library)
-install(TARGETS orthodyn_cli)
+install(TARGETS orthodyn_cli COMPONENT program)
 install(DIRECTORY lib DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/orthodyn FILES_MATCHING PATTERN "*.h")
-install(DIRECTORY tools/draw DESTINATION ${CMAKE_INSTALL_DATADIR}/orthodyn USE_SOURCE_PERMISSIONS
-        PATTERN __pycache__ EXCLUDE)
-install(DIRECTORY configs/schema DESTINATION ${CMAKE_INSTALL_DATADIR}/orthodyn)
+install(DIRECTORY tools/draw DESTINATION ${CMAKE_INSTALL_DATADIR}/orthodyn USE_SOURCE_PERMISSIONS COMPONENT program
+        PATTERN __pycache__ EXCLUDE PATTERN web EXCLUDE)
+install(DIRECTORY configs/schema DESTINATION ${CMAKE_INSTALL_DATADIR}/orthodyn COMPONENT program)
 install(EXPORT orthodynTargets NAMESPACE orthodyn:: DESTINATION ${_config})
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/orthodynConfig.cmake.in
   ${PROJECT_BINARY_DIR}/orthodynConfig.cmake INSTALL_DESTINATION ${_config})

@@ -36,7 +36,10 @@ void change_integrator(Config& scene, const std::string& name, std::vector<std::
 }  // namespace
 
 Config read_scene_file(const std::string& file, const SceneChanges& changes, std::vector<std::string>* left_out) {
-  Config scene = Config::from_file(file);
+  return changed_scene(Config::from_file(file), changes, left_out);
+}
+
+Config changed_scene(Config scene, const SceneChanges& changes, std::vector<std::string>* left_out) {
   refuse_other_kinds(scene, InputFile::scene);
   std::vector<std::string> dropped;
   if (changes.integrator) change_integrator(scene, *changes.integrator, dropped);

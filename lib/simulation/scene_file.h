@@ -20,6 +20,9 @@ struct SceneChanges {
 Config read_scene_file(const std::string& file, const SceneChanges& changes,
                        std::vector<std::string>* left_out = nullptr);
 
+// The same of a scene that was read before.
+Config changed_scene(Config scene, const SceneChanges& changes, std::vector<std::string>* left_out = nullptr);
+
 // "integrator.max_order has no meaning for newmark and is left out"; "" where nothing is.
 std::string left_out_sentence(const std::vector<std::string>& left_out, const SceneChanges& changes);
 

@@ -28,8 +28,16 @@ std::string resolved_scene(const Setup& setup, const std::string& file, const st
 }  // namespace
 
 Simulation Simulation::from_file(const std::string& file, const SceneChanges& changes) {
+  return from_config(Config::from_file(file), file, changes);
+}
+
+Simulation Simulation::from_text(const std::string& text, const std::string& name, const SceneChanges& changes) {
+  return from_config(Config::from_text(text, name), name, changes);
+}
+
+Simulation Simulation::from_config(Config scene, const std::string& file, const SceneChanges& changes) {
   std::vector<std::string> left_out;
-  Config scene = read_scene_file(file, changes, &left_out);
+  scene = changed_scene(std::move(scene), changes, &left_out);
   return {file, changes, std::move(scene), left_out_sentence(left_out, changes)};
 }
 

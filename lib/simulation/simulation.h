@@ -23,6 +23,12 @@ class Simulation {
   // Throws ConfigError for a file that cannot be read, one that is no scene, and a change that does not apply.
   static Simulation from_file(const std::string& file, const SceneChanges& changes = {});
 
+  // The same of a scene as text, called `name` in messages; files that it names are looked for where `name` is.
+  static Simulation from_text(const std::string& text, const std::string& name, const SceneChanges& changes = {});
+
+  // With the changes, not validated.
+  const Config& scene() const { return scene_; }
+
   // Validates the scene, builds its model and computes it. A run that could not go on is a result: see its outcome.
   // Throws ConfigError for a scene or a folder that is at fault, before anything is written, and RunError for files
   // that cannot be written.
@@ -35,6 +41,8 @@ class Simulation {
  private:
   RunResult run_once(Config scene, const RunRequest& request, const std::string& given_up,
                      const std::atomic<bool>& interrupt, RunListener& listener) const;
+
+  static Simulation from_config(Config scene, const std::string& file, const SceneChanges& changes);
 
   Simulation(std::string file, SceneChanges changes, Config scene, std::string notice)
       : file_(std::move(file)), changes_(std::move(changes)), scene_(std::move(scene)), notice_(std::move(notice)) {}

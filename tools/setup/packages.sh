@@ -1,7 +1,7 @@
 # shellcheck shell=bash
-# The Debian packages of packages.txt: which are missing, and their installation. Needs steps.sh.
+# The Debian packages of packages.txt and other lists: which are missing, and their installation. Needs steps.sh.
 
-listed_packages() { awk '!/^#/ && NF {print $1}' tools/setup/packages.txt; }
+listed_packages() { awk '!/^#/ && NF {print $1}' "$@"; }
 
 is_installed() {
   # One line for each architecture.
@@ -11,19 +11,19 @@ is_installed() {
 
 missing_packages() {
   local package
-  for package in $(listed_packages); do
+  for package in $(listed_packages "$@"); do
     if ! is_installed "$package"; then printf '%s\n' "$package"; fi
   done
 }
 
-# Leaves all listed packages installed, or fails and says what to do.
+# ensure_packages [LISTS]: leaves all packages of packages.txt and of the lists installed, or fails and says what to do.
 ensure_packages() {
-  local missing
+  local missing lists=(tools/setup/packages.txt "$@")
   if ! command -v dpkg-query >/dev/null; then
-    say "not a Debian system; the libraries of tools/setup/packages.txt are taken to be there"
+    say "not a Debian system; the libraries of ${lists[*]} are taken to be there"
     return
   fi
-  mapfile -t missing < <(missing_packages)
+  mapfile -t missing < <(missing_packages "${lists[@]}")
   if ((${#missing[@]} == 0)); then
     say "all packages are there"
   elif ((EUID == 0)); then

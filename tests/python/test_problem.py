@@ -1,0 +1,132 @@
+"""Models of one's own: integrators on functions in Python, against scipy and exact solutions."""
+import gc
+import sys
+import unittest
+import weakref
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path[:0] = [str(Path(__file__).resolve().parent)]
+
+import numpy as np  # noqa: E402
+import scipy.sparse  # noqa: E402
+from scipy.integrate import solve_ivp  # noqa: E402
+
+import orthodyn  # noqa: E402
+from orthodyn import _core  # noqa: E402
+
+
+def pendulum(t, q, v):
+    return -9.81 * np.sin(q)
+
+
+# Of the methods for models of any kind; options that make them comparable.
+METHODS = {"cvode_bdf": {}, "cvode_adams": {}, "ida_bdf": {}, "arkode_dirk": {}, "arkode_erk": {}, "tr_bdf2": {}, "sdirk": {},
+           "bathe": {}, "newmark": {}, "hht_alpha": {}, "generalized_alpha": {}, "rosenbrock": {}, "backward_euler": {},
+           "auto": {}}
+
+
+class AProblem(unittest.TestCase):
+    def test_has_the_solution_that_scipy_finds_with_every_adaptive_method(self):
+        times = np.linspace(0.5, 3, 6)
+        expected = solve_ivp(lambda t, y: [y[1], -9.81 * np.sin(y[0])], (0, 3), [1, 0], rtol=1e-11, atol=1e-12, t_eval=times).y
+        for method, options in METHODS.items():
+            with self.subTest(method):
+                errors = []
+                for rtol in (1e-4, 1e-6):
+                    found = orthodyn.Problem([1.0], pendulum).solve((0, 3), [1.0], integrator=method, rtol=rtol, times=times,
+                                                                     **options)
+                    errors.append(np.abs(found.q[1:, 0] - expected[0]).max())
+                self.assertLess(errors[1], 0.25 if method == "backward_euler" else 2e-3)
+                self.assertLess(errors[1], 0.5 * errors[0])
+
+    def test_with_a_fixed_step_has_the_order_of_its_method(self):
+        exact = np.cos(2.0)
+        problem = orthodyn.Problem([1.0], lambda t, q, v: -q, [[1.0]], symmetric=True, linear=True)
+        for method, order in (("newmark", 2), ("central_differences", 2), ("backward_euler", 1), ("semi_implicit_euler", 1)):
+            errors = [abs(problem.solve((0, 2), [1.0], integrator=method, step=h, times=1).q[-1, 0] - exact)
+                      for h in (0.02, 0.01)]
+            self.assertAlmostEqual(np.log2(errors[0] / errors[1]), order, delta=0.25, msg=method)
+
+    def test_takes_matrices_dense_or_sparse_symmetric_or_not(self):
+        n, k = 20, 40.0
+        stiffness = k * (2 * np.eye(n) - np.eye(n, k=1) - np.eye(n, k=-1))
+        start = np.sin(np.pi * np.arange(1, n + 1) / (n + 1))
+        omega = 2 * np.sqrt(k) * np.sin(np.pi / (2 * (n + 1)))
+        for matrix in (stiffness, scipy.sparse.csr_matrix(stiffness), lambda t, q, v: stiffness):
+            for symmetric in (False, True):
+                problem = orthodyn.Problem(np.ones(n), lambda t, q, v: -stiffness @ q, matrix, symmetric=symmetric)
+                found = problem.solve((0, 2 * np.pi / omega), start, integrator="arkode_dirk", rtol=1e-7, times=4)
+                np.testing.assert_allclose(found.q[-1], start, atol=1e-5)
+                np.testing.assert_allclose(found.q[2], -start, atol=1e-5)
+
+    def test_with_damping_is_that_of_the_damped_oscillator(self):
+        c, t = 0.3, 4.0
+        omega = np.sqrt(1 - c * c / 4)
+        exact = np.exp(-c * t / 2) * (np.cos(omega * t) + c / (2 * omega) * np.sin(omega * t))
+        problem = orthodyn.Problem([1.0], lambda t, q, v: -q - c * v, [[1.0]], [[c]], symmetric=True, linear=True)
+        found = problem.solve((0, t), [1.0], integrator="tr_bdf2", rtol=1e-6)
+        self.assertAlmostEqual(found.q[-1, 0], exact, delta=1e-4)
+
+    def test_gives_the_states_that_are_asked_for(self):
+        found = orthodyn.Problem([1.0], pendulum).solve((1, 2), [0.1], times=[1.25, 1.5])
+        np.testing.assert_allclose(found.t, [1, 1.25, 1.5, 2])
+        self.assertEqual((found.q.shape, found.v.shape), ((4, 1), (4, 1)))
+        self.assertGreater(found.statistics["force"]["count"], 5)
+
+    def test_whose_force_raises_ends_with_that(self):
+        def broken(t, q, v):
+            if t > 0.5:
+                raise KeyError("mine")
+            return -q
+        for method in ("cvode_bdf", "newmark", "arkode_erk"):
+            with self.subTest(method), self.assertRaisesRegex(KeyError, "mine"):
+                orthodyn.Problem([1.0], broken).solve((0, 1), [1.0], integrator=method)
+
+    def test_whose_force_asks_for_smaller_steps_gets_them(self):
+        refused = []
+
+        def wall(t, q, v):
+            if t > 1 and len(refused) < 3:
+                refused.append(t)
+                raise orthodyn.RecoverableError("not there")
+            return -q
+        found = orthodyn.Problem([1.0], wall).solve((0, 6), [1.0], integrator="tr_bdf2", rtol=1e-5)
+        self.assertEqual(len(refused), 3)
+        self.assertAlmostEqual(found.q[-1, 0], np.cos(6), delta=2e-3)
+
+    def test_whose_force_gives_something_else_says_what(self):
+        for force, text in ((lambda t, q, v: [1, 2, 3], "the force has 3 numbers, expected 1"),
+                            (lambda t, q, v: "x", "the force is no array of numbers")):
+            with self.subTest(text), self.assertRaisesRegex((orthodyn.RunError, ValueError, TypeError), text):
+                orthodyn.Problem([1.0], force).solve((0, 1), [1.0], position_scale=1, velocity_scale=1)
+
+    def test_says_what_it_needs(self):
+        problem = orthodyn.Problem([1.0], lambda t, q, v: 1 - q)
+        for call, text in ((lambda: problem.solve((0, 1), [0.0]), "tells no size of the motion"),
+                           (lambda: problem.solve((0, 1), [0.0, 1.0]), "expected 1 numbers each"),
+                           (lambda: problem.solve((0, 1), [1.0], times=[0.5, 0.2]), "ascending"),
+                           (lambda: problem.solve((0, 1), [1.0], rtoll=1), "unknown key; did you mean 'rtol'"),
+                           (lambda: problem.solve((0, 1), [1.0], integrator="cvode"), "cvode"),
+                           (lambda: orthodyn.Problem([1.0, 0.0], pendulum), "positive"),
+                           (lambda: orthodyn.Problem([1.0], pendulum, damping=[[1.0]]), "damping without stiffness")):
+            with self.subTest(text), self.assertRaisesRegex(ValueError, text):
+                call()
+
+    def test_is_let_go(self):
+        class Force:
+            def __call__(self, t, q, v):
+                return -q
+        force = Force()
+        seen = weakref.ref(force)
+        orthodyn.Problem([1.0], force).solve((0, 1), [1.0])
+        del force
+        gc.collect()
+        self.assertIsNone(seen())
+
+    def test_knows_all_integrators(self):
+        self.assertLessEqual(set(METHODS), set(_core.integrators()))
+
+
+if __name__ == "__main__":
+    unittest.main()

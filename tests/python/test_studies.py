@@ -1,0 +1,52 @@
+"""Studies as data frames: what they hold is what the program wrote."""
+import os
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path[:0] = [str(Path(__file__).resolve().parent)]
+
+import matplotlib  # noqa: E402
+
+matplotlib.use("Agg")
+
+import orthodyn  # noqa: E402
+from short_scene import beam  # noqa: E402
+
+
+class AStudy(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(holder.name)
+        Path("beam.yaml").write_text(orthodyn.Scene(beam()).to_yaml())
+
+    def test_of_integrators_has_their_errors_and_times(self):
+        study = orthodyn.compare({"title": "t", "scenes": ["beam.yaml"], "integrators": ["cvode_bdf", "tr_bdf2"],
+                                  "tolerances": [1e-2, 1e-4]}, "c", quiet=True)
+        self.assertEqual(len(study.table), 4)
+        self.assertTrue((study.table["error.displacement.l2"] < 0.1).all())
+        self.assertTrue(study.report.is_file())
+        self.assertEqual(len(study.plot("wall.median [s]", "error.displacement.l2", "method", log=True).get_lines()), 2)
+        self.assertFalse(list(Path().glob(".compare-*")))
+
+    def test_of_values_has_a_row_for_each(self):
+        study = orthodyn.sweep({"title": "t", "scene": "beam.yaml", "vary": {"materials.wood.nu": [0.1, 0.2, 0.3]},
+                                "quantities": {"lowest": {"quantity": "tip.displacement.z", "take": "min"}}}, "s", quiet=True)
+        self.assertEqual(list(study.table["nu"]), [0.1, 0.2, 0.3])
+        self.assertTrue((study.table["lowest [m]"] < 0).all())
+
+    def test_of_meshes_has_a_row_for_each(self):
+        study = orthodyn.converge("beam.yaml", "v", quiet=True)
+        self.assertEqual(set(study.table["order"]), {1, 2})
+
+    def test_at_fault_says_where(self):
+        with self.assertRaisesRegex(orthodyn.ConfigError, "did you mean 'tolerances'"):
+            orthodyn.compare({"title": "t", "scenes": ["beam.yaml"], "tolerance": [1e-2]}, "c", quiet=True)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,65 @@
+#include "tools/python/binding/listener.h"
+
+namespace orthodyn::python {
+
+namespace {
+
+constexpr auto kBetweenLooks = std::chrono::milliseconds(100);
+
+// The recorder outlives the run; this is what the run owns of it.
+class Watch : public Observer {
+ public:
+  Watch(std::shared_ptr<Recorder> recorder, Listener& listener, double end)
+      : recorder_(std::move(recorder)), listener_(listener), end_(end) {}
+
+  void on_start(const ObservedState& observed) override {
+    if (recorder_) recorder_->on_start(observed);
+  }
+  void on_resume(const ObservedState& observed) override {
+    if (recorder_) recorder_->on_resume(observed);
+  }
+  void on_output(const ObservedState& observed) override {
+    if (recorder_) recorder_->on_output(observed);
+  }
+  void on_step(const StepInfo& step, const ObservedState&, const Integrator&) override { listener_.look_up(step.t, end_); }
+
+ private:
+  std::shared_ptr<Recorder> recorder_;
+  Listener& listener_;
+  double end_;
+};
+
+}  // namespace
+
+template <class... Words>
+void Listener::tell(const char* name, const Words&... words) {
+  const py::gil_scoped_acquire lock;
+  try {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (!told_.is_none()) told_.attr(name)(words...);
+  } catch (...) {
+    if (!thrown_) thrown_ = std::current_exception();
+    interrupt_ = true;
+  }
+}
+
+std::unique_ptr<Observer> Listener::on_begin(const Setup& setup) {
+  if (computed_) return std::make_unique<Watch>(nullptr, *this, setup.scene.time.end);
+  recorder_ = std::make_shared<Recorder>(*setup.built.model, fields_.value_or(setup.scene.output.fields));
+  return std::make_unique<Watch>(recorder_, *this, setup.scene.time.end);
+}
+
+void Listener::look_up(double t, double end) {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_look_ < kBetweenLooks) return;
+  last_look_ = now;
+  tell("on_progress", t, end);
+}
+
+void Listener::rethrow() const {
+  if (thrown_) std::rethrow_exception(thrown_);
+}
+
+py::dict Listener::take_recording() { return recorder_ ? recorder_->take() : py::dict(); }
+
+}  // namespace orthodyn::python

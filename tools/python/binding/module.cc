@@ -1,0 +1,162 @@
+// orthodyn._core: the library as Python sees it. orthodyn/*.py put a friendlier face on it.
+#include <pybind11/eigen.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "lib/core/versions.h"
+#include "lib/simulation/simulation.h"
+#include "tools/python/binding/arrays.h"
+#include "tools/python/binding/integrate.h"
+#include "tools/python/binding/listener.h"
+#include "tools/python/binding/python_model.h"
+#include "tools/python/binding/scene_model.h"
+
+namespace orthodyn::python {
+
+namespace {
+
+void declare_errors(py::module_& m) {
+  py::register_exception<ConfigError>(m, "ConfigError", PyExc_ValueError).doc() =
+      "The input is at fault: what was found, where (file:line), what is allowed, what to do.";
+  py::register_exception<RunError>(m, "RunError", PyExc_RuntimeError).doc() =
+      "A computation could not go on: how far it came, why, what to try.";
+  py::register_exception<RecoverableError>(m, "RecoverableError", PyExc_RuntimeError).doc() =
+      "Not this state; a model of one's own raises it to ask for a smaller step.";
+}
+
+py::tuple run_simulation(const Simulation& simulation, const std::string& folder, bool force, bool resume,
+                         bool estimate_error, std::optional<std::vector<std::string>> fields, py::object told) {
+  Listener listener(std::move(told), std::move(fields));
+  RunResult result;
+  {
+    const py::gil_scoped_release unlocked;
+    result = simulation.run({.folder = folder, .force = force, .resume = resume, .estimate_error = estimate_error},
+                            listener.interrupt(), listener);
+  }
+  listener.rethrow();
+  return py::make_tuple(status_word(result.outcome.status), result.outcome.message, listener.take_recording());
+}
+
+void declare_simulation(py::module_& m) {
+  py::class_<Simulation>(m, "Simulation", "A scene that can be run, once or many times.")
+      .def_static(
+          "from_file",
+          [](const std::string& file, std::vector<std::string> set, std::optional<std::string> integrator) {
+            return Simulation::from_file(file, {std::move(set), std::move(integrator)});
+          },
+          py::arg("file"), py::arg("set") = std::vector<std::string>(), py::arg("integrator") = py::none())
+      .def_static(
+          "from_text",
+          [](const std::string& text, const std::string& name, std::vector<std::string> set,
+             std::optional<std::string> integrator) {
+            return Simulation::from_text(text, name, {std::move(set), std::move(integrator)});
+          },
+          py::arg("text"), py::arg("name"), py::arg("set") = std::vector<std::string>(),
+          py::arg("integrator") = py::none())
+      .def("resolved", [](const Simulation& s) { return s.scene().dump(); })
+      .def("run", run_simulation, py::arg("folder"), py::arg("force"), py::arg("resume"), py::arg("estimate_error"),
+           py::arg("fields"), py::arg("listener"));
+}
+
+using Released = py::call_guard<py::gil_scoped_release>;
+
+void declare_scene_model(py::module_& m) {
+  py::class_<SceneModel>(m, "SceneModel", "The finite element model of a scene, on its free coordinates.")
+      .def(py::init([](const Simulation& simulation) { return std::make_unique<SceneModel>(simulation.scene()); }))
+      .def_property_readonly("n", [](const SceneModel& s) { return s.model().num_dofs(); })
+      .def_property_readonly("t0", [](const SceneModel& s) { return s.initial().t; })
+      .def_property_readonly("q0", [](const SceneModel& s) { return s.initial().q; })
+      .def_property_readonly("v0", [](const SceneModel& s) { return s.initial().v; })
+      .def("force", &SceneModel::force, Released())
+      .def("solve_mass", &SceneModel::solve_mass, Released())
+      .def("equilibrium", &SceneModel::equilibrium, Released())
+      .def("pattern",
+           [](const SceneModel& s) {
+             const Pattern& p = s.model().pattern();
+             return py::make_tuple(array_of(p.column_start), array_of(p.row), p.symmetric);
+           })
+      .def("tangent",
+           [](const SceneModel& s, double t, const Vector& q, const Vector& v, bool gauss_newton) {
+             std::pair<std::vector<double>, std::vector<double>> found;
+             {
+               const py::gil_scoped_release unlocked;
+               found = s.tangent(t, q, v, gauss_newton);
+             }
+             return py::make_tuple(array_of(std::move(found.first)), array_of(std::move(found.second)));
+           })
+      .def("mass", [](const SceneModel& s) { return array_of(s.mass()); })
+      .def("modes",
+           [](const SceneModel& s, int count, bool about_equilibrium) {
+             std::pair<std::vector<double>, std::vector<double>> found;
+             {
+               const py::gil_scoped_release unlocked;
+               found = s.modes(count, about_equilibrium);
+             }
+             const auto k = static_cast<py::ssize_t>(found.first.size());
+             return py::make_tuple(array_of(std::move(found.first)),
+                                   array_of(std::move(found.second), {k, s.model().num_dofs()}));
+           })
+      .def("unknowns",
+           [](const SceneModel& s) {
+             return array_of(s.unknowns(), {static_cast<py::ssize_t>(s.model().parts().dofs->num_nodes()), 3});
+           })
+      .def("points",
+           [](const SceneModel& s) {
+             return array_of(s.points(), {static_cast<py::ssize_t>(s.model().parts().dofs->num_nodes()), 3});
+           })
+      .def("evaluate",
+           [](const SceneModel& s, const std::string& name, double t, const Vector& q, const Vector& v) {
+             return array_of(s.evaluate(name, t, q, v));
+           })
+      .def("outputs", [](const SceneModel& s) {
+        py::list out;
+        for (const OutputInfo& info : s.model().outputs())
+          out.append(py::make_tuple(info.name, static_cast<int>(info.location), info.components, info.unit, info.sentence));
+        return out;
+      });
+}
+
+Pattern pattern_of(const std::vector<int>& column_start, const std::vector<int>& row, bool symmetric) {
+  return {static_cast<int>(column_start.size()) - 1, symmetric, column_start, row};
+}
+
+void declare_own_models(py::module_& m) {
+  py::class_<PythonModel>(m, "PythonModel", "M q'' = f(t, q, v) by functions in Python.")
+      .def(py::init([](const Vector& mass, py::function force, py::object tangent, const std::vector<int>& column_start,
+                       const std::vector<int>& row, bool symmetric, bool damped, bool linear, bool time_dependent) {
+        return std::make_unique<PythonModel>(PythonModelParts{mass, std::move(force), std::move(tangent),
+                                                              pattern_of(column_start, row, symmetric), damped, linear,
+                                                              time_dependent});
+      }))
+      .def(
+          "integrate",
+          [](const PythonModel& model, const std::string& integrator, double t0, const Vector& q0, const Vector& v0,
+             const std::vector<double>& times, double position_scale, double velocity_scale) {
+            return integrate(model, {integrator, {t0, q0, v0}, times, position_scale, velocity_scale});
+          });
+}
+
+}  // namespace
+
+// The keys of each integrator.
+py::dict integrators() {
+  py::dict out;
+  for (const auto& [name, entry] : Registry<IntegratorChoice>::entries()) {
+    py::list keys;
+    for (const Key& key : entry.keys) keys.append(key.name);
+    out[name.c_str()] = keys;
+  }
+  return out;
+}
+
+PYBIND11_MODULE(_core, m) {
+  m.doc() = "The compiled part of orthodyn.";
+  m.attr("version") = orthodyn_version();
+  declare_errors(m);
+  declare_simulation(m);
+  declare_scene_model(m);
+  declare_own_models(m);
+  m.def("integrators", integrators);
+}
+
+}  // namespace orthodyn::python

@@ -1,0 +1,54 @@
+// A model whose force, and tangent if it has one, are functions in Python.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <exception>
+
+#include "lib/ode/model.h"
+
+namespace orthodyn::python {
+
+struct PythonModelParts {
+  Vector mass;                // kg, of each coordinate
+  pybind11::function force;   // f(t, q, v), N
+  pybind11::object tangent;   // (K, D) of (t, q, v) as values on the pattern, D or None; None: differences of f
+  Pattern pattern;            // the lower triangle where it is symmetric
+  bool damped = false;        // the tangent has a D
+  bool linear = false, time_dependent = true;
+};
+
+// The interpreter's lock must be held where it is used. A function that raises RecoverableError asks for a smaller step;
+// any other exception ends the run.
+class PythonModel : public Model {
+ public:
+  explicit PythonModel(PythonModelParts parts);
+
+  int num_dofs() const override { return parts_.pattern.n; }
+  const Traits& traits() const override { return traits_; }
+  const Pattern& pattern() const override { return parts_.pattern; }
+  void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override;
+  void combine(const Weights& w, const Linearization& at, double* values) const override;
+  void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { y = parts_.mass.cwiseProduct(x); }
+  void solve_mass(VectorRef x) const override { x = x.cwiseQuotient(parts_.mass); }
+
+  // What a function threw, if any did: integrators know failures only by their words.
+  void rethrow() const {
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
+
+ private:
+  void assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
+                Linearization& out) const override;
+
+  template <class Call>
+  pybind11::object called(Call&& call) const;
+
+  PythonModelParts parts_;
+  mutable std::exception_ptr thrown_;
+  Traits traits_;
+  std::vector<std::size_t> diagonal_;  // of each column
+};
+
+}  // namespace orthodyn::python

@@ -1,0 +1,45 @@
+#include "tools/python/binding/recorder.h"
+
+#include <algorithm>
+
+#include "tools/python/binding/arrays.h"
+
+namespace orthodyn::python {
+
+Recorder::Recorder(const OutputSource& source, const std::vector<std::string>& fields) : geometry_(source.geometry()) {
+  for (const OutputInfo& info : source.outputs())
+    if (info.location != Location::global && std::find(fields.begin(), fields.end(), info.name) != fields.end())
+      fields_.push_back({info, {}});
+}
+
+void Recorder::record(const ObservedState& observed) {
+  times_.push_back(observed.t());
+  for (Field& field : fields_) {
+    const std::vector<double> values = observed.evaluate(field.info.name);
+    field.values.insert(field.values.end(), values.begin(), values.end());
+  }
+}
+
+py::dict Recorder::take() {
+  py::dict out;
+  if (!complete_) return out;
+  const auto frames = static_cast<py::ssize_t>(times_.size());
+  const auto nodes = static_cast<py::ssize_t>(geometry_.points.size());
+  std::vector<double> points;
+  for (const Vec3& x : geometry_.points) points.insert(points.end(), x.data(), x.data() + 3);
+  const auto per_cell = static_cast<py::ssize_t>(geometry_.cells.nodes_per_cell());
+  const auto cells = static_cast<py::ssize_t>(geometry_.cells.size());
+  out["times"] = array_of(std::move(times_));
+  out["points"] = array_of(std::move(points), {nodes, 3});
+  const auto& connectivity = geometry_.cells.nodes();
+  out["cells"] = array_of(std::vector<int>(connectivity.begin(), connectivity.end()), {cells, per_cell});
+  py::dict fields;
+  for (Field& field : fields_) {
+    const auto places = field.info.location == Location::node ? nodes : cells;
+    fields[field.info.name.c_str()] = array_of(std::move(field.values), {frames, places, field.info.components});
+  }
+  out["fields"] = fields;
+  return out;
+}
+
+}  // namespace orthodyn::python

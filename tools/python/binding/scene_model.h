@@ -1,0 +1,51 @@
+// The model of a scene, for Python: what a Simulation builds inside.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "lib/simulation/setup.h"
+
+namespace orthodyn::python {
+
+using Numbers = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
+
+class SceneModel {
+ public:
+  explicit SceneModel(const Config& scene) : setup_(set_up(scene)) {}
+
+  const FemModel& model() const { return *setup_.built.model; }
+  const State& initial() const { return setup_.built.initial; }
+  const Setup& setup() const { return setup_; }
+
+  // Free coordinates only; throw ValueError for vectors of another length.
+  Vector force(double t, const ConstVectorRef& q, const ConstVectorRef& v) const;
+  // Values of K, and of D or none, on pattern().
+  std::pair<std::vector<double>, std::vector<double>> tangent(double t, const ConstVectorRef& q, const ConstVectorRef& v,
+                                                              bool gauss_newton) const;
+  std::vector<double> mass() const;
+  Vector solve_mass(const ConstVectorRef& x) const;
+
+  // (nodes, 3): the number of each free coordinate, -1 where it is held.
+  std::vector<int> unknowns() const;
+  std::vector<double> points() const;
+  std::vector<double> evaluate(const std::string& name, double t, const ConstVectorRef& q, const ConstVectorRef& v) const;
+
+  // Hz, and the shapes (count x n), M-orthonormal.
+  std::pair<std::vector<double>, std::vector<double>> modes(int count, bool about_equilibrium) const;
+  // Free displacements under all loads at the end of the scene's time.
+  Vector equilibrium() const;
+
+ private:
+  void require_size(const ConstVectorRef& x, const char* name) const;
+
+  Setup setup_;
+};
+
+}  // namespace orthodyn::python

@@ -1,0 +1,29 @@
+"""Dynamics of large-deformation orthotropic solids, with adaptive integrators.
+
+    import orthodyn
+
+    result = orthodyn.Scene.load("cantilever.yaml").set("integrator.rtol", 1e-5).run()
+    result.plot("probes")
+    result.view()
+
+A `Scene` is a YAML file or a dict; running it gives a `Result` with numpy arrays. `Scene.model()` is its finite element
+model as an object; a `Problem` is a model of one's own, `M q'' = f(t, q, v)`, for every integrator. `compare`, `sweep`,
+`stability` and `converge` run studies and give data frames.
+"""
+from pathlib import Path as _Path
+
+# The drawing tool is a package of its own where the program finds it: within a wheel, or below the prefix.
+_here = _Path(__file__).parent
+__path__.extend(str(folder) for folder in (_here / "share" / "orthodyn", *(up / "share" / "orthodyn" for up in _here.parents[3:4]))
+                if (folder / "draw").is_dir())
+
+from ._core import ConfigError, RecoverableError, RunError
+from ._core import version as __version__
+from .model import Model, Modes
+from .problem import Problem, Solution
+from .result import Result
+from .scene import OrthodynWarning, Scene
+from .studies import Study, compare, converge, stability, sweep
+
+__all__ = ["ConfigError", "Model", "Modes", "OrthodynWarning", "Problem", "RecoverableError", "Result", "RunError", "Scene",
+           "Solution", "Study", "__version__", "compare", "converge", "stability", "sweep"]

@@ -1,0 +1,113 @@
+"""The finite element model of a scene, M q'' = f(t, q, v), on its free coordinates q (m)."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from . import _core
+
+if TYPE_CHECKING:
+    import scipy.sparse
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Natural modes: `frequencies` (k,), Hz; `shapes` (k, n) on the free coordinates, M-orthonormal."""
+    frequencies: np.ndarray
+    shapes: np.ndarray
+
+
+class Model:
+    """Functions of time t (s), positions q (m) and velocities v (m/s) of the n free coordinates. They hold no state, and let
+    other threads run."""
+
+    def __init__(self, core: _core.SceneModel) -> None:
+        self._core = core
+        self._column_start, self._row, self._symmetric = core.pattern()
+
+    @property
+    def n(self) -> int:
+        """The number of free coordinates."""
+        return self._core.n
+
+    @property
+    def initial(self) -> tuple[float, np.ndarray, np.ndarray]:
+        """t, q, v at which the scene begins."""
+        return self._core.t0, self._core.q0, self._core.v0
+
+    @property
+    def points(self) -> np.ndarray:
+        """(nodes, 3), m: the rest shape."""
+        return self._core.points()
+
+    @property
+    def unknowns(self) -> np.ndarray:
+        """(nodes, 3): of each coordinate its number among the free ones, -1 where it is clamped or moved."""
+        return self._core.unknowns()
+
+    def nodal(self, q: np.ndarray) -> np.ndarray:
+        """(nodes, 3) of free coordinates; zero where they are held."""
+        unknowns = self.unknowns
+        return np.where(unknowns >= 0, np.asarray(q)[np.maximum(unknowns, 0)], 0.0)
+
+    def force(self, t: float, q: np.ndarray, v: np.ndarray | None = None) -> np.ndarray:
+        """f(t, q, v), N. Raises RecoverableError where it cannot be evaluated."""
+        return self._core.force(t, q, self._still(v))
+
+    def tangent(self, t: float, q: np.ndarray, v: np.ndarray | None = None, *, gauss_newton: bool = False
+                ) -> tuple[scipy.sparse.csc_matrix, scipy.sparse.csc_matrix | None]:
+        """K = -df/dq (N/m) and D = -df/dv (N s/m), or None without damping. `gauss_newton`: the positive semidefinite
+        part."""
+        stiffness, damping = self._core.tangent(t, q, self._still(v), gauss_newton)
+        return self._matrix(stiffness), self._matrix(damping) if damping.size else None
+
+    @property
+    def mass(self) -> scipy.sparse.csc_matrix:
+        """M, kg."""
+        return self._matrix(self._core.mass())
+
+    def solve_mass(self, x: np.ndarray) -> np.ndarray:
+        """M^-1 x."""
+        return self._core.solve_mass(x)
+
+    def acceleration(self, t: float, q: np.ndarray, v: np.ndarray | None = None) -> np.ndarray:
+        """M^-1 f, m/s^2."""
+        return self._core.solve_mass(self._core.force(t, q, self._still(v)))
+
+    def modes(self, count: int, *, about_equilibrium: bool = False) -> Modes:
+        """The lowest `count` natural modes, rigid ones included, about rest or about the equilibrium under the loads."""
+        return Modes(*self._core.modes(count, about_equilibrium))
+
+    def equilibrium(self) -> np.ndarray:
+        """q at rest under all loads as they are at the end of the scene's time. Raises ConfigError for a body that is not
+        held, RunError where none is found."""
+        return self._core.equilibrium()
+
+    @property
+    def outputs(self) -> dict[str, str]:
+        """What `evaluate` knows: names, and what they are."""
+        return {name: f"{sentence} [{unit}]" for name, _, _, unit, sentence in self._core.outputs()}
+
+    def evaluate(self, name: str, t: float, q: np.ndarray, v: np.ndarray | None = None) -> np.ndarray:
+        """An output at a state: (nodes or elements, components), or (components,) of one for the whole body."""
+        known = {output: (place, components) for output, place, components, _, _ in self._core.outputs()}
+        if name not in known:
+            raise KeyError(f"no output '{name}'; see outputs")
+        place, components = known[name]
+        values = self._core.evaluate(name, t, q, self._still(v))
+        return values if place == GLOBAL else values.reshape(-1, components)
+
+    def _still(self, v: np.ndarray | None) -> np.ndarray:
+        return np.zeros(self.n) if v is None else v
+
+    def _matrix(self, values: np.ndarray) -> scipy.sparse.csc_matrix:
+        import scipy.sparse
+        lower = scipy.sparse.csc_matrix((values, self._row, self._column_start), shape=(self.n, self.n))
+        if not self._symmetric:
+            return lower
+        return (lower + scipy.sparse.tril(lower, -1).T).tocsc()
+
+
+GLOBAL = 2  # as lib/ode/output.h has it

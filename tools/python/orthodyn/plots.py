@@ -1,0 +1,33 @@
+"""Figures in one line."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from .draw.table import Table
+
+
+def new_axes(ax: Axes | None) -> Axes:
+    if ax is not None:
+        return ax
+    from matplotlib import pyplot
+    return pyplot.subplots(figsize=(7, 4), layout="constrained")[1]
+
+
+def plot_table(table: Table, columns: list[str] | None, ax: Axes | None) -> Axes:
+    """Columns over the first one. All have one unit."""
+    chosen = [table[name] for name in columns] if columns else table.others()
+    units = sorted({column.unit for column in chosen})
+    if len(units) > 1 and columns is None:
+        chosen = [column for column in chosen if column.unit == chosen[0].unit]
+    elif len(units) > 1:
+        raise ValueError(f"columns of several units, {', '.join(units)}: plot them one by one")
+    ax = new_axes(ax)
+    for column in chosen:
+        ax.plot(table.axis.values, column.values, label=column.name)
+    ax.set_xlabel(f"{table.axis.name} [{table.axis.unit}]" if table.axis.unit else table.axis.name)
+    ax.set_ylabel(chosen[0].unit)
+    ax.legend(frameon=False)
+    return ax

@@ -1,0 +1,160 @@
+"""A model of one's own, M q'' = f(t, q, v), for every integrator of the library."""
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from .scene import as_yaml
+
+Matrix = Any  # numpy array or scipy.sparse matrix
+StateFunction = Callable[[float, np.ndarray, np.ndarray], Any]
+EPS = np.finfo(float).eps
+
+
+@dataclass(frozen=True)
+class Solution:
+    """`t` (k,), `q` and `v` (k, n) at the start and the times asked for; `statistics` and `decisions` of the integrator."""
+    t: np.ndarray
+    q: np.ndarray
+    v: np.ndarray
+    statistics: dict[str, Any]
+    decisions: dict[str, str]
+
+
+class Problem:
+    """M q'' = f(t, q, v) with a diagonal mass.
+
+    mass       (n,), all positive
+    force      f(t, q, v) -> (n,)
+    stiffness  K = -df/dq: a matrix, or a function of (t, q, v) that gives one; dense or scipy.sparse. Without it, and for
+               methods that need it, differences of the force, in n + 1 calls
+    damping    D = -df/dv likewise; only with `stiffness`
+    symmetric  K and D are symmetric: only their lower triangles are read
+    linear     K and D are constant
+
+    A force that raises RecoverableError asks for a smaller step. All entries that K or D ever have must be stored in the
+    first one.
+    """
+
+    def __init__(self, mass: Sequence[float], force: StateFunction, stiffness: Matrix | StateFunction | None = None,
+                 damping: Matrix | StateFunction | None = None, *, symmetric: bool = False, linear: bool = False,
+                 time_dependent: bool = True) -> None:
+        self.mass = np.array(mass, float).ravel()
+        if not self.mass.size or not (self.mass > 0).all():
+            raise ValueError("mass: expected one positive number for each coordinate")
+        if damping is not None and stiffness is None:
+            raise ValueError("damping without stiffness: give both, or none for differences")
+        self.n, self.force = self.mass.size, force
+        self._stiffness, self._damping = (_function(m) for m in (stiffness, damping))
+        self._symmetric, self._linear, self._time_dependent = symmetric, linear, time_dependent
+
+    def solve(self, t_span: tuple[float, float], q0: Sequence[float], v0: Sequence[float] | None = None, *,
+              integrator: str = "cvode_bdf", times: Sequence[float] | int = 100, position_scale: float | None = None,
+              velocity_scale: float | None = None, **options: Any) -> Solution:
+        """The motion from q0, v0 over t_span.
+
+        integrator      any that `orthodyn list integrators` names; options are its keys: rtol=1e-6, step=1e-3, ...
+        times           when the state is wanted, or how many evenly spaced ones
+        position_scale, velocity_scale
+                        sizes of the motion, relative to which errors are at tolerance; default the largest of q0 and of v0
+        Raises ConfigError for options, RunError where the computation could not go on, and what the functions raise.
+        """
+        start, end = map(float, t_span)
+        q, v = np.array(q0, float), np.zeros(self.n) if v0 is None else np.array(v0, float)
+        if q.shape != (self.n,) or v.shape != (self.n,):
+            raise ValueError(f"q0 and v0: expected {self.n} numbers each")
+        wanted = np.linspace(start, end, times + 1)[1:] if isinstance(times, int) else np.array(times, float)
+        wanted = wanted[wanted > start]
+        if not wanted.size or wanted[-1] > end or (np.diff(wanted) <= 0).any():
+            raise ValueError("times: expected ascending ones within t_span")
+        if wanted[-1] < end:
+            wanted = np.append(wanted, end)
+        known = _core.integrators()
+        if not self._symmetric and "linear_solver" in known.get(integrator, ()):
+            options.setdefault("linear_solver", "klu")  # the faster ones are for symmetric matrices
+        scales = self._scales(start, q, v, position_scale, velocity_scale)
+        found = self._core(start, q, v, scales).integrate(as_yaml({"type": integrator, **options}), start, q, v,
+                                                          wanted.tolist(), *scales)
+        if found["status"] != "completed":
+            raise _core.RunError(found["message"])
+        return Solution(found["t"], found["q"], found["v"], found["statistics"], found["decisions"])
+
+    def _scales(self, t: float, q: np.ndarray, v: np.ndarray, position: float | None, velocity: float | None
+                ) -> tuple[float, float]:
+        found = [given if given is not None else float(np.abs(own).max()) for given, own in ((position, q), (velocity, v))]
+        force = _numbers(self.force(t, q.copy(), v.copy()))
+        if force.shape != (self.n,):
+            raise ValueError(f"the force has {force.size} numbers, expected {self.n}")
+        acceleration = float(np.abs(force / self.mass).max())
+        if found[0] > 0 and not found[1] > 0:
+            found[1] = (acceleration * found[0]) ** 0.5 or found[0]
+        if not min(found) > 0:
+            raise ValueError("position_scale and velocity_scale: the start is at rest in the origin and tells no size of the "
+                             "motion; give both")
+        return found[0], found[1]
+
+    def _core(self, t: float, q: np.ndarray, v: np.ndarray, scales: tuple[float, float]) -> _core.PythonModel:
+        import scipy.sparse
+        if self._stiffness is None:
+            full = scipy.sparse.csc_matrix(np.ones((self.n, self.n)))
+            tangent = _differences(self.force, scales)
+            return _core.PythonModel(self.mass, self.force, tangent, full.indptr, full.indices, False, True, False,
+                                     self._time_dependent)
+        first = [scipy.sparse.csc_matrix(f(t, q, v)) for f in (self._stiffness, self._damping) if f is not None]
+        pattern = sum((abs(m) > 0 for m in first), scipy.sparse.identity(self.n, bool, "csc"))
+        pattern = (scipy.sparse.tril(pattern) if self._symmetric else pattern).tocsc()
+        pattern.sort_indices()
+        take = _Taker(pattern)
+        stiffness, damping = self._stiffness, self._damping
+
+        def tangent(at: float, q: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
+            return take(stiffness(at, q, v)), None if damping is None else take(damping(at, q, v))
+
+        return _core.PythonModel(self.mass, self.force, tangent, pattern.indptr, pattern.indices, self._symmetric,
+                                 damping is not None, self._linear, self._time_dependent)
+
+
+def _numbers(given: Any) -> np.ndarray:
+    try:
+        return np.asarray(given, float)
+    except (TypeError, ValueError):
+        raise TypeError(f"the force is no array of numbers: {given!r}") from None
+
+
+class _Taker:
+    """The entries of matrices on a pattern."""
+
+    def __init__(self, pattern: Any) -> None:
+        self._row = pattern.indices
+        self._column = np.repeat(np.arange(pattern.shape[1]), np.diff(pattern.indptr))
+
+    def __call__(self, matrix: Matrix) -> np.ndarray:
+        rows = matrix.tocsr() if hasattr(matrix, "tocsr") else np.asarray(matrix, float)
+        return np.asarray(rows[self._row, self._column], float).ravel()
+
+
+def _function(given: Matrix | StateFunction | None) -> StateFunction | None:
+    if given is None or callable(given):
+        return given
+    return lambda t, q, v: given
+
+
+def _differences(force: StateFunction, scales: tuple[float, float]) -> StateFunction:
+    """K and D, column by column."""
+    def tangent(t: float, q: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        f = np.asarray(force(t, q.copy(), v.copy()), float)
+        columns = []
+        for x, scale, place in ((q, scales[0], 0), (v, scales[1], 1)):
+            matrix = np.empty((len(q), len(q)))
+            for j in range(len(q)):
+                step = EPS ** 0.5 * max(abs(x[j]), scale)
+                moved = [q.copy(), v.copy()]
+                moved[place][j] += step
+                matrix[j] = (f - np.asarray(force(t, *moved), float)) / step
+            columns.append(matrix.ravel())
+        return columns[0], columns[1]
+    return tangent

@@ -1,0 +1,50 @@
+"""How far a run is: one line that is written over."""
+from __future__ import annotations
+
+import sys
+import time
+
+
+class Silence:
+    """Nothing."""
+
+    def show(self, now: float, end: float) -> None:
+        pass
+
+    def say(self, text: str) -> None:
+        pass
+
+    def end(self) -> None:
+        pass
+
+
+class Progress:
+    """The part that is done, and about how long the rest takes, on stderr."""
+
+    def __init__(self, name: str) -> None:
+        self._name, self._began, self._first, self._shown = name, time.monotonic(), None, 0
+
+    @staticmethod
+    def wanted(asked: bool | None) -> bool:
+        return (sys.stderr.isatty() or "ipykernel" in sys.modules) if asked is None else asked
+
+    def show(self, now: float, end: float) -> None:
+        if self._first is None:
+            self._first = now
+        part = (now - self._first) / (end - self._first) if end > self._first else 1.0
+        left = (time.monotonic() - self._began) * (1 - part) / part if part > 0 else float("inf")
+        rest = f"  ({left:.0f} s left)" if left < 1e6 else ""
+        self._write(f"{self._name}: {100 * part:3.0f} %, t = {now:.4g} s{rest}")
+
+    def say(self, text: str) -> None:
+        self._write(text)
+        sys.stderr.write("\n")
+
+    def end(self) -> None:
+        if self._shown:
+            self._write("")
+
+    def _write(self, text: str) -> None:
+        sys.stderr.write("\r" + text.ljust(self._shown) + ("\r" if not text else ""))
+        sys.stderr.flush()
+        self._shown = len(text)

@@ -1,0 +1,179 @@
+"""What came of a run: arrays, tables, and the record of how it was computed."""
+from __future__ import annotations
+
+import json
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .draw.errors import DrawError
+from .draw.series import Series
+from .draw.table import Table
+from .notebook import Page
+
+if TYPE_CHECKING:
+    import meshio
+    import pandas
+    from matplotlib.axes import Axes
+
+TABLES = ("probes", "energy", "momentum", "steps", "events", "load_steps")
+CELL_TYPES = {4: "tetra", 10: "tetra10"}
+
+
+class Result:
+    """The result of a run. Arrays of a run in this process are those that the library computed, in double precision;
+    those of `Result.load` are read from the frames, in single."""
+
+    def __init__(self, folder: str | Path) -> None:
+        self.folder = Path(folder)
+        self._kept: dict[str, Any] = {}
+
+    def _keep(self, kept: dict[str, Any]) -> None:
+        """What a run had in memory."""
+        self._kept = kept
+
+    @classmethod
+    def load(cls, folder: str | Path) -> Result:
+        """The result in a folder that `orthodyn run` wrote."""
+        if not (Path(folder) / "run.json").is_file():
+            raise FileNotFoundError(f"{folder}: holds no run.json; `orthodyn run SCENE.yaml` writes one")
+        return cls(folder)
+
+    @cached_property
+    def record(self) -> dict[str, Any]:
+        """run.json: what was computed, how, by what, and what of it is in doubt."""
+        try:
+            return json.loads((self.folder / "run.json").read_text(encoding="utf-8"))
+        except FileNotFoundError:
+            return {}
+
+    @property
+    def status(self) -> str:
+        """"completed", "interrupted" or "failed"."""
+        return self.record.get("status", "")
+
+    @property
+    def statistics(self) -> dict[str, Any]:
+        """Steps, Newton iterations, and the count and seconds of each kind of work."""
+        return self.record.get("statistics", {})
+
+    @property
+    def warnings(self) -> list[str]:
+        return self.record.get("warnings", [])
+
+    @cached_property
+    def _series(self) -> Series:
+        try:
+            return Series(str(self.folder))
+        except DrawError as error:
+            raise FileNotFoundError(str(error)) from None
+
+    @cached_property
+    def times(self) -> np.ndarray:
+        """(frames,), s; of a static analysis the load factors."""
+        return self._kept["times"] if "times" in self._kept else self._series.times
+
+    @cached_property
+    def points(self) -> np.ndarray:
+        """(nodes, 3), m: the rest shape."""
+        return self._kept["points"] if "points" in self._kept else self._series.frame(0).points
+
+    @cached_property
+    def cells(self) -> np.ndarray:
+        """(elements, 4 or 10): the nodes of each."""
+        return self._kept["cells"] if "cells" in self._kept else self._series.frame(0).cells
+
+    @property
+    def fields(self) -> list[str]:
+        """The names that `result[name]` takes."""
+        names = list(self._kept.get("fields", {}))
+        if (self.folder / "frames.pvd").is_file():
+            frame = self._series.frame(0)
+            names += [name for name in (*frame.node_fields, *frame.cell_fields) if name not in names]
+        return names
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """A field, (frames, nodes or elements, components)."""
+        kept = self._kept.get("fields", {})
+        if name in kept:
+            return kept[name]
+        if name not in self.fields:
+            raise KeyError(f"no field '{name}'; there are {', '.join(self.fields) or 'none'} (output.fields of the scene)")
+        kept = self._kept.setdefault("fields", {})
+        kept[name] = self._read(name)
+        return kept[name]
+
+    def _read(self, name: str) -> np.ndarray:
+        frames = [self._series.frame(k) for k in range(len(self._series))]
+        if name in frames[0].node_fields:
+            return np.stack([frame.node_fields[name] for frame in frames])
+        return np.stack([frame.cell_fields[name][::frame.parts] for frame in frames])
+
+    @property
+    def displacement(self) -> np.ndarray:
+        """(frames, nodes, 3), m."""
+        return self["displacement"]
+
+    @property
+    def velocity(self) -> np.ndarray:
+        """(frames, nodes, 3), m/s."""
+        return self["velocity"]
+
+    @property
+    def stress(self) -> np.ndarray:
+        """(frames, nodes or elements, 6), Pa: Cauchy's, xx yy zz xy yz zx; recovered at the nodes where the scene writes
+        that."""
+        return self["nodal_stress" if "nodal_stress" in self.fields else "stress"]
+
+    def table(self, name: str) -> dict[str, np.ndarray]:
+        """The columns of a CSV file: "probes", "energy", "momentum", "steps", ... The first is t, s."""
+        try:
+            return {column.name: column.values for column in Table(self.folder / f"{name}.csv").columns.values()}
+        except DrawError as error:
+            raise FileNotFoundError(str(error)) from None
+
+    @property
+    def probes(self) -> dict[str, np.ndarray]:
+        return self.table("probes")
+
+    @property
+    def energies(self) -> dict[str, np.ndarray]:
+        """J: kinetic, elastic, ... and the balance, which should stay zero."""
+        return self.table("energy")
+
+    def to_pandas(self, table: str = "probes") -> pandas.DataFrame:
+        """A table as a data frame over time."""
+        import pandas
+        columns = self.table(table)
+        return pandas.DataFrame(columns).set_index(next(iter(columns)))
+
+    def to_meshio(self, frame: int = -1) -> meshio.Mesh:
+        """One frame: the rest shape, with the displacement and all other fields."""
+        import meshio
+        nodes, cells = len(self.points), len(self.cells)
+        values = {name: self[name][frame] for name in self.fields}
+        of_nodes = {name: v for name, v in values.items() if len(v) == nodes and name not in _CELL_FIELDS}
+        of_cells = {name: [v] for name, v in values.items() if name not in of_nodes and len(v) == cells}
+        return meshio.Mesh(self.points, [(CELL_TYPES[self.cells.shape[1]], self.cells)], of_nodes, of_cells)
+
+    def view(self, other: Result | None = None, *, out: str | Path | None = None, volume: bool = False, height: int = 620,
+             **start: Any) -> Page:
+        """A page with a 3D view, which a notebook shows. `other`: a result beside it. `start`: time, color, scale."""
+        from .draw.view.collect import Extent
+        from .draw.view.page import write_view
+        folders = [str(result.folder) for result in (self, other) if result is not None]
+        path = write_view(folders, out, Extent(volume=volume), start)
+        return Page(path, height)
+
+    def plot(self, table: str = "probes", columns: list[str] | None = None, ax: Axes | None = None) -> Axes:
+        """The columns of a table over time."""
+        from .plots import plot_table
+        return plot_table(Table(self.folder / f"{table}.csv"), columns, ax)
+
+    def __repr__(self) -> str:
+        return f"Result({self.folder}, {self.status or 'no record'})"
+
+
+_CELL_FIELDS = {"region", "det_f", "stress", "stress_material", "strain", "mesh_error"}

@@ -1,0 +1,136 @@
+"""A scene: one body, what acts on it, and how its motion is computed."""
+from __future__ import annotations
+
+import json
+import shutil
+import tempfile
+import warnings
+import weakref
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from . import _core
+from .model import Model
+from .progress import Progress, Silence
+from .result import Result
+
+
+class OrthodynWarning(UserWarning):
+    """What the program prints as a warning: something about a scene or a result that should not be taken on trust."""
+
+
+class Scene:
+    """A scene from a dict, as its YAML file would hold it. `Scene.load` reads a file. A scene never changes: `set` and
+    `with_integrator` return another one."""
+
+    def __init__(self, scene: Mapping[str, Any], name: str = "scene") -> None:
+        """`name` stands for the file in messages; files that the scene names are looked for in the working directory."""
+        self._text: str | None = as_yaml(scene)
+        self.name = name
+        self._file = f"{name}.yaml"
+        self._set: tuple[str, ...] = ()
+        self._integrator: str | None = None
+
+    @classmethod
+    def load(cls, file: str | Path) -> Scene:
+        """The scene of a YAML file. Raises ConfigError if it cannot be read."""
+        made = cls({}, Path(file).stem)
+        made._text, made._file = None, str(file)
+        made._simulation()
+        return made
+
+    def set(self, path: str, value: Any) -> Scene:
+        """The scene with another value at a path such as "integrator.rtol" or "materials.spruce.young.0". A str is YAML, as
+        after --set on the command line: "12 GPa", "null"."""
+        return self._changed(_set=(*self._set, f"{path}={value if isinstance(value, str) else as_yaml(value)}"))
+
+    def with_integrator(self, name: str) -> Scene:
+        """The scene with another integrator; options that both have are kept."""
+        return self._changed(_integrator=name)
+
+    def _changed(self, **attributes: Any) -> Scene:
+        made = object.__new__(type(self))
+        made.__dict__.update(self.__dict__, **attributes)
+        made._simulation()  # a change that does not apply is told where it is made
+        return made
+
+    def _simulation(self) -> _core.Simulation:
+        if self._text is None:
+            return _core.Simulation.from_file(self._file, list(self._set), self._integrator)
+        return _core.Simulation.from_text(self._text, self._file, list(self._set), self._integrator)
+
+    def to_yaml(self) -> str:
+        """The scene as YAML, with its changes."""
+        return self._simulation().resolved()
+
+    def model(self) -> Model:
+        """The finite element model. Raises ConfigError for a scene that is at fault."""
+        return Model(_core.SceneModel(self._simulation()))
+
+    def run(self, out: str | Path | None = None, *, force: bool = False, resume: bool = False, estimate_error: bool = False,
+            fields: Iterable[str] | None = None, progress: bool | None = None) -> Result:
+        """Computes the scene, as `orthodyn run` does, and returns what came of it.
+
+        out             folder for the files; without it they are in a temporary one, which goes with the result
+        force           replace an earlier result in the folder
+        resume          go on from the checkpoint in the folder
+        estimate_error  then repeat the run more accurately, and compare
+        fields          what is kept in memory at each output; default what the scene writes. All at double precision
+        progress        show how far it is; default in a terminal or a notebook
+
+        Warnings are `OrthodynWarning`s. Raises ConfigError before anything is computed, and RunError where the computation
+        could not go on: its `result` holds what was computed so far. Ctrl-C ends the run after the step that it is in.
+        Other threads run on meanwhile.
+        """
+        holder = tempfile.mkdtemp(prefix="orthodyn-") if out is None else None
+        folder = Path(holder) / self.name if holder else Path(out)
+        result = Result(folder)
+        if holder:
+            weakref.finalize(result, shutil.rmtree, holder, True)
+        told = _Told(Progress(self.name) if Progress.wanted(progress) else Silence())
+        try:
+            status, message, kept = self._simulation().run(str(folder), force, resume, estimate_error,
+                                                           None if fields is None else list(fields), told)
+        finally:
+            told.progress.end()
+        result._keep(kept)
+        for text in result.record.get("warnings", ()):
+            if text not in told.texts:
+                warnings.warn(text, OrthodynWarning, stacklevel=2)
+        if status == "failed":
+            error = _core.RunError(message)
+            error.result = result  # type: ignore[attr-defined]
+            raise error
+        return result
+
+    def __repr__(self) -> str:
+        changes = "".join(f", {change}" for change in self._set)
+        return f"Scene({self._file}{changes})"
+
+
+class _Told:
+    """What a run tells while it works."""
+
+    def __init__(self, progress: Progress | Silence) -> None:
+        self.progress = progress
+        self.texts: set[str] = set()
+
+    def on_warning(self, text: str) -> None:
+        self.texts.add(text)
+        warnings.warn(text, OrthodynWarning, stacklevel=3)
+
+    def on_notice(self, text: str) -> None:
+        self.progress.say(text)
+
+    def on_progress(self, time: float, end: float) -> None:
+        self.progress.show(time, end)
+
+
+def as_yaml(value: Any) -> str:
+    """Any value of a scene as YAML, which JSON is; numpy's numbers and arrays too."""
+    def plain(item: Any) -> Any:
+        if hasattr(item, "tolist"):
+            return item.tolist()
+        raise TypeError(f"{type(item).__name__} has no meaning in a scene: {item!r}")
+    return json.dumps(value, default=plain)

@@ -1,0 +1,120 @@
+"""Studies: many runs, one data frame. Each run is a process of its own, as with the program."""
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from . import _core
+from .notebook import Page
+from .scene import as_yaml
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.axes import Axes
+
+HERE = Path(__file__).parent  # not resolved: of links in a build tree
+CONFIG_ERROR = 2
+
+
+@dataclass(frozen=True)
+class Study:
+    """What a study wrote: its points as a data frame, its folder, and the page that tells what it says."""
+    kind: str
+    folder: Path
+    table: pandas.DataFrame
+
+    @property
+    def report(self) -> Path:
+        return self.folder / "report.html"
+
+    def show(self, height: int = 700) -> Page:
+        """The report, which a notebook shows."""
+        return Page(self.report, height)
+
+    def plot(self, x: str, y: str, by: str | None = None, ax: Axes | None = None, *, log: bool = False) -> Axes:
+        """One column over another, a line for each value of a third."""
+        from .plots import new_axes
+        ax = new_axes(ax)
+        groups = self.table.groupby(by) if by else [("", self.table)]
+        for name, rows in groups:
+            rows = rows.dropna(subset=[x, y]).sort_values(x)
+            ax.plot(rows[x], rows[y], marker="o", label=str(name))
+        if log:
+            ax.set_xscale("log")
+            ax.set_yscale("log")
+        ax.set_xlabel(x)
+        ax.set_ylabel(y)
+        if by:
+            ax.legend(frameon=False)
+        return ax
+
+    def __repr__(self) -> str:
+        return f"Study({self.kind}, {len(self.table)} points, {self.folder})"
+
+
+def compare(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, quiet: bool = False) -> Study:
+    """Integrators on scenes: error against time. `study`: a YAML file, or a dict as it would hold."""
+    return _run("compare", "compare.csv", study, out, quiet)
+
+
+def sweep(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, quiet: bool = False) -> Study:
+    """A scene over values of its keys."""
+    return _run("sweep", "sweep.csv", study, out, quiet)
+
+
+def stability(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, quiet: bool = False) -> Study:
+    """Integrators on hard cases: which keep what they should."""
+    return _run("stability", "stability.csv", study, out, quiet)
+
+
+def converge(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, quiet: bool = False) -> Study:
+    """A scene on finer and finer meshes. `study`: a scene, as `orthodyn converge` takes it."""
+    return _run("converge", "convergence.csv", study, out, quiet)
+
+
+def program() -> str:
+    """The program `orthodyn`: that of this package, else the first on the PATH."""
+    own = [HERE / "bin" / "orthodyn", *(parent / "orthodyn" for parent in HERE.parents[:2])]
+    found = next((str(path) for path in own if path.is_file() and os.access(path, os.X_OK)), shutil.which("orthodyn"))
+    if not found:
+        raise FileNotFoundError("the program `orthodyn` is neither in this package nor on the PATH")
+    return found
+
+
+def _run(kind: str, table: str, study: Any, out: str | Path | None, quiet: bool) -> Study:
+    import pandas
+    if not isinstance(study, Mapping):
+        folder = Path(out) if out else Path("out") / _PLURAL[kind] / Path(study).stem
+        _call(kind, str(study), folder, quiet)
+        return Study(kind, folder, pandas.read_csv(folder / table))
+    folder = Path(out) if out else Path("out") / _PLURAL[kind] / "study"
+    # In the working directory: files that it names are looked for beside it.
+    with tempfile.NamedTemporaryFile("w", suffix=".yaml", prefix=f".{kind}-", dir=".", delete=False) as stream:
+        stream.write(as_yaml(study))
+    try:
+        _call(kind, stream.name, folder, quiet)
+    finally:
+        os.unlink(stream.name)
+    return Study(kind, folder, pandas.read_csv(folder / table))
+
+
+_PLURAL = {"compare": "comparisons", "sweep": "sweeps", "stability": "stability", "converge": "convergence"}
+
+
+def _call(kind: str, file: str, folder: Path, quiet: bool) -> None:
+    ended = subprocess.run([program(), kind, file, "--out", str(folder)], stdout=subprocess.DEVNULL if quiet else None,
+                           stderr=subprocess.PIPE, text=True, check=False)
+    if ended.returncode == CONFIG_ERROR:
+        raise _core.ConfigError(ended.stderr.strip().removeprefix("error: "))
+    if ended.returncode > CONFIG_ERROR:
+        raise _core.RunError(ended.stderr.strip())
+    if ended.stderr and not quiet:
+        sys.stderr.write(ended.stderr)
