@@ -195,6 +195,9 @@ class ThePage(OfASweep):
         self.assertIn("data:image/png;base64,", text)
         self.assertIn("one camera and one range of colours", page.text)
         self.assertGreater((self.folder / "pictures/points.png").stat().st_size, 10_000)
+        self.assertIn('<a href="view.html">', text)
+        shown = (self.folder / "view.html").read_text(encoding="utf-8")
+        self.assertIn(json.dumps("mesh fine, angle 0"), shown.replace("\\u2212", "-"))
 
     def test_a_bad_file_is_one_line(self):
         for content, words in (("{", "not readable as JSON"), ("[]", "no sweep"), ('{"orthodyn_sweep": 9}', "format 9"),

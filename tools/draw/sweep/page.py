@@ -9,6 +9,7 @@ from ..report.details import facts, pairs
 from ..report.markup import Html, data_script, joined, scrolling, tag, void
 from ..report.page import SCRIPT, head
 from ..report.tables import caption
+from . import VIEW
 from .answer import answer, where
 from .figures import Figures
 from .plan import MOST_PANELS, left_out, plans
@@ -90,7 +91,8 @@ def _gallery(sweep, paths):
     alt = f"The body at {len(sweep.done)} points of the sweep, side by side"
     return tag("figure", *(void("img", src=_embedded(path), class_=f"photo {theme}", alt=alt)
                            for theme, path in zip(("day", "night"), paths)),
-               tag("figcaption", f"Points {when}, with one camera and one range of colours. Above each: {names}.{enlarged}"))
+               tag("figcaption", f"Points {when}, with one camera and one range of colours. Above each: {names}.{enlarged} ",
+                   tag("a", "The same in 3D", href=VIEW), "."))
 
 
 def _failures(sweep):

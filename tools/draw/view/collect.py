@@ -10,6 +10,7 @@ from ..grain import FIELD as AXIS
 from ..quantity import component_names, find_quantity, magnitude, von_mises
 from ..series import Series, is_static
 from ..table import Table
+from .points import SweepPoints, is_sweep
 from .setup import add_setup
 from .skin import Skin
 from .strokes import strokes
@@ -61,7 +62,7 @@ def _places(kept, size):
 
 def add_result(blocks, key, name, extent):
     """Adds the blocks of the result in the folder `name`, called `key`/...; returns its description."""
-    series = Series(name)
+    series = SweepPoints(name) if is_sweep(name) else Series(name)
     frames = sorted({*range(0, len(series), extent.every), len(series) - 1})
     first = series.frame(0)
     if not len(first.tets):
@@ -72,8 +73,9 @@ def add_result(blocks, key, name, extent):
     centre = 0.5 * (first.points.min(axis=0) + first.points.max(axis=0))
     _add_mesh(blocks, key, first, skin, shown, centre, extent.volume)
     return {
-        "name": series.folder.name or str(series.folder), "static": is_static(series.folder), "centre": centre.tolist(),
-        "reach": _reach(series, frames, shown, centre), "times": series.times[frames].tolist(), "frames": frames, "nodes": len(shown.nodes), "faces": len(skin.faces),
+        "name": series.folder.name or str(series.folder), "static": is_static(series.folder), "labels": [series.labels[k] for k in frames] if is_sweep(name) else None,
+        "centre": centre.tolist(),
+        "reach": _reach(series, frames, shown, centre), "times": [float(series.times[k]) for k in frames], "frames": frames, "nodes": len(shown.nodes), "faces": len(skin.faces),
         "cells": len(first.tets) // first.parts, "volume": extent.volume,
         "fields": _add_frames(blocks, key, series, frames, shown, fields),
         "quantities": _quantities(series, frames, shown, fields),

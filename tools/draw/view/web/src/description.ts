@@ -30,6 +30,7 @@ export interface Curve {
 export interface ResultDescription {
   name: string;
   static: boolean; // times are load factors
+  labels: string[] | null; // of points of a sweep, in place of times
   centre: [number, number, number]; // m, that positions are relative to
   reach: [number[], number[]]; // smallest and largest coordinates over all frames
   times: number[];

@@ -52,14 +52,14 @@ class View {
       this.colour();
       this.stage.draw();
     });
-    this.player = new Player(times, !first.about.static, () => this.refresh(), () => this.showTime());
+    this.player = new Player(times, this.isTimed(), () => this.refresh(), () => this.showTime());
     this.slider.max = String(times.length - 1);
     this.slider.addEventListener("input", () => void this.player.goTo(Number(this.slider.value)));
     this.play = button("▶", "Play (space)", () => this.player.toggle());
     const charts = element("div", { class: "charts" });
     this.curves = new Curves(charts, results, (time) => void this.player.goToTime(time));
     const names = element("div", { class: "names" }, ...results.map((r) => element("span", {}, r.about.name)));
-    const bar = element("div", { class: "time" }, this.play, this.slider, this.clock, ...(first.about.static ? [] : [this.speedChoice()]));
+    const bar = element("div", { class: "time" }, this.play, this.slider, this.clock, ...(this.isTimed() ? [this.speedChoice()] : []));
     const pictured = element("main", {}, element("div", { class: "holder" }, stageHolder, names, this.under),
       this.legend.node, bar);
     root.append(pictured, element("aside", {}, this.controls(), this.tableChoice(), charts, this.notes()));
@@ -98,6 +98,10 @@ class View {
     this.colour();
     await this.refresh();
     this.stage.drawNow();
+  }
+
+  private isTimed(): boolean {
+    return this.results.every((r) => !r.about.static && !r.about.labels);
   }
 
   private named(name: string | undefined): Quantity | null {
@@ -149,9 +153,10 @@ class View {
 
   private showTime(): void {
     const { player } = this, first = this.results[0] as Result, size = scaled("s", Math.max(Math.abs(player.first), Math.abs(player.last)));
-    const text = first.about.static
+    const label = first.about.labels?.[first.frameAt(player.time)];
+    const text = label ?? (first.about.static
       ? `load factor ${figure(player.time, 4)}`
-      : `t = ${figure(player.time / size.factor, 4)} ${size.unit}`;
+      : `t = ${figure(player.time / size.factor, 4)} ${size.unit}`);
     this.clock.textContent = `${text}  (${player.frame + 1} of ${player.times.length})`;
     this.slider.value = String(player.frame);
     this.slider.setAttribute("aria-valuetext", text);
