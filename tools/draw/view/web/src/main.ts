@@ -64,7 +64,7 @@ class View {
       this.legend.node, bar);
     root.append(pictured, element("aside", {}, this.controls(), this.tableChoice(), charts, this.notes()));
     if (start.still) root.classList.add("still");
-    this.stage = new Stage(stageHolder, this.bodies);
+    this.stage = new Stage(stageHolder, this.bodies, start.still ?? false);
     stageHolder.addEventListener("pointermove", (e) => this.pointed({ x: e.clientX, y: e.clientY }));
     stageHolder.addEventListener("pointerleave", () => this.pointed(null));
     addEventListener("keydown", (e) => this.key(e));

@@ -40,11 +40,12 @@ export class Stage {
   constructor(
     private readonly holder: HTMLElement,
     private readonly bodies: Body[],
+    isStill: boolean,
   ) {
-    const swift = !isSoftware();
-    this.renderer = new THREE.WebGLRenderer({ antialias: swift, alpha: true });
+    const fine = isStill || !isSoftware();
+    this.renderer = new THREE.WebGLRenderer({ antialias: fine, alpha: true });
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
-    this.renderer.setPixelRatio(swift ? Math.min(devicePixelRatio, 2) : 1);
+    this.renderer.setPixelRatio(fine ? Math.min(devicePixelRatio, 2) : 1);
     this.renderer.setScissorTest(true);
     this.renderer.autoClear = false;
     this.canvas = this.renderer.domElement;
