@@ -13,7 +13,6 @@
 #include "lib/simulation/observers/run_observers.h"
 #include "lib/simulation/run_context.h"
 #include "lib/simulation/run_record.h"
-#include "lib/simulation/setup_file.h"
 
 namespace orthodyn {
 
@@ -73,7 +72,6 @@ class DynamicAnalysis {
     const RunRecord record(folder_.path(), context_.scene, context_.set, begin.restarts,
                            given_terms(setup_.config));
     write_file(folder_.path() / "scene.yaml", {begin.scene});
-    if (!setup_.scene.output.fields.empty()) write_setup(folder_.path() / kSetupFile, setup_);
     // Killed from here on, it can be resumed.
     if (!resumes && setup_.scene.checkpoint) begin.save(folder_.checkpoint());
     return compute(begin, observers, record);

@@ -24,12 +24,11 @@ std::vector<double> loads(const FemModel& model, const State& initial, double en
 
 }  // namespace
 
-void write_setup(const std::filesystem::path& file, const Setup& setup) {
-  const FemModel& model = *setup.built.model;
-  const State& initial = setup.built.initial;
-  write_vtu(file, model.geometry(),
+void SetupWriter::on_start(const ObservedState&) {
+  const FemModel& model = *setup_.built.model;
+  write_vtu(file_, model.geometry(),
             {{"held", Location::node, 3, held(*model.parts().dofs)},
-             {"load", Location::node, 3, loads(model, initial, setup.scene.time.end)}},
+             {"load", Location::node, 3, loads(model, setup_.built.initial, setup_.scene.time.end)}},
             &model.parts().mesh);
 }
 

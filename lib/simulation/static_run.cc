@@ -41,8 +41,10 @@ class StaticObservers {
                   RunListener& listener)
       : progress_(*problem.stepper, listener) {
     const auto& output = setup.scene.output;
-    if (!output.fields.empty()) 
+    if (!output.fields.empty()) {
       frames_.emplace(folder, *problem.path, output.fields, &setup.built.model->parts().mesh);
+      setup_.emplace(folder, setup);
+    }
     if (output.steps) steps_.emplace(folder / "load_steps.csv", *problem.path, *problem.stepper);
     if (const auto columns = probe_columns(setup.scene, *setup.built.model); !columns.empty())
       probes_.emplace(folder / "probes.csv", *problem.path, columns, "load_factor");
@@ -61,6 +63,7 @@ class StaticObservers {
       if (observer) out.push_back(&*observer);
     };
     add(frames_);
+    add(setup_);
     add(steps_);
     add(probes_);
     add(extremes_);
@@ -71,6 +74,7 @@ class StaticObservers {
 
  private:
   std::optional<FrameWriter> frames_;
+  std::optional<SetupWriter> setup_;
   std::optional<LoadStepWriter> steps_;
   std::optional<ProbeWriter> probes_;
   std::optional<ExtremeRecorder> extremes_;
@@ -132,7 +136,6 @@ RunResult run_static_analysis(RunContext context) {
   context.folder.prepare();
   const RunRecord record(folder, context.scene, context.set, {}, given_terms(context.setup.config));
   write_file(folder / "scene.yaml", {context.resolved});
-  if (!setup.scene.output.fields.empty()) write_setup(folder / kSetupFile, setup);
   StaticObservers observers(setup, problem, folder, context.listener);
   auto all = observers.all();
   const auto own = context.listener.on_begin(setup);

@@ -18,7 +18,10 @@ RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& fold
     : linearity_(setup.linearity.get()), finder_(setup.events) {
   const auto& model = *setup.built.model;
   const auto& scene = setup.scene;
-  if (!scene.output.fields.empty()) frames_.emplace(folder, model, scene.output.fields, &model.parts().mesh);
+  if (!scene.output.fields.empty()) {
+    frames_.emplace(folder, model, scene.output.fields, &model.parts().mesh);
+    setup_.emplace(folder, setup);
+  }
   if (const auto& output = scene.output; output.energy)  // without outputs there would be no drift
     energy.emplace(folder / "energy.csv", model, *setup.integrator,
                    output.frames == 0 && !output.history ? EnergyTimes::steps : output.energy_times);
@@ -49,6 +52,7 @@ NamedObservers RunObservers::kept() {
 std::vector<Observer*> RunObservers::all(Observer* progress, Checkpointer& checkpointer) {
   std::vector<Observer*> out;
   for (const auto& [name, observer] : kept()) out.push_back(observer);
+  if (setup_) out.push_back(&*setup_);
   if (progress) out.push_back(progress);
   out.push_back(&checkpointer);
   return out;

@@ -12,6 +12,7 @@
 #include "lib/simulation/observers/frames.h"
 #include "lib/simulation/observers/strain_watch.h"
 #include "lib/simulation/setup.h"
+#include "lib/simulation/setup_file.h"
 
 namespace orthodyn {
 
@@ -44,6 +45,7 @@ class RunObservers {
  private:
   LinearityWatch* linearity_;  // null without linear kinematics
   std::optional<FrameWriter> frames_;
+  std::optional<SetupWriter> setup_;
   std::optional<StepWriter> steps_;
   std::optional<ProbeWriter> probes_;
   EventFinder finder_;
