@@ -37,7 +37,7 @@ def unpacked(text):
     return found
 
 
-def values(block):
+def values_of(block):
     """Rows, as web/src/blocks.ts has them."""
     about, raw = block
     planes = np.frombuffer(raw, {"u32": "<u4", "f32": "<f4", "linear": "<u2", "half": "<f2"}[about["kind"]])
@@ -51,7 +51,7 @@ class InBlocks(unittest.TestCase):
     def kept(self, kind, array):
         blocks = Blocks()
         blocks.add("x", kind, array)
-        return values(unpacked(blocks.text())["x"])
+        return values_of(unpacked(blocks.text())["x"])
 
     def test_displacements_are_kept_to_a_part_in_130000_of_their_range(self):
         array = np.random.default_rng(1).uniform(-3, 5, (400, 3)) * [1, 1e-9, 1e6]
@@ -111,7 +111,7 @@ class APage(OfAResult):
             node, cell = fields_at(t)
             for name, array, tolerance in (("displacement", node["displacement"], 1e-5), ("stress", cell["stress"], 5e-4),
                                            ("det_f", cell["det_f"], 5e-4)):
-                kept = values(blocks[f"r0/{name}/{k}"])
+                kept = values_of(blocks[f"r0/{name}/{k}"])
                 np.testing.assert_allclose(kept, array, rtol=tolerance, atol=tolerance * 1e-2)
 
     def test_holds_a_field_once_that_never_changes(self):
@@ -119,9 +119,18 @@ class APage(OfAResult):
         self.assertIn("r0/region/0", blocks)
         self.assertNotIn("r0/region/1", blocks)
 
+    def test_holds_all_frames_of_a_field_that_comes_back(self):
+        for k, values in enumerate((1, 1, 9, 1)):
+            node, cell = fields_at(self.times[k])
+            (self.result / f"frames/frame_{k:05d}.vtu").write_bytes(Vtu().content(node, {"det_f": np.full((2, 1), float(values))}))
+        text = self.page()
+        self.assertEqual(values_of(unpacked(text)["r0/det_f/2"]).max(), 9)
+        described = json.loads(re.search(r'id="description">(.*?)</script>', text).group(1))
+        self.assertEqual(described["results"][0]["reach"][1], (2 * POINTS - 0.5).max(axis=0).tolist())
+
     def test_holds_what_is_inside_only_where_it_is_asked_for(self):
         self.assertNotIn("r0/tets", unpacked(self.page()))
-        self.assertEqual(len(values(unpacked(self.page(volume=True))["r0/tets"])), 2)
+        self.assertEqual(len(values_of(unpacked(self.page(volume=True))["r0/tets"])), 2)
 
     def test_holds_the_fields_and_frames_that_are_asked_for(self):
         blocks = unpacked(self.page(fields=("det_f",), every=2))
@@ -134,8 +143,8 @@ class APage(OfAResult):
         held[1], load[4, 2] = 1, -3
         (self.result / "setup.vtu").write_bytes(Vtu().content({"held": held, "load": load}, {}))
         blocks = unpacked(self.page())
-        self.assertEqual(values(blocks["r0/held"]).tolist(), [[1]])
-        self.assertEqual(values(blocks["r0/load_values"]).tolist(), [[0, 0, -3]])
+        self.assertEqual(values_of(blocks["r0/held"]).tolist(), [[1]])
+        self.assertEqual(values_of(blocks["r0/load_values"]).tolist(), [[0, 0, -3]])
 
     def test_of_three_results_or_an_unknown_field_is_refused(self):
         self.fails_with("3 results; a view shows one, or two", "view", *3 * [self.result])
@@ -211,6 +220,31 @@ class InABrowser(OfAResult):
     def test_a_phone_shows_all_of_it_within_its_width(self):
         result, console, _ = self.looked_at(390)
         self.assertEqual((result["said"], console, result["fits"]), ([], [], True))
+
+
+    def test_what_a_result_has_not_is_grey_and_said(self):
+        other = write_result(self.folder / "other", self.times)
+        for k, t in enumerate(self.times):
+            node, _ = fields_at(t)
+            (other / f"frames/frame_{k:05d}.vtu").write_bytes(Vtu().content(node, {}))
+        text = page([self.result, other], Extent(), {"color": "stress.xx"})
+        probe = """<script>orthodynView.then(async view => {
+            const under = () => { const p = view.place(POINT, 1); return view.at(p.x, p.y); };
+            const out = [];
+            await view.goTo(3); out.push(under());
+            await view.setColour("displacement.magnitude"); out.push(under());
+            void view.goTo(3); void view.goTo(0); await view.goTo(3); out.push(under());
+            document.body.append(Object.assign(document.createElement("pre"), {id: "probe", textContent: JSON.stringify(out)}));
+        });</script></body>"""
+        point = 2 * POINTS[[0, 1, 2]].mean(axis=0) - 0.5
+        path = self.folder / "probe.html"
+        path.write_text(text.replace("</body>", probe.replace("POINT", ",".join(map(str, point)))), encoding="utf-8")
+        dom, console = dom_of(path, 1400, *GPU)
+        self.assertEqual(console, [])
+        lacking, has, again = json.loads(html.unescape(re.search(r'<pre id="probe">(.*?)</pre>', dom).group(1)))
+        self.assertEqual(lacking, "other has no stress xx")
+        self.assertIn("displacement, magnitude", has)
+        self.assertEqual(again, has)
 
 
 class TheBundle(unittest.TestCase):

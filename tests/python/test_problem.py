@@ -96,10 +96,12 @@ class AProblem(unittest.TestCase):
         self.assertAlmostEqual(found.q[-1, 0], np.cos(6), delta=2e-3)
 
     def test_whose_force_gives_something_else_says_what(self):
-        for force, text in ((lambda t, q, v: [1, 2, 3], "the force has 3 numbers, expected 1"),
-                            (lambda t, q, v: "x", "the force is no array of numbers")):
-            with self.subTest(text), self.assertRaisesRegex((orthodyn.RunError, ValueError, TypeError), text):
-                orthodyn.Problem([1.0], force).solve((0, 1), [1.0], position_scale=1, velocity_scale=1)
+        for given, error, at_once, later in (
+                ([1, 2, 3], ValueError, "shape \\(3,\\), expected \\(1,\\)", "the force has 3 numbers, expected 1"),
+                ("x", TypeError, "no array of numbers", "the force is no array of numbers")):
+            for begin, text in ((0, at_once), (0.5, later)):
+                with self.subTest(text), self.assertRaisesRegex(error, text):
+                    orthodyn.Problem([1.0], lambda t, q, v: given if t >= begin else -q).solve((0, 1), [1.0])
 
     def test_says_what_it_needs(self):
         problem = orthodyn.Problem([1.0], lambda t, q, v: 1 - q)
@@ -112,6 +114,29 @@ class AProblem(unittest.TestCase):
                            (lambda: orthodyn.Problem([1.0], pendulum, damping=[[1.0]]), "damping without stiffness")):
             with self.subTest(text), self.assertRaisesRegex(ValueError, text):
                 call()
+
+    def test_that_could_not_go_on_gives_what_it_computed(self):
+        with self.assertRaises(orthodyn.RunError) as caught:
+            orthodyn.Problem([1.0], pendulum).solve((0, 100), [1.0], integrator="tr_bdf2", max_steps=20, times=10000)
+        self.assertGreater(len(caught.exception.solution.t), 1)
+
+    def test_thrown_from_the_origin_knows_its_size(self):
+        found = orthodyn.Problem([2.0], lambda t, q, v: -8 * q).solve((0, 1), [0.0], [3.0], integrator="arkode_dirk", rtol=1e-7)
+        self.assertAlmostEqual(found.q[-1, 0], 1.5 * np.sin(2.0), delta=1e-5)
+
+    def test_without_a_stiffness_takes_every_method_whatever_is_said_of_symmetry(self):
+        for method in ("cvode_bdf", "arkode_dirk", "newmark"):
+            orthodyn.Problem([1.0], lambda t, q, v: -q, symmetric=True).solve((0, 1), [1.0], integrator=method)
+
+    def test_reads_entries_that_are_zero_at_the_start(self):
+        def force(t, q, v):
+            return np.array([-q[0] - q[0] * q[1] ** 2, -q[1] - q[1] * q[0] ** 2])
+
+        def stiffness(t, q, v):
+            return np.array([[1 + q[1] ** 2, 2 * q[0] * q[1]], [2 * q[0] * q[1], 1 + q[0] ** 2]])
+        given = orthodyn.Problem([1.0, 1.0], force, stiffness).solve((0, 10), [1.0, 0.0], [0, 0.5], integrator="rosenbrock", rtol=1e-5)
+        found = orthodyn.Problem([1.0, 1.0], force).solve((0, 10), [1.0, 0.0], [0, 0.5], integrator="rosenbrock", rtol=1e-5)
+        self.assertLess(abs(given.statistics["steps"] - found.statistics["steps"]), 3)
 
     def test_is_let_go(self):
         class Force:

@@ -42,6 +42,13 @@ class AScene(InAFolder):
         again = orthodyn.Scene.load(self.folder / "beam.yaml").run()
         np.testing.assert_array_equal(scene.run().displacement, again.displacement)
 
+    def test_from_a_file_stays_what_it_was_when_it_was_read(self):
+        file = self.folder / "beam.yaml"
+        file.write_text(orthodyn.Scene(beam()).to_yaml())
+        scene = orthodyn.Scene.load(file)
+        file.unlink()
+        self.assertEqual(scene.set("time.end", 0.05).run().times[-1], 0.05)
+
     def test_is_not_changed_by_set(self):
         scene = orthodyn.Scene(beam())
         other = scene.set("time.end", 0.1).set("materials.wood.young.0", "20 MPa")
@@ -139,6 +146,8 @@ class AResult(InAFolder):
         self.assertEqual(result["det_f"].shape, (9, len(result.cells), 1))
         with self.assertRaisesRegex(KeyError, "no field 'strain'; there are det_f, displacement"):
             result["strain"]
+        with self.assertRaisesRegex(ValueError, "no field 'dispalcement'; there are displacement"):
+            orthodyn.Scene(beam()).run(fields=["dispalcement"])
 
     def test_goes_on_where_it_was_interrupted(self):
         scene = orthodyn.Scene(beam(checkpoint={})).set("checkpoint.every", 0.01)
@@ -156,6 +165,13 @@ class AResult(InAFolder):
         np.testing.assert_array_equal(mesh.point_data["displacement"], result.displacement[3])
         np.testing.assert_array_equal(mesh.cell_data["stress"][0], result.stress[3])
         mesh.write(self.folder / "frame.vtu")
+
+    def test_is_seen_as_long_as_its_page(self):
+        page = orthodyn.Scene(beam()).run().view(color="stress.xx")
+        gc.collect()
+        self.assertIn("srcdoc", page._repr_html_())
+        with self.assertRaisesRegex(ValueError, "no colour 'colour'"):
+            orthodyn.Scene(beam()).run().view(color="colour")
 
     def test_is_seen_as_a_page_and_as_curves(self):
         result = orthodyn.Scene(beam()).run()

@@ -33,6 +33,12 @@ class AStudy(unittest.TestCase):
         self.assertEqual(len(study.plot("wall.median [s]", "error.displacement.l2", "method", log=True).get_lines()), 2)
         self.assertFalse(list(Path().glob(".compare-*")))
 
+    def test_has_a_folder_by_its_title(self):
+        spec = {"scene": "beam.yaml", "vary": {"materials.wood.nu": [0.1, 0.2]},
+                "quantities": {"lowest": {"quantity": "tip.displacement.z", "take": "min"}}}
+        one, two = (orthodyn.sweep({"title": title, **spec}, quiet=True) for title in ("One sweep", "Another"))
+        self.assertEqual((str(one.folder), str(two.folder)), ("out/sweeps/one_sweep", "out/sweeps/another"))
+
     def test_of_values_has_a_row_for_each(self):
         study = orthodyn.sweep({"title": "t", "scene": "beam.yaml", "vary": {"materials.wood.nu": [0.1, 0.2, 0.3]},
                                 "quantities": {"lowest": {"quantity": "tip.displacement.z", "take": "min"}}}, "s", quiet=True)

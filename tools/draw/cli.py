@@ -291,10 +291,13 @@ def _view(args):
     from .view.collect import Extent
     start = {key: value for key, value in (("time", args.time), ("color", args.color)) if value is not None}
     start["scale"] = args.scale
+    extent = Extent(args.volume, args.fields, args.every)
+    if args.png and args.out:
+        raise DrawError("--out and --png: a still is written to the latter; leave one out")
     if args.png:
-        yield page.write_still(args.results, args.png, args.size, start)
+        yield page.write_still(args.results, args.png, args.size, extent, start)
     else:
-        yield page.write_view(args.results, args.out, Extent(args.volume, args.fields, args.every), start)
+        yield page.write_view(args.results, args.out, extent, start)
 
 
 COMMANDS = {"view": _view, "report": _report, "compare": _compare, "load": _load, "axes": _axes, "modes": _modes, "frame": _frame, "strip": _strip, "animate": _animate,

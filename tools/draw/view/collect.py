@@ -16,7 +16,7 @@ from .skin import Skin
 from .strokes import strokes
 
 MOST_ROWS = 20000  # of a table
-SAMPLED = 24  # frames that colour ranges are found from; the smallest and largest values are those of all
+SAMPLED = 24  # frames that are taken whole for the range of a field without peaks; of the others its ends
 TABLES = ("probes", "energy", "reactions", "momentum")
 NOTES = ("status", "scene", "time_reached", "rtol", "warnings")
 
@@ -71,14 +71,15 @@ def add_result(blocks, key, name, extent):
     shown = _Shown(skin, first, extent.volume)
     fields = _fields(first, extent)
     centre = 0.5 * (first.points.min(axis=0) + first.points.max(axis=0))
+    survey = _Survey(series, frames, shown, fields, centre)
     _add_mesh(blocks, key, first, skin, shown, centre, extent.volume)
     return {
         "name": series.folder.name or str(series.folder), "static": is_static(series.folder), "labels": [series.labels[k] for k in frames] if is_sweep(name) else None,
         "centre": centre.tolist(),
-        "reach": _reach(series, frames, shown, centre), "times": [float(series.times[k]) for k in frames], "frames": frames, "nodes": len(shown.nodes), "faces": len(skin.faces),
+        "reach": survey.reach(), "times": [float(series.times[k]) for k in frames], "frames": frames, "nodes": len(shown.nodes), "faces": len(skin.faces),
         "cells": len(first.tets) // first.parts, "volume": extent.volume,
-        "fields": _add_frames(blocks, key, series, frames, shown, fields),
-        "quantities": _quantities(series, frames, shown, fields),
+        "fields": _add_frames(blocks, key, series, frames, shown, survey),
+        "quantities": survey.quantities(),
         "strokes": _add_strokes(blocks, key, first, skin),
         "curves": [curve for table in TABLES for curve in _add_table(blocks, key, series.folder, table)],
         "setup": add_setup(blocks, key, series.folder, len(first.points), shown), "notes": _notes(series.folder)}
@@ -107,43 +108,76 @@ def _add_mesh(blocks, key, frame, skin, shown, centre, volume):
         blocks.add(f"{key}/tet_cell", "u32", np.arange(len(frame.tets)) // frame.parts)
 
 
-def _add_frames(blocks, key, series, frames, shown, fields):
+def _add_frames(blocks, key, series, frames, shown, survey):
     """Blocks KEY/FIELD/FRAME; of a field that never changes only the first."""
     first = series.frame(0)
-    last = series.frame(frames[-1])
-    steady = {name for name in fields if name in ("region",) or
-              (len(frames) > 2 and name != "displacement" and name in last.cell_fields
-               and np.array_equal(shown.of(first, name), shown.of(last, name), equal_nan=True)
-               and np.array_equal(shown.of(first, name), shown.of(series.frame(frames[1]), name), equal_nan=True))}
     for k, index in enumerate(frames):
         frame = series.frame(index)
+        for name in survey.fields:
+            if k == 0 or name not in survey.steady:
+                blocks.add(f"{key}/{name}/{k}", "linear" if name == "displacement" else "half", shown.of(frame, name))
+    return [{"name": name, "on": "nodes" if name in first.node_fields else "cells", "steady": name in survey.steady,
+             "components": shown.of(first, name).shape[1]} for name in survey.fields]
+
+
+class _Survey:
+    """What is to be known of all frames before they are written: that they fit together, how far the body reaches, what
+    never changes, and between which values each quantity is."""
+
+    def __init__(self, series, frames, shown, fields, centre):
+        first = series.frame(0)
+        self.fields, self.steady = fields, {name for name in fields if name != "displacement"}
+        self.low, self.high = np.full(3, np.inf), np.full(3, -np.inf)
+        self._kinds = {name: _kinds(name, first, shown.of(first, name).shape[1]) for name in fields}
+        self._samples = {name: [[] for _ in kinds] for name, kinds in self._kinds.items()}
+        sampled = {frames[int(i)] for i in np.linspace(0, len(frames) - 1, min(SAMPLED, len(frames))).round()}
+        for index in frames:
+            frame = series.frame(index)
+            self._check(series.paths[index], frame, first)
+            self._reach(series.paths[index], frame, shown, centre)
+            self._sample(frame, shown, index in sampled)
+            self.steady = {name for name in self.steady
+                           if np.array_equal(shown.of(first, name), shown.of(frame, name), equal_nan=True)}
+
+    def _check(self, path, frame, first):
         if frame.points.shape != first.points.shape or frame.tets.shape != first.tets.shape:
-            raise DrawError(f"{series.paths[index]}: another mesh than in the first frame")
-        for name in fields:
-            if name in steady and k:
-                continue
-            if name not in frame.node_fields and name not in frame.cell_fields:
-                raise DrawError(f"{series.paths[index]}: has no field '{name}', which the first frame has")
-            blocks.add(f"{key}/{name}/{k}", "linear" if name == "displacement" else "half", shown.of(frame, name))
-    return [{"name": name, "on": "nodes" if name in first.node_fields else "cells", "steady": name in steady,
-             "components": shown.of(first, name).shape[1]} for name in fields]
+            raise DrawError(f"{path}: another mesh than in the first frame")
+        for name in self.fields:
+            if not _has(frame, name):
+                raise DrawError(f"{path}: has no field '{name}', which the first frame has")
+
+    def _reach(self, path, frame, shown, centre):
+        moved = frame.points[shown.nodes] - centre
+        if "displacement" in frame.node_fields:
+            moved = moved + shown.of(frame, "displacement")
+        if not np.isfinite(moved).all():
+            raise DrawError(f"{path}: a displacement is not a finite number")
+        self.low, self.high = np.minimum(self.low, moved.min(axis=0)), np.maximum(self.high, moved.max(axis=0))
+
+    def _sample(self, frame, shown, whole):
+        for name in self.fields:
+            values = shown.of(frame, name).astype(float)
+            for kind, sample in zip(self._kinds[name], self._samples[name]):
+                own = _values(kind, values)
+                sample.append((own if whole or kind.peaked else _ends(own)).astype(np.float32))
+
+    def reach(self):
+        return [self.low.tolist(), self.high.tolist()]
+
+    def quantities(self):
+        """All that may colour the body, with their ranges, in the order of the fields."""
+        return [_described(kind, sample) for name in self.fields
+                for kind, sample in zip(self._kinds[name], self._samples[name])]
 
 
-def _quantities(series, frames, shown, fields):
-    """All that may colour the body, with ranges over the frames, in the order of the fields."""
-    chosen = [frames[int(i)] for i in np.unique(np.linspace(0, len(frames) - 1, min(SAMPLED, len(frames))).round())]
-    first = series.frame(0)
-    found = []
-    for name in fields:
-        count = shown.of(first, name).shape[1]
-        kinds = _kinds(name, first, count)
-        samples = [[] for _ in kinds]
-        for index in chosen:
-            values = shown.of(series.frame(index), name).astype(float)
-            for kind, sample in zip(kinds, samples):
-                sample.append(_values(kind, values))
-        found += [_described(kind, sample) for kind, sample in zip(kinds, samples)]
-    return found
+def _has(frame, name):
+    return name in frame.node_fields or name in frame.cell_fields
+
+
+def _ends(values):
+    """The smallest and the largest number."""
+    finite = values[np.isfinite(values)]
+    return np.array([finite.min(), finite.max()]) if finite.size else np.zeros(0)
 
 
 def _kinds(name, frame, count):
@@ -167,7 +201,8 @@ def _described(quantity, samples):
     colouring = Colouring(quantity, samples)
     kind = 0 if quantity.kind == "value" else quantity.kind
     low, high = colouring.norm.vmin * colouring.factor, colouring.norm.vmax * colouring.factor
-    name = quantity.field if quantity.kind == "value" else f"{quantity.field}.{quantity.label.split()[-1]}"
+    part = quantity.label.split()[-1] if isinstance(quantity.kind, int) else quantity.kind
+    name = quantity.field if part == "value" else f"{quantity.field}.{part}"
     return {"key": f"{quantity.field}.{kind}", "name": name, "field": quantity.field, "kind": kind, "label": quantity.label,
             "unit": quantity.unit, "low": low, "high": high, "diverging": quantity.neutral is not None,
             "categories": quantity.categorical}
@@ -183,20 +218,6 @@ def _add_strokes(blocks, key, frame, skin):
     return len(face)
 
 
-def _reach(series, frames, shown, centre):
-    """The box that holds the body at all frames, about the centre: smallest and largest coordinates."""
-    low, high = np.full(3, np.inf), np.full(3, -np.inf)
-    for index in frames:
-        frame = series.frame(index)
-        moved = frame.points[shown.nodes] - centre
-        if "displacement" in frame.node_fields:
-            moved = moved + shown.of(frame, "displacement")
-        if not np.isfinite(moved).all():
-            raise DrawError(f"{series.paths[index]}: a displacement is not a finite number")
-        low, high = np.minimum(low, moved.min(axis=0)), np.maximum(high, moved.max(axis=0))
-    return [low.tolist(), high.tolist()]
-
-
 def _add_table(blocks, key, folder, name):
     """Curves of a table that is there, with one block for all of its columns."""
     path = folder / f"{name}.csv"
@@ -206,9 +227,9 @@ def _add_table(blocks, key, folder, name):
         table = Table(path)
     except DrawError:  # no rows, as of a run that has just begun
         return []
-    stride = -(-len(table.axis.values) // MOST_ROWS)
+    rows = np.unique(np.linspace(0, len(table.axis.values) - 1, min(len(table.axis.values), MOST_ROWS)).round().astype(int))
     columns = [table.axis, *table.others()]
-    blocks.add(f"{key}/{name}.csv", "f32", np.stack([c.values for c in columns], axis=1)[::stride])
+    blocks.add(f"{key}/{name}.csv", "f32", np.stack([c.values for c in columns], axis=1)[rows])
     return [{"table": name, "column": k, "name": c.name, "unit": c.unit} for k, c in enumerate(columns) if k]
 
 

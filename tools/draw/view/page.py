@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from ..colouring import CATEGORIES, DIVERGING, NOT_A_NUMBER, SEQUENTIAL
-from ..errors import DrawError
+from ..errors import DrawError, unknown
 from .blocks import Blocks
 from .collect import Extent, add_result
 from .still import take_still
@@ -24,9 +24,9 @@ def write_view(results, out=None, extent=Extent(), start=None):
     return path
 
 
-def write_still(results, out, size, start):
+def write_still(results, out, size, extent, start):
     """Writes a still of the view as PNG; returns its path."""
-    return take_still(page(results, Extent(), {**start, "still": True}), Path(out), size)
+    return take_still(page(results, extent, {**start, "still": True}), Path(out), size)
 
 
 def page(results, extent, start=None):
@@ -34,6 +34,7 @@ def page(results, extent, start=None):
         raise DrawError(f"{len(results)} results; a view shows one, or two side by side")
     blocks = Blocks()
     described = [add_result(blocks, f"r{k}", name, extent) for k, name in enumerate(results)]
+    _check_colour((start or {}).get("color"), described)
     title = " and ".join(d["name"] for d in described)
     description = json.dumps({"results": described, "maps": _maps(), "start": start or {}}, allow_nan=False).replace("<", "\\u003c")
     style, script = ((HERE / name).read_text(encoding="utf-8") for name in ("view.css", "viewer.js"))
@@ -43,6 +44,13 @@ def page(results, extent, start=None):
             f'<noscript>The view needs JavaScript.</noscript>\n'
             f'<script type="application/json" id="description">{description}</script>\n{blocks.text()}\n'
             f"<script>{script}</script>\n</body>\n</html>\n")
+
+
+def _check_colour(name, described):
+    """Raises DrawError for a colour that no result has."""
+    known = [q for d in described for q in d["quantities"]]
+    if name and not any(name in (q["name"], q["key"], q["field"]) for q in known):
+        raise unknown("colour", name, dict.fromkeys(q["name"] for q in known))
 
 
 def _maps():

@@ -25,7 +25,6 @@ class SweepPoints(Series):
         self.paths = [self.paths[k] for k in same]
         self.times = [float(k) for k in range(len(same))]
         self.labels = [", ".join(f"{v.name} {v.words(found[k]['values'][v.name])}" for v in sweep.variables) for k in same]
-        self.scale = (sweep.frames or {}).get("enlarged", 1.0)
 
     def _is_like(self, k, first):
         frame = self.frame(k)

@@ -1,4 +1,5 @@
 """A still of a page, taken by a browser that runs without a window."""
+import os
 import shutil
 import subprocess
 import tempfile
@@ -20,7 +21,7 @@ def take_still(text, path, size):
     with tempfile.TemporaryDirectory() as folder:
         page, picture = Path(folder) / "view.html", Path(folder) / "view.png"
         page.write_text(text, encoding="utf-8")
-        command = [browser, "--headless", "--no-sandbox", "--hide-scrollbars", "--use-angle=swiftshader",
+        command = [browser, "--headless", *(["--no-sandbox"] if os.geteuid() == 0 else []), "--hide-scrollbars", "--use-angle=swiftshader",
                    "--enable-unsafe-swiftshader", f"--user-data-dir={folder}/profile",
                    f"--virtual-time-budget={MILLISECONDS}", f"--window-size={size[0]},{size[1]}",
                    f"--screenshot={picture}", page.as_uri()]

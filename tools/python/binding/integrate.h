@@ -17,7 +17,7 @@ struct IntegrateRequest {
   double position_scale = 1, velocity_scale = 1;
 };
 
-// "t" (k,), "q" and "v" (k, n) at the start and at the times that were reached, "status", "message", "reason",
+// "t" (k,), "q" and "v" (k, n) at the start and at the times that were reached, "status", "message",
 // "decisions" and "statistics". A computation that could not go on is a result. Throws ConfigError for options, and
 // what the model throws in Python.
 pybind11::dict integrate(const PythonModel& model, const IntegrateRequest& request);

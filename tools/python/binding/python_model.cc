@@ -46,6 +46,9 @@ template <class Call>
 py::object PythonModel::called(Call&& call) const {
   try {
     return call();
+  } catch (const py::builtin_exception& error) {  // what was given is of no use
+    thrown_ = std::current_exception();
+    throw RunError(error.what());
   } catch (const py::error_already_set& error) {
     if (error.matches(py::module_::import("orthodyn._core").attr("RecoverableError"))) throw RecoverableError(error.what());
     thrown_ = std::current_exception();
@@ -54,7 +57,7 @@ py::object PythonModel::called(Call&& call) const {
 }
 
 void PythonModel::force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const {
-  const Numbers out = numbers(called([&] { return parts_.force(t, copied(q), copied(v)); }), q.size(), "the force");
+  const Numbers out = called([&] { return numbers(parts_.force(t, copied(q), copied(v)), q.size(), "the force"); });
   f = Eigen::Map<const Vector>(out.data(), q.size());
 }
 

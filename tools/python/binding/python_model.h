@@ -13,7 +13,7 @@ namespace orthodyn::python {
 struct PythonModelParts {
   Vector mass;                // kg, of each coordinate
   pybind11::function force;   // f(t, q, v), N
-  pybind11::object tangent;   // (K, D) of (t, q, v) as values on the pattern, D or None; None: differences of f
+  pybind11::object tangent;   // (K, D) of (t, q, v) as values on the pattern, D or None
   Pattern pattern;            // the lower triangle where it is symmetric
   bool damped = false;        // the tangent has a D
   bool linear = false, time_dependent = true;

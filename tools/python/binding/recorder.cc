@@ -7,9 +7,11 @@
 namespace orthodyn::python {
 
 Recorder::Recorder(const OutputSource& source, const std::vector<std::string>& fields) : geometry_(source.geometry()) {
-  for (const OutputInfo& info : source.outputs())
-    if (info.location != Location::global && std::find(fields.begin(), fields.end(), info.name) != fields.end())
-      fields_.push_back({info, {}});
+  const std::vector<OutputInfo> outputs = source.outputs();
+  for (const std::string& name : fields) {
+    const auto info = std::find_if(outputs.begin(), outputs.end(), [&](const OutputInfo& o) { return o.name == name; });
+    if (info != outputs.end() && info->location != Location::global) fields_.push_back({*info, {}});
+  }
 }
 
 void Recorder::record(const ObservedState& observed) {
@@ -34,11 +36,14 @@ py::dict Recorder::take() {
   const auto& connectivity = geometry_.cells.nodes();
   out["cells"] = array_of(std::vector<int>(connectivity.begin(), connectivity.end()), {cells, per_cell});
   py::dict fields;
+  py::list of_cells;
   for (Field& field : fields_) {
     const auto places = field.info.location == Location::node ? nodes : cells;
+    if (field.info.location == Location::cell) of_cells.append(field.info.name);
     fields[field.info.name.c_str()] = array_of(std::move(field.values), {frames, places, field.info.components});
   }
   out["fields"] = fields;
+  out["cell_fields"] = of_cells;
   return out;
 }
 

@@ -20,8 +20,8 @@ class Modes:
 
 
 class Model:
-    """Functions of time t (s), positions q (m) and velocities v (m/s) of the n free coordinates. They hold no state, and let
-    other threads run."""
+    """Functions of time t (s), positions q (m) and velocities v (m/s) of the n free coordinates. They hold no state; forces,
+    tangents, modes and equilibria let other threads run."""
 
     def __init__(self, core: _core.SceneModel) -> None:
         self._core = core
@@ -78,6 +78,8 @@ class Model:
 
     def modes(self, count: int, *, about_equilibrium: bool = False) -> Modes:
         """The lowest `count` natural modes, rigid ones included, about rest or about the equilibrium under the loads."""
+        if count < 1:
+            raise ValueError(f"count: {count}, expected at least 1")
         return Modes(*self._core.modes(count, about_equilibrium))
 
     def equilibrium(self) -> np.ndarray:
@@ -89,6 +91,11 @@ class Model:
     def outputs(self) -> dict[str, str]:
         """What `evaluate` knows: names, and what they are."""
         return {name: f"{sentence} [{unit}]" for name, _, _, unit, sentence in self._core.outputs()}
+
+    @property
+    def fields(self) -> list[str]:
+        """The outputs that have values at nodes or elements."""
+        return [name for name, place, *_ in self._core.outputs() if place != GLOBAL]
 
     def evaluate(self, name: str, t: float, q: np.ndarray, v: np.ndarray | None = None) -> np.ndarray:
         """An output at a state: (nodes or elements, components), or (components,) of one for the whole body."""

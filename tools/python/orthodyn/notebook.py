@@ -4,6 +4,7 @@ from __future__ import annotations
 import html
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -11,6 +12,7 @@ class Page:
     """A page that a notebook shows; anywhere else open `path` in a browser."""
     path: Path
     height: int
+    shown: Any = None  # results whose folders hold it
 
     def _repr_html_(self) -> str:
         page = html.escape(self.path.read_text(encoding="utf-8"), quote=True)

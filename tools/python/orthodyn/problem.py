@@ -1,6 +1,7 @@
 """A model of one's own, M q'' = f(t, q, v), for every integrator of the library."""
 from __future__ import annotations
 
+import numbers
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -31,13 +32,13 @@ class Problem:
     mass       (n,), all positive
     force      f(t, q, v) -> (n,)
     stiffness  K = -df/dq: a matrix, or a function of (t, q, v) that gives one; dense or scipy.sparse. Without it, and for
-               methods that need it, differences of the force, in n + 1 calls
+               methods that need it, differences of the force, in 2 n + 1 calls
     damping    D = -df/dv likewise; only with `stiffness`
     symmetric  K and D are symmetric: only their lower triangles are read
     linear     K and D are constant
 
-    A force that raises RecoverableError asks for a smaller step. All entries that K or D ever have must be stored in the
-    first one.
+    A force that raises RecoverableError asks for a smaller step. What a sparse matrix stores at the start, zeros included, is
+    all that is read of later ones.
     """
 
     def __init__(self, mass: Sequence[float], force: StateFunction, stiffness: Matrix | StateFunction | None = None,
@@ -58,40 +59,49 @@ class Problem:
         """The motion from q0, v0 over t_span.
 
         integrator      any that `orthodyn list integrators` names; options are its keys: rtol=1e-6, step=1e-3, ...
-        times           when the state is wanted, or how many evenly spaced ones
+        times           when the state is wanted, or how many evenly spaced ones; the end is always among them
         position_scale, velocity_scale
-                        sizes of the motion, relative to which errors are at tolerance; default the largest of q0 and of v0
-        Raises ConfigError for options, RunError where the computation could not go on, and what the functions raise.
+                        sizes of the motion, relative to which errors are at tolerance; default the largest of q0 and of v0, or
+                        what follows from the other one
+        Raises ConfigError for options, what the functions raise, and RunError where the computation could not go on: its
+        `solution` holds what was computed so far.
         """
         start, end = map(float, t_span)
         q, v = np.array(q0, float), np.zeros(self.n) if v0 is None else np.array(v0, float)
         if q.shape != (self.n,) or v.shape != (self.n,):
             raise ValueError(f"q0 and v0: expected {self.n} numbers each")
-        wanted = np.linspace(start, end, times + 1)[1:] if isinstance(times, int) else np.array(times, float)
+        wanted = (np.linspace(start, end, int(times) + 1)[1:] if isinstance(times, numbers.Integral)
+                  else np.array(times, float))
         wanted = wanted[wanted > start]
         if not wanted.size or wanted[-1] > end or (np.diff(wanted) <= 0).any():
             raise ValueError("times: expected ascending ones within t_span")
         if wanted[-1] < end:
             wanted = np.append(wanted, end)
         known = _core.integrators()
-        if not self._symmetric and "linear_solver" in known.get(integrator, ()):
+        unsymmetric = self._stiffness is None or not self._symmetric
+        if unsymmetric and "linear_solver" in known.get(integrator, ()):
             options.setdefault("linear_solver", "klu")  # the faster ones are for symmetric matrices
-        scales = self._scales(start, q, v, position_scale, velocity_scale)
+        scales = self._scales(start, end, q, v, position_scale, velocity_scale)
         found = self._core(start, q, v, scales).integrate(as_yaml({"type": integrator, **options}), start, q, v,
                                                           wanted.tolist(), *scales)
+        solution = Solution(found["t"], found["q"], found["v"], found["statistics"], found["decisions"])
         if found["status"] != "completed":
-            raise _core.RunError(found["message"])
-        return Solution(found["t"], found["q"], found["v"], found["statistics"], found["decisions"])
+            error = _core.RunError(found["message"])
+            error.solution = solution  # type: ignore[attr-defined]
+            raise error
+        return solution
 
-    def _scales(self, t: float, q: np.ndarray, v: np.ndarray, position: float | None, velocity: float | None
+    def _scales(self, t: float, end: float, q: np.ndarray, v: np.ndarray, position: float | None, velocity: float | None
                 ) -> tuple[float, float]:
         found = [given if given is not None else float(np.abs(own).max()) for given, own in ((position, q), (velocity, v))]
         force = _numbers(self.force(t, q.copy(), v.copy()))
         if force.shape != (self.n,):
-            raise ValueError(f"the force has {force.size} numbers, expected {self.n}")
+            raise ValueError(f"the force has the shape {force.shape}, expected ({self.n},)")
         acceleration = float(np.abs(force / self.mass).max())
         if found[0] > 0 and not found[1] > 0:
             found[1] = (acceleration * found[0]) ** 0.5 or found[0]
+        if found[1] > 0 and not found[0] > 0:  # a throw from the origin, until a force like the present one stops it
+            found[0] = min(found[1] * (end - t), found[1] ** 2 / acceleration if acceleration > 0 else np.inf)
         if not min(found) > 0:
             raise ValueError("position_scale and velocity_scale: the start is at rest in the origin and tells no size of the "
                              "motion; give both")
@@ -104,8 +114,8 @@ class Problem:
             tangent = _differences(self.force, scales)
             return _core.PythonModel(self.mass, self.force, tangent, full.indptr, full.indices, False, True, False,
                                      self._time_dependent)
-        first = [scipy.sparse.csc_matrix(f(t, q, v)) for f in (self._stiffness, self._damping) if f is not None]
-        pattern = sum((abs(m) > 0 for m in first), scipy.sparse.identity(self.n, bool, "csc"))
+        first = [_places(f(t, q, v)) for f in (self._stiffness, self._damping) if f is not None]
+        pattern = sum(first, scipy.sparse.identity(self.n, format="csc"))
         pattern = (scipy.sparse.tril(pattern) if self._symmetric else pattern).tocsc()
         pattern.sort_indices()
         take = _Taker(pattern)
@@ -123,6 +133,16 @@ def _numbers(given: Any) -> np.ndarray:
         return np.asarray(given, float)
     except (TypeError, ValueError):
         raise TypeError(f"the force is no array of numbers: {given!r}") from None
+
+
+def _places(matrix: Matrix) -> Any:
+    """Ones where it stores an entry; of a dense one everywhere."""
+    import scipy.sparse
+    if not scipy.sparse.issparse(matrix):
+        return scipy.sparse.csc_matrix(np.ones(np.shape(matrix)))
+    stored = matrix.tocsc().copy()
+    stored.data = np.ones(len(stored.data))
+    return stored
 
 
 class _Taker:

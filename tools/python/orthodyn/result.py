@@ -18,17 +18,17 @@ if TYPE_CHECKING:
     import pandas
     from matplotlib.axes import Axes
 
-TABLES = ("probes", "energy", "momentum", "steps", "events", "load_steps")
 CELL_TYPES = {4: "tetra", 10: "tetra10"}
 
 
 class Result:
-    """The result of a run. Arrays of a run in this process are those that the library computed, in double precision;
-    those of `Result.load` are read from the frames, in single."""
+    """The result of a run. Fields that a run in this process kept are those that the library computed, in double precision;
+    all others, and those of `Result.load`, are read from the frames, in single."""
 
     def __init__(self, folder: str | Path) -> None:
         self.folder = Path(folder)
         self._kept: dict[str, Any] = {}
+        self._from_frames: dict[str, np.ndarray] = {}
 
     def _keep(self, kept: dict[str, Any]) -> None:
         """What a run had in memory."""
@@ -101,9 +101,9 @@ class Result:
             return kept[name]
         if name not in self.fields:
             raise KeyError(f"no field '{name}'; there are {', '.join(self.fields) or 'none'} (output.fields of the scene)")
-        kept = self._kept.setdefault("fields", {})
-        kept[name] = self._read(name)
-        return kept[name]
+        if name not in self._from_frames:
+            self._from_frames[name] = self._read(name)
+        return self._from_frames[name]
 
     def _read(self, name: str) -> np.ndarray:
         frames = [self._series.frame(k) for k in range(len(self._series))]
@@ -129,8 +129,11 @@ class Result:
 
     def table(self, name: str) -> dict[str, np.ndarray]:
         """The columns of a CSV file: "probes", "energy", "momentum", "steps", ... The first is t, s."""
+        return {column.name: column.values for column in self._table(name).columns.values()}
+
+    def _table(self, name: str) -> Table:
         try:
-            return {column.name: column.values for column in Table(self.folder / f"{name}.csv").columns.values()}
+            return Table(self.folder / f"{name}.csv")
         except DrawError as error:
             raise FileNotFoundError(str(error)) from None
 
@@ -154,26 +157,34 @@ class Result:
         import meshio
         nodes, cells = len(self.points), len(self.cells)
         values = {name: self[name][frame] for name in self.fields}
-        of_nodes = {name: v for name, v in values.items() if len(v) == nodes and name not in _CELL_FIELDS}
+        of_nodes = {name: v for name, v in values.items() if len(v) == nodes and not self._is_of_cells(name)}
         of_cells = {name: [v] for name, v in values.items() if name not in of_nodes and len(v) == cells}
         return meshio.Mesh(self.points, [(CELL_TYPES[self.cells.shape[1]], self.cells)], of_nodes, of_cells)
 
     def view(self, other: Result | None = None, *, out: str | Path | None = None, volume: bool = False, height: int = 620,
-             **start: Any) -> Page:
-        """A page with a 3D view, which a notebook shows. `other`: a result beside it. `start`: time, color, scale."""
+             time: float | None = None, color: str | None = None, scale: float = 1.0) -> Page:
+        """A page with a 3D view, which a notebook shows. `other`: a result beside it; `volume`: also what is inside, for the clip
+        plane; `time`, `color` ("nodal_stress.von_mises") and `scale` of the deformation: with what it begins."""
         from .draw.view.collect import Extent
         from .draw.view.page import write_view
         folders = [str(result.folder) for result in (self, other) if result is not None]
-        path = write_view(folders, out, Extent(volume=volume), start)
-        return Page(path, height)
+        start = {"scale": float(scale), **({} if time is None else {"time": float(time)}),
+                 **({} if color is None else {"color": color})}
+        try:
+            path = write_view(folders, out, Extent(volume=volume), start)
+        except DrawError as error:
+            raise ValueError(str(error)) from None
+        return Page(path, height, (self, other))
 
     def plot(self, table: str = "probes", columns: list[str] | None = None, ax: Axes | None = None) -> Axes:
         """The columns of a table over time."""
         from .plots import plot_table
-        return plot_table(Table(self.folder / f"{table}.csv"), columns, ax)
+        return plot_table(self._table(table), columns, ax)
 
     def __repr__(self) -> str:
         return f"Result({self.folder}, {self.status or 'no record'})"
 
-
-_CELL_FIELDS = {"region", "det_f", "stress", "stress_material", "strain", "mesh_error"}
+    def _is_of_cells(self, name: str) -> bool:
+        if name in self._kept.get("cell_fields", ()):
+            return True
+        return name not in self._kept.get("fields", {}) and name in self._series.frame(0).cell_fields

@@ -26,17 +26,21 @@ class Scene:
 
     def __init__(self, scene: Mapping[str, Any], name: str = "scene") -> None:
         """`name` stands for the file in messages; files that the scene names are looked for in the working directory."""
-        self._text: str | None = as_yaml(scene)
+        self._text = as_yaml(scene)
         self.name = name
-        self._file = f"{name}.yaml"
+        self._file = str(Path(f"{name}.yaml").absolute())
         self._set: tuple[str, ...] = ()
         self._integrator: str | None = None
 
     @classmethod
     def load(cls, file: str | Path) -> Scene:
         """The scene of a YAML file. Raises ConfigError if it cannot be read."""
+        try:
+            text = Path(file).read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            raise _core.ConfigError(f"{file}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
         made = cls({}, Path(file).stem)
-        made._text, made._file = None, str(file)
+        made._text, made._file = text, str(Path(file).absolute())
         made._simulation()
         return made
 
@@ -56,8 +60,6 @@ class Scene:
         return made
 
     def _simulation(self) -> _core.Simulation:
-        if self._text is None:
-            return _core.Simulation.from_file(self._file, list(self._set), self._integrator)
         return _core.Simulation.from_text(self._text, self._file, list(self._set), self._integrator)
 
     def to_yaml(self) -> str:
@@ -85,13 +87,16 @@ class Scene:
         """
         holder = tempfile.mkdtemp(prefix="orthodyn-") if out is None else None
         folder = Path(holder) / self.name if holder else Path(out)
+        if fields is not None:
+            fields = list(fields)
+            self._check_fields(fields)
         result = Result(folder)
         if holder:
             weakref.finalize(result, shutil.rmtree, holder, True)
         told = _Told(Progress(self.name) if Progress.wanted(progress) else Silence())
         try:
             status, message, kept = self._simulation().run(str(folder), force, resume, estimate_error,
-                                                           None if fields is None else list(fields), told)
+                                                           fields, told)
         finally:
             told.progress.end()
         result._keep(kept)
@@ -104,9 +109,15 @@ class Scene:
             raise error
         return result
 
+    def _check_fields(self, fields: list[str]) -> None:
+        known = self.model().fields
+        for name in fields:
+            if name not in known:
+                raise ValueError(f"no field '{name}'; there are {', '.join(known)}")
+
     def __repr__(self) -> str:
         changes = "".join(f", {change}" for change in self._set)
-        return f"Scene({self._file}{changes})"
+        return f"Scene({self.name}{changes})"
 
 
 class _Told:
@@ -132,5 +143,7 @@ def as_yaml(value: Any) -> str:
     def plain(item: Any) -> Any:
         if hasattr(item, "tolist"):
             return item.tolist()
+        if isinstance(item, Path):
+            return str(item)
         raise TypeError(f"{type(item).__name__} has no meaning in a scene: {item!r}")
-    return json.dumps(value, default=plain)
+    return json.dumps(value, default=plain, ensure_ascii=False)

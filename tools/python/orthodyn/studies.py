@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -82,7 +83,8 @@ def converge(study: str | Path | Mapping[str, Any], out: str | Path | None = Non
 
 def program() -> str:
     """The program `orthodyn`: that of this package, else the first on the PATH."""
-    own = [HERE / "bin" / "orthodyn", *(parent / "orthodyn" for parent in HERE.parents[:2])]
+    own = [HERE / "bin" / "orthodyn", *(parent / "orthodyn" for parent in HERE.parents[:2]),  # of a wheel, a build tree,
+           *(parent / "bin" / "orthodyn" for parent in HERE.parents[3:4])]  # and of a prefix
     found = next((str(path) for path in own if path.is_file() and os.access(path, os.X_OK)), shutil.which("orthodyn"))
     if not found:
         raise FileNotFoundError("the program `orthodyn` is neither in this package nor on the PATH")
@@ -95,10 +97,12 @@ def _run(kind: str, table: str, study: Any, out: str | Path | None, quiet: bool)
         folder = Path(out) if out else Path("out") / _PLURAL[kind] / Path(study).stem
         _call(kind, str(study), folder, quiet)
         return Study(kind, folder, pandas.read_csv(folder / table))
-    folder = Path(out) if out else Path("out") / _PLURAL[kind] / "study"
+    text = as_yaml(study)
+    name = re.sub(r"[^a-z0-9]+", "_", str(study.get("title", "study")).lower()).strip("_") or "study"
+    folder = Path(out) if out else Path("out") / _PLURAL[kind] / name
     # In the working directory: files that it names are looked for beside it.
     with tempfile.NamedTemporaryFile("w", suffix=".yaml", prefix=f".{kind}-", dir=".", delete=False) as stream:
-        stream.write(as_yaml(study))
+        stream.write(text)
     try:
         _call(kind, stream.name, folder, quiet)
     finally:
@@ -114,7 +118,7 @@ def _call(kind: str, file: str, folder: Path, quiet: bool) -> None:
                            stderr=subprocess.PIPE, text=True, check=False)
     if ended.returncode == CONFIG_ERROR:
         raise _core.ConfigError(ended.stderr.strip().removeprefix("error: "))
-    if ended.returncode > CONFIG_ERROR:
-        raise _core.RunError(ended.stderr.strip())
+    if ended.returncode:
+        raise _core.RunError(ended.stderr.strip() or f"{program()} {kind} ended with {ended.returncode}")
     if ended.stderr and not quiet:
         sys.stderr.write(ended.stderr)

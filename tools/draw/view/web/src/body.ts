@@ -85,12 +85,15 @@ export class Body {
   }
 
   // Positions, and numbers of nodes or cells, of one frame.
-  update(displacement: Float32Array | null, values: Float32Array, quantity: Quantity, look: Look, plane: Plane | null): void {
+  // Without values, as of a field that the result has not, it is grey.
+  update(displacement: Float32Array | null, values: Float32Array | null, quantity: Quantity | null, look: Look,
+    plane: Plane | null): void {
     const { mesh } = this.result;
     for (let i = 0; i < this.positions.length; ++i)
       this.positions[i] = (mesh.rest[i] as number) + look.scale * (displacement?.[i] ?? 0);
-    this.values = values;
-    this.onNodes = this.result.isOnNodes(quantity);
+    this.values = values ?? new Float32Array(this.positions.length / 3);
+    this.onNodes = quantity === null || this.result.isOnNodes(quantity);
+    for (const material of [this.paint, this.capPaint]) setUniform(material, "painted", values !== null);
     this.fillSurface();
     this.setPlane(plane);
     this.edges.visible = look.edges === "mesh";
@@ -249,6 +252,11 @@ function arrow(tip: THREE.Vector3, along: THREE.Vector3, out: number[]): void {
   const neck = tip.clone().addScaledVector(along, -0.25);
   for (const [from, to] of [[tail, tip], [neck.clone().add(across), tip], [neck.clone().sub(across), tip]] as const)
     out.push(...from.toArray(), ...to.toArray());
+}
+
+function setUniform(material: Paint, name: string, value: boolean): void {
+  const uniform = material.uniforms[name];
+  if (uniform) uniform.value = value;
 }
 
 function segments(ends: number, material: THREE.LineBasicMaterial): THREE.LineSegments {

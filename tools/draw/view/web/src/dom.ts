@@ -40,8 +40,8 @@ export function button(text: string, title: string, press: () => void): HTMLButt
 }
 
 // A box to tick, with its name after it.
-export function tick(text: string, checked: boolean, change: (on: boolean) => void): HTMLElement {
-  const box = element("input", { type: "checkbox" });
+export function tick(text: string, checked: boolean, change: (on: boolean) => void, id = ""): HTMLElement {
+  const box = element("input", { type: "checkbox", ...(id && { id }) });
   box.checked = checked;
   box.addEventListener("change", () => change(box.checked));
   return element("label", { class: "tick-box" }, box, text);

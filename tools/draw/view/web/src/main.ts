@@ -34,6 +34,7 @@ class View {
   private quantity: Quantity;
   private range: [number, number] | null = null;
   private clip = { axis: -1, part: 0.5, flipped: false };
+  private turn = 0; // of refresh()
   private pointer: { x: number; y: number } | null = null;
 
   constructor(
@@ -110,12 +111,13 @@ class View {
   }
 
   private async refresh(): Promise<void> {
-    const { quantity } = this, plane = this.plane();
+    const { quantity } = this, plane = this.plane(), turn = ++this.turn;
     for (const body of this.bodies) {
       const frame = body.result.frameAt(this.player.time), own = body.result.quantity(quantity.key);
-      if (!own) continue;
-      const [moved, values] = await Promise.all([body.result.displacement(frame), body.result.values(own, frame)]);
-      if (this.player.playing) for (let ahead = 1; ahead <= AHEAD; ++ahead) body.result.prepare(own, frame + ahead);
+      const [moved, values] = await Promise.all([body.result.displacement(frame), own && body.result.values(own, frame)]);
+      if (turn !== this.turn) return; // another frame was asked for meanwhile
+      if (this.player.playing && own)
+        for (let ahead = 1; ahead <= AHEAD; ++ahead) body.result.prepare(own, frame + ahead);
       body.update(moved, values, own, this.look, plane);
     }
     this.stage.setPlane(plane);
@@ -169,7 +171,11 @@ class View {
     const hit = place && this.stage.pick(place.x, place.y);
     this.under.textContent = "";
     if (!hit) return;
-    const { unit, label } = this.quantity;
+    const { unit, label } = this.quantity, of = this.results[hit.pane];
+    if (!of?.quantity(this.quantity.key)) {
+      this.under.textContent = `${of?.about.name} has no ${label}`;
+      return;
+    }
     const number = this.quantity.categories ? String(Math.round(hit.value)) : withUnit(hit.value, unit);
     this.under.textContent = `${label}: ${number} · node ${hit.node} · element ${hit.cell}`;
   }
@@ -195,7 +201,7 @@ class View {
       void this.refresh();
     };
     const ticks: HTMLElement[] = [tick("rest shape", false, set("rest"))];
-    if (first.strokes) ticks.push(tick("grain: material axis 1", false, set("strokes")));
+    if (first.strokes) ticks.push(tick("grain: material axis 1", false, set("strokes"), "grain"));
     if (first.about.setup.held || first.about.setup.loaded) ticks.push(tick("clamps and loads", true, set("marks")));
     const views = element("div", { class: "row buttons" }, ...Object.entries(VIEWS).map(([key, [name, a, e]]) =>
       button(name, `View ${name} (${key})`, () => this.stage.look(a, e))));
@@ -256,16 +262,13 @@ class View {
   private key(event: KeyboardEvent): void {
     const target = event.target as HTMLElement;
     if (event.ctrlKey || event.metaKey || event.altKey || /^(SELECT|TEXTAREA)$/.test(target.tagName)) return;
-    if (target.tagName === "INPUT" && (target as HTMLInputElement).type !== "range") return;
+    if (target.tagName === "INPUT" && target !== this.slider) return;
     const { player } = this, view = VIEWS[event.key];
     const actions: Record<string, () => void> = {
       " ": () => player.toggle(), ArrowLeft: () => void player.goTo(player.frame - 1),
       ArrowRight: () => void player.goTo(player.frame + 1), Home: () => void player.goTo(0),
       End: () => void player.goTo(player.times.length - 1), e: () => this.next("#edges"), c: () => this.next("#clip"),
-      g: () => {
-        this.look.strokes = !this.look.strokes;
-        void this.refresh();
-      },
+      g: () => document.querySelector<HTMLInputElement>("#grain")?.click(),
     };
     const action = view ? () => this.stage.look(view[1], view[2]) : actions[event.key];
     if (!action || (target.tagName === "BUTTON" && event.key === " ")) return;

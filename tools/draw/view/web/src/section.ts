@@ -18,11 +18,13 @@ export class Section {
   private tet = new Uint32Array(1024);
   private count = 0;
   private distance = new Float32Array(0);
+  private normal: Plane["normal"] = [0, 0, 1];
 
   // `values` are of nodes, or of the tetrahedra's cells.
   cut(x: Float32Array, tets: Uint32Array, values: Float32Array, cellOf: Uint32Array | null, plane: Plane): Cut {
     this.count = 0;
     const [a, b, c] = plane.normal, n = x.length / 3;
+    this.normal = plane.normal;
     if (this.distance.length !== n) this.distance = new Float32Array(n);
     const d = this.distance;
     for (let k = 0; k < n; ++k)
@@ -50,6 +52,7 @@ export class Section {
 
   private add(x: Float32Array, values: Float32Array, value: number | null, tet: number, ...edges: Edge[]): void {
     if (this.count === this.tet.length) this.grow();
+    const at = 9 * this.count;
     edges.forEach(({ from, to }, corner) => {
       const d0 = this.distance[from] as number, d1 = this.distance[to] as number, w = d0 / (d0 - d1);
       for (let i = 0; i < 3; ++i)
@@ -58,7 +61,30 @@ export class Section {
       this.values[3 * this.count + corner] =
         value ?? (1 - w) * (values[from] as number) + w * (values[to] as number);
     });
+    if (!this.facesAlong(at)) this.turnRound();
     this.tet[this.count++] = tet;
+  }
+
+  // Whether the triangle is counter-clockwise as seen from what is cut off.
+  private facesAlong(at: number): boolean {
+    const p = this.positions, side = (k: number, i: number) => (p[at + 3 * k + i] as number) - (p[at + i] as number);
+    const [a, b, c] = this.normal;
+    return (
+      a * (side(1, 1) * side(2, 2) - side(1, 2) * side(2, 1)) + b * (side(1, 2) * side(2, 0) - side(1, 0) * side(2, 2)) +
+        c * (side(1, 0) * side(2, 1) - side(1, 1) * side(2, 0)) >= 0
+    );
+  }
+
+  // Swaps the last two corners.
+  private turnRound(): void {
+    for (const [array, size] of [[this.positions, 3], [this.values, 1]] as const) {
+      const second = (3 * this.count + 1) * size, third = second + size;
+      for (let i = 0; i < size; ++i) {
+        const kept = array[second + i] as number;
+        array[second + i] = array[third + i] as number;
+        array[third + i] = kept;
+      }
+    }
   }
 
   private grow(): void {
