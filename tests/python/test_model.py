@@ -80,8 +80,14 @@ class AModel(unittest.TestCase):
             self.model.evaluate("energy.elatsic", 0, q)
 
     def test_refuses_vectors_of_another_length(self):
-        with self.assertRaisesRegex(ValueError, f"q has 3 numbers; the model has {self.model.n}"):
-            self.model.force(0, np.zeros(3))
+        for call in (lambda: self.model.force(0, np.zeros(3)), lambda: self.model.nodal(np.zeros(3)),
+                     lambda: self.model.tangent(0, self.model.points)):
+            with self.assertRaisesRegex(ValueError, rf"q: has the shape \(.*\), expected \({self.model.n},\)"):
+                call()
+        with self.assertRaisesRegex(TypeError, "q: expected real numbers"):
+            self.model.force(0, np.zeros(self.model.n, complex))
+        with self.assertRaisesRegex(ValueError, "count: -1"):
+            self.model.modes(-1)
 
     def test_is_integrated_by_a_method_of_ones_own(self):
         """Ten lines: symplectic Euler, whose error falls with its step."""

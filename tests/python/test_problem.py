@@ -98,7 +98,8 @@ class AProblem(unittest.TestCase):
     def test_whose_force_gives_something_else_says_what(self):
         for given, error, at_once, later in (
                 ([1, 2, 3], ValueError, "shape \\(3,\\), expected \\(1,\\)", "the force has 3 numbers, expected 1"),
-                ("x", TypeError, "no array of numbers", "the force is no array of numbers")):
+                ("x", TypeError, "no array of numbers", "the force is no array of numbers"),
+                (None, TypeError, "no array of numbers", "the force is no array of numbers")):
             for begin, text in ((0, at_once), (0.5, later)):
                 with self.subTest(text), self.assertRaisesRegex(error, text):
                     orthodyn.Problem([1.0], lambda t, q, v: given if t >= begin else -q).solve((0, 1), [1.0])
@@ -106,7 +107,11 @@ class AProblem(unittest.TestCase):
     def test_says_what_it_needs(self):
         problem = orthodyn.Problem([1.0], lambda t, q, v: 1 - q)
         for call, text in ((lambda: problem.solve((0, 1), [0.0]), "tells no size of the motion"),
-                           (lambda: problem.solve((0, 1), [0.0, 1.0]), "expected 1 numbers each"),
+                           (lambda: problem.solve((0, 1), [0.0, 1.0]), r"q0: has the shape \(2,\), expected \(1,\)"),
+                           (lambda: problem.solve((0, 1), [np.nan]), "q0: holds what is not a finite number"),
+                           (lambda: problem.solve((1, 0), [1.0]), "start before the end"),
+                           (lambda: orthodyn.Problem([[2.0, 1], [1, 2]], pendulum), r"mass: has the shape \(2, 2\)"),
+                           (lambda: orthodyn.Problem([1.0], pendulum, np.eye(3)).solve((0, 1), [1.0]), "stiffness: has the shape"),
                            (lambda: problem.solve((0, 1), [1.0], times=[0.5, 0.2]), "ascending"),
                            (lambda: problem.solve((0, 1), [1.0], rtoll=1), "unknown key; did you mean 'rtol'"),
                            (lambda: problem.solve((0, 1), [1.0], integrator="cvode"), "cvode"),
@@ -118,7 +123,7 @@ class AProblem(unittest.TestCase):
     def test_that_could_not_go_on_gives_what_it_computed(self):
         with self.assertRaises(orthodyn.RunError) as caught:
             orthodyn.Problem([1.0], pendulum).solve((0, 100), [1.0], integrator="tr_bdf2", max_steps=20, times=10000)
-        self.assertGreater(len(caught.exception.solution.t), 1)
+        self.assertGreater(len(caught.exception.result.t), 1)
 
     def test_thrown_from_the_origin_knows_its_size(self):
         found = orthodyn.Problem([2.0], lambda t, q, v: -8 * q).solve((0, 1), [0.0], [3.0], integrator="arkode_dirk", rtol=1e-7)

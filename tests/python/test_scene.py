@@ -72,6 +72,10 @@ class AScene(InAFolder):
             orthodyn.Scene.load(self.folder / "nosuch.yaml")
         with self.assertRaisesRegex(ValueError, "rtoll: unknown key; did you mean 'rtol'"):
             orthodyn.Scene(beam()).set("integrator.rtoll", 1e-3).model()
+        with self.assertRaisesRegex(orthodyn.ConfigError, "no integrator 'rk4'; there are .*cvode_bdf"):
+            orthodyn.Scene(beam()).with_integrator("rk4")
+        with self.assertRaisesRegex(TypeError, "expected a scene as a dict, found 'beam.yaml'"):
+            orthodyn.Scene("beam.yaml")
         with self.assertRaisesRegex(TypeError, "set has no meaning in a scene"):
             orthodyn.Scene(beam()).set("time.end", {1, 2})
 
@@ -248,7 +252,7 @@ class ARun(InAFolder):
     def test_ends_with_ctrl_c_and_keeps_what_it_has(self):
         code = ("import orthodyn, sys\nsys.path[:0] = [sys.argv[1]]\nfrom short_scene import beam\n"
                 "s = orthodyn.Scene(beam(time={'end': 1000}))\nprint('ready', flush=True)\n"
-                "try:\n    s.run(sys.argv[2])\nexcept KeyboardInterrupt:\n    print('interrupted', flush=True)\n")
+                "try:\n    s.run(sys.argv[2])\nexcept KeyboardInterrupt as k:\n    print(k.result.status, flush=True)\n")
         child = subprocess.Popen([sys.executable, "-c", code, str(Path(__file__).parent), str(self.folder / "r")],
                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         self.assertEqual(child.stdout.readline(), "ready\n")

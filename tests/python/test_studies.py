@@ -40,13 +40,17 @@ class AStudy(unittest.TestCase):
         self.assertEqual((str(one.folder), str(two.folder)), ("out/sweeps/one_sweep", "out/sweeps/another"))
 
     def test_of_values_has_a_row_for_each(self):
-        study = orthodyn.sweep({"title": "t", "scene": "beam.yaml", "vary": {"materials.wood.nu": [0.1, 0.2, 0.3]},
+        study = orthodyn.sweep({"title": "t", "scene": orthodyn.Scene(beam()), "vary": {"materials.wood.nu": [0.1, 0.2, 0.3]},
                                 "quantities": {"lowest": {"quantity": "tip.displacement.z", "take": "min"}}}, "s", quiet=True)
         self.assertEqual(list(study.table["nu"]), [0.1, 0.2, 0.3])
         self.assertTrue((study.table["lowest [m]"] < 0).all())
+        self.assertEqual(study.plot("nu", "lowest").get_ylabel(), "lowest [m]")
+        with self.assertRaisesRegex(KeyError, "no column 'lowset'; there are point, nu, lowest"):
+            study.plot("nu", "lowset")
+        self.assertFalse(list(Path().glob(".sweep-*")))
 
     def test_of_meshes_has_a_row_for_each(self):
-        study = orthodyn.converge("beam.yaml", "v", quiet=True)
+        study = orthodyn.converge(orthodyn.Scene(beam()), "v", quiet=True)
         self.assertEqual(set(study.table["order"]), {1, 2})
 
     def test_at_fault_says_where(self):

@@ -7,8 +7,10 @@ import numpy as np
 
 from ..colouring import CATEGORIES, DIVERGING, NOT_A_NUMBER, SEQUENTIAL
 from ..errors import DrawError, unknown
+from ..series import Series
 from .blocks import Blocks
 from .collect import Extent, add_result
+from .points import is_sweep
 from .still import take_still
 
 HERE = Path(__file__).resolve().parent
@@ -17,7 +19,8 @@ MOST = 2  # results beside each other
 
 def write_view(results, out=None, extent=Extent(), start=None):
     """Writes the page (default: view.html in the first folder); returns its path."""
-    path = Path(out) if out else Path(results[0]) / "view.html"
+    name = "_".join(["view", *(Path(other).name for other in results[1:])])
+    path = Path(out) if out else Path(results[0]) / f"{name}.html"
     text = page(results, extent, start)
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, encoding="utf-8")
@@ -25,7 +28,12 @@ def write_view(results, out=None, extent=Extent(), start=None):
 
 
 def write_still(results, out, size, extent, start):
-    """Writes a still of the view as PNG; returns its path."""
+    """Writes a still of the view as PNG; returns its path. By default at the largest displacement of the first result."""
+    if Path(out).suffix.lower() != ".png":
+        raise DrawError(f"{out}: a still is a PNG; call it so")
+    if "time" not in start and not is_sweep(results[0]):
+        series = Series(results[0])
+        start = {**start, "time": float(series.times[series.peak[0] or 0])}
     return take_still(page(results, extent, {**start, "still": True}), Path(out), size)
 
 
@@ -34,7 +42,7 @@ def page(results, extent, start=None):
         raise DrawError(f"{len(results)} results; a view shows one, or two side by side")
     blocks = Blocks()
     described = [add_result(blocks, f"r{k}", name, extent) for k, name in enumerate(results)]
-    _check_colour((start or {}).get("color"), described)
+    _check(start or {}, described)
     title = " and ".join(d["name"] for d in described)
     description = json.dumps({"results": described, "maps": _maps(), "start": start or {}}, allow_nan=False).replace("<", "\\u003c")
     style, script = ((HERE / name).read_text(encoding="utf-8") for name in ("view.css", "viewer.js"))
@@ -46,8 +54,14 @@ def page(results, extent, start=None):
             f"<script>{script}</script>\n</body>\n</html>\n")
 
 
-def _check_colour(name, described):
-    """Raises DrawError for a colour that no result has."""
+def _check(start, described):
+    """Raises DrawError for a colour that no result has, and for a time that is not in any."""
+    first, last = min(d["times"][0] for d in described), max(d["times"][-1] for d in described)
+    time, name = start.get("time"), start.get("color")
+    if time is not None and not first <= time <= last:
+        raise DrawError(f"no frame at the time {time:g}; the frames are from {first:g} to {last:g}")
+    if not start.get("scale", 1.0) > 0:
+        raise DrawError(f"a scale of {start['scale']:g}: expected a positive number")
     known = [q for d in described for q in d["quantities"]]
     if name and not any(name in (q["name"], q["key"], q["field"]) for q in known):
         raise unknown("colour", name, dict.fromkeys(q["name"] for q in known))

@@ -1,5 +1,7 @@
 #include "tools/python/binding/listener.h"
 
+#include "tools/python/binding/arrays.h"
+
 namespace orthodyn::python {
 
 namespace {

@@ -18,8 +18,8 @@ using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 Numbers copied(const ConstVectorRef& x) { return Numbers(static_cast<py::ssize_t>(x.size()), x.data()); }
 
 Numbers numbers(const py::object& given, py::ssize_t size, const char* what) {
-  const auto array = Numbers::ensure(given);
-  if (!array) {
+  const auto array = given.is_none() ? Numbers() : Numbers::ensure(given);
+  if (given.is_none() || !array) {
     PyErr_Clear();
     throw py::type_error(fmt::format("{} is no array of numbers", what));
   }

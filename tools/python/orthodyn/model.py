@@ -12,11 +12,14 @@ if TYPE_CHECKING:
     import scipy.sparse
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Modes:
     """Natural modes: `frequencies` (k,), Hz; `shapes` (k, n) on the free coordinates, M-orthonormal."""
     frequencies: np.ndarray
     shapes: np.ndarray
+
+    def __repr__(self) -> str:
+        return f"Modes({np.array2string(self.frequencies, precision=5, threshold=20)} Hz)"
 
 
 class Model:
@@ -50,17 +53,17 @@ class Model:
     def nodal(self, q: np.ndarray) -> np.ndarray:
         """(nodes, 3) of free coordinates; zero where they are held."""
         unknowns = self.unknowns
-        return np.where(unknowns >= 0, np.asarray(q)[np.maximum(unknowns, 0)], 0.0)
+        return np.where(unknowns >= 0, self._own(q, "q")[np.maximum(unknowns, 0)], 0.0)
 
     def force(self, t: float, q: np.ndarray, v: np.ndarray | None = None) -> np.ndarray:
         """f(t, q, v), N. Raises RecoverableError where it cannot be evaluated."""
-        return self._core.force(t, q, self._still(v))
+        return self._core.force(t, self._own(q, "q"), self._still(v))
 
     def tangent(self, t: float, q: np.ndarray, v: np.ndarray | None = None, *, gauss_newton: bool = False
                 ) -> tuple[scipy.sparse.csc_matrix, scipy.sparse.csc_matrix | None]:
         """K = -df/dq (N/m) and D = -df/dv (N s/m), or None without damping. `gauss_newton`: the positive semidefinite
         part."""
-        stiffness, damping = self._core.tangent(t, q, self._still(v), gauss_newton)
+        stiffness, damping = self._core.tangent(t, self._own(q, "q"), self._still(v), gauss_newton)
         return self._matrix(stiffness), self._matrix(damping) if damping.size else None
 
     @property
@@ -70,11 +73,11 @@ class Model:
 
     def solve_mass(self, x: np.ndarray) -> np.ndarray:
         """M^-1 x."""
-        return self._core.solve_mass(x)
+        return self._core.solve_mass(self._own(x, "x"))
 
     def acceleration(self, t: float, q: np.ndarray, v: np.ndarray | None = None) -> np.ndarray:
         """M^-1 f, m/s^2."""
-        return self._core.solve_mass(self._core.force(t, q, self._still(v)))
+        return self._core.solve_mass(self.force(t, q, v))
 
     def modes(self, count: int, *, about_equilibrium: bool = False) -> Modes:
         """The lowest `count` natural modes, rigid ones included, about rest or about the equilibrium under the loads."""
@@ -103,11 +106,24 @@ class Model:
         if name not in known:
             raise KeyError(f"no output '{name}'; see outputs")
         place, components = known[name]
-        values = self._core.evaluate(name, t, q, self._still(v))
+        values = self._core.evaluate(name, t, self._own(q, "q"), self._still(v))
         return values if place == GLOBAL else values.reshape(-1, components)
 
     def _still(self, v: np.ndarray | None) -> np.ndarray:
-        return np.zeros(self.n) if v is None else v
+        return np.zeros(self.n) if v is None else self._own(v, "v")
+
+    def _own(self, x: np.ndarray, name: str) -> np.ndarray:
+        """A vector of the free coordinates, or a word on what it should be."""
+        array = np.asarray(x)
+        if array.shape != (self.n,):
+            raise ValueError(f"{name}: has the shape {array.shape}, expected ({self.n},): one number for each free coordinate, "
+                             "as Model.unknowns numbers them")
+        if array.dtype.kind not in "fiu":
+            raise TypeError(f"{name}: expected real numbers, found {array.dtype}")
+        return array.astype(float, copy=False)
+
+    def __repr__(self) -> str:
+        return f"Model({self.n} free coordinates, {len(self.points)} nodes)"
 
     def _matrix(self, values: np.ndarray) -> scipy.sparse.csc_matrix:
         import scipy.sparse

@@ -16,8 +16,12 @@ def new_axes(ax: Axes | None) -> Axes:
     return pyplot.subplots(figsize=(7, 4), layout="constrained")[1]
 
 
-def plot_table(table: Table, columns: list[str] | None, ax: Axes | None) -> Axes:
+def plot_table(table: Table, columns: str | list[str] | None, ax: Axes | None) -> Axes:
     """Columns over the first one. All have one unit."""
+    columns = [columns] if isinstance(columns, str) else columns
+    for name in columns or ():
+        if name not in table:
+            raise KeyError(f"no column '{name}'; there are {', '.join(c.name for c in table.others())}")
     chosen = [table[name] for name in columns] if columns else table.others()
     units = sorted({column.unit for column in chosen})
     if len(units) > 1 and columns is None:

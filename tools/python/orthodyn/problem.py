@@ -16,7 +16,7 @@ StateFunction = Callable[[float, np.ndarray, np.ndarray], Any]
 EPS = np.finfo(float).eps
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Solution:
     """`t` (k,), `q` and `v` (k, n) at the start and the times asked for; `statistics` and `decisions` of the integrator."""
     t: np.ndarray
@@ -24,6 +24,9 @@ class Solution:
     v: np.ndarray
     statistics: dict[str, Any]
     decisions: dict[str, str]
+
+    def __repr__(self) -> str:
+        return f"Solution({len(self.t)} times to t = {self.t[-1]:g}, {self.q.shape[1]} coordinates, {self.statistics['steps']} steps)"
 
 
 class Problem:
@@ -44,9 +47,14 @@ class Problem:
     def __init__(self, mass: Sequence[float], force: StateFunction, stiffness: Matrix | StateFunction | None = None,
                  damping: Matrix | StateFunction | None = None, *, symmetric: bool = False, linear: bool = False,
                  time_dependent: bool = True) -> None:
-        self.mass = np.array(mass, float).ravel()
-        if not self.mass.size or not (self.mass > 0).all():
-            raise ValueError("mass: expected one positive number for each coordinate")
+        self.mass = np.array(mass, float)
+        if self.mass.ndim != 1 or not self.mass.size:
+            raise ValueError(f"mass: has the shape {self.mass.shape}, expected (n,), the diagonal; with another mass M give ones, "
+                             "and M^-1 f as force")
+        if not (self.mass > 0).all():
+            raise ValueError("mass: expected positive numbers")
+        if not callable(force):
+            raise TypeError(f"force: expected a function of (t, q, v), found {force!r}")
         if damping is not None and stiffness is None:
             raise ValueError("damping without stiffness: give both, or none for differences")
         self.n, self.force = self.mass.size, force
@@ -64,12 +72,19 @@ class Problem:
                         sizes of the motion, relative to which errors are at tolerance; default the largest of q0 and of v0, or
                         what follows from the other one
         Raises ConfigError for options, what the functions raise, and RunError where the computation could not go on: its
-        `solution` holds what was computed so far.
+        `result` holds what was computed so far.
         """
         start, end = map(float, t_span)
         q, v = np.array(q0, float), np.zeros(self.n) if v0 is None else np.array(v0, float)
-        if q.shape != (self.n,) or v.shape != (self.n,):
-            raise ValueError(f"q0 and v0: expected {self.n} numbers each")
+        for name, given in (("q0", q), ("v0", v)):
+            if given.shape != (self.n,):
+                raise ValueError(f"{name}: has the shape {given.shape}, expected ({self.n},), as the mass")
+            if not np.isfinite(given).all():
+                raise ValueError(f"{name}: holds what is not a finite number: {given}")
+        if not start < end:
+            raise ValueError(f"t_span: expected the start before the end, found ({start}, {end})")
+        if isinstance(times, numbers.Integral) and times < 1:
+            raise ValueError(f"times: {times}, expected at least 1, or ascending times")
         wanted = (np.linspace(start, end, int(times) + 1)[1:] if isinstance(times, numbers.Integral)
                   else np.array(times, float))
         wanted = wanted[wanted > start]
@@ -87,7 +102,7 @@ class Problem:
         solution = Solution(found["t"], found["q"], found["v"], found["statistics"], found["decisions"])
         if found["status"] != "completed":
             error = _core.RunError(found["message"])
-            error.solution = solution  # type: ignore[attr-defined]
+            error.result = solution  # type: ignore[attr-defined]
             raise error
         return solution
 
@@ -114,7 +129,8 @@ class Problem:
             tangent = _differences(self.force, scales)
             return _core.PythonModel(self.mass, self.force, tangent, full.indptr, full.indices, False, True, False,
                                      self._time_dependent)
-        first = [_places(f(t, q, v)) for f in (self._stiffness, self._damping) if f is not None]
+        first = [self._places(name, f(t, q, v)) for name, f in (("stiffness", self._stiffness), ("damping", self._damping))
+                 if f is not None]
         pattern = sum(first, scipy.sparse.identity(self.n, format="csc"))
         pattern = (scipy.sparse.tril(pattern) if self._symmetric else pattern).tocsc()
         pattern.sort_indices()
@@ -127,22 +143,28 @@ class Problem:
         return _core.PythonModel(self.mass, self.force, tangent, pattern.indptr, pattern.indices, self._symmetric,
                                  damping is not None, self._linear, self._time_dependent)
 
+    def _places(self, name: str, matrix: Matrix) -> Any:
+        """Ones where it stores an entry; of a dense one everywhere."""
+        import scipy.sparse
+        if np.shape(matrix) != (self.n, self.n):
+            raise ValueError(f"{name}: has the shape {np.shape(matrix)}, expected ({self.n}, {self.n})")
+        if not scipy.sparse.issparse(matrix):
+            return scipy.sparse.csc_matrix(np.ones((self.n, self.n)))
+        stored = matrix.tocsc().copy()
+        stored.data = np.ones(len(stored.data))
+        return stored
+
+    def __repr__(self) -> str:
+        return f"Problem({self.n} coordinates)"
+
 
 def _numbers(given: Any) -> np.ndarray:
     try:
+        if given is None:
+            raise TypeError
         return np.asarray(given, float)
     except (TypeError, ValueError):
         raise TypeError(f"the force is no array of numbers: {given!r}") from None
-
-
-def _places(matrix: Matrix) -> Any:
-    """Ones where it stores an entry; of a dense one everywhere."""
-    import scipy.sparse
-    if not scipy.sparse.issparse(matrix):
-        return scipy.sparse.csc_matrix(np.ones(np.shape(matrix)))
-    stored = matrix.tocsc().copy()
-    stored.data = np.ones(len(stored.data))
-    return stored
 
 
 class _Taker:

@@ -61,6 +61,7 @@ class Result:
 
     @property
     def warnings(self) -> list[str]:
+        """What of the result should not be taken on trust."""
         return self.record.get("warnings", [])
 
     @cached_property
@@ -139,6 +140,7 @@ class Result:
 
     @property
     def probes(self) -> dict[str, np.ndarray]:
+        """What the scene's probes measured: a column each, and t."""
         return self.table("probes")
 
     @property
@@ -176,7 +178,7 @@ class Result:
             raise ValueError(str(error)) from None
         return Page(path, height, (self, other))
 
-    def plot(self, table: str = "probes", columns: list[str] | None = None, ax: Axes | None = None) -> Axes:
+    def plot(self, table: str = "probes", columns: str | list[str] | None = None, ax: Axes | None = None) -> Axes:
         """The columns of a table over time."""
         from .plots import plot_table
         return plot_table(self._table(table), columns, ax)

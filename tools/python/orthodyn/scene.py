@@ -26,6 +26,8 @@ class Scene:
 
     def __init__(self, scene: Mapping[str, Any], name: str = "scene") -> None:
         """`name` stands for the file in messages; files that the scene names are looked for in the working directory."""
+        if not isinstance(scene, Mapping):
+            raise TypeError(f"expected a scene as a dict, found {scene!r}; Scene.load reads a file")
         self._text = as_yaml(scene)
         self.name = name
         self._file = str(Path(f"{name}.yaml").absolute())
@@ -51,6 +53,9 @@ class Scene:
 
     def with_integrator(self, name: str) -> Scene:
         """The scene with another integrator; options that both have are kept."""
+        known = _core.integrators()
+        if name not in known:
+            raise _core.ConfigError(f"no integrator '{name}'; there are {', '.join(known)}")
         return self._changed(_integrator=name)
 
     def _changed(self, **attributes: Any) -> Scene:
@@ -82,21 +87,23 @@ class Scene:
         progress        show how far it is; default in a terminal or a notebook
 
         Warnings are `OrthodynWarning`s. Raises ConfigError before anything is computed, and RunError where the computation
-        could not go on: its `result` holds what was computed so far. Ctrl-C ends the run after the step that it is in.
-        Other threads run on meanwhile.
+        could not go on: its `result` holds what was computed so far. Ctrl-C ends the run after the step that it is in; the
+        KeyboardInterrupt has a `result`, too. Other threads run on meanwhile.
         """
         holder = tempfile.mkdtemp(prefix="orthodyn-") if out is None else None
         folder = Path(holder) / self.name if holder else Path(out)
         if fields is not None:
-            fields = list(fields)
+            fields = [fields] if isinstance(fields, str) else list(fields)
             self._check_fields(fields)
         result = Result(folder)
         if holder:
             weakref.finalize(result, shutil.rmtree, holder, True)
         told = _Told(Progress(self.name) if Progress.wanted(progress) else Silence())
         try:
-            status, message, kept = self._simulation().run(str(folder), force, resume, estimate_error,
-                                                           fields, told)
+            status, message, kept = self._simulation().run(str(folder), force, resume, estimate_error, fields, told)
+        except KeyboardInterrupt as interrupt:
+            interrupt.result = result  # type: ignore[attr-defined]
+            raise
         finally:
             told.progress.end()
         result._keep(kept)

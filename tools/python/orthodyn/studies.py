@@ -8,14 +8,15 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _core
 from .notebook import Page
-from .scene import as_yaml
+from .scene import Scene, as_yaml
 
 if TYPE_CHECKING:
     import pandas
@@ -43,6 +44,7 @@ class Study:
     def plot(self, x: str, y: str, by: str | None = None, ax: Axes | None = None, *, log: bool = False) -> Axes:
         """One column over another, a line for each value of a third."""
         from .plots import new_axes
+        x, y, by = (name and self.column(name) for name in (x, y, by))
         ax = new_axes(ax)
         groups = self.table.groupby(by) if by else [("", self.table)]
         for name, rows in groups:
@@ -57,17 +59,37 @@ class Study:
             ax.legend(frameon=False)
         return ax
 
+    def column(self, name: str) -> str:
+        """The column of that name, with its unit: "deflection" is "deflection [m]"."""
+        found = [c for c in self.table.columns if c == name or c.split(" [")[0] == name]
+        if not found:
+            raise KeyError(f"no column '{name}'; there are {', '.join(self.table.columns)}")
+        return found[0]
+
     def __repr__(self) -> str:
         return f"Study({self.kind}, {len(self.table)} points, {self.folder})"
 
 
 def compare(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, quiet: bool = False) -> Study:
-    """Integrators on scenes: error against time. `study`: a YAML file, or a dict as it would hold."""
+    """Integrators on scenes: error against time. `study`: a YAML file, or a dict as it would hold:
+
+        orthodyn.compare({"title": "Beam", "scenes": [scene], "integrators": ["cvode_bdf", "tr_bdf2"],
+                          "tolerances": [1e-2, 1e-4]})
+
+    A scene is a file, or a `Scene`.
+    """
     return _run("compare", "compare.csv", study, out, quiet)
 
 
 def sweep(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, quiet: bool = False) -> Study:
-    """A scene over values of its keys."""
+    """A scene over values of its keys:
+
+        orthodyn.sweep({"title": "Stiffer", "scene": scene, "vary": {"materials.spruce.young.0": ["8 GPa", "12 GPa"]},
+                        "quantities": {"deflection": {"quantity": "tip.displacement.z"}}})
+
+    A scene is a file, a `Scene`, or {"file": one of these, "set": {"damping.stiffness": "=zeta/30"}}, where what is varied
+    may have a name of its own, "vary": {"zeta": [0.01, 0.1]}.
+    """
     return _run("sweep", "sweep.csv", study, out, quiet)
 
 
@@ -76,8 +98,8 @@ def stability(study: str | Path | Mapping[str, Any], out: str | Path | None = No
     return _run("stability", "stability.csv", study, out, quiet)
 
 
-def converge(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, quiet: bool = False) -> Study:
-    """A scene on finer and finer meshes. `study`: a scene, as `orthodyn converge` takes it."""
+def converge(study: str | Path | Scene, out: str | Path | None = None, *, quiet: bool = False) -> Study:
+    """A scene, or its file, on finer and finer meshes."""
     return _run("converge", "convergence.csv", study, out, quiet)
 
 
@@ -93,21 +115,41 @@ def program() -> str:
 
 def _run(kind: str, table: str, study: Any, out: str | Path | None, quiet: bool) -> Study:
     import pandas
-    if not isinstance(study, Mapping):
-        folder = Path(out) if out else Path("out") / _PLURAL[kind] / Path(study).stem
-        _call(kind, str(study), folder, quiet)
-        return Study(kind, folder, pandas.read_csv(folder / table))
-    text = as_yaml(study)
-    name = re.sub(r"[^a-z0-9]+", "_", str(study.get("title", "study")).lower()).strip("_") or "study"
-    folder = Path(out) if out else Path("out") / _PLURAL[kind] / name
-    # In the working directory: files that it names are looked for beside it.
-    with tempfile.NamedTemporaryFile("w", suffix=".yaml", prefix=f".{kind}-", dir=".", delete=False) as stream:
+    with ExitStack() as written:
+        if isinstance(study, Scene):
+            file, name = written.enter_context(_file(kind, study.to_yaml())), study.name
+        elif isinstance(study, Mapping):
+            file, name = written.enter_context(_file(kind, as_yaml(_with_files(kind, study, written)))), _name(study)
+        else:
+            file, name = str(study), Path(study).stem
+        folder = Path(out) if out else Path("out") / _PLURAL[kind] / name
+        _call(kind, file, folder, quiet)
+    return Study(kind, folder, pandas.read_csv(folder / table))
+
+
+@contextmanager
+def _file(kind: str, text: str) -> Iterator[str]:
+    """A file for the program, in the working directory: what it names is looked for beside it."""
+    with tempfile.NamedTemporaryFile("w", suffix=".yaml", prefix=f".{kind}-", dir=".", encoding="utf-8", delete=False) as stream:
         stream.write(text)
     try:
-        _call(kind, stream.name, folder, quiet)
+        yield os.path.basename(stream.name)
     finally:
         os.unlink(stream.name)
-    return Study(kind, folder, pandas.read_csv(folder / table))
+
+
+def _with_files(kind: str, item: Any, written: ExitStack) -> Any:
+    """The same with a file for each Scene."""
+    if isinstance(item, Scene):
+        return written.enter_context(_file(kind, item.to_yaml()))
+    if isinstance(item, Mapping):
+        return {key: _with_files(kind, value, written) for key, value in item.items()}
+    return [_with_files(kind, value, written) for value in item] if isinstance(item, (list, tuple)) else item
+
+
+def _name(study: Mapping[str, Any]) -> str:
+    """Of its folder, from its title."""
+    return re.sub(r"[^a-z0-9]+", "_", str(study.get("title", "")).lower()).strip("_") or "study"
 
 
 _PLURAL = {"compare": "comparisons", "sweep": "sweeps", "stability": "stability", "converge": "convergence"}

@@ -34,6 +34,7 @@ export class Stage {
   private readonly scenes: THREE.Scene[];
   private readonly clip = new THREE.Plane();
   private pending = false;
+  private isMoved = false; // by the user
   private scale = 1; // of displacements
   private direction: [number, number] = [AZIMUTH, ELEVATION];
 
@@ -55,6 +56,7 @@ export class Stage {
     this.camera.up.set(0, 0, 1);
     this.orbit = new OrbitControls(this.camera, this.canvas);
     this.orbit.addEventListener("change", () => this.draw());
+    this.orbit.addEventListener("start", () => (this.isMoved = true));
     new ResizeObserver(() => this.resize()).observe(holder);
     this.look(AZIMUTH, ELEVATION);
     this.resize();
@@ -63,6 +65,7 @@ export class Stage {
   // From a direction, in degrees about z, with all in sight.
   look(azimuth: number, elevation: number): void {
     this.direction = [azimuth, elevation];
+    this.isMoved = false;
     const a = THREE.MathUtils.degToRad(azimuth), e = THREE.MathUtils.degToRad(Math.min(Math.max(elevation, -89.9), 89.9));
     const toward = new THREE.Vector3(Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e));
     const box = new THREE.Box3();
@@ -166,8 +169,10 @@ export class Stage {
     );
   }
 
+  // All stays in sight until the user has chosen what to see.
   private resize(): void {
     this.renderer.setSize(this.holder.clientWidth, this.holder.clientHeight);
+    if (!this.isMoved) this.look(...this.direction);
     this.drawNow();
   }
 }
