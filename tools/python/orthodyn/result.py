@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     import pandas
     from matplotlib.axes import Axes
 
+TEMPORARY = "orthodyn-"  # how folders of results begin that have no place of their own
 CELL_TYPES = {4: "tetra", 10: "tetra10"}
 
 
@@ -184,7 +185,8 @@ class Result:
         return plot_table(self._table(table), columns, ax)
 
     def __repr__(self) -> str:
-        return f"Result({self.folder}, {self.status or 'no record'})"
+        name = self.folder.name if self.folder.parent.name.startswith(TEMPORARY) else self.folder
+        return f"Result({name}, {self.status or 'no record'})"
 
     def _is_of_cells(self, name: str) -> bool:
         if name in self._kept.get("cell_fields", ()):

@@ -13,7 +13,7 @@ from typing import Any
 from . import _core
 from .model import Model
 from .progress import Progress, Silence
-from .result import Result
+from .result import TEMPORARY, Result
 
 
 class OrthodynWarning(UserWarning):
@@ -90,7 +90,7 @@ class Scene:
         could not go on: its `result` holds what was computed so far. Ctrl-C ends the run after the step that it is in; the
         KeyboardInterrupt has a `result`, too. Other threads run on meanwhile.
         """
-        holder = tempfile.mkdtemp(prefix="orthodyn-") if out is None else None
+        holder = tempfile.mkdtemp(prefix=TEMPORARY) if out is None else None
         folder = Path(holder) / self.name if holder else Path(out)
         if fields is not None:
             fields = [fields] if isinstance(fields, str) else list(fields)
