@@ -11,8 +11,8 @@ namespace orthodyn {
 inline constexpr const char* kSetupFile = "setup.vtu";
 
 // Writes <folder>/setup.vtu when a run begins: the rest shape with, at each node, `held`, 1 for each coordinate that is
-// clamped or moved, else 0; and `load`, N: what loads other than gravity exert in the initial state at the peak of their
-// factors. Springs, dashpots and contact are no loads. Throws RunError.
+// clamped or moved, else 0; and `load`, N: what loads other than gravity exert in the initial state at the peak of
+// their factors. Springs, dashpots and contact are no loads. Throws RunError.
 class SetupWriter : public Observer {
  public:
   // `setup` must outlive it.
