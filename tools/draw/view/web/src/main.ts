@@ -122,7 +122,8 @@ class View {
     }
     this.stage.setPlane(plane);
     this.pointed(this.pointer);
-    this.stage.draw();
+    if (this.player.playing) this.stage.drawNow(); // within the frame of the clock that asked for it
+    else this.stage.draw();
   }
 
   // The colours of the quantity and its range, on all bodies and in the legend.
