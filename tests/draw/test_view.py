@@ -183,6 +183,12 @@ orthodynView.then(async view => {
   document.querySelector("#clip").dispatchEvent(new Event("change"));
   await view.goTo(3);
   result.prints.push(print());
+  const {cut} = view.bodies[0], facing = [];
+  for (let t = 0; cut && t < cut.count; ++t) {
+    const p = cut.positions, side = (k, i) => p[9 * t + 3 * k + i] - p[9 * t + i];
+    facing.push(side(1, 1) * side(2, 2) - side(1, 2) * side(2, 1) >= 0);  // what is above in x is cut off
+  }
+  result.cap = [facing.length, facing.every(Boolean)];
   result.fits = document.documentElement.scrollWidth <= innerWidth;
   result.charts = document.querySelectorAll(".chart").length;
   document.body.append(Object.assign(document.createElement("pre"), {id: "probe", textContent: JSON.stringify({...result, said})}));
@@ -209,6 +215,8 @@ class InABrowser(OfAResult):
         result, console, cell = self.looked_at(1400, volume=True)
         self.assertEqual((result["said"], console), ([], []))
         self.assertEqual(len(set(result["prints"])), 7)
+        self.assertGreater(result["cap"][0], 0)
+        self.assertTrue(result["cap"][1], "the section must show its painted side")
         self.assertEqual(result["clock"], "t = 1.000 s  (4 of 4)")
         self.assertGreaterEqual(result["charts"], 1)
         moved, volume, stress = result["values"]

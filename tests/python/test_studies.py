@@ -49,6 +49,17 @@ class AStudy(unittest.TestCase):
             study.plot("nu", "lowset")
         self.assertFalse(list(Path().glob(".sweep-*")))
 
+    def test_of_a_scene_of_another_folder_finds_its_mesh(self):
+        Path("there").mkdir()
+        scenes = Path(__file__).resolve().parents[2] / "configs/scenes"
+        Path("there/meshes").symlink_to(scenes / "meshes")
+        Path("there/muscle.yaml").write_text((scenes / "muscle.yaml").read_text())
+        scene = orthodyn.Scene.load("there/muscle.yaml").set("time.end", 0.001)
+        study = orthodyn.compare({"title": "t", "scenes": [scene], "integrators": ["cvode_bdf"], "tolerances": [1e-2],
+                                  "reference": {"integrator": {"type": "tr_bdf2", "rtol": 1e-3}}}, "c", quiet=True)
+        self.assertEqual(list(study.table.status), ["completed"])
+        self.assertFalse(list(Path("there").glob(".compare-*")))
+
     def test_of_meshes_has_a_row_for_each(self):
         study = orthodyn.converge(orthodyn.Scene(beam()), "v", quiet=True)
         self.assertEqual(set(study.table["order"]), {1, 2})

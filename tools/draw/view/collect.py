@@ -17,8 +17,8 @@ from .strokes import strokes
 
 MOST_ROWS = 20000  # of a table
 SAMPLED = 24  # frames that are taken whole for the range of a field without peaks; of the others its ends
-TABLES = ("probes", "energy", "reactions", "momentum")
-NOTES = ("status", "scene", "time_reached", "rtol", "warnings")
+TABLES = ("probes", "energy", "momentum")
+NOTES = ("status", "warnings")
 
 
 @dataclass(frozen=True)
@@ -74,9 +74,9 @@ def add_result(blocks, key, name, extent):
     survey = _Survey(series, frames, shown, fields, centre)
     _add_mesh(blocks, key, first, skin, shown, centre, extent.volume)
     return {
-        "name": series.folder.name or str(series.folder), "static": is_static(series.folder), "labels": [series.labels[k] for k in frames] if is_sweep(name) else None,
-        "centre": centre.tolist(),
-        "reach": survey.reach(), "times": [float(series.times[k]) for k in frames], "frames": frames, "nodes": len(shown.nodes), "faces": len(skin.faces),
+        "name": series.folder.name or str(series.folder), "static": is_static(series.folder),
+        "labels": [series.labels[k] for k in frames] if is_sweep(name) else None,
+        "centre": centre.tolist(), "reach": survey.reach(), "times": [float(series.times[k]) for k in frames],
         "cells": len(first.tets) // first.parts, "volume": extent.volume,
         "fields": _add_frames(blocks, key, series, frames, shown, survey),
         "quantities": survey.quantities(),
@@ -239,7 +239,4 @@ def _notes(folder):
         record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return {}
-    notes = {key: record[key] for key in NOTES if key in record}
-    given = record.get("model", {}).get("given", {}) if isinstance(record.get("model"), dict) else {}
-    notes["gravity"] = given.get("gravity") if isinstance(given, dict) else None
-    return notes
+    return {key: record[key] for key in NOTES if key in record}

@@ -6,7 +6,7 @@ from ..vtu import read_vtu
 
 
 def add_setup(blocks, key, folder, num_points, shown):
-    """Adds nodes that are held, with the components that are, and nodal forces; returns how many there are of each."""
+    """Adds nodes that are held, and loaded ones with their forces; returns how many there are of each."""
     path = folder / "setup.vtu"
     if not path.is_file():
         return {"held": 0, "loaded": 0}
@@ -20,5 +20,6 @@ def add_setup(blocks, key, folder, num_points, shown):
         counts[kind] = len(nodes)
         if len(nodes):
             blocks.add(f"{key}/{kind}", "u32", shown.node(nodes))
-            blocks.add(f"{key}/{field}_values", "f32", values[nodes])
+            if kind == "loaded":
+                blocks.add(f"{key}/load_values", "f32", values[nodes])
     return counts

@@ -67,6 +67,11 @@ class Scene:
     def _simulation(self) -> _core.Simulation:
         return _core.Simulation.from_text(self._text, self._file, list(self._set), self._integrator)
 
+    @property
+    def folder(self) -> Path:
+        """Where files that it names are looked for."""
+        return Path(self._file).parent
+
     def to_yaml(self) -> str:
         """The scene as YAML, with its changes."""
         return self._simulation().resolved()

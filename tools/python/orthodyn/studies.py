@@ -117,7 +117,7 @@ def _run(kind: str, table: str, study: Any, out: str | Path | None, quiet: bool)
     import pandas
     with ExitStack() as written:
         if isinstance(study, Scene):
-            file, name = written.enter_context(_file(kind, study.to_yaml())), study.name
+            file, name = _with_files(kind, study, written), study.name
         elif isinstance(study, Mapping):
             file, name = written.enter_context(_file(kind, as_yaml(_with_files(kind, study, written)))), _name(study)
         else:
@@ -128,12 +128,12 @@ def _run(kind: str, table: str, study: Any, out: str | Path | None, quiet: bool)
 
 
 @contextmanager
-def _file(kind: str, text: str) -> Iterator[str]:
-    """A file for the program, in the working directory: what it names is looked for beside it."""
-    with tempfile.NamedTemporaryFile("w", suffix=".yaml", prefix=f".{kind}-", dir=".", encoding="utf-8", delete=False) as stream:
+def _file(kind: str, text: str, folder: Path = Path(".")) -> Iterator[str]:
+    """A file for the program: what it names is looked for beside it."""
+    with tempfile.NamedTemporaryFile("w", suffix=".yaml", prefix=f".{kind}-", dir=folder, encoding="utf-8", delete=False) as stream:
         stream.write(text)
     try:
-        yield os.path.basename(stream.name)
+        yield os.path.abspath(stream.name)
     finally:
         os.unlink(stream.name)
 
@@ -141,7 +141,7 @@ def _file(kind: str, text: str) -> Iterator[str]:
 def _with_files(kind: str, item: Any, written: ExitStack) -> Any:
     """The same with a file for each Scene."""
     if isinstance(item, Scene):
-        return written.enter_context(_file(kind, item.to_yaml()))
+        return written.enter_context(_file(kind, item.to_yaml(), item.folder))
     if isinstance(item, Mapping):
         return {key: _with_files(kind, value, written) for key, value in item.items()}
     return [_with_files(kind, value, written) for value in item] if isinstance(item, (list, tuple)) else item

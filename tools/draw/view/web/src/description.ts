@@ -34,9 +34,6 @@ export interface ResultDescription {
   centre: [number, number, number]; // m, that positions are relative to
   reach: [number[], number[]]; // smallest and largest coordinates over all frames
   times: number[];
-  frames: number[]; // their numbers in the folder
-  nodes: number;
-  faces: number;
   cells: number; // of the whole mesh
   volume: boolean; // nodes and cells inside are there, too
   fields: Field[];
@@ -46,11 +43,7 @@ export interface ResultDescription {
   setup: { held: number; loaded: number };
   notes: {
     status?: string;
-    scene?: string;
-    time_reached?: number;
-    rtol?: number;
     warnings?: string[];
-    gravity?: [number, number, number] | null;
   };
 }
 

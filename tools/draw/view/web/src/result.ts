@@ -19,7 +19,6 @@ export interface Mesh {
 
 export interface Marks {
   held: Uint32Array; // nodes
-  heldComponents: Float32Array; // three each, 1 where it cannot move
   loaded: Uint32Array;
   loads: Float32Array; // N, three each
 }
@@ -109,13 +108,9 @@ export class Result {
 }
 
 async function readMarks(key: string): Promise<Marks> {
-  const none = { nodes: new Uint32Array(0), values: new Float32Array(0) };
-  const read = async (kind: string, values: string) =>
-    hasBlock(`${key}/${kind}`)
-      ? { nodes: await integers(`${key}/${kind}`), values: await floats(`${key}/${values}`) }
-      : none;
-  const held = await read("held", "held_values"), loaded = await read("loaded", "load_values");
-  return { held: held.nodes, heldComponents: held.values, loaded: loaded.nodes, loads: loaded.values };
+  const nodes = async (kind: string) => (hasBlock(`${key}/${kind}`) ? integers(`${key}/${kind}`) : new Uint32Array(0));
+  const loads = hasBlock(`${key}/load_values`) ? await floats(`${key}/load_values`) : new Float32Array(0);
+  return { held: await nodes("held"), loaded: await nodes("loaded"), loads };
 }
 
 export function scalars(values: Float32Array, components: number, kind: Quantity["kind"]): Float32Array {
