@@ -65,7 +65,11 @@ NodeFields Value<NodeFields>::read(const Config& c, const Rule& r) {
 }
 
 Shape Value<FrameFields>::shape() { return shape_of_names({Location::node, Location::cell}); }
-FrameFields Value<FrameFields>::read(const Config& c, const Rule& r) { return read_names<FrameFields>(c, r); }
+FrameFields Value<FrameFields>::read(const Config& c, const Rule& r) {
+  FrameFields names = read_names<FrameFields>(c, r);
+  names.origin = {c.where()};
+  return names;
+}
 
 const Spec<Probe>& Probe::spec() {
   static const auto s =

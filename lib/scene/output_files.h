@@ -20,6 +20,7 @@ struct NodeFields : std::vector<std::string> {
 };
 struct FrameFields : std::vector<std::string> {
   using vector::vector;
+  Origin origin = {};  // "" of default ones
 };
 
 template <>

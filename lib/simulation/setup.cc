@@ -42,8 +42,9 @@ void check_fields(const Model& model, const std::vector<std::string>& fields, st
 }
 
 void check_outputs(const Scene& scene, const FemModel& model) {
-  check_fields(model, scene.output.fields, {Location::node, Location::cell}, scene.output.origin);
-  for (const auto& field : scene.output.fields) require_strengths(field, "", model, scene.output.origin);
+  const FrameFields& fields = scene.output.fields;
+  check_fields(model, fields, {Location::node, Location::cell}, fields.origin);
+  for (const auto& field : fields) require_strengths(field, "", model, fields.origin);
   for (const auto& [name, probe] : scene.output.probes) {
     check_fields(model, probe.fields, {Location::node}, probe.origin);
     for (const auto& field : probe.fields)

@@ -103,6 +103,46 @@ TEST_F(Compare, RefusesQuantitiesThatASceneDoesNotHaveBeforeItBegins) {
   }
 }
 
+// Of the samples some, so that reference and points have frames at the same times.
+TEST_F(Compare, KeepsFramesWhereTheyAreAskedFor) {
+  write("c.yaml", kSmall + std::string("frames: {count: 5, fields: [displacement, stress]}\n"));
+  const auto done = compare();
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  const Json t = table();
+  const fs::path all = folder_ / "out/comparisons/c";
+  const std::string reference = read_text(all / t.at("problems")[0].at("reference").at("folder") / "frames.pvd");
+  EXPECT_EQ(std::count(reference.begin(), reference.end(), '\n'), 3 + 6 + 2);
+  for (const auto& point : t.at("points")) {
+    const fs::path folder = (all / point.at("scene")).parent_path();
+    EXPECT_EQ(read_text(folder / "frames.pvd"), reference);
+    EXPECT_NE(read_text(folder / "frames/frame_00005.vtu").find("\"stress\""), std::string::npos);
+    EXPECT_FALSE(fs::exists(folder / "frames/frame_00006.vtu"));
+    EXPECT_TRUE(fs::exists(folder / "setup.vtu"));
+  }
+  std::size_t kept = 0;
+  for (const auto& entry : fs::directory_iterator(all / "references")) kept += fs::exists(entry.path() / "frames.pvd");
+  EXPECT_EQ(kept, 1u) << "the check of the reference is shown nowhere";
+}
+
+TEST_F(Compare, KeepsNoFramesUnasked) {
+  ASSERT_EQ(compare().exit_code, 0);
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out"))
+    EXPECT_NE(entry.path().extension(), ".vtu") << entry.path();
+}
+
+TEST_F(Compare, RefusesFramesThatCannotBe) {
+  for (const auto& [frames, words] : {std::pair{"{fields: [velocity]}", "without 'displacement'"},
+                                      {"{count: 41}", "41 frames of 40 samples"},
+                                      {"{fields: [displacement, strss]}", "did you mean 'stress'"}}) {
+    write("c.yaml", std::string("frames: ") + frames + "\n" + kSmall);
+    const auto refused = compare();
+    EXPECT_EQ(refused.exit_code, 2) << refused.output;
+    EXPECT_NE(refused.output.find("c.yaml:1"), std::string::npos) << refused.output;
+    EXPECT_NE(refused.output.find(words), std::string::npos) << refused.output;
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+  }
+}
+
 TEST_F(Compare, TheCsvHoldsTheNumbersOfTheJson) {
   ASSERT_EQ(compare().exit_code, 0);
   std::istringstream csv(read_text(folder_ / "out/comparisons/c/compare.csv"));

@@ -80,9 +80,10 @@ std::vector<Config> scenes_of(const Design& design) {
   return scenes;
 }
 
-// Slips of the scenes, each once; and that they have the quantities, before hours of points that do not.
+// Slips of the scenes, each once; and that they have the quantities and the fields of frames, before hours of points that
+// do not.
 void look_at(const Comparison& comparison, const Config& config, const std::vector<Config>& scenes) {
-  if (comparison.quantities.empty()) {
+  if (comparison.quantities.empty() && !comparison.frames) {
     SlipTeller teller;
     for (const Config& scene : scenes) teller.tell(scene);
     return;

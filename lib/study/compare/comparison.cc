@@ -1,5 +1,7 @@
 #include "lib/study/compare/comparison.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 #include <string_view>
@@ -55,6 +57,15 @@ void refuse_unused(const Config& config, const std::string& name, const std::vec
   config.at(name).fail("none of the integrators takes them (as '" + key + "'); remove them");
 }
 
+void check_frames(const Comparison& c, const Config& at) {
+  const auto& fields = c.frames->fields;
+  if (std::find(fields.begin(), fields.end(), "displacement") == fields.end())
+    (at.has("fields") ? at.at("fields") : at).fail("without 'displacement' nothing moves: add it");
+  if (c.frames->count > c.samples)
+    (at.has("count") ? at.at("count") : at)
+        .fail(fmt::format("{} frames of {} samples: take fewer, or raise 'samples'", c.frames->count, c.samples));
+}
+
 void check_comparison(const Comparison& c, const Config& config) {
   if (c.scenes.empty()) config.at("scenes").fail("is empty; name at least one scene");
   if (c.integrators.empty()) config.at("integrators").fail("is empty; name some, or 'all'");
@@ -62,6 +73,7 @@ void check_comparison(const Comparison& c, const Config& config) {
   refuse_repeated(c.tolerances, config, "tolerances");
   refuse_repeated(c.steps, config, "steps");
   for (const auto& [path, values] : c.vary) check_varied(path, values, config.at("vary").at(path));
+  if (c.frames) check_frames(c, config.at("frames"));
 }
 
 // The reference must be of the same body, under the same loads.
@@ -106,6 +118,15 @@ const Spec<ReferenceOptions>& ReferenceOptions::spec() {
   return s;
 }
 
+const Spec<KeptFrames>& KeptFrames::spec() {
+  static const auto s =
+      Spec<KeptFrames>()
+          .key("count", &KeptFrames::count, "Frames after the initial one, of the samples, evenly spaced.",
+               {.range = {1, 2000}})
+          .key("fields", &KeptFrames::fields, "Node and cell fields of the frames (see `orthodyn list fields`).");
+  return s;
+}
+
 const Spec<Comparison>& Comparison::spec() {
   static const auto s =
       Spec<Comparison>()
@@ -122,6 +143,9 @@ const Spec<Comparison>& Comparison::spec() {
           .key("quantities", &Comparison::quantities,
                "Quantities whose errors are measured too, relative to their largest size over time, by name (see "
                "`orthodyn list quantities`): [von_mises.largest, root.von_mises].")
+          .key("frames", &Comparison::frames,
+               "Keep frames of each point and of its reference, for a 3D view of one beside the other: {} for the usual "
+               "ones. They are written by the run that is watched, not by the timed ones.")
           .key("repeats", &Comparison::repeats, "Timed integrations of each point.", {.range = {1, 100}})
           .key("samples", &Comparison::samples, "Times at which errors are taken, evenly spaced.", {.range = {2, 2000}})
           .key("limits", &Comparison::limits, "Limits of each point.")

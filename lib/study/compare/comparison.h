@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/scene/output_files.h"
 #include "lib/study/inputs/integrator_entry.h"
 #include "lib/study/inputs/limits.h"
 #include "lib/study/inputs/scene_entry.h"
@@ -22,6 +23,13 @@ struct ReferenceOptions {
   static const Spec<ReferenceOptions>& spec();
 };
 
+// What each point and each reference keeps for the 3D view: `count` of its samples, the last among them.
+struct KeptFrames {
+  int count = 20;
+  FrameFields fields{"displacement", "velocity"};
+  static const Spec<KeptFrames>& spec();
+};
+
 struct Comparison {
   std::string name;  // the file's stem
   std::string title;
@@ -32,6 +40,7 @@ struct Comparison {
   Origin tolerances_at = {}, steps_at = {};  // their places in the file
   Named<std::vector<YamlText>> vary;  // by path in a scene
   std::vector<std::string> quantities = {};  // whose errors are measured beside displacement and velocity
+  std::optional<KeptFrames> frames = {};
   int repeats = 3, samples = 100;
   Limits limits;
   ReferenceOptions reference;

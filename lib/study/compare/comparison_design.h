@@ -47,6 +47,7 @@ struct Design {
   bool across_meshes = false;     // errors are those of space and time, measured at probes
   std::vector<Method> methods;
   std::vector<Point> points;  // by problem, then method, from loose to tight
+  std::optional<KeptFrames> frames = {};
   Method reference, check;    // with all that controls their errors among `set`
 };
 
@@ -59,11 +60,11 @@ Design expand(const Comparison& comparison);
 // "damped_beam, cvode_bdf, rtol 0.001"
 std::string title(const Design& design, const Point& point);
 
-// The scene that a point runs: defaults are filled in, nothing is written but what probes need. Options
+// The scene that a point runs: defaults are filled in, nothing is written but what probes need and frames that are kept. Options
 // of the scene's own integrator are kept where the method has such keys and says nothing else.
 Config point_scene(const Design& design, const Point& point);
 
 // The same for the reference or its check: of the scene's own options, scales and linear solver are kept.
-Config reference_scene(const Group& group, const Method& method);
+Config reference_scene(const Design& design, const Group& group, const Method& method);
 
 }  // namespace orthodyn::study::compare

@@ -12,6 +12,7 @@
 #include "lib/simulation/machine.h"
 #include "lib/simulation/observers/balance.h"
 #include "lib/simulation/run.h"
+#include "lib/study/compare/frame_keeper.h"
 #include "lib/study/jobs/deadline.h"
 #include "lib/study/jobs/json_values.h"
 
@@ -88,7 +89,8 @@ class Measurement {
         input_(input),
         folder_(folder),
         times_(evenly_spaced(setup_.scene.time.start, setup_.scene.time.end, input.samples)),
-        quantities_(followed_quantities(setup_, input.quantities, {"quantities"})) {}
+        quantities_(followed_quantities(setup_, input.quantities, {"quantities"})),
+        frames_(folder, setup_, times_.size()) {}
 
   MeasurementResult result() {
     describe();
@@ -117,9 +119,11 @@ class Measurement {
     MeshErrorRecorder mesh_error(times_.size());
     const auto& model = *setup_.built.model;
     recorder->on_start({model, setup_.built.initial});
+    if (keeps_frames()) frames_.on_start({model, setup_.built.initial});
     for (const double t : times_) {
       const State state = exact.at(t);
       recorder->on_output({model, state});
+      if (keeps_frames()) frames_.on_output({model, state});
       if (input_.at_probes) mesh_error.on_output({model, state});
     }
     result_.kind = MeasurementResult::Kind::exact;
@@ -143,6 +147,11 @@ class Measurement {
     std::vector<FollowedQuantity> all;
     for (const auto& quantity : quantities_) all.push_back({quantity.name, quantity.components()});
     return all;
+  }
+
+  // The check of a reference is shown nowhere.
+  bool keeps_frames() const {
+    return !setup_.scene.output.fields.empty() && (input_.repeats > 0 || input_.keep_trajectory);
   }
 
   void keep(const MeshErrorRecorder& recorder) {
@@ -177,6 +186,7 @@ class Measurement {
     InversionWatch inversion;
     std::vector<Observer*> observers{trajectory.get(), &energy, &inversion};
     if (is_free(model)) observers.push_back(&momentum);
+    if (keeps_frames()) observers.push_back(&frames_);
     if (input_.at_probes && input_.keep_trajectory) observers.push_back(&mesh_error);
     const Plan plan{setup_.scene.time.end, times_, false};
     const auto outcome = run_once(observers, plan, *integrator, kPatience * input_.seconds);
@@ -248,6 +258,7 @@ class Measurement {
   const fs::path& folder_;
   std::vector<double> times_;
   std::vector<Quantity> quantities_;
+  FrameKeeper frames_;
   MeasurementResult result_;
 };
 

@@ -22,10 +22,17 @@ bool is_kept_by_references(const std::string& key) {
   return kept.contains(key);
 }
 
-Config scene_of(const SceneVariant& variant, const std::string& integrator,
+void set_frames(const std::optional<KeptFrames>& frames, Config& config) {
+  if (!frames) return config.set("output.fields", std::vector<std::string>());
+  config.set("output.fields", std::vector<std::string>(frames->fields), frames->fields.origin.where);
+  config.set("output.interval", nullptr);
+  config.set("output.frames", static_cast<double>(frames->count));
+}
+
+Config scene_of(const Design& design, const SceneVariant& variant, const std::string& integrator,
                 const std::function<bool(const std::string&)>& kept, const Assignments& options) {
   Config config = with_integrator(variant, integrator, options, kept);
-  config.set("output.fields", std::vector<std::string>());
+  set_frames(design.frames, config);
   for (const char* key : {"output.energy", "output.steps", "output.momentum"}) config.set(key, false);
   config.set("expect", nullptr);
   if (leaves_kinematics_open(read_scene(config)))
@@ -39,8 +46,8 @@ Config scene_of(const SceneVariant& variant, const std::string& integrator,
 
 }  // namespace
 
-Config reference_scene(const Group& group, const Method& method) {
-  return scene_of(group.reference, method.integrator, is_kept_by_references, method.set);
+Config reference_scene(const Design& design, const Group& group, const Method& method) {
+  return scene_of(design, group.reference, method.integrator, is_kept_by_references, method.set);
 }
 
 Config point_scene(const Design& design, const Point& point) {
@@ -48,7 +55,7 @@ Config point_scene(const Design& design, const Point& point) {
   Assignments options = method.set;
   options.emplace_back(control_word(method.control), YamlText{number_text(point.control), point.control_at});
   const auto kept = [&](const std::string& key) { return is_kept_by_methods(key, method.control); };
-  return scene_of(design.problems[point.problem].scene, method.integrator, kept, options);
+  return scene_of(design, design.problems[point.problem].scene, method.integrator, kept, options);
 }
 
 }  // namespace orthodyn::study::compare
