@@ -18,6 +18,8 @@ import numpy as np  # noqa: E402
 
 from folder_test import InAFolder, TOOLS  # noqa: E402
 from report_page import CHROMIUM, dom_of  # noqa: E402
+from synthetic_comparison import comparison as a_comparison  # noqa: E402
+from synthetic_matrix import matrix, write_end_state, write_matrix  # noqa: E402
 from tiny_result import POINTS, Vtu, fields_at, write_curves, write_result  # noqa: E402
 
 from draw.view.blocks import Blocks  # noqa: E402
@@ -146,8 +148,11 @@ class APage(OfAResult):
         self.assertEqual(values_of(blocks["r0/held"]).tolist(), [[1]])
         self.assertEqual(values_of(blocks["r0/load_values"]).tolist(), [[0, 0, -3]])
 
-    def test_of_three_results_or_an_unknown_field_is_refused(self):
-        self.fails_with("3 results; a view shows one, or two", "view", *3 * [self.result])
+    def test_holds_the_same_mesh_once(self):
+        text = page(3 * [self.result], Extent())
+        self.assertEqual(set(re.findall(r'id="(r[12]/rest)" data-same="([^"]*)"', text)), {("r1/rest", "r0/rest"), ("r2/rest", "r0/rest")})
+
+    def test_of_an_unknown_field_is_refused(self):
         self.fails_with("no field 'strss'; did you mean 'stress'", "view", self.result, "--fields", "strss")
 
     def test_is_written_beside_the_frames(self):
@@ -179,7 +184,7 @@ orthodynView.then(async view => {
     result.values.push(under(...POINT));
   }
   result.clock = document.querySelector(".clock").textContent;
-  document.querySelector("#clip").value = "0";
+  document.querySelector("#clip").value = "x";
   document.querySelector("#clip").dispatchEvent(new Event("change"));
   await view.goTo(3);
   result.prints.push(print());
@@ -253,6 +258,91 @@ class InABrowser(OfAResult):
         self.assertEqual(lacking, "other has no stress xx")
         self.assertIn("displacement, magnitude", has)
         self.assertEqual(again, has)
+
+
+    def test_chooses_what_is_shown(self):
+        """Of three results two; what was chosen for the picture stays."""
+        late = write_result(self.folder / "late", [0.0, 0.5, 1.0])
+        other = write_result(self.folder / "other", self.times)
+        text = page([self.result, other, late], Extent(), {"color": "det_f"})
+        probe = """<script>orthodynView.then(async view => {
+            const out = {}, chosen = () => [...document.querySelectorAll(".names select")].map(s => s.selectedOptions[0].text);
+            const notes = () => document.querySelector(".notes").textContent;
+            out.first = chosen();
+            await view.goTo(2);
+            const pick = async (pane, value) => {
+              const made = document.querySelectorAll(".names select")[pane];
+              made.value = value; made.dispatchEvent(new Event("change"));
+              return await orthodynView;
+            };
+            await pick(1, "2"); out.second = chosen(); out.notes = notes();
+            out.clock = document.querySelector(".clock").textContent;
+            out.legend = document.querySelector(".legend-title").textContent;
+            await pick(1, "-1"); out.alone = chosen(); out.panes = document.querySelectorAll(".pane").length;
+            out.canvases = document.querySelectorAll("canvas").length;
+            document.body.append(Object.assign(document.createElement("pre"), {id: "probe", textContent: JSON.stringify(out)}));
+        });</script></body>"""
+        path = self.folder / "probe.html"
+        path.write_text(text.replace("</body>", probe), encoding="utf-8")
+        dom, console = dom_of(path, 1400, *GPU)
+        self.assertEqual(console, [])
+        out = json.loads(html.unescape(re.search(r'<pre id="probe">(.*?)</pre>', dom).group(1)))
+        self.assertEqual((out["first"], out["second"]), (["r", "other"], ["r", "late"]))
+        self.assertIn("late: 2 elements, 3 frames", out["notes"])
+        self.assertNotIn("other", out["notes"])
+        self.assertEqual((out["clock"], out["legend"]), ("t = 0.5000 s  (3 of 4)", "volume ratio det F"))
+        self.assertEqual((out["alone"], out["panes"], out["canvases"]), (["r", "beside it …"], 1, 1))
+
+
+class OfAStudy(InAFolder):
+    def described(self, folder):
+        text = page([folder], Extent())
+        return json.loads(re.search(r'id="description">(.*?)</script>', text).group(1)), unpacked(text)
+
+    def test_of_a_comparison_holds_how_far_a_run_is_from_its_reference(self):
+        comparison = a_comparison(problems=2, methods=2, points=1)
+        comparison["problems"][0]["reference"]["folder"] = "references/a"
+        (self.folder / "compare.json").write_text(json.dumps(comparison), encoding="utf-8")
+        self.fails_with("no point kept frames; name `frames: {}`", "view", self.folder)
+        times = [0.0, 0.5, 1.0]
+        write_result(self.folder / "references/a", times)
+        point = comparison["points"][0]
+        run = write_result((self.folder / point["scene"]).parent, times)
+        for k, t in enumerate(times):
+            node, cell = fields_at(1.25 * t)
+            (run / f"frames/frame_{k:05d}.vtu").write_bytes(Vtu().content(node, cell))
+        about, blocks = self.described(self.folder)
+        self.assertEqual([r["name"] for r in about["results"]][0], "reference")
+        self.assertEqual({r["group"] for r in about["results"]}, {comparison["problems"][0]["label"]})
+        self.assertEqual((about["start"]["panes"], about["start"]["time"]), ([0, 1], 1.0))
+        np.testing.assert_allclose(values_of(blocks["r1/difference/2"]), 0.25 * POINTS, atol=2e-4)
+        self.assertNotIn("r0/difference/2", blocks)
+        unit = next(q["unit"] for q in about["results"][1]["quantities"] if q["field"] == "difference")
+        self.assertEqual(unit, "m")
+
+    def test_of_hard_cases_holds_the_end_states_that_differ(self):
+        content = matrix()
+        write_matrix(self.folder, content)
+        self.fails_with("no trial has left an end state", "view", self.folder)
+        of_case = [t for t in content["trials"] if t["case"] == "mirrored"]
+        for t in of_case:
+            write_end_state(self.folder, t, (2 if t["integrator"] == "gamma" else 1) * POINTS)
+        about, blocks = self.described(self.folder)
+        self.assertEqual([(r["name"], r["labels"]) for r in about["results"]],
+                         [("mirrored", ["exact; pass: alpha, beta", "exact; degraded: gamma",
+                                        *(label for label in about["results"][0]["labels"] if label.startswith("warped"))])])
+        np.testing.assert_allclose(values_of(blocks["r0/displacement/1"]), POINTS, atol=2e-5)
+        self.assertEqual((about["start"]["color"], about["start"]["rest"]), ("det_f", True))
+
+    def test_of_modes_begins_enlarged_to_be_seen(self):
+        folder = write_result(self.folder / "m", [1.0, 2.0])
+        (folder / "frames.pvd").rename(folder / "modes.pvd")
+        (folder / "modes.csv").write_text("mode,frequency [Hz]\n1,2.5\n2,2500\n")
+        for k in range(2):
+            (folder / f"frames/frame_{k:05d}.vtu").write_bytes(Vtu().content({"shape": POINTS / np.sqrt(3)}, {}))
+        about, _ = self.described(folder)
+        self.assertEqual(about["results"][0]["labels"], ["1: 2.5 Hz", "2: 2.5 kHz"])
+        self.assertEqual((about["start"]["color"], about["start"]["scale"]), ("shape", 0.12))
 
 
 class TheBundle(unittest.TestCase):

@@ -151,10 +151,10 @@ def _parser():
     modes.add_argument("--view", type=lambda s: _numbers(s, 2), default=(-60.0, 20.0), metavar="AZIM,ELEV",
                        help="where the eye is, degrees about the axis that is up (default -60,20)")
     modes.add_argument("--up", choices="xyz", default="z", help="the axis that is up (default z)")
-    view = commands.add_parser("view", help="One or two results as an HTML page with a 3D view.", epilog=COLORS,
-                               description="One or two results side by side as one HTML page with a 3D view, which opens offline.",
+    view = commands.add_parser("view", help="Results as an HTML page with a 3D view.", epilog=COLORS,
+                               description="Results as one HTML page with a 3D view, which opens offline: one of them, or two side by side.",
                                formatter_class=argparse.RawDescriptionHelpFormatter)
-    view.add_argument("results", metavar="RESULT", nargs="+", help="a folder that `orthodyn run` wrote, or two")
+    view.add_argument("results", metavar="RESULT", nargs="+", help="a folder that `orthodyn run`, `modes`, `sweep`, `compare` or `stability` wrote")
     view.add_argument("--out", type=Path, metavar="FILE", help="the page (default: view.html in the first RESULT)")
     view.add_argument("--volume", action="store_true", help="also what is inside, for the clip plane; a larger page")
     view.add_argument("--fields", type=lambda s: tuple(s.split(",")), metavar="F1,F2,...",
@@ -162,7 +162,7 @@ def _parser():
     view.add_argument("--every", type=_count, default=1, metavar="K", help="every K-th frame (default 1), and the last")
     view.add_argument("--time", type=lambda s: _numbers(s, 1)[0], metavar="T", help="begins at the frame nearest to T seconds")
     view.add_argument("--color", metavar="FIELD[.COMPONENT]", help="begins with this colour, see below")
-    view.add_argument("--scale", type=lambda s: _numbers(s, 1)[0], default=1.0, metavar="S",
+    view.add_argument("--scale", type=lambda s: _numbers(s, 1)[0], metavar="S",
                       help="enlarges the deformation (default 1: true shape)")
     view.add_argument("--png", type=Path, metavar="FILE", help="a still instead, taken by Chromium")
     view.add_argument("--size", type=_size, default=(1600, 1000), metavar="WxH", help="pixels of the still (default 1600x1000)")
@@ -289,8 +289,7 @@ def _modes(args):
 def _view(args):
     from .view import page
     from .view.collect import Extent
-    start = {key: value for key, value in (("time", args.time), ("color", args.color)) if value is not None}
-    start["scale"] = args.scale
+    start = {key: value for key, value in (("time", args.time), ("color", args.color), ("scale", args.scale)) if value is not None}
     extent = Extent(args.volume, args.fields, args.every)
     if args.png and args.out:
         raise DrawError("--out and --png: a still is written to the latter; leave one out")

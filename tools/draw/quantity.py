@@ -7,12 +7,13 @@ from .errors import unknown
 
 SPACE = ("xx", "yy", "zz", "xy", "yz", "zx")
 MATERIAL = ("11", "22", "33", "12", "23", "31")
-UNITS = {"displacement": "m", "velocity": "m/s", "stress": "Pa", "stress_material": "Pa", "von_mises": "Pa",
+UNITS = {"displacement": "m", "difference": "m", "velocity": "m/s", "stress": "Pa", "stress_material": "Pa", "von_mises": "Pa",
          "principal_stress": "Pa", "mesh_error": "J/m^3"}
 AT_NODES = "nodal_"  # the same field, recovered at the nodes
 # Fields at the nodes that follow from the recovered ones.
 FIGURES = ("von_mises", "principal_stress", "principal_strain", "max_stress", "tsai_wu", "hashin")
-TITLES = {"von_mises": "von Mises", "tsai_wu": "Tsai-Wu", "hashin": "Hashin", "det_f": "volume ratio det F"}
+TITLES = {"von_mises": "von Mises", "tsai_wu": "Tsai-Wu", "hashin": "Hashin", "det_f": "volume ratio det F",
+          "difference": "difference from the reference"}
 NEUTRAL = {"det_f": 1.0, "nodal_det_f": 1.0}  # the value of the undeformed body; every other signed field has 0
 
 

@@ -25,7 +25,8 @@ struct ViewArguments {
 };
 
 std::vector<std::string> for_draw(const ViewArguments& arguments) {
-  std::vector<std::string> all{draw_tool().string(), "view"};
+  std::vector<std::string> all = draw_command();
+  all.push_back("view");
   all.insert(all.end(), arguments.results.begin(), arguments.results.end());
   const auto add = [&](const char* name, const std::optional<std::string>& value) {
     if (value) all.push_back(fmt::format("{}={}", name, *value));
@@ -44,16 +45,16 @@ std::vector<std::string> for_draw(const ViewArguments& arguments) {
 
 int view(const ViewArguments& arguments) {
   std::vector<std::string> words = for_draw(arguments);
-  if (!fs::exists(words.front())) throw RunError(words.front() + ": the drawing tool is not there");
+  if (!fs::exists(draw_tool())) throw RunError(draw_tool().string() + ": the drawing tool is not there");
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  execv(argv.front(), argv.data());
+  execvp(argv.front(), argv.data());
   throw RunError(fmt::format("{}: {}", words.front(), std::strerror(errno)));
 }
 
 void declare(ViewArguments& arguments, CommandOptions& options) {
-  options.list("result", arguments.results, "A folder that `orthodyn run` wrote, or two, side by side.")
+  options.list("result", arguments.results, "Folders that run, modes, sweep, compare or stability wrote. Two are side by side; of more the page offers all.")
       .type("RESULT")
       .required();
   options.value("--out", arguments.out, "The page; default RESULT/view.html.").type("FILE");
@@ -70,10 +71,11 @@ void declare(ViewArguments& arguments, CommandOptions& options) {
 
 const CommandRegistration view_command({.order = 15,
                                         .name = "view",
-                                        .sentence = "One or two results as an HTML page with a 3D view.",
+                                        .sentence = "Results as an HTML page with a 3D view: one, or two side by side.",
                                         .examples = R"(
   orthodyn view out/cantilever                            out/cantilever/view.html, opens offline
   orthodyn view out/cantilever --volume --time 0.13
+  orthodyn view out/comparisons/free_flight               each run beside the reference, and how far apart they are
   orthodyn view out/coarse out/fine --out out/both.html   side by side, one camera
   orthodyn view out/cantilever --png tip.png --color nodal_stress_material.11)"},
                                        declare, view);

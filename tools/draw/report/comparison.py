@@ -80,6 +80,7 @@ class Reference:
     errors: dict = field(default_factory=dict)
     mesh_error: float = math.nan  # an estimate; of a reference with a mesh of its own
     unknowns: float = math.nan
+    folder: str = ""  # in that of the comparison
 
     @property
     def has_own_mesh(self):

@@ -66,10 +66,11 @@ def _banner(comparison):
                "covers the points so far.", class_="banner", role="status")
 
 
-def _header(comparison):
+def _header(comparison, view):
     sections = (("answer", "Fastest"), ("precision", "Work and precision"), ("tolerance", "Tolerance"), ("cost", "Cost"),
                 ("drift", "Drift"), ("runs", "Runs"), ("details", "Details"))
-    links = (tag("a", name, href=f"#{identity}") for identity, name in sections)
+    links = [tag("a", name, href=f"#{identity}") for identity, name in sections]
+    links += [tag("a", "In 3D", href=view)] if view else []
     return tag("header", tag("button", "Dark", type="button", id="theme", class_="js"),
                tag("h1", comparison.title or comparison.name),
                tag("p", comparison.description, class_="lede") if comparison.description else None,
@@ -163,8 +164,8 @@ def head(title, figures):
                _style(figures), void("link", rel="icon", href="data:,"))
 
 
-def page(comparison, folder):
-    """The whole page as text; `folder` is named in the command that reproduces it."""
+def page(comparison, folder, view=None):
+    """The whole page as text; `folder` is named in the command that reproduces it, `view` is the page with the runs in 3D."""
     figures = Figures(comparison)
     first = figures.choices()[0]
     shown = {p.id: (None if comparison.fronts else figures.work_precision(p), figures.tolerance(p))
@@ -187,6 +188,6 @@ def page(comparison, folder):
                         _fronts(comparison, figures, variants, first) if comparison.fronts else pictures("wp", 0)),
                _section("tolerance", "Error against tolerance and step", _choosers(offered, "tol", False),
                         pictures("tol", 1)), after)
-    body = tag("body", glyphs(comparison), _header(comparison), main, runs, script)
+    body = tag("body", glyphs(comparison), _header(comparison, view), main, runs, script)
     return "<!DOCTYPE html>\n" + tag("html", head(comparison.title or comparison.name, figures.styles.css()), body,
                                      lang="en") + "\n"

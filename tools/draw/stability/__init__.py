@@ -1,7 +1,7 @@
 """One page and figures from stability.json, what `orthodyn stability` has written."""
 from pathlib import Path
 
-FILE = "stability.json"
+FILE, VIEW = "stability.json", "view.html"
 
 
 def write_stability_report(result, out=None):
@@ -9,9 +9,13 @@ def write_stability_report(result, out=None):
     from .figure import write_figures
     from .page import page
     from .reading import read_matrix
+    from ..view.page import write_view
     matrix, folder = read_matrix(result), Path(result)
     path = out or folder / "report.html"
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(page(matrix, folder), encoding="utf-8")
+    has_states = any(t.folder and (folder / t.folder / "end.vtu").is_file() for t in matrix.trials)
+    path.write_text(page(matrix, folder, VIEW if has_states else None), encoding="utf-8")
     yield path
+    if has_states:
+        yield write_view([folder], path.with_name(VIEW))
     yield from write_figures(matrix, folder / "pictures")

@@ -43,7 +43,7 @@ class Shown(Series):
 
     def __init__(self, folder, frames):
         self.folder, self._frames = folder, frames
-        self.paths, self.times = [folder] * len(frames), [0.0] * len(frames)
+        self.paths, self.times = [folder] * len(frames), [float(k) for k in range(len(frames))]
 
     def frame(self, index):
         return self._frames[index]
@@ -126,9 +126,13 @@ class EndStates:
     def is_a_point(self, cluster):
         return extent(cluster.leader.positions) < POINT * self.size
 
+    def series(self):
+        """The states of the clusters, in the order of `clusters`."""
+        return Shown(self._folder, self._frames)
+
     def scene(self, indices):
         """One camera, window and range of colours for all clusters of the case that are shown."""
         if self._scene is None:
-            self._scene = Scene(Shown(self._folder, self._frames), indices,
+            self._scene = Scene(self.series(), indices,
                                 PictureSpec(color=COLOUR, limits=RANGE, ghost=True))
         return self._scene

@@ -34,12 +34,12 @@ def _banner(matrix):
                role="status")
 
 
-def _header(matrix, sections):
+def _header(matrix, sections, view):
     return tag("header", tag("button", "Dark", type="button", id="theme", class_="js"), tag("h1", matrix.title),
                tag("p", matrix.description, class_="lede") if matrix.description else None,
                tag("p", " · ".join(_counted(matrix)), class_="facts"), _banner(matrix),
                tag("nav", *(tag("a", name, href=f"#{identity}") for identity, name, _ in sections),
-                   aria_label="Sections"))
+                   tag("a", "In 3D", href=view) if view else None, aria_label="Sections"))
 
 
 def _origin(matrix, folder):
@@ -53,14 +53,15 @@ def _origin(matrix, folder):
                    tag("h3", "To reproduce"), tag("pre", tag("code", command)), tag("h3", "Scenes"), files])
 
 
-def page(matrix, folder):
-    """The whole page as text; `folder` has the end states and is named in the command that reproduces it."""
+def page(matrix, folder, view=None):
+    """The whole page as text; `folder` has the end states and is named in the command that reproduces it, `view` is the page
+    with the end states in 3D."""
     sections = (("answer", "Integrators in order", answer(matrix)), ("matrix", "Matrix", grid(matrix)),
                 ("states", "End states", gallery(matrix, Path(folder))), ("trials", "Not passed", failures(matrix)),
                 ("details", "Origin", _origin(matrix, folder)))
     main = tag("main", *(tag("section", tag("h2", name), content, id=identity) for identity, name, content in sections))
     tooltips = [tooltip(t) for t in matrix.trials] + [case_tooltip(c) for c in matrix.cases]
-    body = tag("body", grades.symbols(), _header(matrix, sections), main,
+    body = tag("body", grades.symbols(), _header(matrix, sections, view), main,
                data_script("run-data", {"measure": "", "labels": {}, "runs": tooltips}),
                tag("script", Html(SCRIPT.read_text(encoding="utf-8"))))
     style = STYLE.read_text(encoding="utf-8") + grades.css()

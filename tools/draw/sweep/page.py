@@ -25,14 +25,15 @@ def _counted(sweep):
     return parts + [sweep.about["written"].replace("T", " ").replace("Z", " UTC"), machine]
 
 
-def _header(sweep, sections):
+def _header(sweep, sections, view):
     missing = sweep.about["missing"]
     banner = tag("p", tag("strong", "Not finished: "), f"{missing} of {len(sweep.points)} points are missing. What "
                  "follows covers the points so far.", class_="banner", role="status") if missing else None
     return tag("header", tag("button", "Dark", type="button", id="theme", class_="js"), tag("h1", sweep.title),
                tag("p", sweep.description, class_="lede") if sweep.description else None,
                tag("p", " · ".join(p for p in _counted(sweep) if p), class_="facts"), banner,
-               tag("nav", *(tag("a", name, href=f"#{identity}") for identity, name in sections), aria_label="Sections"))
+               tag("nav", *(tag("a", name, href=f"#{identity}") for identity, name in sections),
+                   tag("a", "In 3D", href=view) if view else None, aria_label="Sections"))
 
 
 def _table(title, heads, rows, label, kind=None):
@@ -133,6 +134,6 @@ def page(sweep, folder, gallery):
               ("details", "Details", _details(sweep, folder))]
     main = tag("main", *(tag("section", tag("h2", name), content, id=identity) for identity, name, content in parts))
     runs = data_script("run-data", {"measure": "", "labels": {}, "runs": [_tip(sweep, p) for p in sweep.points]})
-    body = tag("body", _header(sweep, [(identity, name) for identity, name, _ in parts]), main, runs,
+    body = tag("body", _header(sweep, [(identity, name) for identity, name, _ in parts], VIEW if gallery else None), main, runs,
                tag("script", Html(SCRIPT.read_text(encoding="utf-8"))))
     return "<!DOCTYPE html>\n" + tag("html", head(sweep.title, figures.styles.css()), body, lang="en") + "\n"

@@ -5,12 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..colouring import Colouring
-from ..errors import DrawError, unknown
+from ..errors import DrawError
 from ..grain import FIELD as AXIS
 from ..quantity import component_names, find_quantity, magnitude, von_mises
-from ..series import Series, is_static
 from ..table import Table
-from .points import SweepPoints, is_sweep
 from .setup import add_setup
 from .skin import Skin
 from .strokes import strokes
@@ -60,9 +58,9 @@ def _places(kept, size):
     return place
 
 
-def add_result(blocks, key, name, extent):
-    """Adds the blocks of the result in the folder `name`, called `key`/...; returns its description."""
-    series = SweepPoints(name) if is_sweep(name) else Series(name)
+def add_result(blocks, key, what, extent):
+    """Adds the blocks of what is Shown, called `key`/...; returns its description."""
+    series = what.series
     frames = sorted({*range(0, len(series), extent.every), len(series) - 1})
     first = series.frame(0)
     if not len(first.tets):
@@ -74,24 +72,26 @@ def add_result(blocks, key, name, extent):
     survey = _Survey(series, frames, shown, fields, centre)
     _add_mesh(blocks, key, first, skin, shown, centre, extent.volume)
     return {
-        "name": series.folder.name or str(series.folder), "static": is_static(series.folder),
-        "labels": [series.labels[k] for k in frames] if is_sweep(name) else None,
+        "name": what.name, "group": what.group, "static": what.is_static, "facts": list(what.facts),
+        "labels": [what.labels[k] for k in frames] if what.labels else None,
         "centre": centre.tolist(), "reach": survey.reach(), "times": [float(series.times[k]) for k in frames],
         "cells": len(first.tets) // first.parts, "volume": extent.volume,
         "fields": _add_frames(blocks, key, series, frames, shown, survey),
         "quantities": survey.quantities(),
         "strokes": _add_strokes(blocks, key, first, skin),
-        "curves": [curve for table in TABLES for curve in _add_table(blocks, key, series.folder, table)],
-        "setup": add_setup(blocks, key, series.folder, len(first.points), shown), "notes": _notes(series.folder)}
+        "curves": [curve for table in TABLES for curve in _add_table(blocks, key, what.folder, table)],
+        "setup": add_setup(blocks, key, what.folder, len(first.points), shown), "notes": _notes(what.folder)}
 
 
 def _fields(frame, extent):
-    names = [*frame.node_fields, *frame.cell_fields]
-    for asked in extent.fields or ():
-        if asked not in names:
-            raise unknown("field", asked, names)
-    wanted = extent.fields or [name for name in names if not name.startswith("material_axis")]
+    names = field_names(frame)
+    wanted = [name for name in extent.fields if name in names] if extent.fields else [
+        name for name in names if not name.startswith("material_axis")]
     return ["displacement"] * ("displacement" in names) + [name for name in wanted if name != "displacement"]
+
+
+def field_names(frame):
+    return [*frame.node_fields, *frame.cell_fields]
 
 
 def _add_mesh(blocks, key, frame, skin, shown, centre, volume):
@@ -220,8 +220,8 @@ def _add_strokes(blocks, key, frame, skin):
 
 def _add_table(blocks, key, folder, name):
     """Curves of a table that is there, with one block for all of its columns."""
-    path = folder / f"{name}.csv"
-    if not path.is_file():
+    path = folder and folder / f"{name}.csv"
+    if not path or not path.is_file():
         return []
     try:
         table = Table(path)
@@ -235,6 +235,8 @@ def _add_table(blocks, key, folder, name):
 
 def _notes(folder):
     """Lines about the run, from run.json."""
+    if not folder:
+        return {}
     try:
         record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
     except (OSError, ValueError):

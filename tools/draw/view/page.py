@@ -1,4 +1,4 @@
-"""One or two results as one HTML page that opens without a network."""
+"""Results as one HTML page that opens without a network: one of them, or two beside each other."""
 import html
 import json
 from pathlib import Path
@@ -7,14 +7,12 @@ import numpy as np
 
 from ..colouring import CATEGORIES, DIVERGING, NOT_A_NUMBER, SEQUENTIAL
 from ..errors import DrawError, unknown
-from ..series import Series
 from .blocks import Blocks
-from .collect import Extent, add_result
-from .points import is_sweep
+from .collect import Extent, add_result, field_names
+from .sources import first_look, shown_of
 from .still import take_still
 
 HERE = Path(__file__).resolve().parent
-MOST = 2  # results beside each other
 
 
 def write_view(results, out=None, extent=Extent(), start=None):
@@ -31,20 +29,22 @@ def write_still(results, out, size, extent, start):
     """Writes a still of the view as PNG; returns its path. By default at the largest displacement of the first result."""
     if Path(out).suffix.lower() != ".png":
         raise DrawError(f"{out}: a still is a PNG; call it so")
-    if "time" not in start and not is_sweep(results[0]):
-        series = Series(results[0])
-        start = {**start, "time": float(series.times[series.peak[0] or 0])}
+    first = shown_of(results[0])[0]
+    if "time" not in start and not first.labels:
+        start = {**start, "time": float(first.series.times[first.series.peak[0] or 0])}
     return take_still(page(results, extent, {**start, "still": True}), Path(out), size)
 
 
 def page(results, extent, start=None):
-    if not 1 <= len(results) <= MOST:
-        raise DrawError(f"{len(results)} results; a view shows one, or two side by side")
-    blocks = Blocks()
-    described = [add_result(blocks, f"r{k}", name, extent) for k, name in enumerate(results)]
-    _check(start or {}, described)
-    title = " and ".join(d["name"] for d in described)
-    description = json.dumps({"results": described, "maps": _maps(), "start": start or {}}, allow_nan=False).replace("<", "\\u003c")
+    """`start`: time, color and scale that it begins with."""
+    shown, blocks = [one for name in results for one in shown_of(name)], Blocks()
+    if extent.fields:
+        _check_fields(extent.fields, shown)
+    described = [add_result(blocks, f"r{k}", one, extent) for k, one in enumerate(shown)]
+    start = {**first_look(results, shown), **(start or {})}
+    _check(start, described)
+    title = " and ".join(Path(name).resolve().name for name in results)
+    description = json.dumps({"results": described, "maps": _maps(), "start": start}, allow_nan=False).replace("<", "\\u003c")
     style, script = ((HERE / name).read_text(encoding="utf-8") for name in ("view.css", "viewer.js"))
     return (f'<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
             f'<meta name="viewport" content="width=device-width, initial-scale=1">\n<title>{html.escape(title)}</title>\n'
@@ -52,6 +52,14 @@ def page(results, extent, start=None):
             f'<noscript>The view needs JavaScript.</noscript>\n'
             f'<script type="application/json" id="description">{description}</script>\n{blocks.text()}\n'
             f"<script>{script}</script>\n</body>\n</html>\n")
+
+
+def _check_fields(fields, shown):
+    """Raises DrawError for a field that none of them has."""
+    known = dict.fromkeys(name for one in shown for name in field_names(one.series.frame(0)))
+    for field in fields:
+        if field not in known:
+            raise unknown("field", field, known)
 
 
 def _check(start, described):

@@ -5,10 +5,7 @@ from ..errors import DrawError
 from ..series import Series
 from ..sweep import FILE
 from ..sweep.reading import read_sweep
-
-
-def is_sweep(folder):
-    return (Path(folder) / FILE).is_file()
+from .shown import Shown
 
 
 class SweepPoints(Series):
@@ -29,3 +26,12 @@ class SweepPoints(Series):
     def _is_like(self, k, first):
         frame = self.frame(k)
         return frame.points.shape == first.points.shape and frame.tets.shape == first.tets.shape
+
+
+def is_sweep(folder):
+    return (Path(folder) / FILE).is_file()
+
+
+def of_sweep(folder):
+    points = SweepPoints(folder)
+    return [Shown(points.folder.name, points, labels=points.labels)]

@@ -7,8 +7,8 @@ from ..vtu import read_vtu
 
 def add_setup(blocks, key, folder, num_points, shown):
     """Adds nodes that are held, and loaded ones with their forces; returns how many there are of each."""
-    path = folder / "setup.vtu"
-    if not path.is_file():
+    path = folder and folder / "setup.vtu"
+    if not path or not path.is_file():
         return {"held": 0, "loaded": 0}
     frame = read_vtu(path)
     if len(frame.points) != num_points:

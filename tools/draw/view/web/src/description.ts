@@ -29,8 +29,10 @@ export interface Curve {
 
 export interface ResultDescription {
   name: string;
+  group: string; // under which it is offered; "" for none
+  facts: string[]; // lines about it
   static: boolean; // times are load factors
-  labels: string[] | null; // of points of a sweep, in place of times
+  labels: string[] | null; // of frames that are points of a study or shapes, in place of times
   centre: [number, number, number]; // m, that positions are relative to
   reach: [number[], number[]]; // smallest and largest coordinates over all frames
   times: number[];
@@ -48,9 +50,11 @@ export interface ResultDescription {
 }
 
 export interface Start {
+  panes: number[]; // the results that are shown first: one, or two beside each other
   time?: number;
   color?: string;
   scale?: number;
+  rest?: boolean; // the rest shape too
   still?: boolean; // a picture: no controls
 }
 

@@ -33,6 +33,7 @@ export class Stage {
   private readonly orbit: OrbitControls;
   private readonly scenes: THREE.Scene[];
   private readonly clip = new THREE.Plane();
+  private readonly resizing = new ResizeObserver(() => this.resize());
   private pending = false;
   private isMoved = false; // by the user
   private scale = 1; // of displacements
@@ -57,7 +58,7 @@ export class Stage {
     this.orbit = new OrbitControls(this.camera, this.canvas);
     this.orbit.addEventListener("change", () => this.draw());
     this.orbit.addEventListener("start", () => (this.isMoved = true));
-    new ResizeObserver(() => this.resize()).observe(holder);
+    this.resizing.observe(holder);
     this.look(AZIMUTH, ELEVATION);
     this.resize();
   }
@@ -75,6 +76,24 @@ export class Stage {
     this.camera.position.copy(target).addScaledVector(toward, this.distanceFor(box, toward));
     this.orbit.update();
     this.draw();
+  }
+
+  // Where the eye is: azimuth and elevation, in degrees; and the unit vector to it.
+  eye(): [number, number] {
+    const [x, y, z] = this.toward();
+    return [THREE.MathUtils.radToDeg(Math.atan2(y, x)), THREE.MathUtils.radToDeg(Math.asin(Math.min(Math.max(z, -1), 1)))];
+  }
+  toward(): [number, number, number] {
+    const { x, y, z } = this.camera.position.clone().sub(this.orbit.target).normalize();
+    return [x, y, z];
+  }
+
+  // Gives back what the graphics card holds for it.
+  end(): void {
+    this.orbit.dispose();
+    this.resizing.disconnect();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
   }
 
   // For displacements that are enlarged.

@@ -1,0 +1,17 @@
+"""What a view can show beside each other: runs, the points of a study, shapes."""
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..series import Series
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A series of frames, and what the page says of it."""
+    name: str
+    series: Series
+    folder: Path = None  # of its curves, of where it is held and loaded, and of its record; None: there are none
+    group: str = ""  # under which it is offered
+    labels: list = None  # of the frames, in place of times
+    is_static: bool = False  # times are load factors
+    facts: tuple = ()  # lines about it

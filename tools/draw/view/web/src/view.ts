@@ -1,0 +1,323 @@
+// The view of one or two results: see description.ts for what the page holds.
+import * as THREE from "three";
+import { Body, type Look } from "./body";
+import { Clip, type Clipped } from "./clip";
+import { Curves } from "./curves";
+import { button, element, labelled, select, tick } from "./dom";
+import { Legend } from "./legend";
+import { colourTexture, type ColourMap } from "./material";
+import { Player } from "./player";
+import { Result } from "./result";
+import { Stage } from "./stage";
+import { figure, scaled, withUnit } from "./units";
+import type { Description, Quantity } from "./description";
+import type { Plane } from "./section";
+
+const VIEWS: Record<string, [string, number, number]> = {
+  "1": ["from the side", -60, 20], "2": ["along x", 180, 0], "3": ["along y", -90, 0], "4": ["from above", -90, 90],
+};
+const KEYS = "space: play; ← →: a frame back, on; Home, End: first, last; 1 – 4: views; e: edges; g: grain; c: clip plane; " +
+  "drag: turn; right button or two fingers: move; wheel: nearer";
+const AHEAD = 3; // frames that are unpacked before they are shown, while time goes on
+const SCALES = [0.1, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 1e4, 1e5];
+
+// What stays as it is when other results are shown.
+export interface Kept {
+  time: number;
+  quantity: Quantity;
+  look: Look;
+  clip: Clipped;
+  direction: [number, number];
+  speed: number;
+  table: string | null;
+}
+
+export class View {
+  private readonly bodies: Body[];
+  private readonly stage: Stage;
+  private readonly player: Player;
+  private readonly legend: Legend;
+  private readonly curves: Curves;
+  private readonly under = element("output", { class: "under", "aria-live": "polite" });
+  private readonly slider = element("input", { type: "range", min: 0, step: 1, "aria-label": "time" });
+  private readonly clock = element("output", { class: "clock" });
+  private readonly play: HTMLButtonElement;
+  private look: Look = { scale: 1, edges: "shape", strokes: false, marks: true, rest: false };
+  private quantity: Quantity;
+  private range: [number, number] | null = null;
+  private readonly clip: Clip;
+  private readonly labels: HTMLElement[]; // of the frames shown, where they have some
+  private readonly listening = new AbortController();
+  private table: string | null = null;
+  private turn = 0; // of refresh()
+  private pointer: { x: number; y: number } | null = null;
+
+  constructor(
+    private readonly about: Description,
+    private readonly results: Result[],
+    names: HTMLElement[], // one above each result
+    root: HTMLElement,
+    private readonly before: Kept | null,
+  ) {
+    const first = results[0] as Result, start = about.start;
+    this.bodies = results.map((r) => new Body(r));
+    this.quantity = this.named(before ? before.quantity.key : start.color) ?? defaultQuantity(first);
+    this.look.scale = start.scale ?? 1;
+    this.look.rest = start.rest ?? false;
+    this.look.edges = first.mesh.faces.length / 3 < 3000 ? "mesh" : "shape";
+    if (before) this.look = { ...before.look };
+    const isHollow = !results.every((r) => r.about.volume);
+    this.clip = new Clip(before?.clip ?? null, isHollow, () => this.stage.toward(), () => void this.refresh());
+    const stageHolder = element("div", { class: "stage" }), times = [...new Set(results.flatMap((r) => r.about.times))].sort((a, b) => a - b);
+    this.legend = new Legend((range) => {
+      this.range = range;
+      this.colour();
+      this.stage.draw();
+    });
+    this.player = new Player(times, this.isTimed(), () => this.refresh(), () => this.showTime());
+    if (before) this.player.setSpeed(before.speed);
+    this.slider.max = String(times.length - 1);
+    this.slider.addEventListener("input", () => void this.player.goTo(Number(this.slider.value)));
+    this.play = button("▶", "Play (space)", () => this.player.toggle());
+    const charts = element("div", { class: "charts" });
+    this.curves = new Curves(charts, results, (time) => void this.player.goToTime(time));
+    this.labels = results.map(() => element("small", { class: "label" }));
+    const named = element("div", { class: "names" }, ...names.map((name, k) =>
+      element("div", { class: "pane" }, name, this.labels[k] as HTMLElement, ...(k ? [] : [this.under]))));
+    const bar = element("div", { class: "time" }, this.play, this.slider, this.clock, ...(this.isTimed() ? [this.speedChoice()] : []));
+    const pictured = element("main", {}, element("div", { class: "holder" }, stageHolder, named),
+      this.legend.node, bar);
+    root.append(pictured, element("aside", {}, this.controls(), this.tableChoice(), charts, this.notes()));
+    if (start.still) root.classList.add("still");
+    this.stage = new Stage(stageHolder, this.bodies, start.still ?? false);
+    stageHolder.addEventListener("pointermove", (e) => this.pointed({ x: e.clientX, y: e.clientY }));
+    stageHolder.addEventListener("pointerleave", () => this.pointed(null));
+    addEventListener("keydown", (e) => this.key(e), { signal: this.listening.signal });
+  }
+
+  // To be called before another view takes its place; what that shall keep.
+  end(): Kept {
+    const { quantity, look, table } = this, speed = this.player.speed, clip = this.clip.clipped;
+    const kept = { time: this.player.time, quantity, look, clip, direction: this.stage.eye(), speed, table };
+    if (this.player.playing) this.player.toggle();
+    this.listening.abort();
+    this.stage.end();
+    return kept;
+  }
+
+  async begin(): Promise<void> {
+    this.colour();
+    await this.player.goToTime(this.before?.time ?? this.about.start.time ?? this.player.first);
+    this.stage.fit(this.look.scale);
+    if (this.before) this.stage.look(...this.before.direction);
+    const tables = this.curves.tables();
+    this.table = tables.find((t) => t === this.before?.table) ?? tables[0] ?? null;
+    if (this.table) await this.curves.show(this.table);
+    this.showTime();
+    this.stage.drawNow();
+  }
+
+  // For scripts and tests: what a value is at a place on the page, and where a node is.
+  at(x: number, y: number): string {
+    this.pointed({ x, y });
+    return this.under.textContent ?? "";
+  }
+  place(x: number, y: number, z: number, pane = 0): { x: number; y: number } {
+    return this.stage.place(new THREE.Vector3(x, y, z), pane);
+  }
+  async goTo(frame: number): Promise<void> {
+    await this.player.goTo(frame);
+    this.stage.drawNow();
+  }
+  async setColour(name: string): Promise<void> {
+    this.quantity = this.named(name) ?? this.quantity;
+    this.range = null;
+    this.colour();
+    await this.refresh();
+    this.stage.drawNow();
+  }
+
+  private isTimed(): boolean {
+    return this.results.every((r) => !r.about.static && !r.about.labels);
+  }
+
+  private named(name: string | undefined): Quantity | null {
+    const all = this.results.flatMap((r) => r.about.quantities);
+    return all.find((q) => q.name === name || q.key === name) ?? all.find((q) => q.field === name) ?? null;
+  }
+
+  private async refresh(): Promise<void> {
+    const { quantity } = this, plane = this.plane(), turn = ++this.turn;
+    for (const body of this.bodies) {
+      const frame = body.result.frameAt(this.player.time), own = body.result.quantity(quantity.key);
+      const [moved, values] = await Promise.all([body.result.displacement(frame), own && body.result.values(own, frame)]);
+      if (turn !== this.turn) return; // another frame was asked for meanwhile
+      if (this.player.playing && own)
+        for (let ahead = 1; ahead <= AHEAD; ++ahead) body.result.prepare(own, frame + ahead);
+      body.update(moved, values, own, this.look, plane);
+    }
+    this.stage.setPlane(plane);
+    this.pointed(this.pointer);
+    if (this.player.playing) this.stage.drawNow(); // within the frame of the clock that asked for it
+    else this.stage.draw();
+  }
+
+  // The colours of the quantity and its range, on all bodies and in the legend.
+  private colour(): void {
+    const map = this.map(), texture = colourTexture(map), [low, high] = this.range ?? this.wholeRange();
+    const [r = 230, g = 0, b = 126] = this.about.maps.nan, nan = new THREE.Color(r / 255, g / 255, b / 255);
+    this.legend.show(this.quantity, map, low, high);
+    for (const body of this.bodies) body.setColours(texture, map.colours.length, this.quantity, low, high, nan);
+  }
+
+  // Of all results that have the quantity: they are to be compared.
+  private wholeRange(): [number, number] {
+    const same = this.results.map((r) => r.quantity(this.quantity.key)).filter((q): q is Quantity => q !== null);
+    return [Math.min(...same.map((q) => q.low)), Math.max(...same.map((q) => q.high))];
+  }
+
+  private map(): ColourMap {
+    const { maps } = this.about, { categories, diverging } = this.quantity;
+    return { colours: categories ? maps.categories : diverging ? maps.diverging : maps.sequential, categories };
+  }
+
+  private plane(): Plane | null {
+    return this.clip.plane(this.bodies.reduce((all, body) => all.union(body.boxNow()), new THREE.Box3()));
+  }
+
+  private showTime(): void {
+    const { player } = this, size = scaled("s", Math.max(Math.abs(player.first), Math.abs(player.last)));
+    const labels = this.results.map((r) => r.about.labels?.[r.frameAt(player.time)] ?? "");
+    this.labels.forEach((label, k) => (label.textContent = labels[k] ?? ""));
+    const isStatic = this.results.some((r) => r.about.static);
+    const said = isStatic ? `load factor ${figure(player.time, 4)}` : `t = ${figure(player.time / size.factor, 4)} ${size.unit}`;
+    const text = labels[0] || said, count = `${player.frame + 1} of ${player.times.length}`;
+    this.clock.textContent = labels.some((l) => l) ? count : `${said}  (${count})`;
+    this.slider.value = String(player.frame);
+    this.slider.setAttribute("aria-valuetext", text);
+    this.play.textContent = player.playing ? "❚❚" : "▶";
+    this.curves.setTime(player.time);
+  }
+
+  private pointed(place: { x: number; y: number } | null): void {
+    this.pointer = place;
+    const hit = place && this.stage.pick(place.x, place.y);
+    this.under.textContent = "";
+    if (!hit) return;
+    const { unit, label } = this.quantity, of = this.results[hit.pane];
+    if (!of?.quantity(this.quantity.key)) {
+      this.under.textContent = `${of?.about.name} has no ${label}`;
+      return;
+    }
+    const number = this.quantity.categories ? String(Math.round(hit.value)) : withUnit(hit.value, unit);
+    this.under.textContent = `${label}: ${number} · node ${hit.node} · element ${hit.cell}`;
+  }
+
+  private controls(): HTMLElement {
+    const quantities = new Map(this.results.flatMap((r) => r.about.quantities).map((q) => [q.key, q.label]));
+    const colours = select([...quantities], (key) => void this.setColour(key));
+    colours.value = this.quantity.key;
+    const scales = [...new Set([...SCALES, this.look.scale])].sort((a, b) => a - b);
+    const scale = select(scales.map((s) => [String(s), `× ${s}`]), (value) => {
+      this.look.scale = Number(value);
+      void this.refresh().then(() => this.stage.fit(this.look.scale));
+    });
+    scale.value = String(this.look.scale);
+    const edges = select([["none", "none"], ["shape", "of the shape"], ["mesh", "of the mesh"]], (value) => {
+      this.look.edges = value as Look["edges"];
+      void this.refresh();
+    });
+    edges.id = "edges";
+    edges.value = this.look.edges;
+    const set = (key: "strokes" | "marks" | "rest") => (on: boolean) => {
+      this.look[key] = on;
+      void this.refresh();
+    };
+    const ticks: HTMLElement[] = [tick("rest shape", this.look.rest, set("rest"))];
+    if (this.results.some((r) => r.strokes)) ticks.push(tick("grain: material axis 1", this.look.strokes, set("strokes"), "grain"));
+    if (this.results.some((r) => r.about.setup.held || r.about.setup.loaded))
+      ticks.push(tick("clamps and loads", this.look.marks, set("marks")));
+    const views = element("div", { class: "row buttons" }, ...Object.entries(VIEWS).map(([key, [name, a, e]]) =>
+      button(name, `View ${name} (${key})`, () => this.stage.look(a, e))));
+    const picture = button("save picture", "The picture as PNG", () => this.savePicture());
+    return element("section", { class: "controls" }, labelled("colour", colours), labelled("deformation", scale), labelled("edges", edges),
+      this.clip.node, element("div", { class: "row ticks" }, ...ticks), views,
+      element("div", { class: "row buttons" }, picture, button("dark / light", "Colours of the page", toggleTheme)),
+      element("details", {}, element("summary", {}, "keys"), element("p", {}, KEYS)));
+  }
+
+  private speedChoice(): HTMLElement {
+    const made = select(Player.speeds().map((s) => [String(s), s === 1 ? "true time" : `${s} × true time`]),
+      (value) => this.player.setSpeed(Number(value)));
+    made.setAttribute("aria-label", "speed");
+    made.value = String(this.player.speed);
+    return made;
+  }
+
+  private tableChoice(): HTMLElement {
+    const tables = this.curves.tables();
+    if (tables.length < 2) return element("div");
+    const made = select(tables.map((t) => [t, t]), (table) => {
+      this.table = table;
+      void this.curves.show(table).then(() => this.showTime());
+    });
+    made.value = this.before?.table ?? made.value;
+    return element("section", { class: "controls" }, labelled("curves", made));
+  }
+
+  private notes(): HTMLElement {
+    const lines = this.results.flatMap(({ about }) => {
+      const warnings = (about.notes.warnings ?? []).map((w) => `warning: ${w}`);
+      const status = about.notes.status && about.notes.status !== "completed" ? [`the run ${about.notes.status}`] : [];
+      const counts = `${counted(about.cells, "element")}, ${counted(about.times.length, "frame")}`;
+      return [[`${about.name}: ${counts}`, ...about.facts].join("; "), ...status, ...warnings];
+    });
+    return element("section", { class: "notes" }, ...lines.map((line) => element("p", {}, line)));
+  }
+
+  private key(event: KeyboardEvent): void {
+    const target = event.target as HTMLElement;
+    if (event.ctrlKey || event.metaKey || event.altKey || /^(SELECT|TEXTAREA)$/.test(target.tagName)) return;
+    if (target.tagName === "INPUT" && target !== this.slider) return;
+    const { player } = this, view = VIEWS[event.key];
+    const actions: Record<string, () => void> = {
+      " ": () => player.toggle(), ArrowLeft: () => void player.goTo(player.frame - 1),
+      ArrowRight: () => void player.goTo(player.frame + 1), Home: () => void player.goTo(0),
+      End: () => void player.goTo(player.times.length - 1), e: () => this.next("#edges"), c: () => this.next("#clip"),
+      g: () => document.querySelector<HTMLInputElement>("#grain")?.click(),
+    };
+    const action = view ? () => this.stage.look(view[1], view[2]) : actions[event.key];
+    if (!action || (target.tagName === "BUTTON" && event.key === " ")) return;
+    event.preventDefault();
+    action();
+  }
+
+  private next(id: string): void {
+    const chosen = document.querySelector<HTMLSelectElement>(id);
+    if (!chosen) return;
+    chosen.selectedIndex = (chosen.selectedIndex + 1) % chosen.options.length;
+    chosen.dispatchEvent(new Event("change"));
+  }
+
+  private savePicture(): void {
+    this.stage.drawNow();
+    const link = element("a", { download: `${this.results[0]?.about.name ?? "view"}.png`, href: this.stage.canvas.toDataURL("image/png") });
+    link.click();
+  }
+}
+
+function defaultQuantity(result: Result): Quantity {
+  const all = result.about.quantities, wanted = ["nodal_stress.von_mises", "von_mises.0", "stress.von_mises", "displacement.magnitude"];
+  const found = wanted.map((key) => all.find((q) => q.key === key)).find((q) => q !== undefined) ?? all[0];
+  if (!found) throw new Error("the result has no field");
+  return found;
+}
+
+function counted(number: number, noun: string): string {
+  return `${number} ${noun}${number === 1 ? "" : "s"}`;
+}
+
+function toggleTheme(): void {
+  const root = document.documentElement, dark = matchMedia("(prefers-color-scheme: dark)").matches;
+  root.dataset["theme"] = (root.dataset["theme"] ?? (dark ? "dark" : "light")) === "dark" ? "light" : "dark";
+}
