@@ -1,7 +1,9 @@
 """Studies as data frames: what they hold is what the program wrote."""
 import os
+import signal
 import sys
 import tempfile
+import threading
 import unittest
 from pathlib import Path
 
@@ -48,6 +50,15 @@ class AStudy(unittest.TestCase):
         with self.assertRaisesRegex(KeyError, "no column 'lowset'; there are point, nu, lowest"):
             study.plot("nu", "lowset")
         self.assertFalse(list(Path().glob(".sweep-*")))
+        with self.assertRaisesRegex(ValueError, "no point has a frame; name `frames: {}` in the sweep"):
+            study.view()
+
+    def test_that_kept_frames_has_a_view(self):
+        study = orthodyn.compare({"title": "t", "scenes": [orthodyn.Scene(beam())], "integrators": ["cvode_bdf"],
+                                  "tolerances": [1e-2], "repeats": 1, "frames": {"count": 3}}, "c", quiet=True)
+        page = study.view()
+        self.assertIn("difference from the reference", Path(page.path).read_text())
+        self.assertIn('href="view.html"', study.report.read_text())
 
     def test_of_a_scene_of_another_folder_finds_its_mesh(self):
         Path("there").mkdir()
@@ -58,6 +69,29 @@ class AStudy(unittest.TestCase):
         study = orthodyn.compare({"title": "t", "scenes": [scene], "integrators": ["cvode_bdf"], "tolerances": [1e-2],
                                   "reference": {"integrator": {"type": "tr_bdf2", "rtol": 1e-3}}}, "c", quiet=True)
         self.assertEqual(list(study.table.status), ["completed"])
+        self.assertEqual(list(study.table.problem), ["muscle"])
+
+    def test_is_interrupted_with_what_was_finished_and_goes_on_from_there(self):
+        spec = {"title": "t", "scene": orthodyn.Scene(beam()), "vary": {"materials.wood.nu": [k / 2000 for k in range(400)]},
+                "quantities": {"lowest": {"quantity": "tip.displacement.z", "take": "min"}}}
+        threading.Timer(1.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+        with self.assertRaises(KeyboardInterrupt) as caught:
+            orthodyn.sweep(spec, "s", quiet=True)
+        self.assertIn("finished is in s; the same call goes on", caught.exception.__notes__[0])
+        self.assertFalse(list(Path().glob(".sweep-*")))
+        finished = len(list(Path("s/points").glob("*/result.json")))
+        self.assertTrue(0 < finished < 400, finished)
+        spec["vary"]["materials.wood.nu"] = spec["vary"]["materials.wood.nu"][:3]
+        self.assertEqual(len(orthodyn.sweep(spec, "s", jobs=1, retry=True, quiet=True).table), 3)
+
+    def test_that_cannot_be_says_so_in_words_of_python(self):
+        with self.assertRaisesRegex(orthodyn.ConfigError, "^the study:1:[0-9]+: scnes: unknown key; did you mean 'scenes'"):
+            orthodyn.compare({"title": "t", "scnes": []}, "c", quiet=True)
+        Path("full").mkdir()
+        Path("full/mine").write_text("")
+        with self.assertRaisesRegex(orthodyn.ConfigError, "(use|choose) [^-]*out\\b") as caught:
+            orthodyn.Scene(beam()).run("full", progress=False)
+        self.assertNotIn("--", str(caught.exception))
         self.assertFalse(list(Path("there").glob(".compare-*")))
 
     def test_of_meshes_has_a_row_for_each(self):

@@ -20,9 +20,9 @@ constexpr double kSeconds = 600, kSecondsWhenInterrupted = 3;  // before the pro
 
 // Whether `draw` with these arguments ended well; its messages go to `log`.
 bool draw(std::vector<std::string> arguments, const fs::path& log) {
-  const fs::path program = draw_tool();
-  if (!fs::exists(program)) return false;
-  arguments.insert(arguments.begin(), program.string());
+  if (!fs::exists(draw_tool())) return false;
+  const auto command = draw_command();
+  arguments.insert(arguments.begin(), command.begin(), command.end());
   const std::atomic<bool> never{false};
   const std::atomic<bool>& interrupt = interrupted() ? never : interrupted();  // a second Ctrl-C ends it all
   const double seconds = interrupted() ? kSecondsWhenInterrupted : kSeconds;

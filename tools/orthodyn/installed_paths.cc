@@ -1,5 +1,7 @@
 #include "tools/orthodyn/installed_paths.h"
 
+#include <cstdlib>
+
 namespace orthodyn {
 
 namespace fs = std::filesystem;
@@ -14,6 +16,12 @@ fs::path shared(const char* installed, const char* in_source) {
 }  // namespace
 
 fs::path draw_tool() { return shared("draw/draw", "tools/draw/draw"); }
+
+std::vector<std::string> draw_command() {
+  const char* python = std::getenv("ORTHODYN_PYTHON");
+  if (!python || !*python) return {draw_tool().string()};
+  return {python, draw_tool().string()};
+}
 
 fs::path schema_file(const std::string& kind) {
   return shared(("schema/" + kind + ".json").c_str(), ("configs/schema/" + kind + ".json").c_str());

@@ -3,11 +3,16 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace orthodyn {
 
 // The tool that draws; it may be missing.
 std::filesystem::path draw_tool();
+
+// What starts it: itself, or the Python that the environment variable ORTHODYN_PYTHON names, with it.
+std::vector<std::string> draw_command();
 
 // The JSON Schema of a kind of input; it may be missing.
 std::filesystem::path schema_file(const std::string& kind);

@@ -38,7 +38,7 @@ constexpr auto kPoll = std::chrono::milliseconds(5);
     dup2(out, STDOUT_FILENO);
     dup2(out, STDERR_FILENO);
   }
-  execv(argv[0], argv);
+  execvp(argv[0], argv);
   _exit(127);
 }
 

@@ -6,6 +6,7 @@
 #include "lib/core/versions.h"
 #include "lib/simulation/simulation.h"
 #include "tools/python/binding/arrays.h"
+#include "tools/python/binding/in_python.h"
 #include "tools/python/binding/integrate.h"
 #include "tools/python/binding/listener.h"
 #include "tools/python/binding/python_model.h"
@@ -15,11 +16,25 @@ namespace orthodyn::python {
 
 namespace {
 
+// A Python exception of that name, which is raised for an E.
+template <class E>
+void declare_error(py::module_& m, const char* name, PyObject* base, const char* doc) {
+  static py::exception<E> type(m, name, base);
+  type.doc() = doc;
+  py::register_exception_translator([](std::exception_ptr p) {
+    try {
+      if (p) std::rethrow_exception(p);
+    } catch (const E& e) {
+      PyErr_SetString(type.ptr(), in_python(e.what()).c_str());
+    }
+  });
+}
+
 void declare_errors(py::module_& m) {
-  py::register_exception<ConfigError>(m, "ConfigError", PyExc_ValueError).doc() =
-      "The input is at fault: what was found, where (file:line), what is allowed, what to do.";
-  py::register_exception<RunError>(m, "RunError", PyExc_RuntimeError).doc() =
-      "A computation could not go on: how far it came, why, what to try.";
+  declare_error<ConfigError>(m, "ConfigError", PyExc_ValueError,
+                             "The input is at fault: what was found, where (file:line), what is allowed, what to do.");
+  declare_error<RunError>(m, "RunError", PyExc_RuntimeError,
+                          "A computation could not go on: how far it came, why, what to try.");
   py::register_exception<RecoverableError>(m, "RecoverableError", PyExc_RuntimeError).doc() =
       "Not this state; a model of one's own raises it to ask for a smaller step.";
 }
@@ -39,12 +54,6 @@ py::tuple run_simulation(const Simulation& simulation, const std::string& folder
 
 void declare_simulation(py::module_& m) {
   py::class_<Simulation>(m, "Simulation", "A scene that can be run, once or many times.")
-      .def_static(
-          "from_file",
-          [](const std::string& file, std::vector<std::string> set, std::optional<std::string> integrator) {
-            return Simulation::from_file(file, {std::move(set), std::move(integrator)});
-          },
-          py::arg("file"), py::arg("set") = std::vector<std::string>(), py::arg("integrator") = py::none())
       .def_static(
           "from_text",
           [](const std::string& text, const std::string& name, std::vector<std::string> set,
@@ -157,6 +166,7 @@ PYBIND11_MODULE(_core, m) {
   declare_scene_model(m);
   declare_own_models(m);
   m.def("integrators", integrators);
+  m.def("in_python", in_python);
 }
 
 }  // namespace orthodyn::python

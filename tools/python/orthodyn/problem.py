@@ -137,10 +137,10 @@ class Problem:
         take = _Taker(pattern)
         stiffness, damping = self._stiffness, self._damping
 
-        def tangent(at: float, q: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
+        def sparse(at: float, q: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
             return take(stiffness(at, q, v)), None if damping is None else take(damping(at, q, v))
 
-        return _core.PythonModel(self.mass, self.force, tangent, pattern.indptr, pattern.indices, self._symmetric,
+        return _core.PythonModel(self.mass, self.force, sparse, pattern.indptr, pattern.indices, self._symmetric,
                                  damping is not None, self._linear, self._time_dependent)
 
     def _places(self, name: str, matrix: Matrix) -> Any:

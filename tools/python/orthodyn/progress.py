@@ -22,7 +22,8 @@ class Progress:
     """The part that is done, and about how long the rest takes, on stderr."""
 
     def __init__(self, name: str) -> None:
-        self._name, self._began, self._first, self._shown = name, time.monotonic(), None, 0
+        self._name, self._began, self._shown = name, time.monotonic(), 0
+        self._first: float | None = None
 
     @staticmethod
     def wanted(asked: bool | None) -> bool:

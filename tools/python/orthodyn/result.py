@@ -164,20 +164,20 @@ class Result:
         of_cells = {name: [v] for name, v in values.items() if name not in of_nodes and len(v) == cells}
         return meshio.Mesh(self.points, [(CELL_TYPES[self.cells.shape[1]], self.cells)], of_nodes, of_cells)
 
-    def view(self, other: Result | None = None, *, out: str | Path | None = None, volume: bool = False, height: int = 620,
-             time: float | None = None, color: str | None = None, scale: float = 1.0) -> Page:
-        """A page with a 3D view, which a notebook shows. `other`: a result beside it; `volume`: also what is inside, for the clip
+    def view(self, *others: Result, out: str | Path | None = None, volume: bool = False, height: int = 620,
+             time: float | None = None, color: str | None = None, scale: float | None = None) -> Page:
+        """A page with a 3D view, which a notebook shows. `others`: a result beside it, or several to choose from; `volume`: also what is inside, for the clip
         plane; `time`, `color` ("nodal_stress.von_mises") and `scale` of the deformation: with what it begins."""
         from .draw.view.collect import Extent
         from .draw.view.page import write_view
-        folders = [str(result.folder) for result in (self, other) if result is not None]
-        start = {"scale": float(scale), **({} if time is None else {"time": float(time)}),
-                 **({} if color is None else {"color": color})}
+        folders = [str(result.folder) for result in (self, *others)]
+        given = {"scale": scale, "time": time, "color": color}
+        start = {key: value if key == "color" else float(value) for key, value in given.items() if value is not None}
         try:
             path = write_view(folders, out, Extent(volume=volume), start)
         except DrawError as error:
             raise ValueError(str(error)) from None
-        return Page(path, height, (self, other))
+        return Page(path, height, (self, *others))
 
     def plot(self, table: str = "probes", columns: str | list[str] | None = None, ax: Axes | None = None) -> Axes:
         """The columns of a table over time."""

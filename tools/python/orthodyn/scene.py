@@ -96,7 +96,7 @@ class Scene:
         KeyboardInterrupt has a `result`, too. Other threads run on meanwhile.
         """
         holder = tempfile.mkdtemp(prefix=TEMPORARY) if out is None else None
-        folder = Path(holder) / self.name if holder else Path(out)
+        folder = Path(out) if out is not None else Path(str(holder)) / self.name
         if fields is not None:
             fields = [fields] if isinstance(fields, str) else list(fields)
             self._check_fields(fields)
@@ -114,9 +114,9 @@ class Scene:
         result._keep(kept)
         for text in result.record.get("warnings", ()):
             if text not in told.texts:
-                warnings.warn(text, OrthodynWarning, stacklevel=2)
+                warnings.warn(_core.in_python(text), OrthodynWarning, stacklevel=2)
         if status == "failed":
-            error = _core.RunError(message)
+            error = _core.RunError(_core.in_python(message))
             error.result = result  # type: ignore[attr-defined]
             raise error
         return result
@@ -141,10 +141,10 @@ class _Told:
 
     def on_warning(self, text: str) -> None:
         self.texts.add(text)
-        warnings.warn(text, OrthodynWarning, stacklevel=3)
+        warnings.warn(_core.in_python(text), OrthodynWarning, stacklevel=3)
 
     def on_notice(self, text: str) -> None:
-        self.progress.say(text)
+        self.progress.say(_core.in_python(text))
 
     def on_progress(self, time: float, end: float) -> None:
         self.progress.show(time, end)

@@ -5,11 +5,12 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping
-from contextlib import ExitStack, contextmanager
+from collections.abc import Callable, Mapping
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -41,10 +42,19 @@ class Study:
         """The report, which a notebook shows."""
         return Page(self.report, height)
 
+    def view(self, height: int = 620) -> Page:
+        """Its points in 3D: of a sweep and a comparison those that kept `frames`, of hard cases the end states."""
+        from .draw.errors import DrawError
+        from .draw.view.page import write_view
+        try:
+            return Page(write_view([str(self.folder)]), height)
+        except DrawError as error:
+            raise ValueError(str(error)) from None
+
     def plot(self, x: str, y: str, by: str | None = None, ax: Axes | None = None, *, log: bool = False) -> Axes:
         """One column over another, a line for each value of a third."""
         from .plots import new_axes
-        x, y, by = (name and self.column(name) for name in (x, y, by))
+        x, y, by = self.column(x), self.column(y), by and self.column(by)
         ax = new_axes(ax)
         groups = self.table.groupby(by) if by else [("", self.table)]
         for name, rows in groups:
@@ -64,43 +74,54 @@ class Study:
         found = [c for c in self.table.columns if c == name or c.split(" [")[0] == name]
         if not found:
             raise KeyError(f"no column '{name}'; there are {', '.join(self.table.columns)}")
-        return found[0]
+        return str(found[0])
 
     def __repr__(self) -> str:
         return f"Study({self.kind}, {len(self.table)} points, {self.folder})"
 
 
-def compare(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, quiet: bool = False) -> Study:
+# All studies take the same options:
+#     out    folder; default out/KIND/NAME, by the name of the file or the title. What is there already is not computed again
+#     retry  try points again that failed before
+#     quiet  print nothing
+
+
+def compare(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, retry: bool = False,
+            quiet: bool = False) -> Study:
     """Integrators on scenes: error against time. `study`: a YAML file, or a dict as it would hold:
 
         orthodyn.compare({"title": "Beam", "scenes": [scene], "integrators": ["cvode_bdf", "tr_bdf2"],
                           "tolerances": [1e-2, 1e-4]})
 
-    A scene is a file, or a `Scene`.
+    A scene is a file, or a `Scene`. One point is measured after the other; what is done in `out` is kept, unless `retry` asks
+    for what failed.
     """
-    return _run("compare", "compare.csv", study, out, quiet)
+    return _run(_Call("compare", out, quiet, retry), study)
 
 
-def sweep(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, quiet: bool = False) -> Study:
+def sweep(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, jobs: int | None = None, retry: bool = False,
+          quiet: bool = False) -> Study:
     """A scene over values of its keys:
 
         orthodyn.sweep({"title": "Stiffer", "scene": scene, "vary": {"materials.spruce.young.0": ["8 GPa", "12 GPa"]},
                         "quantities": {"deflection": {"quantity": "tip.displacement.z"}}})
 
     A scene is a file, a `Scene`, or {"file": one of these, "set": {"damping.stiffness": "=zeta/30"}}, where what is varied
-    may have a name of its own, "vary": {"zeta": [0.01, 0.1]}.
+    may have a name of its own, "vary": {"zeta": [0.01, 0.1]}. `jobs` points at a time, default one a processor.
     """
-    return _run("sweep", "sweep.csv", study, out, quiet)
+    return _run(_Call("sweep", out, quiet, retry, jobs), study)
 
 
-def stability(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, quiet: bool = False) -> Study:
-    """Integrators on hard cases: which keep what they should."""
-    return _run("stability", "stability.csv", study, out, quiet)
+def stability(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, jobs: int | None = None,
+              retry: bool = False, quiet: bool = False) -> Study:
+    """Integrators on hard cases: which keep what they should. `jobs` trials at a time, default one a processor."""
+    return _run(_Call("stability", out, quiet, retry, jobs), study)
 
 
-def converge(study: str | Path | Scene, out: str | Path | None = None, *, quiet: bool = False) -> Study:
-    """A scene, or its file, on finer and finer meshes."""
-    return _run("converge", "convergence.csv", study, out, quiet)
+def converge(study: str | Path | Scene, out: str | Path | None = None, *, jobs: int | None = None, retry: bool = False,
+             quiet: bool = False) -> Study:
+    """A scene, or its file, on finer and finer meshes. `jobs` of them at a time, default one a processor."""
+    return _run(_Call("converge", out, quiet, retry, jobs), study)
 
 
 def program() -> str:
@@ -113,38 +134,76 @@ def program() -> str:
     return found
 
 
-def _run(kind: str, table: str, study: Any, out: str | Path | None, quiet: bool) -> Study:
+@dataclass(frozen=True)
+class _Call:
+    """Of the program: what it is to do, and how."""
+    kind: str
+    out: str | Path | None
+    quiet: bool
+    retry: bool
+    jobs: int | None = None
+
+    def folder(self, name: str) -> Path:
+        return Path(self.out) if self.out else Path("out") / _FOLDER[self.kind] / name
+
+    def words(self, file: str, folder: Path) -> list[str]:
+        jobs = [] if self.jobs is None else ["--jobs", str(self.jobs)]
+        return [program(), self.kind, file, "--out", str(folder), *["--retry"] * self.retry, *jobs]
+
+
+def _run(call: _Call, study: Any) -> Study:
     import pandas
-    with ExitStack() as written:
+    with _Files(call.kind) as files:
         if isinstance(study, Scene):
-            file, name = _with_files(kind, study, written), study.name
+            file, name = files.with_files(study), study.name
         elif isinstance(study, Mapping):
-            file, name = written.enter_context(_file(kind, as_yaml(_with_files(kind, study, written)))), _name(study)
+            file, name = files.add(as_yaml(files.with_files(study)), Path("."), "the study"), _name(study)
         else:
             file, name = str(study), Path(study).stem
-        folder = Path(out) if out else Path("out") / _PLURAL[kind] / name
-        _call(kind, file, folder, quiet)
-    return Study(kind, folder, pandas.read_csv(folder / table))
+        folder = call.folder(name)
+        _start(call, file, folder, files.named)
+    return Study(call.kind, folder, pandas.read_csv(folder / _TABLE[call.kind]))
 
 
-@contextmanager
-def _file(kind: str, text: str, folder: Path = Path(".")) -> Iterator[str]:
-    """A file for the program: what it names is looked for beside it."""
-    with tempfile.NamedTemporaryFile("w", suffix=".yaml", prefix=f".{kind}-", dir=folder, encoding="utf-8", delete=False) as stream:
-        stream.write(text)
-    try:
-        yield os.path.abspath(stream.name)
-    finally:
-        os.unlink(stream.name)
+class _Files(ExitStack):
+    """Files for the program, of what is in memory; they go at the end."""
+
+    def __init__(self, kind: str) -> None:
+        super().__init__()
+        self.kind = kind
+        self.names: dict[str, str] = {}
+
+    def add(self, text: str, folder: Path, name: str) -> str:
+        """In that folder, for what the text names is looked for beside it. Messages call it by `name`."""
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml", prefix=f".{self.kind}-", dir=folder, encoding="utf-8",
+                                         delete=False) as stream:
+            stream.write(text)
+        path = os.path.abspath(stream.name)
+        self.callback(os.unlink, path)
+        self.names[path] = name
+        return path
+
+    def with_files(self, item: Any) -> Any:
+        """The same with a file for each Scene."""
+        if isinstance(item, Scene):
+            return self.add(item.to_yaml(), item.folder, f"scene '{item.name}'")
+        if isinstance(item, Mapping):
+            return {key: self.with_files([_labelled(v) for v in value] if key in ("scenes", "cases") else value)
+                    for key, value in item.items()}
+        return [self.with_files(value) for value in item] if isinstance(item, (list, tuple)) else item
+
+    def named(self, message: str) -> str:
+        for path, name in self.names.items():
+            message = message.replace(path, name)
+        return message
 
 
-def _with_files(kind: str, item: Any, written: ExitStack) -> Any:
-    """The same with a file for each Scene."""
-    if isinstance(item, Scene):
-        return written.enter_context(_file(kind, item.to_yaml(), item.folder))
-    if isinstance(item, Mapping):
-        return {key: _with_files(kind, value, written) for key, value in item.items()}
-    return [_with_files(kind, value, written) for value in item] if isinstance(item, (list, tuple)) else item
+def _labelled(scene: Any) -> Any:
+    """With the name of a Scene, whose file has none that tells anything."""
+    entry = {"file": scene} if isinstance(scene, Scene) else scene
+    if isinstance(entry, Mapping) and isinstance(entry.get("file"), Scene):
+        return {"label": entry["file"].name, **entry}
+    return entry
 
 
 def _name(study: Mapping[str, Any]) -> str:
@@ -152,15 +211,28 @@ def _name(study: Mapping[str, Any]) -> str:
     return re.sub(r"[^a-z0-9]+", "_", str(study.get("title", "")).lower()).strip("_") or "study"
 
 
-_PLURAL = {"compare": "comparisons", "sweep": "sweeps", "stability": "stability", "converge": "convergence"}
+_FOLDER = {"compare": "comparisons", "sweep": "sweeps", "stability": "stability", "converge": "convergence"}
+_TABLE = {"compare": "compare.csv", "sweep": "sweep.csv", "stability": "stability.csv", "converge": "convergence.csv"}
 
 
-def _call(kind: str, file: str, folder: Path, quiet: bool) -> None:
-    ended = subprocess.run([program(), kind, file, "--out", str(folder)], stdout=subprocess.DEVNULL if quiet else None,
-                           stderr=subprocess.PIPE, text=True, check=False)
-    if ended.returncode == CONFIG_ERROR:
-        raise _core.ConfigError(ended.stderr.strip().removeprefix("error: "))
-    if ended.returncode:
-        raise _core.RunError(ended.stderr.strip() or f"{program()} {kind} ended with {ended.returncode}")
-    if ended.stderr and not quiet:
-        sys.stderr.write(ended.stderr)
+def _start(call: _Call, file: str, folder: Path, named: Callable[[str], str]) -> None:
+    """Runs the program to its end; Ctrl-C lets it end what it has begun, and write its report."""
+    quiet, environment = call.quiet, {**os.environ, "ORTHODYN_PYTHON": sys.executable}  # which draws its report
+    with subprocess.Popen(call.words(file, folder), stdout=subprocess.DEVNULL if quiet else None, stderr=subprocess.PIPE,
+                          text=True, env=environment, process_group=0) as process:
+        try:
+            said = named(_core.in_python(process.communicate()[1].strip()))
+        except KeyboardInterrupt as interrupt:
+            process.send_signal(signal.SIGINT)  # the only one that it gets: it is in a group of its own
+            process.communicate()
+            interrupt.add_note(f"What was finished is in {folder}; the same call goes on from there.")
+            raise
+        except BaseException:
+            process.kill()
+            raise
+    if process.returncode == CONFIG_ERROR:
+        raise _core.ConfigError(said.removeprefix("error: "))
+    if process.returncode:
+        raise _core.RunError(said or f"{program()} {call.kind} ended with {process.returncode}")
+    if said and not quiet:
+        sys.stderr.write(said + "\n")
