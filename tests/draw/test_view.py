@@ -64,6 +64,11 @@ class InBlocks(unittest.TestCase):
         array = np.concatenate([s * 10.0 ** np.linspace(2, 9, 500) for s in (1, -1)])[:, None]
         self.assertLess(np.abs(self.kept("half", array) / array - 1).max(), 5e-4)
 
+    def test_nothing_is_kept_too(self):
+        blocks = Blocks()
+        blocks.add("x", "u32", np.zeros((0, 2), int))
+        self.assertEqual(unpacked(blocks.text())["x"], ({"kind": "u32", "components": 2}, b""))
+
     def test_what_is_not_a_number_stays_so(self):
         kept = self.kept("half", np.array([[np.nan], [1.0], [0.0]]))
         self.assertTrue(np.isnan(kept[0, 0]) and kept[1, 0] == 1 and kept[2, 0] == 0)
@@ -194,6 +199,13 @@ orthodynView.then(async view => {
     facing.push(side(1, 1) * side(2, 2) - side(1, 2) * side(2, 1) >= 0);  // what is above in x is cut off
   }
   result.cap = [facing.length, facing.every(Boolean)];
+  document.querySelector("#clip").value = "eye";
+  document.querySelector("#clip").dispatchEvent(new Event("change"));
+  await view.goTo(3);
+  result.prints.push(print());
+  const eye = view.stage.toward(), faced = view.bodies[0].cut, p = faced?.positions, places = [];
+  for (let k = 0; faced && k < 3 * faced.count; ++k) places.push(eye[0] * p[3 * k] + eye[1] * p[3 * k + 1] + eye[2] * p[3 * k + 2]);
+  result.depths = [Math.min(...places), Math.max(...places)];
   result.fits = document.documentElement.scrollWidth <= innerWidth;
   result.charts = document.querySelectorAll(".chart").length;
   document.body.append(Object.assign(document.createElement("pre"), {id: "probe", textContent: JSON.stringify({...result, said})}));
@@ -219,7 +231,8 @@ class InABrowser(OfAResult):
     def test_pixels_change_with_time_and_field_and_values_are_those_of_the_frames(self):
         result, console, cell = self.looked_at(1400, volume=True)
         self.assertEqual((result["said"], console), ([], []))
-        self.assertEqual(len(set(result["prints"])), 7)
+        self.assertEqual(len(set(result["prints"])), 8)
+        self.assertAlmostEqual(*result["depths"], places=5)  # the plane that faces the eye is everywhere as far from it
         self.assertGreater(result["cap"][0], 0)
         self.assertTrue(result["cap"][1], "the section must show its painted side")
         self.assertEqual(result["clock"], "t = 1.000 s  (4 of 4)")
@@ -278,6 +291,12 @@ class InABrowser(OfAResult):
             await pick(1, "2"); out.second = chosen(); out.notes = notes();
             out.clock = document.querySelector(".clock").textContent;
             out.legend = document.querySelector(".legend-title").textContent;
+            const choose = (value) => {
+              const made = document.querySelectorAll(".names select")[1];
+              made.value = value; made.dispatchEvent(new Event("change"));
+              return orthodynView;
+            };
+            await Promise.all([choose("1"), choose("0"), choose("2")]); out.last = [chosen(), document.querySelectorAll("canvas").length];
             await pick(1, "-1"); out.alone = chosen(); out.panes = document.querySelectorAll(".pane").length;
             out.canvases = document.querySelectorAll("canvas").length;
             document.body.append(Object.assign(document.createElement("pre"), {id: "probe", textContent: JSON.stringify(out)}));
@@ -290,6 +309,7 @@ class InABrowser(OfAResult):
         self.assertEqual((out["first"], out["second"]), (["r", "other"], ["r", "late"]))
         self.assertIn("late: 2 elements, 3 frames", out["notes"])
         self.assertNotIn("other", out["notes"])
+        self.assertEqual(out["last"], [["r", "late"], 1])  # of three choices at a time
         self.assertEqual((out["clock"], out["legend"]), ("t = 0.5000 s  (3 of 4)", "volume ratio det F"))
         self.assertEqual((out["alone"], out["panes"], out["canvases"]), (["r", "beside it …"], 1, 1))
 
@@ -320,6 +340,65 @@ class OfAStudy(InAFolder):
         unit = next(q["unit"] for q in about["results"][1]["quantities"] if q["field"] == "difference")
         self.assertEqual(unit, "m")
 
+    def comparison(self, problems=1):
+        """With a reference at three times; returns the folders of its points."""
+        content = a_comparison(problems=problems, methods=2, points=1)
+        content["problems"][0]["reference"]["folder"] = "references/a"
+        (self.folder / "compare.json").write_text(json.dumps(content), encoding="utf-8")
+        write_result(self.folder / "references/a", [0.0, 0.5, 1.0])
+        return [(self.folder / point["scene"]).parent for point in content["points"]]
+
+    def test_of_a_run_that_failed_holds_what_there_is(self):
+        run = write_result(self.comparison()[0], [0.0, 0.5])
+        (run / "frames/frame_00001.vtu").write_bytes(Vtu().content(*fields_at(0.75)))
+        about, blocks = self.described(self.folder)
+        self.assertEqual(len(about["results"][1]["times"]), 2)
+        np.testing.assert_allclose(values_of(blocks["r1/difference/1"]), 0.25 * POINTS, atol=2e-4)
+
+    def test_compares_no_run_with_a_reference_of_other_times_or_another_mesh(self):
+        first, second = self.comparison()
+        write_result(first, [0.0, 0.7, 1.0])
+        write_result(second, [0.0, 0.5, 1.0])
+        for path in second.glob("frames/*.vtu"):
+            path.write_bytes(Vtu(points=POINTS + 0.1).content(*fields_at(0.5)))
+        about, blocks = self.described(self.folder)
+        self.assertEqual(len(about["results"]), 3)
+        self.assertFalse([name for name in blocks if "difference" in name])
+        self.assertNotIn("time", about["start"])
+
+    def test_of_a_run_without_finite_places_or_frames_is_left_out(self):
+        first, second = self.comparison()
+        write_result(first, [0.0, 0.5, 1.0])
+        (first / "frames/frame_00002.vtu").write_bytes(Vtu().content({"displacement": np.full((5, 3), np.nan)}, {}))
+        second.mkdir(parents=True)
+        (second / "frames.pvd").write_text('<VTKFile type="Collection"><Collection></Collection></VTKFile>')
+        about, _ = self.described(self.folder)
+        self.assertEqual([r["name"] for r in about["results"]], ["reference"])
+
+    def test_of_two_comparisons_begins_with_one_of_each(self):
+        self.comparison()
+        other = self.folder / "other"
+        write_result(other, [0.0, 1.0])
+        text = page([self.folder, other], Extent())
+        about = json.loads(re.search(r'id="description">(.*?)</script>', text).group(1))
+        self.assertEqual((about["start"]["panes"], len(about["results"])), ([0, 1], 2))
+
+    def test_that_cannot_be_drawn_leaves_the_report(self):
+        write_matrix(self.folder, content := matrix())
+        for t in content["trials"]:
+            write_end_state(self.folder, t, np.full_like(POINTS, np.nan))
+        code, out, err = self.run_draw("report", self.folder)
+        self.assertEqual((code, len(err)), (0, 1), err)
+        self.assertIn("no 3D view: ", err[0])
+        self.assertNotIn("In 3D", (self.folder / "report.html").read_text(encoding="utf-8"))
+
+    def test_is_linked_from_the_report(self):
+        write_result(self.comparison()[0], [0.0, 0.5, 1.0])
+        code, out, err = self.run_draw("report", self.folder)
+        self.assertEqual((code, err), (0, []))
+        self.assertIn(str(self.folder / "view.html"), out)
+        self.assertIn('<a href="view.html">In 3D</a>', (self.folder / "report.html").read_text(encoding="utf-8"))
+
     def test_of_hard_cases_holds_the_end_states_that_differ(self):
         content = matrix()
         write_matrix(self.folder, content)
@@ -330,7 +409,7 @@ class OfAStudy(InAFolder):
         about, blocks = self.described(self.folder)
         self.assertEqual([(r["name"], r["labels"]) for r in about["results"]],
                          [("mirrored", ["exact; pass: alpha, beta", "exact; degraded: gamma",
-                                        *(label for label in about["results"][0]["labels"] if label.startswith("warped"))])])
+                                        "warped; pass: alpha; fail: beta", "warped; refused: gamma"])])
         np.testing.assert_allclose(values_of(blocks["r0/displacement/1"]), POINTS, atol=2e-5)
         self.assertEqual((about["start"]["color"], about["start"]["rest"]), ("det_f", True))
 

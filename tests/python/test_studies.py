@@ -1,9 +1,11 @@
 """Studies as data frames: what they hold is what the program wrote."""
 import os
 import signal
+import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 from pathlib import Path
 
@@ -71,18 +73,61 @@ class AStudy(unittest.TestCase):
         self.assertEqual(list(study.table.status), ["completed"])
         self.assertEqual(list(study.table.problem), ["muscle"])
 
-    def test_is_interrupted_with_what_was_finished_and_goes_on_from_there(self):
-        spec = {"title": "t", "scene": orthodyn.Scene(beam()), "vary": {"materials.wood.nu": [k / 2000 for k in range(400)]},
+    def test_of_scenes_of_one_name_tells_them_apart(self):
+        scene = orthodyn.Scene(beam(), "strip")
+        study = orthodyn.compare({"title": "t", "scenes": [scene, scene.set("gravity.2", -5)], "integrators": ["cvode_bdf"],
+                                  "tolerances": [1e-2], "reference": {"kind": "none"}, "repeats": 1}, "c", quiet=True)
+        self.assertEqual(list(study.table.problem), ["strip", "strip-2"])
+        for wrong, words in (("beam.yaml", "scenes: .*list"), (None, "key 'scenes' is missing")):
+            with self.assertRaisesRegex(orthodyn.ConfigError, f"^the study:1:[0-9]+: {words}"):
+                orthodyn.compare({"title": "t", "scenes": wrong, "tolerances": [1e-2]}, "w", quiet=True)
+
+    def long_sweep(self):
+        return {"title": "t", "scene": orthodyn.Scene(beam()), "vary": {"materials.wood.nu": [k / 2000 for k in range(400)]},
                 "quantities": {"lowest": {"quantity": "tip.displacement.z", "take": "min"}}}
-        threading.Timer(1.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+
+    def finished(self):
+        return {path: path.read_bytes() for path in Path("s/points").glob("*/result.json")}
+
+    def interrupt_when_begun(self):
+        """Ctrl-C as a terminal sends it: to all of the group."""
+        def wait():
+            while not self.finished():
+                time.sleep(0.02)
+            os.kill(os.getpid(), signal.SIGINT)
+        thread = threading.Thread(target=wait, daemon=True)
+        thread.start()
+
+    def test_is_interrupted_with_what_was_finished_and_goes_on_from_there(self):
+        self.interrupt_when_begun()
         with self.assertRaises(KeyboardInterrupt) as caught:
-            orthodyn.sweep(spec, "s", quiet=True)
-        self.assertIn("finished is in s; the same call goes on", caught.exception.__notes__[0])
+            orthodyn.sweep(self.long_sweep(), "s", quiet=True)
+        self.assertIn("finished are kept in s; the same call goes on", caught.exception.__notes__[0])
         self.assertFalse(list(Path().glob(".sweep-*")))
-        finished = len(list(Path("s/points").glob("*/result.json")))
-        self.assertTrue(0 < finished < 400, finished)
-        spec["vary"]["materials.wood.nu"] = spec["vary"]["materials.wood.nu"][:3]
-        self.assertEqual(len(orthodyn.sweep(spec, "s", jobs=1, retry=True, quiet=True).table), 3)
+        before = self.finished()
+        self.assertTrue(0 < len(before) < 400, len(before))
+        self.assertEqual(list(Path("s").glob("report.html")), [Path("s/report.html")])
+        spec = self.long_sweep()
+        spec["vary"]["materials.wood.nu"] = spec["vary"]["materials.wood.nu"][:len(before)]
+        self.assertEqual(len(orthodyn.sweep(spec, "s", jobs=1, retry=True, quiet=True).table), len(before))
+        self.assertEqual({path: text for path, text in self.finished().items() if path in before}, before)
+
+    def test_ends_with_the_interpreter_that_asked_for_it(self):
+        """Also where that is killed."""
+        code = (f"import sys; sys.path[:0] = {sys.path!r}; import orthodyn; from short_scene import beam; "
+                f"orthodyn.sweep({{**{{'scene': orthodyn.Scene(beam())}}, **{ {k: v for k, v in self.long_sweep().items() if k != 'scene'}!r}}}, "
+                "'s', quiet=True)")
+        with subprocess.Popen([sys.executable, "-c", code]) as asking:
+            while not self.finished():
+                time.sleep(0.02)
+            asking.kill()
+        for _ in range(100):  # SIGTERM: it ends within four seconds
+            time.sleep(0.1)
+            before = len(self.finished())
+            time.sleep(0.5)
+            if len(self.finished()) == before:
+                break
+        self.assertLess(len(self.finished()), 400)
 
     def test_that_cannot_be_says_so_in_words_of_python(self):
         with self.assertRaisesRegex(orthodyn.ConfigError, "^the study:1:[0-9]+: scnes: unknown key; did you mean 'scenes'"):
@@ -92,7 +137,6 @@ class AStudy(unittest.TestCase):
         with self.assertRaisesRegex(orthodyn.ConfigError, "(use|choose) [^-]*out\\b") as caught:
             orthodyn.Scene(beam()).run("full", progress=False)
         self.assertNotIn("--", str(caught.exception))
-        self.assertFalse(list(Path("there").glob(".compare-*")))
 
     def test_of_meshes_has_a_row_for_each(self):
         study = orthodyn.converge(orthodyn.Scene(beam()), "v", quiet=True)

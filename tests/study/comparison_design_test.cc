@@ -117,7 +117,7 @@ TEST_F(Expand, AReferenceTakesScalesFromTheSceneAndNothingElse) {
   write("own.yaml",
         std::string(kSwing).replace(std::string(kSwing).find("rtol: 1e-3"), 10, "max_steps: 7, velocity_scale: 2"));
   const auto design = expanded("scenes: [own.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-3]\n");
-  const Config integrator = reference_scene(design, design.groups[0], design.check).at("integrator");
+  const Config integrator = reference_scene(design.groups[0], design.check).at("integrator");
   EXPECT_EQ(integrator.at("velocity_scale").number(), 2);
   EXPECT_EQ(integrator.at("max_order").integer(), 5);
   EXPECT_NE(integrator.at("max_steps").integer(), 7);

@@ -159,7 +159,8 @@ def _parser():
     view.add_argument("--volume", action="store_true", help="also what is inside, for the clip plane; a larger page")
     view.add_argument("--fields", type=lambda s: tuple(s.split(",")), metavar="F1,F2,...",
                       help="these fields only (default: all but material axes, of which the grain is drawn)")
-    view.add_argument("--every", type=_count, default=1, metavar="K", help="every K-th frame (default 1), and the last")
+    view.add_argument("--every", type=_count, metavar="K",
+                      help="every K-th frame, and the last (default 1; of a large comparison as many as 60 MB hold)")
     view.add_argument("--time", type=lambda s: _numbers(s, 1)[0], metavar="T", help="begins at the frame nearest to T seconds")
     view.add_argument("--color", metavar="FIELD[.COMPONENT]", help="begins with this colour, see below")
     view.add_argument("--scale", type=lambda s: _numbers(s, 1)[0], metavar="S",

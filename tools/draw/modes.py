@@ -59,11 +59,22 @@ def read_modes(folder):
     raise DrawError(f"{folder}: no modes.csv of `orthodyn modes` and no buckling.csv of a buckling analysis")
 
 
-def draw_modes(folder, path, count, view, up):
-    shapes = Shapes(folder)
+def _read_all(folder, shapes):
     figures, label = read_modes(folder)
     if len(figures) != len(shapes):
         raise DrawError(f"{folder}: the table and modes.pvd do not belong together; compute them again")
+    return figures, label
+
+
+def labelled_modes(folder, shapes):
+    """'3: 12.5 Hz' of each."""
+    figures, label = _read_all(folder, shapes)
+    return [f"{k + 1}: {label(figure)}" for k, figure in enumerate(figures)]
+
+
+def draw_modes(folder, path, count, view, up):
+    shapes = Shapes(folder)
+    figures, label = _read_all(folder, shapes)
     chosen = [k for k in range(len(shapes)) if figures[k] != 0][:count]
     if not chosen:
         raise DrawError(f"{folder}: all {len(figures)} modes are rigid; ask for more with -n")

@@ -18,7 +18,7 @@ fs::path shared(const char* installed, const char* in_source) {
 fs::path draw_tool() { return shared("draw/draw", "tools/draw/draw"); }
 
 std::vector<std::string> draw_command() {
-  const char* python = std::getenv("ORTHODYN_PYTHON");
+  const char* python = std::getenv("ORTHODYN_DRAW_PYTHON");
   if (!python || !*python) return {draw_tool().string()};
   return {python, draw_tool().string()};
 }

@@ -11,7 +11,7 @@ namespace orthodyn {
 // The tool that draws; it may be missing.
 std::filesystem::path draw_tool();
 
-// What starts it: itself, or the Python that the environment variable ORTHODYN_PYTHON names, with it.
+// What starts it: itself, or the Python that the environment variable ORTHODYN_DRAW_PYTHON names, with it.
 std::vector<std::string> draw_command();
 
 // The JSON Schema of a kind of input; it may be missing.

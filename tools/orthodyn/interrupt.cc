@@ -1,9 +1,11 @@
 #include "tools/orthodyn/interrupt.h"
 
 #include <pthread.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <thread>
 
 namespace orthodyn {
@@ -74,6 +76,13 @@ void wait_for_sigterm() {
       begin_to_end();
     }
   }).detach();
+}
+
+void end_with_parent_if_asked() {
+  constexpr const char* kAsked = "ORTHODYN_END_WITH_PARENT";
+  if (!std::getenv(kAsked)) return;
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  unsetenv(kAsked);
 }
 
 const std::atomic<bool>& interrupted() { return flag; }

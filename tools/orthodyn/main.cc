@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
 #endif
   wait_for_sigterm();
+  end_with_parent_if_asked();
   try {
     const CommandLine line = parse_command_line(argc, argv);
     if (!line.exit_code) load_plugins(line.plugins);

@@ -54,7 +54,9 @@ int view(const ViewArguments& arguments) {
 }
 
 void declare(ViewArguments& arguments, CommandOptions& options) {
-  options.list("result", arguments.results, "Folders that run, modes, sweep, compare or stability wrote. Two are side by side; of more the page offers all.")
+  options
+      .list("result", arguments.results,
+            "Folders that run, modes, sweep, compare or stability wrote. Two are side by side; of more the page offers all.")
       .type("RESULT")
       .required();
   options.value("--out", arguments.out, "The page; default RESULT/view.html.").type("FILE");

@@ -144,8 +144,8 @@ const Spec<Comparison>& Comparison::spec() {
                "Quantities whose errors are measured too, relative to their largest size over time, by name (see "
                "`orthodyn list quantities`): [von_mises.largest, root.von_mises].")
           .key("frames", &Comparison::frames,
-               "Keep frames of each point and of its reference, for a 3D view of one beside the other: {} for the usual "
-               "ones. They are written by the run that is watched, not by the timed ones.")
+               "Keep frames of each point whose timed runs end, and of its reference, for a 3D view of one beside the "
+               "other: {} for the usual ones. The run that is watched for errors writes them, not the timed ones.")
           .key("repeats", &Comparison::repeats, "Timed integrations of each point.", {.range = {1, 100}})
           .key("samples", &Comparison::samples, "Times at which errors are taken, evenly spaced.", {.range = {2, 2000}})
           .key("limits", &Comparison::limits, "Limits of each point.")

@@ -139,9 +139,9 @@ void check_point(const Design& design, const Point& point) {
   }
 }
 
-void check_reference(const Design& design, const Group& group, const Method& method) {
+void check_reference(const Group& group, const Method& method) {
   try {
-    reference_scene(design, group, method);
+    reference_scene(group, method);
   } catch (const ConfigError& e) {
     throw ConfigError(e.place(), fmt::format("{} (in the reference of {})", e.message(), group.label));
   }
@@ -157,8 +157,8 @@ void choose_references(const Comparison& comparison, Design& design) {
                        usual_reference("cvode_bdf", std::max(1e-3 * tightest, 1e-10), {{"max_order", YamlText{"5"}}}));
   if (comparison.reference.kind == ReferenceKind::none) return;
   for (const auto& group : design.groups) {
-    check_reference(design, group, design.reference);
-    check_reference(design, group, design.check);
+    check_reference(group, design.reference);
+    check_reference(group, design.check);
   }
 }
 

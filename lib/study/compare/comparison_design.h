@@ -65,6 +65,7 @@ std::string title(const Design& design, const Point& point);
 Config point_scene(const Design& design, const Point& point);
 
 // The same for the reference or its check: of the scene's own options, scales and linear solver are kept.
-Config reference_scene(const Design& design, const Group& group, const Method& method);
+// Frames are for those that are shown.
+Config reference_scene(const Group& group, const Method& method, const std::optional<KeptFrames>& frames = {});
 
 }  // namespace orthodyn::study::compare

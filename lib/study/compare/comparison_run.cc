@@ -35,7 +35,8 @@ bool ComparisonRun::find_reference(const JobQueue& queue, std::size_t group) {
   const Group& g = design_.groups[group];
   const std::string mesh = design_.across_meshes ? "reference of " + g.id : g.id;
   MeasurementInput input = reference_input();
-  const Job job = job_for(g.label + ", reference", "references", reference_scene(design_, g, design_.reference), mesh, input);
+  const Config scene = reference_scene(g, design_.reference, design_.frames);
+  const Job job = job_for(g.label + ", reference", "references", scene, mesh, input);
   const auto result = measure_one(queue, job);
   if (!result) return false;
   Reference reference{"", design_.reference.label, design_.check.label, *result, std::nullopt};
@@ -44,7 +45,7 @@ bool ComparisonRun::find_reference(const JobQueue& queue, std::size_t group) {
     input.keep_trajectory = input.exact_if_possible = false;
     input.reference = fs::absolute(job.folder).string();
     reference.check = measure_one(queue, job_for(g.label + ", check of the reference", "references",
-                                                 reference_scene(design_, g, design_.check), mesh, input));
+                                                 reference_scene(g, design_.check), mesh, input));
     if (!reference.check) return false;
   } else {
     --count_;  // nothing to check

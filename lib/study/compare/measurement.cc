@@ -149,10 +149,7 @@ class Measurement {
     return all;
   }
 
-  // The check of a reference is shown nowhere.
-  bool keeps_frames() const {
-    return !setup_.scene.output.fields.empty() && (input_.repeats > 0 || input_.keep_trajectory);
-  }
+  bool keeps_frames() const { return !setup_.scene.output.fields.empty(); }
 
   void keep(const MeshErrorRecorder& recorder) {
     if (const auto found = recorder.found()) result_.mesh_error = found->relative;

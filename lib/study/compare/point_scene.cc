@@ -29,10 +29,10 @@ void set_frames(const std::optional<KeptFrames>& frames, Config& config) {
   config.set("output.frames", static_cast<double>(frames->count));
 }
 
-Config scene_of(const Design& design, const SceneVariant& variant, const std::string& integrator,
+Config scene_of(const std::optional<KeptFrames>& frames, const SceneVariant& variant, const std::string& integrator,
                 const std::function<bool(const std::string&)>& kept, const Assignments& options) {
   Config config = with_integrator(variant, integrator, options, kept);
-  set_frames(design.frames, config);
+  set_frames(frames, config);
   for (const char* key : {"output.energy", "output.steps", "output.momentum"}) config.set(key, false);
   config.set("expect", nullptr);
   if (leaves_kinematics_open(read_scene(config)))
@@ -46,8 +46,8 @@ Config scene_of(const Design& design, const SceneVariant& variant, const std::st
 
 }  // namespace
 
-Config reference_scene(const Design& design, const Group& group, const Method& method) {
-  return scene_of(design, group.reference, method.integrator, is_kept_by_references, method.set);
+Config reference_scene(const Group& group, const Method& method, const std::optional<KeptFrames>& frames) {
+  return scene_of(frames, group.reference, method.integrator, is_kept_by_references, method.set);
 }
 
 Config point_scene(const Design& design, const Point& point) {
@@ -55,7 +55,7 @@ Config point_scene(const Design& design, const Point& point) {
   Assignments options = method.set;
   options.emplace_back(control_word(method.control), YamlText{number_text(point.control), point.control_at});
   const auto kept = [&](const std::string& key) { return is_kept_by_methods(key, method.control); };
-  return scene_of(design, design.problems[point.problem].scene, method.integrator, kept, options);
+  return scene_of(design.frames, design.problems[point.problem].scene, method.integrator, kept, options);
 }
 
 }  // namespace orthodyn::study::compare

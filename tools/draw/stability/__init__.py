@@ -1,7 +1,7 @@
 """One page and figures from stability.json, what `orthodyn stability` has written."""
 from pathlib import Path
 
-FILE, VIEW = "stability.json", "view.html"
+FILE = "stability.json"
 
 
 def write_stability_report(result, out=None):
@@ -9,13 +9,16 @@ def write_stability_report(result, out=None):
     from .figure import write_figures
     from .page import page
     from .reading import read_matrix
-    from ..view.page import write_view
+    from ..view.beside import with_view
     matrix, folder = read_matrix(result), Path(result)
     path = out or folder / "report.html"
     path.parent.mkdir(parents=True, exist_ok=True)
-    has_states = any(t.folder and (folder / t.folder / "end.vtu").is_file() for t in matrix.trials)
-    path.write_text(page(matrix, folder, VIEW if has_states else None), encoding="utf-8")
+
+    def write(view=None):
+        path.write_text(page(matrix, folder, view), encoding="utf-8")
+
+    write()
     yield path
-    if has_states:
-        yield write_view([folder], path.with_name(VIEW))
     yield from write_figures(matrix, folder / "pictures")
+    if any(t.folder and (folder / t.folder / "end.vtu").is_file() for t in matrix.trials):
+        yield from with_view(path, folder, write)

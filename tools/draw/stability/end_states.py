@@ -38,7 +38,7 @@ class Cluster:
     index: int
 
 
-class Shown(Series):
+class ClusterStates(Series):
     """The states that stand for clusters, as the frames of a series."""
 
     def __init__(self, folder, frames):
@@ -128,7 +128,7 @@ class EndStates:
 
     def series(self):
         """The states of the clusters, in the order of `clusters`."""
-        return Shown(self._folder, self._frames)
+        return ClusterStates(self._folder, self._frames)
 
     def scene(self, indices):
         """One camera, window and range of colours for all clusters of the case that are shown."""

@@ -1,7 +1,7 @@
 """One page, pictures of points and paper figures from sweep.json, what `orthodyn sweep` has written."""
 from pathlib import Path
 
-FILE, VIEW = "sweep.json", "view.html"
+FILE = "sweep.json"
 
 
 def write_sweep_report(result, out=None):
@@ -10,14 +10,18 @@ def write_sweep_report(result, out=None):
     from .figures import write_paper_figures
     from .page import page
     from .reading import read_sweep
-    from ..view.page import write_view
+    from ..view.beside import with_view
     sweep, folder = read_sweep(result), Path(result)
     gallery = draw_gallery(sweep, folder, folder / "pictures" / "points.png")
     path = out or folder / "report.html"
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(page(sweep, folder, gallery), encoding="utf-8")
+
+    def write(view=None):
+        path.write_text(page(sweep, folder, gallery, view), encoding="utf-8")
+
+    write()
     yield path
     yield from gallery
-    if gallery:
-        yield write_view([folder], path.with_name(VIEW), start={"scale": sweep.frames["enlarged"]})
     yield from write_paper_figures(sweep, folder / "pictures")
+    if gallery:
+        yield from with_view(path, folder, write)

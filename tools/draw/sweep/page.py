@@ -9,7 +9,6 @@ from ..report.details import facts, pairs
 from ..report.markup import Html, data_script, joined, scrolling, tag, void
 from ..report.page import SCRIPT, head
 from ..report.tables import caption
-from . import VIEW
 from .answer import answer, where
 from .figures import Figures
 from .plan import MOST_PANELS, left_out, plans
@@ -84,7 +83,7 @@ def _embedded(path):
     return "data:image/png;base64," + base64.b64encode(Path(path).read_bytes()).decode("ascii")
 
 
-def _gallery(sweep, paths):
+def _gallery(sweep, paths, view):
     scale, at = sweep.frames["enlarged"], sweep.frames["at"]
     names = ", ".join(v.heading for v in sweep.variables)
     when = "at the end of their runs" if at is None else f"after {at:g} s"
@@ -93,7 +92,7 @@ def _gallery(sweep, paths):
     return tag("figure", *(void("img", src=_embedded(path), class_=f"photo {theme}", alt=alt)
                            for theme, path in zip(("day", "night"), paths)),
                tag("figcaption", f"Points {when}, with one camera and one range of colours. Above each: {names}.{enlarged} ",
-                   tag("a", "The same in 3D", href=VIEW), "."))
+                   joined([tag("a", "The same in 3D", href=view), "."]) if view else None))
 
 
 def _failures(sweep):
@@ -123,17 +122,18 @@ def _tip(sweep, point):
     return {"title": f"Point {point['index'] + 1}", "rows": rows, "e": {}}
 
 
-def page(sweep, folder, gallery):
-    """The whole page as text; `gallery` are the paths of a picture on light and on dark ground, or empty."""
+def page(sweep, folder, gallery, view=None):
+    """The whole page as text; `gallery` are the paths of a picture on light and on dark ground, or empty; `view` is the page
+    with the same in 3D."""
     figures = Figures(sweep)
     parts = [("answer", "Result", joined([answer(sweep), _ranges(sweep)])),
              ("figures", "Figures", _figures(sweep, figures))]
     if gallery:
-        parts.append(("frames", "Frames", _gallery(sweep, gallery)))
+        parts.append(("frames", "Frames", _gallery(sweep, gallery, view)))
     parts += [("points", "Points", joined([point_table(sweep), tag("h3", "Failures"), _failures(sweep)])),
               ("details", "Details", _details(sweep, folder))]
     main = tag("main", *(tag("section", tag("h2", name), content, id=identity) for identity, name, content in parts))
     runs = data_script("run-data", {"measure": "", "labels": {}, "runs": [_tip(sweep, p) for p in sweep.points]})
-    body = tag("body", _header(sweep, [(identity, name) for identity, name, _ in parts], VIEW if gallery else None), main, runs,
+    body = tag("body", _header(sweep, [(identity, name) for identity, name, _ in parts], view), main, runs,
                tag("script", Html(SCRIPT.read_text(encoding="utf-8"))))
     return "<!DOCTYPE html>\n" + tag("html", head(sweep.title, figures.styles.css()), body, lang="en") + "\n"

@@ -12,6 +12,7 @@ import gzip
 import hashlib
 import html
 import json
+import math
 
 import numpy as np
 
@@ -27,9 +28,9 @@ class Blocks:
 
     def add(self, name, kind, values):
         values = np.asarray(values)
-        planes = np.ascontiguousarray(values.reshape(len(values), -1).T)
+        planes = np.ascontiguousarray(values.reshape(len(values), math.prod(values.shape[1:])).T)
         raw, numbers = ENCODERS[kind](planes)
-        same = self._known.setdefault((kind, hashlib.sha256(raw).digest(), json.dumps(numbers)), name)
+        same = self._known.setdefault((kind, planes.shape, json.dumps(numbers), hashlib.sha256(raw).digest()), name)
         if same != name:
             self._elements.append(f'<script type="application/octet-stream" id="{html.escape(name)}" '
                                   f'data-same="{html.escape(same)}"></script>')

@@ -21,13 +21,13 @@ NOTES = ("status", "warnings")
 
 @dataclass(frozen=True)
 class Extent:
-    """What of a result is taken: also what is inside; these fields, or all; every k-th frame."""
+    """What of a result is taken: also what is inside; these fields, or all; every so many frames."""
     volume: bool = False
     fields: tuple = None
-    every: int = 1
+    every: int = None  # None: as many frames as make a page that is not too large
 
 
-class _Shown:
+class _Kept:
     """Which nodes and cells of a frame are kept, in this order."""
 
     def __init__(self, skin, frame, volume):
@@ -58,29 +58,29 @@ def _places(kept, size):
     return place
 
 
-def add_result(blocks, key, what, extent):
-    """Adds the blocks of what is Shown, called `key`/...; returns its description."""
-    series = what.series
+def add_result(blocks, key, item, extent):
+    """Adds the blocks of an Item, called `key`/...; returns its description."""
+    series = item.series
     frames = sorted({*range(0, len(series), extent.every), len(series) - 1})
     first = series.frame(0)
     if not len(first.tets):
         raise DrawError(f"{series.paths[0]}: no tetrahedra to show")
     skin = Skin(first)
-    shown = _Shown(skin, first, extent.volume)
+    shown = _Kept(skin, first, extent.volume)
     fields = _fields(first, extent)
     centre = 0.5 * (first.points.min(axis=0) + first.points.max(axis=0))
     survey = _Survey(series, frames, shown, fields, centre)
     _add_mesh(blocks, key, first, skin, shown, centre, extent.volume)
     return {
-        "name": what.name, "group": what.group, "static": what.is_static, "facts": list(what.facts),
-        "labels": [what.labels[k] for k in frames] if what.labels else None,
+        "name": item.name, "group": item.group, "static": item.is_static, "facts": list(item.facts),
+        "labels": [item.labels[k] for k in frames] if item.labels else None,
         "centre": centre.tolist(), "reach": survey.reach(), "times": [float(series.times[k]) for k in frames],
         "cells": len(first.tets) // first.parts, "volume": extent.volume,
         "fields": _add_frames(blocks, key, series, frames, shown, survey),
         "quantities": survey.quantities(),
         "strokes": _add_strokes(blocks, key, first, skin),
-        "curves": [curve for table in TABLES for curve in _add_table(blocks, key, what.folder, table)],
-        "setup": add_setup(blocks, key, what.folder, len(first.points), shown), "notes": _notes(what.folder)}
+        "curves": [curve for table in TABLES for curve in _add_table(blocks, key, item.folder, table)],
+        "setup": add_setup(blocks, key, item.folder, len(first.points), shown), "notes": _notes(item.folder)}
 
 
 def _fields(frame, extent):

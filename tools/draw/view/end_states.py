@@ -6,9 +6,7 @@ from ..stability import FILE
 from ..stability.end_states import COLOUR, EndStates
 from ..stability.grades import GRADES
 from ..stability.reading import read_matrix
-from .shown import Shown
-
-__all__ = ["COLOUR", "is_matrix", "of_matrix"]
+from .item import Item, Source
 
 
 def is_matrix(folder):
@@ -22,12 +20,12 @@ def _label(matrix, variant, cluster):
 
 
 def of_matrix(folder):
-    matrix, found = read_matrix(folder), []
+    matrix, items = read_matrix(folder), []
     for case in matrix.cases:
-        states = EndStates(matrix, Path(folder), case)
+        states = EndStates(matrix, folder, case)
         labels = [_label(matrix, variant, cluster) for variant, clusters in states.clusters.items() for cluster in clusters]
         if labels:
-            found.append(Shown(case.label, states.series(), labels=labels, facts=(case.sentence,) if case.sentence else ()))
-    if not found:
+            items.append(Item(case.label, states.series(), labels=labels, facts=(case.sentence,) if case.sentence else ()))
+    if not items:
         raise DrawError(f"{folder}: no trial has left an end state that can be drawn")
-    return found
+    return Source("hard cases", items, {"color": COLOUR, "rest": True})

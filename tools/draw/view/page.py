@@ -1,6 +1,7 @@
 """Results as one HTML page that opens without a network: one of them, or two beside each other."""
 import html
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,16 +10,18 @@ from ..colouring import CATEGORIES, DIVERGING, NOT_A_NUMBER, SEQUENTIAL
 from ..errors import DrawError, unknown
 from .blocks import Blocks
 from .collect import Extent, add_result, field_names
-from .sources import first_look, shown_of
+from .item import name_of
+from .sources import begin, source_of
 from .still import take_still
 
+FILE = "view.html"
 HERE = Path(__file__).resolve().parent
 
 
 def write_view(results, out=None, extent=Extent(), start=None):
-    """Writes the page (default: view.html in the first folder); returns its path."""
-    name = "_".join(["view", *(Path(other).name for other in results[1:])])
-    path = Path(out) if out else Path(results[0]) / f"{name}.html"
+    """Writes the page (default: view.html in the first folder, of two view_OTHER.html); returns its path."""
+    name = f"view_{name_of(Path(results[1]))}.html" if len(results) == 2 else FILE
+    path = Path(out) if out else Path(results[0]) / name
     text = page(results, extent, start)
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, encoding="utf-8")
@@ -29,21 +32,30 @@ def write_still(results, out, size, extent, start):
     """Writes a still of the view as PNG; returns its path. By default at the largest displacement of the first result."""
     if Path(out).suffix.lower() != ".png":
         raise DrawError(f"{out}: a still is a PNG; call it so")
-    first = shown_of(results[0])[0]
+    if len(results) > 2:
+        raise DrawError(f"{len(results)} results; a still shows one, or two side by side")
+    sources = [source_of(name) for name in results]
+    start, first = {**sources[0].start, **start} if len(results) == 1 else start, sources[0].items[0]
     if "time" not in start and not first.labels:
         start = {**start, "time": float(first.series.times[first.series.peak[0] or 0])}
-    return take_still(page(results, extent, {**start, "still": True}), Path(out), size)
+    return take_still(_page(results, sources, extent, {**start, "still": True}), Path(out), size)
 
 
 def page(results, extent, start=None):
     """`start`: time, color and scale that it begins with."""
-    shown, blocks = [one for name in results for one in shown_of(name)], Blocks()
+    return _page(results, [source_of(name) for name in results], extent, start or {})
+
+
+def _page(results, sources, extent, start):
+    items, blocks = [item for source in sources for item in source.items], Blocks()
     if extent.fields:
-        _check_fields(extent.fields, shown)
-    described = [add_result(blocks, f"r{k}", one, extent) for k, one in enumerate(shown)]
-    start = {**first_look(results, shown), **(start or {})}
+        _check_fields(extent.fields, items)
+    if extent.every is None:
+        extent = replace(extent, every=max(source.every for source in sources))
+    described = [add_result(blocks, f"r{k}", item, extent) for k, item in enumerate(items)]
+    start = {**begin(sources), **start}
     _check(start, described)
-    title = " and ".join(Path(name).resolve().name for name in results)
+    title = " and ".join(name_of(Path(name)) for name in results)
     description = json.dumps({"results": described, "maps": _maps(), "start": start}, allow_nan=False).replace("<", "\\u003c")
     style, script = ((HERE / name).read_text(encoding="utf-8") for name in ("view.css", "viewer.js"))
     return (f'<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
@@ -54,9 +66,9 @@ def page(results, extent, start=None):
             f"<script>{script}</script>\n</body>\n</html>\n")
 
 
-def _check_fields(fields, shown):
+def _check_fields(fields, items):
     """Raises DrawError for a field that none of them has."""
-    known = dict.fromkeys(name for one in shown for name in field_names(one.series.frame(0)))
+    known = dict.fromkeys(name for item in items for name in field_names(item.series.frame(0)))
     for field in fields:
         if field not in known:
             raise unknown("field", field, known)

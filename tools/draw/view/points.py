@@ -5,18 +5,18 @@ from ..errors import DrawError
 from ..series import Series
 from ..sweep import FILE
 from ..sweep.reading import read_sweep
-from .shown import Shown
+from .item import Item, Source, name_of
 
 
 class SweepPoints(Series):
     """Those that have a frame, on the mesh of the first: a sweep over meshes shows the first of them."""
 
-    def __init__(self, name):
-        sweep, self.folder = read_sweep(name), Path(name)
-        found = [p for p in sweep.done if p.get("frame") and (self.folder / p["folder"] / p["frame"]).is_file()]
+    def __init__(self, sweep, folder):
+        self.folder = folder
+        found = [p for p in sweep.done if p.get("frame") and (folder / p["folder"] / p["frame"]).is_file()]
         if not found:
-            raise DrawError(f"{self.folder}: no point has a frame; name `frames: {{}}` in the sweep")
-        self.paths = [self.folder / p["folder"] / p["frame"] for p in found]
+            raise DrawError(f"{folder}: no point has a frame; name `frames: {{}}` in the sweep")
+        self.paths = [folder / p["folder"] / p["frame"] for p in found]
         first = self.frame(0)
         same = [k for k in range(len(found)) if self._is_like(k, first)]
         self.paths = [self.paths[k] for k in same]
@@ -33,5 +33,7 @@ def is_sweep(folder):
 
 
 def of_sweep(folder):
-    points = SweepPoints(folder)
-    return [Shown(points.folder.name, points, labels=points.labels)]
+    sweep = read_sweep(folder)
+    series = SweepPoints(sweep, folder)
+    start = {"scale": sweep.frames["enlarged"], "color": sweep.frames["color"]} if sweep.frames else {}
+    return Source("sweep", [Item(name_of(folder), series, labels=series.labels)], start)

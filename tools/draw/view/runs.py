@@ -9,13 +9,11 @@ from ..errors import DrawError
 from ..report import formatting
 from ..report.reading import FILE, read_comparison
 from ..series import Series
-from .collect import Extent
-from .shown import Shown
+from .item import Item, Source
 
 REFERENCE = "reference"
 DIFFERENCE = "difference"  # node field, m: the displacement less that of the reference at the same time
-
-MOST_BYTES = 300e6  # of frames, of which the page holds the surface in half of the digits
+MOST_BYTES = 300e6  # of frames, which make a page of less than about 60 MB: it holds the surface, in half of the digits
 
 
 class Compared(Series):
@@ -24,8 +22,13 @@ class Compared(Series):
     def __init__(self, folder, reference):
         super().__init__(folder)
         self._reference = None
-        if reference and len(self) <= len(reference) and self.frame(0).points.shape == reference.frame(0).points.shape:
+        if reference and self._fits(reference):
             self._reference = reference
+
+    def _fits(self, reference):
+        """A run that failed has only the first of the times."""
+        return (len(self) <= len(reference) and np.allclose(self.times, reference.times[:len(self)])
+                and np.array_equal(self.frame(0).points, reference.frame(0).points))
 
     def frame(self, index):
         frame = super().frame(index)
@@ -34,23 +37,31 @@ class Compared(Series):
         difference = frame.node_fields["displacement"] - self._reference.frame(index).node_fields["displacement"]
         return replace(frame, node_fields={**frame.node_fields, DIFFERENCE: difference})
 
+    def distances(self):
+        """The largest difference of each frame, m; None where there is no reference for it."""
+        if self._reference is None:
+            return None
+        return [float(abs(self.frame(k).node_fields[DIFFERENCE]).max()) for k in range(len(self))]
+
 
 def is_comparison(folder):
     return (Path(folder) / FILE).is_file()
 
 
-def _has_frames(folder):
-    return (folder / "frames.pvd").is_file()
+def _shows(series):
+    """Whether all of it can be drawn: a run that went astray may have no finite places."""
+    return all(np.isfinite(series.frame(k).node_fields["displacement"]).all() for k in range(len(series)))
 
 
-def keeps_frames(comparison, folder):
-    return any(_has_frames((folder / point.scene).parent) for point in comparison.points)
-
-
-def modest_extent(comparison, folder):
-    """As many frames of each as make a page of less than about 60 MB."""
-    files = sum(f.stat().st_size for p in comparison.points for f in ((folder / p.scene).parent / "frames").glob("*.vtu"))
-    return Extent(every=max(1, math.ceil(files / MOST_BYTES)))
+def _series(folder, make):
+    """Of a run's folder; None where it has nothing that can be shown."""
+    if not (folder / "frames.pvd").is_file():
+        return None
+    try:
+        series = make(folder)
+        return series if _shows(series) else None
+    except DrawError:  # no frame, as of a process that was killed
+        return None
 
 
 def _facts(point):
@@ -60,37 +71,35 @@ def _facts(point):
 
 
 def _of_problem(comparison, folder, problem):
-    reference = folder / problem.reference.folder if problem.reference.folder else None
-    series = Series(reference) if reference and _has_frames(reference) else None
-    if series:
-        yield Shown(REFERENCE, series, reference, problem.label, facts=(problem.reference.method,))
+    place = folder / problem.reference.folder
+    reference = _series(place, Series) if problem.reference.folder else None
+    if reference:
+        yield Item(REFERENCE, reference, place, problem.label, facts=(problem.reference.method,))
     methods = {method.id: method.label for method in comparison.methods}
     for point in comparison.points_of(problem):
         place = (folder / point.scene).parent
-        if _has_frames(place):
-            yield Shown(f"{methods[point.method]}, {formatting.control(point.control)}", Compared(place, series), place,
-                        problem.label, facts=_facts(point))
+        series = _series(place, lambda found: Compared(found, reference))
+        if series:
+            yield Item(f"{methods[point.method]}, {formatting.control(point.control)}", series, place, problem.label,
+                       facts=_facts(point))
 
 
 def of_comparison(folder):
     """Of each problem the reference and its points, from loose to tight."""
     comparison = read_comparison(folder)
-    found = [shown for problem in comparison.problems for shown in _of_problem(comparison, Path(folder), problem)]
-    if not found:
+    items = [item for problem in comparison.problems for item in _of_problem(comparison, folder, problem)]
+    if not items:
         raise DrawError(f"{folder}: no point kept frames; name `frames: {{}}` in the comparison, and run it again")
-    return found
+    files = sum(path.stat().st_size for item in items for path in item.series.paths)
+    return Source("comparison", items, _start(items), max(1, math.ceil(files / MOST_BYTES)))
 
 
-def first_look(shown):
-    """What the view begins with: the first problem's reference and the run that is farthest from it, when it is so."""
-    own = [(_distances(one.series), k) for k, one in enumerate(shown) if one.group == shown[0].group and k]
-    if shown[0].name != REFERENCE or not own:
-        return {"panes": list(range(len(shown)))[:2]}
-    distances, farthest = max(own, key=lambda found: max(found[0]))
-    return {"panes": [0, farthest], "time": float(shown[farthest].series.times[np.argmax(distances)])}
-
-
-def _distances(series):
-    """Of each frame, m; 0 where there is no reference on the same mesh."""
-    found = (series.frame(k).node_fields.get(DIFFERENCE, np.zeros(1)) for k in range(len(series)))
-    return [float(np.nan_to_num(abs(difference)).max()) for difference in found]
+def _start(items):
+    """The first problem's reference and the run that is farthest from it, when it is so."""
+    distances = {k: item.series.distances() for k, item in enumerate(items)
+                 if item.group == items[0].group and isinstance(item.series, Compared)}
+    largest = {k: max(d) for k, d in distances.items() if d and max(d) > 0}
+    if not largest:
+        return {"panes": list(range(len(items)))[:2]}
+    farthest = max(largest, key=largest.get)
+    return {"panes": [0, farthest], "time": float(items[farthest].series.times[np.argmax(distances[farthest])])}

@@ -1,4 +1,10 @@
-"""Studies: many runs, one data frame. Each run is a process of its own, as with the program."""
+"""Studies: many runs, one data frame. Each run is a process of its own, as with the program.
+
+All take
+    out    the folder; default out/KIND/NAME, by the name of the file or the title. What is done there is not done again
+    retry  do again what failed there
+    quiet  print nothing
+"""
 from __future__ import annotations
 
 import json
@@ -9,6 +15,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+from collections import Counter
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -80,12 +87,6 @@ class Study:
         return f"Study({self.kind}, {len(self.table)} points, {self.folder})"
 
 
-# All studies take the same options:
-#     out    folder; default out/KIND/NAME, by the name of the file or the title. What is there already is not computed again
-#     retry  try points again that failed before
-#     quiet  print nothing
-
-
 def compare(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, retry: bool = False,
             quiet: bool = False) -> Study:
     """Integrators on scenes: error against time. `study`: a YAML file, or a dict as it would hold:
@@ -93,8 +94,8 @@ def compare(study: str | Path | Mapping[str, Any], out: str | Path | None = None
         orthodyn.compare({"title": "Beam", "scenes": [scene], "integrators": ["cvode_bdf", "tr_bdf2"],
                           "tolerances": [1e-2, 1e-4]})
 
-    A scene is a file, or a `Scene`. One point is measured after the other; what is done in `out` is kept, unless `retry` asks
-    for what failed.
+    A scene is a file, or a `Scene`. One point is measured after the other. `out`: the folder, default by the title; what is done
+    there is not done again, what failed with `retry`.
     """
     return _run(_Call("compare", out, quiet, retry), study)
 
@@ -188,7 +189,7 @@ class _Files(ExitStack):
         if isinstance(item, Scene):
             return self.add(item.to_yaml(), item.folder, f"scene '{item.name}'")
         if isinstance(item, Mapping):
-            return {key: self.with_files([_labelled(v) for v in value] if key in ("scenes", "cases") else value)
+            return {key: self.with_files(_labelled(value) if key in ("scenes", "cases") else value)
                     for key, value in item.items()}
         return [self.with_files(value) for value in item] if isinstance(item, (list, tuple)) else item
 
@@ -198,12 +199,18 @@ class _Files(ExitStack):
         return message
 
 
-def _labelled(scene: Any) -> Any:
-    """With the name of a Scene, whose file has none that tells anything."""
-    entry = {"file": scene} if isinstance(scene, Scene) else scene
-    if isinstance(entry, Mapping) and isinstance(entry.get("file"), Scene):
-        return {"label": entry["file"].name, **entry}
-    return entry
+def _labelled(entries: Any) -> Any:
+    """With the names of Scenes, whose files have none that tell anything: "beam", "beam 2"."""
+    if not isinstance(entries, (list, tuple)):
+        return entries
+    found, seen = [], Counter[str]()
+    for entry in ({"file": e} if isinstance(e, Scene) else e for e in entries):
+        if isinstance(entry, Mapping) and isinstance(entry.get("file"), Scene) and "label" not in entry:
+            name = entry["file"].name
+            seen[name] += 1
+            entry = {**entry, "label": name if seen[name] == 1 else f"{name} {seen[name]}"}
+        found.append(entry)
+    return found
 
 
 def _name(study: Mapping[str, Any]) -> str:
@@ -216,23 +223,35 @@ _TABLE = {"compare": "compare.csv", "sweep": "sweep.csv", "stability": "stabilit
 
 
 def _start(call: _Call, file: str, folder: Path, named: Callable[[str], str]) -> None:
-    """Runs the program to its end; Ctrl-C lets it end what it has begun, and write its report."""
-    quiet, environment = call.quiet, {**os.environ, "ORTHODYN_PYTHON": sys.executable}  # which draws its report
-    with subprocess.Popen(call.words(file, folder), stdout=subprocess.DEVNULL if quiet else None, stderr=subprocess.PIPE,
-                          text=True, env=environment, process_group=0) as process:
-        try:
-            said = named(_core.in_python(process.communicate()[1].strip()))
-        except KeyboardInterrupt as interrupt:
-            process.send_signal(signal.SIGINT)  # the only one that it gets: it is in a group of its own
-            process.communicate()
-            interrupt.add_note(f"What was finished is in {folder}; the same call goes on from there.")
-            raise
-        except BaseException:
-            process.kill()
-            raise
+    """Runs the program to its end. At Ctrl-C it ends with what is finished; at a second one at once."""
+    environment = {**os.environ, "ORTHODYN_END_WITH_PARENT": "1"}
+    if sys.executable:
+        environment["ORTHODYN_DRAW_PYTHON"] = sys.executable
+    with tempfile.TemporaryFile() as errors:
+        # In a group of its own it is this function that passes Ctrl-C on, once, whoever sent it to whom.
+        with subprocess.Popen(call.words(file, folder), stdout=subprocess.DEVNULL if call.quiet else None, stderr=errors,
+                              env=environment, process_group=0) as process:
+            try:
+                process.wait()
+            except BaseException as interrupt:
+                interrupt.add_note(f"Points that are finished are kept in {folder}; the same call goes on from there.")
+                _end(process)
+                raise
+        errors.seek(0)
+        said = named(_core.in_python(errors.read().decode(errors="replace").strip()))
     if process.returncode == CONFIG_ERROR:
         raise _core.ConfigError(said.removeprefix("error: "))
     if process.returncode:
         raise _core.RunError(said or f"{program()} {call.kind} ended with {process.returncode}")
-    if said and not quiet:
+    if said and not call.quiet:
         sys.stderr.write(said + "\n")
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    process.send_signal(signal.SIGINT)
+    try:
+        process.wait()
+    except BaseException:
+        process.kill()
+        process.wait()
+        raise

@@ -53,7 +53,8 @@ function rows(planes: Float32Array | Uint16Array, components: number, value: (x:
 }
 
 async function unpacked(name: string): Promise<{ about: About; bytes: ArrayBuffer }> {
-  const named = document.getElementById(name), element = named && (document.getElementById(named.dataset["same"] ?? name) ?? named);
+  const named = document.getElementById(name), same = named?.dataset["same"];
+  const element = same === undefined ? named : document.getElementById(same); // an array stands only once
   if (!element) throw new Error(`the page has no block ${name}`);
   const text = atob(element.textContent ?? ""), packed = new Uint8Array(text.length);
   for (let i = 0; i < text.length; ++i) packed[i] = text.charCodeAt(i);

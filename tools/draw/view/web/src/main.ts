@@ -12,6 +12,8 @@ const NONE = -1;
 class Page {
   private panes: number[];
   private view: View | null = null;
+  private turn = 0; // of show()
+  private readonly results = new Map<number, Promise<Result>>(); // that are shown
 
   constructor(
     private readonly about: Description,
@@ -20,24 +22,32 @@ class Page {
     this.panes = about.start.panes;
   }
 
+  // The view of what is chosen. Of several choices at a time the last one is shown.
   async show(): Promise<View> {
-    const { about, panes } = this;
-    const results = await Promise.all(panes.map((k) => Result.read(`r${k}`, about.results[k] as Result["about"])));
+    const turn = ++this.turn, { panes } = this, results = await Promise.all(panes.map((k) => this.result(k)));
+    if (turn !== this.turn) return window.orthodynView;
+    for (const k of this.results.keys()) if (!panes.includes(k)) this.results.delete(k); // their frames take room
     const kept: Kept | null = this.view?.end() ?? null;
     this.root.replaceChildren();
-    const view = new View(about, results, this.names(), this.root, kept);
+    const view = new View(this.about, results, this.names(panes), this.root, kept);
     this.view = view;
     await view.begin();
     return view;
   }
 
+  private result(k: number): Promise<Result> {
+    const known = this.results.get(k) ?? Result.read(`r${k}`, this.about.results[k] as Result["about"]);
+    this.results.set(k, known);
+    return known;
+  }
+
   // A name where there is no choice, else what may be chosen, and in the last place also nothing.
-  private names(): HTMLElement[] {
+  private names(panes: number[]): HTMLElement[] {
     const { results } = this.about;
-    if (results.length === this.panes.length || this.about.start.still)
-      return this.panes.map((k) => element("span", {}, results[k]?.name ?? ""));
-    const first = this.choice(0, this.panes[0] ?? 0), second = this.choice(1, this.panes[1] ?? NONE);
-    return this.panes.length > 1 ? [first, second] : [element("span", { class: "choices" }, first, second)];
+    if (results.length === panes.length || this.about.start.still)
+      return panes.map((k) => element("span", {}, results[k]?.name ?? ""));
+    const first = this.choice(0, panes[0] ?? 0), second = this.choice(1, panes[1] ?? NONE);
+    return panes.length > 1 ? [first, second] : [element("span", { class: "choices" }, first, second)];
   }
 
   private choice(pane: number, chosen: number): HTMLSelectElement {
@@ -58,10 +68,22 @@ class Page {
   }
 
   private choose(pane: number, result: number): void {
-    if (result === NONE) this.panes = this.panes.slice(0, 1);
-    else this.panes[pane] = result;
-    window.orthodynView = this.show();
+    const [first, second] = this.panes;
+    this.panes = pane === 0 ? [result, ...(second === undefined ? [] : [second])] : [first as number, ...(result === NONE ? [] : [result])];
+    shown(this.show().then((view) => {
+      document.querySelectorAll<HTMLSelectElement>(".names select")[pane]?.focus(); // a new one, where the old one was
+      return view;
+    }));
   }
+}
+
+// For scripts and tests, and with a word where something fails.
+function shown(view: Promise<View>): void {
+  window.orthodynView = view;
+  view.catch((error: unknown) => {
+    const text = `The view could not be shown: ${error instanceof Error ? error.message : String(error)}`;
+    document.getElementById("view")?.replaceChildren(element("p", { class: "failed" }, text));
+  });
 }
 
 async function begin(): Promise<View> {
@@ -75,8 +97,4 @@ declare global {
     orthodynView: Promise<View>;
   }
 }
-window.orthodynView = begin();
-window.orthodynView.catch((error: unknown) => {
-  const text = `The view could not be shown: ${error instanceof Error ? error.message : String(error)}`;
-  document.getElementById("view")?.append(element("p", { class: "failed" }, text));
-});
+shown(begin());

@@ -13,11 +13,12 @@ export interface Pick extends Hit {
 }
 
 // Whether pictures are drawn by the processor: then without what costs most, smooth edges and fine pixels.
-function isSoftware(): boolean {
+const isSoftware = ((): boolean => {
   const gl = document.createElement("canvas").getContext("webgl2"), known = gl?.getExtension("WEBGL_debug_renderer_info");
   const name = gl && known ? String(gl.getParameter(known.UNMASKED_RENDERER_WEBGL)) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
   return /swiftshader|llvmpipe|software|basic render/i.test(name);
-}
+})();
 
 interface Rectangle {
   x: number; // pixels from the left, and from the top
@@ -34,7 +35,8 @@ export class Stage {
   private readonly scenes: THREE.Scene[];
   private readonly clip = new THREE.Plane();
   private readonly resizing = new ResizeObserver(() => this.resize());
-  private pending = false;
+  private pending = 0; // the number of the frame that is asked for; 0: none
+  private isOver = false;
   private isMoved = false; // by the user
   private scale = 1; // of displacements
   private direction: [number, number] = [AZIMUTH, ELEVATION];
@@ -44,7 +46,7 @@ export class Stage {
     private readonly bodies: Body[],
     isStill: boolean,
   ) {
-    const fine = isStill || !isSoftware();
+    const fine = isStill || !isSoftware;
     this.renderer = new THREE.WebGLRenderer({ antialias: fine, alpha: true });
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.setPixelRatio(fine ? Math.min(devicePixelRatio, 2) : 1);
@@ -90,6 +92,8 @@ export class Stage {
 
   // Gives back what the graphics card holds for it.
   end(): void {
+    this.isOver = true;
+    cancelAnimationFrame(this.pending);
     this.orbit.dispose();
     this.resizing.disconnect();
     this.renderer.dispose();
@@ -130,12 +134,13 @@ export class Stage {
 
   draw(): void {
     if (this.pending) return;
-    this.pending = true;
-    requestAnimationFrame(() => this.drawNow());
+    this.pending = requestAnimationFrame(() => this.drawNow());
   }
 
   drawNow(): void {
-    this.pending = false;
+    cancelAnimationFrame(this.pending);
+    this.pending = 0;
+    if (this.isOver) return;
     this.renderer.setScissor(0, 0, this.holder.clientWidth, this.holder.clientHeight);
     this.renderer.clear();
     this.panes().forEach((pane, k) => {

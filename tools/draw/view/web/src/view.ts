@@ -25,6 +25,7 @@ const SCALES = [0.1, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 1e4, 1e5];
 export interface Kept {
   time: number;
   quantity: Quantity;
+  range: [number, number] | null;
   look: Look;
   clip: Clipped;
   direction: [number, number];
@@ -49,6 +50,7 @@ export class View {
   private readonly labels: HTMLElement[]; // of the frames shown, where they have some
   private readonly listening = new AbortController();
   private table: string | null = null;
+  private tableChosen = element("select");
   private turn = 0; // of refresh()
   private pointer: { x: number; y: number } | null = null;
 
@@ -66,6 +68,7 @@ export class View {
     this.look.rest = start.rest ?? false;
     this.look.edges = first.mesh.faces.length / 3 < 3000 ? "mesh" : "shape";
     if (before) this.look = { ...before.look };
+    if (before && before.quantity.key === this.quantity.key) this.range = before.range;
     const isHollow = !results.every((r) => r.about.volume);
     this.clip = new Clip(before?.clip ?? null, isHollow, () => this.stage.toward(), () => void this.refresh());
     const stageHolder = element("div", { class: "stage" }), times = [...new Set(results.flatMap((r) => r.about.times))].sort((a, b) => a - b);
@@ -97,9 +100,10 @@ export class View {
 
   // To be called before another view takes its place; what that shall keep.
   end(): Kept {
-    const { quantity, look, table } = this, speed = this.player.speed, clip = this.clip.clipped;
-    const kept = { time: this.player.time, quantity, look, clip, direction: this.stage.eye(), speed, table };
+    const { quantity, range, look, table } = this, speed = this.player.speed, clip = this.clip.clipped;
+    const kept = { time: this.player.time, quantity, range, look, clip, direction: this.stage.eye(), speed, table };
     if (this.player.playing) this.player.toggle();
+    ++this.turn; // what is being unpacked is shown nowhere
     this.listening.abort();
     this.stage.end();
     return kept;
@@ -112,6 +116,7 @@ export class View {
     if (this.before) this.stage.look(...this.before.direction);
     const tables = this.curves.tables();
     this.table = tables.find((t) => t === this.before?.table) ?? tables[0] ?? null;
+    this.tableChosen.value = this.table ?? "";
     if (this.table) await this.curves.show(this.table);
     this.showTime();
     this.stage.drawNow();
@@ -257,12 +262,11 @@ export class View {
   private tableChoice(): HTMLElement {
     const tables = this.curves.tables();
     if (tables.length < 2) return element("div");
-    const made = select(tables.map((t) => [t, t]), (table) => {
+    this.tableChosen = select(tables.map((t) => [t, t]), (table) => {
       this.table = table;
       void this.curves.show(table).then(() => this.showTime());
     });
-    made.value = this.before?.table ?? made.value;
-    return element("section", { class: "controls" }, labelled("curves", made));
+    return element("section", { class: "controls" }, labelled("curves", this.tableChosen));
   }
 
   private notes(): HTMLElement {

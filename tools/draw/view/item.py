@@ -6,7 +6,7 @@ from ..series import Series
 
 
 @dataclass(frozen=True)
-class Shown:
+class Item:
     """A series of frames, and what the page says of it."""
     name: str
     series: Series
@@ -15,3 +15,16 @@ class Shown:
     labels: list = None  # of the frames, in place of times
     is_static: bool = False  # times are load factors
     facts: tuple = ()  # lines about it
+
+
+@dataclass(frozen=True)
+class Source:
+    """What a folder holds for a view: never nothing."""
+    kind: str
+    items: list
+    start: dict  # with what the page begins if nothing else is said: panes (indices of items), time, color, scale, rest
+    every: int = 1  # every so many frames make a page that is not too large
+
+
+def name_of(folder):
+    return folder.resolve().name or str(folder)
