@@ -2,7 +2,9 @@
 // Nothing is computed that nobody asks for, and nothing twice that outputs of one state share.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -74,8 +76,13 @@ class ObservedState {
   double t() const { return state_.t; }
   const State& state() const { return state_; }
 
+  // For one that keeps the values of an output: who asks for it later gets a copy. `values` must outlive this.
+  void share(const std::string& name, std::span<const double> values) const { shared_[name] = values; }
+
   // As StateView::evaluate().
   std::vector<double> evaluate(const std::string& name) const {
+    if (const auto found = shared_.find(name); found != shared_.end())
+      return {found->second.begin(), found->second.end()};
     if (!view_) view_ = source_.view(state_);
     return view_->evaluate(name);
   }
@@ -84,6 +91,7 @@ class ObservedState {
   const OutputSource& source_;
   const State& state_;
   mutable std::unique_ptr<StateView> view_;
+  mutable std::map<std::string, std::span<const double>> shared_;
 };
 
 }  // namespace orthodyn

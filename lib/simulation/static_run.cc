@@ -139,7 +139,7 @@ RunResult run_static_analysis(RunContext context) {
   StaticObservers observers(setup, problem, folder, context.listener);
   auto all = observers.all();
   const auto own = context.listener.on_begin(setup);
-  if (own) all.push_back(own.get());
+  if (own) all.insert(all.begin(), own.get());  // it may share what it keeps with those that write
   RunResult result{.scene = context.scene, .folder = folder};
   result.outcome = run_static(*problem.path, *problem.stepper, all, context.interrupt);
   if (setup.linearity && result.outcome.status != Outcome::Status::interrupted) {

@@ -46,7 +46,7 @@ def values_of(block):
     rows = planes.reshape(about["components"], -1).T.astype(float)
     if about["kind"] == "linear":
         return np.array(about["low"]) + rows * np.array(about["step"])
-    return rows * about.get("factor", 1)
+    return rows * about.get("factor", 1) + about.get("offset", 0)
 
 
 class InBlocks(unittest.TestCase):

@@ -49,10 +49,10 @@ class Grain:
         ends = self.ends(frame, points)[:, seen]
         paint.add_segments(*(camera.flat(end) for end in ends), depth, ink, 0.7)
 
-    def ends(self, frame, points):
-        """Both ends (2,s,3) of all strokes."""
+    def ends(self, frame, points, field=FIELD):
+        """Both ends (2,s,3) of all strokes along the axes of a field."""
         corners = points[self.surface.faces[self.face]]
-        axis = unit(frame.cell_fields[FIELD][self.surface.cell[self.face]].astype(float))
+        axis = unit(frame.cell_fields[field][self.surface.cell[self.face]].astype(float))
         normal = unit(area_vectors(corners))
         along = axis - np.einsum("ix,ix->i", axis, normal)[:, None] * normal
         half = 0.5 * self.spacing * np.maximum(np.linalg.norm(along, axis=1), 0.02)

@@ -51,9 +51,9 @@ NamedObservers RunObservers::kept() {
 
 std::vector<Observer*> RunObservers::all(Observer* progress, Checkpointer& checkpointer) {
   std::vector<Observer*> out;
+  if (progress) out.push_back(progress);  // it may share what it keeps with those that write
   for (const auto& [name, observer] : kept()) out.push_back(observer);
   if (setup_) out.push_back(&*setup_);
-  if (progress) out.push_back(progress);
   out.push_back(&checkpointer);
   return out;
 }

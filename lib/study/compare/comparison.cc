@@ -58,9 +58,6 @@ void refuse_unused(const Config& config, const std::string& name, const std::vec
 }
 
 void check_frames(const Comparison& c, const Config& at) {
-  const auto& fields = c.frames->fields;
-  if (std::find(fields.begin(), fields.end(), "displacement") == fields.end())
-    (at.has("fields") ? at.at("fields") : at).fail("without 'displacement' nothing moves: add it");
   if (c.frames->count > c.samples)
     (at.has("count") ? at.at("count") : at)
         .fail(fmt::format("{} frames of {} samples: take fewer, or raise 'samples'", c.frames->count, c.samples));
@@ -123,7 +120,7 @@ const Spec<KeptFrames>& KeptFrames::spec() {
       Spec<KeptFrames>()
           .key("count", &KeptFrames::count, "Frames after the initial one, of the samples, evenly spaced.",
                {.range = {1, 2000}})
-          .key("fields", &KeptFrames::fields, "Node and cell fields of the frames (see `orthodyn list fields`).");
+          .key("fields", &KeptFrames::fields, "Node and cell fields of the frames, beside the displacement (see `orthodyn list fields`).");
   return s;
 }
 

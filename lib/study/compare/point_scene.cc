@@ -1,4 +1,5 @@
 // The scene of a point or of a reference: that of a problem or a group, with another integrator.
+#include <algorithm>
 #include <functional>
 #include <set>
 
@@ -24,7 +25,9 @@ bool is_kept_by_references(const std::string& key) {
 
 void set_frames(const std::optional<KeptFrames>& frames, Config& config) {
   if (!frames) return config.set("output.fields", std::vector<std::string>());
-  config.set("output.fields", std::vector<std::string>(frames->fields), frames->fields.origin.where);
+  std::vector<std::string> fields = frames->fields;
+  if (std::ranges::find(fields, "displacement") == fields.end()) fields.insert(fields.begin(), "displacement");
+  config.set("output.fields", fields, frames->fields.origin.where);
   config.set("output.interval", nullptr);
   config.set("output.frames", static_cast<double>(frames->count));
 }

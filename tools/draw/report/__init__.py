@@ -18,5 +18,5 @@ def write_report(result, out=None):
     write()
     yield path
     yield from write_paper_figures(comparison, folder / "pictures")
-    if any((folder / point.scene).with_name("frames.pvd").is_file() for point in comparison.points):
-        yield from with_view(path, folder, write)
+    has_frames = any((folder / point.scene).with_name("frames.pvd").is_file() for point in comparison.points)
+    yield from with_view(path, folder, has_frames, write)

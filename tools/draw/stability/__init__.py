@@ -20,5 +20,5 @@ def write_stability_report(result, out=None):
     write()
     yield path
     yield from write_figures(matrix, folder / "pictures")
-    if any(t.folder and (folder / t.folder / "end.vtu").is_file() for t in matrix.trials):
-        yield from with_view(path, folder, write)
+    has_states = any(t.folder and (folder / t.folder / "end.vtu").is_file() for t in matrix.trials)
+    yield from with_view(path, folder, has_states, write)

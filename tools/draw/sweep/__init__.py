@@ -23,5 +23,4 @@ def write_sweep_report(result, out=None):
     yield path
     yield from gallery
     yield from write_paper_figures(sweep, folder / "pictures")
-    if gallery:
-        yield from with_view(path, folder, write)
+    yield from with_view(path, folder, bool(gallery), write)

@@ -5,7 +5,7 @@ better than rows beside each other:
   u32     whole numbers
   f32     single precision
   linear  uint16 between the smallest and the largest of each component: an error of 8e-6 of their distance
-  half    half precision times a factor: a relative error of 5e-4, NaN kept
+  half    half precision times a factor, plus an offset: a relative error of 5e-4 of what differs from it, NaN kept
 """
 import base64
 import gzip
@@ -26,17 +26,17 @@ class Blocks:
     def __init__(self):
         self._elements, self._known = [], {}
 
-    def add(self, name, kind, values):
-        values = np.asarray(values)
+    def add(self, name, kind, values, offset=0.0):
+        values = np.asarray(values) - offset if offset else np.asarray(values)
         planes = np.ascontiguousarray(values.reshape(len(values), math.prod(values.shape[1:])).T)
         raw, numbers = ENCODERS[kind](planes)
-        same = self._known.setdefault((kind, planes.shape, json.dumps(numbers), hashlib.sha256(raw).digest()), name)
+        same = self._known.setdefault((kind, offset, planes.shape, json.dumps(numbers), hashlib.sha256(raw).digest()), name)
         if same != name:
             self._elements.append(f'<script type="application/octet-stream" id="{html.escape(name)}" '
                                   f'data-same="{html.escape(same)}"></script>')
             return
         packed = base64.b64encode(gzip.compress(raw, 6, mtime=0)).decode()
-        about = html.escape(json.dumps({"kind": kind, "components": len(planes), **numbers}))
+        about = html.escape(json.dumps({"kind": kind, "components": len(planes), **numbers, **({"offset": offset} if offset else {})}))
         self._elements.append(f'<script type="application/octet-stream" id="{html.escape(name)}" data-about="{about}">'
                               f"{packed}</script>")
 

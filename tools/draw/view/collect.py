@@ -6,8 +6,7 @@ import numpy as np
 
 from ..colouring import Colouring
 from ..errors import DrawError
-from ..grain import FIELD as AXIS
-from ..quantity import component_names, find_quantity, magnitude, von_mises
+from ..quantity import NEUTRAL, component_names, find_quantity, magnitude, von_mises
 from ..table import Table
 from .setup import add_setup
 from .skin import Skin
@@ -115,7 +114,11 @@ def _add_frames(blocks, key, series, frames, shown, survey):
         frame = series.frame(index)
         for name in survey.fields:
             if k == 0 or name not in survey.steady:
-                blocks.add(f"{key}/{name}/{k}", "linear" if name == "displacement" else "half", shown.of(frame, name))
+                values = shown.of(frame, name)
+                if name == "displacement":
+                    blocks.add(f"{key}/{name}/{k}", "linear", values)
+                else:
+                    blocks.add(f"{key}/{name}/{k}", "half", values, offset=NEUTRAL.get(name, 0.0))
     return [{"name": name, "on": "nodes" if name in first.node_fields else "cells", "steady": name in survey.steady,
              "components": shown.of(first, name).shape[1]} for name in survey.fields]
 
@@ -204,18 +207,26 @@ def _described(quantity, samples):
     part = quantity.label.split()[-1] if isinstance(quantity.kind, int) else quantity.kind
     name = quantity.field if part == "value" else f"{quantity.field}.{part}"
     return {"key": f"{quantity.field}.{kind}", "name": name, "field": quantity.field, "kind": kind, "label": quantity.label,
-            "unit": quantity.unit, "low": low, "high": high, "diverging": quantity.neutral is not None,
+            "unit": quantity.unit, "low": low, "high": high, "least": _end(np.min, samples), "most": _end(np.max, samples),
+            "neutral": quantity.neutral or 0.0, "diverging": quantity.neutral is not None,
             "categories": quantity.categorical}
 
 
+def _end(which, samples):
+    """The smallest or the largest of all finite numbers; None if there is none."""
+    ends = [which(finite) for sample in samples if (finite := sample[np.isfinite(sample)]).size]
+    return float(which(ends)) if ends else None
+
+
 def _add_strokes(blocks, key, frame, skin):
-    if AXIS not in frame.cell_fields:
-        return 0
+    """The material axes that there are strokes of."""
     moved = frame.points + frame.node_fields.get("displacement", 0)
-    face, ends = strokes(skin, frame, moved)
-    blocks.add(f"{key}/stroke_face", "u32", face)
-    blocks.add(f"{key}/stroke_ends", "f32", ends.reshape(len(face), 6))
-    return len(face)
+    axes = [axis for axis in (1, 2, 3) if f"material_axis_{axis}" in frame.cell_fields and len(skin.faces)]
+    for axis in axes:
+        face, ends = strokes(skin, frame, moved, f"material_axis_{axis}")
+        blocks.add(f"{key}/stroke_face_{axis}", "u32", face)
+        blocks.add(f"{key}/stroke_ends_{axis}", "f32", ends.reshape(len(face), 6))
+    return axes
 
 
 def _add_table(blocks, key, folder, name):

@@ -3,7 +3,7 @@ from pathlib import Path
 
 from ..errors import DrawError
 from ..stability import FILE
-from ..stability.end_states import COLOUR, EndStates
+from ..stability.end_states import COLOUR, RANGE, EndStates
 from ..stability.grades import GRADES
 from ..stability.reading import read_matrix
 from .item import Item, Source
@@ -28,4 +28,4 @@ def of_matrix(folder):
             items.append(Item(case.label, states.series(), labels=labels, facts=(case.sentence,) if case.sentence else ()))
     if not items:
         raise DrawError(f"{folder}: no trial has left an end state that can be drawn")
-    return Source("hard cases", items, {"color": COLOUR, "rest": True})
+    return Source("hard cases", items, {"color": COLOUR, "range": list(RANGE), "rest": True})

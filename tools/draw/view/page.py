@@ -11,7 +11,7 @@ from ..errors import DrawError, unknown
 from .blocks import Blocks
 from .collect import Extent, add_result, field_names
 from .item import name_of
-from .sources import begin, source_of
+from .sources import begin, folder_of, source_of, told_apart
 from .still import take_still
 
 FILE = "view.html"
@@ -20,8 +20,8 @@ HERE = Path(__file__).resolve().parent
 
 def write_view(results, out=None, extent=Extent(), start=None):
     """Writes the page (default: view.html in the first folder, of two view_OTHER.html); returns its path."""
-    name = f"view_{name_of(Path(results[1]))}.html" if len(results) == 2 else FILE
-    path = Path(out) if out else Path(results[0]) / name
+    name = f"view_{name_of(folder_of(results[1]))}.html" if len(results) == 2 else FILE
+    path = Path(out) if out else folder_of(results[0]) / name
     text = page(results, extent, start)
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, encoding="utf-8")
@@ -47,7 +47,7 @@ def page(results, extent, start=None):
 
 
 def _page(results, sources, extent, start):
-    items, blocks = [item for source in sources for item in source.items], Blocks()
+    items, blocks = told_apart([item for source in sources for item in source.items]), Blocks()
     if extent.fields:
         _check_fields(extent.fields, items)
     if extent.every is None:
@@ -55,7 +55,7 @@ def _page(results, sources, extent, start):
     described = [add_result(blocks, f"r{k}", item, extent) for k, item in enumerate(items)]
     start = {**begin(sources), **start}
     _check(start, described)
-    title = " and ".join(name_of(Path(name)) for name in results)
+    title = " and ".join(dict.fromkeys(name_of(folder_of(name)) for name in results))
     description = json.dumps({"results": described, "maps": _maps(), "start": start}, allow_nan=False).replace("<", "\\u003c")
     style, script = ((HERE / name).read_text(encoding="utf-8") for name in ("view.css", "viewer.js"))
     return (f'<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'

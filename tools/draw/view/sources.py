@@ -1,4 +1,6 @@
 """From the folder that a command wrote to what a view shows of it."""
+import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,9 +14,15 @@ STUDIES = ((points.is_sweep, points.of_sweep), (runs.is_comparison, runs.of_comp
            (end_states.is_matrix, end_states.of_matrix))
 
 
+def folder_of(name):
+    """That of a report, a run.json and so on."""
+    path = Path(name)
+    return path.parent if path.is_file() else path
+
+
 def source_of(name):
-    """The Source of a folder. Raises DrawError where it has nothing to show."""
-    folder = Path(name)
+    """The Source of a folder, or of a file in it. Raises DrawError where it has nothing to show."""
+    folder = folder_of(name)
     for is_it, of_it in STUDIES:
         if is_it(folder):
             return of_it(folder)
@@ -31,11 +39,32 @@ def _of_shapes(folder):
                   {"color": "shape", "scale": scale})
 
 
+def told_apart(items):
+    """Those of one name and group with what was set for each of them, or else with a number."""
+    found = []
+    for item in items:
+        same = [other for other in items if (other.name, other.group) == (item.name, item.group)]
+        if len(same) > 1:
+            texts = [", ".join(_set(other)) for other in same]
+            number = next(k for k, other in enumerate(same) if other is item)
+            told = texts[number] if texts[number] and texts.count(texts[number]) == 1 else str(number + 1)
+            item = replace(item, name=f"{item.name} ({told})")
+        found.append(item)
+    return found
+
+
+def _set(item):
+    try:
+        return json.loads((item.folder / "run.json").read_text(encoding="utf-8"))["set"]
+    except (OSError, ValueError, KeyError, TypeError):
+        return []
+
+
 def begin(sources):
     """The start of a page of these: of several kinds only what holds for all, and the first two beside each other."""
     first = sources[0]
     if len(sources) == 1:
         return {"scale": 1.0, "panes": [0], **first.start}
     shared = first.start if all(s.kind == first.kind for s in sources) else {}
-    return {"scale": 1.0, **{key: shared[key] for key in ("scale", "color", "rest") if key in shared},
+    return {"scale": 1.0, **{key: shared[key] for key in ("scale", "color", "range", "rest") if key in shared},
             "panes": [0, len(first.items)]}

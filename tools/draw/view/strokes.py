@@ -1,20 +1,18 @@
-"""Material axis 1 as strokes that move with the faces they lie on."""
+"""Material axes as strokes that move with the faces they lie on."""
 import numpy as np
 
-from ..grain import FIELD, Grain
+from ..grain import Grain
 from ..surface import area_vectors
 
 COUNT = 2500  # of strokes, were the surface flat and they in rows
 
 
-def strokes(skin, frame, points):
-    """Faces (s,) and the barycentric coordinates of both ends in them (s,2,3); None where frames have no axes."""
-    if FIELD not in frame.cell_fields or not len(skin.faces):
-        return None
+def strokes(skin, frame, points, field):
+    """Faces (s,) and the barycentric coordinates of both ends in them (s,2,3)."""
     area = 0.5 * np.linalg.norm(area_vectors(points[skin.faces]), axis=1).sum()
     grain = Grain(skin.surface, points, np.sqrt(area / COUNT))
     corners = points[skin.faces[grain.face]]
-    return grain.face, np.stack([_barycentric(corners, end) for end in grain.ends(frame, points)], axis=1)
+    return grain.face, np.stack([_barycentric(corners, end) for end in grain.ends(frame, points, field)], axis=1)
 
 
 def _barycentric(corners, points):

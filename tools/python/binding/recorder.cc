@@ -1,6 +1,7 @@
 #include "tools/python/binding/recorder.h"
 
 #include <algorithm>
+#include <span>
 
 #include "tools/python/binding/arrays.h"
 
@@ -19,6 +20,7 @@ void Recorder::record(const ObservedState& observed) {
   for (Field& field : fields_) {
     const std::vector<double> values = observed.evaluate(field.info.name);
     field.values.insert(field.values.end(), values.begin(), values.end());
+    observed.share(field.info.name, std::span(field.values).last(values.size()));
   }
 }
 

@@ -6,6 +6,7 @@ interface About {
   low?: number[];
   step?: number[];
   factor?: number;
+  offset?: number;
 }
 
 const halves = new Float32Array(65536);
@@ -25,8 +26,8 @@ export async function floats(name: string): Promise<Float32Array> {
     case "f32":
       return rows(new Float32Array(bytes), about.components, (x) => x);
     case "half": {
-      const factor = about.factor ?? 1;
-      return rows(new Uint16Array(bytes), about.components, (x) => (halves[x] as number) * factor);
+      const factor = about.factor ?? 1, offset = about.offset ?? 0;
+      return rows(new Uint16Array(bytes), about.components, (x) => offset + (halves[x] as number) * factor);
     }
     case "linear": {
       const low = about.low ?? [], step = about.step ?? [];

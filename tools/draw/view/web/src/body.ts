@@ -2,13 +2,13 @@
 import * as THREE from "three";
 import { lines, paint, type Paint } from "./material";
 import type { Quantity } from "./description";
-import type { Result } from "./result";
+import type { Result, Strokes } from "./result";
 import { Section, type Cut, type Plane } from "./section";
 
 export interface Look {
   scale: number; // of displacements
   edges: "none" | "shape" | "mesh";
-  strokes: boolean;
+  strokes: number; // the material axis; 0: none
   marks: boolean;
   rest: boolean; // the outline of the rest shape
 }
@@ -62,7 +62,8 @@ export class Body {
     this.edges = segments(mesh.edges.length, lines(0x111418, 0.35));
     this.creases = segments(mesh.creases.length, lines(0x111418, 0.9));
     this.outline = segments(mesh.creases.length, lines(0x8a919c, 0.8));
-    this.strokes = result.strokes ? segments(2 * result.strokes.face.length, lines(0x101214)) : null;
+    const most = Math.max(0, ...[...result.strokes.values()].map((s) => s.face.length));
+    this.strokes = most ? segments(2 * most, lines(0x101214)) : null;
     this.held = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ color: HELD, size: 5, sizeAttenuation: false }));
     this.arrows = segments(6 * this.arrowNodes().length, lines(LOAD));
     this.extent = extentOf(mesh.rest);
@@ -102,8 +103,9 @@ export class Body {
     if (this.edges.visible) fillPairs(this.edges, mesh.edges, this.positions);
     if (this.creases.visible) fillPairs(this.creases, mesh.creases, this.positions);
     if (this.strokes) {
-      this.strokes.visible = look.strokes;
-      if (look.strokes) this.fillStrokes(this.strokes);
+      const given = this.result.strokes.get(look.strokes);
+      this.strokes.visible = given !== undefined;
+      if (given) this.fillStrokes(this.strokes, given);
     }
     this.held.visible = this.arrows.visible = look.marks;
     if (look.marks) this.fillMarks();
@@ -195,9 +197,7 @@ export class Body {
       }
   }
 
-  private fillStrokes(strokes: THREE.LineSegments): void {
-    const given = this.result.strokes;
-    if (!given) return;
+  private fillStrokes(strokes: THREE.LineSegments, given: Strokes): void {
     const { faces } = this.result.mesh, out = strokes.geometry.getAttribute("position") as THREE.BufferAttribute;
     const x = this.positions, lift = LIFT * this.extent;
     given.face.forEach((face, s) => {
@@ -210,6 +210,7 @@ export class Body {
           out.array[6 * s + 3 * end + i] = sum;
         }
     });
+    strokes.geometry.setDrawRange(0, 2 * given.face.length);
     out.needsUpdate = true;
   }
 

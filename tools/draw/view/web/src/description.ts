@@ -14,8 +14,11 @@ export interface Quantity {
   kind: number | "magnitude" | "von_mises"; // a component, or what is made of all
   label: string;
   unit: string;
-  low: number;
+  low: number; // of the colours at first
   high: number;
+  least: number | null; // of all values; null where none is finite
+  most: number | null;
+  neutral: number; // of the undeformed body
   diverging: boolean;
   categories: boolean;
 }
@@ -40,7 +43,7 @@ export interface ResultDescription {
   volume: boolean; // nodes and cells inside are there, too
   fields: Field[];
   quantities: Quantity[];
-  strokes: number;
+  strokes: number[]; // the material axes that there are strokes of
   curves: Curve[];
   setup: { held: number; loaded: number };
   notes: {
@@ -53,6 +56,7 @@ export interface Start {
   panes: number[]; // the results that are shown first: one, or two beside each other
   time?: number;
   color?: string;
+  range?: [number, number]; // of the colours
   scale?: number;
   rest?: boolean; // the rest shape too
   still?: boolean; // a picture: no controls

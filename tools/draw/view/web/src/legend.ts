@@ -10,7 +10,7 @@ export class Legend {
 
   constructor(private readonly change: (range: [number, number] | null) => void) {}
 
-  show(quantity: Quantity, map: ColourMap, low: number, high: number): void {
+  show(quantity: Quantity, map: ColourMap, [low, high]: [number, number], all: [number, number] | null): void {
     const size = scaled(quantity.unit, Math.max(Math.abs(low), Math.abs(high)));
     const unit = size.unit && size.unit !== "1" ? `, ${size.unit}` : "";
     const title = element("div", { class: "legend-title" }, quantity.label + unit);
@@ -26,7 +26,7 @@ export class Legend {
     }
     const ends = [low, high].map((end, k) => {
       const input = element("input", { type: "number", step: "any", "aria-label": k ? "largest colour" : "smallest colour" });
-      input.value = String(Number((end / size.factor).toPrecision(4)));
+      input.value = String(Number((end / size.factor).toPrecision(quantity.neutral ? 7 : 4)));
       input.addEventListener("change", () => {
         const value = Number(input.value) * size.factor, range: [number, number] = k ? [low, value] : [value, high];
         if (Number.isFinite(value) && range[0] < range[1]) this.change(range);
@@ -34,9 +34,12 @@ export class Legend {
       });
       return input;
     });
-    const whole = button("↺", "The range of all frames", () => this.change(null));
+    const whole = button("↺", "The range at first: without the few values that dwarf the others", () => this.change(null));
     const range = element("div", { class: "range" }, ends[0] as Node, "to", ends[1] as Node, whole);
     this.node.replaceChildren(title, bar, marks, range);
+    if (!all || (all[0] >= low - 1e-3 * (high - low) && all[1] <= high + 1e-3 * (high - low))) return;
+    const [least, most] = all.map((end) => round(Number((end / size.factor).toPrecision(4))));
+    this.node.append(button(`values from ${least} to ${most}`, "Colours for all values", () => this.change([Math.min(low, all[0]), Math.max(high, all[1])])));
   }
 }
 

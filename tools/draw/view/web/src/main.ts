@@ -53,14 +53,15 @@ class Page {
   private choice(pane: number, chosen: number): HTMLSelectElement {
     const made = element("select", { "aria-label": pane ? "beside it" : "shown" });
     if (pane) made.append(element("option", { value: NONE }, this.panes.length > 1 ? "nothing beside it" : "beside it …"));
-    const groups = new Map<string, HTMLElement>([["", made]]);
+    const groups = new Map<string, HTMLElement>([["", made]]), groupCount = new Set(this.about.results.map((r) => r.group)).size;
     this.about.results.forEach(({ name, group }, k) => {
       if (!groups.has(group)) {
         const added = element("optgroup", { label: group });
         groups.set(group, added);
         made.append(added);
       }
-      groups.get(group)?.append(element("option", { value: k }, name));
+      const places = { value: k, title: group };
+      groups.get(group)?.append(element("option", places, groupCount > 1 && group ? `${name} · ${group}` : name));
     });
     made.value = String(chosen);
     made.addEventListener("change", () => this.choose(pane, Number(made.value)));

@@ -36,7 +36,7 @@ export class Result {
     readonly key: string,
     readonly about: ResultDescription,
     readonly mesh: Mesh,
-    readonly strokes: Strokes | null,
+    readonly strokes: Map<number, Strokes>, // by axis
     readonly marks: Marks,
   ) {}
 
@@ -47,9 +47,9 @@ export class Result {
       whole("edges"), whole("creases"),
     ]);
     const tets = about.volume ? await whole("tets") : null, tetCell = about.volume ? await whole("tet_cell") : null;
-    const strokes = about.strokes
-      ? { face: await whole("stroke_face"), ends: await floats(`${key}/stroke_ends`) }
-      : null;
+    const strokes = new Map<number, Strokes>();
+    for (const axis of about.strokes)
+      strokes.set(axis, { face: await whole(`stroke_face_${axis}`), ends: await floats(`${key}/stroke_ends_${axis}`) });
     const marks = await readMarks(key);
     return new Result(key, about, { rest, number, faces, normals, cell, cellNumber, edges, creases, tets, tetCell }, strokes, marks);
   }

@@ -3,6 +3,7 @@ import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Body, Hit } from "./body";
 import type { Plane } from "./section";
+import { Triad } from "./triad";
 
 const AZIMUTH = -60, ELEVATION = 20; // degrees, as `draw` has them
 const FIELD_OF_VIEW = 20;
@@ -34,6 +35,7 @@ export class Stage {
   private readonly orbit: OrbitControls;
   private readonly scenes: THREE.Scene[];
   private readonly clip = new THREE.Plane();
+  private readonly triad = new Triad();
   private readonly resizing = new ResizeObserver(() => this.resize());
   private pending = 0; // the number of the frame that is asked for; 0: none
   private isOver = false;
@@ -150,6 +152,8 @@ export class Stage {
       this.setAspect(pane);
       this.renderer.render(this.scenes[k] as THREE.Scene, this.camera);
     });
+    const toEye = new THREE.Vector3(...this.toward());
+    this.triad.draw(this.renderer, toEye, this.camera.up, this.holder.clientWidth, this.holder.clientHeight);
   }
 
   // What is under a place on the page.

@@ -43,7 +43,7 @@ export class View {
   private readonly slider = element("input", { type: "range", min: 0, step: 1, "aria-label": "time" });
   private readonly clock = element("output", { class: "clock" });
   private readonly play: HTMLButtonElement;
-  private look: Look = { scale: 1, edges: "shape", strokes: false, marks: true, rest: false };
+  private look: Look = { scale: 1, edges: "shape", strokes: 0, marks: true, rest: false };
   private quantity: Quantity;
   private range: [number, number] | null = null;
   private readonly clip: Clip;
@@ -68,6 +68,8 @@ export class View {
     this.look.rest = start.rest ?? false;
     this.look.edges = first.mesh.faces.length / 3 < 3000 ? "mesh" : "shape";
     if (before) this.look = { ...before.look };
+    if (start.range) this.range = start.range;
+    if (before) this.range = null;
     if (before && before.quantity.key === this.quantity.key) this.range = before.range;
     const isHollow = !results.every((r) => r.about.volume);
     this.clip = new Clip(before?.clip ?? null, isHollow, () => this.stage.toward(), () => void this.refresh());
@@ -171,7 +173,8 @@ export class View {
   private colour(): void {
     const map = this.map(), texture = colourTexture(map), [low, high] = this.range ?? this.wholeRange();
     const [r = 230, g = 0, b = 126] = this.about.maps.nan, nan = new THREE.Color(r / 255, g / 255, b / 255);
-    this.legend.show(this.quantity, map, low, high);
+    this.legend.show(this.quantity, map, [low, high], this.allValues());
+    this.showLabels();
     for (const body of this.bodies) body.setColours(texture, map.colours.length, this.quantity, low, high, nan);
   }
 
@@ -179,6 +182,21 @@ export class View {
   private wholeRange(): [number, number] {
     const same = this.results.map((r) => r.quantity(this.quantity.key)).filter((q): q is Quantity => q !== null);
     return [Math.min(...same.map((q) => q.low)), Math.max(...same.map((q) => q.high))];
+  }
+
+  private allValues(): [number, number] | null {
+    const same = this.results.map((r) => r.quantity(this.quantity.key)).filter((q): q is Quantity => q !== null);
+    const least = same.flatMap((q) => q.least ?? []), most = same.flatMap((q) => q.most ?? []);
+    return least.length ? [Math.min(...least), Math.max(...most)] : null;
+  }
+
+  // Of the frames that have some, and what a result has not.
+  private showLabels(): void {
+    this.results.forEach((r, k) => {
+      const lacks = r.quantity(this.quantity.key) ? "" : `has no ${this.quantity.label}`;
+      const own = r.about.labels?.[r.frameAt(this.player.time)] ?? "";
+      (this.labels[k] as HTMLElement).textContent = [own, lacks].filter((text) => text).join("; ");
+    });
   }
 
   private map(): ColourMap {
@@ -193,7 +211,7 @@ export class View {
   private showTime(): void {
     const { player } = this, size = scaled("s", Math.max(Math.abs(player.first), Math.abs(player.last)));
     const labels = this.results.map((r) => r.about.labels?.[r.frameAt(player.time)] ?? "");
-    this.labels.forEach((label, k) => (label.textContent = labels[k] ?? ""));
+    this.showLabels();
     const isStatic = this.results.some((r) => r.about.static);
     const said = isStatic ? `load factor ${figure(player.time, 4)}` : `t = ${figure(player.time / size.factor, 4)} ${size.unit}`;
     const text = labels[0] || said, count = `${player.frame + 1} of ${player.times.length}`;
@@ -214,7 +232,8 @@ export class View {
       this.under.textContent = `${of?.about.name} has no ${label}`;
       return;
     }
-    const number = this.quantity.categories ? String(Math.round(hit.value)) : withUnit(hit.value, unit);
+    const digits = this.quantity.neutral ? 6 : 3; // a volume ratio differs from 1 by little
+    const number = this.quantity.categories ? String(Math.round(hit.value)) : withUnit(hit.value, unit, digits);
     this.under.textContent = `${label}: ${number} · node ${hit.node} · element ${hit.cell}`;
   }
 
@@ -234,21 +253,32 @@ export class View {
     });
     edges.id = "edges";
     edges.value = this.look.edges;
-    const set = (key: "strokes" | "marks" | "rest") => (on: boolean) => {
+    const set = (key: "marks" | "rest") => (on: boolean) => {
       this.look[key] = on;
       void this.refresh();
     };
     const ticks: HTMLElement[] = [tick("rest shape", this.look.rest, set("rest"))];
-    if (this.results.some((r) => r.strokes)) ticks.push(tick("grain: material axis 1", this.look.strokes, set("strokes"), "grain"));
     if (this.results.some((r) => r.about.setup.held || r.about.setup.loaded))
       ticks.push(tick("clamps and loads", this.look.marks, set("marks")));
     const views = element("div", { class: "row buttons" }, ...Object.entries(VIEWS).map(([key, [name, a, e]]) =>
       button(name, `View ${name} (${key})`, () => this.stage.look(a, e))));
     const picture = button("save picture", "The picture as PNG", () => this.savePicture());
     return element("section", { class: "controls" }, labelled("colour", colours), labelled("deformation", scale), labelled("edges", edges),
-      this.clip.node, element("div", { class: "row ticks" }, ...ticks), views,
+      ...this.grainChoice(), this.clip.node, element("div", { class: "row ticks" }, ...ticks), views,
       element("div", { class: "row buttons" }, picture, button("dark / light", "Colours of the page", toggleTheme)),
       element("details", {}, element("summary", {}, "keys"), element("p", {}, KEYS)));
+  }
+
+  private grainChoice(): HTMLElement[] {
+    const axes = [...new Set(this.results.flatMap((r) => r.about.strokes))].sort();
+    if (!axes.length) return [];
+    const made = select([["0", "none"], ...axes.map((a): [string, string] => [String(a), `material axis ${a}`])], (axis) => {
+      this.look.strokes = Number(axis);
+      void this.refresh();
+    });
+    made.id = "grain";
+    made.value = String(this.look.strokes);
+    return [labelled("grain", made)];
   }
 
   private speedChoice(): HTMLElement {
@@ -288,7 +318,7 @@ export class View {
       " ": () => player.toggle(), ArrowLeft: () => void player.goTo(player.frame - 1),
       ArrowRight: () => void player.goTo(player.frame + 1), Home: () => void player.goTo(0),
       End: () => void player.goTo(player.times.length - 1), e: () => this.next("#edges"), c: () => this.next("#clip"),
-      g: () => document.querySelector<HTMLInputElement>("#grain")?.click(),
+      g: () => this.next("#grain"),
     };
     const action = view ? () => this.stage.look(view[1], view[2]) : actions[event.key];
     if (!action || (target.tagName === "BUTTON" && event.key === " ")) return;
