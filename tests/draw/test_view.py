@@ -15,14 +15,18 @@ sys.dont_write_bytecode = True
 sys.path[:0] = [str(Path(__file__).resolve().parent)]
 
 import numpy as np  # noqa: E402
+from PIL import Image  # noqa: E402
 
 from folder_test import InAFolder, TOOLS  # noqa: E402
 from report_page import CHROMIUM, dom_of  # noqa: E402
 from synthetic_comparison import comparison as a_comparison  # noqa: E402
 from synthetic_matrix import matrix, write_end_state, write_matrix  # noqa: E402
-from tiny_result import POINTS, Vtu, fields_at, write_curves, write_result  # noqa: E402
+from synthetic_sweep import sweep  # noqa: E402
+from test_sweep_report import write_frames  # noqa: E402
+from tiny_result import POINTS, TETS, Vtu, fields_at, write_curves, write_result  # noqa: E402
 
 from draw.view.blocks import Blocks  # noqa: E402
+from draw.view.bundle import digest  # noqa: E402
 from draw.view.collect import Extent  # noqa: E402
 from draw.view.page import page  # noqa: E402
 from draw.view.skin import Skin  # noqa: E402
@@ -68,6 +72,12 @@ class InBlocks(unittest.TestCase):
         blocks = Blocks()
         blocks.add("x", "u32", np.zeros((0, 2), int))
         self.assertEqual(unpacked(blocks.text())["x"], ({"kind": "u32", "components": 2}, b""))
+
+    def test_what_differs_little_from_one_is_kept_to_three_digits_of_that(self):
+        array = 1 + np.array([[2e-5], [-1.97e-5], [0.0]])
+        blocks = Blocks()
+        blocks.add("x", "half", array, offset=1.0)
+        np.testing.assert_allclose(values_of(unpacked(blocks.text())["x"]) - 1, array - 1, atol=1e-8)
 
     def test_what_is_not_a_number_stays_so(self):
         kept = self.kept("half", np.array([[np.nan], [1.0], [0.0]]))
@@ -248,6 +258,90 @@ class InABrowser(OfAResult):
         self.assertEqual((result["said"], console, result["fits"]), ([], [], True))
 
 
+    def probed(self, text, script, width=1400):
+        """What `script`, which has the view, returns; nothing is said on the console."""
+        probe = """<script>orthodynView.then(async view => {
+            const wait = (n) => new Promise(f => setTimeout(f, n)), query = (s) => document.querySelector(s);
+            const print = () => { let h = 0; for (const c of query("canvas").toDataURL()) h = (h * 31 + c.charCodeAt(0)) | 0; return h; };
+            const key = (k) => { dispatchEvent(new KeyboardEvent("keydown", {key: k})); };
+            const out = await (async () => { SCRIPT })();
+            document.body.append(Object.assign(document.createElement("pre"), {id: "probe", textContent: JSON.stringify(out)}));
+        }).catch(e => document.body.append(Object.assign(document.createElement("pre"), {id: "probe", textContent: JSON.stringify(String(e.stack))})));
+        </script></body>""".replace("SCRIPT", script)
+        path = self.folder / "probe.html"
+        path.write_text(text.replace("</body>", probe), encoding="utf-8")
+        dom, console = dom_of(path, width, *GPU)
+        self.assertEqual(console, [])
+        return json.loads(html.unescape(re.search(r'<pre id="probe">(.*?)</pre>', dom).group(1)))
+
+    def test_keys_and_controls_change_the_picture(self):
+        held = np.zeros((5, 3))
+        held[1] = 1
+        (self.result / "setup.vtu").write_bytes(Vtu().content({"held": held}, {}))
+        out = self.probed(self.page(), """
+            const clock = () => query(".clock").textContent, prints = {}, settle = async (name) => {
+              await wait(60); view.stage.drawNow(); prints[name] = print(); };
+            const clocks = [];
+            key("End"); await wait(50); clocks.push(clock()); key("ArrowLeft"); await wait(50); clocks.push(clock());
+            key("Home"); await wait(50); clocks.push(clock());
+            await view.goTo(3); await settle("plain");
+            key("4"); await settle("above"); key("1"); await settle("again");
+            key("e"); await settle("edges"); key("g"); await settle("grain");
+            const scale = [...document.querySelectorAll("select")].find(s => s.options[0].text.startsWith("×"));
+            scale.value = "5"; scale.dispatchEvent(new Event("change")); await settle("scale");
+            for (const box of document.querySelectorAll(".ticks input")) { box.click(); await settle(box.parentNode.textContent); }
+            const high = query('[aria-label="largest colour"]'); high.value = "6.2"; high.dispatchEvent(new Event("change"));
+            await settle("range"); key("c"); await settle("clip");
+            const before = getComputedStyle(document.body).backgroundColor;
+            [...document.querySelectorAll("button")].find(b => b.textContent === "dark / light").click();
+            return {clocks, prints, theme: before !== getComputedStyle(document.body).backgroundColor,
+                    grain: [...query("#grain").options].map(o => o.text)};""")
+        self.assertEqual(out["clocks"], [f"t = {t} s  ({k} of 4)" for t, k in (("1.000", 4), ("0.5000", 3), ("0", 1))])
+        prints = out["prints"]
+        self.assertEqual(prints.pop("again"), prints["plain"])
+        self.assertEqual(len(set(prints.values())), len(prints), prints)
+        self.assertEqual((out["theme"], out["grain"]), (True, ["none", "material axis 1"]))
+
+    def test_plays_in_the_time_that_it_says(self):
+        out = self.probed(self.page(), """
+            const speed = query('[aria-label="speed"]');
+            speed.value = "1"; speed.dispatchEvent(new Event("change"));
+            key(" "); await wait(600); const half = view.player.time; key(" "); await wait(600);
+            return [half, view.player.time, query('.cursor') !== null];""")
+        self.assertIn(out, ([0.25, 0.25, True], [0.5, 0.5, True]))  # of the frames at 0, 0.25, 0.5, 1; then it rests
+
+    def test_two_results_have_one_camera(self):
+        other = write_result(self.folder / "other", self.times)
+        out = self.probed(page([self.result, other], Extent()), """
+            const apart = () => { const a = view.place(1, 0, 0, 0), b = view.place(1, 0, 0, 1); return [b.x - a.x, b.y - a.y]; };
+            const before = apart(); view.stage.look(30, 45); return [before, apart(), view.stage.eye()];""")
+        np.testing.assert_allclose(out[0], out[1], atol=1e-6)
+        np.testing.assert_allclose(out[2], [30, 45], atol=1e-6)
+
+    def test_quadratic_cells_are_shown_by_their_values(self):
+        middles = [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)]
+        corners = POINTS[:4]
+        points = np.concatenate([corners, [0.5 * (corners[a] + corners[b]) for a, b in middles]])
+        content = Vtu(points, np.arange(10)[None]).content({"displacement": points}, {"det_f": np.array([[8.0]])}, types=24)
+        for path in self.result.glob("frames/*.vtu"):
+            path.write_bytes(content)
+        out = self.probed(self.page(), """
+            await view.setColour("det_f");
+            const at = (...p) => { const place = view.place(...p); return view.at(place.x, place.y); };
+            return [at(0.1, -0.5, 0.1), at(0.9, -0.5, 0.1)];""")  # two parts of one face, y = 0 at rest, about the middle
+        for text in out:
+            self.assertRegex(text, "volume ratio det F: 8.00000 · node [0-9] · element 0")
+
+    def test_a_still_is_a_picture(self):
+        out = self.folder / "still.png"
+        code, said, err = self.run_draw("view", self.result, "--png", out, "--size", "500x400", "--color", "det_f")
+        self.assertEqual((code, said, err), (0, [str(out)], []))
+        with Image.open(out) as picture:
+            self.assertEqual(picture.size, (500, 400))
+            self.assertGreater(len(picture.convert("RGB").getcolors(1 << 20)), 50)
+        self.fails_with("a still is a PNG", "view", self.result, "--png", self.folder / "still.jpg")
+        self.fails_with("3 results; a still shows one, or two", "view", *3 * [self.result], "--png", out)
+
     def test_what_a_result_has_not_is_grey_and_said(self):
         other = write_result(self.folder / "other", self.times)
         for k, t in enumerate(self.times):
@@ -312,6 +406,12 @@ class InABrowser(OfAResult):
         self.assertEqual(out["last"], [["r", "late"], 1])  # of three choices at a time
         self.assertEqual((out["clock"], out["legend"]), ("t = 0.5000 s  (3 of 4)", "volume ratio det F"))
         self.assertEqual((out["alone"], out["panes"], out["canvases"]), (["r", "beside it …"], 1, 1))
+
+
+class ThePageOfTheReadme(unittest.TestCase):
+    def test_has_the_bundle_of_the_sources(self):
+        text = (TOOLS.parent / "docs/results/cantilever_view.html").read_text(encoding="utf-8")
+        self.assertIn(f"/* sources {digest()}", text)
 
 
 class OfAStudy(InAFolder):
@@ -413,6 +513,18 @@ class OfAStudy(InAFolder):
         np.testing.assert_allclose(values_of(blocks["r0/displacement/1"]), POINTS, atol=2e-5)
         self.assertEqual((about["start"]["color"], about["start"]["rest"]), ("det_f", True))
 
+    def test_of_a_sweep_over_meshes_shows_the_points_of_each(self):
+        content = sweep({"mesh": ["coarse", "fine"], "angle": [0.0, 30.0]})
+        (self.folder / "s").mkdir()
+        write_frames(self.folder / "s", content)
+        for point in content["points"]:
+            if point["values"]["mesh"] == "fine":
+                path = self.folder / "s" / point["folder"] / point["frame"]
+                path.write_bytes(Vtu(tets=TETS[:1]).content({"displacement": 0 * POINTS}, {"det_f": np.ones((1, 1))}))
+        (self.folder / "s/sweep.json").write_text(json.dumps(content), encoding="utf-8")
+        about, _ = self.described(self.folder / "s")
+        self.assertEqual([(r["name"], len(r["labels"])) for r in about["results"]], [("mesh coarse", 2), ("mesh fine", 2)])
+
     def test_of_modes_begins_enlarged_to_be_seen(self):
         folder = write_result(self.folder / "m", [1.0, 2.0])
         (folder / "frames.pvd").rename(folder / "modes.pvd")
@@ -427,7 +539,6 @@ class OfAStudy(InAFolder):
 class TheBundle(unittest.TestCase):
     def test_is_that_of_the_sources(self):
         """`npm run bundle` writes the digest of the sources it was made of."""
-        from draw.view.bundle import digest
         bundle = (TOOLS / "draw/view/viewer.js").read_text(encoding="utf-8")
         self.assertIn(digest(), bundle[:200], "tools/draw/view/web/src was changed: npm run bundle")
         self.assertIn("MIT", bundle[:3000])

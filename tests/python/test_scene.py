@@ -1,5 +1,8 @@
 """Scenes and results: what Python gives is what the program writes."""
+import contextlib
 import gc
+import io
+import json
 import os
 import re
 import signal
@@ -23,7 +26,7 @@ from orthodyn.studies import program  # noqa: E402
 from short_scene import beam  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
-SCENES = sorted((ROOT / "configs/scenes").glob("*.yaml"))
+SCENES = sorted(file for folder in ("scenes", "benchmarks") for file in (ROOT / "configs" / folder).glob("*.yaml"))
 PART = 0.02  # of a scene's time
 
 
@@ -277,6 +280,32 @@ class ARun(InAFolder):
         self.assertLess(run(20) - before, 8000)  # kB; one result has 700
 
 
+class WhatIsSeen(InAFolder):
+    def test_progress_is_a_line_that_says_how_far_it_is(self):
+        told = io.StringIO()
+        with contextlib.redirect_stderr(told):
+            orthodyn.Scene(beam(), "strip").set("time.end", 5).run(progress=True)
+        self.assertRegex(told.getvalue(), r"\rstrip: +[0-9]+ %, t = [0-9.e-]+ s")
+
+    def test_results_of_one_name_are_told_apart_by_what_was_set(self):
+        scene = orthodyn.Scene(beam(), "strip")
+        one, two = scene.run(), scene.set("gravity.2", -5).run()
+        third = orthodyn.Scene(beam(gravity=[0, 0, -3]), "strip").run()
+        text = one.view(two, third, out=self.folder / "all.html").path.read_text()
+        self.assertEqual([r["name"] for r in json.loads(re.search(r'id="description">(.*?)</script>', text).group(1))["results"]],
+                         ["strip (1)", "strip (gravity.2=-5)", "strip (3)"])
+
+    def test_the_example_of_the_docs_works(self):
+        text = (ROOT / "docs/python.md").read_text()
+        code = re.search(r"```python\n(.*?)```", text, re.DOTALL).group(1)
+        self.assertLessEqual(len([line for line in code.splitlines() if line and not line.startswith("#")]), 15)
+        (self.folder / "configs").symlink_to(ROOT / "configs")
+        child = subprocess.run([sys.executable, "-c", code], cwd=self.folder, env={**os.environ, "MPLBACKEND": "Agg"}, check=True,
+                               capture_output=True, text=True)
+        self.assertIn("strip.html", child.stdout)
+        self.assertTrue((self.folder / "strip.html").is_file() and (self.folder / "grain.png").is_file())
+
+
 class EveryScene(InAFolder):
     def test_gives_the_same_bits_as_the_program(self):
         for file in SCENES:
@@ -299,7 +328,7 @@ class EveryScene(InAFolder):
     def same_files(self, name):
         ours, theirs = (self.folder / who / name for who in ("python", "program"))
         files = sorted(p.relative_to(theirs) for p in theirs.rglob("*")
-                       if p.suffix in (".vtu", ".csv", ".pvd") and p.name not in ("steps.csv", "load_steps.csv"))
+                       if p.suffix in (".vtu", ".csv", ".pvd"))
         self.assertTrue(files)
         for file in files:
             self.assertEqual((ours / file).read_bytes(), (theirs / file).read_bytes(), file)

@@ -138,6 +138,12 @@ class AStudy(unittest.TestCase):
             orthodyn.Scene(beam()).run("full", progress=False)
         self.assertNotIn("--", str(caught.exception))
 
+    def test_of_hard_cases_has_a_grade_for_each(self):
+        case = Path(__file__).resolve().parents[2] / "configs/stability/cases/snap_through.yaml"
+        study = orthodyn.stability({"title": "t", "cases": [str(case)], "integrators": ["tr_bdf2", "newmark"]}, "h", quiet=True)
+        self.assertEqual(list(study.table.grade), ["pass", "pass"])
+        self.assertTrue(study.view().path.is_file())
+
     def test_of_meshes_has_a_row_for_each(self):
         study = orthodyn.converge(orthodyn.Scene(beam()), "v", quiet=True)
         self.assertEqual(set(study.table["order"]), {1, 2})

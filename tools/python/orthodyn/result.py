@@ -70,7 +70,8 @@ class Result:
         try:
             return Series(str(self.folder))
         except DrawError as error:
-            raise FileNotFoundError(str(error)) from None
+            known = ", ".join(sorted(path.stem for path in self.folder.glob("*.csv"))) or "none"
+            raise FileNotFoundError(f"{error} (tables that are there: {known})") from None
 
     @cached_property
     def times(self) -> np.ndarray:
@@ -164,13 +165,13 @@ class Result:
         of_cells = {name: [v] for name, v in values.items() if name not in of_nodes and len(v) == cells}
         return meshio.Mesh(self.points, [(CELL_TYPES[self.cells.shape[1]], self.cells)], of_nodes, of_cells)
 
-    def view(self, *others: Result, out: str | Path | None = None, volume: bool = False, height: int = 620,
+    def view(self, *others: Result | str | Path, out: str | Path | None = None, volume: bool = False, height: int = 620,
              time: float | None = None, color: str | None = None, scale: float | None = None) -> Page:
-        """A page with a 3D view, which a notebook shows. `others`: a result beside it, or several to choose from; `volume`: also what is inside, for the clip
+        """A page with a 3D view, which a notebook shows. `others`: a result beside it or its folder, or several to choose from; `volume`: also what is inside, for the clip
         plane; `time`, `color` ("nodal_stress.von_mises") and `scale` of the deformation: with what it begins."""
         from .draw.view.collect import Extent
         from .draw.view.page import write_view
-        folders = [str(result.folder) for result in (self, *others)]
+        folders = [str(getattr(result, "folder", result)) for result in (self, *others)]
         given = {"scale": scale, "time": time, "color": color}
         start = {key: value if key == "color" else float(value) for key, value in given.items() if value is not None}
         try:
