@@ -415,8 +415,8 @@ class ThePageOfTheReadme(unittest.TestCase):
 
 
 class OfAStudy(InAFolder):
-    def described(self, folder):
-        text = page([folder], Extent())
+    def described(self, folder, start=None):
+        text = page([folder], Extent(), start)
         return json.loads(re.search(r'id="description">(.*?)</script>', text).group(1)), unpacked(text)
 
     def test_of_a_comparison_holds_how_far_a_run_is_from_its_reference(self):
@@ -511,7 +511,8 @@ class OfAStudy(InAFolder):
                          [("mirrored", ["exact; pass: alpha, beta", "exact; degraded: gamma",
                                         "warped; pass: alpha; fail: beta", "warped; refused: gamma"])])
         np.testing.assert_allclose(values_of(blocks["r0/displacement/1"]), POINTS, atol=2e-5)
-        self.assertEqual((about["start"]["color"], about["start"]["rest"]), ("det_f", True))
+        self.assertEqual((about["start"]["color"], about["start"]["range"], about["start"]["rest"]), ("det_f", [0, 2], True))
+        self.assertNotIn("range", self.described(self.folder, {"color": "displacement"})[0]["start"])
 
     def test_of_a_sweep_over_meshes_shows_the_points_of_each(self):
         content = sweep({"mesh": ["coarse", "fine"], "angle": [0.0, 30.0]})

@@ -53,7 +53,10 @@ def _page(results, sources, extent, start):
     if extent.every is None:
         extent = replace(extent, every=max(source.every for source in sources))
     described = [add_result(blocks, f"r{k}", item, extent) for k, item in enumerate(items)]
-    start = {**begin(sources), **start}
+    usual = begin(sources)
+    if "color" in start:
+        usual.pop("range", None)  # it is that of the usual colour
+    start = {**usual, **start}
     _check(start, described)
     title = " and ".join(dict.fromkeys(name_of(folder_of(name)) for name in results))
     description = json.dumps({"results": described, "maps": _maps(), "start": start}, allow_nan=False).replace("<", "\\u003c")
