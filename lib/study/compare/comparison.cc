@@ -120,7 +120,8 @@ const Spec<KeptFrames>& KeptFrames::spec() {
       Spec<KeptFrames>()
           .key("count", &KeptFrames::count, "Frames after the initial one, of the samples, evenly spaced.",
                {.range = {1, 2000}})
-          .key("fields", &KeptFrames::fields, "Node and cell fields of the frames, beside the displacement (see `orthodyn list fields`).");
+          .key("fields", &KeptFrames::fields,
+               "Node and cell fields of the frames, beside the displacement (see `orthodyn list fields`).");
   return s;
 }
 

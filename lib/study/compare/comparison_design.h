@@ -60,8 +60,8 @@ Design expand(const Comparison& comparison);
 // "damped_beam, cvode_bdf, rtol 0.001"
 std::string title(const Design& design, const Point& point);
 
-// The scene that a point runs: defaults are filled in, nothing is written but what probes need and frames that are kept. Options
-// of the scene's own integrator are kept where the method has such keys and says nothing else.
+// The scene that a point runs: defaults are filled in, nothing is written but what probes need and frames that are kept.
+// Options of the scene's own integrator are kept where the method has such keys and says nothing else.
 Config point_scene(const Design& design, const Point& point);
 
 // The same for the reference or its check: of the scene's own options, scales and linear solver are kept.

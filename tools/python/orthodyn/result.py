@@ -167,7 +167,8 @@ class Result:
 
     def view(self, *others: Result | str | Path, out: str | Path | None = None, volume: bool = False, height: int = 620,
              time: float | None = None, color: str | None = None, scale: float | None = None) -> Page:
-        """A page with a 3D view, which a notebook shows. `others`: a result beside it or its folder, or several to choose from; `volume`: also what is inside, for the clip
+        """A page with a 3D view, which a notebook shows. `others`: a result beside it or its folder, or
+        several to choose from; `volume`: also what is inside, for the clip
         plane; `time`, `color` ("nodal_stress.von_mises") and `scale` of the deformation: with what it begins."""
         from .draw.view.collect import Extent
         from .draw.view.page import write_view
