@@ -9,6 +9,9 @@ if(ORTHODYN_HWCAPS)
 endif()
 
 install(TARGETS orthodyn EXPORT orthodynTargets LIBRARY DESTINATION ${_library} COMPONENT library)
+if(ORTHODYN_MPI)
+  install(TARGETS orthodyn_petsc LIBRARY DESTINATION ${_library} COMPONENT library)
+endif()
 install(TARGETS orthodyn_cli COMPONENT program)
 install(DIRECTORY lib DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/orthodyn FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY tools/draw DESTINATION ${CMAKE_INSTALL_DATADIR}/orthodyn USE_SOURCE_PERMISSIONS COMPONENT program

@@ -8,13 +8,13 @@ namespace {
 constexpr int kGaussNewtonSetups = 10;
 }
 
-NewtonMatrix::NewtonMatrix(const Model& model, const std::string& solver, TangentKind tangent, Statistics& statistics)
+NewtonMatrix::NewtonMatrix(const Model& model, const SolverChoice& solver, TangentKind tangent, Statistics& statistics)
     : model_(model), statistics_(statistics), tangent_(tangent) {
-  const auto& kind = solver_registry().at(solver);
+  const auto& kind = solver_registry().at(solver.type);
   if (!model.pattern().symmetric && !kind.takes_general)
-    throw ConfigError("linear solver '" + solver + "' needs a symmetric tangent; use klu or klu_full, or " +
+    throw ConfigError("linear solver '" + solver.type + "' needs a symmetric tangent; use klu or klu_full, or " +
                       "elasticity.warped_tangent: rotated");
-  solver_ = kind.make();
+  solver_ = make_linear_solver(solver);
   solver_->analyze(model.pattern());
   values_.resize(model.pattern().row.size());
 }
@@ -40,22 +40,31 @@ void NewtonMatrix::assemble(TangentKind kind) {
 FactorStatus NewtonMatrix::try_factor() {
   const Measure measure(statistics_.factorization);
   model_.combine(weights_, linearization_, values_.data());
+  if (solver_->wants_rigid_motions()) solver_->set_rigid_motions(model_.rigid_motions(at_.q));
   return solver_->factor(values_.data());
 }
 
 bool NewtonMatrix::factor(const Weights& weights) {
   weights_ = weights;
-  auto status = try_factor();
-  if (status == FactorStatus::not_positive_definite && !model_.traits().linear) {
-    ++statistics_.gauss_newton_fallbacks;
-    gauss_newton_left_ = kGaussNewtonSetups;
-    assemble(TangentKind::gauss_newton);
-    status = try_factor();
-  }
+  const auto status = try_factor();
+  if (status == FactorStatus::not_positive_definite && !model_.traits().linear) return factor_gauss_newton();
   return status == FactorStatus::ok;
 }
 
+bool NewtonMatrix::factor_gauss_newton() {
+  ++statistics_.gauss_newton_fallbacks;
+  gauss_newton_left_ = kGaussNewtonSetups;
+  assemble(TangentKind::gauss_newton);
+  return try_factor() == FactorStatus::ok;
+}
+
 void NewtonMatrix::solve(const ConstVectorRef& b, VectorRef x) {
+  try {
+    const Measure measure(statistics_.solve);
+    return solver_->solve(b, x);
+  } catch (const IndefiniteMatrix&) {
+    if (model_.traits().linear || !factor_gauss_newton()) throw;
+  }
   const Measure measure(statistics_.solve);
   solver_->solve(b, x);
 }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "lib/core/solver_choice.h"
 #include "lib/linear/solver.h"
 #include "lib/ode/model.h"
 #include "lib/ode/statistics.h"
@@ -18,7 +19,7 @@ class NewtonMatrix {
  public:
   // Throws ConfigError if the solver does not take the model's matrices. `model` and `statistics`
   // must outlive this.
-  NewtonMatrix(const Model& model, const std::string& solver, TangentKind tangent, Statistics& statistics);
+  NewtonMatrix(const Model& model, const SolverChoice& solver, TangentKind tangent, Statistics& statistics);
 
   // K and D at a state (t in s, q and v of num_dofs()); factor() then may be called for any weights. Throws
   // RecoverableError where the model does.
@@ -28,8 +29,17 @@ class NewtonMatrix {
   // if memory does not suffice.
   bool factor(const Weights& weights);
 
-  // x = A^-1 b. b and x may be the same. Precondition: the last factor() was true.
+  // x = A^-1 b, as good as an iterative solver's tolerance. b and x may be the same. Where such a solver comes upon an
+  // indefinite A, A is made anew as above. Throws RecoverableError where it does not converge. Precondition: the last
+  // factor() was true.
   void solve(const ConstVectorRef& b, VectorRef x);
+
+  // Of the next solutions of an iterative solver; by default 1e-10.
+  bool is_iterative() const { return solver_->is_iterative(); }
+  void set_tolerance(const SolveTolerance& tolerance) { solver_->set_tolerance(tolerance); }
+  // That of a correction of Newton's method: `absolute` is what it may be off by without being noticed. Below a share
+  // of the correction itself the next one mends it (Dembo, Eisenstat & Steihaug, SIAM J. Numer. Anal. 19, 1982).
+  void set_newton_tolerance(double absolute) { set_tolerance({kNewtonForcing, absolute}); }
 
   // y = K x
   void multiply_stiffness(const ConstVectorRef& x, VectorRef y) const;
@@ -40,8 +50,11 @@ class NewtonMatrix {
   std::string description() const { return solver_->description(); }
 
  private:
+  static constexpr double kNewtonForcing = 1e-1;
+
   void assemble(TangentKind kind);
   FactorStatus try_factor();
+  bool factor_gauss_newton();
 
   const Model& model_;
   Statistics& statistics_;

@@ -16,7 +16,7 @@ class ReducedSolve {
  public:
   // Throws ConfigError if the solver does not take the model's matrices. `model` and `statistics`
   // must outlive this.
-  ReducedSolve(const Model& model, const std::string& solver, TangentKind tangent, Statistics& statistics)
+  ReducedSolve(const Model& model, const SolverChoice& solver, TangentKind tangent, Statistics& statistics)
       : matrix_(model, solver, tangent, statistics), work_(model.num_dofs()) {}
 
   // K and D at a state; factor() then may be called for any gamma.
@@ -34,6 +34,11 @@ class ReducedSolve {
     matrix_.solve(work_, dv);
     dq = r_q + gamma * dv;
   }
+
+  // As NewtonMatrix has them, of dv.
+  bool is_iterative() const { return matrix_.is_iterative(); }
+  void set_newton_tolerance(double absolute) { matrix_.set_newton_tolerance(absolute); }
+  double gamma() const { return matrix_.weights().damping; }  // of the last factor()
 
   std::size_t factor_bytes() const { return matrix_.factor_bytes(); }
   std::size_t bytes() const { return matrix_.bytes() + static_cast<std::size_t>(work_.size()) * sizeof(double); }

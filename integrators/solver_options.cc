@@ -7,6 +7,31 @@
 
 namespace orthodyn {
 
+namespace {
+
+struct SolverSection {
+  std::string type, options;
+  static const Spec<SolverSection>& spec() {
+    static const auto s =
+        Spec<SolverSection>()
+            .key("type", &SolverSection::type, "One of `orthodyn list solvers`.", {.required = true})
+            .key("options", &SolverSection::options, "What the solver is told, as on a command line: -ksp_type cg.");
+    return s;
+  }
+};
+
+}  // namespace
+
+Shape Value<SolverChoice>::shape() {
+  return {.kind = Shape::Kind::either, .items = {Value<std::string>::shape(), Value<SolverSection>::shape()}};
+}
+
+SolverChoice Value<SolverChoice>::read(const Config& c, const Rule& r) {
+  if (!c.is_map()) return Value<std::string>::read(c, r);
+  const auto section = SolverSection::spec().read(c);
+  return {section.type, section.options};
+}
+
 std::vector<std::string> linear_solver_names(SolverPaths paths) {
   std::vector<std::string> names;
   for (const auto& [name, kind] : solver_registry())
@@ -14,13 +39,25 @@ std::vector<std::string> linear_solver_names(SolverPaths paths) {
   return names;
 }
 
-void require_linear_solver(const std::string& name, SolverPaths paths, const Config& section) {
+void require_linear_solver(const SolverChoice& choice, SolverPaths paths, const Config& section) {
   const auto names = linear_solver_names(paths);
-  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  const auto& name = choice.type;
   const Config given = section.at("linear_solver");
-  if (solver_registry().contains(name))
-    given.fail("'" + name + "' is SUNDIALS' own; this integrator takes one of " + join(names));
-  given.fail(expected_one_of(names, name), InputFault::form);
+  const Config place = given.is_map() ? given.at("type") : given;
+  const auto& all = solver_registry();
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    if (all.contains(name)) place.fail("'" + name + "' is SUNDIALS' own; this integrator takes one of " + join(names));
+    place.fail(expected_one_of(names, name), InputFault::form);
+  }
+  const SolverKind& kind = all.at(name);
+  if (!kind.unavailable.empty()) place.fail(kind.unavailable);
+  if (choice.options.empty()) return;
+  if (!kind.takes_options) given.at("options").fail("'" + name + "' takes no options; remove them");
+  try {
+    kind.make(choice.options);
+  } catch (const ConfigError& e) {
+    given.at("options").fail(e.message());
+  }
 }
 
 }  // namespace orthodyn

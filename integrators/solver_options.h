@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lib/config/spec.h"
+#include "lib/core/solver_choice.h"
 #include "lib/core/types.h"
 
 namespace orthodyn {
@@ -13,10 +14,19 @@ namespace orthodyn {
 // ("klu_full"), which not every integrator can use.
 enum class SolverPaths { reduced, all };
 
+// A name, or a section with the name as `type`.
+template <>
+struct Value<SolverChoice> {
+  static Shape shape();
+  static SolverChoice read(const Config& c, const Rule& r);
+  static std::string yaml(const SolverChoice& x) { return x.options.empty() ? x.type : ""; }
+};
+
 std::vector<std::string> linear_solver_names(SolverPaths paths);
 
-// Throws ConfigError at section.linear_solver unless it is one of them.
-void require_linear_solver(const std::string& name, SolverPaths paths, const Config& section);
+// Throws ConfigError at section.linear_solver unless it is one of them that this build can make, with options that it
+// takes.
+void require_linear_solver(const SolverChoice& choice, SolverPaths paths, const Config& section);
 
 // Adds the key `linear_solver` and its check to the Spec of a struct that has this member.
 template <class T>
@@ -24,7 +34,8 @@ Spec<T>& add_linear_solver(Spec<T>& spec, SolverPaths paths) {
   const bool all = paths == SolverPaths::all;
   return spec
       .key("linear_solver", &T::linear_solver,
-           std::string("One of `orthodyn list solvers`") + (all ? "." : ", but for klu_full."))
+           std::string("One of `orthodyn list solvers`") + (all ? "." : ", but for klu_full.") +
+               " `{type: petsc, options: \"...\"}` passes options on to it.")
       .check([paths](const T& options, const Config& config) {
         require_linear_solver(options.linear_solver, paths, config);
       });
@@ -32,7 +43,7 @@ Spec<T>& add_linear_solver(Spec<T>& spec, SolverPaths paths) {
 
 // How the linear systems of an implicit method are made and solved.
 struct SolverOptions {
-  std::string linear_solver = "cholmod";
+  SolverChoice linear_solver;
   bool gauss_newton = false;
 
   TangentKind tangent() const { return gauss_newton ? TangentKind::gauss_newton : TangentKind::exact; }

@@ -18,6 +18,7 @@ ALLOWED = {
     "lib/material": BASIC,
     "lib/mesh": BASIC | {"lib/element"},
     "lib/linear": {"lib/core"},
+    "lib/petsc": {"lib/core", "lib/linear"},
     "lib/ode": BASIC,
     "lib/element": {"lib/core", "lib/material"},
     "lib/axes": BASIC | {"lib/mesh", "lib/fem"},
@@ -39,6 +40,8 @@ ALLOWED = {
 LIBRARIES = {
     r"yaml-cpp/": ["lib/config/yaml_document.h"],
     r"(sundials|cvode|ida|arkode|kinsol|nvector|sunmatrix|sunlinsol)/": ["integrators/"],
+    r"petsc\w*\.h": ["lib/petsc/"],
+    r"mpi\.h": ["lib/petsc/"],
     r"(cholmod|klu)\.h": ["lib/linear/"],
     r"muParser": ["lib/config/formula.cc"],
     r"udunits2\.h": ["lib/core/units.cc"],

@@ -13,7 +13,7 @@ namespace orthodyn {
 namespace {
 
 struct AutomaticOptions : ErrorControl {
-  std::string linear_solver = "cholmod";
+  SolverChoice linear_solver;
   std::optional<std::string> method;
   std::string rationale;
   std::optional<double> safety;

@@ -26,7 +26,7 @@ constexpr double kSteps = 7, kIterations = 4, kTangents = 0.3;
 }  // namespace
 
 CostEstimate estimate_cost(const Model& model, const Task& task, const Scales& scales,
-                           const std::string& linear_solver) {
+                           const SolverChoice& linear_solver) {
   CostEstimate cost;
   const double span = task.end - task.initial.t, omega = frequency_of_motion(scales);
   cost.phase = span * omega;

@@ -23,7 +23,7 @@ struct CostEstimate {
 // At task.initial, by which the model's stiffness is that of the whole run. `linear_solver` is one of n x n matrices
 // (SolverPaths::reduced). Throws ConfigError if it does not take the model's matrices.
 CostEstimate estimate_cost(const Model& model, const Task& task, const Scales& scales,
-                           const std::string& linear_solver);
+                           const SolverChoice& linear_solver);
 
 struct MethodChoice {
   std::string method, rationale;      // no colon in the latter: it becomes a value of the input

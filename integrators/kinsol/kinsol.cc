@@ -82,7 +82,7 @@ class Kinsol : public EquilibriumSolver {
 
   const Statistics& statistics() const override { return statistics_; }
   std::size_t factor_bytes() const override { return stiffness_.factor_bytes(); }
-  std::string description() const override { return options_.linear_solver + " (" + stiffness_.description() + ")"; }
+  std::string description() const override { return shown(options_.linear_solver) + " (" + stiffness_.description() + ")"; }
 
  private:
   Attempt run(PathPoint& point, double longest) {
@@ -119,7 +119,7 @@ class Kinsol : public EquilibriumSolver {
     require(KINInit(m, [](N_Vector x, N_Vector r, void* user) { return self(user).evaluate(x, r); }, unknowns_.get()));
     require(KINSetUserData(m, this));
     functions_.setup = [this] { return factor(); };
-    functions_.solve = [this](N_Vector dx, N_Vector b) {
+    functions_.solve = [this](N_Vector dx, N_Vector b, double) {
       bool good = false;
       const int thrown = guarded(callback_context_, [&] { good = correct(view(b), view(dx)); });
       return thrown ? thrown : good ? 0 : 1;

@@ -17,6 +17,7 @@
 #include <memory>
 #include <string>
 
+#include "lib/core/solver_choice.h"
 #include "lib/ode/equilibrium.h"
 
 namespace orthodyn::sundials {
@@ -24,7 +25,7 @@ namespace orthodyn::sundials {
 struct KinsolOptions {
   double rtol = 1e-8;
   long max_iterations = 50;
-  std::string linear_solver = "cholmod";
+  SolverChoice linear_solver;
 };
 
 // Throws ConfigError if the linear solver does not take the path's matrices. `path` must outlive it.

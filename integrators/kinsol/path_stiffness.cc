@@ -6,31 +6,33 @@
 
 namespace orthodyn {
 
-PathStiffness::PathStiffness(const Model& model, const std::string& solver, Statistics& statistics)
+PathStiffness::PathStiffness(const Model& model, const SolverChoice& solver, Statistics& statistics)
     : model_(model), statistics_(statistics) {
-  const auto& kind = solver_registry().at(solver);
+  const auto& kind = solver_registry().at(solver.type);
   if (!model.pattern().symmetric && !kind.takes_general)
-    throw ConfigError("linear solver '" + solver + "' needs a symmetric tangent; use klu, or " +
+    throw ConfigError("linear solver '" + solver.type + "' needs a symmetric tangent; use klu, or " +
                       "elasticity.warped_tangent: rotated");
-  checks_definiteness_ = !kind.takes_general;
-  solver_ = kind.make();
+  solver_ = make_linear_solver(solver);
   solver_->analyze(model.pattern());
   values_.resize(model.pattern().row.size());
 }
 
 void PathStiffness::exact(double lambda, const ConstVectorRef& q) {
   const Measure measure(statistics_.tangent);
+  q_ = q;
   model_.linearize(lambda, q, Vector::Zero(q.size()), TangentKind::exact, linearization_);
 }
 
 void PathStiffness::mixed(double lambda_before, const ConstVectorRef& q_before, double lambda,
                           const ConstVectorRef& q) {
   const Measure measure(statistics_.tangent);
+  q_ = q;
   model_.linearize_mixed(lambda_before, q_before, lambda, q, linearization_);
 }
 
 void PathStiffness::semidefinite(double lambda, const ConstVectorRef& q) {
   const Measure measure(statistics_.tangent);
+  q_ = q;
   model_.linearize(lambda, q, Vector::Zero(q.size()), TangentKind::gauss_newton, linearization_);
 }
 
@@ -45,7 +47,7 @@ bool PathStiffness::factor() {
 }
 
 bool PathStiffness::factor_with_inertia() {
-  if (checks_definiteness_ || !model_.pattern().symmetric) return factor();
+  if (solver_->checks_definiteness() || !model_.pattern().symmetric) return factor();
   const Measure measure(statistics_.factorization);
   model_.combine({0, 0, 1}, linearization_, values_.data());
   constant_is_factored_ = false;
@@ -54,9 +56,10 @@ bool PathStiffness::factor_with_inertia() {
 
 bool PathStiffness::factor_definite() {
   used_ = solver_.get();
+  if (solver_->wants_rigid_motions()) solver_->set_rigid_motions(model_.rigid_motions(q_));
   const FactorStatus status = solver_->factor(values_.data());
   if (status == FactorStatus::not_positive_definite) return factor_indefinite();
-  negative_ = checks_definiteness_ ? std::optional<int>(0) : std::nullopt;
+  negative_ = solver_->checks_definiteness() ? std::optional<int>(0) : std::nullopt;
   return status == FactorStatus::ok;
 }
 
@@ -72,6 +75,13 @@ bool PathStiffness::factor_indefinite() {
 }
 
 void PathStiffness::solve(const ConstVectorRef& b, VectorRef x) {
+  try {
+    const Measure measure(statistics_.solve);
+    return used_->solve(b, x);
+  } catch (const IndefiniteMatrix&) {  // as an iterative solver finds out on its way only
+    const Measure measure(statistics_.factorization);
+    if (!factor_indefinite()) throw;
+  }
   const Measure measure(statistics_.solve);
   used_->solve(b, x);
 }

@@ -15,7 +15,7 @@ namespace orthodyn {
 class PathStiffness {
  public:
   // Throws ConfigError if the solver does not take the model's matrices. `model` and `statistics` must outlive this.
-  PathStiffness(const Model& model, const std::string& solver, Statistics& statistics);
+  PathStiffness(const Model& model, const SolverChoice& solver, Statistics& statistics);
 
   // K at q, m, under load factor lambda. Throw RecoverableError where the model does.
   void exact(double lambda, const ConstVectorRef& q);
@@ -30,7 +30,8 @@ class PathStiffness {
   // Of the last factor; none where its solver does not tell: K is not symmetric.
   std::optional<int> negative_eigenvalues() const { return negative_; }
 
-  // x = K^-1 b. Precondition: the last factor() was true.
+  // x = K^-1 b. Throws RecoverableError where an iterative solver does not converge. Precondition: the last factor()
+  // was true.
   void solve(const ConstVectorRef& b, VectorRef x);
 
   std::size_t factor_bytes() const;
@@ -43,10 +44,10 @@ class PathStiffness {
   const Model& model_;
   Statistics& statistics_;
   std::unique_ptr<LinearSolver> solver_, indefinite_;
-  bool checks_definiteness_;
   bool constant_is_factored_ = false;
   std::optional<int> negative_;
   LinearSolver* used_ = nullptr;  // holds the last factor
+  Vector q_;  // where K was taken
   Linearization linearization_;
   std::vector<double> values_;
 };

@@ -18,7 +18,7 @@
 #include "integrators/native/modal_load.h"
 #include "integrators/native/modal_motion.h"
 #include "integrators/native/modal_truncation.h"
-#include "integrators/native/scaled_norm.h"
+#include "integrators/scaled_norm.h"
 #include "integrators/native/step_control.h"
 #include "lib/core/errors.h"
 

@@ -200,8 +200,7 @@ void ModalBasis::refuse_coupled_damping(double share) const {
 
 void ModalBasis::factor() {
   const Pattern& pattern = model_.pattern();
-  solver_ = solver_registry().at("cholmod").make();
-  solver_->analyze(pattern);
+  solver_ = make_solver_for(pattern);
   std::vector<double> values = stiffness_;
   shifted_ = lambda_[0] == 0 || solver_->factor(values.data()) != FactorStatus::ok;
   if (!shifted_) return;

@@ -4,7 +4,7 @@
 
 #include "integrators/native/load_polynomial.h"
 #include "integrators/native/modal_basis.h"
-#include "integrators/native/scaled_norm.h"
+#include "integrators/scaled_norm.h"
 #include "lib/ode/statistics.h"
 
 namespace orthodyn {

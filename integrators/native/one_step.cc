@@ -208,7 +208,7 @@ std::size_t OneStep::bytes() const {
 
 Decisions OneStep::decisions() const {
   auto all = scale_decisions(scales_);
-  all.emplace_back("linear_solver", options_.linear_solver + " (" + solver_description() + ")");
+  all.emplace_back("linear_solver", shown(options_.linear_solver) + " (" + solver_description() + ")");
   return all;
 }
 

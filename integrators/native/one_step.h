@@ -10,7 +10,7 @@
 
 #include "integrators/native/deadband_step_control.h"
 #include "integrators/native/native_options.h"
-#include "integrators/native/scaled_norm.h"
+#include "integrators/scaled_norm.h"
 #include "lib/core/errors.h"
 #include "lib/ode/hermite.h"
 

@@ -10,6 +10,7 @@ namespace orthodyn {
 namespace {
 constexpr double kWeightDrift = 0.25;  // of w_k, up to which the factor is kept and corrections are scaled
 constexpr double kSameWeight = 1e-12;  // two equal steps are equal but for round-off
+constexpr double kLinearShare = 0.05;  // of what Newton's method may leave, what an iterative linear solver may
 constexpr double kSlow = 0.5;          // a rate at which a new tangent pays
 constexpr double kCorrectionRoundOff = 1e-10;    // of the scales: corrections below it that do not shrink are round-off
 constexpr double kLeastContractionFactor = 1e-3;  // of a nonlinear model: what is less is round-off
@@ -107,6 +108,7 @@ void StageSolver::correction(const Stage& stage, const ConstVectorRef& x, const 
   if (!r_.allFinite()) throw RecoverableError("the force is not finite");
   model_.multiply_mass(x, work_);
   r_ -= work_;
+  matrix_.set_newton_tolerance(norm_.root_mean_square_at(kLinearShare * tolerance_, stage.w_k, stage.w_d));
   matrix_.solve(r_, dx_);
   // As CVODE scales the corrections of a factor whose gamma is no longer the current one.
   dx_ *= 2 / (1 + stage.w_k / matrix_.weights().stiffness);

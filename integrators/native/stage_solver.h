@@ -9,7 +9,7 @@
 #pragma once
 
 #include "integrators/native/native_options.h"
-#include "integrators/native/scaled_norm.h"
+#include "integrators/scaled_norm.h"
 #include "integrators/newton_matrix.h"
 
 namespace orthodyn {

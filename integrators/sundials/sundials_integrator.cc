@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "integrators/scaled_norm.h"
+
 namespace orthodyn::sundials {
 
 SundialsIntegrator::SundialsIntegrator(std::string name, const Model& model, const Settings& settings)
@@ -83,7 +85,7 @@ Decisions SundialsIntegrator::decisions() const {
   auto all = settings_.decisions;
   if (!settings_.implicit) return all;
   const std::string detail = reduced_ ? " (" + reduced_->description() + ")" : "";
-  all.emplace_back("linear_solver", settings_.options.linear_solver + detail);
+  all.emplace_back("linear_solver", shown(settings_.options.linear_solver) + detail);
   return all;
 }
 
@@ -99,7 +101,10 @@ void SundialsIntegrator::make_reduced_solver(std::function<double()> gamma,
     const int thrown = guarded(callback_context_, [&] { factored = reduced_->factor(gamma()); });
     return thrown ? thrown : factored ? 0 : 1;
   };
-  functions_.solve = [this, solve = std::move(solve)](N_Vector x, N_Vector b) {
+  functions_.iterative = reduced_->is_iterative();
+  functions_.solve = [this, solve = std::move(solve)](N_Vector x, N_Vector b, double tolerance) {
+    const ScaledNorm norm(settings_.options.rtol, settings_.scales);
+    reduced_->set_newton_tolerance(norm.root_mean_square_at(tolerance, reduced_->gamma(), 1));
     return guarded(callback_context_, [&] { solve(x, b); });
   };
   solver_ = make_solver_adapter(functions_, context_);
@@ -112,7 +117,7 @@ void SundialsIntegrator::make_full_solver() {
     const Measure measure(statistics_.factorization);
     return static_cast<int>(SUNLinSolSetup(klu_.get(), matrix_.get()));
   };
-  functions_.solve = [this](N_Vector x, N_Vector b) {
+  functions_.solve = [this](N_Vector x, N_Vector b, double) {
     const Measure measure(statistics_.solve);
     return static_cast<int>(SUNLinSolSolve(klu_.get(), matrix_.get(), x, b, 0));
   };

@@ -19,7 +19,7 @@ const bool version_registered = library_versions().emplace("SUNDIALS", library_v
 
 Settings Settings::complete(const Options& options, const Task& task) {
   const Scales scales = options.scales(task);
-  return {options, scales, true, options.linear_solver == "klu_full", scale_decisions(scales)};
+  return {options, scales, true, options.linear_solver.type == "klu_full", scale_decisions(scales)};
 }
 
 Settings Settings::complete_explicit(const ErrorControl& control, const Task& task) {

@@ -13,8 +13,7 @@ std::unique_ptr<LinearSolver> factorised_tangent(const FemModel& model, const St
   model.linearize(s.t, s.q, s.v, TangentKind::exact, at);
   std::vector<double> values(at.stiffness.size());
   model.combine({0, 0, 1}, at, values.data());
-  auto solver = solver_registry().at(model.pattern().symmetric ? "cholmod" : "klu").make();
-  solver->analyze(model.pattern());
+  auto solver = make_solver_for(model.pattern());
   if (solver->factor(values.data()) != FactorStatus::ok)
     throw RunError("the tangent at the equilibrium cannot be factorised: it is singular or unstable");
   return solver;

@@ -30,8 +30,7 @@ Linearity::Linearity(const FemModel& model, Terms terms, double span)
   const FemModel::Parts& parts = model_.parts();
   const ElementMesh elements(parts.mesh);
   for (const std::size_t k : terms_) exact_[k] = with_exact_force(*parts.elastic[k], elements, *parts.pattern);
-  solver_ = solver_registry().at(model_.pattern().symmetric ? "cholmod" : "klu").make();
-  solver_->analyze(model_.pattern());
+  solver_ = make_solver_for(model_.pattern());
   if (!factor(0, Vector::Zero(model_.num_dofs()), TangentKind::exact))
     throw RunError("the stiffness at rest is singular: the body is not held");
 }

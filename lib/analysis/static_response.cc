@@ -40,8 +40,7 @@ std::unique_ptr<LinearSolver> factored_stiffness(const FemModel& model, std::vec
   model.linearize(0, zero, zero, TangentKind::gauss_newton, at);
   values.resize(at.stiffness.size());
   model.combine({0, 0, 1}, at, values.data());
-  auto solver = solver_registry().at(model.pattern().symmetric ? "cholmod" : "klu").make();
-  solver->analyze(model.pattern());
+  auto solver = make_solver_for(model.pattern());
   return solver->factor(values.data()) == FactorStatus::ok ? std::move(solver) : nullptr;
 } catch (const RunError& e) {
   if (e.reason() == Reason::out_of_memory) return nullptr;

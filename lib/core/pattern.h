@@ -13,6 +13,8 @@ struct Pattern {
   bool symmetric = true;          // only the lower triangle is stored
   std::vector<int> column_start;  // n + 1
   std::vector<int> row;
+  // Of unknowns that are coordinates of points, ascending: 3 point + coordinate. Empty for others.
+  std::vector<int> coordinate;
 
   int non_zeros() const { return static_cast<int>(row.size()); }
 

@@ -81,6 +81,10 @@ BlockPattern::BlockPattern(const Cells& cells, const DofMap& dofs, bool symmetri
   pattern_.row.reserve(entries);
   for_each_entry([&](int row) { pattern_.row.push_back(row); },
                  [&] { pattern_.column_start.push_back(pattern_.non_zeros()); });
+  pattern_.coordinate.reserve(static_cast<std::size_t>(pattern_.n));
+  for (int node = 0; node < dofs.num_nodes(); ++node)
+    for (int k = 0; k < 3; ++k)
+      if (dofs.node(node)[static_cast<std::size_t>(k)] >= 0) pattern_.coordinate.push_back(3 * node + k);
   if (symmetric) find_columns();
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lib/core/parallel.h"
 #include "lib/fem/mean_force.h"
@@ -110,6 +111,23 @@ void FemModel::combine(const Weights& w, const Linearization& at, double* values
     if (!at.damping.empty()) A += w.damping * Eigen::Map<const Vector>(at.damping.data() + begin, length);
   });
   if (const double m = w.mass + w.damping * parts_.mass_damping; m != 0) parts_.mass->add_to(m, values);
+}
+
+// About the middle of the nodes, turns in units of the body's size: columns of like length.
+Eigen::MatrixXd FemModel::rigid_motions(const ConstVectorRef& q) const {
+  NodalVector x = *parts_.rest;
+  parts_.dofs->add_to(q, x);
+  x.colwise() -= Vec3(x.rowwise().mean());
+  const double size = std::max(x.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+  Eigen::MatrixXd motions(num_dofs(), 6);
+  for (int k = 0; k < 3; ++k) {
+    NodalVector shift = NodalVector::Zero(3, x.cols()), turn(3, x.cols());
+    shift.row(k).setOnes();
+    for (Eigen::Index i = 0; i < x.cols(); ++i) turn.col(i) = Vec3::Unit(k).cross(Vec3(x.col(i))) / size;
+    parts_.dofs->restrict_to(shift, motions.col(k));
+    parts_.dofs->restrict_to(turn, motions.col(3 + k));
+  }
+  return motions;
 }
 
 // The largest frequency of any element bounds that of the mesh (Irons 1971); Gershgorin's circles bound what

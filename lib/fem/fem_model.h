@@ -63,6 +63,7 @@ class FemModel : public Model {
   void combine(const Weights& w, const Linearization& at, double* values) const override;
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { parts_.mass->multiply(x, y); }
   void solve_mass(VectorRef x) const override { parts_.mass->solve(x); }
+  Eigen::MatrixXd rigid_motions(const ConstVectorRef& q) const override;
   double frequency_bound() const override;
   std::vector<std::string> force_parts() const override;
   std::unique_ptr<Model> only(const std::vector<std::string>& parts) const override;

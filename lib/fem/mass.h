@@ -58,7 +58,7 @@ class Mass {
 
   // Of a consistent mass. A solver has workspace of its own: one solve at a time.
   mutable std::mutex solving_;
-  std::unique_ptr<LinearSolver> solver_;
+  mutable std::unique_ptr<LinearSolver> solver_;
   mutable bool factored_ = false;
 };
 

@@ -83,6 +83,8 @@ class Cholmod : public LinearSolver {
 
   int negative_eigenvalues() const override { return negative_pivots_; }
 
+  bool checks_definiteness() const override { return definite_ == Definite::yes; }
+
   void solve(const ConstVectorRef& b, VectorRef x) override {
     const BlasThreadLimit threads(most_threads());
     const SerialOpenMp serial;
@@ -168,7 +170,7 @@ const bool cholmod_registered =
     solver_registry()
         .emplace("cholmod", SolverKind{"CHOLMOD sparse Cholesky on the reduced n x n matrix, simplicial or "
                                        "supernodal by size; symmetric tangents.",
-                                       false, [] { return std::make_unique<Cholmod>(); }})
+                                       false, [](const std::string&) { return std::make_unique<Cholmod>(); }})
         .second;
 
 }  // namespace

@@ -27,6 +27,8 @@ class EigenLdlt : public LinearSolver {
     return positive ? FactorStatus::ok : FactorStatus::not_positive_definite;
   }
 
+  bool checks_definiteness() const override { return true; }
+
   void solve(const ConstVectorRef& b, VectorRef x) override { x = ldlt_.solve(Vector(b)); }
 
   std::size_t factor_bytes() const override {
@@ -44,7 +46,7 @@ const bool eigen_ldlt_registered =
     solver_registry()
         .emplace("eigen_ldlt", SolverKind{"Eigen's simplicial Cholesky on the reduced n x n matrix; symmetric "
                                           "tangents, small systems.",
-                                          false, [] { return std::make_unique<EigenLdlt>(); }})
+                                          false, [](const std::string&) { return std::make_unique<EigenLdlt>(); }})
         .second;
 
 }  // namespace

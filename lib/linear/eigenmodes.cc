@@ -23,9 +23,7 @@ constexpr int kRigid = 6;
 class Problem {
  public:
   Problem(const Pattern& pattern, const std::vector<double>& K, const std::vector<double>& M)
-      : pattern_(pattern), K_(K), M_(M), shifted_(K.size()), solver_(solver_registry().at("cholmod").make()) {
-    solver_->analyze(pattern);
-  }
+      : pattern_(pattern), K_(K), M_(M), shifted_(K.size()), solver_(make_solver_for(pattern)) {}
 
   int size() const { return pattern_.n; }
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const { pattern_.multiply(M_.data(), x, y); }

@@ -53,6 +53,8 @@ class Klu : public LinearSolver {
     return numeric_ ? FactorStatus::ok : FactorStatus::singular;
   }
 
+  bool checks_definiteness() const override { return false; }
+
   void solve(const ConstVectorRef& b, VectorRef x) override {
     x = b;
     klu_solve(symbolic_, numeric_, static_cast<int>(x.size()), 1, x.data(), &common_);
@@ -88,7 +90,7 @@ class Klu : public LinearSolver {
 const bool klu_registered =
     solver_registry()
         .emplace("klu", SolverKind{"KLU sparse LU on the reduced n x n matrix; symmetric or not.", true,
-                                   [] { return std::make_unique<Klu>(); }})
+                                   [](const std::string&) { return std::make_unique<Klu>(); }})
         .second;
 
 }  // namespace

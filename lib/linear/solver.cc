@@ -7,4 +7,16 @@ std::map<std::string, SolverKind>& solver_registry() {
   return kinds;
 }
 
+std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice) {
+  const SolverKind& kind = solver_registry().at(choice.type);
+  if (!kind.unavailable.empty()) throw ConfigError("linear solver '" + choice.type + "': " + kind.unavailable);
+  return kind.make(choice.options);
+}
+
+std::unique_ptr<LinearSolver> make_solver_for(const Pattern& pattern) {
+  auto solver = make_linear_solver(pattern.symmetric ? "auto" : "klu");
+  solver->analyze(pattern);
+  return solver;
+}
+
 }  // namespace orthodyn

@@ -1,5 +1,5 @@
-// Direct solvers for sparse linear systems A x = b, factored many times on one pattern. One kind per file, chosen in
-// the input by name through solver_registry().
+// Solvers for sparse linear systems A x = b, of many matrices on one pattern: direct ones, and iterative ones whose
+// "factor" is a preconditioner. One kind per file, chosen in the input by name through solver_registry().
 //
 // A is n x n; of a symmetric pattern only the lower triangle is stored. Calls come in the order analyze(), factor(),
 // solve(). A solver is used by one thread at a time; different solvers by different threads.
@@ -10,11 +10,24 @@
 #include <memory>
 #include <string>
 
+#include "lib/core/errors.h"
 #include "lib/core/pattern.h"
+#include "lib/core/solver_choice.h"
 
 namespace orthodyn {
 
 enum class FactorStatus { ok, not_positive_definite, singular };
+
+// A turned out to be indefinite on the way to a solution.
+class IndefiniteMatrix : public RecoverableError {
+ public:
+  using RecoverableError::RecoverableError;
+};
+
+// How good a solution has to be: |error of x| <= max(relative |x|, absolute), root mean squares over the unknowns.
+struct SolveTolerance {
+  double relative = 1e-10, absolute = 0;
+};
 
 class LinearSolver {
  public:
@@ -24,12 +37,25 @@ class LinearSolver {
   // memory does not suffice.
   virtual void analyze(const Pattern& pattern) = 0;
 
-  // Factors new values, one for each entry of the pattern. Anything but `ok` leaves no factor. A solver that does not
-  // check definiteness never returns not_positive_definite. Throws RunError when memory does not suffice.
+  // Factors new values, one for each entry of the pattern. Anything but `ok` leaves no factor. Throws RunError when
+  // memory does not suffice.
   virtual FactorStatus factor(const double* values) = 0;
 
-  // x = A^-1 b, both of size n; they may be the same. Precondition: the last factor() was ok.
+  // Whether factor() finds every symmetric A that is indefinite. After analyze().
+  virtual bool checks_definiteness() const = 0;
+
+  // x = A^-1 b, both of size n; they may be the same. Precondition: the last factor() was ok. Iterative solvers throw
+  // RecoverableError where they do not converge, and IndefiniteMatrix; x is then what it was.
   virtual void solve(const ConstVectorRef& b, VectorRef x) = 0;
+
+  // Whether solutions are as good as their tolerance, and not to round-off. After analyze().
+  virtual bool is_iterative() const { return false; }
+  // Of the next solutions of an iterative solver.
+  virtual void set_tolerance(const SolveTolerance&) {}
+
+  // Whether the next factor() would be better for the motions that A resists least, in the columns of n x 6.
+  virtual bool wants_rigid_motions() const { return false; }
+  virtual void set_rigid_motions(const Eigen::MatrixXd&) {}
 
   // How many eigenvalues of A are negative (Sylvester's law of inertia: of its pivots as many are), of the last factor
   // of a solver for indefinite matrices; 0 of others.
@@ -39,14 +65,18 @@ class LinearSolver {
   // a prediction.
   virtual std::size_t factor_bytes() const = 0;
 
-  // What was chosen at analysis, e.g. "supernodal, nested dissection".
+  // What was chosen at analysis and since, e.g. "supernodal, nested dissection".
   virtual std::string description() const = 0;
 };
 
 struct SolverKind {
   std::string sentence;
-  bool takes_general;                                   // unsymmetric matrices too
-  std::function<std::unique_ptr<LinearSolver>()> make;  // null for one that SUNDIALS has of its own
+  bool takes_general;  // unsymmetric matrices too
+  // With the options of a SolverChoice. Null for one that SUNDIALS has of its own. Throws ConfigError for options that
+  // the solver does not know.
+  std::function<std::unique_ptr<LinearSolver>(const std::string& options)> make;
+  bool takes_options = false;    // others refuse them
+  std::string unavailable = {};  // why this build cannot make it
 };
 
 // For symmetric matrices that may be indefinite: factor() is `ok` for them. L D L^T without pivoting for size, which
@@ -55,5 +85,13 @@ std::unique_ptr<LinearSolver> make_indefinite_solver();
 
 // By name. Written while the program and its plugins are loaded, only read afterwards.
 std::map<std::string, SolverKind>& solver_registry();
+
+// Precondition: a solver of that name is in the registry, and SUNDIALS is not the one that has it. Throws ConfigError
+// if this build cannot make it, or for its options.
+std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice);
+
+// What suits matrices on this pattern that are positive definite where it is symmetric, analysed. Throws RunError when
+// memory does not suffice.
+std::unique_ptr<LinearSolver> make_solver_for(const Pattern& pattern);
 
 }  // namespace orthodyn

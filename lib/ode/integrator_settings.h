@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lib/config/shape.h"
+#include "lib/core/solver_choice.h"
 
 namespace orthodyn {
 
@@ -19,7 +20,7 @@ struct IntegratorSettings {
   std::optional<int> modes = {};     // how many are kept
   std::optional<double> below = {};  // Hz: the modes that are kept
   std::optional<long> max_steps = {};
-  std::optional<std::string> linear_solver = {};
+  std::optional<SolverChoice> linear_solver = {};
 };
 
 // The numbers that are given, by their keys.

@@ -38,8 +38,10 @@ void measure_factor(const Setup& setup, RunCost& cost) {
   model.linearize(initial.t, initial.q, initial.v, TangentKind::gauss_newton, at);
   std::vector<double> values(at.stiffness.size());
   model.combine({model.frequency_bound() * model.frequency_bound(), 0, 1}, at, values.data());
-  const auto solver = solver_registry().at(model.pattern().symmetric ? "cholmod" : "klu").make();
-  solver->analyze(model.pattern());
+  const auto wanted = setup.scene.integrator ? setup.scene.integrator->settings().linear_solver : std::nullopt;
+  const bool has_own = wanted && solver_registry().at(wanted->type).make;  // klu_full is SUNDIALS'
+  const auto solver = has_own ? make_linear_solver(*wanted) : make_solver_for(model.pattern());
+  if (has_own) solver->analyze(model.pattern());
   if (static_cast<double>(solver->factor_bytes()) > kLargestFactor) return;
   auto begin = std::chrono::steady_clock::now();
   if (solver->factor(values.data()) != FactorStatus::ok) return;

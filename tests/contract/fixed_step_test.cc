@@ -124,7 +124,7 @@ TEST_P(FixedStep, CountsOnAfterARestart) {
   long steps = 0, iterations = 0;
   integrate(model, *integrator, [&](const StepInfo&, const Integrator& i) {
     EXPECT_EQ(i.statistics().steps, ++steps);
-    if (!solves_systems(GetParam().integrator)) return;
+    if (!solves_systems(GetParam().integrator) || leaves_out_solutions(GetParam())) return;
     EXPECT_GE(i.statistics().solve.count, iterations + 1);
     iterations = i.statistics().solve.count;
   });

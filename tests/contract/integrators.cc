@@ -31,6 +31,8 @@ bool refuses_consistent_mass(const Pair& pair) {
   return pair.solver == "klu_full" && pair.integrator != "ida_bdf";
 }
 
+bool leaves_out_solutions(const Pair& pair) { return pair.solver == "petsc"; }
+
 const Variant& variant(const std::string& integrator, int order) {
   const auto& all = tested(integrator).variants;
   for (const auto& one : all)

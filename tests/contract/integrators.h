@@ -28,6 +28,9 @@ std::vector<Pair> pairs_with(const std::string& key);
 // klu_full of a method for y' = (v, M^-1 f) would need the inverse of a consistent mass, which is dense.
 bool refuses_consistent_mass(const Pair& pair);
 
+// SUNDIALS asks an iterative solver for no correction that would be below its tolerance.
+bool leaves_out_solutions(const Pair& pair);
+
 struct Options {
   double rtol = 1e-5;
   int order = 2;          // the first variant where the method has none of this order

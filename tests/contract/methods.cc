@@ -48,9 +48,16 @@ bool solves_systems(const std::string& integrator) { return has_key(integrator, 
 
 std::vector<std::string> tried_solvers(const std::string& integrator) {
   if (!solves_systems(integrator)) return {"none"};
-  if (!tested(integrator).full_path) return {"cholmod", "klu"};
+  const bool has_petsc = solver_registry().at("petsc").unavailable.empty();
+  if (!tested(integrator).full_path) {
+    std::vector<std::string> names{"cholmod", "klu"};
+    // One of each of our own ways to a solution, and the others alike.
+    if (has_petsc && (integrator == "tr_bdf2" || integrator == "rosenbrock")) names.push_back("petsc");
+    return names;
+  }
   std::vector<std::string> names;
-  for (const auto& [name, kind] : solver_registry()) names.push_back(name);
+  for (const auto& [name, kind] : solver_registry())
+    if (name != "auto" && (name != "petsc" || has_petsc)) names.push_back(name);  // auto is cholmod for small models
   return names;
 }
 

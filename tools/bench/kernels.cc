@@ -54,7 +54,7 @@ void energy(benchmark::State& state, const BentBeam& beam) {
 
 struct Factored {
   explicit Factored(const BentBeam& beam)
-      : solver(solver_registry().at("cholmod").make()), values(beam.model().pattern().row.size()) {
+      : solver(make_linear_solver("cholmod")), values(beam.model().pattern().row.size()) {
     Linearization at;
     beam.model().linearize(0, beam.q(), beam.v(), TangentKind::exact, at);
     beam.model().combine({1, 1e-2, 1e-4}, at, values.data());
@@ -81,7 +81,7 @@ void solve(benchmark::State& state, const BentBeam& beam) {
 
 void analysis(benchmark::State& state, const BentBeam& beam) {
   for (auto _ : state) {
-    const auto solver = solver_registry().at("cholmod").make();
+    const auto solver = make_linear_solver("cholmod");
     solver->analyze(beam.model().pattern());
   }
   count(state, beam);

@@ -32,8 +32,7 @@ double displacement_from(const Model& model, const State& at, const Vector& dv, 
   model.linearize(at.t, at.q, at.v, TangentKind::gauss_newton, tangent);
   std::vector<double> values(model.pattern().row.size());
   model.combine({shift, 0, 1}, tangent, values.data());
-  const auto solver = solver_registry().at(model.pattern().symmetric ? "cholmod" : "klu").make();
-  solver->analyze(model.pattern());
+  const auto solver = make_solver_for(model.pattern());
   Vector momentum(dv.size()), x(dv.size());
   model.multiply_mass(dv, momentum);
   if (solver->factor(values.data()) != FactorStatus::ok) return mass_norm(model, dv) * time;
@@ -62,7 +61,7 @@ double mean_decay(double rate, double from_before_end, double to_before_end) {
 std::unique_ptr<Integrator> finer_integrator(const Setup& setup, double rtol) {
   const Model& model = *setup.built.model;
   const IntegratorSettings own = Registry<IntegratorChoice>::read(setup.config.at("integrator"))->settings();
-  const std::string solver = own.linear_solver.value_or(model.pattern().symmetric ? "cholmod" : "klu");
+  const SolverChoice solver = own.linear_solver.value_or(model.pattern().symmetric ? "auto" : "klu");
   return Registry<IntegratorChoice>::entries()
       .at("arkode_dirk")
       .make()

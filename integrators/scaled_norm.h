@@ -22,6 +22,11 @@ class ScaledNorm {
     return root_mean(position_ * w_q * size, velocity_ * w_v * size, x.size());
   }
 
+  // The root mean square of an x that has the norm `size` as q = w_q x, v = w_v x.
+  double root_mean_square_at(double size, double w_q, double w_v) const {
+    return size * std::sqrt(2.0) / std::hypot(position_ * w_q, velocity_ * w_v);
+  }
+
   double rtol() const { return rtol_; }
 
  private:

@@ -1,0 +1,9 @@
+# liborthodyn_petsc, which lib/linear/petsc.cc loads when it is wanted. It lies beside liborthodyn.
+find_package(MPI REQUIRED COMPONENTS CXX)
+find_package(PETSc REQUIRED)
+
+file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lib/petsc/*.cc)
+add_library(orthodyn_petsc MODULE ${sources})
+target_link_libraries(orthodyn_petsc PRIVATE orthodyn orthodyn_options PETSc::PETSc MPI::MPI_CXX)
+target_precompile_headers(orthodyn_petsc REUSE_FROM orthodyn_precompiled)
+target_compile_definitions(orthodyn_linear PRIVATE ORTHODYN_MPI)

@@ -1,0 +1,75 @@
+// Takes the Cholesky factor where it fits and costs less than iterations do, else PETSc.
+#include <fmt/format.h>
+
+#include "lib/core/memory.h"
+#include "lib/linear/solver.h"
+
+namespace orthodyn {
+namespace {
+
+// Below, a factor is always cheaper; above, not even its analysis is (docs/decisions.md has the figures).
+constexpr int kIterativeFrom = 100'000, kOnlyIterativeFrom = 3'000'000;
+constexpr double kShareOfMemory = 0.6;
+
+// Measured, in ns: of a factor for each of its entries and for each multiplication; of multigrid's set-up and of an
+// iteration with it for each entry of the matrix. Of an adaptive run: solutions for each factor, iterations for each.
+constexpr double kSolve = 1, kFactor = 0.1, kSetUp = 330, kIteration = 16;
+constexpr double kSolutions = 15, kIterations = 11;
+constexpr double kBytesPerEntry = 10;  // of the factor, workspace included
+
+bool is_cheaper_by_iterations(const Pattern& pattern, double factor_bytes) {
+  const double entries = factor_bytes / kBytesPerEntry, n = pattern.n;
+  const double all = 2 * static_cast<double>(pattern.row.size());  // both triangles
+  return kFactor * entries * entries / n + kSolutions * kSolve * entries >
+         all * (kSetUp + kSolutions * kIterations * kIteration);
+}
+
+class AutomaticSolver : public LinearSolver {
+ public:
+  void analyze(const Pattern& pattern) override {
+    const bool has_petsc = solver_registry().at("petsc").unavailable.empty();
+    if (!has_petsc || pattern.n < kIterativeFrom) return take("cholmod", pattern);
+    if (pattern.n >= kOnlyIterativeFrom) return take("petsc", pattern);
+    try {
+      take("cholmod", pattern);
+    } catch (const RunError&) {  // more than 2^31 entries, or no memory for the analysis
+      return take("petsc", pattern);
+    }
+    const auto factor = static_cast<double>(solver_->factor_bytes());
+    if (factor > kShareOfMemory * memory_left() || is_cheaper_by_iterations(pattern, factor)) take("petsc", pattern);
+  }
+
+  FactorStatus factor(const double* values) override { return solver_->factor(values); }
+  bool checks_definiteness() const override { return solver_->checks_definiteness(); }
+  void solve(const ConstVectorRef& b, VectorRef x) override { solver_->solve(b, x); }
+  bool is_iterative() const override { return solver_->is_iterative(); }
+  void set_tolerance(const SolveTolerance& tolerance) override { solver_->set_tolerance(tolerance); }
+  bool wants_rigid_motions() const override { return solver_->wants_rigid_motions(); }
+  void set_rigid_motions(const Eigen::MatrixXd& motions) override { solver_->set_rigid_motions(motions); }
+  int negative_eigenvalues() const override { return solver_->negative_eigenvalues(); }
+  std::size_t factor_bytes() const override { return solver_ ? solver_->factor_bytes() : 0; }
+  std::string description() const override {
+    return solver_ ? fmt::format("{}: {}", type_, solver_->description()) : "not chosen yet";
+  }
+
+ private:
+  void take(const char* type, const Pattern& pattern) {
+    solver_.reset();  // before the next one takes memory
+    solver_ = make_linear_solver(type);
+    type_ = type;
+    solver_->analyze(pattern);
+  }
+
+  const char* type_ = "";
+  std::unique_ptr<LinearSolver> solver_;
+};
+
+const bool automatic_registered =
+    solver_registry()
+        .emplace("auto", SolverKind{"cholmod where its factor fits in memory and costs less than iterations, else "
+                                    "petsc; symmetric tangents.",
+                                    false, [](const std::string&) { return std::make_unique<AutomaticSolver>(); }})
+        .second;
+
+}  // namespace
+}  // namespace orthodyn

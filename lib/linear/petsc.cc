@@ -1,0 +1,61 @@
+// PETSc's Krylov methods and preconditioners (Balay et al.). They are in a library of their own, liborthodyn_petsc,
+// loaded when the first of them is wanted: PETSc, MPI and what they bring along take a tenth of a second to load, half
+// of one to start, of which other runs should know nothing.
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "lib/linear/petsc_library.h"
+#include "lib/linear/solver.h"
+
+namespace orthodyn {
+namespace {
+
+#ifdef ORTHODYN_MPI
+
+// Beside the library that this code is in.
+std::string library_file() {
+  Dl_info own{};
+  dladdr(reinterpret_cast<const void*>(&library_file), &own);
+  const std::filesystem::path folder = std::filesystem::absolute(own.dli_fname).parent_path();
+  return (folder / "liborthodyn_petsc.so").string();
+}
+
+MakePetscSolver* load_petsc() {
+  const std::string file = library_file();
+  // Global: Open MPI's own plugins look for its symbols.
+  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
+  if (!library) throw ConfigError(fmt::format("linear solver 'petsc': {} cannot be loaded: {}", file, dlerror()));
+  void* made = dlsym(library, "orthodyn_make_petsc_solver");
+  if (!made) throw ConfigError(fmt::format("linear solver 'petsc': {} is not of this orthodyn", file));
+  return reinterpret_cast<MakePetscSolver*>(made);
+}
+
+std::unique_ptr<LinearSolver> make_petsc(const std::string& options) {
+  static MakePetscSolver* const make = load_petsc();
+  return std::unique_ptr<LinearSolver>(make(options));
+}
+
+constexpr const char* kUnavailable = "";
+
+#else
+
+std::unique_ptr<LinearSolver> make_petsc(const std::string&) { return nullptr; }
+
+constexpr const char* kUnavailable =
+    "this orthodyn was built without PETSc; configure it with -D ORTHODYN_MPI=ON (Debian: libpetsc-real-dev)";
+
+#endif
+
+const bool petsc_registered =
+    solver_registry()
+        .emplace("petsc", SolverKind{"PETSc's conjugate gradients on the reduced n x n matrix, preconditioned by its "
+                                     "diagonal blocks or by algebraic multigrid, whichever takes less; large "
+                                     "systems. `{type: petsc, options: \"-pc_type hypre\"}` passes options "
+                                     "on to PETSc; symmetric tangents.",
+                                     false, make_petsc, true, kUnavailable})
+        .second;
+
+}  // namespace
+}  // namespace orthodyn

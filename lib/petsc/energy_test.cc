@@ -1,0 +1,77 @@
+#include "lib/petsc/energy_test.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace orthodyn::petsc {
+
+namespace {
+
+// Of the solution, in the energy norm: what round-off leaves of differences of energies. Smaller errors are told by the
+// residual.
+constexpr double kResolution = 1e-7;
+constexpr double kSafety = 2;  // of an error
+
+}  // namespace
+
+void EnergyTest::attach(KSP method) {
+  PetscBool is_cg = PETSC_FALSE;
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(method), KSPCG, &is_cg));
+  if (!is_cg) return;
+  const auto function = [](KSP solver, PetscInt iteration, PetscReal residual, KSPConvergedReason* reason,
+                           void* test) -> PetscErrorCode {
+    try {
+      *reason = static_cast<EnergyTest*>(test)->test(solver, iteration, residual);
+      return static_cast<PetscErrorCode>(0);
+    } catch (const RunError&) {
+      return PETSC_ERR_LIB;
+    }
+  };
+  check(KSPSetConvergenceTest(method, function, this, nullptr));
+}
+
+void EnergyTest::set(const SolveTolerance& tolerance, int unknowns) {
+  tolerance_ = tolerance;
+  absolute_ = tolerance.absolute * std::sqrt(static_cast<double>(unknowns));
+}
+
+KSPConvergedReason EnergyTest::test(KSP method, PetscInt iteration, double residual) {
+  if (!std::isfinite(residual)) return KSP_DIVERGED_NANORINF;
+  if (residual == 0) return KSP_CONVERGED_ATOL;
+  if (iteration == 0) {
+    first_residual_ = residual;
+    energy_ = 0;
+    gains_.fill(0);
+    return KSP_CONVERGED_ITERATING;
+  }
+  Vec x = nullptr, b = nullptr;
+  double energy = 0, size = 0;
+  check(KSPBuildSolution(method, nullptr, &x));
+  check(KSPGetRhs(method, &b));
+  check(VecDot(b, x, &energy));
+  check(VecNorm(x, NORM_2, &size));
+  std::rotate(gains_.begin(), gains_.end() - 1, gains_.end());
+  gains_[0] = std::max(energy - energy_, 0.0);
+  energy_ = energy;
+  const double relative = std::max(tolerance_.relative, size > 0 ? absolute_ / size : 0);
+  const double error = kSafety * std::sqrt(missing_energy() / energy);  // NaN is not below anything
+  if (!(error <= std::max(relative, kResolution))) return KSP_CONVERGED_ITERATING;
+  if (relative < kResolution && residual > relative * first_residual_) return KSP_CONVERGED_ITERATING;
+  return KSP_CONVERGED_RTOL;
+}
+
+// The sum of the gains to come, as a geometric series by the slower of the last rate and the mean one.
+double EnergyTest::missing_energy() const {
+  constexpr double kNothing = std::numeric_limits<double>::epsilon();
+  if (gains_[1] == 0) return gains_[0] == 0 && energy_ > 0 ? 0 : std::numeric_limits<double>::infinity();
+  if (gains_[0] <= kNothing * energy_) return kNothing * energy_;
+  double rate = gains_[0] / gains_[1];
+  const auto known = std::find(gains_.begin(), gains_.end(), 0.0) - gains_.begin();
+  const auto oldest = static_cast<std::size_t>(known - 1);
+  rate = std::max(rate, std::pow(gains_[0] / gains_[oldest], 1 / static_cast<double>(oldest)));
+  return rate < 1 ? gains_[0] * rate / (1 - rate) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace orthodyn::petsc

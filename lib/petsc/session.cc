@@ -1,0 +1,92 @@
+#include "lib/petsc/session.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "lib/core/errors.h"
+#include "lib/core/versions.h"
+
+namespace orthodyn::petsc {
+
+namespace {
+
+// Without mpirun there is nobody to talk to: no daemon, and no network to be looked for (0.5 s become 0.07). Open MPI's
+// settings; others do not read them.
+void expect_no_other_process() {
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") || std::getenv("PMI_SIZE") || std::getenv("PMIX_RANK")) return;
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  setenv("OMPI_MCA_pml", "ob1", 0);
+  setenv("OMPI_MCA_btl", "self", 0);
+}
+
+struct Process {
+  Process() {
+    expect_no_other_process();
+    // Signals are the program's own business.
+    static char name[] = "orthodyn", no_handler[] = "-no_signal_handler";
+    static char* words[] = {name, no_handler, nullptr};
+    int count = 2;
+    char** arguments = words;
+    if (const PetscErrorCode code = PetscInitialize(&count, &arguments, nullptr, nullptr); code != 0)
+      throw RunError(fmt::format("PETSc could not be started (error {})", static_cast<int>(code)));
+    check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
+    library_versions().emplace("PETSc", fmt::format("{}.{}.{}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR,
+                                                    PETSC_VERSION_SUBMINOR));
+    std::atexit([] {
+      PetscBool ended = PETSC_FALSE;
+      if (PetscFinalized(&ended) == 0 && !ended) static_cast<void>(PetscFinalize());
+    });
+  }
+};
+
+}  // namespace
+
+Session::Session() {
+  static std::mutex mutex;
+  one_at_a_time_ = std::unique_lock(mutex);
+  static const Process process;
+  serial_blas_.emplace(1);
+}
+
+void check(PetscErrorCode code) {
+  if (code == 0) return;
+  if (code == PETSC_ERR_MEM) throw RunError("PETSc: memory does not suffice", Reason::out_of_memory);
+  const char* words = nullptr;
+  char* detail = nullptr;
+  static_cast<void>(PetscErrorMessage(code, &words, &detail));
+  throw RunError(fmt::format("PETSc: {} (error {}){}{}", words ? words : "unknown error", static_cast<int>(code),
+                             detail && *detail ? ": " : "", detail ? detail : ""));
+}
+
+Options::Options(const std::string& text) {
+  check(PetscOptionsCreate(&options_));
+  const auto first = text.find_first_not_of(' ');
+  const bool is_list = first == std::string::npos || text[first] == '-';
+  if (is_list && PetscOptionsInsertString(options_, text.c_str()) == 0) return;
+  static_cast<void>(PetscOptionsDestroy(&options_));
+  throw ConfigError("linear solver 'petsc': '" + text + "' is no list of options such as -ksp_type cg -pc_type gamg");
+}
+
+Options::~Options() { static_cast<void>(PetscOptionsDestroy(&options_)); }
+
+bool Options::has(const char* name) const {
+  PetscBool found = PETSC_FALSE;
+  check(PetscOptionsHasName(options_, nullptr, name, &found));
+  return found == PETSC_TRUE;
+}
+
+std::vector<std::string> Options::unused() const {
+  PetscInt count = 0;
+  char **names = nullptr, **values = nullptr;
+  check(PetscOptionsLeftGet(options_, &count, &names, &values));
+  const std::vector<std::string> all(names, names + count);
+  check(PetscOptionsLeftRestore(options_, &count, &names, &values));
+  return all;
+}
+
+InUse::InUse(const Options& options) { check(PetscOptionsPush(options.get())); }
+
+InUse::~InUse() { static_cast<void>(PetscOptionsPop()); }
+
+}  // namespace orthodyn::petsc

@@ -1,0 +1,194 @@
+// PETSc's solver: as good as its tolerance says, whichever preconditioner it takes, and what it does where it cannot.
+#include <gtest/gtest.h>
+
+#include "lib/linear/solver.h"
+#include "tests/linear/systems.h"
+
+namespace orthodyn::petsc_test {
+namespace {
+
+class Petsc : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!solver_registry().at("petsc").unavailable.empty()) GTEST_SKIP() << solver_registry().at("petsc").unavailable;
+  }
+
+  static std::unique_ptr<LinearSolver> factored(const System& s, const std::string& options = "") {
+    auto solver = make_linear_solver({"petsc", options});
+    solver->analyze(s.pattern);
+    EXPECT_EQ(solver->factor(s.values.data()), FactorStatus::ok);
+    return solver;
+  }
+
+  Random random_{93};
+};
+
+// Three equal Laplacians as the coordinates of points; point 0 is held but for its second coordinate, as supports do.
+System points(int m) {
+  const System scalar = laplacian(m);
+  const Eigen::MatrixXd one = scalar.dense();
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * one.rows(), 3 * one.rows());
+  for (Eigen::Index i = 0; i < one.rows(); ++i)
+    for (Eigen::Index j = 0; j < one.rows(); ++j)
+      for (int k = 0; k < 3; ++k) all(3 * i + k, 3 * j + k) = one(i, j);
+  std::vector<int> kept;
+  for (int c = 0; c < all.rows(); ++c)
+    if (c != 0 && c != 2) kept.push_back(c);
+  System s = sparse(all(kept, kept), true);
+  s.pattern.coordinate = kept;
+  return s;
+}
+
+double energy_error(const System& s, const Vector& x, const Vector& exact) {
+  const Vector e = x - exact;
+  return std::sqrt(e.dot(s.multiply(e)) / exact.dot(s.multiply(exact)));
+}
+
+TEST_F(Petsc, SolutionsAreAsGoodAsTheirTolerance) {
+  for (const System& s : {laplacian(10), points(5)})
+    for (const std::string options : {"", "-pc_type gamg", "-pc_type icc", "-pc_type none"})
+      for (const double relative : {1e-1, 1e-3, 1e-5, 1e-9}) {
+        const auto solver = factored(s, options);
+        const Vector exact = random_vector(random_, s.pattern.n);
+        Vector x(s.pattern.n);
+        solver->set_tolerance({relative});
+        solver->solve(s.multiply(exact), x);
+        // 2: the solver guesses what the iterations to come will bring.
+        EXPECT_LE(energy_error(s, x, exact), 2 * relative) << options;
+      }
+}
+
+TEST_F(Petsc, AnAbsoluteToleranceIsOneOfTheRootMeanSquare) {
+  const System s = laplacian(12);
+  const auto solver = factored(s);
+  const Vector exact = random_vector(random_, s.pattern.n), b = s.multiply(exact);
+  const double rms = exact.norm() / std::sqrt(static_cast<double>(s.pattern.n));
+  Vector x(s.pattern.n);
+  solver->set_tolerance({.relative = 1e-12, .absolute = 0.01 * rms});
+  solver->solve(b, x);
+  const double error = energy_error(s, x, exact);
+  EXPECT_LE(error, 0.02);
+  EXPECT_GE(error, 1e-6);  // no better than was asked for
+}
+
+TEST_F(Petsc, SolvesInPlaceAndWithNewValues) {
+  System s = points(4);
+  const auto solver = factored(s);
+  for (const double factor : {1.0, 1e6, 1e-9}) {
+    for (double& value : s.values) value *= factor;
+    for (int i = 0; i < s.pattern.n; ++i) diagonal(s, i) *= random_.between(1, 2);
+    ASSERT_EQ(solver->factor(s.values.data()), FactorStatus::ok);
+    const Vector exact = random_vector(random_, s.pattern.n);
+    Vector x = s.multiply(exact);
+    solver->solve(x, x);
+    EXPECT_LE((x - exact).norm(), 1e-8 * exact.norm());
+  }
+}
+
+TEST_F(Petsc, TakesAnotherPattern) {
+  const System first = laplacian(3), second = points(3);
+  const auto solver = factored(first);
+  solver->analyze(second.pattern);
+  ASSERT_EQ(solver->factor(second.values.data()), FactorStatus::ok);
+  const Vector exact = random_vector(random_, second.pattern.n);
+  Vector x(exact.size());
+  solver->solve(second.multiply(exact), x);
+  EXPECT_LE((x - exact).norm(), 1e-8 * exact.norm());
+}
+
+TEST_F(Petsc, SolvesForNothing) {
+  const System s = laplacian(3);
+  Vector x = Vector::Ones(s.pattern.n);
+  factored(s)->solve(Vector::Zero(s.pattern.n), x);
+  EXPECT_EQ(x, Vector::Zero(s.pattern.n));
+}
+
+// A chain of n masses: its condition number is about n^2, for which the diagonal is no preconditioner.
+TEST_F(Petsc, TakesMultigridWhereTheDiagonalIsNotEnough) {
+  constexpr int n = 3000;
+  System chain;
+  chain.pattern.n = n;
+  chain.pattern.column_start.push_back(0);
+  for (int i = 0; i < n; ++i) {
+    chain.pattern.row.push_back(i), chain.values.push_back(2);
+    if (i + 1 < n) chain.pattern.row.push_back(i + 1), chain.values.push_back(-1);
+    chain.pattern.column_start.push_back(chain.pattern.non_zeros());
+  }
+  const auto solver = factored(chain);
+  EXPECT_NE(solver->description().find("diagonal blocks"), std::string::npos) << solver->description();
+  const Vector exact = random_vector(random_, n), b = chain.multiply(exact);
+  Vector x(n);
+  solver->solve(b, x);
+  EXPECT_NE(solver->description().find("multigrid"), std::string::npos) << solver->description();
+  EXPECT_LE(energy_error(chain, x, exact), 1e-7);
+}
+
+TEST_F(Petsc, FindsANegativeDiagonalAtOnce) {
+  System s = laplacian(4);
+  diagonal(s, 20) = -0.5;
+  const auto solver = make_linear_solver("petsc");
+  solver->analyze(s.pattern);
+  EXPECT_EQ(solver->factor(s.values.data()), FactorStatus::not_positive_definite);
+  diagonal(s, 20) = std::nan("");
+  EXPECT_NE(solver->factor(s.values.data()), FactorStatus::ok);
+}
+
+// The Laplacian less 1.5 times its smallest eigenvalue: each diagonal entry is positive.
+TEST_F(Petsc, FindsAnIndefiniteMatrixOnItsWay) {
+  System s = laplacian(6);
+  for (int i = 0; i < s.pattern.n; ++i) diagonal(s, i) -= 1;
+  const auto solver = factored(s);
+  const Vector b = Vector::Ones(s.pattern.n);
+  Vector x = Vector::Constant(s.pattern.n, 7);
+  EXPECT_THROW(solver->solve(b, x), IndefiniteMatrix);
+  EXPECT_EQ(x, Vector::Constant(s.pattern.n, 7));
+}
+
+TEST_F(Petsc, SaysThatItDoesNotConverge) {
+  const System s = laplacian(12);
+  const auto solver = factored(s, "-pc_type none -ksp_max_it 3 -ksp_rtol 1e-12");
+  Vector x(s.pattern.n);
+  try {
+    solver->solve(random_vector(random_, s.pattern.n), x);
+    FAIL() << "converged";
+  } catch (const RecoverableError& e) {
+    EXPECT_NE(std::string(e.what()).find("does not converge"), std::string::npos) << e.what();
+  }
+}
+
+TEST_F(Petsc, TakesADirectFactorByOption) {
+  System s = points(4);
+  const auto solver = factored(s, "-ksp_type preonly -pc_type cholesky");
+  for (const double factor : {1.0, 3.0}) {
+    for (double& value : s.values) value *= factor;
+    ASSERT_EQ(solver->factor(s.values.data()), FactorStatus::ok);
+    const Vector exact = random_vector(random_, s.pattern.n);
+    Vector x(exact.size());
+    solver->solve(s.multiply(exact), x);
+    EXPECT_LE((x - exact).norm(), 1e-12 * exact.norm());
+  }
+}
+
+TEST_F(Petsc, RefusesOptionsThatNobodyKnows) {
+  for (const auto& [options, named] : std::vector<std::pair<std::string, std::string>>{
+           {"-ksp_typ cg", "-ksp_typ"}, {"-pc_type nothing_like_it", "nothing_like_it"}, {"cg", "list of options"}}) {
+    try {
+      make_linear_solver({"petsc", options});
+      ADD_FAILURE() << "accepted: " << options;
+    } catch (const ConfigError& e) {
+      EXPECT_NE(e.message().find(named), std::string::npos) << e.message();
+    }
+  }
+}
+
+TEST_F(Petsc, GivesTheSameBitsAgain) {
+  const System s = points(6);
+  const Vector b = random_vector(random_, s.pattern.n);
+  Vector x(s.pattern.n), again(s.pattern.n);
+  factored(s)->solve(b, x);
+  factored(s)->solve(b, again);
+  EXPECT_EQ(x, again);
+}
+
+}  // namespace
+}  // namespace orthodyn::petsc_test
