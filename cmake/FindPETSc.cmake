@@ -1,11 +1,24 @@
-# PETSc with real numbers as PETSc::PETSc; it has no CMake configuration of its own. Debian keeps each version in a
-# folder below /usr/lib/petscdir, others tell the folder by PETSC_DIR and PETSC_ARCH.
-file(GLOB _folders /usr/lib/petscdir/petsc*/*-real)
-list(SORT _folders COMPARE NATURAL ORDER DESCENDING)
-set(_folders $ENV{PETSC_DIR}/$ENV{PETSC_ARCH} $ENV{PETSC_DIR} ${_folders})
-find_path(PETSc_INCLUDE_DIR petscksp.h PATHS ${_folders} PATH_SUFFIXES include)
-find_path(PETSc_CONFIG_INCLUDE_DIR petscconf.h PATHS ${_folders} PATH_SUFFIXES include)  # of an arch's own folder
-find_library(PETSc_LIBRARY NAMES petsc_real petsc PATHS ${_folders} PATH_SUFFIXES lib)
+# PETSc with real numbers and 32-bit indices as PETSc::PETSc; it has no CMake configuration of its own. Headers and
+# library are of one folder: that of PETSC_DIR and PETSC_ARCH if they are set, else Debian's, one for each version.
+set(_folders)
+if(DEFINED ENV{PETSC_DIR})
+  list(APPEND _folders $ENV{PETSC_DIR}/$ENV{PETSC_ARCH} $ENV{PETSC_DIR})
+else()
+  file(GLOB _folders /usr/lib/petscdir/petsc3*/*-real)
+  list(SORT _folders COMPARE NATURAL ORDER DESCENDING)
+endif()
+foreach(_folder IN LISTS _folders)
+  find_path(PETSc_CONFIG_INCLUDE_DIR petscconf.h PATHS ${_folder}/include NO_DEFAULT_PATH)
+  find_library(PETSc_LIBRARY NAMES petsc_real petsc PATHS ${_folder}/lib NO_DEFAULT_PATH)
+  find_path(PETSc_INCLUDE_DIR petscksp.h PATHS ${_folder}/include $ENV{PETSC_DIR}/include NO_DEFAULT_PATH)
+endforeach()
+if(PETSc_CONFIG_INCLUDE_DIR)
+  file(STRINGS ${PETSc_CONFIG_INCLUDE_DIR}/petscconf.h _other REGEX "define PETSC_USE_(COMPLEX|64BIT_INDICES|REAL_SINGLE)")
+  if(_other)
+    message(WARNING "The PETSc of ${PETSc_CONFIG_INCLUDE_DIR} is not for real numbers with 32-bit indices: ${_other}")
+    set(PETSc_LIBRARY PETSc_LIBRARY-NOTFOUND)
+  endif()
+endif()
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(PETSc REQUIRED_VARS PETSc_LIBRARY PETSc_INCLUDE_DIR PETSc_CONFIG_INCLUDE_DIR

@@ -6,4 +6,6 @@ file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lib/petsc/*.cc
 add_library(orthodyn_petsc MODULE ${sources})
 target_link_libraries(orthodyn_petsc PRIVATE orthodyn orthodyn_options PETSc::PETSc MPI::MPI_CXX)
 target_precompile_headers(orthodyn_petsc REUSE_FROM orthodyn_precompiled)
+# What installing the component `library` needs.
+add_dependencies(orthodyn_library orthodyn_petsc)
 target_compile_definitions(orthodyn_linear PRIVATE ORTHODYN_MPI)

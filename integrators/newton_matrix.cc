@@ -46,27 +46,28 @@ FactorStatus NewtonMatrix::try_factor() {
 
 bool NewtonMatrix::factor(const Weights& weights) {
   weights_ = weights;
-  const auto status = try_factor();
-  if (status == FactorStatus::not_positive_definite && !model_.traits().linear) return factor_gauss_newton();
+  auto status = try_factor();
+  if (status == FactorStatus::not_positive_definite && !model_.traits().linear) {
+    turn_to_gauss_newton();
+    assemble(TangentKind::gauss_newton);
+    status = try_factor();
+  }
   return status == FactorStatus::ok;
 }
 
-bool NewtonMatrix::factor_gauss_newton() {
+void NewtonMatrix::turn_to_gauss_newton() {
   ++statistics_.gauss_newton_fallbacks;
   gauss_newton_left_ = kGaussNewtonSetups;
-  assemble(TangentKind::gauss_newton);
-  return try_factor() == FactorStatus::ok;
 }
 
 void NewtonMatrix::solve(const ConstVectorRef& b, VectorRef x) {
-  try {
-    const Measure measure(statistics_.solve);
-    return solver_->solve(b, x);
-  } catch (const IndefiniteMatrix&) {
-    if (model_.traits().linear || !factor_gauss_newton()) throw;
-  }
   const Measure measure(statistics_.solve);
-  solver_->solve(b, x);
+  try {
+    solver_->solve(b, x);
+  } catch (const IndefiniteMatrix&) {
+    if (!model_.traits().linear) turn_to_gauss_newton();
+    throw;
+  }
 }
 
 void NewtonMatrix::multiply_stiffness(const ConstVectorRef& x, VectorRef y) const {

@@ -29,9 +29,9 @@ class NewtonMatrix {
   // if memory does not suffice.
   bool factor(const Weights& weights);
 
-  // x = A^-1 b, as good as an iterative solver's tolerance. b and x may be the same. Where such a solver comes upon an
-  // indefinite A, A is made anew as above. Throws RecoverableError where it does not converge. Precondition: the last
-  // factor() was true.
+  // x = A^-1 b, as good as an iterative solver's tolerance. b and x may be the same. Precondition: the last
+  // factor() was true. Such a solver throws RecoverableError where it does not converge, or where it comes upon an
+  // indefinite A; then the next set-ups are as above.
   void solve(const ConstVectorRef& b, VectorRef x);
 
   // Of the next solutions of an iterative solver; by default 1e-10.
@@ -39,6 +39,8 @@ class NewtonMatrix {
   void set_tolerance(const SolveTolerance& tolerance) { solver_->set_tolerance(tolerance); }
   // That of a correction of Newton's method: `absolute` is what it may be off by without being noticed. Below a share
   // of the correction itself the next one mends it (Dembo, Eisenstat & Steihaug, SIAM J. Numer. Anal. 19, 1982).
+  // Corrections are known to shrink by least_rate() at best, whatever they did.
+  double least_rate() const { return is_iterative() ? kNewtonForcing : 0; }
   void set_newton_tolerance(double absolute) { set_tolerance({kNewtonForcing, absolute}); }
 
   // y = K x
@@ -50,11 +52,11 @@ class NewtonMatrix {
   std::string description() const { return solver_->description(); }
 
  private:
-  static constexpr double kNewtonForcing = 1e-1;
+  static constexpr double kNewtonForcing = 1e-2;
 
   void assemble(TangentKind kind);
   FactorStatus try_factor();
-  bool factor_gauss_newton();
+  void turn_to_gauss_newton();
 
   const Model& model_;
   Statistics& statistics_;

@@ -37,6 +37,7 @@ class ReducedSolve {
 
   // As NewtonMatrix has them, of dv.
   bool is_iterative() const { return matrix_.is_iterative(); }
+  double least_rate() const { return matrix_.least_rate(); }
   void set_newton_tolerance(double absolute) { matrix_.set_newton_tolerance(absolute); }
   double gamma() const { return matrix_.weights().damping; }  // of the last factor()
 

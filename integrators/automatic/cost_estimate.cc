@@ -9,15 +9,14 @@
 #include "integrators/damping_ratio.h"
 #include "integrators/newton_matrix.h"
 #include "lib/core/errors.h"
+#include "lib/linear/solver_cost.h"
 
 namespace orthodyn {
 
 namespace {
 
-// Measured: a force takes about 2.2 ns per entry of the tangent's lower triangle, a tangent five forces, a solve 1 ns
-// per entry of the factor, a factorisation 0.1 ns per multiplication.
-constexpr double kForce = 2.2, kTangent = 5, kSolve = 1, kFactor = 0.1;
-constexpr double kBytesPerEntry = 10;  // of the factor, workspace included
+// Measured: a force takes about 2.2 ns per entry of the tangent's lower triangle, a tangent five forces.
+constexpr double kForce = 2.2, kTangent = 5;
 
 // Of an L-stable method of order two, measured at rtol 1e-3: steps for each radian of the motion, iterations for each
 // step, and tangents with their factors for each step.
@@ -41,9 +40,16 @@ CostEstimate estimate_cost(const Model& model, const Task& task, const Scales& s
   }
   const NewtonMatrix matrix(model, linear_solver, TangentKind::exact, unused);
   const double n = model.num_dofs(), force = kForce * model.pattern().non_zeros();
-  const double entries = static_cast<double>(matrix.factor_bytes()) / kBytesPerEntry;
-  cost.solve_cost = kSolve * entries / force;
-  cost.factor_cost = kFactor * entries * entries / n / force;
+  namespace each = solver_cost;
+  if (matrix.is_iterative()) {
+    const double all = 2 * model.pattern().non_zeros();
+    cost.solve_cost = each::kIterations * each::kIteration * all / force;
+    cost.factor_cost = each::kSetUp * all / force;
+    return cost;
+  }
+  const double entries = static_cast<double>(matrix.factor_bytes()) / each::kBytesPerEntry;
+  cost.solve_cost = each::kSolve * entries / force;
+  cost.factor_cost = each::kFactor * entries * entries / n / force;
   return cost;
 }
 

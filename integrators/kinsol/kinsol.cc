@@ -82,7 +82,9 @@ class Kinsol : public EquilibriumSolver {
 
   const Statistics& statistics() const override { return statistics_; }
   std::size_t factor_bytes() const override { return stiffness_.factor_bytes(); }
-  std::string description() const override { return shown(options_.linear_solver) + " (" + stiffness_.description() + ")"; }
+  std::string description() const override {
+    return shown(options_.linear_solver) + " (" + stiffness_.description() + ")";
+  }
 
  private:
   Attempt run(PathPoint& point, double longest) {

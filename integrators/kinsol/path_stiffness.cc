@@ -6,6 +6,11 @@
 
 namespace orthodyn {
 
+namespace {
+// Of an iterative solver. Newton's method mends the rest; next to a critical point no better one can be had.
+constexpr double kTolerance = 1e-6;
+}  // namespace
+
 PathStiffness::PathStiffness(const Model& model, const SolverChoice& solver, Statistics& statistics)
     : model_(model), statistics_(statistics) {
   const auto& kind = solver_registry().at(solver.type);
@@ -14,6 +19,7 @@ PathStiffness::PathStiffness(const Model& model, const SolverChoice& solver, Sta
                       "elasticity.warped_tangent: rotated");
   solver_ = make_linear_solver(solver);
   solver_->analyze(model.pattern());
+  solver_->set_tolerance({.relative = kTolerance});
   values_.resize(model.pattern().row.size());
 }
 
@@ -47,7 +53,7 @@ bool PathStiffness::factor() {
 }
 
 bool PathStiffness::factor_with_inertia() {
-  if (solver_->checks_definiteness() || !model_.pattern().symmetric) return factor();
+  if (solver_->checks_definiteness() || solver_->is_iterative() || !model_.pattern().symmetric) return factor();
   const Measure measure(statistics_.factorization);
   model_.combine({0, 0, 1}, linearization_, values_.data());
   constant_is_factored_ = false;
@@ -80,6 +86,7 @@ void PathStiffness::solve(const ConstVectorRef& b, VectorRef x) {
     return used_->solve(b, x);
   } catch (const IndefiniteMatrix&) {  // as an iterative solver finds out on its way only
     const Measure measure(statistics_.factorization);
+    constant_is_factored_ = false;
     if (!factor_indefinite()) throw;
   }
   const Measure measure(statistics_.solve);

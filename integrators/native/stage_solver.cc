@@ -124,6 +124,7 @@ bool StageSolver::shrinks(double size, double last) {
     return size * norm_.rtol() <= kCorrectionRoundOff;
   }
   contraction_factor_ = rate / (1 - rate);
+  contraction_factor_ = std::max(contraction_factor_, matrix_.least_rate());
   if (rate > kSlow) stale_ = true;
   return true;
 }
@@ -133,6 +134,7 @@ void StageSolver::filter(VectorRef e_q, VectorRef e_v) {
   matrix_.multiply_stiffness(e_q, work_);
   model_.multiply_mass(e_v, r_);
   r_ -= w.stiffness / w.damping * work_;
+  matrix_.set_newton_tolerance(norm_.root_mean_square_at(kLinearShare, w.damping, 1));
   matrix_.solve(r_, dx_);
   e_v = dx_;
   e_q += w.damping * dx_;

@@ -15,8 +15,8 @@ constexpr double kGivenUp = 2;       // growth of a correction at which the solv
 
 }  // namespace
 
-SecantNewton::SecantNewton(N_Vector y, SUNContext context)
-    : newton_(SUNNonlinSol_Newton(y, context)), solver_(SUNNonlinSolNewEmpty(context)) {
+SecantNewton::SecantNewton(N_Vector y, SUNContext context, double least_rate)
+    : newton_(SUNNonlinSol_Newton(y, context)), solver_(SUNNonlinSolNewEmpty(context)), least_rate_(least_rate) {
   if (!newton_ || !solver_) throw RunError("SUNDIALS could not create Newton's iteration", Reason::out_of_memory);
   solver_->content = this;
   plain_.setZero(view(y).size());
@@ -115,7 +115,7 @@ int SecantNewton::test(double size, double tolerance) {
     rate_ = std::max(kFastest * rate_, size / last_size_);
   }
   const double last = std::exchange(last_size_, size);
-  if (size * std::min(1.0, rate_) <= tolerance) return 0;
+  if (size * std::clamp(rate_, least_rate_, 1.0) <= tolerance) return 0;
   return iteration() > 0 && size > kGivenUp * last ? SUN_NLS_CONV_RECVR : SUN_NLS_CONTINUE;
 }
 

@@ -20,7 +20,8 @@ namespace orthodyn::sundials {
 
 class SecantNewton {
  public:
-  SecantNewton(N_Vector y, SUNContext context);
+  // least_rate: corrections are known to shrink by this factor at best, where those of a direct solver may do better.
+  SecantNewton(N_Vector y, SUNContext context, double least_rate = 0);
   SecantNewton(const SecantNewton&) = delete;
   SecantNewton& operator=(const SecantNewton&) = delete;
 
@@ -55,6 +56,7 @@ class SecantNewton {
   // Sizes are norms of the error test.
   double first_size_ = 0, last_size_ = 0;  // of the first and the last correction of this solve
   double first_rate_ = 1;                  // by which the first correction leaves errors, from the last solves
+  double least_rate_;
   double rate_ = 1;                        // by which corrections shrink
 };
 

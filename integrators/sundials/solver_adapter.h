@@ -12,8 +12,8 @@ namespace orthodyn::sundials {
 OwnedMatrix make_placeholder_matrix(SUNContext context);
 
 // A linear solver, direct or iterative. An iterative one is told how large the error of a solution may be, in the norm
-// of the error test: SUNDIALS' share (eplifac) of what is allowed to Newton's method. Both functions return 0, > 0 (recoverable) or < 0 (fatal); `solver` must
-// outlive the handle.
+// of the error test: SUNDIALS' share (eplifac) of what is allowed to Newton's method. Both functions return 0, > 0
+// (recoverable) or < 0 (fatal); `solver` must outlive the handle.
 struct SolverFunctions {
   std::function<int()> setup;
   std::function<int(N_Vector x, N_Vector b, double tolerance)> solve;

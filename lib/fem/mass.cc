@@ -4,10 +4,6 @@
 
 namespace orthodyn {
 
-namespace {
-constexpr double kMassTolerance = 1e-13;  // of an iterative solver: accelerations are as good as forces
-}
-
 Mass::Mass(MassKind kind, const ElementMesh& mesh, const std::vector<double>& density, const DofMap& dofs,
            const BlockPattern& pattern)
     : kind_(kind), pattern_(pattern.pattern()), nodal_(Vector::Zero(dofs.num_nodes())),
@@ -65,7 +61,6 @@ void Mass::solve(VectorRef x) const {
   const std::lock_guard lock(solving_);
   if (!factored_) {
     solver_ = make_solver_for(pattern_);
-    solver_->set_tolerance({.relative = kMassTolerance});
     if (solver_->factor(values_.data()) != FactorStatus::ok)
       throw RunError("the consistent mass matrix is not positive definite; use `mass: lumped`");
     factored_ = true;

@@ -25,6 +25,7 @@ class PartModel : public Model {
   void combine(const Weights& w, const Linearization& at, double* values) const override;
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { whole_.multiply_mass(x, y); }
   void solve_mass(VectorRef x) const override { whole_.solve_mass(x); }
+  Eigen::MatrixXd rigid_motions(const ConstVectorRef& q) const override { return whole_.rigid_motions(q); }
   // Of terms that bound their own stiffness (Term::add_stiffness_bound); with elasticity among them none is at hand.
   double frequency_bound() const override;
   std::vector<double> breakpoints(double start, double end) const override;

@@ -3,6 +3,7 @@
 
 #include "lib/core/memory.h"
 #include "lib/linear/solver.h"
+#include "lib/linear/solver_cost.h"
 
 namespace orthodyn {
 namespace {
@@ -11,15 +12,12 @@ namespace {
 constexpr int kIterativeFrom = 100'000, kOnlyIterativeFrom = 3'000'000;
 constexpr double kShareOfMemory = 0.6;
 
-// Measured, in ns: of a factor for each of its entries and for each multiplication; of multigrid's set-up and of an
-// iteration with it for each entry of the matrix. Of an adaptive run: solutions for each factor, iterations for each.
-constexpr double kSolve = 1, kFactor = 0.1, kSetUp = 330, kIteration = 16;
-constexpr double kSolutions = 15, kIterations = 11;
-constexpr double kBytesPerEntry = 10;  // of the factor, workspace included
+constexpr double kSolutions = 15;  // of an adaptive run for each factor, measured
 
 bool is_cheaper_by_iterations(const Pattern& pattern, double factor_bytes) {
+  using namespace solver_cost;
   const double entries = factor_bytes / kBytesPerEntry, n = pattern.n;
-  const double all = 2 * static_cast<double>(pattern.row.size());  // both triangles
+  const double all = 2 * static_cast<double>(pattern.row.size());
   return kFactor * entries * entries / n + kSolutions * kSolve * entries >
          all * (kSetUp + kSolutions * kIterations * kIteration);
 }
@@ -36,7 +34,12 @@ class AutomaticSolver : public LinearSolver {
       return take("petsc", pattern);
     }
     const auto factor = static_cast<double>(solver_->factor_bytes());
-    if (factor > kShareOfMemory * memory_left() || is_cheaper_by_iterations(pattern, factor)) take("petsc", pattern);
+    if (factor <= kShareOfMemory * memory_left() && !is_cheaper_by_iterations(pattern, factor)) return;
+    try {
+      take("petsc", pattern);
+    } catch (const ConfigError&) {  // it cannot be loaded here
+      take("cholmod", pattern);
+    }
   }
 
   FactorStatus factor(const double* values) override { return solver_->factor(values); }

@@ -14,7 +14,7 @@ std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice) {
 }
 
 std::unique_ptr<LinearSolver> make_solver_for(const Pattern& pattern) {
-  auto solver = make_linear_solver(pattern.symmetric ? "auto" : "klu");
+  auto solver = make_linear_solver(pattern.symmetric ? "cholmod" : "klu");
   solver->analyze(pattern);
   return solver;
 }

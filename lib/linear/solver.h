@@ -24,7 +24,8 @@ class IndefiniteMatrix : public RecoverableError {
   using RecoverableError::RecoverableError;
 };
 
-// How good a solution has to be: |error of x| <= max(relative |x|, absolute), root mean squares over the unknowns.
+// How good a solution has to be: its error, relative to the solution in the norm of A, at most the larger one of
+// `relative` and the share that `absolute` is of the root mean square of x.
 struct SolveTolerance {
   double relative = 1e-10, absolute = 0;
 };
@@ -50,7 +51,7 @@ class LinearSolver {
 
   // Whether solutions are as good as their tolerance, and not to round-off. After analyze().
   virtual bool is_iterative() const { return false; }
-  // Of the next solutions of an iterative solver.
+  // Of the next solutions of an iterative solver. After analyze().
   virtual void set_tolerance(const SolveTolerance&) {}
 
   // Whether the next factor() would be better for the motions that A resists least, in the columns of n x 6.
@@ -90,8 +91,8 @@ std::map<std::string, SolverKind>& solver_registry();
 // if this build cannot make it, or for its options.
 std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice);
 
-// What suits matrices on this pattern that are positive definite where it is symmetric, analysed. Throws RunError when
-// memory does not suffice.
+// A direct solver for matrices on this pattern, analysed: one that finds indefinite ones where it is symmetric. Throws
+// RunError when memory does not suffice.
 std::unique_ptr<LinearSolver> make_solver_for(const Pattern& pattern);
 
 }  // namespace orthodyn

@@ -46,6 +46,7 @@ class LoadPath : public Model {
   }
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { model_.multiply_mass(x, y); }
   void solve_mass(VectorRef x) const override { model_.solve_mass(x); }
+  Eigen::MatrixXd rigid_motions(const ConstVectorRef& q) const override { return model_.rigid_motions(q); }
 
   std::vector<OutputInfo> outputs() const override { return model_.outputs(); }
   std::unique_ptr<StateView> view(const State& state) const override {

@@ -99,7 +99,7 @@ class Model : public OutputSource {
   // x <- M^-1 x. Throws RunError if M is not positive definite.
   virtual void solve_mass(VectorRef x) const = 0;
 
-  // The motions that K resists least about q: those of a rigid body, n x 6, in m and rad as columns of displacements.
+  // The motions that K resists least about q: those of a rigid body, n x 6, displacements of any size.
   // Empty where the model knows none.
   virtual Eigen::MatrixXd rigid_motions(const ConstVectorRef& /*q*/) const { return {}; }
 

@@ -19,13 +19,15 @@ constexpr double kSafety = 2;  // of an error
 void EnergyTest::attach(KSP method) {
   PetscBool is_cg = PETSC_FALSE;
   check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(method), KSPCG, &is_cg));
-  if (!is_cg) return;
+  KSPNormType norm = KSP_NORM_NONE;
+  check(KSPGetNormType(method, &norm));
+  if (!is_cg || norm == KSP_NORM_NONE) return;
   const auto function = [](KSP solver, PetscInt iteration, PetscReal residual, KSPConvergedReason* reason,
                            void* test) -> PetscErrorCode {
     try {
       *reason = static_cast<EnergyTest*>(test)->test(solver, iteration, residual);
       return static_cast<PetscErrorCode>(0);
-    } catch (const RunError&) {
+    } catch (...) {
       return PETSC_ERR_LIB;
     }
   };
@@ -53,6 +55,7 @@ KSPConvergedReason EnergyTest::test(KSP method, PetscInt iteration, double resid
   check(VecDot(b, x, &energy));
   check(VecNorm(x, NORM_2, &size));
   std::rotate(gains_.begin(), gains_.end() - 1, gains_.end());
+  if (!(energy >= 0)) return KSP_DIVERGED_INDEFINITE_MAT;
   gains_[0] = std::max(energy - energy_, 0.0);
   energy_ = energy;
   const double relative = std::max(tolerance_.relative, size > 0 ? absolute_ / size : 0);

@@ -5,8 +5,8 @@
 // and dear. Which of them takes less is seen from the iterations for each digit. Multigrid is set up when there are new
 // values only once it has become worse than it was: the matrices of a run are alike.
 //
-// Multigrid is smoothed by Chebyshev's polynomials, coarsened by aggregates that keep the body's rigid motions, which are
-// not smoothed: figures in docs/decisions.md.
+// Multigrid is smoothed by Chebyshev's polynomials and coarsened by aggregates that keep the body's rigid motions, which
+// are not smoothed: figures in docs/decisions.md.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -37,7 +37,7 @@ class PetscSolver : public LinearSolver {
  public:
   explicit PetscSolver(std::string options) : given_(std::move(options)) {
     const Session session;
-    const Options read(given_);
+    const Options read(everywhere() + given_);
     has_own_preconditioner_ = read.has("-pc_type") || read.has("-ksp_type");
   }
 
@@ -76,7 +76,7 @@ class PetscSolver : public LinearSolver {
     const Session session;
     matrix_->scatter(b, b_);
     KSPConvergedReason reason = solve_once();
-    if (reason < 0 && with_blocks_ && reason != KSP_DIVERGED_INDEFINITE_MAT) {
+    if (reason < 0 && with_blocks_ && !shows_indefinite(reason)) {
       take_multigrid();
       reason = solve_once();
       is_worse_ = is_gamg_;  // than with rigid motions
@@ -84,7 +84,7 @@ class PetscSolver : public LinearSolver {
       set_up();
       reason = solve_once();
     }
-    if (reason == KSP_DIVERGED_INDEFINITE_MAT) throw IndefiniteMatrix("the linear system is indefinite");
+    if (shows_indefinite(reason)) throw IndefiniteMatrix("the linear system is indefinite");
     if (reason < 0)
       throw RecoverableError(fmt::format("the linear solver does not converge ({} of PETSc, in {} iterations)",
                                          KSPConvergedReasons[reason], last_iterations_));
@@ -146,19 +146,31 @@ class PetscSolver : public LinearSolver {
     return name;
   }
 
+  static std::string everywhere() {
+    const char* options = std::getenv("PETSC_OPTIONS");
+    return options ? std::string(options) + " " : "";
+  }
+
+  // The diagonal's blocks are indefinite where A is; multigrid may be so because of it.
+  static bool shows_indefinite(KSPConvergedReason reason) {
+    return reason == KSP_DIVERGED_INDEFINITE_MAT || reason == KSP_DIVERGED_INDEFINITE_PC;
+  }
+
   void release() {
     static_cast<void>(KSPDestroy(&method_));
     static_cast<void>(VecDestroy(&x_));
     static_cast<void>(VecDestroy(&b_));
     matrix_.reset();
+    options_.reset();
+    per_digit_ = fresh_per_digit_ = 0;
+    iterations_ = solutions_ = set_ups_ = 0;
     is_set_up_ = is_new_ = is_worse_ = is_to_change_ = is_gamg_ = false;
   }
 
   // The method and its preconditioner, from the options in force.
   void make_method() {
-    const char* everywhere = std::getenv("PETSC_OPTIONS");
     options_ = std::make_unique<Options>(std::string(kKrylov) + (with_blocks_ ? kDiagonalBlocks : kMultigrid) +
-                                         (everywhere ? everywhere : "") + " " + given_);
+                                         everywhere() + given_);
     const InUse in_use(*options_);
     check(KSPDestroy(&method_));
     check(KSPCreate(PETSC_COMM_SELF, &method_));
@@ -166,7 +178,7 @@ class PetscSolver : public LinearSolver {
     check(KSPSetFromOptions(method_));
     check(KSPSetResidualHistory(method_, nullptr, PETSC_DECIDE, PETSC_TRUE));
     test_.set(tolerance_, pattern_->n);
-    if (!options_->has("-ksp_rtol") && !options_->has("-ksp_atol")) test_.attach(method_);
+    if (!has_own_tolerance()) test_.attach(method_);
     PC preconditioner = nullptr;
     PCType kind = nullptr;
     check(KSPGetPC(method_, &preconditioner));
@@ -188,6 +200,12 @@ class PetscSolver : public LinearSolver {
     return !with_blocks_ && std::string(method ? method : "") != KSPPREONLY;
   }
 
+  bool has_own_tolerance() const { return options_->has("-ksp_rtol") || options_->has("-ksp_atol"); }
+  PetscInt most() const {
+    if (options_->has("-ksp_max_it")) return PETSC_DEFAULT;
+    return with_blocks_ ? kMostWithBlocks : kMostIterations;
+  }
+
   void set_up() {
     if (is_to_change_) return take_multigrid();
     if (is_gamg_ && is_set_up_) make_method();  // it would keep the rigid motions of its first set-up
@@ -206,9 +224,7 @@ class PetscSolver : public LinearSolver {
   }
 
   KSPConvergedReason solve_once() {
-    if (!options_->has("-ksp_rtol") && !options_->has("-ksp_atol"))
-      check(KSPSetTolerances(method_, tolerance_.relative, tolerance_.absolute * std::sqrt(pattern_->n), PETSC_DEFAULT,
-                             with_blocks_ ? kMostWithBlocks : kMostIterations));
+    if (!has_own_tolerance()) check(KSPSetTolerances(method_, tolerance_.relative, PETSC_DEFAULT, PETSC_DEFAULT, most()));
     const InUse in_use(*options_);
     check(KSPSolve(method_, b_, x_));
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <utility>
 
 #include "lib/core/errors.h"
 #include "lib/core/versions.h"
@@ -13,20 +14,37 @@ namespace {
 
 // Without mpirun there is nobody to talk to: no daemon, and no network to be looked for (0.5 s become 0.07). Open MPI's
 // settings; others do not read them.
-void expect_no_other_process() {
-  if (std::getenv("OMPI_COMM_WORLD_SIZE") || std::getenv("PMI_SIZE") || std::getenv("PMIX_RANK")) return;
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-  setenv("OMPI_MCA_pml", "ob1", 0);
-  setenv("OMPI_MCA_btl", "self", 0);
-}
+class WithoutOthers {
+ public:
+  WithoutOthers() {
+    if (std::getenv("OMPI_COMM_WORLD_SIZE") || std::getenv("PMI_SIZE") || std::getenv("PMIX_RANK")) return;
+    for (const auto& [name, value] : kSettings)
+      if (!std::getenv(name)) {
+        setenv(name, value, 0);
+        set_.push_back(name);
+      }
+  }
+  ~WithoutOthers() {  // the processes that this one starts may have others
+    for (const char* name : set_) unsetenv(name);
+  }
+  WithoutOthers(const WithoutOthers&) = delete;
+  WithoutOthers& operator=(const WithoutOthers&) = delete;
+
+ private:
+  static constexpr std::pair<const char*, const char*> kSettings[] = {
+      {"OMPI_MCA_ess_singleton_isolated", "1"}, {"OMPI_MCA_pml", "ob1"}, {"OMPI_MCA_btl", "self"}};
+  std::vector<const char*> set_;
+};
 
 struct Process {
   Process() {
-    expect_no_other_process();
-    // Signals are the program's own business.
-    static char name[] = "orthodyn", no_handler[] = "-no_signal_handler";
-    static char* words[] = {name, no_handler, nullptr};
-    int count = 2;
+    const WithoutOthers alone;
+    // Signals are the program's own business, and options are told with each solver.
+    static char name[] = "orthodyn", no_handler[] = "-no_signal_handler", no_file[] = "-skip_petscrc",
+                no_report[] = "-options_left", no[] = "no";
+    static char* words[] = {name, no_handler, no_file, no_report, no, nullptr};
+    int count = 5;
+    PETSC_MPI_THREAD_REQUIRED = MPI_THREAD_SERIALIZED;
     char** arguments = words;
     if (const PetscErrorCode code = PetscInitialize(&count, &arguments, nullptr, nullptr); code != 0)
       throw RunError(fmt::format("PETSc could not be started (error {})", static_cast<int>(code)));

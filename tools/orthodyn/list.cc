@@ -80,7 +80,8 @@ void list_presets() {
 }
 
 void list_solvers() {
-  for (const auto& [name, kind] : solver_registry()) print_entry(name, kind.sentence, {});
+  for (const auto& [name, kind] : solver_registry())
+    print_entry(name, kind.sentence + (kind.unavailable.empty() ? "" : " Not here: " + kind.unavailable + "."), {});
 }
 
 void list_terms() {
