@@ -5,8 +5,8 @@
 // and dear. Which of them takes less is seen from the iterations for each digit. Multigrid is set up when there are new
 // values only once it has become worse than it was: the matrices of a run are alike.
 //
-// Multigrid is smoothed by Chebyshev's polynomials and coarsened by aggregates that keep the body's rigid motions, which
-// are not smoothed: figures in docs/decisions.md.
+// Multigrid is smoothed by Chebyshev's polynomials and coarsened by aggregates that keep the body's rigid motions. Its
+// prolongations are not smoothed: figures in docs/decisions.md.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -224,7 +224,8 @@ class PetscSolver : public LinearSolver {
   }
 
   KSPConvergedReason solve_once() {
-    if (!has_own_tolerance()) check(KSPSetTolerances(method_, tolerance_.relative, PETSC_DEFAULT, PETSC_DEFAULT, most()));
+    if (!has_own_tolerance())
+      check(KSPSetTolerances(method_, tolerance_.relative, PETSC_DEFAULT, PETSC_DEFAULT, most()));
     const InUse in_use(*options_);
     check(KSPSolve(method_, b_, x_));
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;

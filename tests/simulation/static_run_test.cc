@@ -39,7 +39,8 @@ TEST_F(StaticRun, ByAnIterativeSolverEndsWhereThatByAFactorDoes) {
   write("shelf.yaml", kShelf);
   std::vector<std::vector<double>> last;
   for (const std::string solver : {"cholmod", "petsc"}) {
-    const auto result = orthodyn("run shelf.yaml --quiet --force --out out --set statics.solver.linear_solver=" + solver);
+    const auto result =
+        orthodyn("run shelf.yaml --quiet --force --out out --set statics.solver.linear_solver=" + solver);
     if (result.output.find("built without PETSc") != std::string::npos) GTEST_SKIP() << result.output;
     ASSERT_EQ(result.exit_code, 0) << result.output;
     last.push_back(read_rows(folder_ / "out/probes.csv").back());
