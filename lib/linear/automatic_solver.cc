@@ -8,9 +8,10 @@
 namespace orthodyn {
 namespace {
 
-// Below, a factor is always cheaper; above, not even its analysis is (docs/decisions.md has the figures).
+// Unknowns: below the first a factor costs less (docs/decisions.md). From the second on its analysis is not tried: a
+// guess, as is the share.
 constexpr int kIterativeFrom = 100'000, kOnlyIterativeFrom = 3'000'000;
-constexpr double kShareOfMemory = 0.6;
+constexpr double kShareOfMemory = 0.6;  // of what is left, that a factor may take
 
 constexpr double kSolutions = 15;  // of an adaptive run for each factor, measured
 

@@ -146,13 +146,14 @@ TEST_F(Petsc, FindsAnIndefiniteMatrixOnItsWay) {
 
 TEST_F(Petsc, SaysThatItDoesNotConverge) {
   const System s = laplacian(12);
-  const auto solver = factored(s, "-pc_type none -ksp_max_it 3 -ksp_rtol 1e-12");
+  const auto solver = factored(s, "-pc_type none -ksp_max_it 3");
   Vector x(s.pattern.n);
   try {
     solver->solve(random_vector(random_, s.pattern.n), x);
     FAIL() << "converged";
   } catch (const RecoverableError& e) {
-    EXPECT_NE(std::string(e.what()).find("does not converge"), std::string::npos) << e.what();
+    for (const char* part : {"does not converge", "in 3 iterations"})
+      EXPECT_NE(std::string(e.what()).find(part), std::string::npos) << e.what();
   }
 }
 
