@@ -41,7 +41,8 @@ double CriticalStep::limit(const State& state, double reserve) {
 double CriticalStep::largest(const Linearization& at, const Weights& weights, SpectralBound& bound) {
   std::vector<double> values(model_.pattern().row.size());
   model_.combine(weights, at, values.data());
-  const bool absent = std::all_of(values.begin(), values.end(), [](double x) { return x == 0; });
+  const bool absent =
+      model_.space().all(std::all_of(values.begin(), values.end(), [](double x) { return x == 0; }));
   return absent ? 0 : bound.largest(values.data());
 }
 

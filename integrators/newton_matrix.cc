@@ -14,6 +14,8 @@ NewtonMatrix::NewtonMatrix(const Model& model, const SolverChoice& solver, Tange
   if (!model.pattern().symmetric && !kind.takes_general)
     throw ConfigError("linear solver '" + solver.type + "' needs a symmetric tangent; use klu or klu_full, or " +
                       "elasticity.warped_tangent: rotated");
+  if (model.ranks() && solver.type != "auto" && solver.type != "petsc")
+    throw ConfigError("linear solver '" + solver.type + "' does not run on several ranks; use petsc, or leave it out");
   solver_ = make_linear_solver(solver);
   solver_->analyze(model.pattern());
   values_.resize(model.pattern().row.size());
@@ -71,7 +73,7 @@ void NewtonMatrix::solve(const ConstVectorRef& b, VectorRef x) {
 }
 
 void NewtonMatrix::multiply_stiffness(const ConstVectorRef& x, VectorRef y) const {
-  model_.pattern().multiply(linearization_.stiffness.data(), x, y);
+  model_.multiply_matrix(linearization_.stiffness.data(), x, y);
 }
 
 }  // namespace orthodyn

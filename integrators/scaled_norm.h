@@ -10,16 +10,17 @@ namespace orthodyn {
 
 class ScaledNorm {
  public:
-  ScaledNorm(double rtol, const Scales& scales)
-      : position_(1 / (rtol * scales.position)), velocity_(1 / (rtol * scales.velocity)), rtol_(rtol) {}
+  // `space`: that of the model's vectors.
+  ScaledNorm(double rtol, const Scales& scales, const VectorSpace& space = {})
+      : position_(1 / (rtol * scales.position)), velocity_(1 / (rtol * scales.velocity)), rtol_(rtol), space_(space) {}
 
   double operator()(const ConstVectorRef& q, const ConstVectorRef& v) const {
-    return root_mean(position_ * q.stableNorm(), velocity_ * v.stableNorm(), q.size());
+    return root_mean(position_ * space_.stable_norm(q), velocity_ * space_.stable_norm(v), space_.size(q));
   }
   // Of q = w_q x, v = w_v x.
   double operator()(const ConstVectorRef& x, double w_q, double w_v) const {
-    const double size = x.stableNorm();
-    return root_mean(position_ * w_q * size, velocity_ * w_v * size, x.size());
+    const double size = space_.stable_norm(x);
+    return root_mean(position_ * w_q * size, velocity_ * w_v * size, space_.size(x));
   }
 
   // The root mean square of an x that has the norm `size` as q = w_q x, v = w_v x.
@@ -35,6 +36,7 @@ class ScaledNorm {
   }
 
   double position_, velocity_, rtol_;
+  VectorSpace space_;
 };
 
 }  // namespace orthodyn

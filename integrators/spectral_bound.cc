@@ -51,26 +51,29 @@ SpectralBound::SpectralBound(const Model& model) : model_(model), random_(random
 
 void SpectralBound::multiply(const double* values, const Vector& x, Vector& y) const {
   const Pattern& pattern = model_.pattern();
-  pattern.multiply(values, x, y);
+  model_.multiply_matrix(values, x, y);
   if (!pattern.symmetric) y = 0.5 * (y + pattern.matrix(values).transpose() * x).eval();
 }
 
 Vector SpectralBound::start() const {
-  if (!ritz_.size()) return random_;
-  return ritz_ / ritz_.norm() + kFreshPart * random_ / random_.norm();
+  if (!is_warm_) return random_;
+  const VectorSpace space = model_.space();
+  return ritz_ / space.norm(ritz_) + kFreshPart * random_ / space.norm(random_);
 }
 
 // Each vector is made orthogonal to the two before it alone: all of them would take more time and memory than the
 // matrix. The others stay so until an eigenvalue is known to half of the digits (Paige 1971). Where that comes before
 // kMinIterations, copies of it appear, which are not above it: the bound remains one.
 double SpectralBound::largest(const double* values) {
-  const int n = model_.num_dofs(), most = std::min(n, kMaxIterations);
+  const VectorSpace space = model_.space();
+  const int n = model_.num_dofs();
+  const int most = static_cast<int>(std::min<Eigen::Index>(model_.num_dofs_of_all(), kMaxIterations));
   Basis basis(most);
   Vector w = start(), v = Vector::Zero(n), before(n), mw(n), av(n);
   double scale = 0;  // of the eigenvalues met
   for (int k = 0;; ++k) {
     model_.multiply_mass(w, mw);
-    const double norm = std::sqrt(std::max(w.dot(mw), 0.0));
+    const double norm = std::sqrt(std::max(space.dot(w, mw), 0.0));
     if (k > 0) {
       basis.beside[k - 1] = norm;
       const auto [value, shape] = basis.largest(k);
@@ -79,6 +82,7 @@ double SpectralBound::largest(const double* values) {
       const bool converged = k >= kMinIterations && residual <= kResidual * value;
       if (converged || k == most || norm <= kBreakdown * scale) {
         ritz_ = basis.combined(shape);
+        is_warm_ = true;
         return std::max(value + residual, 0.0);
       }
     }
@@ -86,7 +90,7 @@ double SpectralBound::largest(const double* values) {
     v = w / norm;
     basis.v.push_back(v.cast<float>());
     multiply(values, v, av);
-    basis.diagonal[k] = v.dot(av);
+    basis.diagonal[k] = space.dot(v, av);
     model_.solve_mass(av);
     w = av - basis.diagonal[k] * v - norm * before;  // 0 before the first
   }

@@ -25,6 +25,7 @@ class SpectralBound {
 
   const Model& model_;
   Vector random_, ritz_;
+  bool is_warm_ = false;  // ritz_ is of an earlier call
 };
 
 }  // namespace orthodyn

@@ -68,6 +68,7 @@ class ArkodeDirkChoice : public SettableChoice<ArkodeDirkChoice>, public DirkOpt
                         "linear invariants (momentum)",
                         "Reynolds et al., ACM TOMS 49, 2023; Kennedy & Carpenter, NASA TM-2016-219173");
   }
+  bool runs_on_ranks() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     return std::make_unique<ArkodeDirk>(model, Settings::complete(*this, task), *this);
   }

@@ -27,6 +27,7 @@ class CvodeBdfChoice : public SettableChoice<CvodeBdfChoice>, public MultistepOp
                         "linear invariants (momentum); energy of oscillations is damped",
                         "Hindmarsh et al., ACM TOMS 31, 2005; Curtiss & Hirschfelder 1952");
   }
+  bool runs_on_ranks() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     return std::make_unique<CvodeBdf>(model, MultistepSettings::complete(*this, model, task));
   }

@@ -18,7 +18,7 @@ class IdaBdf : public SundialsIntegrator {
  public:
   IdaBdf(const Model& model, const MultistepSettings& settings)
       : SundialsIntegrator("ida_bdf", model, settings), max_order_(settings.max_order),
-        y_dot_(make_vector(size(), context_)), memory_(IDACreate(context_)) {
+        y_dot_(make_vector(size(), context_, model.ranks())), memory_(IDACreate(context_)) {
     if (!memory_) throw RunError("IDA could not be created");
   }
 
@@ -172,6 +172,7 @@ class IdaBdfChoice : public SettableChoice<IdaBdfChoice>, public MultistepOption
                         "linear invariants (momentum); energy of oscillations is damped",
                         "Hindmarsh et al., ACM TOMS 31, 2005; Brenan, Campbell & Petzold 1996");
   }
+  bool runs_on_ranks() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     return std::make_unique<IdaBdf>(model, MultistepSettings::complete(*this, model, task));
   }

@@ -10,12 +10,16 @@
 #include <utility>
 
 #include "lib/core/types.h"
+#include "lib/ode/vector_space.h"
 
 namespace orthodyn {
 
 class Accelerations {
  public:
   static constexpr int kMost = 3;
+
+  // `space`: that of the accelerations.
+  explicit Accelerations(const VectorSpace& space = {}) : space_(space) {}
 
   void clear() {
     count_ = 0;
@@ -69,7 +73,7 @@ class Accelerations {
     for (int used = 0; used <= count_; ++used) {
       extrapolate(t, used, guess_);
       double& miss = misses_[at(used)];
-      miss = kMemory * miss + (guess_ - a).norm();
+      miss = kMemory * miss + space_.norm(guess_ - a);
     }
   }
 
@@ -85,6 +89,7 @@ class Accelerations {
   std::array<double, kMost + 1> misses_{};
   Vector guess_;
   int count_ = 0;
+  VectorSpace space_;
 };
 
 }  // namespace orthodyn

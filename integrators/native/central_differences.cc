@@ -114,7 +114,8 @@ class CentralDifferences : public ExplicitStep {
     next_.t = h == rest ? t_stop : from.t + h;
     next_.q = from.q + h * from.v + (0.5 * h * h) * from.a;
     predicted_ = from.v + h * from.a;
-    if (!next_.q.allFinite() || !predicted_.allFinite()) fail_by_growth();
+    const VectorSpace space = model_.space();
+    if (!space.all(next_.q.allFinite() && predicted_.allFinite())) fail_by_growth();
     acceleration(next_.t, next_.q, predicted_, next_.a);
     if (has_exploded(h)) fail_by_growth();
     next_.v = from.v + (0.5 * h) * (from.a + next_.a);
@@ -123,7 +124,7 @@ class CentralDifferences : public ExplicitStep {
 
   // A wave crosses about an element in a stable step: no force moves a node by the whole body in one.
   bool has_exploded(double h) const {
-    return std::isfinite(watch_.critical()) && h * h * next_.a.lpNorm<Eigen::Infinity>() > extent_;
+    return std::isfinite(watch_.critical()) && h * h * model_.space().largest_entry(next_.a) > extent_;
   }
 
   [[noreturn]] void fail_by_growth() const {
@@ -187,6 +188,7 @@ class CentralDifferencesChoice : public SettableChoice<CentralDifferencesChoice>
                         "symplectic undamped: energy stays bounded; momentum and angular momentum exactly",
                         "Newmark 1959 (beta = 0); Verlet 1967; Hughes 1987, 9.1");
   }
+  bool runs_on_ranks() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     return std::make_unique<CentralDifferences>(model, task, *this);
   }

@@ -7,7 +7,7 @@ namespace orthodyn {
 
 Dirk::Dirk(const std::string& name, const Model& model, const NewtonOptions& options, const Scales& scales,
            DirkTable table)
-    : OneStep(name, model, options, scales), table_(std::move(table)) {
+    : OneStep(name, model, options, scales), table_(std::move(table)), past_(model.space()), tried_(past_) {
   std::vector<double> diagonals;
   for (const auto& row : table_.a) {
     const auto known = std::find(diagonals.begin(), diagonals.end(), row.back());

@@ -25,6 +25,7 @@ class GeneralizedAlphaChoice : public SettableChoice<GeneralizedAlphaChoice>, pu
     return method_facts("2", "A-stable; fast oscillations shrink to rho_inf per step", "momentum",
                         "Chung & Hulbert 1993; error estimate: Hulbert & Jang 1995");
   }
+  bool runs_on_ranks() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     return std::make_unique<AlphaMethod>("generalized_alpha", model, *this, scales(task), least_damping(rho_inf));
   }

@@ -22,6 +22,7 @@ class TrBdf2Choice : public SettableChoice<TrBdf2Choice>, public NewtonOptions {
     return method_facts("2", "L-stable", "momentum",
                         "Bank et al. 1985; Hosea & Shampine 1996, also the error estimate");
   }
+  bool runs_on_ranks() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     return std::make_unique<Dirk>("tr_bdf2", model, *this, scales(task), tr_bdf2());
   }

@@ -8,9 +8,11 @@
 #include <memory>
 #include <type_traits>
 
+#include "integrators/sundials/parallel_vector.h"
 #include "integrators/sundials/vector_operations.h"
 #include "integrators/sundials/version.h"
 #include "lib/core/errors.h"
+#include "lib/core/ranks.h"
 #include "lib/core/types.h"
 
 namespace orthodyn::sundials {
@@ -45,17 +47,20 @@ class Context {
   SUNContext context_ = nullptr;
 };
 
-inline OwnedVector make_vector(Eigen::Index size, SUNContext context) {
+// `ranks`: those that have parts of the vector, of which `size` entries are this rank's; null for one that is whole.
+inline OwnedVector make_vector(Eigen::Index size, SUNContext context, const Ranks* ranks = nullptr) {
   OwnedVector v(N_VNew_Serial(static_cast<sunindextype>(size), context));
   if (!v) throw RunError("SUNDIALS could not allocate a vector", Reason::out_of_memory);
   use_fast_operations(v.get());
+  if (ranks) v.reset(parallel_vector_like(v.get(), context));
   N_VConst(0, v.get());
   return v;
 }
 
-// All entries.
+// All entries that this process has.
 inline Eigen::Map<Vector> view(N_Vector v) {
-  return {N_VGetArrayPointer(v), static_cast<Eigen::Index>(N_VGetLength(v))};
+  const sunindextype length = v->ops->nvgetlocallength ? v->ops->nvgetlocallength(v) : N_VGetLength(v);
+  return {N_VGetArrayPointer(v), static_cast<Eigen::Index>(length)};
 }
 
 // The integrators' state is y = (q; v).

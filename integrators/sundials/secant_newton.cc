@@ -15,8 +15,9 @@ constexpr double kGivenUp = 2;       // growth of a correction at which the solv
 
 }  // namespace
 
-SecantNewton::SecantNewton(N_Vector y, SUNContext context, double least_rate)
-    : newton_(SUNNonlinSol_Newton(y, context)), solver_(SUNNonlinSolNewEmpty(context)), least_rate_(least_rate) {
+SecantNewton::SecantNewton(N_Vector y, SUNContext context, const VectorSpace& space, double least_rate)
+    : newton_(SUNNonlinSol_Newton(y, context)), solver_(SUNNonlinSolNewEmpty(context)), least_rate_(least_rate),
+      space_(space) {
   if (!newton_ || !solver_) throw RunError("SUNDIALS could not create Newton's iteration", Reason::out_of_memory);
   solver_->content = this;
   plain_.setZero(view(y).size());
@@ -121,7 +122,7 @@ int SecantNewton::test(double size, double tolerance) {
 
 void SecantNewton::improve(VectorRef d) const {
   const auto product = [&](const auto& x, const auto& y) {
-    return view(weights_).cwiseAbs2().cwiseProduct(x).dot(y);
+    return space_.sum(view(weights_).cwiseAbs2().cwiseProduct(x).dot(y));
   };
   const auto& [first, second] = effect_;
   const double a11 = product(first, first), b1 = product(first, d);

@@ -15,13 +15,15 @@
 #include <array>
 
 #include "integrators/sundials/handles.h"
+#include "lib/ode/vector_space.h"
 
 namespace orthodyn::sundials {
 
 class SecantNewton {
  public:
   // least_rate: corrections are known to shrink by this factor at best, where those of a direct solver may do better.
-  SecantNewton(N_Vector y, SUNContext context, double least_rate = 0);
+  // `space`: that of the model's vectors.
+  SecantNewton(N_Vector y, SUNContext context, const VectorSpace& space, double least_rate = 0);
   SecantNewton(const SecantNewton&) = delete;
   SecantNewton& operator=(const SecantNewton&) = delete;
 
@@ -57,6 +59,7 @@ class SecantNewton {
   double first_size_ = 0, last_size_ = 0;  // of the first and the last correction of this solve
   double first_rate_ = 1;                  // by which the first correction leaves errors, from the last solves
   double least_rate_;
+  VectorSpace space_;
   double rate_ = 1;                        // by which corrections shrink
 };
 

@@ -10,7 +10,7 @@
 namespace orthodyn::sundials {
 
 SundialsIntegrator::SundialsIntegrator(std::string name, const Model& model, const Settings& settings)
-    : model_(model), settings_(settings), y_(make_vector(size(), context_)), momentum_(model.num_dofs()),
+    : model_(model), settings_(settings), y_(make_vector(size(), context_, model.ranks())), momentum_(model.num_dofs()),
       name_(std::move(name)) {
   if (!settings.implicit) return;
   if (!model.traits().smooth && settings.options.max_newton_iterations < 2)
@@ -69,7 +69,7 @@ std::string SundialsIntegrator::cause() const {
 }
 
 void SundialsIntegrator::interpolate(double t, State& out) const {
-  const auto dense = make_vector(size(), context_);
+  const auto dense = make_vector(size(), context_, model_.ranks());
   if (dense_output(t, dense.get()) < 0)
     throw RunError(fmt::format("{} cannot interpolate at t = {:.17g} s: {}", name_, t, callback_context_.message));
   out.t = t;

@@ -23,34 +23,39 @@ Reach reach_of_supports(const FemModel& model, double start, double end) {
   constexpr int kSamples = 200;
   const auto& parts = model.parts();
   Reach reach;
-  if (!parts.moved) return reach;
-  std::vector<double> times = parts.moved->step_limits(start, end).ends();
+  const auto& everywhere = parts.subdomain ? parts.moved_everywhere : parts.moved;
+  if (!everywhere) return reach;
+  std::vector<double> times = everywhere->step_limits(start, end).ends();
   for (int k = 0; k < kSamples; ++k) times.push_back(start + (end - start) * golden_share(k));
   times.push_back(end);
   for (const double t : times) {
     NodalVector u = NodalVector::Zero(3, parts.rest->cols()), v = u;
     parts.moved->place(t, u, v);
+    if (u.cols() == 0) continue;
     reach.distance = std::max(reach.distance, u.colwise().norm().maxCoeff());
     reach.speed = std::max(reach.speed, v.colwise().norm().maxCoeff());
   }
-  return reach;
+  const VectorSpace space = model.space();
+  return {space.largest(reach.distance), space.largest(reach.speed)};
 }
 
 // Of twice the static response, what blows that end within a period leave: three times their root mean square.
-double share_reached(const StaticResponse& statics) {
-  const double deflection = statics.displacement.lpNorm<Eigen::Infinity>();
+double share_reached(const VectorSpace& space, const StaticResponse& statics) {
+  const double deflection = space.largest_entry(statics.displacement);
   return deflection > 0 ? std::min(1.0, 1.5 * statics.struck / deflection) : 1;
 }
 
 // m; 0 where it is not known. Displacements are twice those of the loads' static response, and three times the root
 // mean square of the vibrations that initial velocities or blows start.
-double size_of_motion(const State& initial, const StaticResponse& statics, const Reach& reach) {
-  const bool held_by_stiffness = statics.displacement.size() > 0;
-  const bool moves = !initial.v.isZero(0), is_moved = reach.distance > 0, is_loaded = !statics.load.isZero(0);
+double size_of_motion(const VectorSpace& space, const State& initial, const StaticResponse& statics,
+                      const Reach& reach) {
+  const bool held_by_stiffness = statics.exists();
+  const bool moves = !space.is_zero(initial.v), is_moved = reach.distance > 0;
+  const bool is_loaded = !space.is_zero(statics.load);
   if (!held_by_stiffness && (moves || is_loaded || !is_moved)) return 0;
-  const double deflection = is_loaded ? statics.displacement.cwiseAbs().maxCoeff() : 0;
-  return 2 * std::max(share_reached(statics) * deflection, reach.distance) + 3 * statics.vibration +
-         initial.q.lpNorm<Eigen::Infinity>();
+  const double deflection = is_loaded ? space.largest_entry(statics.displacement) : 0;
+  return 2 * std::max(share_reached(space, statics) * deflection, reach.distance) + 3 * statics.vibration +
+         space.largest_entry(initial.q);
 }
 
 constexpr double kLeastShare = 1e-6;  // of the extent: errors far below it are round-off
@@ -58,7 +63,7 @@ constexpr double kLeastShare = 1e-6;  // of the extent: errors far below it are 
 double contact_stiffness(const FemModel& model) {
   double largest = 0;
   for (const auto& term : model.parts().loads) largest = std::max(largest, term->contact_stiffness());
-  return largest;
+  return model.space().largest(largest);
 }
 
 }  // namespace
@@ -66,16 +71,17 @@ double contact_stiffness(const FemModel& model) {
 Scales estimate_scales(const FemModel& model, const State& initial, double end, const StaticResponse& statics) {
   const double extent = bounding_box(model.parts().mesh).size().maxCoeff();
   const double mass = model.parts().mass->total();
-  const bool at_rest = initial.q.isZero(0) && initial.v.isZero(0);
+  const VectorSpace space = model.space();
+  const bool at_rest = space.is_zero(initial.q) && space.is_zero(initial.v);
   const double energy = at_rest ? 0 : initial_energy(model, initial);  // not round-off
   if (!std::isfinite(energy)) throw ConfigError("the initial state has no finite energy; check `initial`");
-  const double reached = statics.exists() ? share_reached(statics) : 1;
+  const double reached = statics.exists() ? share_reached(space, statics) : 1;
   const double work = statics.exists()         ? reached * reached * statics.work
-                      : statics.load.isZero(0) ? 0
-                                               : extent * statics.load.lpNorm<1>();
+                      : space.is_zero(statics.load) ? 0
+                                                    : extent * space.sum_of_sizes(statics.load);
   const Reach reach = reach_of_supports(model, initial.t, end);
   Scales scales{0.1 * extent, 3 * std::sqrt(2 * (energy + work) / mass + reach.speed * reach.speed)};
-  if (const double size = size_of_motion(initial, statics, reach); size > 0 && size < scales.position) {
+  if (const double size = size_of_motion(space, initial, statics, reach); size > 0 && size < scales.position) {
     scales.omega = 2.0 / 3 * scales.velocity / size;
     scales.position = size;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "lib/core/errors.h"
 #include "lib/linear/solver.h"
@@ -20,6 +21,7 @@ Vector peak_load(const FemModel& model, const State& initial, double end, std::s
   NodalVector sum = NodalVector::Zero(3, nodal.x.cols());
   for (std::size_t k = first; k < first + count; ++k)
     model.parts().loads[k]->add_peak_force(nodal.state(), end, sum);
+  if (model.parts().subdomain) model.parts().subdomain->add_to_owners(sum);
   Vector free(model.num_dofs());
   model.parts().dofs->restrict_to(sum, free);
   return free;
@@ -33,6 +35,8 @@ Vector impulse(const FemModel& model, const State& initial, double end) {
   return sum;
 }
 
+constexpr double kAccuracy = 1e-5;  // of an iterative solver, in energy
+
 // K at rest, factored; null where it is singular or nearly so, or does not fit: who needs no factor is to run.
 std::unique_ptr<LinearSolver> factored_stiffness(const FemModel& model, std::vector<double>& values) try {
   const Vector zero = Vector::Zero(model.num_dofs());
@@ -40,19 +44,31 @@ std::unique_ptr<LinearSolver> factored_stiffness(const FemModel& model, std::vec
   model.linearize(0, zero, zero, TangentKind::gauss_newton, at);
   values.resize(at.stiffness.size());
   model.combine({0, 0, 1}, at, values.data());
-  auto solver = make_solver_for(model.pattern());
+  auto solver = make_linear_solver({model.pattern().symmetric ? "auto" : "klu"});
+  solver->analyze(model.pattern());
+  if (solver->is_iterative()) {
+    solver->set_tolerance({kAccuracy, 0});
+    solver->set_rigid_motions(model.rigid_motions(zero));
+  }
   return solver->factor(values.data()) == FactorStatus::ok ? std::move(solver) : nullptr;
 } catch (const RunError& e) {
   if (e.reason() == Reason::out_of_memory) return nullptr;
   throw;
 }
 
-// Empty where round-off decides.
-Vector solution(LinearSolver& solver, const Pattern& pattern, const std::vector<double>& values, const Vector& b) {
+// None where round-off decides.
+std::optional<Vector> solution(LinearSolver& solver, const FemModel& model, const std::vector<double>& values,
+                               const Vector& b) try {
+  const VectorSpace space = model.space();
   Vector x(b.size()), Kx(b.size());
   solver.solve(b, x);
-  pattern.multiply(values.data(), x, Kx);
-  return x.allFinite() && (Kx - b).norm() <= 1e-3 * b.norm() ? x : Vector();
+  model.multiply_matrix(values.data(), x, Kx);
+  if (!space.is_finite(x)) return std::nullopt;
+  // An iterative solver has looked at the error, which is small where the residual is not.
+  if (solver.is_iterative() || space.norm(Kx - b) <= 1e-3 * space.norm(b)) return x;
+  return std::nullopt;
+} catch (const RecoverableError&) {  // of an iterative solver
+  return std::nullopt;
 }
 
 }  // namespace
@@ -69,7 +85,7 @@ std::vector<Vector> static_displacements(const FemModel& model, const std::vecto
   const auto solver = factored_stiffness(model, values);
   std::vector<Vector> out;
   for (const Vector& load : loads)
-    out.push_back(solver ? solution(*solver, model.pattern(), values, load) : Vector());
+    out.push_back(solver ? solution(*solver, model, values, load).value_or(Vector()) : Vector());
   return out;
 }
 
@@ -79,23 +95,28 @@ StaticResponse static_response(const FemModel& model, const State& initial, doub
   Vector momentum(load.size());
   model.multiply_mass(initial.v, momentum);
   // Nothing to respond to; or velocities alone, of a body that nothing holds or that is too large for a scale's sake.
-  const bool is_free = model.num_dofs() == 3 * model.parts().dofs->num_nodes();
-  if (load.isZero(0) && (momentum.isZero(0) || is_free || model.num_dofs() > kLargestForVelocities)) return response;
+  const VectorSpace space = model.space();
+  const Eigen::Index unknowns = model.num_dofs_of_all();
+  const bool is_free = unknowns == 3 * static_cast<Eigen::Index>(model.parts().mesh.nodes.size());
+  if (space.is_zero(load) && (space.is_zero(momentum) || is_free || unknowns > kLargestForVelocities)) return response;
   std::vector<double> values;
   const auto solver = factored_stiffness(model, values);
   if (!solver) return response;
-  const auto solve = [&](const Vector& b) { return solution(*solver, model.pattern(), values, b); };
-  Vector u = solve(load), w = solve(momentum);
-  if (u.size() == 0 || w.size() == 0) return response;
-  response.work = u.dot(load);
-  response.displacement = std::move(u);
+  const auto solve = [&](const Vector& b) { return solution(*solver, model, values, b); };
+  std::optional<Vector> u = solve(load);
+  const std::optional<Vector> w = solve(momentum);
+  if (!u || !w) return response;
+  response.work = space.dot(*u, load);
+  response.displacement = std::move(*u);
+  response.known = true;
   // Modes of frequency omega start with v and reach v/omega: the sum of (M v)^2/omega^2 is p K^-1 p.
   const auto amplitude = [&](const Vector& p, const Vector& response_to_p) {
-    return std::sqrt(std::max(response_to_p.dot(p), 0.0) / model.parts().mass->total());
+    return std::sqrt(std::max(space.dot(response_to_p, p), 0.0) / model.parts().mass->total());
   };
-  response.vibration = amplitude(momentum, w);
-  const Vector blow = impulse(model, initial, end), after = solve(blow);
-  response.struck = after.size() > 0 ? amplitude(blow, after) : std::numeric_limits<double>::infinity();
+  response.vibration = amplitude(momentum, *w);
+  const Vector blow = impulse(model, initial, end);
+  const std::optional<Vector> after = solve(blow);
+  response.struck = after ? amplitude(blow, *after) : std::numeric_limits<double>::infinity();
   return response;
 }
 

@@ -16,7 +16,8 @@ struct StaticResponse {
   double struck = 0;     // m, likewise, that the impulses of all loads would start if they came at once: blows that end
                          // within a period leave no more
 
-  bool exists() const { return displacement.size() > 0; }
+  bool exists() const { return known; }
+  bool known = false;    // whether there is a displacement; of several ranks some may have no unknowns
 };
 
 // From the initial state to the time `end`, s.

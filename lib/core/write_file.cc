@@ -13,6 +13,13 @@
 
 namespace orthodyn {
 
+namespace {
+bool leaves_files_to_others = false;
+}
+
+bool writes_files() { return !leaves_files_to_others; }
+void leave_files_to_others() { leaves_files_to_others = true; }
+
 void fail_to_write(const std::filesystem::path& path) {
   throw RunError(fmt::format("cannot write {}: {}; free some space or choose another folder with --out",
                              path.string(), std::strerror(errno)),
@@ -30,6 +37,7 @@ void write_in_place(const std::filesystem::path& path, const std::vector<std::st
 }
 
 void write_whole_file(const std::filesystem::path& path, const std::vector<std::string>& parts, bool lasting) {
+  if (!writes_files()) return;
   std::error_code ec;
   const auto kind = std::filesystem::status(path, ec).type();
   if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found)
@@ -54,6 +62,7 @@ void write_whole_file(const std::filesystem::path& path, const std::vector<std::
 }  // namespace
 
 void make_folder_of(const std::filesystem::path& path) {
+  if (!writes_files()) return;
   std::error_code ec;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ec);
   errno = ec.value();
@@ -69,6 +78,7 @@ void write_lasting_file(const std::filesystem::path& path, const std::vector<std
 }
 
 void make_lasting(const std::filesystem::path& path) {
+  if (!writes_files()) return;
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) fail_to_write(path);
   const int status = ::fsync(file);

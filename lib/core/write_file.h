@@ -7,6 +7,11 @@
 
 namespace orthodyn {
 
+// Whether this process writes its results. Of several ranks one does, and the others leave all files to it: whatever
+// would change a file then does nothing.
+bool writes_files();
+void leave_files_to_others();
+
 // Writes the parts one after the other. To a neighbouring name first, then renamed: the file is
 // whole or absent. Its folder is made. Devices and pipes are written to as they are.
 void write_file(const std::filesystem::path& path, const std::vector<std::string>& parts);

@@ -50,7 +50,7 @@ class BatchLoops {
     return total;
   }
 
-  // The batch of the smallest of_batch(batch), and that.
+  // The batch of the smallest of_batch(batch), and that; -1 without elements.
   struct Smallest {
     double value;
     int batch;
@@ -62,6 +62,7 @@ class BatchLoops {
       in_group(group, [&](int b) { least = std::min(least, of_batch(b)); });
       return least;
     };
+    if (size_ == 0) return {std::numeric_limits<double>::infinity(), -1};
     const std::vector<double> all = groups_.of_each(of_group);
     const auto least = std::min_element(all.begin(), all.end());
     int batch = -1;

@@ -39,6 +39,7 @@ class Neighbours {
     for (const auto& [a, b] : further) {
       if (!lower || a >= b) f(a, b);
       if (!lower || b >= a) f(b, a);
+      f(a, a), f(b, b);  // a copy of another rank's node has no cell here
     }
   }
 
@@ -59,7 +60,7 @@ class Neighbours {
 
 BlockPattern::BlockPattern(const Cells& cells, const DofMap& dofs, bool symmetric, const NodePairs& further)
     : dofs_(dofs) {
-  pattern_.n = dofs.num_dofs();
+  pattern_.n = dofs.num_dofs_here();
   pattern_.symmetric = symmetric;
   pattern_.column_start.push_back(0);
   const Neighbours neighbours(cells, further, dofs.num_nodes(), symmetric);

@@ -20,6 +20,8 @@ class BlockPattern {
   BlockPattern(const Cells& cells, const DofMap& dofs, bool symmetric, const NodePairs& further = {});
 
   const Pattern& pattern() const { return pattern_; }
+  // Makes it one of those of several ranks.
+  void set_share(PatternShare share) { pattern_.share = std::make_shared<const PatternShare>(std::move(share)); }
   bool symmetric() const { return pattern_.symmetric; }
 
   // Where node a's rows begin in the first column of node b, relative to that column's start.

@@ -2,23 +2,37 @@
 
 namespace orthodyn {
 
-DofMap::DofMap(int num_nodes, const std::vector<bool>& clamped)
-    : dof_(static_cast<std::size_t>(num_nodes)) {
+DofMap::DofMap(int num_nodes, const std::vector<bool>& clamped, int owned)
+    : dof_(static_cast<std::size_t>(num_nodes)), num_owned_nodes_(owned) {
   std::size_t coordinate = 0;
-  for (auto& node : dof_)
-    for (int& dof : node) dof = clamped[coordinate++] ? -1 : num_dofs_++;
+  for (int i = 0; i < num_nodes; ++i) {
+    for (int& dof : dof_[static_cast<std::size_t>(i)]) dof = clamped[coordinate++] ? -1 : num_dofs_here_++;
+    if (i < owned) num_dofs_ = num_dofs_here_;
+  }
+}
+
+// visit(coordinate, node, unknown) for the unknowns of the first `nodes` nodes.
+template <class Visit>
+void DofMap::for_each(int nodes, Visit&& visit) const {
+  for (int i = 0; i < nodes; ++i)
+    for (int k = 0; k < 3; ++k)
+      if (const int j = node(i)[static_cast<std::size_t>(k)]; j >= 0) visit(k, i, j);
 }
 
 void DofMap::add_to(const ConstVectorRef& dofs, NodalVector& out) const {
-  for (int i = 0; i < num_nodes(); ++i)
-    for (int k = 0; k < 3; ++k)
-      if (const int j = node(i)[static_cast<std::size_t>(k)]; j >= 0) out(k, i) += dofs[j];
+  for_each(num_owned_nodes_, [&](int k, int i, int j) { out(k, i) += dofs[j]; });
 }
 
 void DofMap::restrict_to(const NodalVector& nodal, VectorRef dofs) const {
-  for (int i = 0; i < num_nodes(); ++i)
-    for (int k = 0; k < 3; ++k)
-      if (const int j = node(i)[static_cast<std::size_t>(k)]; j >= 0) dofs[j] = nodal(k, i);
+  for_each(num_owned_nodes_, [&](int k, int i, int j) { dofs[j] = nodal(k, i); });
+}
+
+void DofMap::add_here_to(const ConstVectorRef& dofs, NodalVector& out) const {
+  for_each(num_nodes(), [&](int k, int i, int j) { out(k, i) += dofs[j]; });
+}
+
+void DofMap::restrict_here_to(const NodalVector& nodal, VectorRef dofs) const {
+  for_each(num_nodes(), [&](int k, int i, int j) { dofs[j] = nodal(k, i); });
 }
 
 }  // namespace orthodyn

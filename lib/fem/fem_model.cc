@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "lib/core/parallel.h"
 #include "lib/fem/mean_force.h"
@@ -10,12 +11,16 @@
 
 namespace orthodyn {
 
-NodalExpansion::NodalExpansion(const FemModel::Parts& parts, double time, const ConstVectorRef& q,
+NodalExpansion::NodalExpansion(const FemModel::Parts& parts, double at_time, const ConstVectorRef& q,
                                const ConstVectorRef& v)
-    : time(time), t(parts.loads_at.value_or(time)), u(NodalVector::Zero(3, parts.rest->cols())), u_rate(u) {
+    : time(at_time), t(parts.loads_at.value_or(at_time)), u(NodalVector::Zero(3, parts.rest->cols())), u_rate(u) {
   parts.dofs->add_to(q, u);
   parts.dofs->add_to(v, u_rate);
-  if (parts.moved) parts.moved->place(time, u, u_rate);
+  if (parts.subdomain) {
+    parts.subdomain->copy_from_owners(u);
+    parts.subdomain->copy_from_owners(u_rate);
+  }
+  if (parts.moved) parts.moved->place(at_time, u, u_rate);
   x = *parts.rest + u;
 }
 
@@ -27,19 +32,58 @@ void for_each_term(const FemModel::Parts& parts, F&& f) {
   for (const auto& term : parts.loads) f(static_cast<const Term&>(*term));
 }
 
+// What throws RecoverableError on some ranks then throws it on all.
+template <class Compute>
+void on_all_ranks(const FemModel::Parts& parts, Compute&& compute) {
+  if (!parts.subdomain) return compute();
+  std::string trouble;
+  try {
+    compute();
+  } catch (const RecoverableError& e) {
+    trouble = e.what();
+  }
+  parts.subdomain->agree(trouble);
+}
+
 }  // namespace
 
 FemModel::FemModel(Parts parts) : parts_(std::move(parts)) {
-  parts_.recovery = std::make_unique<StressRecovery>(parts_.mesh, parts_.elastic);
+  parts_.recovery = std::make_unique<StressRecovery>(parts_.mesh, parts_.elastic, parts_.subdomain.get());
+  if (parts_.subdomain) return;
   const auto has_energy = [](const auto& term) { return term->has_energy(); };
   const bool pulled = supports_pull(parts_);  // which has no energy
   if (!pulled && std::all_of(parts_.elastic.begin(), parts_.elastic.end(), has_energy))
     mean_force_ = std::make_unique<MeanForce>(parts_);
 }
 
+std::vector<const Term*> all_terms(const FemModel::Parts& parts) {
+  std::vector<const Term*> terms;
+  for_each_term(parts, [&](const Term& term) { terms.push_back(&term); });
+  return terms;
+}
+
+std::vector<std::string> term_descriptions(const FemModel::Parts& parts) {
+  std::vector<std::string> all;
+  for (const auto& term : parts.elastic) all.push_back(term->description());
+  if (parts.subdomain) all.insert(all.end(), parts.load_descriptions.begin(), parts.load_descriptions.end());
+  else
+    for (const auto& term : parts.loads) all.push_back(term->description());
+  return all;
+}
+
 NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& nodal) {
+  return term_forces(parts, nodal, all_terms(parts));
+}
+
+NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& nodal,
+                        const std::vector<const Term*>& some) {
   NodalVector sum = NodalVector::Zero(3, nodal.x.cols());
-  for_each_term(parts, [&](const Term& term) { term.add_force(nodal.state(), sum); });
+  on_all_ranks(parts, [&] {
+    for (const Term* term : some) term->add_force(nodal.state(), sum);
+    if (parts.subdomain && !(sum.allFinite() && nodal.u_rate.allFinite()))
+      throw RecoverableError("the force is not finite");
+  });
+  if (parts.subdomain) parts.subdomain->add_to_owners(sum);
   return sum;
 }
 
@@ -85,9 +129,11 @@ void FemModel::assemble(double t, const ConstVectorRef& q, const ConstVectorRef&
   const NodalExpansion nodal(parts_, t, q, v);
   out.stiffness.assign(size, 0);
   if (parts_.traits.damping_matrix) out.damping.assign(size, 0);
-  for_each_term(parts_, [&](const Term& term) {
-    term.add_tangent(nodal.state(), kind, out.stiffness.data(),
-                     parts_.traits.damping_matrix ? out.damping.data() : nullptr);
+  on_all_ranks(parts_, [&] {
+    for_each_term(parts_, [&](const Term& term) {
+      term.add_tangent(nodal.state(), kind, out.stiffness.data(),
+                       parts_.traits.damping_matrix ? out.damping.data() : nullptr);
+    });
   });
 }
 
@@ -96,8 +142,10 @@ void FemModel::assemble_mixed(double t_before, const ConstVectorRef& q_before, d
   const Vector still = Vector::Zero(q.size());
   const NodalExpansion before(parts_, t_before, q_before, still), nodal(parts_, t, q, still);
   out.stiffness.assign(parts_.pattern->pattern().row.size(), 0);
-  for_each_term(parts_, [&](const Term& term) {
-    term.add_mixed_tangent(before.state(), nodal.state(), out.stiffness.data());
+  on_all_ranks(parts_, [&] {
+    for_each_term(parts_, [&](const Term& term) {
+      term.add_mixed_tangent(before.state(), nodal.state(), out.stiffness.data());
+    });
   });
 }
 
@@ -113,12 +161,56 @@ void FemModel::combine(const Weights& w, const Linearization& at, double* values
   if (const double m = w.mass + w.damping * parts_.mass_damping; m != 0) parts_.mass->add_to(m, values);
 }
 
+void FemModel::multiply_matrix(const double* values, const ConstVectorRef& x, VectorRef y) const {
+  if (!parts_.subdomain) return pattern().multiply(values, x, y);
+  const DofMap& dofs = *parts_.dofs;
+  NodalVector nodal = NodalVector::Zero(3, dofs.num_nodes());
+  dofs.add_to(x, nodal);
+  parts_.subdomain->copy_from_owners(nodal);
+  Vector in(dofs.num_dofs_here()), out(dofs.num_dofs_here());
+  dofs.restrict_here_to(nodal, in);
+  pattern().multiply(values, in, out);
+  nodal.setZero();
+  dofs.add_here_to(out, nodal);
+  parts_.subdomain->add_to_owners(nodal);
+  dofs.restrict_to(nodal, y);
+}
+
+Eigen::Index FemModel::num_dofs_of_all() const {
+  return parts_.subdomain ? static_cast<Eigen::Index>(pattern().share->unknowns) : num_dofs();
+}
+
+namespace {
+
+Vector whole_vector(const FemModel& model, const Vector& part) {
+  const std::vector<int>& unknowns = model.parts().unknowns;
+  Vector all = Vector::Zero(model.num_dofs_of_all());
+  all(unknowns) = part;
+  model.ranks()->sum({all.data(), static_cast<std::size_t>(all.size())});
+  return all;
+}
+
+}  // namespace
+
+State FemModel::whole(const State& state) const {
+  if (!parts_.subdomain) return state;
+  return {state.t, whole_vector(*this, state.q), whole_vector(*this, state.v)};
+}
+
+State FemModel::part(const State& whole) const {
+  if (!parts_.subdomain) return whole;
+  return {whole.t, whole.q(parts_.unknowns), whole.v(parts_.unknowns)};
+}
+
 // About the middle of the nodes, turns in units of the body's size: columns of like length.
 Eigen::MatrixXd FemModel::rigid_motions(const ConstVectorRef& q) const {
   NodalVector x = *parts_.rest;
   parts_.dofs->add_to(q, x);
-  x.colwise() -= Vec3(x.rowwise().mean());
-  const double size = std::max(x.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+  const auto own = x.leftCols(parts_.dofs->num_owned_nodes());
+  Eigen::Vector4d sums(own.row(0).sum(), own.row(1).sum(), own.row(2).sum(), static_cast<double>(own.cols()));
+  if (ranks()) ranks()->sum({sums.data(), 4});
+  x.colwise() -= Vec3(sums.head<3>() / sums[3]);
+  const double size = std::max(space().largest_entry(own.reshaped()), std::numeric_limits<double>::min());
   Eigen::MatrixXd motions(num_dofs(), 6);
   for (int k = 0; k < 3; ++k) {
     NodalVector shift = NodalVector::Zero(3, x.cols()), turn(3, x.cols());
@@ -138,8 +230,16 @@ double FemModel::frequency_bound() const {
     largest = std::max(largest, parts_.elastic[k]->max_frequency_squared(parts_.densities[k]));
   Vector row_sums = Vector::Zero(parts_.mass->nodal().size());
   for (const auto& term : parts_.loads) term->add_stiffness_bound(row_sums);
-  largest += row_sums.cwiseQuotient(parts_.mass->nodal()).maxCoeff();
+  largest = space().largest(largest) + largest_quotient(parts_, std::move(row_sums));
   return std::sqrt(parts_.mass->frequency_excess() * largest);
+}
+
+double largest_quotient(const FemModel::Parts& parts, Vector row_sums) {
+  if (!parts.subdomain) return row_sums.cwiseQuotient(parts.mass->nodal()).maxCoeff();
+  parts.subdomain->add_to_owners(row_sums);
+  const Eigen::Index own = parts.dofs->num_owned_nodes();
+  const auto quotients = row_sums.head(own).cwiseQuotient(parts.mass->nodal().head(own));
+  return parts.subdomain->ranks().max(own > 0 ? quotients.maxCoeff() : 0);
 }
 
 std::vector<std::string> FemModel::force_parts() const { return part_names(parts_); }
@@ -166,7 +266,8 @@ std::vector<double> FemModel::breakpoints(double start, double end) const {
 StepLimits FemModel::step_limits(double start, double end) const {
   StepLimits limits;
   for_each_term(parts_, [&](const Term& term) { limits.add(term.step_limits(start, end)); });
-  if (parts_.moved) limits.add(parts_.moved->step_limits(start, end));
+  const auto& moved = parts_.subdomain ? parts_.moved_everywhere : parts_.moved;
+  if (moved) limits.add(moved->step_limits(start, end));
   return limits;
 }
 

@@ -10,6 +10,7 @@
 #include "lib/fem/nodal_fields.h"
 #include "lib/fem/reactions.h"
 #include "lib/fem/fem_state_view.h"
+#include "lib/fem/whole_fields.h"
 
 namespace orthodyn {
 
@@ -18,9 +19,14 @@ namespace {
 using View = FemStateView;
 using Values = std::vector<double>;
 
+// What the values of several ranks make together. Of `smallest` and `largest` the second one, where there is one, tells
+// where the first one is; `same`: all ranks have them.
+enum class Together { sum, smallest, largest, same };
+
 struct Output {
   OutputInfo info;
   std::function<Values(const View&)> compute;
+  Together together = Together::sum;
 };
 
 template <class M>
@@ -56,7 +62,8 @@ Output at_nodes(const TensorField& tensor, int region = kAllRegions) {
            fmt::format("{}. Recovered at the nodes.", tensor.sentence), tensor.components},
           [&tensor, region](const View& view) {
             return tensor_at_nodes(*view.parts().recovery, view.state(), tensor, region);
-          }};
+          },
+          Together::same};
 }
 
 Output at_nodes(const DerivedField& derived, int region = kAllRegions) {
@@ -64,7 +71,8 @@ Output at_nodes(const DerivedField& derived, int region = kAllRegions) {
   return {{derived.name, Location::node, count, derived.unit, derived.sentence, derived.components},
           [&derived, region](const View& view) {
             return derived_at_nodes(*view.parts().recovery, view.parts().elastic, view.state(), derived, region);
-          }};
+          },
+          Together::same};
 }
 
 // Of stress and strain at the nodes of one region, or of all.
@@ -140,7 +148,7 @@ double imbalance(const View& view) {
   NodalVector forces = NodalVector::Zero(3, nodal.x.cols());
   parts.dofs->add_to(free, forces);
   if (!forces.allFinite()) return std::numeric_limits<double>::quiet_NaN();
-  return std::sqrt(forces.colwise().squaredNorm().maxCoeff());
+  return forces.cols() > 0 ? std::sqrt(forces.colwise().squaredNorm().maxCoeff()) : 0;
 }
 
 Values smallest_det_f(const View& view) {
@@ -152,14 +160,17 @@ Values smallest_det_f(const View& view) {
 }
 
 Values largest_speed(const View& view) {
+  const auto& subdomain = view.parts().subdomain;
+  const NodalVector& v = view.nodal().u_rate;
+  if (v.cols() == 0) return {0, 0};
   Eigen::Index node = 0;
-  const double speed = std::sqrt(view.nodal().u_rate.colwise().squaredNorm().maxCoeff(&node));
-  return {speed, static_cast<double>(node)};
+  const double speed = std::sqrt(v.colwise().squaredNorm().maxCoeff(&node));
+  return {speed, static_cast<double>(subdomain ? subdomain->nodes()[static_cast<std::size_t>(node)] : node)};
 }
 
 Output scalar(const std::string& name, const std::string& unit, const std::string& sentence,
-              const std::function<double(const View&)>& f) {
-  return {{name, Location::global, 1, unit, sentence}, [f](const View& view) { return Values{f(view)}; }};
+              const std::function<double(const View&)>& f, Together together = Together::sum) {
+  return {{name, Location::global, 1, unit, sentence}, [f](const View& view) { return Values{f(view)}; }, together};
 }
 
 const std::vector<std::string>& axis_names() {
@@ -175,7 +186,9 @@ std::vector<Output> make_outputs() {
       {{"region", Location::cell, 1, "1", "Index of the region."},
        [](const View& view) {
          const auto& regions = view.parts().mesh.region_of;
-         return Values(regions.begin(), regions.end());
+         return per_cell(view, 1, [&](const ElasticTerm& term, int k, double* out) {
+           *out = regions[static_cast<std::size_t>(term.cell(k))];
+         });
        }},
       {{"det_f", Location::cell, 1, "1", "Volume ratio det F; not positive where inverted."},
        [](const View& view) {
@@ -199,10 +212,11 @@ std::vector<Output> make_outputs() {
       scalar("power.dissipated", "W", "Power taken by damping.", dissipated_power),
       scalar("power.loads", "W", "Power of loads and of moved supports.", load_power),
       scalar("imbalance", "N", "The largest force on a node, were the body at rest in this shape; 0 in equilibrium.",
-             imbalance),
+             imbalance, Together::largest),
       {{"det_f.smallest", Location::global, 2, "1", "The smallest det F, and the element that has it."},
-       smallest_det_f},
-      {{"speed.largest", Location::global, 2, "m/s", "The largest speed, and the node that has it."}, largest_speed},
+       smallest_det_f, Together::smallest},
+      {{"speed.largest", Location::global, 2, "m/s", "The largest speed, and the node that has it."}, largest_speed,
+       Together::largest},
       {{"momentum.linear", Location::global, 3, "kg m/s",
         "Linear momentum of the free coordinates, and of moved ones."},
        [](const View& view) { return flat(Vec3(view.momentum().rowwise().sum())); }},
@@ -233,7 +247,8 @@ std::vector<Output> reaction_outputs(const std::vector<Support>& supports) {
     out.push_back({{"torque." + support.name, Location::global, 3, "N m", "Its torque about the middle of the nodes.",
                     axis_names()},
                    [&support](const View& view) {
-                     return flat(reaction_torque(support, view.support_forces(), view.nodal().x));
+                     return flat(reaction_torque(support, view.support_forces(), view.nodal().x,
+                                                 view.parts().subdomain.get()));
                    }});
   }
   return out;
@@ -279,11 +294,43 @@ std::vector<OutputInfo> region_fields() {
   return infos;
 }
 
+namespace {
+
+// NaN of one rank is that of all.
+Values extreme_of_ranks(const Ranks& ranks, Values here, double sign) {
+  if (ranks.any(std::isnan(here[0]))) {
+    here[0] = std::numeric_limits<double>::quiet_NaN();
+    return here;
+  }
+  const double extreme = ranks.max(sign * here[0]);
+  if (here.size() > 1) here[1] = -ranks.max(sign * here[0] == extreme ? -here[1] : -1e300);  // the first place
+  here[0] = sign * extreme;
+  return here;
+}
+
+Values of_all_ranks(const FemModel::Parts& parts, const Output& output, Values here) {
+  const Ranks& ranks = parts.subdomain->ranks();
+  if (output.together == Together::same) return here;
+  if (output.together == Together::smallest) return extreme_of_ranks(ranks, std::move(here), -1);
+  if (output.together == Together::largest) return extreme_of_ranks(ranks, std::move(here), 1);
+  if (output.info.location == Location::node)
+    return on_all_nodes(*parts.subdomain, here, static_cast<std::size_t>(output.info.components),
+                        parts.mesh.nodes.size());
+  ranks.sum(here);
+  return here;
+}
+
+}  // namespace
+
 std::vector<double> FemStateView::evaluate(const std::string& name) const {
+  const auto evaluated = [&](const Output& output) {
+    Values here = output.compute(*this);
+    return parts_.subdomain ? of_all_ranks(parts_, output, std::move(here)) : here;
+  };
   for (const auto& output : all_outputs())
-    if (output.info.name == name) return output.compute(*this);
+    if (output.info.name == name) return evaluated(output);
   for (const auto& output : reaction_outputs(parts_.supports))
-    if (output.info.name == name) return output.compute(*this);
+    if (output.info.name == name) return evaluated(output);
   return evaluate_in_region(*this, name);
 }
 

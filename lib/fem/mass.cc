@@ -5,7 +5,7 @@
 namespace orthodyn {
 
 Mass::Mass(MassKind kind, const ElementMesh& mesh, const std::vector<double>& density, const DofMap& dofs,
-           const BlockPattern& pattern)
+           const BlockPattern& pattern, const Subdomain* subdomain)
     : kind_(kind), pattern_(pattern.pattern()), nodal_(Vector::Zero(dofs.num_nodes())),
       frequency_excess_(kind == MassKind::lumped ? 1 : mesh.type.lumped_to_consistent()) {
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
@@ -13,6 +13,8 @@ Mass::Mass(MassKind kind, const ElementMesh& mesh, const std::vector<double>& de
     Eigen::Index a = 0;
     for (const int node : mesh.cells[e]) nodal_[node] += masses[a++];
   }
+  if (subdomain) subdomain->add_to_owners(nodal_);
+  total_ = subdomain ? subdomain->ranks().sum(nodal_.sum()) : nodal_.sum();
   if (kind == MassKind::lumped) {
     diagonal_.resize(dofs.num_dofs());
     const NodalVector all = Vec3::Ones() * nodal_.transpose();
@@ -73,7 +75,7 @@ void Mass::add_to(double factor, double* values) const {
     for (std::size_t k = 0; k < values_.size(); ++k) values[k] += factor * values_[k];
     return;
   }
-  for (int j = 0; j < pattern_.n; ++j) {
+  for (int j = 0; j < static_cast<int>(diagonal_.size()); ++j) {
     auto at = static_cast<std::size_t>(pattern_.column_start[static_cast<std::size_t>(j)]);
     if (!pattern_.symmetric) while (pattern_.row[at] != j) ++at;
     values[at] += factor * diagonal_[j];

@@ -11,6 +11,7 @@
 
 #include "lib/fem/block_pattern.h"
 #include "lib/fem/element_mesh.h"
+#include "lib/fem/subdomain.h"
 #include "lib/linear/solver.h"
 
 namespace orthodyn {
@@ -20,14 +21,15 @@ enum class MassKind { lumped, consistent };
 class Mass {
  public:
   // density[cell] in kg/m^3. `pattern` must outlive the mass; `dofs` need not.
+  // `subdomain`: of a lumped mass of which several ranks have parts; else null.
   Mass(MassKind kind, const ElementMesh& mesh, const std::vector<double>& density, const DofMap& dofs,
-       const BlockPattern& pattern);
+       const BlockPattern& pattern, const Subdomain* subdomain = nullptr);
   ~Mass();
 
   bool lumped() const { return kind_ == MassKind::lumped; }
   // kg, clamped nodes included.
-  double total() const { return nodal_.sum(); }
-  // The lumped masses of all nodes, kg, for either kind.
+  double total() const { return total_; }
+  // The lumped masses of all nodes, kg, for either kind; 0 of copies of other ranks' nodes.
   const Vector& nodal() const { return nodal_; }
   // The row sums of the whole mass matrix, kg: what a uniform acceleration of all nodes takes. Those of a consistent
   // mass may be negative.
@@ -51,7 +53,7 @@ class Mass {
   MassKind kind_;
   const Pattern& pattern_;
   Vector nodal_;
-  double frequency_excess_;
+  double total_ = 0, frequency_excess_;
   Vector diagonal_;             // lumped
   Vector row_sums_;             // consistent
   std::vector<double> values_;  // consistent

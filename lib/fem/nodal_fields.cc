@@ -90,8 +90,7 @@ const std::vector<DerivedField>& derived_fields() {
 
 std::vector<double> tensor_at_nodes(const StressRecovery& recovery, const NodalState& s, const TensorField& tensor,
                                     int region) {
-  const auto nodes = static_cast<std::size_t>(s.x.cols());
-  std::vector<double> out(6 * nodes, region < 0 ? 0 : kNone);
+  std::vector<double> out(6 * recovery.num_nodes(), region < 0 ? 0 : kNone);
   if (region < 0) {
     const auto all = recovery.at_nodes(s, tensor);
     std::copy(all.data(), all.data() + all.size(), out.begin());
@@ -106,7 +105,7 @@ std::vector<double> tensor_at_nodes(const StressRecovery& recovery, const NodalS
 std::vector<double> derived_at_nodes(const StressRecovery& recovery, const StressRecovery::Terms& terms,
                                      const NodalState& s, const DerivedField& derived, int region) {
   const std::size_t count = std::max<std::size_t>(derived.components.size(), 1);
-  std::vector<double> out(count * static_cast<std::size_t>(s.x.cols()), kNone);
+  std::vector<double> out(count * recovery.num_nodes(), kNone);
   const auto add = [&](std::size_t r) {
     for_each_node(recovery, s, tensor_of(derived), r, [&](std::size_t node, const Vec6& tensor) {
       const auto values = derived.of(tensor, terms[r]->definition());

@@ -10,13 +10,6 @@ namespace {
 const char* const kMassDamping = "mass damping";
 const char* const kSupportPull = "pull of moved supports";
 
-std::vector<const Term*> all_terms(const FemModel::Parts& parts) {
-  std::vector<const Term*> terms;
-  for (const auto& term : parts.elastic) terms.push_back(term.get());
-  for (const auto& term : parts.loads) terms.push_back(term.get());
-  return terms;
-}
-
 std::vector<std::string> term_names(const std::vector<const Term*>& terms) {
   std::vector<std::string> names;
   for (const Term* term : terms) {
@@ -53,9 +46,7 @@ PartModel::PartModel(const FemModel& whole, const std::vector<std::string>& name
 
 void PartModel::force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const {
   const NodalExpansion nodal(whole_.parts(), t, q, v);
-  NodalVector sum = NodalVector::Zero(3, nodal.x.cols());
-  for (const Term* term : terms_) term->add_force(nodal.state(), sum);
-  whole_.parts().dofs->restrict_to(sum, f);
+  whole_.parts().dofs->restrict_to(term_forces(whole_.parts(), nodal, terms_), f);
   if (mass_damping_) add_mass_damping(whole_.parts(), nodal, v, f);
   if (support_pull_) add_support_pull(whole_.parts(), nodal, f);
 }
@@ -83,7 +74,7 @@ double PartModel::frequency_bound() const {
   const Mass& mass = *whole_.parts().mass;
   Vector row_sums = Vector::Zero(mass.nodal().size());
   for (const Term* term : terms_) term->add_stiffness_bound(row_sums);
-  return std::sqrt(mass.frequency_excess() * row_sums.cwiseQuotient(mass.nodal()).maxCoeff());
+  return std::sqrt(mass.frequency_excess() * largest_quotient(whole_.parts(), std::move(row_sums)));
 }
 
 std::vector<double> PartModel::breakpoints(double start, double end) const { return whole_.breakpoints(start, end); }

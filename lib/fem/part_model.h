@@ -19,10 +19,15 @@ class PartModel : public Model {
   PartModel(const FemModel& whole, const std::vector<std::string>& names);
 
   int num_dofs() const override { return whole_.num_dofs(); }
+  const Ranks* ranks() const override { return whole_.ranks(); }
+  Eigen::Index num_dofs_of_all() const override { return whole_.num_dofs_of_all(); }
   const Traits& traits() const override { return whole_.traits(); }
   void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override;
   const Pattern& pattern() const override { return whole_.pattern(); }
   void combine(const Weights& w, const Linearization& at, double* values) const override;
+  void multiply_matrix(const double* values, const ConstVectorRef& x, VectorRef y) const override {
+    whole_.multiply_matrix(values, x, y);
+  }
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { whole_.multiply_mass(x, y); }
   void solve_mass(VectorRef x) const override { whole_.solve_mass(x); }
   Eigen::MatrixXd rigid_motions(const ConstVectorRef& q) const override { return whole_.rigid_motions(q); }

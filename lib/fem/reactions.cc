@@ -37,9 +37,21 @@ Vec3 reaction(const Support& support, const NodalVector& forces) {
   return sum;
 }
 
-Vec3 reaction_torque(const Support& support, const NodalVector& forces, const NodalVector& x) {
+namespace {
+
+Vec3 middle_of(const NodalVector& places, const Subdomain* subdomain) {
+  Eigen::Vector4d sums(places.row(0).sum(), places.row(1).sum(), places.row(2).sum(),
+                       static_cast<double>(places.cols()));
+  if (subdomain) subdomain->ranks().sum({sums.data(), 4});
+  return sums.head<3>() / sums[3];
+}
+
+}  // namespace
+
+Vec3 reaction_torque(const Support& support, const NodalVector& forces, const NodalVector& x,
+                     const Subdomain* subdomain) {
   const NodalVector places = x(Eigen::all, support.nodes);
-  const Vec3 middle = places.rowwise().mean();
+  const Vec3 middle = middle_of(places, subdomain);
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < support.nodes.size(); ++i)
     sum += (places.col(static_cast<Eigen::Index>(i)) - middle).cross(on(support, forces, i));

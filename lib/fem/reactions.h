@@ -16,6 +16,7 @@ NodalVector support_forces(const FemModel::Parts& parts, const NodalExpansion& n
 // Of support_forces(), those on one support: their sum, N, and their torque about the middle of its nodes as
 // they are now, N m.
 Vec3 reaction(const Support& support, const NodalVector& forces);
-Vec3 reaction_torque(const Support& support, const NodalVector& forces, const NodalVector& x);
+Vec3 reaction_torque(const Support& support, const NodalVector& forces, const NodalVector& x,
+                     const Subdomain* subdomain = nullptr);
 
 }  // namespace orthodyn

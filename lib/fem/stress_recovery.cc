@@ -206,14 +206,16 @@ SixColumns misfit_of_region(const ElementMesh& mesh, const RegionRecovery& recov
   return out;
 }
 
+// `stress`: at the points of the region. `places`: of the term's elements in it.
 RegionMeshError mesh_error(const ElementMesh& mesh, const ElasticTerm& term, const RegionRecovery& recovery,
-                           const NodalState& s) {
-  const SixColumns stress = stresses(term, s);
+                           const std::vector<int>& places, const SixColumns& stress) {
+  RegionMeshError out{Vector(term.size()), Vector(term.size()), 0};
+  if (term.size() == 0) return out;
   const NodalStresses at(mesh, recovery, stress);
   const EnergyOfStress energy(mesh, term);
-  RegionMeshError out{Vector(term.size()), Vector(term.size()), 0};
   for (int k = 0; k < term.size(); ++k) {
-    const ElementRows computed = at.computed(k), misfit = at.misfit(k, computed);
+    const int place = places[static_cast<std::size_t>(k)];
+    const ElementRows computed = at.computed(place), misfit = at.misfit(place, computed);
     out.volume[k] = energy.volume(k);
     out.error[k] = out.volume[k] * energy.density(k, misfit, misfit);
     out.energy += out.volume[k] * energy.density(k, computed, computed);
@@ -223,11 +225,12 @@ RegionMeshError mesh_error(const ElementMesh& mesh, const ElasticTerm& term, con
 
 }  // namespace
 
-RegionRecovery::RegionRecovery(const ElementMesh& mesh, const ElasticTerm& term) : per_element_(term.num_points()) {
+RegionRecovery::RegionRecovery(const ElementMesh& mesh, const std::vector<int>& cells, int num_points)
+    : per_element_(num_points) {
   std::vector<int> row_of(mesh.nodes.size(), -1), all;
-  all.reserve(static_cast<std::size_t>(term.size() * mesh.cells.nodes_per_cell()));
-  for (int k = 0; k < term.size(); ++k)
-    for (const int node : mesh.cells[static_cast<std::size_t>(term.cell(k))]) {
+  all.reserve(cells.size() * static_cast<std::size_t>(mesh.cells.nodes_per_cell()));
+  for (const int cell : cells)
+    for (const int node : mesh.cells[static_cast<std::size_t>(cell)]) {
       int& row = row_of[static_cast<std::size_t>(node)];
       if (row < 0) {
         row = static_cast<int>(nodes_.size());
@@ -236,10 +239,10 @@ RegionRecovery::RegionRecovery(const ElementMesh& mesh, const ElasticTerm& term)
       all.push_back(row);
     }
   cells_ = Cells(mesh.cells.nodes_per_cell(), std::move(all));
-  places_.resize(3, per_element_ * term.size());
-  for (int k = 0; k < term.size(); ++k)
-    places_.middleCols(per_element_ * k, per_element_) =
-        mesh.type.points(mesh.positions(static_cast<std::size_t>(term.cell(k))));
+  places_.resize(3, per_element_ * static_cast<Eigen::Index>(cells.size()));
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    places_.middleCols(per_element_ * static_cast<Eigen::Index>(k), per_element_) =
+        mesh.type.points(mesh.positions(static_cast<std::size_t>(cells[k])));
 
   const int degree = mesh.type.degree();
   Neighbours neighbours(cells_, mesh.type.num_corners(), nodes_.size());
@@ -315,25 +318,51 @@ SixColumns RegionRecovery::at_nodes_with(const ElementMesh& mesh, const SixColum
   return out;
 }
 
-const std::vector<RegionRecovery>& StressRecovery::regions() const {
+const std::vector<StressRecovery::Region>& StressRecovery::regions() const {
   std::call_once(once_, [&] {
     const ElementMesh mesh(mesh_);
-    for (const auto& term : terms_) regions_.emplace_back(mesh, *term);
+    for (const auto& term : terms_) regions_.push_back(make_region(mesh, *term));
   });
   return regions_;
+}
+
+StressRecovery::Region StressRecovery::make_region(const ElementMesh& mesh, const ElasticTerm& term) const {
+  std::vector<int> own, places;
+  for (int k = 0; k < term.size(); ++k) own.push_back(term.cell(k)), places.push_back(k);
+  if (!subdomain_) return {RegionRecovery(mesh, own, term.num_points()), places};
+  const auto name = std::find(mesh_.region_names.begin(), mesh_.region_names.end(), term.region());
+  const auto region = static_cast<int>(name - mesh_.region_names.begin());
+  std::vector<int> all;
+  for (int cell = 0; cell < static_cast<int>(mesh_.region_of.size()); ++cell)
+    if (mesh_.region_of[static_cast<std::size_t>(cell)] == region) all.push_back(cell);
+  for (std::size_t k = 0; k < own.size(); ++k)
+    places[k] = static_cast<int>(std::lower_bound(all.begin(), all.end(), own[k]) - all.begin());
+  return {RegionRecovery(mesh, all, term.num_points()), places};
+}
+
+SixColumns StressRecovery::of_all_ranks(std::size_t region, SixColumns at_points) const {
+  if (!subdomain_) return at_points;
+  const auto& [recovery, places] = regions()[region];
+  const Eigen::Index points = terms_[region]->num_points();
+  SixColumns all = SixColumns::Zero(points * static_cast<Eigen::Index>(recovery.cells().size()), 6);
+  for (std::size_t k = 0; k < places.size(); ++k)
+    all.middleRows(points * places[k], points) = at_points.middleRows(points * static_cast<Eigen::Index>(k), points);
+  subdomain_->ranks().sum({all.data(), static_cast<std::size_t>(all.size())});
+  return all;
 }
 
 StressRecovery::OfRegion StressRecovery::at_nodes_of_region(std::size_t region, const NodalState& s,
                                                              const Seen& seen) const {
   const ElasticTerm& term = *terms_[region];
-  const RegionRecovery& recovery = regions()[region];
+  const RegionRecovery& recovery = regions()[region].recovery;
   const auto value = [&](int k, int p) { return seen(term.observe_point(k, p, s)); };
-  return {&recovery.nodes(), recovery.at_nodes(ElementMesh(mesh_), at_points(term, value))};
+  return {&recovery.nodes(), recovery.at_nodes(ElementMesh(mesh_), of_all_ranks(region, at_points(term, value)))};
 }
 
 Eigen::Matrix<double, 6, Eigen::Dynamic> StressRecovery::at_nodes(const NodalState& s, const Seen& seen) const {
-  Eigen::Matrix<double, 6, Eigen::Dynamic> sum = Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, s.x.cols());
-  std::vector<int> count(static_cast<std::size_t>(s.x.cols()), 0);
+  const auto nodes_of_mesh = static_cast<Eigen::Index>(num_nodes());
+  Eigen::Matrix<double, 6, Eigen::Dynamic> sum = Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, nodes_of_mesh);
+  std::vector<int> count(num_nodes(), 0);
   for (std::size_t r = 0; r < terms_.size(); ++r) {
     const auto [nodes, values] = at_nodes_of_region(r, s, seen);
     for (std::size_t i = 0; i < nodes->size(); ++i) {
@@ -349,14 +378,18 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> StressRecovery::at_nodes(const NodalSta
 std::vector<RegionMeshError> StressRecovery::mesh_errors(const NodalState& s) const {
   const ElementMesh mesh(mesh_);
   std::vector<RegionMeshError> all;
-  for (std::size_t r = 0; r < terms_.size(); ++r) all.push_back(mesh_error(mesh, *terms_[r], regions()[r], s));
+  for (std::size_t r = 0; r < terms_.size(); ++r) {
+    const SixColumns stress = of_all_ranks(r, stresses(*terms_[r], s));
+    all.push_back(mesh_error(mesh, *terms_[r], regions()[r].recovery, regions()[r].places, stress));
+  }
   return all;
 }
 
 StressMisfit StressRecovery::misfit_of(const std::vector<SixColumns>& at_points) const {
   const ElementMesh mesh(mesh_);
   StressMisfit all;
-  for (std::size_t r = 0; r < terms_.size(); ++r) all.push_back(misfit_of_region(mesh, regions()[r], at_points[r]));
+  for (std::size_t r = 0; r < terms_.size(); ++r)
+    all.push_back(misfit_of_region(mesh, regions()[r].recovery, at_points[r]));
   return all;
 }
 

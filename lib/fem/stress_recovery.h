@@ -33,7 +33,8 @@ struct PatchFit {
 // Of one region. Points are numbered by elements: num_points() k + p.
 class RegionRecovery {
  public:
-  RegionRecovery(const ElementMesh& mesh, const ElasticTerm& term);
+  // `cells`: its elements, by their numbers in the mesh.
+  RegionRecovery(const ElementMesh& mesh, const std::vector<int>& cells, int num_points);
 
   // The nodes of the region, by their indices in the mesh; of each a row. `mesh` as in the constructor.
   const std::vector<int>& nodes() const { return nodes_; }
@@ -77,8 +78,12 @@ class StressRecovery {
  public:
   using Terms = std::vector<std::unique_ptr<ElasticTerm>>;
 
-  // Both must outlive it.
-  StressRecovery(const TetMesh& mesh, const Terms& terms) : mesh_(mesh), terms_(terms) {}
+  // All must outlive it. Where several ranks have parts of the terms, `mesh` is the whole one, and what is computed at
+  // their points comes from all: functions are collective, states are of the subdomain.
+  StressRecovery(const TetMesh& mesh, const Terms& terms, const Subdomain* subdomain)
+      : mesh_(mesh), terms_(terms), subdomain_(subdomain) {}
+
+  std::size_t num_nodes() const { return mesh_.nodes.size(); }
 
   // Of what is seen at the points, six components: a column per node of the mesh; at nodes of several regions their
   // mean.
@@ -92,7 +97,7 @@ class StressRecovery {
   };
   OfRegion at_nodes_of_region(std::size_t region, const NodalState& s, const Seen& seen) const;
 
-  // One for each term.
+  // One for each term, of its elements on this rank.
   std::vector<RegionMeshError> mesh_errors(const NodalState& s) const;
 
   // Of the stress in a state, and of its derivative along a displacement from there.
@@ -102,13 +107,22 @@ class StressRecovery {
   double product(const StressMisfit& a, const StressMisfit& b) const;
 
  private:
+  // The elements of a region on all ranks.
+  struct Region {
+    RegionRecovery recovery;
+    std::vector<int> places;  // among these of the term's elements
+  };
+
   StressMisfit misfit_of(const std::vector<SixColumns>& at_points) const;
-  const std::vector<RegionRecovery>& regions() const;
+  const std::vector<Region>& regions() const;
+  Region make_region(const ElementMesh& mesh, const ElasticTerm& term) const;
+  SixColumns of_all_ranks(std::size_t region, SixColumns at_points) const;
 
   const TetMesh& mesh_;
   const Terms& terms_;
+  const Subdomain* subdomain_;
   mutable std::once_flag once_;
-  mutable std::vector<RegionRecovery> regions_;
+  mutable std::vector<Region> regions_;
 };
 
 }  // namespace orthodyn

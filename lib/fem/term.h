@@ -2,11 +2,13 @@
 // the terms that it names and nothing else.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "lib/core/types.h"
 #include "lib/fem/dof_map.h"
+#include "lib/fem/subdomain.h"
 #include "lib/ode/step_limits.h"
 
 namespace orthodyn {
@@ -32,6 +34,10 @@ class Term {
   // Its name, with how much there is of it, for `orthodyn check`: "springs: 4 of 200 N/m".
   virtual std::string description() const { return name(); }
   virtual std::size_t bytes() const { return 0; }
+
+  // Where several ranks hold the model: of a term of the whole mesh what one rank adds, with its nodes as they are
+  // numbered there. The sum over ranks is this term. Null if it cannot be divided.
+  virtual std::unique_ptr<Term> part(const Subdomain&) const { return nullptr; }
 
   virtual void add_force(const NodalState& s, NodalVector& f) const = 0;
 

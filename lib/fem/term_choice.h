@@ -16,12 +16,14 @@
 
 namespace orthodyn {
 
-// The body that a term acts on. All but the mesh outlives the term.
+// The body that a term acts on. All but the mesh outlives the term. Where several ranks hold the model, mesh and rest
+// are of the whole body; pattern and masses are of this rank's subdomain, as Term::part() wants them.
 struct Discretization {
   const TetMesh& mesh;
   const NodalVector& rest;      // node positions, m
   const BlockPattern& pattern;
   const Vector& nodal_masses;   // kg, the row sums of the mass matrix
+  double mass = nodal_masses.sum();  // kg, of the whole body
 };
 
 class TermChoice {

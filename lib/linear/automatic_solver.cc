@@ -26,6 +26,7 @@ bool is_cheaper_by_iterations(const Pattern& pattern, double factor_bytes) {
 class AutomaticSolver : public LinearSolver {
  public:
   void analyze(const Pattern& pattern) override {
+    if (pattern.share) return take("petsc", pattern);
     const bool has_petsc = solver_registry().at("petsc").unavailable.empty();
     if (!has_petsc || pattern.n < kIterativeFrom) return take("cholmod", pattern);
     if (pattern.n >= kOnlyIterativeFrom) return take("petsc", pattern);

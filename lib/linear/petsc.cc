@@ -22,18 +22,16 @@ std::string library_file() {
   return (folder / "liborthodyn_petsc.so").string();
 }
 
-MakePetscSolver* load_petsc() {
+void* load_library() {
   const std::string file = library_file();
   // Global: Open MPI's own plugins look for its symbols.
   void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
-  if (!library) throw ConfigError(fmt::format("linear solver 'petsc': {} cannot be loaded: {}", file, dlerror()));
-  void* made = dlsym(library, "orthodyn_make_petsc_solver");
-  if (!made) throw ConfigError(fmt::format("linear solver 'petsc': {} is not of this orthodyn", file));
-  return reinterpret_cast<MakePetscSolver*>(made);
+  if (!library) throw ConfigError(fmt::format("PETSc: {} cannot be loaded: {}", file, dlerror()));
+  return library;
 }
 
 std::unique_ptr<LinearSolver> make_petsc(const std::string& options) {
-  static MakePetscSolver* const make = load_petsc();
+  static auto* const make = reinterpret_cast<MakePetscSolver*>(petsc_function("orthodyn_make_petsc_solver"));
   return std::unique_ptr<LinearSolver>(make(options));
 }
 
@@ -58,4 +56,16 @@ const bool petsc_registered =
         .second;
 
 }  // namespace
+
+void* petsc_function(const char* name) {
+#ifdef ORTHODYN_MPI
+  static void* const library = load_library();
+  if (void* function = dlsym(library, name)) return function;
+  throw ConfigError(fmt::format("{} is not of this orthodyn", library_file()));
+#else
+  static_cast<void>(name);
+  throw ConfigError(kUnavailable);
+#endif
+}
+
 }  // namespace orthodyn

@@ -1,4 +1,4 @@
-// The way into the library that PETSc's solvers are in.
+// The way into liborthodyn_petsc, which PETSc, MPI and what needs them are in.
 #pragma once
 
 #include <string>
@@ -6,8 +6,15 @@
 namespace orthodyn {
 
 class LinearSolver;
+class Ranks;
 
 // Of the type of its function `orthodyn_make_petsc_solver`: the caller owns the solver.
 using MakePetscSolver = LinearSolver*(const std::string& options);
+
+// Of `orthodyn_world_ranks`: null where this process is alone.
+using WorldRanks = const Ranks*();
+
+// A function of the library, which is loaded first. Throws ConfigError if it cannot be, or if this build has none.
+void* petsc_function(const char* name);
 
 }  // namespace orthodyn

@@ -14,6 +14,7 @@ std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice) {
 }
 
 std::unique_ptr<LinearSolver> make_solver_for(const Pattern& pattern) {
+  if (pattern.share) throw RunError("an analysis that factors a matrix does not run on several ranks");
   auto solver = make_linear_solver(pattern.symmetric ? "cholmod" : "klu");
   solver->analyze(pattern);
   return solver;

@@ -112,6 +112,10 @@ class IntegratorChoice {
   // True for a method that serves models whose traits are `linear` alone.
   virtual bool needs_linear_model() const { return false; }
 
+  // Whether it serves models of which several ranks have parts: all sums over entries of vectors then go by
+  // Model::space().
+  virtual bool runs_on_ranks() const { return false; }
+
   // Throws ConfigError if the integrator cannot serve the model, which must outlive it.
   virtual std::unique_ptr<Integrator> make(const Model& model, const Task& task) const = 0;
 };

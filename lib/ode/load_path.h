@@ -38,11 +38,16 @@ class LoadPath : public Model {
   bool moves_supports() const { return times_.begin != times_.end; }
 
   int num_dofs() const override { return model_.num_dofs(); }
+  const Ranks* ranks() const override { return model_.ranks(); }
+  Eigen::Index num_dofs_of_all() const override { return model_.num_dofs_of_all(); }
   const Traits& traits() const override { return model_.traits(); }
   void force(double lambda, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override;
   const Pattern& pattern() const override { return model_.pattern(); }
   void combine(const Weights& w, const Linearization& at, double* values) const override {
     model_.combine(w, at, values);
+  }
+  void multiply_matrix(const double* values, const ConstVectorRef& x, VectorRef y) const override {
+    model_.multiply_matrix(values, x, y);
   }
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const override { model_.multiply_mass(x, y); }
   void solve_mass(VectorRef x) const override { model_.solve_mass(x); }

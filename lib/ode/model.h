@@ -6,6 +6,11 @@
 // Units: q in m, v in m/s, f in N, M in kg, D in N s/m, K in N/m, t in s, for a mechanical model. Vectors have n
 // entries; matrices are values on pattern(), as many as its row indices.
 //
+// Several ranks may hold parts of one model. Vectors then are parts of vectors, with the n unknowns of this rank, and
+// pattern() has unknowns of other ranks as well, after these; what functions compute is of the whole model, and they
+// are collective: all ranks call them in the same order. RecoverableErrors come on all ranks. Whoever sums over entries
+// of a vector, or takes the largest, does so by space().
+//
 // Thread safety: const functions may run at the same time, each on its own outputs. A model does not change while it
 // is integrated: the same arguments give the same results.
 #pragma once
@@ -19,6 +24,7 @@
 #include "lib/core/types.h"
 #include "lib/ode/output.h"
 #include "lib/ode/step_limits.h"
+#include "lib/ode/vector_space.h"
 
 namespace orthodyn {
 
@@ -69,6 +75,11 @@ class Model : public OutputSource {
   // n.
   virtual int num_dofs() const = 0;
 
+  // The ranks that hold the model, and how many unknowns they have together; null, and n, where it is not in parts.
+  virtual const Ranks* ranks() const { return nullptr; }
+  virtual Eigen::Index num_dofs_of_all() const { return num_dofs(); }
+  VectorSpace space() const { return {ranks(), num_dofs_of_all()}; }
+
   virtual const Traits& traits() const = 0;
 
   // f(t, q, v), N. Throws RecoverableError where it cannot be evaluated: a smaller step may help.
@@ -92,6 +103,11 @@ class Model : public OutputSource {
 
   // values = w_m M + w_d D + w_k K, D and K from linearize() of this model.
   virtual void combine(const Weights& w, const Linearization& at, double* values) const = 0;
+
+  // y = A x for the values of a matrix on pattern(); x and y differ.
+  virtual void multiply_matrix(const double* values, const ConstVectorRef& x, VectorRef y) const {
+    pattern().multiply(values, x, y);
+  }
 
   // y = M x; x and y differ.
   virtual void multiply_mass(const ConstVectorRef& x, VectorRef y) const = 0;

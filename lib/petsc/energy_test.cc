@@ -13,6 +13,7 @@ namespace {
 // residual.
 constexpr double kResolution = 1e-7;
 constexpr double kSafety = 2;  // of an error
+constexpr double kRoundOff = 1e-14;  // of the first residual: beyond it directions are made of round-off
 
 }  // namespace
 
@@ -34,14 +35,14 @@ void EnergyTest::attach(KSP method) {
   check(KSPSetConvergenceTest(method, function, this, nullptr));
 }
 
-void EnergyTest::set(const SolveTolerance& tolerance, int unknowns) {
+void EnergyTest::set(const SolveTolerance& tolerance, double unknowns) {
   tolerance_ = tolerance;
-  absolute_ = tolerance.absolute * std::sqrt(static_cast<double>(unknowns));
+  absolute_ = tolerance.absolute * std::sqrt(unknowns);
 }
 
 KSPConvergedReason EnergyTest::test(KSP method, PetscInt iteration, double residual) {
   if (!std::isfinite(residual)) return KSP_DIVERGED_NANORINF;
-  if (residual == 0) return KSP_CONVERGED_ATOL;
+  if (residual == 0 || (iteration > 0 && residual <= kRoundOff * first_residual_)) return KSP_CONVERGED_ATOL;
   if (iteration == 0) {
     first_residual_ = residual;
     energy_ = 0;

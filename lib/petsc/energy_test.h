@@ -19,7 +19,7 @@ class EnergyTest {
   void attach(KSP method);
 
   // Of the next solutions, for the unknowns' number.
-  void set(const SolveTolerance& tolerance, int unknowns);
+  void set(const SolveTolerance& tolerance, double unknowns);
 
  private:
   KSPConvergedReason test(KSP method, PetscInt iteration, double residual);

@@ -18,8 +18,8 @@
 #include "lib/core/errors.h"
 #include "lib/linear/petsc_library.h"
 #include "lib/linear/solver.h"
-#include "lib/petsc/block_matrix.h"
 #include "lib/petsc/energy_test.h"
+#include "lib/petsc/solver_matrix.h"
 
 namespace orthodyn::petsc {
 namespace {
@@ -30,6 +30,9 @@ constexpr const char* kKrylov = "-ksp_type cg ";
 
 constexpr double kMostPerDigit = 40;  // iterations with diagonal blocks, from which multigrid takes less
 constexpr int kMostIterations = 500, kMostWithBlocks = 200;
+// Unknowns of each of several ranks: GAMG of PETSc 3.18 does not end where one has nothing to coarsen, and so small
+// systems need no multigrid.
+constexpr int kFewestForMultigrid = 100;
 constexpr double kWorse = 1.5, kFewMore = 2;  // of multigrid: times and iterations a digit, until it is set up anew
 constexpr double kFewestDigits = 0.5;         // below which a solution says nothing
 
@@ -50,7 +53,8 @@ class PetscSolver : public LinearSolver {
     const Session session;
     release();
     pattern_ = &pattern;
-    matrix_ = std::make_unique<BlockMatrix>(pattern);
+    matrix_ = SolverMatrix::of(pattern);
+    takes_multigrid_ = !pattern.share || matrix_->fewest_unknowns() >= kFewestForMultigrid;
     with_blocks_ = !has_own_preconditioner_;
     check(MatCreateVecs(matrix_->get(), &x_, &b_));
     make_method();
@@ -69,14 +73,14 @@ class PetscSolver : public LinearSolver {
   bool is_iterative() const override { return true; }
   void set_tolerance(const SolveTolerance& tolerance) override {
     tolerance_ = tolerance;
-    test_.set(tolerance_, pattern_->n);
+    test_.set(tolerance_, unknowns());
   }
 
   void solve(const ConstVectorRef& b, VectorRef x) override {
     const Session session;
     matrix_->scatter(b, b_);
     KSPConvergedReason reason = solve_once();
-    if (reason < 0 && with_blocks_ && !shows_indefinite(reason)) {
+    if (reason < 0 && with_blocks_ && takes_multigrid_ && !shows_indefinite(reason)) {
       take_multigrid();
       reason = solve_once();
       is_worse_ = is_gamg_;  // than with rigid motions
@@ -88,7 +92,7 @@ class PetscSolver : public LinearSolver {
     if (reason < 0)
       throw RecoverableError(fmt::format("the linear solver does not converge ({} of PETSc, in {} iterations)",
                                          KSPConvergedReasons[reason], last_iterations_));
-    if (with_blocks_ && per_digit_ > kMostPerDigit) is_to_change_ = true;
+    if (with_blocks_ && takes_multigrid_ && per_digit_ > kMostPerDigit) is_to_change_ = true;
     matrix_->gather(x_, x);
   }
 
@@ -173,11 +177,11 @@ class PetscSolver : public LinearSolver {
                                          everywhere() + given_);
     const InUse in_use(*options_);
     check(KSPDestroy(&method_));
-    check(KSPCreate(PETSC_COMM_SELF, &method_));
+    check(KSPCreate(pattern_->share ? PETSC_COMM_WORLD : PETSC_COMM_SELF, &method_));
     check(KSPSetOperators(method_, matrix_->get(), matrix_->get()));
     check(KSPSetFromOptions(method_));
     check(KSPSetResidualHistory(method_, nullptr, PETSC_DECIDE, PETSC_TRUE));
-    test_.set(tolerance_, pattern_->n);
+    test_.set(tolerance_, unknowns());
     if (!has_own_tolerance()) test_.attach(method_);
     PC preconditioner = nullptr;
     PCType kind = nullptr;
@@ -185,6 +189,10 @@ class PetscSolver : public LinearSolver {
     check(PCGetType(preconditioner, &kind));
     is_gamg_ = kind && std::string(kind) == PCGAMG;
     is_set_up_ = false;
+  }
+
+  double unknowns() const {
+    return pattern_->share ? static_cast<double>(pattern_->share->unknowns) : static_cast<double>(pattern_->n);
   }
 
   void take_multigrid() {
@@ -203,7 +211,7 @@ class PetscSolver : public LinearSolver {
   bool has_own_tolerance() const { return options_->has("-ksp_rtol") || options_->has("-ksp_atol"); }
   PetscInt most() const {
     if (options_->has("-ksp_max_it")) return PETSC_DEFAULT;
-    return with_blocks_ ? kMostWithBlocks : kMostIterations;
+    return with_blocks_ && takes_multigrid_ ? kMostWithBlocks : kMostIterations;
   }
 
   void set_up() {
@@ -257,10 +265,11 @@ class PetscSolver : public LinearSolver {
   const Pattern* pattern_ = nullptr;
   SolveTolerance tolerance_;
   EnergyTest test_;
-  std::unique_ptr<BlockMatrix> matrix_;
+  std::unique_ptr<SolverMatrix> matrix_;
   std::unique_ptr<Options> options_;
   KSP method_ = nullptr;
   Vec x_ = nullptr, b_ = nullptr;
+  bool takes_multigrid_ = true;
   bool with_blocks_ = false;
   bool is_gamg_ = false;
   bool is_set_up_ = false;

@@ -9,12 +9,15 @@
 #include "lib/axes/axes_source.h"
 #include "lib/fem/elastic_region.h"
 #include "lib/fem/element_groups.h"
+#include "lib/fem/pattern_share.h"
 #include "lib/scene/mesh_materials.h"
 #include "lib/scene/supports.h"
 
 namespace orthodyn {
 
 namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 double stiffness_damping(const Scene& scene, const Region& region) {
   return region.stiffness_damping.value_or(scene.damping ? scene.damping->stiffness : 0);
@@ -27,35 +30,83 @@ std::vector<double> densities(const Scene& scene, const TetMesh& mesh, const std
   return out;
 }
 
-void add_elasticity(const Scene& scene, const std::vector<const Region*>& regions, const ElementMesh& elements,
+// The cells of a region that a rank computes, by their numbers there and, if it is one of several, in the whole mesh.
+struct CellsOfRank {
+  std::vector<int> here, numbers;
+};
+
+CellsOfRank cells_of_rank(const ElementMesh& own, const FemModel::Parts& parts, int region) {
+  const auto number = [&](int cell) { return parts.subdomain ? parts.subdomain->cells()[at(cell)] : cell; };
+  CellsOfRank cells;
+  for (std::size_t e = 0; e < own.cells.size(); ++e)
+    if (parts.mesh.region_of[at(number(static_cast<int>(e)))] == region) cells.here.push_back(static_cast<int>(e));
+  if (!cells.here.empty()) cells.here = by_place(own, std::move(cells.here));
+  if (parts.subdomain)
+    for (const int cell : cells.here) cells.numbers.push_back(number(cell));
+  return cells;
+}
+
+// `own`: the elements of this rank. Axes are known of the whole mesh.
+void add_elasticity(const Scene& scene, const std::vector<const Region*>& regions, const ElementMesh& own,
                     FemModel::Parts& parts, Warnings& notes) {
   const TetMesh& mesh = parts.mesh;
+  const ElementMesh elements(mesh);
   std::map<const Region*, AxesField> fields;  // one entry of the scene may describe several regions of the mesh
   for (std::size_t r = 0; r < regions.size(); ++r) {
     const Region& region = *regions[r];
-    std::vector<int> cells;
-    for (std::size_t e = 0; e < mesh.tets.size(); ++e)
-      if (mesh.region_of[e] == static_cast<int>(r)) cells.push_back(static_cast<int>(e));
-    if (cells.empty()) continue;
-    cells = by_place(elements, std::move(cells));
+    const auto all = std::count(mesh.region_of.begin(), mesh.region_of.end(), static_cast<int>(r));
+    if (all == 0) continue;
     AxesField& field = fields[&region];
     if (!field) field = region.axes->field(mesh, notes);
-    const ElementAxes axes = element_axes(*region.axes, field, elements, cells);
-    parts.elastic.push_back(elements.type.elastic_term(
-        elements, {mesh.region_names[r], std::move(cells), material_of(scene, region).stiffness(), axes,
-                   stiffness_damping(scene, region), elasticity_of(scene, region),
-                   material_of(scene, region).strength()}, *parts.pattern));
+    CellsOfRank cells = cells_of_rank(own, parts, static_cast<int>(r));
+    const ElementAxes axes = cells.here.empty()
+                                 ? ElementAxes(Mat3::Identity())
+                                 : element_axes(*region.axes, field, elements,
+                                                parts.subdomain ? cells.numbers : cells.here);
+    parts.elastic.push_back(own.type.elastic_term(
+        own, {mesh.region_names[r], std::move(cells.here), material_of(scene, region).stiffness(), axes,
+              stiffness_damping(scene, region), elasticity_of(scene, region), material_of(scene, region).strength(),
+              std::move(cells.numbers), static_cast<int>(all)}, *parts.pattern));
     parts.densities.push_back(material_of(scene, region).density());
   }
 }
 
-void add_force_terms(const Scene& scene, FemModel::Parts& parts) {
-  const Discretization body{parts.mesh, *parts.rest, *parts.pattern, parts.mass->row_sums()};
-  for (const TermChoice* term : scene.force_terms()) parts.loads.push_back(term->make(body));
+void add_force_terms(const Scene& scene, const NodalVector& rest, FemModel::Parts& parts) {
+  const Discretization body{parts.mesh, rest, *parts.pattern, parts.mass->row_sums(), parts.mass->total()};
+  for (const TermChoice* term : scene.force_terms()) {
+    auto made = term->make(body);
+    if (parts.subdomain) {
+      parts.load_descriptions.push_back(made->description());
+      auto part = made->part(*parts.subdomain);
+      if (!part) throw ConfigError(fmt::format("the term '{}' does not run on several ranks", made->name()));
+      made = std::move(part);
+    }
+    parts.loads.push_back(std::move(made));
+  }
+}
+
+// What is held and moved, by the numbers of nodes of this rank.
+void take_part(const Subdomain& subdomain, std::vector<MovedNodes::Part>& moved) {
+  for (auto& part : moved) part.nodes = subdomain.here(part.nodes);
+}
+
+void take_part(const Subdomain& subdomain, std::vector<Support>& supports) {
+  for (Support& support : supports) {
+    std::vector<std::array<bool, 3>> held;
+    for (std::size_t i = 0; i < support.nodes.size(); ++i)
+      if (subdomain.owns(support.nodes[i])) held.push_back(support.held[i]);
+    support.nodes = subdomain.owned(support.nodes);
+    support.held = std::move(held);
+  }
 }
 
 void add_supports(Supports supports, const ElementMesh& elements, const std::vector<double>& density,
-                  FemModel::Parts& parts) {
+                  const NodalVector& rest, FemModel::Parts& parts) {
+  if (parts.subdomain) {
+    if (!supports.moved.empty()) parts.moved_everywhere = std::make_unique<MovedNodes>(supports.moved, rest);
+    take_part(*parts.subdomain, supports.moved);
+    take_part(*parts.subdomain, supports.named);
+  }
   if (!supports.moved.empty()) parts.moved = std::make_unique<MovedNodes>(std::move(supports.moved), *parts.rest);
   parts.supports = std::move(supports.named);
   if (parts.moved || !parts.supports.empty())
@@ -133,7 +184,57 @@ void add_notes(const Scene& scene, Warnings& warnings) {
 
 }  // namespace
 
-BuiltScene build(const Scene& scene) {
+namespace {
+
+NodalVector positions(const TetMesh& mesh) {
+  NodalVector rest(3, static_cast<Eigen::Index>(mesh.nodes.size()));
+  for (Eigen::Index i = 0; i < rest.cols(); ++i) rest.col(i) = mesh.nodes[static_cast<std::size_t>(i)];
+  return rest;
+}
+
+void require_free_coordinates(const Scene& scene, const std::vector<bool>& held) {
+  if (std::all_of(held.begin(), held.end(), [](bool is_held) { return is_held; }))
+    (scene.clamps.empty() ? scene.motions.front().origin : scene.clamps.front().origin)
+        .fail("all nodes are clamped or moved: nothing is left to compute");
+}
+
+void require_mass(double mass) {
+  if (!std::isnormal(mass))
+    throw ConfigError("mesh",
+                      fmt::format("its mass is {:.3g} kg, with which nothing can be computed; check density and "
+                                  "unit of length",
+                                  mass));
+}
+
+// What several ranks cannot share.
+void require_divisible(const Scene& scene) {
+  if (scene.mass == MassKind::consistent)
+    throw ConfigError("mass: consistent does not run on several ranks; set `mass: lumped`");
+}
+
+// The unknowns of this rank by their numbers in the model that is not in parts.
+std::vector<int> unknowns_of(const Subdomain& subdomain, const std::vector<bool>& held) {
+  std::vector<int> number;
+  int count = 0;
+  for (const bool is_held : held) number.push_back(is_held ? -1 : count++);
+  std::vector<int> out;
+  for (int i = 0; i < subdomain.num_owned(); ++i)
+    for (int c = 0; c < 3; ++c)
+      if (const int n = number[at(3 * subdomain.nodes()[at(i)] + c)]; n >= 0) out.push_back(n);
+  return out;
+}
+
+NodePairs pairs_here(const NodePairs& pairs, const Subdomain& subdomain) {
+  NodePairs here;
+  for (const auto& [a, b] : pairs)
+    if (subdomain.local(a) >= 0 && subdomain.local(b) >= 0) here.emplace_back(subdomain.local(a), subdomain.local(b));
+  return here;
+}
+
+}  // namespace
+
+BuiltScene build(const Scene& scene, const Ranks* ranks) {
+  if (ranks) require_divisible(scene);
   LoadedMesh loaded = load_mesh(scene);
   FemModel::Parts parts;
   parts.mesh = std::move(loaded.mesh);
@@ -141,31 +242,38 @@ BuiltScene build(const Scene& scene) {
   const auto regions = assign_regions(scene, parts.mesh);
   warn_of_unused_axes(scene, regions, loaded.cell_data, loaded.warnings);
   Supports supports = make_supports(scene, parts.mesh);
-  const int num_nodes = static_cast<int>(parts.mesh.nodes.size());
-  parts.dofs = std::make_unique<DofMap>(num_nodes, supports.held);
-  if (parts.dofs->num_dofs() == 0)
-    (scene.clamps.empty() ? scene.motions.front().origin : scene.clamps.front().origin)
-        .fail("all nodes are clamped or moved: nothing is left to compute");
+  require_free_coordinates(scene, supports.held);
+  NodePairs pairs = couplings(scene, parts.mesh);
+
+  TetMesh part;  // of several ranks what this one computes
+  if (ranks) {
+    parts.subdomain = std::make_unique<Subdomain>(parts.mesh, pairs, *ranks);
+    part = parts.subdomain->part_of(parts.mesh);
+    parts.unknowns = unknowns_of(*parts.subdomain, supports.held);
+    supports.held = parts.subdomain->coordinates_here(supports.held);
+    pairs = pairs_here(pairs, *parts.subdomain);
+  }
+  const Subdomain* subdomain = parts.subdomain.get();
+  const TetMesh& own = subdomain ? part : parts.mesh;
+  const int num_nodes = static_cast<int>(own.nodes.size());
+  parts.dofs = std::make_unique<DofMap>(num_nodes, supports.held, subdomain ? subdomain->num_owned() : num_nodes);
   const bool symmetric = std::all_of(regions.begin(), regions.end(), [&](const Region* r) {
     return elasticity_of(scene, *r).has_symmetric_tangent();
   });
-  const ElementMesh elements(parts.mesh);
-  parts.pattern = std::make_unique<BlockPattern>(elements.cells, *parts.dofs, symmetric, couplings(scene, parts.mesh));
-  const auto density = densities(scene, parts.mesh, regions);
-  parts.mass = std::make_unique<Mass>(scene.mass, elements, density, *parts.dofs, *parts.pattern);
-  if (!std::isnormal(parts.mass->total()))
-    throw ConfigError("mesh",
-                      fmt::format("its mass is {:.3g} kg, with which nothing can be computed; check density and "
-                                  "unit of length",
-                                  parts.mass->total()));
-  parts.rest = std::make_unique<NodalVector>(3, num_nodes);
-  for (int i = 0; i < num_nodes; ++i) parts.rest->col(i) = parts.mesh.nodes[static_cast<std::size_t>(i)];
-  add_supports(std::move(supports), elements, density, parts);
+  const ElementMesh elements(own);
+  parts.pattern = std::make_unique<BlockPattern>(elements.cells, *parts.dofs, symmetric, pairs);
+  if (subdomain) parts.pattern->set_share(share_of(*parts.dofs, *subdomain));
+  const auto density = densities(scene, own, regions);
+  parts.mass = std::make_unique<Mass>(scene.mass, elements, density, *parts.dofs, *parts.pattern, subdomain);
+  require_mass(parts.mass->total());
+  const NodalVector rest = positions(parts.mesh);
+  parts.rest = std::make_unique<NodalVector>(positions(own));
+  add_supports(std::move(supports), elements, density, rest, parts);
   parts.mass_damping = scene.damping ? scene.damping->mass : 0;
   parts.traits = traits_of(scene, regions);
   if (scene.is_static()) parts.loads_at = scene.time.end;
   add_elasticity(scene, regions, elements, parts, loaded.warnings);
-  add_force_terms(scene, parts);
+  add_force_terms(scene, rest, parts);
   BuiltScene built{std::make_unique<FemModel>(std::move(parts)), {}, std::move(loaded.warnings)};
   add_notes(scene, built.warnings);
   add_note_on_means(scene, built.model->parts().mesh, built.warnings);

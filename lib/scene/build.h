@@ -15,7 +15,8 @@ struct BuiltScene {
   Warnings warnings;
 };
 
-// Loads the mesh and makes the terms that the scene names. Throws ConfigError.
-BuiltScene build(const Scene& scene);
+// Loads the mesh and makes the terms that the scene names. On several ranks each has its part of the model, and all
+// call this. Throws ConfigError.
+BuiltScene build(const Scene& scene, const Ranks* ranks = nullptr);
 
 }  // namespace orthodyn

@@ -44,7 +44,21 @@ Vec3 at(const std::array<PointFormula, 3>& field, const Vec3& x) {
 }
 
 Vec3 center_of_mass(const FemModel::Parts& parts) {
-  return *parts.rest * parts.mass->row_sums() / parts.mass->total();
+  Vec3 moment = *parts.rest * parts.mass->row_sums();
+  if (parts.subdomain) parts.subdomain->ranks().sum({moment.data(), 3});
+  return moment / parts.mass->total();
+}
+
+// The same at each node for any number of ranks.
+void add_noise(const Noise& noise, const FemModel::Parts& parts, NodalVector& u) {
+  std::mt19937_64 generator(static_cast<std::uint64_t>(noise.seed));
+  for (int node = 0; node < static_cast<int>(parts.mesh.nodes.size()); ++node) {
+    const int here = parts.subdomain ? parts.subdomain->local(node) : node;
+    for (int c = 0; c < 3; ++c) {
+      const double offset = noise.amplitude * symmetric_uniform(generator);
+      if (here >= 0) u(c, here) += offset;
+    }
+  }
 }
 
 // Of each node, for a body displaced by u.
@@ -70,10 +84,7 @@ State initial_state(const std::optional<Initial>& initial, double time, const Fe
   NodalVector u = (F - Mat3::Identity()) * (parts.rest->colwise() - center);
   if (initial->displacement_field)
     for (Eigen::Index i = 0; i < u.cols(); ++i) u.col(i) += at(*initial->displacement_field, parts.rest->col(i));
-  if (initial->noise) {
-    std::mt19937_64 generator(static_cast<std::uint64_t>(initial->noise->seed));
-    for (double& x : u.reshaped()) x += initial->noise->amplitude * symmetric_uniform(generator);
-  }
+  if (initial->noise) add_noise(*initial->noise, parts, u);
   parts.dofs->restrict_to(u, state.q);
   parts.dofs->restrict_to(initial_velocity(*initial, parts, u), state.v);
   return state;

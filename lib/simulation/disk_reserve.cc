@@ -5,9 +5,12 @@
 
 #include <string>
 
+#include "lib/core/write_file.h"
+
 namespace orthodyn {
 
 DiskReserve::DiskReserve(const std::filesystem::path& folder, std::size_t bytes) {
+  if (!writes_files()) return;
   std::string name = (folder / "reserve.XXXXXX").string();
   file_ = mkostemp(name.data(), O_CLOEXEC);
   if (file_ < 0) return;

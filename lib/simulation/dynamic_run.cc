@@ -96,6 +96,7 @@ class DynamicAnalysis {
   RunResult compute(const Checkpoint& begin, RunObservers& observers, const RunRecord& record) {
     RunResult result{.scene = context_.scene, .folder = folder_.path(), };
     result.outcome = integrate(begin, observers, result.resumable);
+    result.failed_alone = failed_alone_;
     if (setup_.linearity) setup_.linearity->finish();
     result.model = summarize(setup_);
     if (setup_.linearity && result.outcome.status != Outcome::Status::interrupted)
@@ -118,8 +119,9 @@ class DynamicAnalysis {
 
   Outcome integrate(const Checkpoint& begin, RunObservers& observers, bool& resumable) {
     Checkpointer checkpointer(folder_.checkpoint(), begin, checkpoint_times(setup_.scene), observers.kept(),
-                              *setup_.integrator);
+                              *setup_.built.model, *setup_.integrator);
     Plan plan = plan_of(setup_.scene, begin.schedule);
+    const State state = setup_.built.model->part(begin.state);
     plan.events = observers.events();
     if (begin.begun) plan.delivered = begin.last_output, plan.history_delivered = begin.last_history;
     const auto progress = context_.listener.on_begin(setup_);
@@ -129,8 +131,10 @@ class DynamicAnalysis {
     if (setup_.scene.output.mesh_error) all.push_back(&mesh_error_.emplace(outputs_left(plan)));
     DiskReserve reserve(folder_.path(), bytes_of_checkpoint());
     const Outcome outcome =
-        orthodyn::run(*setup_.built.model, *setup_.integrator, begin.state, plan, all, context_.interrupt);
+        orthodyn::run(*setup_.built.model, *setup_.integrator, state, plan, all, context_.interrupt);
     reserve.release();
+    const Ranks* ranks = setup_.built.model->ranks();
+    failed_alone_ = ranks && outcome.status == Outcome::Status::failed && !ranks->meet(kSecondsToMeet);
     const bool kept = keep(outcome, begin.begun, checkpointer);
     resumable = kept || setup_.scene.checkpoint;
     return outcome;
@@ -139,14 +143,15 @@ class DynamicAnalysis {
   // At most: displacements and velocities, one vector of the watch over linear kinematics, and small parts.
   std::size_t bytes_of_checkpoint() const {
     constexpr std::size_t kSmallParts = 64 << 10;
-    return 3 * sizeof(double) * static_cast<std::size_t>(setup_.built.model->num_dofs()) + kSmallParts +
+    return 3 * sizeof(double) * static_cast<std::size_t>(setup_.built.model->num_dofs_of_all()) + kSmallParts +
            2 * context_.resolved.size();
   }
 
   // False if it cannot be written: a run that has failed is not to fail in another way.
   bool keep(const Outcome& outcome, bool resumed, Checkpointer& checkpointer) {
     try {
-      if (!outcome.between_steps) return outcome.reason == Reason::disk && checkpointer.write_remembered();
+      if (failed_alone_ || !outcome.between_steps)
+        return outcome.reason == Reason::disk && checkpointer.write_remembered();
       if (!keeps_last_state(setup_.scene, outcome, resumed)) return false;
       checkpointer.write(outcome.last);
       return true;
@@ -174,7 +179,8 @@ class DynamicAnalysis {
     out.silent_events = observers.silent_events();
     if (mesh_error_) out.mesh_error = mesh_error_->found();
     out.rtol = Registry<IntegratorChoice>::read(setup_.config.at("integrator"))->settings().rtol;
-    if (outcome.status == Outcome::Status::failed) out.failure = failure_place(*setup_.built.model, outcome.last);
+    if (outcome.status == Outcome::Status::failed && !failed_alone_)
+      out.failure = failure_place(*setup_.built.model, outcome.last);
     return out;
   }
 
@@ -214,12 +220,15 @@ class DynamicAnalysis {
                                   join(changed)));
   }
 
+  static constexpr double kSecondsToMeet = 10;  // other ranks that fail as well
+
   RunContext context_;
   const Setup& setup_;
   ResultFolder& folder_;
   std::optional<ErrorEstimator> estimator_;
   std::optional<PartRecorder> parts_;
   std::optional<MeshErrorRecorder> mesh_error_;
+  bool failed_alone_ = false;  // the other ranks are waiting for this one
 };
 
 }  // namespace

@@ -23,6 +23,7 @@ ReservedFile::ReservedFile(std::filesystem::path path, const std::string& conten
 }
 
 void ReservedFile::rewrite(const std::string& content) const {
+  if (!writes_files()) return;
   std::fstream out(path_, std::ios::in | std::ios::out | std::ios::binary);
   std::string text = content;
   if (text.size() < room_) text.append(room_ - text.size(), '\n');
@@ -40,6 +41,7 @@ GrowingFile::~GrowingFile() {
 }
 
 void GrowingFile::open(int flags) {
+  if (!writes_files()) return;
   if (file_ >= 0) ::close(file_);
   file_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666);
   if (file_ < 0) fail_to_write(path_);
@@ -59,6 +61,7 @@ void GrowingFile::append(const std::string& entry) {
 }
 
 void GrowingFile::write_at_end(const std::string& text) {
+  if (!writes_files()) return;
   const auto written = ::pwrite(file_, text.data(), text.size(), static_cast<off_t>(size_));
   if (written == static_cast<ssize_t>(text.size())) return;
   const int error = written < 0 ? errno : ENOSPC;
@@ -71,6 +74,7 @@ void GrowingFile::write_at_end(const std::string& text) {
 }
 
 void GrowingFile::require(std::size_t size) const {
+  if (!writes_files()) return;
   std::error_code ec;
   const auto found = std::filesystem::file_size(path_, ec);
   if (ec)
@@ -89,6 +93,7 @@ void GrowingFile::go_on(std::size_t size) {
   open(0);
   size_ = size;
   write_at_end(tail_);
+  if (!writes_files()) return;
   if (::ftruncate(file_, static_cast<off_t>(size_ + tail_.size())) != 0) fail_to_write(path_);
 }
 

@@ -23,10 +23,8 @@ std::string laws_of(const FemModel& model) {
 ModelSummary summarize(const Setup& setup) {
   const FemModel& model = *setup.built.model;
   const auto& parts = model.parts();
-  ModelSummary out{parts.mesh.nodes.size(), parts.mesh.tets.size(),       model.num_dofs(),
-                   parts.mesh.order(),      laws_of(model), {}};
-  for (const auto& term : parts.elastic) out.terms.push_back(term->description());
-  for (const auto& term : parts.loads) out.terms.push_back(term->description());
+  ModelSummary out{parts.mesh.nodes.size(), parts.mesh.tets.size(),       static_cast<int>(model.num_dofs_of_all()),
+                   parts.mesh.order(),      laws_of(model), term_descriptions(parts)};
   if (parts.mass_damping > 0)
     out.terms.push_back(fmt::format("mass-proportional damping of {:.6g} 1/s", parts.mass_damping));
   out.kinematics = told_kinematics(setup);

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "lib/core/errors.h"
+#include "lib/core/write_file.h"
 #include "lib/simulation/json.h"
 #include "lib/simulation/outcome.h"
 #include "lib/simulation/run_record.h"
@@ -62,6 +63,7 @@ ResultFolder::ResultFolder(fs::path path, Earlier earlier, std::function<void(co
 }
 
 void ResultFolder::lock() {
+  if (!writes_files()) return;
   lock_.emplace(path_, kLock, "run");
   if (!lock_->warning().empty()) warn_(lock_->warning());
 }
@@ -96,6 +98,7 @@ std::string ResultFolder::earlier_status() const {
 }
 
 void ResultFolder::prepare() {
+  if (!writes_files()) return;
   std::error_code ec;
   if (!lock_) {
     lock();

@@ -96,7 +96,7 @@ class Driver {
   // False if interrupted or stopped by an event.
   bool advance_to(double stop) {
     while (outcome_.last.t < stop) {
-      if (interrupt_) {
+      if (model_.space().any(interrupt_)) {
         outcome_.status = Outcome::Status::interrupted;
         return false;
       }

@@ -122,6 +122,7 @@ struct RunResult {
   bool was_complete = false;                          // it was to be resumed, and had reached its end before
   std::optional<Outgrown> outgrown = {};              // why it ended, and is to start again
   bool resumable = false;                             // the folder holds a checkpoint of a late state
+  bool failed_alone = false;                          // one of several ranks: the others do not know, and wait for it
 };
 
 }  // namespace orthodyn

@@ -13,8 +13,9 @@ std::optional<int> named_by(const Config& scene) {
 
 }  // namespace
 
-RunThreads::RunThreads(const Config& scene) : RunThreads(named_by(scene)) {}
+RunThreads::RunThreads(const Config& scene, bool is_shared) : RunThreads(named_by(scene), is_shared) {}
 
-RunThreads::RunThreads(std::optional<int> named) : loops_(named.value_or(available_threads())), blas_(named) {}
+RunThreads::RunThreads(std::optional<int> named, bool is_shared)
+    : loops_(named.value_or(is_shared ? 1 : available_threads())), blas_(is_shared ? named.value_or(1) : named) {}
 
 }  // namespace orthodyn

@@ -13,10 +13,11 @@ class RunThreads {
  public:
   // Of a scene before it is read: its set-up, with equilibria and static responses, is part of the run. Throws
   // ConfigError.
-  explicit RunThreads(const Config& scene);
+  // `is_shared`: one of several ranks, which has a single thread unless the scene names more.
+  explicit RunThreads(const Config& scene, bool is_shared = false);
 
  private:
-  explicit RunThreads(std::optional<int> named);
+  RunThreads(std::optional<int> named, bool is_shared);
 
   LoopThreads loops_;
   BlasThreadLimit blas_;

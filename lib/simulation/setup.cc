@@ -103,13 +103,32 @@ void require_force_at_start(const Config& config, const BuiltScene& built) {
   std::string reason = "it is not finite";
   try {
     built.model->force(start.t, start.q, start.v, force);
-    if (force.allFinite()) return;
+    if (built.model->space().is_finite(force)) return;
   } catch (const RecoverableError& e) {
     reason = e.what();
   }
   config.at(config.has("initial") ? "initial" : "mesh")
       .fail(fmt::format("the force at the start cannot be evaluated: {}; check the initial state, the loads and the "
                         "unit of length", reason));
+}
+
+// What of a scene several ranks cannot do together is told by name.
+void require_to_run_on_ranks(Config& config, Scene& scene) {
+  if (scene.analysis != Analysis::dynamic)
+    config.at("analysis").fail("only dynamic analyses run on several ranks; run this one without mpirun");
+  if (scene.start == Start::equilibrium)
+    config.at("start").fail("equilibrium is not found on several ranks; start at rest, or run without mpirun");
+  if (!scene.integrator->runs_on_ranks()) {
+    std::vector<std::string> names;
+    for (const auto& [name, entry] : Registry<IntegratorChoice>::entries())
+      if (entry.make()->runs_on_ranks()) names.push_back(name);
+    config.at("integrator").at("type").fail("does not run on several ranks; those that do: " + join(names));
+  }
+  if (leaves_kinematics_open(scene)) {
+    make_corotational(config);
+    scene = read_scene(config);
+  }
+  scene.output.accumulated_error = false;  // it repeats parts of the run
 }
 
 }  // namespace
@@ -129,33 +148,34 @@ Task task_of(const Scene& scene, const BuiltScene& built) {
   return {scales, built.initial, end, interval};
 }
 
-Setup set_up(const Config& input, bool linear_so_far, bool is_timed) {
+Setup set_up(const Config& input, bool linear_so_far, bool is_timed, const Ranks* ranks) {
   Config config = input.resolving();
   Scene scene = read_scene(config);
+  if (ranks) require_to_run_on_ranks(config, scene);
   std::optional<KinematicsChoice> kinematics;
   std::unique_ptr<LinearityWatch> linearity;
   const auto build_it = [&] {
-    if (!leaves_kinematics_open(scene)) return build(scene);
+    if (!leaves_kinematics_open(scene)) return build(scene, ranks);
     ChosenKinematics chosen = choose_kinematics(config, scene, linear_so_far);
     kinematics = std::move(chosen.choice);
     linearity = std::move(chosen.watch);
     return std::move(chosen.built);
   };
   BuiltScene built = build_it();
-  if (!linearity) linearity = watch_for_the_end(scene, *built.model);
+  if (!linearity && !ranks) linearity = watch_for_the_end(scene, *built.model);
   if (!scene.is_static()) require_force_at_start(config, built);
   check_outputs(scene, *built.model);
   check_expectations(scene, *built.model);
-  append(slips(config, scene, built, is_timed), built.warnings);
+  if (!ranks) append(slips(config, scene, built, is_timed), built.warnings);
   std::optional<StaticResponse> statics;  // made once, for whoever asks first
   const auto response = [&]() -> const StaticResponse& {
     if (!statics) statics = static_response(*built.model, built.initial, scene.time.end);
     return *statics;
   };
-  if (built.model->num_dofs() <= kLargestForSlips)
+  if (!ranks && built.model->num_dofs() <= kLargestForSlips)
     append(response_slips(config, scene, built, response()), built.warnings);
   const auto stiffness = elastic_stiffness(scene, *built.model);
-  if (!built.model->traits().linear && needs_strain_check(*built.model, stiffness))
+  if (!ranks && !built.model->traits().linear && needs_strain_check(*built.model, stiffness))
     append(strain_warnings(*built.model, stiffness, built.initial, response()), built.warnings);
   std::vector<Event> events = make_events(scene, *built.model);
   std::unique_ptr<Integrator> integrator;
@@ -172,7 +192,7 @@ Setup set_up(const Config& input, bool linear_so_far, bool is_timed) {
     integrator = make_integrator(config, scene, task, *built.model);
     wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     cpu = cpu_seconds_now() - begin_cpu;
-    const bool told = built.model->num_dofs() <= kLargestForSlips;
+    const bool told = ranks || built.model->num_dofs() <= kLargestForSlips;
     if (statics && !told && scene.start == Start::rest)
       append(response_slips(config, scene, built, *statics), built.warnings);
   }

@@ -32,6 +32,7 @@ Task task_of(const Scene& scene, const BuiltScene& built);
 
 // Reads, validates and builds; the input stays as it is. `linear_so_far`: as choose_kinematics() has it. `is_timed`:
 // false where the user gave no time span, and the one of the input means nothing. Throws ConfigError.
-Setup set_up(const Config& input, bool linear_so_far = false, bool is_timed = true);
+// `ranks`: those that hold the model together, and all call this; null for this process alone.
+Setup set_up(const Config& input, bool linear_so_far = false, bool is_timed = true, const Ranks* ranks = nullptr);
 
 }  // namespace orthodyn

@@ -1,5 +1,6 @@
 #include "lib/simulation/setup_file.h"
 
+#include "lib/fem/whole_fields.h"
 #include "lib/simulation/observers/frames.h"
 
 namespace orthodyn {
@@ -19,7 +20,14 @@ std::vector<double> loads(const FemModel& model, const State& initial, double en
   NodalVector sum = NodalVector::Zero(3, nodal.x.cols());
   for (const auto& term : model.parts().loads)
     if (term->energy_kind() == EnergyKind::none) term->add_peak_force(nodal.state(), end, sum);
+  if (model.parts().subdomain) model.parts().subdomain->add_to_owners(sum);
   return {sum.data(), sum.data() + sum.size()};
+}
+
+// Of the whole mesh, from this rank's part of it.
+std::vector<double> whole(const FemModel& model, std::vector<double> values) {
+  const auto& subdomain = model.parts().subdomain;
+  return subdomain ? on_all_nodes(*subdomain, values, 3, model.parts().mesh.nodes.size()) : values;
 }
 
 }  // namespace
@@ -27,8 +35,8 @@ std::vector<double> loads(const FemModel& model, const State& initial, double en
 void SetupWriter::on_start(const ObservedState&) {
   const FemModel& model = *setup_.built.model;
   write_vtu(file_, model.geometry(),
-            {{"held", Location::node, 3, held(*model.parts().dofs)},
-             {"load", Location::node, 3, loads(model, setup_.built.initial, setup_.scene.time.end)}},
+            {{"held", Location::node, 3, whole(model, held(*model.parts().dofs))},
+             {"load", Location::node, 3, whole(model, loads(model, setup_.built.initial, setup_.scene.time.end))}},
             &model.parts().mesh);
 }
 

@@ -81,15 +81,21 @@ RunAnalysis analysis_of(const Scene& scene) {
 // `given_up`: where linear kinematics were before, and why; else "".
 RunResult Simulation::run_once(Config config, const RunRequest& request, const std::string& given_up,
                                const std::atomic<bool>& interrupt, RunListener& listener) const {
-  const RunThreads threads(config);
+  const Ranks* ranks = request.ranks;
+  const RunThreads threads(config, ranks != nullptr);
   const auto warn = [&](const std::string& text) { listener.on_warning(text); };
   ResultFolder folder(request.folder, earlier_result(request), warn);
   std::optional<Checkpoint> earlier;
   if (folder.resumes()) earlier = Checkpoint::load(folder.checkpoint());
+  if (ranks) ranks->any(false);  // all have looked at the folder before the first rank changes it
   if (earlier) keep_choices(*earlier, config);
-  Setup setup = set_up(std::move(config), earlier && was_linear_so_far(*earlier));
+  Setup setup = set_up(std::move(config), earlier && was_linear_so_far(*earlier), true, ranks);
   if (!given_up.empty()) setup.note_given_up(given_up);
   for (const auto& warning : setup.built.warnings) listener.on_warning(warning);
+  if (ranks)
+    listener.on_notice(fmt::format("on {} ranks, where it is not looked for how errors have added up, nor for values "
+                                   "that are probably not intended: orthodyn check has these",
+                                   ranks->size()));
   if (!request.any_volume) require_usual_volume(setup);
   const std::string resolved = resolved_scene(setup, file_, folder.path());
   return analysis_of(setup.scene)(

@@ -245,7 +245,8 @@ class CheckpointTime : public InFolder {};
 TEST_F(CheckpointTime, IsSpentOnATenthOfTheRunAtMost) {
   Case swing(kSwing);
   SlowKeeper slow;
-  Checkpointer checkpointer(folder_ / "checkpoint.cbor", {}, {.every = 1e-9}, {{"slow", &slow}}, *swing.integrator);
+  Checkpointer checkpointer(folder_ / "checkpoint.cbor", {}, {.every = 1e-9}, {{"slow", &slow}}, *swing.built.model,
+                            *swing.integrator);
   const ObservedState initial(*swing.built.model, swing.built.initial);
   checkpointer.on_start(initial);
   for (int step = 0; step < 5; ++step) checkpointer.on_step({}, initial, *swing.integrator);

@@ -24,6 +24,7 @@ struct CommandText {
   std::string name, sentence;
   std::string examples = {};  // a line each, for `orthodyn NAME --help`
   bool hidden = false;        // called by other commands, not listed
+  bool on_ranks = false;      // may be one of several ranks, started by mpirun
 };
 
 struct Command {

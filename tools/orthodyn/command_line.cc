@@ -119,7 +119,10 @@ CommandLine parse_command_line(int argc, char** argv) {
   for (const Command& command : commands()) runs[command.text.name] = add_command(program, command);
   try {
     program.parse(argc, argv);
-    out.run = runs.at(program.get_subcommands().front()->get_name());
+    out.name = program.get_subcommands().front()->get_name();
+    out.run = runs.at(out.name);
+    for (const Command& command : commands())
+      if (command.text.name == out.name) out.on_ranks = command.text.on_ranks;
   } catch (const CLI::ParseError& e) {
     if (const auto word = unknown_command(program))
       throw ConfigError(fmt::format("there is no command '{}'{} Known: {}.", *word,

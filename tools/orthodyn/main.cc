@@ -19,6 +19,7 @@
 #include "tools/orthodyn/command_line.h"
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/notice.h"
+#include "tools/orthodyn/on_ranks.h"
 #include "tools/orthodyn/plugins.h"
 
 namespace {
@@ -46,7 +47,10 @@ int main(int argc, char** argv) {
   end_with_parent_if_asked();
   try {
     const CommandLine line = parse_command_line(argc, argv);
-    if (!line.exit_code) load_plugins(line.plugins);
+    if (!line.exit_code) {
+      require_one_rank_unless(line.on_ranks, line.name);
+      load_plugins(line.plugins);
+    }
     const int code = line.exit_code ? *line.exit_code : line.run();
     // What is printed may wait in a buffer until here.
     std::cout.flush();

@@ -9,6 +9,7 @@
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/notice.h"
+#include "tools/orthodyn/on_ranks.h"
 #include "tools/orthodyn/run_summary.h"
 #include "tools/orthodyn/scene_options.h"
 #include "tools/orthodyn/slow_set_up.h"
@@ -76,21 +77,35 @@ int exit_code(const RunResult& result) {
   return estimated ? 0 : interrupted() ? 130 : 3;
 }
 
-int run_scene(const RunArguments& given) {
-  const RunArguments arguments = with_scene_of_folder(given);
-  catch_interrupts();
+// `ranks`: of which this process is one; null for one that is alone.
+int run_scene_on(const Ranks* ranks, const RunArguments& arguments) {
+  const bool tells = !ranks || ranks->is_first();
   const auto simulation = Simulation::from_file(arguments.scene, arguments.changes);
-  Terminal terminal(arguments.quiet);
+  if (ranks && arguments.estimate_error)
+    throw ConfigError("--estimate-error repeats the run, which it does not on several ranks; run again with a smaller "
+                      "rtol or step, and compare");
+  RunListener nobody;
+  std::optional<Terminal> terminal;
+  if (tells) terminal.emplace(arguments.quiet);
   const RunResult result = simulation.run({.folder = folder_for(arguments),
                                            .force = arguments.force,
                                            .resume = arguments.resume,
                                            .estimate_error = arguments.estimate_error,
-                                           .any_volume = arguments.yes},
-                                          interrupted(), terminal);
-  if (result.was_complete && !arguments.quiet)
+                                           .any_volume = arguments.yes,
+                                           .ranks = ranks},
+                                          interrupted(), terminal ? *terminal : nobody);
+  if (result.failed_alone && tells) ranks->abort(exit_code(result));  // the message has been printed
+  if (result.failed_alone) end_all_ranks(*ranks, result.outcome.message);
+  if (result.was_complete && !arguments.quiet && tells)
     fmt::print("{} is complete at t = {:.6g} s: nothing to do\n", result.folder.string(), result.outcome.last.t);
   if (result.motion && result.motion->error) print_estimate(result);
   return exit_code(result);
+}
+
+int run_scene(const RunArguments& given) {
+  const RunArguments arguments = with_scene_of_folder(given);
+  catch_interrupts();
+  return on_world_ranks([&](const Ranks* ranks) { return run_scene_on(ranks, arguments); });
 }
 
 void declare(RunArguments& arguments, CommandOptions& options) {
@@ -114,7 +129,9 @@ const CommandRegistration run_command({.order = 10,
                                          .sentence = "Run a scene: frames for ParaView, energies, steps, a summary.",
                                          .examples = R"(
   orthodyn run configs/scenes/cantilever.yaml --set integrator.rtol=1e-5 --out out/fine
-  orthodyn run configs/scenes/laminate.yaml --set checkpoint={} --resume)"},
+  orthodyn run configs/scenes/laminate.yaml --set checkpoint={} --resume
+  mpirun -n 2 orthodyn run configs/scenes/cantilever.yaml)",
+                                         .on_ranks = true},
                                         declare, run_scene);
 
 }  // namespace

@@ -22,6 +22,9 @@ class Dashpots : public Term {
 
   std::string name() const override { return "dashpots"; }
   std::string description() const override;
+  std::unique_ptr<Term> part(const Subdomain& subdomain) const override {
+    return std::make_unique<Dashpots>(c_, law_, owned_links(links_, subdomain), pattern_);
+  }
   std::size_t bytes() const override { return links_.capacity() * sizeof(Link); }
   void add_force(const NodalState& s, NodalVector& f) const override;
   void add_tangent(const NodalState& s, TangentKind kind, double* stiffness, double* damping) const override;

@@ -32,14 +32,17 @@ class ElasticTermOf final : public ElasticTerm {
     offsets_.reserve(region_.cells.size());
     for (int k = 0; k < size(); ++k) {
       offsets_.emplace_back(elements_.nodes(k), pattern);
-      if constexpr (E::kPoints > 1) note_volume(k, mesh.positions(static_cast<std::size_t>(cell(k))));
+      if constexpr (E::kPoints > 1) {
+        const int cell = region_.cells[static_cast<std::size_t>(k)];
+        note_volume(k, mesh.positions(static_cast<std::size_t>(cell)));
+      }
     }
   }
 
   std::string name() const override { return "elasticity of region " + region_.name; }
 
   std::string description() const override {
-    return fmt::format("{}: {}, {} elements{}", name(), law(), size(),
+    return fmt::format("{}: {}, {} elements{}", name(), law(), std::max(size(), region_.elements),
                        damped() ? fmt::format(", stiffness-proportional damping of {:.6g} s", region_.beta) : "");
   }
 
@@ -48,7 +51,7 @@ class ElasticTermOf final : public ElasticTerm {
 
   std::size_t bytes() const override {
     return elements_.bytes() + axes().bytes() + offsets_.capacity() * sizeof(Offsets) +
-           region_.cells.capacity() * sizeof(int);
+           (region_.cells.capacity() + region_.numbers.capacity()) * sizeof(int);
   }
 
   void add_force(const NodalState& s, NodalVector& f) const override {
@@ -117,7 +120,9 @@ class ElasticTermOf final : public ElasticTerm {
   }
 
   int size() const override { return static_cast<int>(region_.cells.size()); }
-  int cell(int k) const override { return region_.cells[static_cast<std::size_t>(k)]; }
+  int cell(int k) const override {
+    return (region_.numbers.empty() ? region_.cells : region_.numbers)[static_cast<std::size_t>(k)];
+  }
 
   int num_points() const override { return E::kPoints; }
 
@@ -147,7 +152,7 @@ class ElasticTermOf final : public ElasticTerm {
       for (int p = 0; p < E::kPoints; ++p) largest = std::max(largest, largest_square(b, p, s));
       return -largest;
     });
-    return 0.5 * std::sqrt(-smallest.value);
+    return smallest.batch < 0 ? 0 : 0.5 * std::sqrt(-smallest.value);
   }
 
   PointObservation observe_point(int k, int p, const NodalState& s) const override {
@@ -168,6 +173,7 @@ class ElasticTermOf final : public ElasticTerm {
   SmallestDetF smallest_det_F(const NodalState& s) const override {
     const auto batch = loops_.smallest([&](int b) { return smallest_determinant(b, s); });
     SmallestDetF smallest{std::numeric_limits<double>::infinity(), -1};
+    if (batch.batch < 0) return smallest;
     loops_.for_each_of(batch.batch, [&](int k) {
       if (const double d = det_F(k, s); d < smallest.value) smallest = {d, k};
     });

@@ -11,13 +11,15 @@ namespace orthodyn {
 
 class Gravity : public Term {
  public:
-  // nodal_masses in kg; they must outlive the term.
-  Gravity(const Vec3& g, const Vector& nodal_masses) : g_(g), masses_(nodal_masses) {}
+  // nodal_masses in kg; they must outlive the term. `mass`: of the whole body.
+  Gravity(const Vec3& g, const Vector& nodal_masses, double mass) : g_(g), masses_(nodal_masses), mass_(mass) {}
 
   std::string name() const override { return "gravity"; }
   std::string description() const override {
-    return fmt::format("gravity: {} m/s^2 on {:.6g} kg", Value<Vec3>::yaml(g_), masses_.sum());
+    return fmt::format("gravity: {} m/s^2 on {:.6g} kg", Value<Vec3>::yaml(g_), mass_);
   }
+  // Its masses are this rank's already.
+  std::unique_ptr<Term> part(const Subdomain&) const override { return std::make_unique<Gravity>(*this); }
   void add_force(const NodalState&, NodalVector& f) const override { f += g_ * masses_.transpose(); }
   EnergyKind energy_kind() const override { return EnergyKind::gravitational; }
   double energy(const NodalState& s) const override { return -g_.dot(s.u * masses_); }
@@ -25,6 +27,7 @@ class Gravity : public Term {
  private:
   Vec3 g_;
   const Vector& masses_;
+  double mass_;
 };
 
 // The key `gravity` of a scene: three numbers, m/s^2.
@@ -32,7 +35,7 @@ struct GravityChoice : TermChoice {
   Vec3 g = Vec3::Zero();
 
   std::unique_ptr<Term> make(const Discretization& body) const override {
-    return std::make_unique<Gravity>(g, body.nodal_masses);
+    return std::make_unique<Gravity>(g, body.nodal_masses, body.mass);
   }
 };
 

@@ -26,6 +26,9 @@ class Ground : public Term {
 
   std::string name() const override { return "ground"; }
   std::string description() const override;
+  std::unique_ptr<Term> part(const Subdomain& subdomain) const override {
+    return std::make_unique<Ground>(plane_, subdomain.owned(areas_), pattern_);
+  }
   std::size_t bytes() const override { return areas_.capacity() * sizeof(areas_[0]); }
   void add_force(const NodalState& s, NodalVector& f) const override;
   void add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const override;

@@ -2,7 +2,10 @@
 // derivative enter the nodal forces and the matrix.
 #pragma once
 
+#include <vector>
+
 #include "lib/fem/block_pattern.h"
+#include "lib/fem/subdomain.h"
 
 namespace orthodyn {
 
@@ -36,5 +39,18 @@ struct Link {
     if (b >= 0) sums[b] += 2 * k;
   }
 };
+
+// Those whose node a this rank owns, by the numbers of nodes here.
+template <class L>
+std::vector<L> owned_links(const std::vector<L>& links, const Subdomain& subdomain) {
+  std::vector<L> own;
+  for (L link : links) {
+    if (!subdomain.owns(link.a)) continue;
+    link.a = subdomain.local(link.a);
+    if (link.b >= 0) link.b = subdomain.local(link.b);
+    own.push_back(link);
+  }
+  return own;
+}
 
 }  // namespace orthodyn

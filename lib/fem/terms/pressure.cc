@@ -43,6 +43,17 @@ FaceNodes<F> PressedFace<F>::forces(const NodalVector& x) const {
 }
 
 template <Face F>
+std::unique_ptr<Term> Pressure<F>::part(const Subdomain& subdomain) const {
+  std::vector<PressedFace<F>> own;
+  for (const PressedFace<F>& face : faces_) {
+    if (!subdomain.has_face(face.nodes)) continue;
+    own.push_back(face);
+    for (int& node : own.back().nodes) node = subdomain.local(node);
+  }
+  return std::make_unique<Pressure>(surface_, std::move(own), factor_, pattern_);
+}
+
+template <Face F>
 void Pressure<F>::add_force_of(double factor, const NodalVector& x, NodalVector& f) const {
   for (const PressedFace<F>& face : faces_) {
     const FaceNodes<F> forces = factor * face.forces(x);

@@ -44,6 +44,7 @@ class Pressure : public Term {
 
   std::string name() const override { return "pressure on " + surface_; }
   std::string description() const override { return name() + ": follows the surface"; }
+  std::unique_ptr<Term> part(const Subdomain& subdomain) const override;
   std::size_t bytes() const override { return faces_.capacity() * sizeof(PressedFace<F>); }
   void add_force(const NodalState& s, NodalVector& f) const override;
   void add_peak_force(const NodalState& s, double end, NodalVector& f) const override;

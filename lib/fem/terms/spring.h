@@ -28,6 +28,9 @@ class Springs : public Term {
 
   std::string name() const override { return "springs"; }
   std::string description() const override;
+  std::unique_ptr<Term> part(const Subdomain& subdomain) const override {
+    return std::make_unique<Springs>(k_, owned_links(links_, subdomain), pattern_);
+  }
   std::size_t bytes() const override { return links_.capacity() * sizeof(SpringLink); }
   void add_force(const NodalState& s, NodalVector& f) const override;
   void add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const override;

@@ -20,9 +20,9 @@ double seconds_between(std::chrono::steady_clock::time_point a, std::chrono::ste
 }  // namespace
 
 Checkpointer::Checkpointer(std::filesystem::path path, Checkpoint begin, CheckpointTimes times, NamedObservers others,
-                           const Integrator& integrator)
+                           const FemModel& model, const Integrator& integrator)
     : path_(std::move(path)), checkpoint_(std::move(begin)), before_(checkpoint_.effort), times_(times),
-      others_(std::move(others)), integrator_(integrator) {
+      others_(std::move(others)), model_(model), integrator_(integrator) {
   start_clock();
 }
 
@@ -51,11 +51,17 @@ void Checkpointer::on_step(const StepInfo&, const ObservedState& observed, const
   if (times_.never) return remember_now_and_then(observed.state());
   const double since = seconds_between(written_, Clock::now());
   const bool enough_outputs = times_.frames > 0 && outputs_ >= times_.frames;
-  if (enough_outputs || since >= std::max(times_.every, kRest * last_took_)) write(observed.state());
+  const bool is_due = enough_outputs || since >= std::max(times_.every, kRest * last_took_);
+  if (for_all_ranks(is_due)) write(observed.state());
+}
+
+// Clocks differ.
+bool Checkpointer::for_all_ranks(bool decision) const {
+  return model_.ranks() ? model_.ranks()->as_first_says(decision) : decision;
 }
 
 void Checkpointer::take(const State& state) {
-  checkpoint_.state = state;
+  checkpoint_.state = model_.whole(state);
   checkpoint_.effort = effort();
   for (const auto& [name, observer] : others_) {
     Archive kept;
@@ -76,7 +82,9 @@ void Checkpointer::write(const State& state) {
 // Observers make their files lasting when they are asked for what they keep, which takes a slow disk some time.
 void Checkpointer::remember_now_and_then(const State& state) {
   const auto begin = Clock::now();
-  if (remembered_ && seconds_between(written_, begin) < std::max(kBetweenRemembered, kRest * last_took_)) return;
+  const bool is_recent =
+      remembered_ && seconds_between(written_, begin) < std::max(kBetweenRemembered, kRest * last_took_);
+  if (for_all_ranks(is_recent)) return;
   take(state);
   remembered_ = checkpoint_;
   written_ = Clock::now();

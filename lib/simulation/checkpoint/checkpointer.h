@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/fem/fem_model.h"
 #include "lib/simulation/checkpoint/checkpoint.h"
 #include "lib/simulation/observers/observer.h"
 
@@ -26,10 +27,10 @@ struct CheckpointTimes {
 // To be the last of the observers: what the others keep is then that of the same state.
 class Checkpointer : public Observer {
  public:
-  // `begin` holds what does not change, and what earlier parts of the run have cost. The others and the
+  // `begin` holds what does not change, and what earlier parts of the run have cost. The others, the model and the
   // integrator must outlive it.
   Checkpointer(std::filesystem::path path, Checkpoint begin, CheckpointTimes times, NamedObservers others,
-               const Integrator& integrator);
+               const FemModel& model, const Integrator& integrator);
 
   void on_start(const ObservedState& observed) override;
   void on_resume(const ObservedState& observed) override;
@@ -50,6 +51,7 @@ class Checkpointer : public Observer {
   void start_clock();
   void take(const State& state);
   void remember_now_and_then(const State& state);
+  bool for_all_ranks(bool decision) const;
 
   std::filesystem::path path_;
   Checkpoint checkpoint_;
@@ -57,6 +59,7 @@ class Checkpointer : public Observer {
   Effort before_;
   CheckpointTimes times_;
   NamedObservers others_;
+  const FemModel& model_;
   const Integrator& integrator_;
   Clock::time_point begin_, written_;
   double begin_cpu_ = 0;

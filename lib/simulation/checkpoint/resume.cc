@@ -47,8 +47,9 @@ void require_same_files(const Checkpoint& checkpoint, const Setup& setup, const 
 
 void require_same_model(const Checkpoint& checkpoint, const Setup& setup, const ResultFolder& folder) {
   const FemModel& model = *setup.built.model;
-  if (checkpoint.mesh == mesh_fingerprint(model.parts().mesh) && checkpoint.state.q.size() == model.num_dofs() &&
-      checkpoint.state.v.size() == model.num_dofs())
+  const Eigen::Index unknowns = model.num_dofs_of_all();
+  if (checkpoint.mesh == mesh_fingerprint(model.parts().mesh) && checkpoint.state.q.size() == unknowns &&
+      checkpoint.state.v.size() == unknowns)
     return;
   throw ConfigError(folder.checkpoint().string(),
                     "the mesh is not the one that the checkpoint was computed with; put it back, or "
@@ -120,7 +121,7 @@ Checkpoint first_checkpoint(const Setup& setup, const std::string& resolved, con
   checkpoint.scene = resolved;
   checkpoint.mesh = mesh_fingerprint(setup.built.model->parts().mesh);
   checkpoint.files = file_fingerprints(setup.config, folder);
-  checkpoint.state = setup.built.initial;
+  checkpoint.state = setup.built.model->whole(setup.built.initial);
   checkpoint.last_output = checkpoint.last_history = setup.built.initial.t;
   checkpoint.schedule = schedule_of(setup.scene);
   return checkpoint;

@@ -65,6 +65,10 @@ void FrameWriter::write(const ObservedState& observed) {
   std::vector<VtuField> fields;
   for (const auto& info : fields_)
     fields.push_back({info.name, info.location, info.components, observed.evaluate(info.name)});
+  if (!writes_files()) {
+    ++frames_;
+    return;
+  }
   const fs::path path = frame(frames_);
   const Geometry geometry = model_.geometry();
   write_file(path, vtu_text(grid_of(geometry, std::move(fields), VtuNumber::float32, mesh_), VtuStorage::raw));
@@ -99,7 +103,7 @@ void FrameWriter::restore(const Archive& archive) {
   frames_ = lasting_ = archive.count("frames");
   kept_ = archive.count("bytes");
   collection_.require(kept_);
-  for (std::size_t k = 0; k < frames_; ++k)
+  for (std::size_t k = 0; k < frames_ && writes_files(); ++k)
     if (std::error_code ec; !fs::exists(frame(k), ec))
       throw ConfigError(frame(k).string(),
                         fmt::format("is missing, but the checkpoint knows of {} frames; put it back, or start anew "
@@ -109,7 +113,7 @@ void FrameWriter::restore(const Archive& archive) {
 
 void FrameWriter::on_resume(const ObservedState&) {
   collection_.go_on(kept_);
-  remove_frames_from(frames_);
+  if (writes_files()) remove_frames_from(frames_);
 }
 
 // They are computed again. What was being written when the run was killed is removed too.

@@ -4,6 +4,15 @@
 
 namespace orthodyn {
 
+std::optional<StrainExcess> StrainWatch::of_all_ranks(std::optional<StrainExcess> here) const {
+  if (!model_.ranks()) return here;
+  const double share = here ? here->share : 0, largest = model_.ranks()->max(share);
+  if (largest == 0 || share == largest) return here;
+  return StrainExcess{largest, fmt::format("the motion strained the body to {:.3g} times the limit of the corotational "
+                                           "law, in another rank's part of it",
+                                           largest)};
+}
+
 void StrainWatch::look_at(const ObservedState& observed) {
   last_look_ = observed.t();
   const double energy = observed.evaluate("energy.elastic")[0];
@@ -11,7 +20,7 @@ void StrainWatch::look_at(const ObservedState& observed) {
   largest_energy_ = energy;
   const State& state = observed.state();
   const NodalExpansion nodal(model_.parts(), times_ ? times_->at(state.t) : state.t, state.q, state.v);
-  const auto found = strain_excess(model_, nodal.state());
+  const auto found = of_all_ranks(strain_excess(model_, nodal.state()));
   if (found && (!worst_ || found->share > worst_->share)) worst_ = {found->share, state.t, found->sentence};
 }
 

@@ -43,6 +43,7 @@ class StrainWatch : public Observer {
   StrainWatch(const FemModel& model, const std::optional<PathTimes>& times, double interval)
       : model_(model), times_(times), interval_(interval) {}
   void look_at(const ObservedState& observed);
+  std::optional<StrainExcess> of_all_ranks(std::optional<StrainExcess> here) const;
 
   const FemModel& model_;
   std::optional<PathTimes> times_;

@@ -1,0 +1,156 @@
+#include "lib/fem/subdomain.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "lib/core/errors.h"
+#include "lib/mesh/quadratic.h"
+#include "lib/mesh/tet_faces.h"
+
+namespace orthodyn {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Cells that share a face are neighbours.
+CellGraph graph_of(const std::vector<TetFace>& faces, std::size_t cells) {
+  std::vector<std::pair<int, int>> pairs;
+  for (std::size_t begin = 0; begin < faces.size(); begin = end_of_face(faces, begin))
+    if (end_of_face(faces, begin) == begin + 2) {
+      pairs.emplace_back(faces[begin].tet, faces[begin + 1].tet);
+      pairs.emplace_back(faces[begin + 1].tet, faces[begin].tet);
+    }
+  std::sort(pairs.begin(), pairs.end());
+  CellGraph graph{std::vector<int>(cells + 1, 0), {}};
+  for (const auto& [cell, neighbour] : pairs) {
+    ++graph.start[at(cell) + 1];
+    graph.neighbours.push_back(neighbour);
+  }
+  std::partial_sum(graph.start.begin(), graph.start.end(), graph.start.begin());
+  return graph;
+}
+
+// For each node the ranks of its cells, ascending.
+class RanksOfNodes {
+ public:
+  RanksOfNodes(const Cells& cells, const std::vector<int>& rank_of_cell, std::size_t nodes)
+      : rank_of_cell_(rank_of_cell), start_(nodes + 1, 0), cells_(cells.nodes().size()) {
+    for (const int node : cells.nodes()) ++start_[at(node) + 1];
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
+    for (std::size_t cell = 0; cell < cells.size(); ++cell)
+      for (const int node : cells[cell]) cells_[next[at(node)]++] = static_cast<int>(cell);
+  }
+
+  // Valid until the next call.
+  const std::vector<int>& of(std::size_t node) {
+    ranks_.clear();
+    for (std::size_t k = start_[node]; k < start_[node + 1]; ++k) ranks_.push_back(rank_of_cell_[at(cells_[k])]);
+    std::sort(ranks_.begin(), ranks_.end());
+    ranks_.erase(std::unique(ranks_.begin(), ranks_.end()), ranks_.end());
+    return ranks_;
+  }
+
+ private:
+  const std::vector<int>& rank_of_cell_;
+  std::vector<std::size_t> start_;
+  std::vector<int> cells_, ranks_;
+};
+
+}  // namespace
+
+Subdomain::Subdomain(const TetMesh& mesh, const std::vector<std::pair<int, int>>& links, const Ranks& ranks)
+    : ranks_(ranks), local_(mesh.nodes.size(), -1) {
+  const std::vector<TetFace> faces = sorted_faces(mesh);
+  const std::vector<int> rank_of_cell = ranks.partition(graph_of(faces, mesh.tets.size()));
+  for (std::size_t cell = 0; cell < rank_of_cell.size(); ++cell)
+    if (rank_of_cell[cell] == ranks.rank()) cells_.push_back(static_cast<int>(cell));
+  for (std::size_t begin = 0; begin < faces.size(); begin = end_of_face(faces, begin)) {
+    int first = ranks.size();
+    for (std::size_t k = begin; k < end_of_face(faces, begin); ++k)
+      first = std::min(first, rank_of_cell[at(faces[k].tet)]);
+    if (first == ranks.rank()) faces_.push_back(faces[begin].nodes);
+  }
+  find_nodes(mesh, rank_of_cell, links);
+}
+
+void Subdomain::find_nodes(const TetMesh& mesh, const std::vector<int>& rank_of_cell,
+                           const std::vector<std::pair<int, int>>& links) {
+  const int me = ranks_.rank();
+  const std::size_t count = mesh.nodes.size();
+  RanksOfNodes ranks_of(tet_cells(mesh), rank_of_cell, count);
+  std::vector<int> owner(count), place(count), owned(at(ranks_.size()), 0);
+  std::vector<char> is_here(count, 0);
+  for (std::size_t node = 0; node < count; ++node) {
+    const std::vector<int>& having = ranks_of.of(node);
+    owner[node] = having[node % having.size()];  // borders are shared evenly
+    place[node] = owned[at(owner[node])]++;
+    is_here[node] = std::binary_search(having.begin(), having.end(), me) ? 1 : 0;
+  }
+  for (const auto& [a, b] : links)
+    if (owner[at(a)] == me) is_here[at(b)] = 1;
+
+  for (const bool own : {true, false}) {
+    for (std::size_t node = 0; node < count; ++node)
+      if (is_here[node] && (owner[node] == me) == own) nodes_.push_back(static_cast<int>(node));
+    if (own) num_owned_ = num_nodes();
+  }
+  for (int i = 0; i < num_nodes(); ++i) local_[at(nodes_[at(i)])] = i;
+  std::vector<RemoteNode> copies;
+  for (int i = num_owned_; i < num_nodes(); ++i) {
+    const std::size_t node = at(nodes_[at(i)]);
+    copies.emplace_back(owner[node], place[node]);
+  }
+  exchange_ = ranks_.exchange(num_owned_, copies);
+}
+
+TetMesh Subdomain::part_of(const TetMesh& mesh) const {
+  const auto renumbered = [&](auto nodes) {
+    for (int& node : nodes) node = local(node);
+    return nodes;
+  };
+  TetMesh part;
+  part.region_names = mesh.region_names;
+  for (const int node : nodes_) part.nodes.push_back(mesh.nodes[at(node)]);
+  for (const int cell : cells_) {
+    part.tets.push_back(renumbered(mesh.tets[at(cell)]));
+    if (mesh.order() == 2) part.midsides.push_back(renumbered(mesh.midsides[at(cell)]));
+    part.region_of.push_back(mesh.region_of[at(cell)]);
+  }
+  return part;
+}
+
+std::vector<int> Subdomain::here(const std::vector<int>& nodes) const {
+  std::vector<int> out;
+  for (const int node : nodes)
+    if (local(node) >= 0) out.push_back(local(node));
+  return out;
+}
+
+std::vector<int> Subdomain::owned(const std::vector<int>& nodes) const {
+  std::vector<int> out;
+  for (const int node : nodes)
+    if (owns(node)) out.push_back(local(node));
+  return out;
+}
+
+bool Subdomain::has_face(std::span<const int> corners) const {
+  Triangle face{corners[0], corners[1], corners[2]};
+  sort_nodes(face);
+  return std::binary_search(faces_.begin(), faces_.end(), face);
+}
+
+void Subdomain::add_to_owners(Vector& values) const {
+  NodalVector columns = NodalVector::Zero(3, values.size());
+  columns.row(0) = values.transpose();
+  add_to_owners(columns);
+  values = columns.row(0).transpose();
+}
+
+void Subdomain::agree(const std::string& trouble) const {
+  if (!ranks_.any(!trouble.empty())) return;
+  throw RecoverableError(trouble.empty() ? "another rank cannot evaluate its part" : trouble);
+}
+
+}  // namespace orthodyn

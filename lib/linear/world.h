@@ -1,0 +1,15 @@
+// The ranks that mpirun has started.
+#pragma once
+
+#include "lib/core/ranks.h"
+
+namespace orthodyn {
+
+// Null where this process is alone: then MPI is not started either. Throws ConfigError where it is one of several, and
+// this build has no MPI.
+const Ranks* world_ranks();
+
+// Whether it is one of several, as the launcher tells it: without starting MPI.
+bool is_one_of_several_ranks();
+
+}  // namespace orthodyn

@@ -1,0 +1,185 @@
+// Ranks (lib/core/ranks.h) by MPI, with PETSc's star forests for copies of nodes and its interface to partitioners.
+#include <petscmat.h>
+#include <petscsf.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+
+#include "lib/core/errors.h"
+#include "lib/core/ranks.h"
+#include "lib/linear/petsc_library.h"
+#include "lib/petsc/session.h"
+
+namespace orthodyn::petsc {
+namespace {
+
+void check_mpi(int code) {
+  if (code != MPI_SUCCESS) throw RunError("MPI: a call has failed (error " + std::to_string(code) + ")");
+}
+
+int count_of(std::span<double> values) { return static_cast<int>(values.size()); }
+
+class StarForest : public NodeExchange {
+ public:
+  StarForest(int owned, const std::vector<RemoteNode>& copies) {
+    const Session session;
+    std::vector<PetscSFNode> roots;
+    for (const auto& [rank, place] : copies) roots.push_back({rank, place});
+    std::vector<PetscInt> leaves;
+    for (std::size_t i = 0; i < copies.size(); ++i) leaves.push_back(owned + static_cast<PetscInt>(i));
+    check(PetscSFCreate(PETSC_COMM_WORLD, &forest_));
+    check(PetscSFSetGraph(forest_, owned, static_cast<PetscInt>(leaves.size()), leaves.data(), PETSC_COPY_VALUES,
+                          roots.data(), PETSC_COPY_VALUES));
+    check(PetscSFSetUp(forest_));
+    check_mpi(MPI_Type_contiguous(3, MPI_DOUBLE, &three_));
+    check_mpi(MPI_Type_commit(&three_));
+    owned_ = owned;
+    copies_ = copies.size();
+  }
+  ~StarForest() override {
+    const Session session;
+    MPI_Type_free(&three_);
+    static_cast<void>(PetscSFDestroy(&forest_));
+  }
+  StarForest(const StarForest&) = delete;
+  StarForest& operator=(const StarForest&) = delete;
+
+  void copy_from_owners(double* values) const override {
+    const Session session;
+    check(PetscSFBcastBegin(forest_, three_, values, values, MPI_REPLACE));
+    check(PetscSFBcastEnd(forest_, three_, values, values, MPI_REPLACE));
+  }
+
+  void add_to_owners(double* values) const override {
+    const Session session;
+    check(PetscSFReduceBegin(forest_, three_, values, values, MPI_SUM));
+    check(PetscSFReduceEnd(forest_, three_, values, values, MPI_SUM));
+    std::fill_n(values + 3 * owned_, 3 * copies_, 0.0);
+  }
+
+ private:
+  PetscSF forest_ = nullptr;
+  MPI_Datatype three_ = MPI_DATATYPE_NULL;
+  int owned_ = 0;
+  std::size_t copies_ = 0;
+};
+
+class MpiRanks : public Ranks {
+ public:
+  MpiRanks() {
+    const Session session;
+    check_mpi(MPI_Comm_rank(PETSC_COMM_WORLD, &rank_));
+    check_mpi(MPI_Comm_size(PETSC_COMM_WORLD, &size_));
+    check_mpi(MPI_Comm_dup(PETSC_COMM_WORLD, &meeting_));
+  }
+
+  int rank() const override { return rank_; }
+  int size() const override { return size_; }
+
+  void sum(std::span<double> values) const override { reduce(values, MPI_SUM); }
+  void max(std::span<double> values) const override { reduce(values, MPI_MAX); }
+
+  long sum_before(long value) const override {
+    const Session session;
+    long sum = 0;
+    check_mpi(MPI_Exscan(&value, &sum, 1, MPI_LONG, MPI_SUM, PETSC_COMM_WORLD));
+    return rank_ > 0 ? sum : 0;
+  }
+
+  void broadcast(std::span<double> values) const override {
+    const Session session;
+    check_mpi(MPI_Bcast(values.data(), count_of(values), MPI_DOUBLE, 0, PETSC_COMM_WORLD));
+  }
+
+  // By the first rank alone, so that the parts do not depend on how it is done in parallel.
+  std::vector<int> partition(const CellGraph& graph) const override {
+    const Session session;
+    std::vector<int> part(graph.start.size() - 1, 0);
+    std::string trouble;
+    if (rank_ == 0) {
+      try {
+        part = parts_of(graph, size_);
+      } catch (const std::exception& e) {
+        trouble = e.what();
+      }
+    }
+    int failed = trouble.empty() ? 0 : 1;
+    check_mpi(MPI_Bcast(&failed, 1, MPI_INT, 0, PETSC_COMM_WORLD));
+    if (failed != 0) throw RunError(trouble.empty() ? "the mesh cannot be partitioned" : trouble);
+    check_mpi(MPI_Bcast(part.data(), static_cast<int>(part.size()), MPI_INT, 0, PETSC_COMM_WORLD));
+    return part;
+  }
+
+  std::unique_ptr<NodeExchange> exchange(int owned, const std::vector<RemoteNode>& copies) const override {
+    return std::make_unique<StarForest>(owned, copies);
+  }
+
+  bool meet(double seconds) const override {
+    const Session session;
+    MPI_Request request = MPI_REQUEST_NULL;
+    check_mpi(MPI_Ibarrier(meeting_, &request));
+    const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    for (;;) {
+      int all_are_here = 0;
+      check_mpi(MPI_Test(&request, &all_are_here, MPI_STATUS_IGNORE));
+      if (all_are_here != 0) return true;
+      if (std::chrono::steady_clock::now() > until) return false;
+      usleep(1000);
+    }
+  }
+
+  void abort(int exit_code) const override {
+    MPI_Abort(MPI_COMM_WORLD, exit_code);
+    std::_Exit(exit_code);
+  }
+
+ private:
+  void reduce(std::span<double> values, MPI_Op operation) const {
+    const Session session;
+    check_mpi(MPI_Allreduce(MPI_IN_PLACE, values.data(), count_of(values), MPI_DOUBLE, operation, PETSC_COMM_WORLD));
+  }
+
+  static std::vector<int> parts_of(const CellGraph& graph, int parts) {
+    const auto cells = static_cast<PetscInt>(graph.start.size() - 1);
+    std::vector<int> part(static_cast<std::size_t>(cells), 0);
+    if (cells <= parts) {  // fewer than a partitioner takes
+      for (PetscInt cell = 0; cell < cells; ++cell) part[static_cast<std::size_t>(cell)] = cell;
+      return part;
+    }
+    PetscInt *start = nullptr, *neighbours = nullptr;  // PETSc frees them
+    check(PetscMalloc1(graph.start.size(), &start));
+    check(PetscMalloc1(graph.neighbours.size() + 1, &neighbours));
+    std::copy(graph.start.begin(), graph.start.end(), start);
+    std::copy(graph.neighbours.begin(), graph.neighbours.end(), neighbours);
+    Mat adjacency = nullptr;
+    check(MatCreateMPIAdj(PETSC_COMM_SELF, cells, cells, start, neighbours, nullptr, &adjacency));
+    MatPartitioning partitioning = nullptr;
+    IS numbers = nullptr;
+    check(MatPartitioningCreate(PETSC_COMM_SELF, &partitioning));
+    check(MatPartitioningSetAdjacency(partitioning, adjacency));
+    check(MatPartitioningSetNParts(partitioning, parts));
+    check(MatPartitioningSetType(partitioning, MATPARTITIONINGPTSCOTCH));
+    check(MatPartitioningApply(partitioning, &numbers));
+    const PetscInt* values = nullptr;
+    check(ISGetIndices(numbers, &values));
+    std::copy_n(values, part.size(), part.begin());
+    check(ISRestoreIndices(numbers, &values));
+    check(ISDestroy(&numbers));
+    check(MatPartitioningDestroy(&partitioning));
+    check(MatDestroy(&adjacency));
+    return part;
+  }
+
+  int rank_ = 0, size_ = 1;
+  MPI_Comm meeting_ = MPI_COMM_NULL;
+};
+
+}  // namespace
+}  // namespace orthodyn::petsc
+
+extern "C" [[gnu::visibility("default")]] const orthodyn::Ranks* orthodyn_world_ranks() {
+  static const orthodyn::petsc::MpiRanks world;  // for the process's life
+  return world.size() > 1 ? &world : nullptr;
+}

@@ -1,0 +1,173 @@
+// A model of which several ranks have parts is the model: forces, matrices, energies and outputs of any state. Each
+// rank has the whole model beside its part. Run by mpirun with one and more ranks; one alone has both alike.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "lib/core/errors.h"
+#include "lib/linear/world.h"
+#include "lib/scene/build.h"
+#include "tests/material/constants.h"
+#include "tests/ranks/scenes.h"
+
+namespace orthodyn {
+namespace {
+
+constexpr double kRoundOff = 1e-11;
+
+class SharedModel : public testing::TestWithParam<SharedScene> {
+ protected:
+  SharedModel()
+      : scene_(read_scene(Config::from_text(GetParam().yaml, "scene.yaml"))), one_(build(scene_)),
+        parts_(build(scene_, world_ranks())) {}
+
+  const FemModel& one() const { return *one_.model; }
+  const FemModel& parts() const { return *parts_.model; }
+
+  // The same on all ranks, a little off rest.
+  State some_state() const {
+    Random random(5);
+    State state{0.03, Vector(one().num_dofs()), Vector(one().num_dofs())};
+    for (double& x : state.q) x = 0.01 * random.between(-1, 1);
+    for (double& x : state.v) x = random.between(-1, 1);
+    return state;
+  }
+
+  static void expect_same(const Vector& found, const Vector& expected) {
+    ASSERT_EQ(found.size(), expected.size());
+    const double size = std::max(expected.lpNorm<Eigen::Infinity>(), 1e-300);
+    EXPECT_LE((found - expected).lpNorm<Eigen::Infinity>(), kRoundOff * size) << "of " << size;
+  }
+
+  Vector whole(const Vector& part) const { return parts().whole({0, part, part}).q; }
+
+  Scene scene_;
+  BuiltScene one_, parts_;
+};
+
+TEST_P(SharedModel, StartsAlike) {
+  EXPECT_EQ(parts().num_dofs_of_all(), one().num_dofs());
+  const State start = parts().whole(parts_.initial);
+  expect_same(start.q, one_.initial.q);
+  expect_same(start.v, one_.initial.v);
+  EXPECT_NEAR(parts().parts().mass->total(), one().parts().mass->total(), 1e-12 * one().parts().mass->total());
+}
+
+TEST_P(SharedModel, HasTheSameForce) {
+  const State state = some_state(), part = parts().part(state);
+  Vector f(one().num_dofs()), f_part(parts().num_dofs());
+  one().force(state.t, state.q, state.v, f);
+  parts().force(part.t, part.q, part.v, f_part);
+  expect_same(whole(f_part), f);
+}
+
+TEST_P(SharedModel, HasTheSameMatrices) {
+  const State state = some_state(), part = parts().part(state);
+  for (const TangentKind kind : {TangentKind::exact, TangentKind::gauss_newton}) {
+    Linearization at, at_part;
+    one().linearize(state.t, state.q, state.v, kind, at);
+    parts().linearize(part.t, part.q, part.v, kind, at_part);
+    for (const Weights& w : {Weights{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1e-2, 1e-4}}) {
+      std::vector<double> A(one().pattern().row.size()), A_part(parts().pattern().row.size());
+      one().combine(w, at, A.data());
+      parts().combine(w, at_part, A_part.data());
+      Vector y(one().num_dofs()), y_part(parts().num_dofs());
+      one().multiply_matrix(A.data(), state.v, y);
+      parts().multiply_matrix(A_part.data(), part.v, y_part);
+      expect_same(whole(y_part), y);
+    }
+  }
+}
+
+TEST_P(SharedModel, HasTheSameMass) {
+  const State state = some_state(), part = parts().part(state);
+  Vector y(one().num_dofs()), y_part(parts().num_dofs());
+  one().multiply_mass(state.q, y);
+  parts().multiply_mass(part.q, y_part);
+  expect_same(whole(y_part), y);
+  one().solve_mass(y);
+  parts().solve_mass(y_part);
+  expect_same(whole(y_part), y);
+}
+
+TEST_P(SharedModel, HasTheSameBoundOfFrequencies) {
+  EXPECT_NEAR(parts().frequency_bound(), one().frequency_bound(), 1e-12 * one().frequency_bound());
+  ASSERT_EQ(parts().force_parts(), one().force_parts());
+  for (const auto& part : one().force_parts()) {
+    const double bound = one().only({part})->frequency_bound();
+    EXPECT_NEAR(parts().only({part})->frequency_bound(), bound, 1e-12 * bound) << part;
+  }
+}
+
+TEST_P(SharedModel, SolvesItsMatrix) {
+  const State state = some_state(), part = parts().part(state);
+  Linearization at;
+  parts().linearize(part.t, part.q, part.v, TangentKind::gauss_newton, at);
+  std::vector<double> A(parts().pattern().row.size());
+  parts().combine({1, 1e-2, 1e-4}, at, A.data());
+  Vector b(parts().num_dofs()), x(parts().num_dofs());
+  parts().multiply_matrix(A.data(), part.v, b);
+  const auto solver = make_linear_solver({world_ranks() ? "petsc" : "cholmod"});
+  solver->analyze(parts().pattern());
+  solver->set_tolerance({1e-10, 0});
+  ASSERT_EQ(solver->factor(A.data()), FactorStatus::ok);
+  solver->solve(b, x);
+  EXPECT_LE((whole(x) - state.v).norm(), 1e-7 * state.v.norm());
+}
+
+TEST_P(SharedModel, MultigridWithRigidMotionsSolvesIt) {
+  if (!world_ranks()) GTEST_SKIP() << "the solver's own tests have it";
+  if (world_ranks()->any(parts().num_dofs() == 0)) GTEST_SKIP() << "then it does not take multigrid by itself";
+  const State state = some_state(), part = parts().part(state);
+  Linearization at;
+  parts().linearize(part.t, part.q, part.v, TangentKind::gauss_newton, at);
+  std::vector<double> A(parts().pattern().row.size());
+  parts().combine({1, 1e-1, 1e-2}, at, A.data());
+  Vector b(parts().num_dofs()), x(parts().num_dofs());
+  parts().multiply_matrix(A.data(), part.v, b);
+  const auto solver = make_linear_solver({"petsc", "-ksp_type cg -pc_type gamg -pc_gamg_agg_nsmooths 0"});
+  solver->analyze(parts().pattern());
+  solver->set_tolerance({1e-10, 0});
+  ASSERT_TRUE(solver->wants_rigid_motions());
+  solver->set_rigid_motions(parts().rigid_motions(part.q));
+  ASSERT_EQ(solver->factor(A.data()), FactorStatus::ok);
+  solver->solve(b, x);
+  EXPECT_LE((whole(x) - state.v).norm(), 1e-8 * state.v.norm());
+}
+
+TEST_P(SharedModel, TellsTheSameOfAState) {
+  const State state = some_state(), part = parts().part(state);
+  int compared = 0;
+  for (const OutputInfo& info : parts().outputs()) {
+    const auto found = parts().evaluate(info.name, part), expected = one().evaluate(info.name, state);
+    ASSERT_EQ(found.size(), expected.size()) << info.name;
+    double size = 0;
+    for (const double x : expected)
+      if (!std::isnan(x)) size = std::max(size, std::abs(x));
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      ASSERT_EQ(std::isnan(found[i]), std::isnan(expected[i])) << info.name << " " << i;
+      if (!std::isnan(found[i])) ASSERT_NEAR(found[i], expected[i], 1e-10 * size) << info.name << " " << i;
+    }
+    ++compared;
+  }
+  EXPECT_GE(compared, 20);
+}
+
+TEST_P(SharedModel, WhatOneRankCannotEvaluateIsToldToAll) {
+  State part = parts().part(some_state());
+  // Of several ranks the one that has the first unknown.
+  const bool has_first = !parts().parts().unknowns.empty() && parts().parts().unknowns[0] == 0;
+  if (has_first) part.q[0] = std::numeric_limits<double>::quiet_NaN();
+  Vector f(parts().num_dofs());
+  if (world_ranks()) {
+    EXPECT_THROW(parts().force(0, part.q, part.v, f), RecoverableError);
+    Linearization at;
+    EXPECT_THROW(parts().linearize(0, part.q, part.v, TangentKind::exact, at), RecoverableError);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SharedModel, testing::ValuesIn(shared_scenes()),
+                         [](const auto& scene) { return scene.param.name; });
+
+}  // namespace
+}  // namespace orthodyn

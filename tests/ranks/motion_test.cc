@@ -1,0 +1,115 @@
+// Motions that several ranks compute together: the same as on one, to round-off with a fixed step, and as the exact
+// solution where there is one.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lib/linear/world.h"
+#include "lib/simulation/setup.h"
+#include "tests/ranks/scenes.h"
+
+namespace orthodyn {
+namespace {
+
+struct Motion {
+  State end;
+  long steps = 0;
+};
+
+// The state at the end, of all unknowns.
+Motion integrate(const std::string& yaml, const Ranks* ranks, double rtol_of_time = 1e-12) {
+  orthodyn::Setup setup = set_up(Config::from_text(yaml, "scene.yaml"), false, true, ranks);
+  const double end = setup.scene.time.end;
+  setup.integrator->start(setup.built.initial);
+  State state;
+  double t = setup.built.initial.t;
+  while (t < end * (1 - rtol_of_time)) t = setup.integrator->step(end).t;
+  setup.integrator->interpolate(t, state);
+  return {setup.built.model->whole(state), setup.integrator->statistics().steps};
+}
+
+double difference(const Vector& found, const Vector& expected) {
+  return (found - expected).lpNorm<Eigen::Infinity>() / expected.lpNorm<Eigen::Infinity>();
+}
+
+std::string integrator(const std::string& keys) {
+  return "integrator: {position_scale: 0.1, velocity_scale: 1, " + keys + "}\n";
+}
+
+class SharedMotion : public testing::TestWithParam<SharedScene> {};
+
+TEST_P(SharedMotion, OfFixedStepIsTheSameToRoundOff) {
+  for (const char* method :
+       {"type: generalized_alpha, step: 0.005, rtol: 1.0e-11, max_newton_iterations: 30",
+        "type: tr_bdf2, step: 0.005, rtol: 1.0e-11, max_newton_iterations: 30",
+        "type: central_differences, step: 1.0e-5"}) {
+    const std::string scene = GetParam().yaml + (std::string(method).find("central") == std::string::npos
+                                                     ? integrator(method)
+                                                     : std::string("integrator: {") + method + "}\n");
+    const std::string span = std::string(method).find("central") == std::string::npos ? "0.05" : "0.002";
+    Config config = Config::from_text(scene, "scene.yaml");
+    config.set("time.end", std::stod(span));
+    const std::string yaml = config.dump();
+    const Motion one = integrate(yaml, nullptr), shared = integrate(yaml, world_ranks());
+    EXPECT_EQ(shared.steps, one.steps) << method;
+    EXPECT_LE(difference(shared.end.q, one.end.q), 1e-10) << method;
+    EXPECT_LE(difference(shared.end.v, one.end.v), 1e-9) << method;
+  }
+}
+
+TEST_P(SharedMotion, WithErrorControlIsTheSameWithinTheTolerance) {
+  for (const char* method : {"type: cvode_bdf, rtol: 1.0e-5", "type: ida_bdf, rtol: 1.0e-5",
+                             "type: arkode_dirk, rtol: 1.0e-5"}) {
+    const std::string yaml = GetParam().yaml + integrator(method);
+    const Motion one = integrate(yaml, nullptr), shared = integrate(yaml, world_ranks());
+    // The scale of positions is 0.1 m, and errors of some hundred steps add up in either run.
+    EXPECT_LE((shared.end.q - one.end.q).lpNorm<Eigen::Infinity>(), 3e-4) << method;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SharedMotion, testing::ValuesIn(shared_scenes()),
+                         [](const auto& scene) { return scene.param.name; });
+
+// A free body that turns slowly and flies: its centre moves on a parabola, whatever the partition.
+TEST(SharedFlight, OfTheCentreIsAParabola) {
+  const std::string yaml = R"(
+mesh: {type: box, size: [1, 0.2, 0.1], cells: [8, 2, 1], order: 1}
+materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
+initial: {velocity: [1, 0, 3], spin: [0, 0.5, 0]}
+gravity: [0, 0, -9.81]
+time: {end: 0.3}
+)" + integrator("type: cvode_bdf, rtol: 1.0e-6");
+  orthodyn::Setup setup = set_up(Config::from_text(yaml, "scene.yaml"), false, true, world_ranks());
+  const FemModel& model = *setup.built.model;
+  setup.integrator->start(setup.built.initial);
+  double t = 0;
+  while (t < 0.3) t = setup.integrator->step(0.3).t;
+  State end;
+  setup.integrator->interpolate(t, end);
+  const double mass = model.parts().mass->total();
+  const auto momentum = model.evaluate("momentum.linear", end);
+  EXPECT_NEAR(momentum[0] / mass, 1, 1e-6);
+  EXPECT_NEAR(momentum[1] / mass, 0, 1e-6);
+  EXPECT_NEAR(momentum[2] / mass, 3 - 9.81 * 0.3, 1e-5);
+}
+
+// A longitudinal wave runs along a bar, through every border between ranks, and comes back from the free end: with
+// nu = 0 the bar's first frequency is c / (4 L) but for the mesh, whose error falls with its square.
+TEST(SharedWave, OfABarHasItsFrequency) {
+  const int cells = 40;
+  const std::string yaml = "mesh: {type: box, size: [1, 0.05, 0.05], cells: [" + std::to_string(cells) + R"(, 1, 1], order: 1}
+materials: {bar: {type: isotropic, density: 1000, young: 1e5, nu: 0.0}}
+clamps: [{surface: x0}]
+initial: {displacement_field: ["sin(pi * x / 2) / 1000", "0", "0"]}
+elasticity: {kinematics: linear}
+time: {end: 0.4}
+)" + integrator("type: generalized_alpha, step: 0.0005, rho_inf: 1, rtol: 1.0e-10");
+  const Motion motion = integrate(yaml, world_ranks());
+  // At t = T = 4 L / c = 0.4 s it is where it was.
+  orthodyn::Setup setup = set_up(Config::from_text(yaml, "scene.yaml"), false, true, nullptr);
+  const Vector& start = setup.built.initial.q;
+  EXPECT_LE((motion.end.q - start).lpNorm<Eigen::Infinity>(), 5e-3 * start.lpNorm<Eigen::Infinity>());
+}
+
+}  // namespace
+}  // namespace orthodyn

@@ -1,0 +1,134 @@
+// `mpirun -n N orthodyn run`, as a user starts it: results, restarts, what is told, and how it ends.
+#include <algorithm>
+#include <cmath>
+
+#include "lib/linear/solver.h"
+#include "tests/simulation/resume_fixture.h"
+
+namespace orthodyn::ranks_test {
+namespace {
+
+class SeveralRanks : public Resume {
+ protected:
+  void SetUp() override {
+    if (!solver_registry().at("petsc").unavailable.empty()) GTEST_SKIP() << "built without MPI";
+  }
+
+  // Also for root, and for more ranks than there are cores.
+  static std::string mpirun(int ranks) {
+    return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
+           "OMPI_MCA_mpi_yield_when_idle=1 mpirun -n " + std::to_string(ranks) + " " ORTHODYN_EXECUTABLE " ";
+  }
+  CommandResult orthodyn_on(int ranks, const std::string& arguments) const {
+    return shell("cd " + folder_.string() + " && " + mpirun(ranks) + arguments);
+  }
+
+  void expect_alike(const std::string& name, const std::string& expected, double tolerance) const {
+    for (const char* file : {"energy.csv", "probes.csv"}) {
+      const auto found = read_rows(folder_ / name / file), rows = read_rows(folder_ / expected / file);
+      ASSERT_EQ(found.size(), rows.size()) << file;
+      for (std::size_t column = 0; column < rows.front().size(); ++column) {
+        double largest = 0, worst = 0;
+        for (std::size_t row = 0; row < rows.size(); ++row) {
+          largest = std::max(largest, std::abs(rows[row][column]));
+          worst = std::max(worst, std::abs(found[row][column] - rows[row][column]));
+        }
+        EXPECT_LE(worst, tolerance * std::max(largest, 1e-6)) << file << " column " << column;
+      }
+    }
+  }
+
+  static int count(const std::string& text, const std::string& word) {
+    int found = 0;
+    for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++found;
+    return found;
+  }
+};
+
+const std::string kShort = "time: {end: 0.4}\nintegrator: {type: generalized_alpha, step: 0.01, rtol: 1e-9}\n";
+
+TEST_F(SeveralRanks, WriteWhatOneWrites) {
+  write("beam.yaml", kBeam + std::string("  reactions: true\n") + kShort);
+  ASSERT_EQ(orthodyn("run beam.yaml --quiet --out one").exit_code, 0);
+  for (const int ranks : {2, 3}) {
+    const std::string out = "on_" + std::to_string(ranks);
+    const auto result = orthodyn_on(ranks, "run beam.yaml --out " + out);
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_EQ(count(result.output, "completed at t = 0.4 s"), 1) << result.output;
+    EXPECT_EQ(read_text(folder_ / out / "frames.pvd"), read_text(folder_ / "one/frames.pvd"));
+    EXPECT_EQ(read_text(folder_ / out / "setup.vtu").size(), read_text(folder_ / "one/setup.vtu").size());
+    EXPECT_LE(difference(folder_ / out, folder_ / "one"), 1e-6);
+    expect_alike(out, "one", 1e-6);
+    EXPECT_EQ(record(out).at("model").at("terms"), record("one").at("model").at("terms"));
+    EXPECT_EQ(record(out).at("model").at("unknowns"), record("one").at("model").at("unknowns"));
+    EXPECT_NEAR(record(out).at("errors").at("mesh"), record("one").at("errors").at("mesh").get<double>(), 1e-5);
+  }
+}
+
+TEST_F(SeveralRanks, GiveTheSameBitsTwice) {
+  write("beam.yaml", kBeam + kShort);
+  for (const char* out : {"first", "second"})
+    ASSERT_EQ(orthodyn_on(3, std::string("run beam.yaml --quiet --out ") + out).exit_code, 0);
+  EXPECT_EQ(read_text(folder_ / "first/energy.csv"), read_text(folder_ / "second/energy.csv"));
+  EXPECT_EQ(read_text(folder_ / "first/frames/frame_00040.vtu"), read_text(folder_ / "second/frames/frame_00040.vtu"));
+}
+
+TEST_F(SeveralRanks, GoOnWhereAnotherNumberOfThemStopped) {
+  write("beam.yaml", kBeam + std::string("  interval: 0.02\n") + kShort);
+  std::string scene = read_text(folder_ / "beam.yaml");
+  scene.erase(scene.find("  frames: 40\n"), std::string("  frames: 40\n").size());
+  write("beam.yaml", scene);
+  ASSERT_EQ(orthodyn("run beam.yaml --quiet --out one").exit_code, 0);
+  const std::string run = "run beam.yaml --quiet --out parts --resume --set time.end=";
+  ASSERT_EQ(orthodyn_on(2, run + "0.1").exit_code, 0);
+  const auto third = orthodyn_on(3, run + "0.2");
+  ASSERT_EQ(third.exit_code, 0) << third.output;
+  ASSERT_EQ(orthodyn(run + "0.3").exit_code, 0);
+  ASSERT_EQ(orthodyn_on(2, run + "0.4").exit_code, 0);
+  EXPECT_EQ(record("parts").at("restarts").size(), 3u);
+  EXPECT_LE(difference(folder_ / "parts", folder_ / "one"), 1e-3);  // the method starts anew three times
+}
+
+TEST_F(SeveralRanks, TellAFaultOfTheInputOnce) {
+  write("beam.yaml", kBeam + kShort + "gravitas: 1\n");
+  const auto result = orthodyn_on(3, "run beam.yaml --out bad");
+  EXPECT_EQ(result.exit_code, 2) << result.output;
+  EXPECT_EQ(count(result.output, "gravitas"), 1) << result.output;
+  EXPECT_FALSE(fs::exists(folder_ / "bad/scene.yaml"));
+}
+
+TEST_F(SeveralRanks, AreRefusedByNameWhereTheyCannotCompute) {
+  write("beam.yaml", kBeam + kShort);
+  const auto expect_refusal = [&](const std::string& arguments, const std::string& words) {
+    const auto result = orthodyn_on(2, arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.output;
+    EXPECT_NE(result.output.find(words), std::string::npos) << result.output;
+  };
+  expect_refusal("run beam.yaml --set integrator.type=rosenbrock",
+                 "arkode_dirk, central_differences, cvode_bdf, generalized_alpha, ida_bdf, tr_bdf2");
+  expect_refusal("run beam.yaml --set integrator.linear_solver=cholmod", "does not run on several ranks; use petsc");
+  expect_refusal("run beam.yaml --set mass=consistent", "mass: lumped");
+  expect_refusal("run beam.yaml --estimate-error", "--estimate-error");
+  expect_refusal("check beam.yaml", "is for one process");
+}
+
+// One that is killed ends all; what was written is whole, and the run can go on.
+TEST_F(SeveralRanks, EndTogetherWhenOneIsKilled) {
+  const std::string endless = "time: {end: 1000}\nintegrator: {type: generalized_alpha, step: 0.01, rtol: 1e-9}\n";
+  write("beam.yaml", kBeam + endless);
+  const auto result = shell(
+      "cd " + folder_.string() + " && { " + mpirun(2) + "run beam.yaml --quiet --out killed & pid=$!; "
+      "for i in $(seq 200); do [ -e killed/checkpoint.cbor ] && [ -s killed/steps.csv ] && break; sleep 0.05; done; "
+      "sleep 0.5; kill -KILL $(pgrep -P $(pgrep -P $pid -x mpirun || echo $pid) | tail -n 1); "
+      "for i in $(seq 300); do kill -0 $pid 2>/dev/null || break; sleep 0.1; done; "
+      "kill -0 $pid 2>/dev/null && { kill -KILL $pid; echo still there; }; wait $pid; }");
+  EXPECT_NE(result.exit_code, 0) << result.output;
+  EXPECT_EQ(result.output.find("still there"), std::string::npos) << result.output;
+  const double reached = read_rows(folder_ / "killed/steps.csv").back()[0];
+  const auto resumed = orthodyn_on(3, "run beam.yaml --quiet --out killed --resume --set time.end=" +
+                                          std::to_string(reached + 0.05));
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.output;
+}
+
+}  // namespace
+}  // namespace orthodyn::ranks_test
