@@ -23,7 +23,7 @@ class SecantNewton {
  public:
   // least_rate: corrections are known to shrink by this factor at best, where those of a direct solver may do better.
   // `space`: that of the model's vectors.
-  SecantNewton(N_Vector y, SUNContext context, const VectorSpace& space, double least_rate = 0);
+  SecantNewton(N_Vector y, SUNContext context, const VectorSpace& space = {}, double least_rate = 0);
   SecantNewton(const SecantNewton&) = delete;
   SecantNewton& operator=(const SecantNewton&) = delete;
 
