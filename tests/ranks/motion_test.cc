@@ -104,19 +104,19 @@ time: {end: 0.3}
 // A longitudinal wave runs along a bar, through every border between ranks, and comes back from the free end: with
 // nu = 0 the bar's first frequency is c / (4 L) but for the mesh, whose error falls with its square.
 TEST(SharedWave, OfABarHasItsFrequency) {
-  const int cells = 40;
+  const int cells = 20;
   const std::string yaml = "mesh: {type: box, size: [1, 0.05, 0.05], cells: [" + std::to_string(cells) + R"(, 1, 1], order: 1}
 materials: {bar: {type: isotropic, density: 1000, young: 1e5, nu: 0.0}}
 clamps: [{surface: x0}]
 initial: {displacement_field: ["sin(pi * x / 2) / 1000", "0", "0"]}
 elasticity: {kinematics: linear}
 time: {end: 0.4}
-)" + integrator("type: generalized_alpha, step: 0.0005, rho_inf: 1, rtol: 1.0e-10");
+)" + integrator("type: generalized_alpha, step: 0.001, rho_inf: 1, rtol: 1.0e-10");
   const Motion motion = integrate(yaml, world_ranks());
   // At t = T = 4 L / c = 0.4 s it is where it was.
   orthodyn::Setup setup = set_up(Config::from_text(yaml, "scene.yaml"), false, true, nullptr);
   const Vector& start = setup.built.initial.q;
-  EXPECT_LE((motion.end.q - start).lpNorm<Eigen::Infinity>(), 5e-3 * start.lpNorm<Eigen::Infinity>());
+  EXPECT_LE((motion.end.q - start).lpNorm<Eigen::Infinity>(), 1e-2 * start.lpNorm<Eigen::Infinity>());
 }
 
 }  // namespace
