@@ -17,8 +17,7 @@ constexpr double kAfterNewton = 0.5, kRelease = 1.05;
 
 OneStep::OneStep(std::string name, const Model& model, const LinearOptions& options, const Scales& scales)
     : model_(model), norm_(options.rtol, scales, model.space()), name_(std::move(name)), options_(options),
-      scales_(scales),
-      control_(1), e_q_(model.num_dofs()), e_v_(model.num_dofs()) {
+      scales_(scales), control_(1), e_q_(model.num_dofs()), e_v_(model.num_dofs()) {
   const Vector zero = Vector::Zero(model.num_dofs());
   before_ = now_ = next_ = {0, zero, zero, zero};
 }

@@ -1,5 +1,5 @@
 // A model of which several ranks have parts is the model: forces, matrices, energies and outputs of any state. Each
-// rank has the whole model beside its part. Run by mpirun with one and more ranks; one alone has both alike.
+// rank has the whole model beside its part. Run by mpirun; one process alone would compare a model with itself.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -154,16 +154,15 @@ TEST_P(SharedModel, TellsTheSameOfAState) {
 }
 
 TEST_P(SharedModel, WhatOneRankCannotEvaluateIsToldToAll) {
+  if (!world_ranks()) GTEST_SKIP() << "there is nobody to tell";
   State part = parts().part(some_state());
   // Of several ranks the one that has the first unknown.
   const bool has_first = !parts().parts().unknowns.empty() && parts().parts().unknowns[0] == 0;
   if (has_first) part.q[0] = std::numeric_limits<double>::quiet_NaN();
   Vector f(parts().num_dofs());
-  if (world_ranks()) {
-    EXPECT_THROW(parts().force(0, part.q, part.v, f), RecoverableError);
-    Linearization at;
-    EXPECT_THROW(parts().linearize(0, part.q, part.v, TangentKind::exact, at), RecoverableError);
-  }
+  EXPECT_THROW(parts().force(0, part.q, part.v, f), RecoverableError);
+  Linearization at;
+  EXPECT_THROW(parts().linearize(0, part.q, part.v, TangentKind::exact, at), RecoverableError);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SharedModel, testing::ValuesIn(shared_scenes()),

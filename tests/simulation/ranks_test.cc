@@ -56,7 +56,7 @@ TEST_F(SeveralRanks, WriteWhatOneWrites) {
     ASSERT_EQ(result.exit_code, 0) << result.output;
     EXPECT_EQ(count(result.output, "completed at t = 0.4 s"), 1) << result.output;
     EXPECT_EQ(read_text(folder_ / out / "frames.pvd"), read_text(folder_ / "one/frames.pvd"));
-    EXPECT_EQ(read_text(folder_ / out / "setup.vtu").size(), read_text(folder_ / "one/setup.vtu").size());
+    EXPECT_TRUE(read_text(folder_ / out / "setup.vtu") == read_text(folder_ / "one/setup.vtu"));
     EXPECT_LE(difference(folder_ / out, folder_ / "one"), 1e-6);
     expect_alike(out, "one", 1e-6);
     EXPECT_EQ(record(out).at("model").at("terms"), record("one").at("model").at("terms"));
