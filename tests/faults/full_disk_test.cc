@@ -51,7 +51,7 @@ class OnFaultyDisk : public testing::WithParamInterface<FaultyDisk>, public InFo
     const SharedFaults faults(folder_ / "faults", k == 0 ? Kind::none : GetParam().kind, k);
     const auto result =
         shell("cd " + folder_.string() + " && ORTHODYN_FAILING_WRITES=" + (folder_ / "faults").string() +
-              " " ORTHODYN_FAILING_WRITES " " + arguments);
+              " " + program("orthodyn_failing_writes") + " " + arguments);
     return {{result.exit_code, result.output}, faults.counted()};
   }
 

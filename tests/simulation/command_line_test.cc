@@ -220,7 +220,7 @@ TEST_F(CommandLine, TheCommitIsRecordedAndScalesAreShort) {
 TEST_F(CommandLine, AFullDiskEndsTheRunWithWholeFrames) {
   write("swing.yaml", kSwing);
   // No file may grow past 20 kB: the first frame does not fit.
-  const auto result = shell("cd " + folder_.string() + " && trap '' XFSZ; ulimit -f 40; " ORTHODYN_EXECUTABLE
+  const auto result = shell("cd " + folder_.string() + " && trap '' XFSZ; ulimit -f 40; " + program() +
                             " run swing.yaml --quiet --set 'mesh.cells=[16, 4, 4]'");
   EXPECT_EQ(result.exit_code, 3) << result.output;
   EXPECT_NE(result.output.find("cannot write"), std::string::npos) << result.output;
@@ -293,7 +293,7 @@ TEST_F(CommandLine, SaysWhichForceIsAtWork) {
 
 TEST_F(CommandLine, CtrlCEndsCleanlyWithTheFramesSoFar) {
   write("swing.yaml", kSwing);
-  const auto result = shell("cd " + folder_.string() + " && " ORTHODYN_EXECUTABLE
+  const auto result = shell("cd " + folder_.string() + " && " + program() +
                             " run swing.yaml --quiet --set time.end=1e3 --set integrator.h_max=1e-3 --set "
                             "output.interval=0.01 --set output.frames=null & pid=$!; for i in $(seq 100); do [ -e " +
                             folder_.string() + "/out/swing/frames/frame_00003.vtu ] && break; sleep 0.1; done; "

@@ -26,7 +26,7 @@ class Killed : public Resume {
       const int log = open("log.txt", O_WRONLY | O_CREAT | O_APPEND, 0666);
       dup2(log, 1);
       dup2(log, 2);
-      execl("/bin/sh", "sh", "-c", ("exec " ORTHODYN_EXECUTABLE " " + arguments).c_str(), nullptr);
+      execl("/bin/sh", "sh", "-c", ("exec " + program() + " " + arguments).c_str(), nullptr);
       _exit(9);
     }
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double, std::milli>(milliseconds);
@@ -100,7 +100,7 @@ TEST_F(Killed, KilledAtRandomMomentsItEndsWithTheSameFrames) {
 TEST_F(Resume, AnInterruptedRunGoesOnThoughItsSceneAsksForNoCheckpoints) {
   write("swing.yaml", kSwing);
   const std::string run = "run swing.yaml --quiet --set integrator.h_max=1e-5 --set time.end=";
-  const auto stopped = shell("cd " + folder_.string() + " && { " ORTHODYN_EXECUTABLE " " + run +
+  const auto stopped = shell("cd " + folder_.string() + " && { " + program() + " " + run +
                              "1e3 & pid=$!; for i in $(seq 200); do [ -s out/swing/steps.csv ] && break; sleep 0.05; "
                              "done; kill -TERM $pid; wait $pid; }");
   ASSERT_EQ(stopped.exit_code, 130) << stopped.output;
@@ -121,7 +121,7 @@ clamps: [{surface: x0}]
 time: {end: 0.5}
 integrator: {type: arkode_dirk, step: 0.01, position_scale: 0.1, velocity_scale: 0.1, linear_solver: eigen_ldlt}
 )");
-  const auto stopped = shell("cd " + folder_.string() + " && { " ORTHODYN_EXECUTABLE
+  const auto stopped = shell("cd " + folder_.string() + " && { " + program() +
                              " run block.yaml --quiet & pid=$!; for i in $(seq 600); do [ -e out/block/steps.csv ] && "
                              "break; sleep 0.05; done; sleep 1; kill -TERM $pid; for i in $(seq 60); do kill -0 $pid "
                              "2>/dev/null || break; sleep 0.5; done; kill -KILL $pid 2>/dev/null; wait $pid; }");
@@ -144,7 +144,7 @@ TEST_F(Resume, ARunKilledAfterItsLastStepGetsItsRecord) {
 TEST_F(Resume, ARunThatFilledTheDiskGoesOnWhenThereIsRoom) {
   write("beam.yaml", kBeam + std::string(kFixedStep));
   // No file may grow past 8 kB: steps.csv does, in the middle of the run.
-  const auto full = shell("cd " + folder_.string() + " && trap '' XFSZ; ulimit -f 16; " ORTHODYN_EXECUTABLE
+  const auto full = shell("cd " + folder_.string() + " && trap '' XFSZ; ulimit -f 16; " + program() +
                           " run beam.yaml --quiet --set output.fields=[region]");
   ASSERT_EQ(full.exit_code, 3) << full.output;
   EXPECT_NE(full.output.find("cannot write"), std::string::npos) << full.output;
@@ -177,7 +177,7 @@ TEST_F(Resume, ARunThatFilledTheDiskGoesOnThoughItsSceneAsksForNoCheckpoints) {
   write("swing.yaml", kSwing);
   // No file may grow past 24 kB: steps.csv does, and run.json has its room.
   const std::string run = "run swing.yaml --quiet --set integrator.h_max=2e-4 --set output.fields=[region]";
-  const auto full = shell("cd " + folder_.string() + " && trap '' XFSZ; ulimit -f 48; " ORTHODYN_EXECUTABLE " " + run);
+  const auto full = shell("cd " + folder_.string() + " && trap '' XFSZ; ulimit -f 48; " + program() + " " + run);
   ASSERT_EQ(full.exit_code, 3) << full.output;
   EXPECT_NE(full.output.find("cannot write"), std::string::npos) << full.output;
   EXPECT_NE(full.output.find("--resume"), std::string::npos) << full.output;

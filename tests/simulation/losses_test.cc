@@ -17,7 +17,7 @@ class Losses : public InFolder {
 
   // A long run, to which `action` is done once it has written a few frames.
   CommandResult disturb(const std::string& action) const {
-    return shell("cd " + folder_.string() + " && " ORTHODYN_EXECUTABLE
+    return shell("cd " + folder_.string() + " && " + program() +
                  " run swing.yaml --quiet --set time.end=1e3 --set integrator.h_max=1e-3 --set output.interval=0.01 "
                  "--set output.frames=null & pid=$!; for i in $(seq 100); do [ -e " +
                  folder_.string() + "/out/swing/frames/frame_00003.vtu ] && break; sleep 0.1; done; " + action +
@@ -40,7 +40,7 @@ TEST_F(Losses, ASignalWhileALargeMatrixIsOrdered) {
                       "materials: {m: {type: preset, name: sitka_spruce}}\nclamps: [{surface: x0}]\n"
                       "gravity: [0, 0, -9.81]\ntime: {end: 1e-4}\nelasticity: {kinematics: corotational}\n");
   for (const char* seconds : {"0.3", "0.7", "1", "1.4"}) {
-    const auto result = shell("cd " + folder_.string() + " && " ORTHODYN_EXECUTABLE " run large.yaml --quiet --force & "
+    const auto result = shell("cd " + folder_.string() + " && " + program() + " run large.yaml --quiet --force & "
                               "pid=$!; sleep " + seconds + "; kill -TERM $pid; wait $pid");
     EXPECT_EQ(result.exit_code, 130) << seconds << result.output;
   }
@@ -48,7 +48,7 @@ TEST_F(Losses, ASignalWhileALargeMatrixIsOrdered) {
 
 TEST_F(Losses, AReaderOfTheSummaryThatLeaves) {
   write("swing.yaml", kSwing);
-  const auto result = shell("cd " + folder_.string() + " && " ORTHODYN_EXECUTABLE " run swing.yaml 2>&1 | true");
+  const auto result = shell("cd " + folder_.string() + " && " + program() + " run swing.yaml 2>&1 | true");
   EXPECT_EQ(record()["status"], "completed") << result.output;
 }
 
@@ -81,7 +81,7 @@ integrator: {type: cvode_bdf, max_steps: 2}
 output: {fields: []}
 )");
   const auto result = shell("cd " + folder_.string() +
-                            " && ulimit -v 600000 && OPENBLAS_NUM_THREADS=2 timeout -s KILL 120 " ORTHODYN_EXECUTABLE
+                            " && ulimit -v 600000 && OPENBLAS_NUM_THREADS=2 timeout -s KILL 120 " + program() +
                             " run block.yaml --quiet");
   EXPECT_EQ(result.exit_code, 3) << result.output;  // max_steps, and not killed
   EXPECT_NE(result.output.find("max_steps"), std::string::npos) << result.output;
@@ -102,7 +102,7 @@ integrator: {type: arkode_dirk, step: 0.01, position_scale: 0.1, velocity_scale:
 output: {fields: []}
 )");
   const auto result =
-      shell("cd " + folder_.string() + " && ulimit -v 500000 && " ORTHODYN_EXECUTABLE " run block.yaml --quiet");
+      shell("cd " + folder_.string() + " && ulimit -v 500000 && " + program() + " run block.yaml --quiet");
   EXPECT_EQ(result.exit_code, 3) << result.output;
   EXPECT_NE(result.output.find("the Cholesky factor does not fit in memory: it takes"), std::string::npos)
       << result.output;

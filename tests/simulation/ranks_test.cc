@@ -17,7 +17,7 @@ class SeveralRanks : public Resume {
   // Also for root, and for more ranks than there are cores.
   static std::string mpirun(int ranks) {
     return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
-           "OMPI_MCA_mpi_yield_when_idle=1 mpirun -n " + std::to_string(ranks) + " " ORTHODYN_EXECUTABLE " ";
+           "OMPI_MCA_mpi_yield_when_idle=1 mpirun -n " + std::to_string(ranks) + " " + program() + " ";
   }
   CommandResult orthodyn_on(int ranks, const std::string& arguments) const {
     return shell("cd " + folder_.string() + " && " + mpirun(ranks) + arguments);

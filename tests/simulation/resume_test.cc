@@ -25,7 +25,7 @@ TEST_F(Resume, ACompletedRunIsLeftAloneAndCanBeExtended) {
 
 TEST_F(Resume, OneRunAtATimeWorksInAFolder) {
   write("swing.yaml", kSwing + std::string("checkpoint: {every: 0.01}\n"));
-  const std::string run = ORTHODYN_EXECUTABLE " run swing.yaml --quiet --set time.end=1e3 --set integrator.h_max=1e-5 ";
+  const std::string run = program() + " run swing.yaml --quiet --set time.end=1e3 --set integrator.h_max=1e-5 ";
   const auto tried = shell("cd " + folder_.string() + " && { " + run +
                            "& pid=$!; for i in $(seq 200); do [ -s out/swing/steps.csv ] && break; sleep 0.05; done; "
                            "for how in --resume --force ''; do timeout 5 " + run +

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -16,6 +17,11 @@ CommandResult shell(const std::string& command) {
   while (const std::size_t n = std::fread(buffer, 1, sizeof buffer, pipe)) output.append(buffer, n);
   const int status = pclose(pipe);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), output};
+}
+
+std::string program(const std::string& name) {
+  const char* folder = std::getenv("ORTHODYN_PROGRAMS");
+  return fs::path(folder != nullptr ? folder : ORTHODYN_PROGRAMS) / name;
 }
 
 std::string read_text(const fs::path& path) {
@@ -40,7 +46,7 @@ fs::path InFolder::write(const std::string& name, const std::string& text) const
 }
 
 CommandResult InFolder::orthodyn(const std::string& arguments) const {
-  return shell("cd " + folder_.string() + " && " ORTHODYN_EXECUTABLE " " + arguments);
+  return shell("cd " + folder_.string() + " && " + program() + " " + arguments);
 }
 
 }  // namespace orthodyn

@@ -17,6 +17,9 @@ struct CommandResult {
 
 CommandResult shell(const std::string& command);
 
+// A program of the build, by its path: of the folder ORTHODYN_PROGRAMS, or of the build that these tests are of.
+std::string program(const std::string& name = "orthodyn");
+
 std::string read_text(const fs::path& path);
 
 // A folder of its own for each test, gone afterwards.

@@ -189,7 +189,7 @@ class InBackground {
     std::freopen("/dev/null", "w", stdout);
     std::freopen("/dev/null", "w", stderr);
     if (chdir(folder.c_str()) == 0)
-      execl(ORTHODYN_EXECUTABLE, ORTHODYN_EXECUTABLE, "compare", "c.yaml", "--no-report", nullptr);
+      execl(program().c_str(), "orthodyn", "compare", "c.yaml", "--no-report", nullptr);
     _exit(127);
   }
   void signal(int number) const { kill(child_, number); }

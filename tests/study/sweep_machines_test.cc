@@ -23,7 +23,7 @@ TEST_F(SweepCommand, LosesAtMostThePointsInProgressWhenItIsKilled) {
   int kills = 0;  // of sweeps that had finished something, but not all
   for (const char* seconds : {"0", "0.013", "0.029", "0.007", "0.02"}) {
     shell("cd " + folder_.string() +
-          " && { " ORTHODYN_EXECUTABLE " sweep s.yaml --jobs 2 --quiet --no-report & pid=$!; "
+          " && { " + program() + " sweep s.yaml --jobs 2 --quiet --no-report & pid=$!; "
           "while kill -0 $pid && [ $(find out -name result.json | wc -l) -le " + std::to_string(finished.size()) +
           " ]; do sleep 0.005; done; sleep " + seconds + "; kill -9 $pid; wait $pid; sleep 0.05; } 2>/dev/null");
     ASSERT_TRUE(fs::exists(folder_ / "out/sweeps/s/points"));
@@ -56,7 +56,7 @@ TEST_F(SweepCommand, IsDoneByIndependentTasksAndJoined) {
   EXPECT_EQ(table().at("missing"), 8);
   // Two at a time in one folder, as on a cluster.
   shell("cd " + folder_.string() +
-        " && { " ORTHODYN_EXECUTABLE " sweep s.yaml --task 2/3 --jobs 1 --quiet & " ORTHODYN_EXECUTABLE
+        " && { " + program() + " sweep s.yaml --task 2/3 --jobs 1 --quiet & " + program() +
         " sweep s.yaml --task 1/3 --jobs 1 --quiet; wait; }");
   EXPECT_EQ(sweep("--collect").exit_code, 0);
   EXPECT_EQ(figures(), whole);
