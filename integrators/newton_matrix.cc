@@ -14,10 +14,7 @@ NewtonMatrix::NewtonMatrix(const Model& model, const SolverChoice& solver, Tange
   if (!model.pattern().symmetric && !kind.takes_general)
     throw ConfigError("linear solver '" + solver.type + "' needs a symmetric tangent; use klu or klu_full, or " +
                       "elasticity.warped_tangent: rotated");
-  if (model.ranks() && solver.type != "auto" && solver.type != "petsc")
-    throw ConfigError("linear solver '" + solver.type + "' does not run on several ranks; use petsc, or leave it out");
-  solver_ = make_linear_solver(solver);
-  solver_->analyze(model.pattern());
+  solver_ = make_linear_solver(solver, model.pattern());
   values_.resize(model.pattern().row.size());
 }
 

@@ -18,8 +18,9 @@ constexpr double kResidual = 0.01;     // of the eigenvalue: half a percent of a
 constexpr double kFreshPart = 0.1;     // of a random vector in a warm start
 constexpr double kBreakdown = 1e-12;   // of the eigenvalue: the space is invariant
 
-Vector random_vector(int n) {
-  std::mt19937 generator(1);
+// Ranks draw different ones: alike parts would else make it alike.
+Vector random_vector(int n, const Ranks* ranks) {
+  std::mt19937 generator(ranks ? 1 + static_cast<unsigned>(ranks->rank()) : 1);
   Vector x(n);
   for (double& value : x) value = static_cast<double>(generator()) / 4294967295.0 - 0.5;
   return x;
@@ -47,7 +48,8 @@ struct SpectralBound::Basis {
   Vector diagonal, beside;
 };
 
-SpectralBound::SpectralBound(const Model& model) : model_(model), random_(random_vector(model.num_dofs())) {}
+SpectralBound::SpectralBound(const Model& model)
+    : model_(model), random_(random_vector(model.num_dofs(), model.ranks())) {}
 
 void SpectralBound::multiply(const double* values, const Vector& x, Vector& y) const {
   const Pattern& pattern = model_.pattern();

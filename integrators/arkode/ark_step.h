@@ -34,7 +34,9 @@ class ArkStep : public FirstOrderIntegrator {
 
   // True at the end of the last step, where the derivative is known: the first stage of the next step asks
   // for it, and a force that could not be evaluated there would end the integration.
-  bool at_end(double t, N_Vector y) const { return t == end_.t && positions(y) == end_.q && velocities(y) == end_.v; }
+  bool at_end(double t, N_Vector y) const {
+    return t == end_.t && model_.space().all(positions(y) == end_.q && velocities(y) == end_.v);
+  }
   const StepEnd& end() const { return end_; }
 
   // The derivative of the last stage that was solved for, M^-1 f where that is the step's end.

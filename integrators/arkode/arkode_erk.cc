@@ -73,6 +73,7 @@ class ArkodeErkChoice : public SettableChoice<ArkodeErkChoice>, public ErkOption
                         "linear invariants (momentum)",
                         "Reynolds et al., ACM TOMS 49, 2023; Dormand & Prince, J. Comput. Appl. Math. 6, 1980");
   }
+  bool runs_on_ranks() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     if (!step) refuse_a_run_without_end("arkode_erk", model, task, kReach, max_steps);
     return std::make_unique<ArkodeErk>(model, Settings::complete_explicit(*this, task), *this);

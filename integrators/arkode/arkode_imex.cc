@@ -116,6 +116,7 @@ class ArkodeImexChoice : public SettableChoice<ArkodeImexChoice>, public ImexOpt
                         "linear invariants (momentum)",
                         "Kennedy & Carpenter, Appl. Numer. Math. 44, 2003, and 136, 2019");
   }
+  bool runs_on_ranks() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     return std::make_unique<ArkodeImex>(split_force(model, explicit_parts), Settings::complete(*this, task), *this);
   }

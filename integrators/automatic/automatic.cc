@@ -70,6 +70,10 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public Automatic
     return method_facts("that of the chosen method", "that of the chosen method", "what the chosen method conserves",
                         "docs/speed-against-error.md");
   }
+  // As all do that it chooses from.
+  bool runs_on_ranks() const override {
+    return !method || Registry<IntegratorChoice>::entries().at(*method).make()->runs_on_ranks();
+  }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     Scales own = scales(task);
     if (!method && own.omega == 0) own.omega = task.scales().omega;  // also where the scales themselves are given

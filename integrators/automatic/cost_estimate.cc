@@ -22,9 +22,7 @@ constexpr double kForce = 2.2, kTangent = 5;
 // step, and tangents with their factors for each step.
 constexpr double kSteps = 7, kIterations = 4, kTangents = 0.3;
 
-}  // namespace
-
-CostEstimate estimate_cost(const Model& model, const Task& task, const Scales& scales,
+CostEstimate estimate_here(const Model& model, const Task& task, const Scales& scales,
                            const SolverChoice& linear_solver) {
   CostEstimate cost;
   const double span = task.end - task.initial.t, omega = frequency_of_motion(scales);
@@ -39,10 +37,12 @@ CostEstimate estimate_cost(const Model& model, const Task& task, const Scales& s
   } catch (const RecoverableError&) {  // the start has its own sentence for it
   }
   const NewtonMatrix matrix(model, linear_solver, TangentKind::exact, unused);
-  const double n = model.num_dofs(), force = kForce * model.pattern().non_zeros();
+  // Of all ranks together, so that their number does not choose the method.
+  const double n = static_cast<double>(model.num_dofs_of_all());
+  const double non_zeros = model.space().sum(model.pattern().non_zeros()), force = kForce * non_zeros;
   namespace each = solver_cost;
   if (matrix.is_iterative()) {
-    const double all = 2 * model.pattern().non_zeros();
+    const double all = 2 * non_zeros;
     cost.solve_cost = each::kIterations * each::kIteration * all / force;
     cost.factor_cost = each::kSetUp * all / force;
     return cost;
@@ -50,6 +50,18 @@ CostEstimate estimate_cost(const Model& model, const Task& task, const Scales& s
   const double entries = static_cast<double>(matrix.factor_bytes()) / each::kBytesPerEntry;
   cost.solve_cost = each::kSolve * entries / force;
   cost.factor_cost = each::kFactor * entries * entries / n / force;
+  return cost;
+}
+
+}  // namespace
+
+CostEstimate estimate_cost(const Model& model, const Task& task, const Scales& scales,
+                           const SolverChoice& linear_solver) {
+  CostEstimate cost = estimate_here(model, task, scales, linear_solver);
+  if (model.ranks())
+    for (double* figure : {&cost.damping_ratio, &cost.explicit_steps, &cost.phase, &cost.known_phase, &cost.solve_cost,
+                           &cost.factor_cost})
+      model.ranks()->broadcast({figure, 1});
   return cost;
 }
 

@@ -1,8 +1,8 @@
 // What integrating a model would cost by an explicit and by an implicit method, and the method that follows from it.
 //
 // Estimated from two eigenvalue bounds, one tangent and one symbolic analysis: counts, not clocks, so that the same
-// scene always gets the same method. Costs are in evaluations of the force. No function keeps a state: they may be
-// called by several threads.
+// scene always gets the same method; of several ranks all take what the first one finds. Costs are in evaluations of
+// the force. No function keeps a state: they may be called by several threads.
 #pragma once
 
 #include <optional>

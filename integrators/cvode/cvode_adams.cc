@@ -89,6 +89,7 @@ class CvodeAdamsChoice : public SettableChoice<CvodeAdamsChoice>, public AdamsOp
     return method_facts("1-12, variable", "A-stable at order 1-2, bounded step above (stiff parts force short steps)",
                         "linear invariants (momentum)", "Hindmarsh et al., ACM TOMS 31, 2005; Byrne & Hindmarsh 1975");
   }
+  bool runs_on_ranks() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     return std::make_unique<CvodeAdams>(model, *this, task);
   }

@@ -17,8 +17,7 @@ PathStiffness::PathStiffness(const Model& model, const SolverChoice& solver, Sta
   if (!model.pattern().symmetric && !kind.takes_general)
     throw ConfigError("linear solver '" + solver.type + "' needs a symmetric tangent; use klu, or " +
                       "elasticity.warped_tangent: rotated");
-  solver_ = make_linear_solver(solver);
-  solver_->analyze(model.pattern());
+  solver_ = make_linear_solver(solver, model.pattern());
   solver_->set_tolerance({.relative = kTolerance});
   values_.resize(model.pattern().row.size());
 }

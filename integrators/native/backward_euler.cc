@@ -17,6 +17,7 @@ class BackwardEulerChoice : public SettableChoice<BackwardEulerChoice>, public N
     return method_facts("1", "L-stable; damps every oscillation", "momentum",
                         "Hairer & Wanner 1996, IV; error estimate: difference to the trapezoidal rule");
   }
+  bool runs_on_ranks() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     return std::make_unique<Dirk>("backward_euler", model, *this, scales(task), backward_euler());
   }

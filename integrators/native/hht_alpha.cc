@@ -18,6 +18,7 @@ class HhtAlphaChoice : public SettableChoice<HhtAlphaChoice>, public NewtonOptio
     return method_facts("2", "A-stable; fast oscillations shrink to (1 + alpha) / (1 - alpha) per step", "momentum",
                         "Hilber, Hughes & Taylor 1977; error estimate: Hulbert & Jang 1995");
   }
+  bool runs_on_ranks() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     const AlphaParameters p{0, -alpha, 0.25 * (1 - alpha) * (1 - alpha), 0.5 - alpha};
     return std::make_unique<AlphaMethod>("hht_alpha", model, *this, scales(task), p);

@@ -28,6 +28,7 @@ class NewmarkChoice : public SettableChoice<NewmarkChoice>, public NewtonOptions
                         "momentum; with the defaults the energy of linear models",
                         "Newmark 1959; error estimate: Zienkiewicz & Xie 1991");
   }
+  bool runs_on_ranks() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     return std::make_unique<AlphaMethod>("newmark", model, *this, scales(task), AlphaParameters{0, 0, beta, gamma});
   }

@@ -126,6 +126,7 @@ class RosenbrockChoice : public SettableChoice<RosenbrockChoice>, public LinearO
                         "ROS34PW2 (Rang & Angermann 2005) with one Newton correction at the end; error estimate: "
                         "embedded order 2 and the correction, at rtol/10");
   }
+  bool runs_on_ranks() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     return std::make_unique<Rosenbrock>(model, *this, scales(task), tangent_steps);
   }

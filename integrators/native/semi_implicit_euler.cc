@@ -47,6 +47,7 @@ class SemiImplicitEulerChoice : public SettableChoice<SemiImplicitEulerChoice>, 
     return method_facts("1", "L-stable for linear models; damps every oscillation", "momentum",
                         "Baraff & Witkin 1998; error estimate: difference to the trapezoidal rule");
   }
+  bool runs_on_ranks() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     return std::make_unique<SemiImplicitEuler>(model, *this, scales(task));
   }

@@ -7,6 +7,8 @@ namespace orthodyn::sundials {
 
 FullJacobian::FullJacobian(const Model& model)
     : model_(model), full_v_block_(model.traits().damping_matrix || !model.traits().lumped_mass) {
+  if (model.ranks())
+    throw ConfigError("linear solver 'klu_full' does not run on several ranks; leave it out, or use petsc");
   // Eigen expands the pattern; the values it carries along say where each entry comes from.
   const Pattern& p = model.pattern();
   std::vector<double> place(p.row.size());

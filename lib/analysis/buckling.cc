@@ -88,8 +88,7 @@ std::vector<BucklingMode> buckling_modes(const FemModel& model, double t, int co
   const auto [structure, loads] = divided(model);
   const Vector rest = Vector::Zero(model.num_dofs());
   const Values K = stiffness_at(*structure, t, rest, TangentKind::exact);
-  const auto solver = make_linear_solver("cholmod");
-  solver->analyze(pattern);
+  const auto solver = make_linear_solver("cholmod", pattern);
   if (solver->factor(K.data()) != FactorStatus::ok)
     throw RunError("the stiffness at rest is not positive definite: the body is not held, or unstable without loads");
   Vector f(rest.size()), u(rest.size());

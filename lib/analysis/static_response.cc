@@ -44,8 +44,7 @@ std::unique_ptr<LinearSolver> factored_stiffness(const FemModel& model, std::vec
   model.linearize(0, zero, zero, TangentKind::gauss_newton, at);
   values.resize(at.stiffness.size());
   model.combine({0, 0, 1}, at, values.data());
-  auto solver = make_linear_solver({model.pattern().symmetric ? "auto" : "klu"});
-  solver->analyze(model.pattern());
+  auto solver = make_linear_solver({model.pattern().symmetric ? "auto" : "klu"}, model.pattern());
   if (solver->is_iterative()) {
     solver->set_tolerance({kAccuracy, 0});
     solver->set_rigid_motions(model.rigid_motions(zero));

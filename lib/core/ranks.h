@@ -54,6 +54,11 @@ class Ranks {
     return value != 0;
   }
 
+  // On the first rank the values of all, one rank after the other; nothing on others. Fewer than 2^31.
+  virtual std::vector<double> gather(std::span<const double> values) const = 0;
+  // Divides the first rank's values among all, in their order: each gets as many as it has room for.
+  virtual void scatter(std::span<const double> of_all, std::span<double> here) const = 0;
+
   // Of each cell the part it is in, of `size()` parts of about as many cells each with few neighbours in others; some
   // are empty where cells are few. The same graph gives the same parts.
   virtual std::vector<int> partition(const CellGraph& graph) const = 0;

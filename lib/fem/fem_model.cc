@@ -7,6 +7,7 @@
 
 #include "lib/core/parallel.h"
 #include "lib/fem/mean_force.h"
+#include "lib/fem/on_all_ranks.h"
 #include "lib/fem/part_model.h"
 
 namespace orthodyn {
@@ -30,19 +31,6 @@ template <class F>
 void for_each_term(const FemModel::Parts& parts, F&& f) {
   for (const auto& term : parts.elastic) f(static_cast<const Term&>(*term));
   for (const auto& term : parts.loads) f(static_cast<const Term&>(*term));
-}
-
-// What throws RecoverableError on some ranks then throws it on all.
-template <class Compute>
-void on_all_ranks(const FemModel::Parts& parts, Compute&& compute) {
-  if (!parts.subdomain) return compute();
-  std::string trouble;
-  try {
-    compute();
-  } catch (const RecoverableError& e) {
-    trouble = e.what();
-  }
-  parts.subdomain->agree(trouble);
 }
 
 }  // namespace
@@ -78,7 +66,7 @@ NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& noda
 NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& nodal,
                         const std::vector<const Term*>& some) {
   NodalVector sum = NodalVector::Zero(3, nodal.x.cols());
-  on_all_ranks(parts, [&] {
+  on_all_ranks(parts.subdomain.get(), [&] {
     for (const Term* term : some) term->add_force(nodal.state(), sum);
     if (parts.subdomain && !(sum.allFinite() && nodal.u_rate.allFinite()))
       throw RecoverableError("the force is not finite");
@@ -129,7 +117,7 @@ void FemModel::assemble(double t, const ConstVectorRef& q, const ConstVectorRef&
   const NodalExpansion nodal(parts_, t, q, v);
   out.stiffness.assign(size, 0);
   if (parts_.traits.damping_matrix) out.damping.assign(size, 0);
-  on_all_ranks(parts_, [&] {
+  on_all_ranks(parts_.subdomain.get(), [&] {
     for_each_term(parts_, [&](const Term& term) {
       term.add_tangent(nodal.state(), kind, out.stiffness.data(),
                        parts_.traits.damping_matrix ? out.damping.data() : nullptr);
@@ -142,7 +130,7 @@ void FemModel::assemble_mixed(double t_before, const ConstVectorRef& q_before, d
   const Vector still = Vector::Zero(q.size());
   const NodalExpansion before(parts_, t_before, q_before, still), nodal(parts_, t, q, still);
   out.stiffness.assign(parts_.pattern->pattern().row.size(), 0);
-  on_all_ranks(parts_, [&] {
+  on_all_ranks(parts_.subdomain.get(), [&] {
     for_each_term(parts_, [&](const Term& term) {
       term.add_mixed_tangent(before.state(), nodal.state(), out.stiffness.data());
     });

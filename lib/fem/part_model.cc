@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/fem/on_all_ranks.h"
+
 namespace orthodyn {
 
 namespace {
@@ -58,8 +60,10 @@ void PartModel::assemble(double t, const ConstVectorRef& q, const ConstVectorRef
   const NodalExpansion nodal(whole_.parts(), t, q, v);
   out.stiffness.assign(size, 0);
   if (damped) out.damping.assign(size, 0);
-  for (const Term* term : terms_)
-    term->add_tangent(nodal.state(), kind, out.stiffness.data(), damped ? out.damping.data() : nullptr);
+  on_all_ranks(whole_.parts().subdomain.get(), [&] {
+    for (const Term* term : terms_)
+      term->add_tangent(nodal.state(), kind, out.stiffness.data(), damped ? out.damping.data() : nullptr);
+  });
 }
 
 // The whole model's, but for the mass damping that is not among these parts.

@@ -1,9 +1,9 @@
 #include "lib/fem/subdomain.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "lib/core/errors.h"
+#include "lib/mesh/partition.h"
 #include "lib/mesh/quadratic.h"
 #include "lib/mesh/tet_faces.h"
 
@@ -13,57 +13,12 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-// Cells that share a face are neighbours.
-CellGraph graph_of(const std::vector<TetFace>& faces, std::size_t cells) {
-  std::vector<std::pair<int, int>> pairs;
-  for (std::size_t begin = 0; begin < faces.size(); begin = end_of_face(faces, begin))
-    if (end_of_face(faces, begin) == begin + 2) {
-      pairs.emplace_back(faces[begin].tet, faces[begin + 1].tet);
-      pairs.emplace_back(faces[begin + 1].tet, faces[begin].tet);
-    }
-  std::sort(pairs.begin(), pairs.end());
-  CellGraph graph{std::vector<int>(cells + 1, 0), {}};
-  for (const auto& [cell, neighbour] : pairs) {
-    ++graph.start[at(cell) + 1];
-    graph.neighbours.push_back(neighbour);
-  }
-  std::partial_sum(graph.start.begin(), graph.start.end(), graph.start.begin());
-  return graph;
-}
-
-// For each node the ranks of its cells, ascending.
-class RanksOfNodes {
- public:
-  RanksOfNodes(const Cells& cells, const std::vector<int>& rank_of_cell, std::size_t nodes)
-      : rank_of_cell_(rank_of_cell), start_(nodes + 1, 0), cells_(cells.nodes().size()) {
-    for (const int node : cells.nodes()) ++start_[at(node) + 1];
-    std::partial_sum(start_.begin(), start_.end(), start_.begin());
-    std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
-    for (std::size_t cell = 0; cell < cells.size(); ++cell)
-      for (const int node : cells[cell]) cells_[next[at(node)]++] = static_cast<int>(cell);
-  }
-
-  // Valid until the next call.
-  const std::vector<int>& of(std::size_t node) {
-    ranks_.clear();
-    for (std::size_t k = start_[node]; k < start_[node + 1]; ++k) ranks_.push_back(rank_of_cell_[at(cells_[k])]);
-    std::sort(ranks_.begin(), ranks_.end());
-    ranks_.erase(std::unique(ranks_.begin(), ranks_.end()), ranks_.end());
-    return ranks_;
-  }
-
- private:
-  const std::vector<int>& rank_of_cell_;
-  std::vector<std::size_t> start_;
-  std::vector<int> cells_, ranks_;
-};
-
 }  // namespace
 
 Subdomain::Subdomain(const TetMesh& mesh, const std::vector<std::pair<int, int>>& links, const Ranks& ranks)
     : ranks_(ranks), local_(mesh.nodes.size(), -1) {
   const std::vector<TetFace> faces = sorted_faces(mesh);
-  const std::vector<int> rank_of_cell = ranks.partition(graph_of(faces, mesh.tets.size()));
+  const std::vector<int> rank_of_cell = ranks.partition(cell_graph(faces, mesh.tets.size()));
   for (std::size_t cell = 0; cell < rank_of_cell.size(); ++cell)
     if (rank_of_cell[cell] == ranks.rank()) cells_.push_back(static_cast<int>(cell));
   for (std::size_t begin = 0; begin < faces.size(); begin = end_of_face(faces, begin)) {
@@ -84,7 +39,7 @@ void Subdomain::find_nodes(const TetMesh& mesh, const std::vector<int>& rank_of_
   std::vector<char> is_here(count, 0);
   for (std::size_t node = 0; node < count; ++node) {
     const std::vector<int>& having = ranks_of.of(node);
-    owner[node] = having[node % having.size()];  // borders are shared evenly
+    owner[node] = owner_of(node, having);
     place[node] = owned[at(owner[node])]++;
     is_here[node] = std::binary_search(having.begin(), having.end(), me) ? 1 : 0;
   }

@@ -26,7 +26,7 @@ bool is_cheaper_by_iterations(const Pattern& pattern, double factor_bytes) {
 class AutomaticSolver : public LinearSolver {
  public:
   void analyze(const Pattern& pattern) override {
-    if (pattern.share) return take("petsc", pattern);
+    if (pattern.share) return take(pattern.share->unknowns < kIterativeFrom ? "cholmod" : "petsc", pattern);
     const bool has_petsc = solver_registry().at("petsc").unavailable.empty();
     if (!has_petsc || pattern.n < kIterativeFrom) return take("cholmod", pattern);
     if (pattern.n >= kOnlyIterativeFrom) return take("petsc", pattern);
@@ -60,9 +60,8 @@ class AutomaticSolver : public LinearSolver {
  private:
   void take(const char* type, const Pattern& pattern) {
     solver_.reset();  // before the next one takes memory
-    solver_ = make_linear_solver(type);
+    solver_ = make_linear_solver({type}, pattern);
     type_ = type;
-    solver_->analyze(pattern);
   }
 
   const char* type_ = "";
@@ -72,8 +71,9 @@ class AutomaticSolver : public LinearSolver {
 const bool automatic_registered =
     solver_registry()
         .emplace("auto", SolverKind{"cholmod where its factor fits in memory and costs less than iterations, else "
-                                    "petsc; symmetric tangents.",
-                                    false, [](const std::string&) { return std::make_unique<AutomaticSolver>(); }})
+                                    "petsc; on several ranks petsc from 100,000 unknowns on; symmetric tangents.",
+                                    false, [](const std::string&) { return std::make_unique<AutomaticSolver>(); },
+                                    false, "", true})
         .second;
 
 }  // namespace

@@ -86,8 +86,7 @@ int count_below(const Pattern& pattern, const std::vector<double>& A, const std:
 NegativeEigenPairs negative_eigenpairs(const Pattern& pattern, const std::vector<double>& A,
                                        const std::vector<double>& B, double bound, int count) {
   if (!pattern.symmetric) throw ConfigError("needs a symmetric stiffness");
-  const auto solver = make_linear_solver("cholmod");
-  solver->analyze(pattern);
+  const auto solver = make_linear_solver("cholmod", pattern);
   if (solver->factor(B.data()) != FactorStatus::ok) throw RunError("the stiffness is not positive definite");
   count = std::min(count, count_below(pattern, A, B, -bound));
   if (count == 0) return {};

@@ -52,7 +52,7 @@ const bool petsc_registered =
                                      "diagonal blocks or by algebraic multigrid, whichever takes less; large "
                                      "systems. `{type: petsc, options: \"-pc_type hypre\"}` passes options "
                                      "on to PETSc; symmetric tangents.",
-                                     false, make_petsc, true, kUnavailable})
+                                     false, make_petsc, true, kUnavailable, true})
         .second;
 
 }  // namespace

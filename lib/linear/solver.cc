@@ -1,5 +1,7 @@
 #include "lib/linear/solver.h"
 
+#include "lib/linear/gathered_solver.h"
+
 namespace orthodyn {
 
 std::map<std::string, SolverKind>& solver_registry() {
@@ -13,11 +15,16 @@ std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice) {
   return kind.make(choice.options);
 }
 
-std::unique_ptr<LinearSolver> make_solver_for(const Pattern& pattern) {
-  if (pattern.share) throw RunError("an analysis that factors a matrix does not run on several ranks");
-  auto solver = make_linear_solver(pattern.symmetric ? "cholmod" : "klu");
+std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice, const Pattern& pattern) {
+  auto solver = make_linear_solver(choice);
+  if (pattern.share && !solver_registry().at(choice.type).shares_the_work)
+    solver = make_gathered_solver(std::move(solver));
   solver->analyze(pattern);
   return solver;
+}
+
+std::unique_ptr<LinearSolver> make_solver_for(const Pattern& pattern) {
+  return make_linear_solver({pattern.symmetric ? "cholmod" : "klu"}, pattern);
 }
 
 }  // namespace orthodyn

@@ -78,6 +78,7 @@ struct SolverKind {
   std::function<std::unique_ptr<LinearSolver>(const std::string& options)> make;
   bool takes_options = false;    // others refuse them
   std::string unavailable = {};  // why this build cannot make it
+  bool shares_the_work = false;  // takes the parts of matrices that several ranks have
 };
 
 // For symmetric matrices that may be indefinite: factor() is `ok` for them. L D L^T without pivoting for size, which
@@ -90,6 +91,10 @@ std::map<std::string, SolverKind>& solver_registry();
 // Precondition: a solver of that name is in the registry, and SUNDIALS is not the one that has it. Throws ConfigError
 // if this build cannot make it, or for its options.
 std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice);
+
+// The same, analysed, for matrices on this pattern, also where several ranks have parts of them; by the first of these
+// alone if the solver cannot share the work. Throws RunError when memory does not suffice.
+std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice, const Pattern& pattern);
 
 // A direct solver for matrices on this pattern, analysed: one that finds indefinite ones where it is symmetric. Throws
 // RunError when memory does not suffice.

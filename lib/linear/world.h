@@ -9,6 +9,10 @@ namespace orthodyn {
 // this build has no MPI.
 const Ranks* world_ranks();
 
+// Of each cell the part it is in, as Ranks::partition() has it, for any number of parts, by this process alone. Throws
+// ConfigError where this build has no MPI.
+std::vector<int> parts_of_cells(const CellGraph& graph, int parts);
+
 // Whether it is one of several, as the launcher tells it: without starting MPI.
 bool is_one_of_several_ranks();
 

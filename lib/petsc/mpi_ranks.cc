@@ -1,15 +1,18 @@
-// Ranks (lib/core/ranks.h) by MPI, with PETSc's star forests for copies of nodes and its interface to partitioners.
-#include <petscmat.h>
+// Ranks (lib/core/ranks.h) by MPI, with PETSc's star forests for copies of nodes.
 #include <petscsf.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <memory>
+#include <numeric>
 
 #include "lib/core/errors.h"
 #include "lib/core/ranks.h"
 #include "lib/linear/petsc_library.h"
+#include "lib/petsc/partition.h"
 #include "lib/petsc/session.h"
 
 namespace orthodyn::petsc {
@@ -18,6 +21,27 @@ namespace {
 void check_mpi(int code) {
   if (code != MPI_SUCCESS) throw RunError("MPI: a call has failed (error " + std::to_string(code) + ")");
 }
+
+// How many values each rank has, known to the first.
+struct Counts {
+  explicit Counts(int here) {
+    int rank = 0, size = 1;
+    check_mpi(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+    check_mpi(MPI_Comm_size(PETSC_COMM_WORLD, &size));
+    if (rank == 0) of_rank.resize(static_cast<std::size_t>(size));
+    check_mpi(MPI_Gather(&here, 1, MPI_INT, of_rank.data(), 1, MPI_INT, 0, PETSC_COMM_WORLD));
+    std::int64_t all = std::accumulate(of_rank.begin(), of_rank.end(), std::int64_t{0});
+    check_mpi(MPI_Bcast(&all, 1, MPI_INT64_T, 0, PETSC_COMM_WORLD));
+    if (all > std::numeric_limits<int>::max())
+      throw RunError("2^31 numbers and more do not go to one rank; set linear_solver: petsc", Reason::out_of_memory);
+    starts.resize(of_rank.size());
+    std::exclusive_scan(of_rank.begin(), of_rank.end(), starts.begin(), 0);
+    if (rank == 0) sum = static_cast<std::size_t>(all);
+  }
+
+  std::vector<int> of_rank, starts;
+  std::size_t sum = 0;
+};
 
 int count_of(std::span<double> values) { return static_cast<int>(values.size()); }
 
@@ -93,6 +117,22 @@ class MpiRanks : public Ranks {
     check_mpi(MPI_Bcast(values.data(), count_of(values), MPI_DOUBLE, 0, PETSC_COMM_WORLD));
   }
 
+  std::vector<double> gather(std::span<const double> values) const override {
+    const Session session;
+    const Counts counts(static_cast<int>(values.size()));
+    std::vector<double> all(counts.sum);
+    check_mpi(MPI_Gatherv(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, all.data(), counts.of_rank.data(),
+                          counts.starts.data(), MPI_DOUBLE, 0, PETSC_COMM_WORLD));
+    return all;
+  }
+
+  void scatter(std::span<const double> of_all, std::span<double> here) const override {
+    const Session session;
+    const Counts counts(count_of(here));
+    check_mpi(MPI_Scatterv(of_all.data(), counts.of_rank.data(), counts.starts.data(), MPI_DOUBLE, here.data(),
+                           count_of(here), MPI_DOUBLE, 0, PETSC_COMM_WORLD));
+  }
+
   // By the first rank alone, so that the parts do not depend on how it is done in parallel.
   std::vector<int> partition(const CellGraph& graph) const override {
     const Session session;
@@ -100,7 +140,7 @@ class MpiRanks : public Ranks {
     std::string trouble;
     if (rank_ == 0) {
       try {
-        part = parts_of(graph, size_);
+        part = partition_cells(graph, size_);
       } catch (const std::exception& e) {
         trouble = e.what();
       }
@@ -139,37 +179,6 @@ class MpiRanks : public Ranks {
   void reduce(std::span<double> values, MPI_Op operation) const {
     const Session session;
     check_mpi(MPI_Allreduce(MPI_IN_PLACE, values.data(), count_of(values), MPI_DOUBLE, operation, PETSC_COMM_WORLD));
-  }
-
-  static std::vector<int> parts_of(const CellGraph& graph, int parts) {
-    const auto cells = static_cast<PetscInt>(graph.start.size() - 1);
-    std::vector<int> part(static_cast<std::size_t>(cells), 0);
-    if (cells <= parts) {  // fewer than a partitioner takes
-      for (PetscInt cell = 0; cell < cells; ++cell) part[static_cast<std::size_t>(cell)] = cell;
-      return part;
-    }
-    PetscInt *start = nullptr, *neighbours = nullptr;  // PETSc frees them
-    check(PetscMalloc1(graph.start.size(), &start));
-    check(PetscMalloc1(graph.neighbours.size() + 1, &neighbours));
-    std::copy(graph.start.begin(), graph.start.end(), start);
-    std::copy(graph.neighbours.begin(), graph.neighbours.end(), neighbours);
-    Mat adjacency = nullptr;
-    check(MatCreateMPIAdj(PETSC_COMM_SELF, cells, cells, start, neighbours, nullptr, &adjacency));
-    MatPartitioning partitioning = nullptr;
-    IS numbers = nullptr;
-    check(MatPartitioningCreate(PETSC_COMM_SELF, &partitioning));
-    check(MatPartitioningSetAdjacency(partitioning, adjacency));
-    check(MatPartitioningSetNParts(partitioning, parts));
-    check(MatPartitioningSetType(partitioning, MATPARTITIONINGPTSCOTCH));
-    check(MatPartitioningApply(partitioning, &numbers));
-    const PetscInt* values = nullptr;
-    check(ISGetIndices(numbers, &values));
-    std::copy_n(values, part.size(), part.begin());
-    check(ISRestoreIndices(numbers, &values));
-    check(ISDestroy(&numbers));
-    check(MatPartitioningDestroy(&partitioning));
-    check(MatDestroy(&adjacency));
-    return part;
   }
 
   int rank_ = 0, size_ = 1;

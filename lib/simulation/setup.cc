@@ -12,6 +12,7 @@
 #include "lib/linear/blas.h"
 #include "lib/simulation/observers/extremes.h"
 #include "lib/simulation/outcome.h"
+#include "lib/simulation/several_ranks.h"
 #include "lib/simulation/slips/slips.h"
 #include "lib/simulation/static_problem.h"
 #include "lib/scene/events.h"
@@ -110,25 +111,6 @@ void require_force_at_start(const Config& config, const BuiltScene& built) {
   config.at(config.has("initial") ? "initial" : "mesh")
       .fail(fmt::format("the force at the start cannot be evaluated: {}; check the initial state, the loads and the "
                         "unit of length", reason));
-}
-
-// What of a scene several ranks cannot do together is told by name.
-void require_to_run_on_ranks(Config& config, Scene& scene) {
-  if (scene.analysis != Analysis::dynamic)
-    config.at("analysis").fail("only dynamic analyses run on several ranks; run this one without mpirun");
-  if (scene.start == Start::equilibrium)
-    config.at("start").fail("equilibrium is not found on several ranks; start at rest, or run without mpirun");
-  if (!scene.integrator->runs_on_ranks()) {
-    std::vector<std::string> names;
-    for (const auto& [name, entry] : Registry<IntegratorChoice>::entries())
-      if (entry.make()->runs_on_ranks()) names.push_back(name);
-    config.at("integrator").at("type").fail("does not run on several ranks; those that do: " + join(names));
-  }
-  if (leaves_kinematics_open(scene)) {
-    make_corotational(config);
-    scene = read_scene(config);
-  }
-  scene.output.accumulated_error = false;  // it repeats parts of the run
 }
 
 }  // namespace

@@ -107,12 +107,31 @@ TEST_P(SharedModel, SolvesItsMatrix) {
   parts().combine({1, 1e-2, 1e-4}, at, A.data());
   Vector b(parts().num_dofs()), x(parts().num_dofs());
   parts().multiply_matrix(A.data(), part.v, b);
-  const auto solver = make_linear_solver({world_ranks() ? "petsc" : "cholmod"});
-  solver->analyze(parts().pattern());
-  solver->set_tolerance({1e-10, 0});
-  ASSERT_EQ(solver->factor(A.data()), FactorStatus::ok);
-  solver->solve(b, x);
-  EXPECT_LE((whole(x) - state.v).norm(), 1e-7 * state.v.norm());
+  for (const char* name : {"auto", "petsc", "cholmod", "eigen_ldlt", "klu"}) {
+    if (!solver_registry().at(name).unavailable.empty()) continue;
+    const auto solver = make_linear_solver(name, parts().pattern());
+    solver->set_tolerance({1e-10, 0});
+    for (int time = 0; time < 2; ++time) {
+      ASSERT_EQ(solver->factor(A.data()), FactorStatus::ok) << name;
+      x.setZero();
+      solver->solve(b, x);
+      const double error = (whole(x) - state.v).norm() / state.v.norm();
+      EXPECT_LE(error, solver->is_iterative() ? 1e-7 : 1e-10) << name;
+    }
+  }
+}
+
+TEST_P(SharedModel, IsToldWhereItsMatrixIsIndefinite) {
+  const State state = some_state(), part = parts().part(state);
+  Linearization at;
+  parts().linearize(part.t, part.q, part.v, TangentKind::gauss_newton, at);
+  std::vector<double> A(parts().pattern().row.size());
+  parts().combine({-1, 0, 1e-9}, at, A.data());
+  const auto solver = make_linear_solver("cholmod", parts().pattern());
+  EXPECT_TRUE(solver->checks_definiteness());
+  EXPECT_EQ(solver->factor(A.data()), FactorStatus::not_positive_definite);
+  parts().combine({1, 0, 0}, at, A.data());
+  EXPECT_EQ(solver->factor(A.data()), FactorStatus::ok);
 }
 
 TEST_P(SharedModel, MultigridWithRigidMotionsSolvesIt) {
@@ -163,6 +182,8 @@ TEST_P(SharedModel, WhatOneRankCannotEvaluateIsToldToAll) {
   EXPECT_THROW(parts().force(0, part.q, part.v, f), RecoverableError);
   Linearization at;
   EXPECT_THROW(parts().linearize(0, part.q, part.v, TangentKind::exact, at), RecoverableError);
+  const auto all = parts().only(parts().force_parts());
+  EXPECT_THROW(all->linearize(0, part.q, part.v, TangentKind::exact, at), RecoverableError);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SharedModel, testing::ValuesIn(shared_scenes()),

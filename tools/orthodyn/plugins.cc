@@ -25,11 +25,10 @@ namespace orthodyn {
 
 namespace {
 
-constexpr const char* kVariable = "ORTHODYN_PLUGINS";
 
 std::vector<std::string> from_environment() {
   std::vector<std::string> files;
-  const char* listed = std::getenv(kVariable);
+  const char* listed = std::getenv(kPluginsVariable);
   std::istringstream in(listed ? listed : "");
   for (std::string file; std::getline(in, file, ':');)
     if (!file.empty()) files.push_back(file);
@@ -72,7 +71,7 @@ void load_plugins(const std::vector<std::string>& files) {
     if (std::find(all.begin(), all.end(), path) == all.end()) all.push_back(path);
   }
   for (const auto& file : all) load(file);
-  if (!all.empty()) setenv(kVariable, join(all, ":").c_str(), 1);
+  if (!all.empty()) setenv(kPluginsVariable, join(all, ":").c_str(), 1);
 }
 
 }  // namespace orthodyn

@@ -5,14 +5,19 @@
 #include <optional>
 #include <system_error>
 
+#include "lib/simulation/scene_file.h"
+#include "lib/simulation/several_ranks.h"
 #include "lib/simulation/simulation.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/notice.h"
 #include "tools/orthodyn/on_ranks.h"
+#include "tools/orthodyn/run_job.h"
 #include "tools/orthodyn/run_summary.h"
 #include "tools/orthodyn/scene_options.h"
 #include "tools/orthodyn/slow_set_up.h"
+#include "tools/orthodyn/slurm.h"
+#include "tools/orthodyn/study_command.h"
 #include "tools/orthodyn/terminal_progress.h"
 
 namespace orthodyn {
@@ -24,6 +29,8 @@ namespace {
 struct RunArguments : SceneArguments {
   std::optional<std::string> out;
   bool quiet = false, force = false, resume = false, estimate_error = false, yes = false;
+  std::optional<std::string> slurm;  // "print" or "submit"
+  std::optional<std::size_t> ranks;  // of the job
 };
 
 // Prints what a run reports.
@@ -77,13 +84,17 @@ int exit_code(const RunResult& result) {
   return estimated ? 0 : interrupted() ? 130 : 3;
 }
 
+void refuse_on_ranks(const RunArguments& arguments) {
+  if (arguments.estimate_error)
+    throw ConfigError("--estimate-error repeats the run, which it does not on several ranks; run again with a smaller "
+                      "rtol or step, and compare");
+}
+
 // `ranks`: of which this process is one; null for one that is alone.
 int run_scene_on(const Ranks* ranks, const RunArguments& arguments) {
   const bool tells = !ranks || ranks->is_first();
   const auto simulation = Simulation::from_file(arguments.scene, arguments.changes);
-  if (ranks && arguments.estimate_error)
-    throw ConfigError("--estimate-error repeats the run, which it does not on several ranks; run again with a smaller "
-                      "rtol or step, and compare");
+  if (ranks) refuse_on_ranks(arguments);
   RunListener nobody;
   std::optional<Terminal> terminal;
   if (tells) terminal.emplace(arguments.quiet);
@@ -102,8 +113,45 @@ int run_scene_on(const Ranks* ranks, const RunArguments& arguments) {
   return exit_code(result);
 }
 
+// The options of the job's own command.
+std::vector<std::string> options_of(const RunArguments& arguments) {
+  std::vector<std::string> options;
+  for (const auto& change : arguments.changes.set) options.insert(options.end(), {"--set", change});
+  if (arguments.changes.integrator) options.insert(options.end(), {"--integrator", *arguments.changes.integrator});
+  if (arguments.force) options.push_back("--force");
+  if (arguments.yes) options.push_back("--yes");
+  if (arguments.estimate_error) options.push_back("--estimate-error");
+  return options;
+}
+
+// What would end the job as soon as it starts is told now.
+int write_job(const RunArguments& arguments) {
+  Config config = read_scene_file(arguments.scene, arguments.changes).resolving();
+  Scene scene = read_scene(config);
+  const int ranks = static_cast<int>(arguments.ranks.value_or(1));
+  if (ranks > 1) {
+    refuse_on_ranks(arguments);
+    require_to_run_on_ranks(config, scene);
+  }
+  fs::path folder = fs::absolute(folder_for(arguments)).lexically_normal();
+  if (folder.filename().empty()) folder = folder.parent_path();  // "out/fine/"
+  fs::create_directories(folder.parent_path());  // where the job leaves its log
+  const bool goes_on = scene.checkpoint.has_value() && !arguments.force && !arguments.estimate_error;
+  const RunJob job{.program = this_program(),
+                   .scene = fs::absolute(arguments.scene),
+                   .folder = folder,
+                   .options = options_of(arguments),
+                   .ranks = ranks,
+                   .threads = scene.threads.value_or(1),
+                   .goes_on = goes_on || arguments.resume};
+  if (*arguments.slurm == "submit") fmt::print("job     {}\n", submit_script(folder, run_script(job)));
+  else fmt::print("{}", run_script(job));
+  return 0;
+}
+
 int run_scene(const RunArguments& given) {
   const RunArguments arguments = with_scene_of_folder(given);
+  if (arguments.slurm) return write_job(arguments);
   catch_interrupts();
   return on_world_ranks([&](const Ranks* ranks) { return run_scene_on(ranks, arguments); });
 }
@@ -122,6 +170,9 @@ void declare(RunArguments& arguments, CommandOptions& options) {
       .flag("--estimate-error", arguments.estimate_error,
             "Then repeat the run at rtol / 10 (or half the fixed step) and print the difference.")
       .excludes("--resume");
+  options.value("--slurm", arguments.slurm, "The run as a job of SLURM: print its script, or submit it.")
+      .choice({"print", "submit"});
+  options.value("--ranks", arguments.ranks, "Ranks of the job; default one.").range(1, 1000000).needs("--slurm");
 }
 
 const CommandRegistration run_command({.order = 10,
@@ -130,7 +181,8 @@ const CommandRegistration run_command({.order = 10,
                                          .examples = R"(
   orthodyn run configs/scenes/cantilever.yaml --set integrator.rtol=1e-5 --out out/fine
   orthodyn run configs/scenes/laminate.yaml --set checkpoint={} --resume
-  mpirun -n 2 orthodyn run configs/scenes/cantilever.yaml)",
+  mpirun -n 2 orthodyn run configs/scenes/cantilever.yaml
+  orthodyn run mine.yaml --slurm --ranks 64 > job.sh; sbatch job.sh)",
                                          .on_ranks = true},
                                         declare, run_scene);
 
