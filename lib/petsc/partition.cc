@@ -5,6 +5,7 @@
 #include <petscmat.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "lib/linear/petsc_library.h"
 #include "lib/petsc/session.h"
@@ -14,8 +15,9 @@ namespace orthodyn::petsc {
 namespace {
 
 // Scotch draws random numbers, which go on from call to call: parts would depend on what was divided before. PETSc does
-// not pass its function on, but the library is there.
-void restart_random_numbers() {
+// not pass its function on, but the library is there. Its threads (version 7) race each other.
+void make_repeatable() {
+  setenv("SCOTCH_PTHREAD_NUMBER", "1", 1);
   if (void* function = dlsym(RTLD_DEFAULT, "SCOTCH_randomReset")) reinterpret_cast<void (*)()>(function)();
 }
 
@@ -28,7 +30,7 @@ std::vector<int> partition_cells(const CellGraph& graph, int parts) {
     for (PetscInt cell = 0; cell < cells; ++cell) part[static_cast<std::size_t>(cell)] = cell;
     return part;
   }
-  restart_random_numbers();
+  make_repeatable();
   PetscInt *start = nullptr, *neighbours = nullptr;  // PETSc frees them
   check(PetscMalloc1(graph.start.size(), &start));
   check(PetscMalloc1(graph.neighbours.size() + 1, &neighbours));

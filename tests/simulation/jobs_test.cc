@@ -57,6 +57,9 @@ TEST_F(Jobs, APartitionIsToldForEachNumberOfParts) {
   // The parts of four do not depend on what was asked for before.
   const auto four = orthodyn("partition s.yaml --parts 4 --step 1 --exchanges 10 --reductions 10").output;
   EXPECT_EQ(row(told.output, "4"), row(four, "4"));
+  // Nor on threads of the partitioner.
+  const std::string large = "partition s.yaml --parts 16 --set 'mesh.cells=[60,12,12]'";
+  EXPECT_EQ(orthodyn(large).output, orthodyn(large).output);
   // Two halves of 20 elements, that tell each other nothing.
   const std::string halves = row(orthodyn("partition s.yaml --parts 2 --step 1").output, "2");
   EXPECT_NE(halves.find(" 10    1.000 "), std::string::npos) << halves;
