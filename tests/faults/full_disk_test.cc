@@ -7,7 +7,6 @@
 
 #include "lib/simulation/json.h"
 #include "tests/faults/failing_writes.h"
-#include "tests/faults/share.h"
 #include "tests/simulation/resume_fixture.h"
 #include "tests/simulation/run_program.h"
 #include "tests/study/sweep_command.h"
@@ -58,7 +57,7 @@ class OnFaultyDisk : public testing::WithParamInterface<FaultyDisk>, public InFo
   // Calls `expect` with what became of the command for each k in turn.
   template <class Prepare, class Expect>
   void for_each_write(const std::string& command, Prepare&& prepare, Expect&& expect) {
-    for (long k = 1;; k += kEvery) {
+    for (long k = 1;; ++k) {
       SCOPED_TRACE(fmt::format("write {}", k));
       prepare();
       const auto result = orthodyn_failing(k, command);
