@@ -114,7 +114,8 @@ void ModalBasis::take_count(int count) {
   const int n = model_.num_dofs();
   complete_ = count >= n;
   const int kept = std::min(count, n);
-  EigenPairs pairs = lowest_eigenpairs(model_.pattern(), stiffness_, mass_, complete_ ? n : kept + 1);
+  EigenPairs pairs = lowest_eigenpairs(model_.pattern(), stiffness_, mass_, complete_ ? n : kept + 1,
+                                       [this, n] { return model_.rigid_motions(Vector::Zero(n)); });
   lambda_ = pairs.values.head(kept);
   shapes_ = pairs.shapes.leftCols(kept);
   next_lambda_ = complete_ ? 0 : pairs.values[kept];

@@ -43,13 +43,13 @@ Modes natural_modes(const Model& model, const State& about, int count) {
   std::vector<double> K(pattern.row.size()), M(pattern.row.size());
   model.combine({0, 0, 1}, at, K.data());
   model.combine({1, 0, 0}, at, M.data());
-  EigenPairs pairs = lowest_eigenpairs(pattern, K, M, count);
+  EigenPairs pairs = lowest_eigenpairs(pattern, K, M, count, [&] { return model.rigid_motions(about.q); });
 
   const bool has_momentum = tells_momentum(model);
   double lowest_elastic = 0;
   for (const double lambda : pairs.values)
     if (lowest_elastic == 0) lowest_elastic = std::abs(lambda);
-  Modes out{{}, pairs.zeros, std::sqrt(pairs.resolution) / (2 * std::numbers::pi)};
+  Modes out{{}, pairs.zeros, std::sqrt(pairs.resolution) / (2 * std::numbers::pi), pairs.solver};
   for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
     Mode mode{pairs.values[k], pairs.shapes.col(k)};
     fix_sign(mode.shape);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "lib/ode/model.h"
@@ -28,6 +29,7 @@ struct Modes {
   std::vector<Mode> modes;  // ascending
   int zeros = 0;            // those that round-off does not tell from zero, rigid or not
   double resolution = 0;    // the frequency up to which it does not, Hz
+  std::string solver = {};  // of the linear systems
 };
 
 // Throws ConfigError if the model has fewer modes or an unsymmetric tangent, RunError if they cannot be found.

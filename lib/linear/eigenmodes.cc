@@ -5,8 +5,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "lib/core/errors.h"
+#include "lib/core/memory.h"
 #include "lib/core/symmetric_eigen.h"
 #include "lib/linear/solver.h"
 
@@ -19,19 +23,49 @@ constexpr double kZero = 2.5e-14;    // of the largest eigenvalue
 constexpr double kFirstShift = 1e-10;  // likewise
 constexpr double kMostShift = 10;
 constexpr int kRigid = 6;
+constexpr double kAccuracy = 1e-11;  // of an iterative solver
+
+// A hundred solutions and more are wanted to many digits, for which a factor is made if it can be.
+std::unique_ptr<LinearSolver> make_iterative(const Pattern& pattern) {
+  return make_linear_solver({"petsc", "-pc_type gamg -pc_gamg_agg_nsmooths 0 -ksp_max_it 5000"}, pattern);
+}
+
+std::unique_ptr<LinearSolver> factor_or_iterations(const Pattern& pattern) {
+  constexpr double kMostOfMemory = 0.8;
+  const bool has_other = solver_registry().at("petsc").unavailable.empty();
+  try {
+    auto solver = make_solver_for(pattern);
+    if (!has_other || static_cast<double>(solver->factor_bytes()) <= kMostOfMemory * memory_left()) return solver;
+  } catch (const RunError&) {  // it cannot even be analysed
+    if (!has_other) throw;
+  }
+  try {
+    return make_iterative(pattern);
+  } catch (const ConfigError&) {  // it cannot be loaded here
+    return make_solver_for(pattern);
+  }
+}
 
 class Problem {
  public:
-  Problem(const Pattern& pattern, const std::vector<double>& K, const std::vector<double>& M)
-      : pattern_(pattern), K_(K), M_(M), shifted_(K.size()), solver_(make_solver_for(pattern)) {}
+  Problem(const Pattern& pattern, const std::vector<double>& K, const std::vector<double>& M,
+          const SoftestMotions& softest, ShiftedSolver solver)
+      : pattern_(pattern), K_(K), M_(M), shifted_(K.size()),
+        solver_(solver == ShiftedSolver::iterative ? make_iterative(pattern) : factor_or_iterations(pattern)) {
+    if (!solver_->is_iterative()) return;
+    solver_->set_tolerance({kAccuracy, 0});
+    if (softest) softest_ = softest();
+  }
 
   int size() const { return pattern_.n; }
+  std::string solver() const { return solver_->description(); }
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const { pattern_.multiply(M_.data(), x, y); }
   void solve_shifted(const ConstVectorRef& b, VectorRef x) const { solver_->solve(b, x); }
 
   // Factors K + s M; false if it is not positive definite.
   bool shift(double s) {
     for (std::size_t k = 0; k < K_.size(); ++k) shifted_[k] = K_[k] + s * M_[k];
+    if (solver_->is_iterative()) solver_->set_rigid_motions(softest_);
     return solver_->factor(shifted_.data()) == FactorStatus::ok;
   }
 
@@ -55,6 +89,7 @@ class Problem {
  private:
   const Pattern& pattern_;
   const std::vector<double>&K_, &M_;
+  Eigen::MatrixXd softest_;
   std::vector<double> shifted_;
   std::unique_ptr<LinearSolver> solver_;
 };
@@ -104,10 +139,18 @@ int zeros_among(const Vector& values, double largest) {
   return static_cast<int>((values.array().abs() <= kZero * largest).count());
 }
 
+std::optional<EigenPairs> lanczos_if_definite(Problem& problem, double shift, int count) {
+  try {
+    if (problem.shift(shift)) return lanczos(problem, shift, count);
+  } catch (const IndefiniteMatrix&) {  // as an iterative solver finds out on its way only
+  }
+  return std::nullopt;
+}
+
 // With the smallest shift that makes K + s M positive definite.
 EigenPairs first_pass(Problem& problem, double largest, int count, double& shift) {
   for (shift = kFirstShift * largest; shift <= kMostShift * largest; shift *= 100)
-    if (problem.shift(shift)) return lanczos(problem, shift, count);
+    if (auto pairs = lanczos_if_definite(problem, shift, count)) return std::move(*pairs);
   throw RunError("the stiffness is far from positive definite: modes about this state cannot be computed");
 }
 
@@ -125,22 +168,31 @@ EigenPairs sparse(Problem& problem, double largest, int count) {
   return pairs;
 }
 
+EigenPairs sparse_or_failure(Problem& problem, double largest, int count) {
+  try {
+    return sparse(problem, largest, count);
+  } catch (const RecoverableError& e) {
+    throw RunError(std::string("modes: ") + e.what());
+  }
+}
+
 }  // namespace
 
 EigenPairs lowest_eigenpairs(const Pattern& pattern, const std::vector<double>& K, const std::vector<double>& M,
-                             int count) {
+                             int count, const SoftestMotions& softest, ShiftedSolver solver) {
   if (!pattern.symmetric) throw ConfigError("modes need a symmetric stiffness");
   if (count > pattern.n)
     throw ConfigError(
         fmt::format("{} modes were requested, but there are {} unknowns and as many modes", count, pattern.n));
-  Problem problem(pattern, K, M);
+  Problem problem(pattern, K, M, softest, solver);
   const double largest = problem.largest();
   const bool small = pattern.n <= kDense || count + kRigid + 1 >= pattern.n / 2;
-  EigenPairs pairs = small ? dense(problem, count) : sparse(problem, largest, count);
+  EigenPairs pairs = small ? dense(problem, count) : sparse_or_failure(problem, largest, count);
   pairs.values.conservativeResize(count);
   pairs.shapes.conservativeResize(Eigen::NoChange, count);
   pairs.zeros = zeros_among(pairs.values, largest);
   pairs.resolution = kZero * largest;
+  pairs.solver = small ? "dense" : problem.solver();
   for (double& value : pairs.values)
     if (std::abs(value) <= pairs.resolution) value = 0;
   return pairs;

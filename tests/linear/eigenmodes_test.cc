@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "lib/core/errors.h"
+#include "lib/linear/solver.h"
 #include "tests/linear/systems.h"
 
 namespace orthodyn::eigenmodes_test {
@@ -83,6 +84,21 @@ TEST(Eigenmodes, OfAnIndefiniteMatrixBeginWithTheNegativeOnes) {
   const Vector all = symmetric_eigenvalues(c.stiffness.dense());
   EXPECT_LT(pairs.values[0], -0.5);
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(pairs.values[k], all[k], 1e-9);
+}
+
+// Three coordinates of 343 points on springs.
+TEST(Eigenmodes, ByIterationsAreThoseByAFactor) {
+  if (!solver_registry().at("petsc").unavailable.empty()) GTEST_SKIP() << "built without PETSc";
+  const System s = points(7);
+  std::vector<double> mass(s.values.size(), 0);
+  for (const int diagonal : s.pattern.column_start)
+    if (static_cast<std::size_t>(diagonal) < mass.size()) mass[static_cast<std::size_t>(diagonal)] = 2;
+  const EigenPairs direct = lowest_eigenpairs(s.pattern, s.values, mass, 5);
+  const EigenPairs iterated =
+      lowest_eigenpairs(s.pattern, s.values, mass, 5, [&] { return translations(s.pattern); }, ShiftedSolver::iterative);
+  EXPECT_NE(iterated.solver.find("algebraic multigrid"), std::string::npos) << iterated.solver;
+  EXPECT_EQ(direct.solver.find("algebraic multigrid"), std::string::npos) << direct.solver;
+  for (int k = 0; k < 5; ++k) EXPECT_NEAR(iterated.values[k], direct.values[k], 1e-9 * direct.values[4]);
 }
 
 TEST(Eigenmodes, RefuseMoreModesThanUnknowns) {

@@ -96,4 +96,27 @@ inline double backward_error(const System& s, const Vector& x, const Vector& b) 
   return (s.multiply(x) - b).lpNorm<Eigen::Infinity>() / scale;
 }
 
+// Three equal Laplacians as the coordinates of points; point 0 is held but for its second coordinate, as supports do.
+inline System points(int m) {
+  const System scalar = laplacian(m);
+  const Eigen::MatrixXd one = scalar.dense();
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * one.rows(), 3 * one.rows());
+  for (Eigen::Index i = 0; i < one.rows(); ++i)
+    for (Eigen::Index j = 0; j < one.rows(); ++j)
+      for (int k = 0; k < 3; ++k) all(3 * i + k, 3 * j + k) = one(i, j);
+  std::vector<int> kept;
+  for (int c = 0; c < all.rows(); ++c)
+    if (c != 0 && c != 2) kept.push_back(c);
+  System s = sparse(all(kept, kept), true);
+  s.pattern.coordinate = kept;
+  return s;
+}
+
+// Motions of all of them along each coordinate.
+inline Eigen::MatrixXd translations(const Pattern& pattern) {
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(pattern.n, 3);
+  for (int i = 0; i < pattern.n; ++i) motions(i, pattern.coordinate[static_cast<std::size_t>(i)] % 3) = 1;
+  return motions;
+}
+
 }  // namespace orthodyn

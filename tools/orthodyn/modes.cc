@@ -47,6 +47,7 @@ void print_table(const ModalAnalysis& analysis, bool equilibrium) {
   const double mass = model.parts().mass->total();
   fmt::print("natural modes about {}, {} mass, without damping: {} of {}\n", equilibrium ? "equilibrium" : "rest",
              model.parts().mass->lumped() ? "lumped" : "consistent", modes.modes.size(), model.num_dofs());
+  fmt::print("solver  {}\n", modes.solver);
   print_zeros(modes, analysis.rigid());
   fmt::print("  mode  frequency [Hz]  by the mesh   effective mass along x, y, z [% of {:.4g} kg]   residual\n", mass);
   Vec3 sum = Vec3::Zero();
