@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <utility>
 #include <vector>
+
+#include "integrators/random_vector.h"
 
 namespace orthodyn {
 
@@ -17,14 +18,6 @@ constexpr int kMinIterations = 20;     // a warm start must have seen more than 
 constexpr double kResidual = 0.01;     // of the eigenvalue: half a percent of a frequency
 constexpr double kFreshPart = 0.1;     // of a random vector in a warm start
 constexpr double kBreakdown = 1e-12;   // of the eigenvalue: the space is invariant
-
-// Ranks draw different ones: alike parts would else make it alike.
-Vector random_vector(int n, const Ranks* ranks) {
-  std::mt19937 generator(ranks ? 1 + static_cast<unsigned>(ranks->rank()) : 1);
-  Vector x(n);
-  for (double& value : x) value = static_cast<double>(generator()) / 4294967295.0 - 0.5;
-  return x;
-}
 
 }  // namespace
 
@@ -49,7 +42,7 @@ struct SpectralBound::Basis {
 };
 
 SpectralBound::SpectralBound(const Model& model)
-    : model_(model), random_(random_vector(model.num_dofs(), model.ranks())) {}
+    : model_(model), random_(random_vector(model)) {}
 
 void SpectralBound::multiply(const double* values, const Vector& x, Vector& y) const {
   const Pattern& pattern = model_.pattern();

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "integrators/kinsol/failure_sentence.h"
 #include "integrators/kinsol/path_stiffness.h"
+#include "integrators/random_vector.h"
 #include "integrators/sundials/callbacks.h"
 #include "integrators/sundials/solver_adapter.h"
 
@@ -21,27 +21,25 @@ struct FreeKinsol {
 
 constexpr double kRoundOff = 1e-11;  // of the motion
 
-// Of unit length, in no body's symmetry, the same each time.
-Vector probe_vector(Eigen::Index n) {
-  std::mt19937 random(1);
-  Vector b(n);
-  for (double& entry : b) entry = static_cast<double>(random()) / std::mt19937::max() - 0.5;
-  return b.normalized();
+Vector unit_random_vector(const Model& model) {
+  const Vector b = random_vector(model);
+  return b / model.space().norm(b);
 }
 
 class Kinsol : public EquilibriumSolver {
  public:
   Kinsol(const LoadPath& path, const EquilibriumTask& task, const KinsolOptions& options)
       : path_(path),
+        space_(path.space()),
         n_(path.num_dofs()),
         task_(task),
         options_(options),
         still_(Vector::Zero(n_)),
         stiffness_(path, options.linear_solver, statistics_),
-        probe_(probe_vector(n_)),
-        unknowns_(make_vector(path.num_dofs() + 1, context_)),
-        position_weights_(make_vector(path.num_dofs() + 1, context_)),
-        force_weights_(make_vector(path.num_dofs() + 1, context_)),
+        probe_(unit_random_vector(path)),
+        unknowns_(make_vector(path.num_dofs() + 1, context_, path.ranks())),
+        position_weights_(make_vector(path.num_dofs() + 1, context_, path.ranks())),
+        force_weights_(make_vector(path.num_dofs() + 1, context_, path.ranks())),
         memory_(KINCreate(context_)) {
     if (!memory_) throw RunError("KINSOL could not be created");
     view(position_weights_.get()).setConstant(1 / task.length);
@@ -62,7 +60,7 @@ class Kinsol : public EquilibriumSolver {
     const PathPlane fixed_load;
     plane_ = &fixed_load;
     descends_ = true;
-    return run(point, std::sqrt(static_cast<double>(n_)));
+    return run(point, std::sqrt(static_cast<double>(path_.num_dofs_of_all())));
   }
 
   std::optional<Response> respond(const PathPoint& at) override {
@@ -72,7 +70,7 @@ class Kinsol : public EquilibriumSolver {
       Response response{Vector(n_), std::nullopt, Vector(n_), 0};
       stiffness_.solve(rate(at), response.rate);
       stiffness_.solve(probe_, response.weakest);
-      response.stiffness = 1 / probe_.dot(response.weakest);
+      response.stiffness = 1 / space_.dot(probe_, response.weakest);
       if (path_.traits().exact_stiffness) response.unstable = stiffness_.negative_eigenvalues();
       return response;
     } catch (const RecoverableError&) {
@@ -106,7 +104,7 @@ class Kinsol : public EquilibriumSolver {
     attempt.found = within_tolerance || is_settled();
     if (attempt.found) {
       point = {x.head(n_), x[n_]};
-      attempt.residual = force(point).lpNorm<Eigen::Infinity>();
+      attempt.residual = space_.largest_entry(force(point));
       attempt.above_tolerance = !within_tolerance;
     } else {
       attempt.failure_reason =
@@ -147,7 +145,7 @@ class Kinsol : public EquilibriumSolver {
   // How far from the plane.
   double distance(const ConstVectorRef& x) const {
     const double along = plane_->lambda * (x[n_] - guess_.lambda);
-    return plane_->q.size() > 0 ? along + plane_->q.dot(x.head(n_) - guess_.q) : along;
+    return plane_->q ? along + space_.dot(*plane_->q, x.head(n_) - guess_.q) : along;
   }
 
   int evaluate(N_Vector x, N_Vector residual) {
@@ -156,7 +154,7 @@ class Kinsol : public EquilibriumSolver {
       auto out = view(residual);
       const auto at = view(x);
       path_.force(at[n_], at.head(n_), still_, out.head(n_));
-      require_finite(out.head(n_));
+      if (!space_.is_finite(out.head(n_))) throw RecoverableError("the force is not finite");
       out = -out;
       out[n_] = distance(at);
     });
@@ -187,22 +185,21 @@ class Kinsol : public EquilibriumSolver {
   bool correct(const ConstVectorRef& b, VectorRef dx) {
     auto dq = dx.head(n_);
     stiffness_.solve(b.head(n_), dq);
-    if (plane_->q.size() == 0) {  // the load factor is fixed
+    if (!plane_->q) {  // the load factor is fixed
       dx[n_] = b[n_] / plane_->lambda;
     } else {
       Vector response(n_);
       stiffness_.solve(rate(before_), response);
-      dx[n_] = (b[n_] - plane_->q.dot(dq)) / (plane_->q.dot(response) + plane_->lambda);
+      dx[n_] = (b[n_] - space_.dot(*plane_->q, dq)) / (space_.dot(*plane_->q, response) + plane_->lambda);
       dq += dx[n_] * response;
     }
-    return contracts(dq.lpNorm<Eigen::Infinity>());
+    return space_.is_finite(dq) && contracts(space_.largest_entry(dq));
   }
 
   bool contracts(double correction) {
     corrections_.push_back(correction);
     const auto k = corrections_.size() - 1;
-    if (descends_ || k == 0) return std::isfinite(correction);
-    return correction <= corrections_[k - 1];
+    return descends_ || k == 0 || correction <= corrections_[k - 1];
   }
 
   // df_lambda/dlambda: forces are evaluated for it where supports move.
@@ -224,13 +221,13 @@ class Kinsol : public EquilibriumSolver {
       const auto x = view(unknowns_.get());
       const PathPoint at{x.head(n_), x[n_]};
       const Vector f = force(at);
-      if (!f.allFinite()) return false;
+      if (!space_.is_finite(f)) return false;
       stiffness_.exact(at.lambda, at.q);
       if (!stiffness_.factor()) return false;
       Vector correction(n_);
       stiffness_.solve(f, correction);
-      const double motion = std::max(at.q.lpNorm<Eigen::Infinity>(), 1e-3 * task_.length);
-      return correction.lpNorm<Eigen::Infinity>() <=
+      const double motion = std::max(space_.largest_entry(at.q), 1e-3 * task_.length);
+      return space_.largest_entry(correction) <=
              std::max(path_.traits().exact_stiffness ? options_.rtol : 0, kRoundOff) * motion;
     } catch (const RecoverableError&) {
       return false;
@@ -238,6 +235,7 @@ class Kinsol : public EquilibriumSolver {
   }
 
   const LoadPath& path_;
+  VectorSpace space_;
   Eigen::Index n_;
   EquilibriumTask task_;
   KinsolOptions options_;
@@ -253,7 +251,7 @@ class Kinsol : public EquilibriumSolver {
   CallbackContext callback_context_;
   SolverFunctions functions_;
   Context context_;
-  OwnedVector unknowns_, position_weights_, force_weights_;
+  OwnedVector unknowns_, position_weights_, force_weights_;  // of several ranks each has the load factor
   OwnedMatrix plug_;
   OwnedSolver solver_;
   std::unique_ptr<void, FreeKinsol> memory_;

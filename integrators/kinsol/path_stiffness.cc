@@ -46,7 +46,7 @@ bool PathStiffness::factor() {
   const Measure measure(statistics_.factorization);
   model_.combine({0, 0, 1}, linearization_, values_.data());
   // Where the last K was indefinite this one is likely to be.
-  const bool done = negative_.value_or(0) > 0 ? factor_indefinite() : factor_definite();
+  const bool done = negative_.value_or(0) > 0 || resists_iterations_ ? factor_indefinite() : factor_definite();
   constant_is_factored_ = done && model_.traits().linear;
   return done;
 }
@@ -69,10 +69,7 @@ bool PathStiffness::factor_definite() {
 }
 
 bool PathStiffness::factor_indefinite() {
-  if (!indefinite_) {
-    indefinite_ = make_indefinite_solver();
-    indefinite_->analyze(model_.pattern());
-  }
+  if (!indefinite_) indefinite_ = make_indefinite_solver(model_.pattern());
   used_ = indefinite_.get();
   const bool regular = indefinite_->factor(values_.data()) == FactorStatus::ok;
   negative_ = indefinite_->negative_eigenvalues();
@@ -83,13 +80,21 @@ void PathStiffness::solve(const ConstVectorRef& b, VectorRef x) {
   try {
     const Measure measure(statistics_.solve);
     return used_->solve(b, x);
-  } catch (const IndefiniteMatrix&) {  // as an iterative solver finds out on its way only
+  } catch (const RecoverableError&) {  // an iterative solver finds K indefinite, or does not converge
     const Measure measure(statistics_.factorization);
     constant_is_factored_ = false;
     if (!factor_indefinite()) throw;
+    resists_iterations_ = negative_ == 0;
   }
   const Measure measure(statistics_.solve);
   used_->solve(b, x);
+}
+
+std::string PathStiffness::description() const {
+  const char* const instead = resists_iterations_ ? ", L D L^T where it did not converge"
+                              : indefinite_       ? ", L D L^T where the stiffness is indefinite"
+                                                  : "";
+  return solver_->description() + instead;
 }
 
 std::size_t PathStiffness::factor_bytes() const {

@@ -1,5 +1,6 @@
 // K of a path of equilibria and its factor: exact, mixed (Model::linearize_mixed) or positive semidefinite. Where the
-// solver asked for finds K indefinite, as past a limit point, L D L^T takes its place. Not thread-safe.
+// solver asked for finds K indefinite, as past a limit point, or does not converge, L D L^T takes its place. Not
+// thread-safe.
 #pragma once
 
 #include <memory>
@@ -35,7 +36,7 @@ class PathStiffness {
   void solve(const ConstVectorRef& b, VectorRef x);
 
   std::size_t factor_bytes() const;
-  std::string description() const { return solver_->description(); }
+  std::string description() const;
 
  private:
   bool factor_definite();
@@ -45,6 +46,7 @@ class PathStiffness {
   Statistics& statistics_;
   std::unique_ptr<LinearSolver> solver_, indefinite_;
   bool constant_is_factored_ = false;
+  bool resists_iterations_ = false;  // a definite K did: the others are like it
   std::optional<int> negative_;
   LinearSolver* used_ = nullptr;  // holds the last factor
   Vector q_;  // where K was taken

@@ -10,7 +10,7 @@
 namespace orthodyn {
 
 // True less computed displacement at nodes of the mesh, m; zero along coordinates that are held. Throws RunError where
-// the tangent cannot be factorised.
+// the tangent cannot be factorised, or an iterative solver does not converge. Collective.
 std::vector<Vec3> displacement_errors(const FemModel& model, const State& equilibrium, const std::vector<int>& nodes);
 
 }  // namespace orthodyn

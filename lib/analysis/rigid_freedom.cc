@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "lib/analysis/singular_vectors.h"
 #include "lib/config/values.h"
 #include "lib/core/words.h"
+#include "lib/fem/whole_fields.h"
 #include "lib/mesh/quadratic.h"
 
 namespace orthodyn {
@@ -49,16 +52,28 @@ Eigen::MatrixXd columns_where(const Eigen::MatrixXd& all, const Flags& wanted) {
   return out;
 }
 
+// Of each node of the whole mesh its three coordinates: 1 where clamped, else 0. Of nodes of no element all are 1.
+// Collective.
+std::vector<double> clamped_coordinates(const FemModel& model) {
+  const DofMap& dofs = *model.parts().dofs;
+  std::vector<double> here;
+  for (int i = 0; i < dofs.num_nodes(); ++i)
+    for (const int dof : dofs.node(i)) here.push_back(dof < 0 ? 1 : 0);
+  const Subdomain* subdomain = model.parts().subdomain.get();
+  return subdomain ? on_all_nodes(*subdomain, here, 3, model.parts().mesh.nodes.size()) : here;
+}
+
 // One part's six rigid motions, all of size one.
 class RigidMotions {
  public:
-  RigidMotions(const FemModel& model, const std::vector<int>& part_of, int part) : model_(model) {
+  // `clamped`, which must outlive it: as clamped_coordinates() has them.
+  RigidMotions(const FemModel& model, const std::vector<double>& clamped, const std::vector<int>& part_of, int part)
+      : model_(model), clamped_(clamped) {
     for (std::size_t i = 0; i < part_of.size(); ++i)
       if (part_of[i] == part) nodes_.push_back(static_cast<int>(i));
-    const auto& x = *model.parts().rest;
     center_ = Vec3::Zero();
-    for (const int i : nodes_) center_ += x.col(i) / static_cast<double>(nodes_.size());
-    for (const int i : nodes_) radius_ = std::max(radius_, (x.col(i) - center_).norm());
+    for (const int i : nodes_) center_ += place(i) / static_cast<double>(nodes_.size());
+    for (const int i : nodes_) radius_ = std::max(radius_, (place(i) - center_).norm());
   }
 
   const Vec3& center() const { return center_; }
@@ -71,14 +86,16 @@ class RigidMotions {
     return columns_where(combinations.V, combinations.values.array() <= kHeld * combinations.values.maxCoeff());
   }
 
-  // At the free coordinates.
+  // At the free coordinates of this rank's nodes, copies included.
   Eigen::MatrixXd on_dofs(const Eigen::MatrixXd& combinations) const {
-    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(model_.num_dofs(), combinations.cols());
+    const auto& [dofs, subdomain] = std::tie(model_.parts().dofs, model_.parts().subdomain);
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(dofs->num_dofs_here(), combinations.cols());
     for (const int i : nodes_) {
+      const int here = subdomain ? subdomain->local(i) : i;
+      if (here < 0) continue;
       const Eigen::MatrixXd moved = motions(i).lazyProduct(combinations);
       for (std::size_t c = 0; c < 3; ++c)
-        if (const int dof = model_.parts().dofs->node(i)[c]; dof >= 0)
-          out.row(dof) = moved.row(static_cast<Eigen::Index>(c));
+        if (const int dof = dofs->node(here)[c]; dof >= 0) out.row(dof) = moved.row(static_cast<Eigen::Index>(c));
     }
     return out;
   }
@@ -88,30 +105,34 @@ class RigidMotions {
   Eigen::MatrixXd at_clamps() const {
     std::vector<Eigen::Matrix<double, 1, 6>> rows;
     for (const int i : nodes_)
-      for (std::size_t c = 0; c < 3; ++c)
-        if (model_.parts().dofs->node(i)[c] < 0) rows.push_back(motions(i).row(static_cast<Eigen::Index>(c)));
+      for (int c = 0; c < 3; ++c)
+        if (clamped_[static_cast<std::size_t>(3 * i + c)] > 0) rows.push_back(motions(i).row(c));
     Eigen::MatrixXd out(static_cast<Eigen::Index>(rows.size()), 6);
     for (std::size_t k = 0; k < rows.size(); ++k) out.row(static_cast<Eigen::Index>(k)) = rows[k];
     return out;
   }
 
   Eigen::Matrix<double, 3, 6> motions(int node) const {
-    const Vec3 arm = (model_.parts().rest->col(node) - center_) / radius_;
+    const Vec3 arm = (place(node) - center_) / radius_;
     Eigen::Matrix<double, 3, 6> out;
     out.leftCols<3>().setIdentity();
     for (int k = 0; k < 3; ++k) out.col(3 + k) = Vec3::Unit(k).cross(arm);
     return out;
   }
 
+  const Vec3& place(int node) const { return model_.parts().mesh.nodes[static_cast<std::size_t>(node)]; }
+
   const FemModel& model_;
+  const std::vector<double>& clamped_;
   std::vector<int> nodes_;
   Vec3 center_;
   double radius_ = 0;
 };
 
-// Those combinations of `motions` that K does not resist.
+// Those combinations of `motions` that K does not resist. K is the sum of what ranks have of it.
 Eigen::MatrixXd without_stiffness(const Eigen::MatrixXd& combinations, const Eigen::MatrixXd& motions,
-                                  const Pattern& pattern, const std::vector<double>& stiffness) {
+                                  const FemModel& model, const std::vector<double>& stiffness) {
+  const Pattern& pattern = model.pattern();
   Eigen::MatrixXd resisted(motions.rows(), motions.cols());
   for (Eigen::Index k = 0; k < motions.cols(); ++k) {
     Vector force(motions.rows());
@@ -119,8 +140,11 @@ Eigen::MatrixXd without_stiffness(const Eigen::MatrixXd& combinations, const Eig
     resisted.col(k) = force;
   }
   const Vector own = SparseMatrix(pattern.matrix(stiffness.data())).diagonal().cwiseAbs();
-  const double round_off = kRoundOff * (motions.array().square().colwise() * own.array()).colwise().sum().maxCoeff();
-  const Eigen::MatrixXd energy = motions.transpose().lazyProduct(resisted);
+  Eigen::MatrixXd sums(motions.cols() + 1, motions.cols());  // the energies, and those of each coordinate on its own
+  sums << motions.transpose().lazyProduct(resisted), (motions.array().square().colwise() * own.array()).colwise().sum();
+  if (model.ranks()) model.ranks()->sum({sums.data(), static_cast<std::size_t>(sums.size())});
+  const double round_off = kRoundOff * sums.bottomRows(1).maxCoeff();
+  const Eigen::MatrixXd energy = sums.topRows(motions.cols());
   const Eigen::MatrixXd axes = right_singular_vectors((energy + energy.transpose()) / 2).V;  // its eigenvectors
   const Flags free = axes.cwiseProduct(energy.lazyProduct(axes)).colwise().sum().transpose().array() <= round_off;
   return combinations.lazyProduct(columns_where(axes, free));
@@ -151,16 +175,18 @@ struct FreePart {
 std::vector<FreePart> freedom_of_parts(const FemModel& model, double t) {
   const auto part_of = parts_of(model.parts().mesh);
   const int count = part_of.empty() ? 0 : *std::max_element(part_of.begin(), part_of.end()) + 1;
+  const std::vector<double> clamped = clamped_coordinates(model);
   Linearization at;
+  bool is_linearized = false;
   std::vector<FreePart> all;
   for (int part = 0; part < count; ++part) {
-    const RigidMotions rigid(model, part_of, part);
+    const RigidMotions rigid(model, clamped, part_of, part);
     Eigen::MatrixXd free = rigid.not_clamped();
-    if (free.cols() > 0 && at.stiffness.empty()) {
+    if (free.cols() > 0 && !std::exchange(is_linearized, true)) {
       const Vector zero = Vector::Zero(model.num_dofs());
       model.linearize(t, zero, zero, TangentKind::gauss_newton, at);
     }
-    if (free.cols() > 0) free = without_stiffness(free, rigid.on_dofs(free), model.pattern(), at.stiffness);
+    if (free.cols() > 0) free = without_stiffness(free, rigid.on_dofs(free), model, at.stiffness);
     all.push_back({rigid.center(), std::move(free)});
   }
   return all;

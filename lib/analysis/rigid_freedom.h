@@ -2,7 +2,7 @@
 // that resist them. A body that has some is in no definite place at rest.
 //
 // The rigid motions that the clamps leave are the null space of the 6 motions at the clamped coordinates; of these
-// the ones with a stiffness r' K r of nothing but round-off are free.
+// the ones with a stiffness r' K r of nothing but round-off are free. Functions are collective.
 #pragma once
 
 #include <string>

@@ -168,27 +168,19 @@ Eigen::Index FemModel::num_dofs_of_all() const {
   return parts_.subdomain ? static_cast<Eigen::Index>(pattern().share->unknowns) : num_dofs();
 }
 
-namespace {
-
-Vector whole_vector(const FemModel& model, const Vector& part) {
-  const std::vector<int>& unknowns = model.parts().unknowns;
-  Vector all = Vector::Zero(model.num_dofs_of_all());
-  all(unknowns) = part;
-  model.ranks()->sum({all.data(), static_cast<std::size_t>(all.size())});
+Vector FemModel::whole_of(const Vector& part) const {
+  if (!parts_.subdomain) return part;
+  Vector all = Vector::Zero(num_dofs_of_all());
+  all(parts_.unknowns) = part;
+  ranks()->sum({all.data(), static_cast<std::size_t>(all.size())});
   return all;
 }
 
-}  // namespace
+State FemModel::whole(const State& state) const { return {state.t, whole_of(state.q), whole_of(state.v)}; }
 
-State FemModel::whole(const State& state) const {
-  if (!parts_.subdomain) return state;
-  return {state.t, whole_vector(*this, state.q), whole_vector(*this, state.v)};
-}
+Vector FemModel::part_of(const Vector& all) const { return parts_.subdomain ? Vector(all(parts_.unknowns)) : all; }
 
-State FemModel::part(const State& whole) const {
-  if (!parts_.subdomain) return whole;
-  return {whole.t, whole.q(parts_.unknowns), whole.v(parts_.unknowns)};
-}
+State FemModel::part(const State& whole) const { return {whole.t, part_of(whole.q), part_of(whole.v)}; }
 
 // About the middle of the nodes, turns in units of the body's size: columns of like length.
 Eigen::MatrixXd FemModel::rigid_motions(const ConstVectorRef& q) const {

@@ -66,6 +66,7 @@ class FemModel : public Model {
   int num_dofs() const override { return parts_.dofs->num_dofs(); }
   const Ranks* ranks() const override { return parts_.subdomain ? &parts_.subdomain->ranks() : nullptr; }
   Eigen::Index num_dofs_of_all() const override;
+  Vector part_of(const Vector& all) const override;
   const Traits& traits() const override { return parts_.traits; }
   void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override;
   const Pattern& pattern() const override { return parts_.pattern->pattern(); }
@@ -86,6 +87,9 @@ class FemModel : public Model {
   Geometry geometry() const override;
 
   const Parts& parts() const { return parts_; }
+
+  // Of a vector's part the whole, as part_of() takes it apart. Collective.
+  Vector whole_of(const Vector& part) const;
 
   // Between a state of all unknowns, in the order that they have in a model that is not in parts, and this rank's part
   // of it; the same where the model is not. The first is collective.

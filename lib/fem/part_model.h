@@ -21,6 +21,7 @@ class PartModel : public Model {
   int num_dofs() const override { return whole_.num_dofs(); }
   const Ranks* ranks() const override { return whole_.ranks(); }
   Eigen::Index num_dofs_of_all() const override { return whole_.num_dofs_of_all(); }
+  Vector part_of(const Vector& all) const override { return whole_.part_of(all); }
   const Traits& traits() const override { return whole_.traits(); }
   void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override;
   const Pattern& pattern() const override { return whole_.pattern(); }

@@ -395,21 +395,22 @@ StressMisfit StressRecovery::misfit_of(const std::vector<SixColumns>& at_points)
 
 StressMisfit StressRecovery::misfit(const NodalState& s) const {
   std::vector<SixColumns> computed;
-  for (const auto& term : terms_) computed.push_back(stresses(*term, s));
+  for (std::size_t r = 0; r < terms_.size(); ++r) computed.push_back(of_all_ranks(r, stresses(*terms_[r], s)));
   return misfit_of(computed);
 }
 
 // By the difference over a displacement that is small beside the body.
 StressMisfit StressRecovery::misfit_along(const NodalVector& direction, const NodalState& s) const {
-  const double extent = (s.x.rowwise().maxCoeff() - s.x.rowwise().minCoeff()).minCoeff();
-  const double largest = direction.lpNorm<Eigen::Infinity>();
+  const double extent = bounding_box(mesh_).size().minCoeff();
+  const double in_part = direction.size() > 0 ? direction.lpNorm<Eigen::Infinity>() : 0;
+  const double largest = subdomain_ ? subdomain_->ranks().max(in_part) : in_part;
   const double step = kSmallStep * extent / (largest > 0 ? largest : 1);
   const NodalVector more_x = s.x + step * direction, less_x = s.x - step * direction;
   const NodalVector more_u = s.u + step * direction, less_u = s.u - step * direction;
   std::vector<SixColumns> derivatives;
-  for (const auto& term : terms_)
-    derivatives.emplace_back((stresses(*term, {s.t, more_x, more_u, s.v}) -
-                              stresses(*term, {s.t, less_x, less_u, s.v})) / (2 * step));
+  for (std::size_t r = 0; r < terms_.size(); ++r)
+    derivatives.push_back(of_all_ranks(r, (stresses(*terms_[r], {s.t, more_x, more_u, s.v}) -
+                                           stresses(*terms_[r], {s.t, less_x, less_u, s.v})) / (2 * step)));
   return misfit_of(derivatives);
 }
 
@@ -417,13 +418,15 @@ double StressRecovery::product(const StressMisfit& a, const StressMisfit& b) con
   const ElementMesh mesh(mesh_);
   double sum = 0;
   for (std::size_t r = 0; r < terms_.size(); ++r) {
+    if (terms_[r]->size() == 0) continue;
     const EnergyOfStress energy(mesh, *terms_[r]);
-    const Eigen::Index nodes = a[r].rows() / terms_[r]->size();
-    for (int k = 0; k < terms_[r]->size(); ++k)
-      sum += 2 * energy.volume(k) *
-             energy.density(k, a[r].middleRows(nodes * k, nodes), b[r].middleRows(nodes * k, nodes));
+    const Eigen::Index nodes = mesh.cells.nodes_per_cell();
+    for (int k = 0; k < terms_[r]->size(); ++k) {
+      const Eigen::Index first = nodes * regions()[r].places[static_cast<std::size_t>(k)];
+      sum += 2 * energy.volume(k) * energy.density(k, a[r].middleRows(first, nodes), b[r].middleRows(first, nodes));
+    }
   }
-  return sum;
+  return subdomain_ ? subdomain_->ranks().sum(sum) : sum;
 }
 
 }  // namespace orthodyn

@@ -70,8 +70,8 @@ struct RegionMeshError {
   double energy;  // J, of the computed stresses in all of them
 };
 
-// Recovered less computed stress in the axes of space at rest, Pa: of each term a row for each node of each of its
-// elements. Of a derivative along a displacement, Pa/m.
+// Recovered less computed stress in the axes of space at rest, Pa: of each term's region a row for each node of each of
+// its elements, on all ranks. Of a derivative along a displacement, Pa/m.
 using StressMisfit = std::vector<SixColumns>;
 
 class StressRecovery {

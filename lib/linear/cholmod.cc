@@ -8,6 +8,7 @@
 #include "lib/core/errors.h"
 #include "lib/core/versions.h"
 #include "lib/linear/blas.h"
+#include "lib/linear/gathered_solver.h"
 #include "lib/linear/openmp.h"
 #include "lib/linear/room.h"
 #include "lib/linear/solver.h"
@@ -175,7 +176,9 @@ const bool cholmod_registered =
 
 }  // namespace
 
-std::unique_ptr<LinearSolver> make_indefinite_solver() { return std::make_unique<Cholmod>(Definite::no); }
+std::unique_ptr<LinearSolver> make_indefinite_solver(const Pattern& pattern) {
+  return prepare(std::make_unique<Cholmod>(Definite::no), pattern);
+}
 
 namespace {
 

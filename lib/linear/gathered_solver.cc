@@ -179,4 +179,10 @@ std::unique_ptr<LinearSolver> make_gathered_solver(std::unique_ptr<LinearSolver>
   return std::make_unique<GatheredSolver>(std::move(solver));
 }
 
+std::unique_ptr<LinearSolver> prepare(std::unique_ptr<LinearSolver> solver, const Pattern& pattern) {
+  if (pattern.share) solver = make_gathered_solver(std::move(solver));
+  solver->analyze(pattern);
+  return solver;
+}
+
 }  // namespace orthodyn

@@ -12,4 +12,7 @@ namespace orthodyn {
 // calls but description() and factor_bytes() are collective.
 std::unique_ptr<LinearSolver> make_gathered_solver(std::unique_ptr<LinearSolver> solver);
 
+// Analyses a solver of one process for matrices on this pattern, gathered if several ranks have parts of them.
+std::unique_ptr<LinearSolver> prepare(std::unique_ptr<LinearSolver> solver, const Pattern& pattern);
+
 }  // namespace orthodyn

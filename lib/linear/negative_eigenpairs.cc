@@ -74,8 +74,7 @@ std::vector<double> sum(const std::vector<double>& A, double s, const std::vecto
 // The number of eigenvalues nu below a bound: by Sylvester's law of inertia that of the negative eigenvalues of
 // A - bound B.
 int count_below(const Pattern& pattern, const std::vector<double>& A, const std::vector<double>& B, double bound) {
-  const auto solver = make_indefinite_solver();
-  solver->analyze(pattern);
+  const auto solver = make_indefinite_solver(pattern);
   if (solver->factor(sum(A, -bound, B).data()) != FactorStatus::ok)
     throw RunError("the matrix is singular next to an eigenvalue of zero");
   return solver->negative_eigenvalues();

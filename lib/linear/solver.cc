@@ -17,8 +17,7 @@ std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice) {
 
 std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice, const Pattern& pattern) {
   auto solver = make_linear_solver(choice);
-  if (pattern.share && !solver_registry().at(choice.type).shares_the_work)
-    solver = make_gathered_solver(std::move(solver));
+  if (!solver_registry().at(choice.type).shares_the_work) return prepare(std::move(solver), pattern);
   solver->analyze(pattern);
   return solver;
 }

@@ -81,9 +81,9 @@ struct SolverKind {
   bool shares_the_work = false;  // takes the parts of matrices that several ranks have
 };
 
-// For symmetric matrices that may be indefinite: factor() is `ok` for them. L D L^T without pivoting for size, which
-// loses digits where a leading block of A is nearly singular.
-std::unique_ptr<LinearSolver> make_indefinite_solver();
+// For symmetric matrices on this pattern that may be indefinite, analysed: factor() is `ok` for them. L D L^T without
+// pivoting for size, which loses digits where a leading block of A is nearly singular.
+std::unique_ptr<LinearSolver> make_indefinite_solver(const Pattern& pattern);
 
 // By name. Written while the program and its plugins are loaded, only read afterwards.
 std::map<std::string, SolverKind>& solver_registry();

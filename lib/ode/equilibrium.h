@@ -21,7 +21,7 @@ struct PathPoint {
 
 // The plane q . (x - guess) + lambda (l - guess's) = 0 that a solution is to lie on: q = 0 fixes the load factor.
 struct PathPlane {
-  Vector q;  // 1/m; empty for 0
+  std::optional<Vector> q;  // 1/m; none for 0
   double lambda = 1;
 };
 

@@ -1,7 +1,6 @@
 #include "lib/ode/load_path.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "lib/core/errors.h"
 
@@ -9,13 +8,16 @@ namespace orthodyn {
 
 LoadPath::LoadPath(const Model& model, const PathTimes& times, Vector start)
     : model_(model), times_(times), start_(std::move(start)), load_(start_.size()) {
+  bool is_finite = false;
   try {
     model.force(times.begin, start_, Vector::Zero(start_.size()), load_);
-    largest_load_ = rate(0, start_).lpNorm<Eigen::Infinity>();
+    const Vector first = rate(0, start_);
+    largest_load_ = space().largest_entry(first);
+    is_finite = space().is_finite(first);
   } catch (const RecoverableError& e) {
     throw RunError(std::string("the forces cannot be evaluated at the start: ") + e.what(), Reason::force);
   }
-  if (!std::isfinite(largest_load_))
+  if (!is_finite)
     throw RunError("the forces at the start are not finite; check the loads", Reason::force);
 }
 

@@ -40,6 +40,7 @@ class LoadPath : public Model {
   int num_dofs() const override { return model_.num_dofs(); }
   const Ranks* ranks() const override { return model_.ranks(); }
   Eigen::Index num_dofs_of_all() const override { return model_.num_dofs_of_all(); }
+  Vector part_of(const Vector& all) const override { return model_.part_of(all); }
   const Traits& traits() const override { return model_.traits(); }
   void force(double lambda, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override;
   const Pattern& pattern() const override { return model_.pattern(); }

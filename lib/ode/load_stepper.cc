@@ -29,7 +29,7 @@ LoadStepper::LoadStepper(const LoadPath& path, EquilibriumSolver& solver, const 
 void LoadStepper::begin() {
   tracer_.emplace(path_, solver_);
   const double length_of_factor = 1 / tracer_->place().tangent.lambda;
-  const double moves = tracer_->place().response.rate.lpNorm<Eigen::Infinity>();  // m, by all loads, if linear
+  const double moves = path_.space().largest_entry(tracer_->place().response.rate);  // m, by all loads, if linear
   step_ =
       std::min(stepping_.first_step, moves > 0 && !path_.traits().linear ? length_ / moves : 1.0) * length_of_factor;
   smallest_step_ = std::min(stepping_.min_step * length_of_factor, step_ / 64);
@@ -103,15 +103,15 @@ void LoadStepper::shorten() { step_ = std::max(step_ / 2, smallest_step_); }
 
 bool LoadStepper::has_moved() const {
   const PathPoint& here = tracer_->place().point;
-  return here.lambda != state_.t || here.q != state_.q;
+  return here.lambda != state_.t || path_.space().any(here.q != state_.q);
 }
 
 void LoadStepper::arrive() { state_ = {tracer_->place().point.lambda, tracer_->place().point.q, state_.v}; }
 
 bool LoadStepper::crosses_critical_point(const Place& next) const {
   if (turns_back(next)) return true;
-  const auto &before = tracer_->place().response.unstable, &after = next.response.unstable;
-  return before && after && *before != *after;
+  // An iterative solver tells of an indefinite K only; where none does, it is taken to be definite.
+  return tracer_->place().response.unstable.value_or(0) != next.response.unstable.value_or(0);
 }
 
 // Moves to the last equilibrium before a critical point that lies between here and there, and returns the first one
@@ -211,7 +211,7 @@ bool LoadStepper::jump() {
 
 bool LoadStepper::branch_off() {
   const Vector& weakest = tracer_->place().response.weakest;
-  const Vector mode = length_ / weakest.lpNorm<Eigen::Infinity>() * weakest;
+  const Vector mode = length_ / path_.space().largest_entry(weakest) * weakest;
   for (const double share : {0.02, 0.1, 0.005})  // of the motion's size
     for (const double side : {1.0, -1.0})        // of an unsymmetric body one only is stable
       if (move_aside(side * share * mode)) return true;
@@ -234,7 +234,7 @@ bool LoadStepper::settle(double load_factor) {
   Vector aside = tracer_->place().response.weakest;
   point.lambda = load_factor;
   for (int k = 0; k < kPushes; ++k) {
-    point.q += kPush * length_ / aside.lpNorm<Eigen::Infinity>() * aside;
+    point.q += kPush * length_ / path_.space().largest_entry(aside) * aside;
     const auto attempt = solver_.descend(point);
     if (!attempt.found) return false;
     const auto response = solver_.respond(point);

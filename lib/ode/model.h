@@ -79,6 +79,8 @@ class Model : public OutputSource {
   virtual const Ranks* ranks() const { return nullptr; }
   virtual Eigen::Index num_dofs_of_all() const { return num_dofs(); }
   VectorSpace space() const { return {ranks(), num_dofs_of_all()}; }
+  // Of a vector of all unknowns, in the order that they have where one process holds the model, this rank's part.
+  virtual Vector part_of(const Vector& all) const { return all; }
 
   virtual const Traits& traits() const = 0;
 

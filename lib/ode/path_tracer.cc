@@ -16,19 +16,19 @@ PathPoint difference(const PathPoint& a, const PathPoint& b) { return {a.q - b.q
 
 }  // namespace
 
-PathTracer::PathTracer(const LoadPath& path, EquilibriumSolver& solver) : solver_(solver) {
+PathTracer::PathTracer(const LoadPath& path, EquilibriumSolver& solver) : solver_(solver), space_(path.space()) {
   const PathPoint start{path.start(), 0};
   auto response = solver.respond(start);
   if (!response)
     throw RunError("the stiffness is singular at the start: something is not held, or has no stiffness",
                    Reason::critical_point);
-  if (const double length = response->rate.norm(); length > 0) length_ = length;
+  if (const double length = space_.norm(response->rate); length > 0) length_ = length;
   place_ = {start, std::move(*response), {}, {}};
   place_.tangent = unit_tangent(place_.response);
 }
 
 double PathTracer::product(const PathPoint& a, const PathPoint& b) const {
-  return a.q.dot(b.q) / (length_ * length_) + a.lambda * b.lambda;
+  return space_.dot(a.q, b.q) / (length_ * length_) + a.lambda * b.lambda;
 }
 
 double PathTracer::along(const PathPoint& there) const {
@@ -51,7 +51,7 @@ PathPoint PathTracer::unit_tangent(const EquilibriumSolver::Response& response) 
 std::optional<PathTracer::Place> PathTracer::beyond(double ds) {
   constexpr double kNear = 1e-9;
   const PathPoint& t = place_.tangent;
-  PathPlane plane{t.q / (length_ * length_), t.lambda};
+  PathPlane plane{Vector(t.q / (length_ * length_)), t.lambda};
   // What is left to lambda = 1, there without a sliver of a step after it.
   const double left = t.lambda > 0 ? (1 - place_.point.lambda) / t.lambda : 2 * ds + 1;
   if (left <= ds * (1 + kNear)) {
@@ -102,7 +102,7 @@ std::optional<PathTracer::Place> PathTracer::aside(const Vector& shift) {
   Place next;
   next.point = {place_.point.q + shift, place_.point.lambda};
   const PathPoint guess = next.point;
-  attempt_ = solver_.solve(place_.point, next.point, {shift / shift.squaredNorm(), 0});
+  attempt_ = solver_.solve(place_.point, next.point, {Vector(shift / space_.dot(shift, shift)), 0});
   if (!attempt_.found) return std::nullopt;
   if (distance(next.point, guess) > distance(guess)) return refuse("Newton's corrections led far away");
   auto response = solver_.respond(next.point);

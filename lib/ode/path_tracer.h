@@ -45,7 +45,7 @@ class PathTracer {
   double distance(const PathPoint& there) const { return distance(there, place_.point); }
 
   // |dq/dlambda| against that at the start.
-  double growth(const Place& place) const { return place.response.rate.norm() / length_; }
+  double growth(const Place& place) const { return space_.norm(place.response.rate) / length_; }
 
   // The last call of the solver.
   const EquilibriumSolver::Attempt& attempt() const { return attempt_; }
@@ -58,6 +58,7 @@ class PathTracer {
   PathPoint unit_tangent(const EquilibriumSolver::Response& response) const;
 
   EquilibriumSolver& solver_;
+  VectorSpace space_;
   double length_ = 1;  // m, of dq/dlambda at the start
   Place place_;
   EquilibriumSolver::Attempt attempt_;

@@ -157,6 +157,7 @@ class MpiRanks : public Ranks {
   }
 
   bool meet(double seconds) const override {
+    if (is_alone_) return false;
     const Session session;
     MPI_Request request = MPI_REQUEST_NULL;
     check_mpi(MPI_Ibarrier(meeting_, &request));
@@ -165,7 +166,7 @@ class MpiRanks : public Ranks {
       int all_are_here = 0;
       check_mpi(MPI_Test(&request, &all_are_here, MPI_STATUS_IGNORE));
       if (all_are_here != 0) return true;
-      if (std::chrono::steady_clock::now() > until) return false;
+      if (std::chrono::steady_clock::now() > until) return !(is_alone_ = true);
       usleep(1000);
     }
   }
@@ -183,6 +184,7 @@ class MpiRanks : public Ranks {
 
   int rank_ = 0, size_ = 1;
   MPI_Comm meeting_ = MPI_COMM_NULL;
+  mutable bool is_alone_ = false;  // the others did not come
 };
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "lib/simulation/observers/run_observers.h"
 #include "lib/simulation/run_context.h"
 #include "lib/simulation/run_record.h"
+#include "lib/simulation/several_ranks.h"
 
 namespace orthodyn {
 
@@ -133,8 +134,7 @@ class DynamicAnalysis {
     const Outcome outcome =
         orthodyn::run(*setup_.built.model, *setup_.integrator, state, plan, all, context_.interrupt);
     reserve.release();
-    const Ranks* ranks = setup_.built.model->ranks();
-    failed_alone_ = ranks && outcome.status == Outcome::Status::failed && !ranks->meet(kSecondsToMeet);
+    failed_alone_ = outcome.status == Outcome::Status::failed && failed_alone(setup_.built.model->ranks());
     const bool kept = keep(outcome, begin.begun, checkpointer);
     resumable = kept || setup_.scene.checkpoint;
     return outcome;
@@ -220,7 +220,6 @@ class DynamicAnalysis {
                                   join(changed)));
   }
 
-  static constexpr double kSecondsToMeet = 10;  // other ranks that fail as well
 
   RunContext context_;
   const Setup& setup_;

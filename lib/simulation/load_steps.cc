@@ -29,7 +29,7 @@ Outcome run_static(const Model& model, LoadStepper& stepper, const std::vector<O
     const ObservedState start(model, outcome.last);
     for (auto* o : observers) o->on_start(start);
     while (!stepper.done()) {
-      if (interrupt) {
+      if (model.space().any(interrupt)) {
         outcome.status = Outcome::Status::interrupted;
         return;
       }
@@ -42,7 +42,7 @@ Outcome run_static(const Model& model, LoadStepper& stepper, const std::vector<O
 }
 
 LoadStepWriter::LoadStepWriter(const std::filesystem::path& path, const Model& model, const LoadStepper& stepper)
-    : stepper_(stepper), energies_(energies_of(model)), file_(path, header(energies_)) {}
+    : stepper_(stepper), space_(model.space()), energies_(energies_of(model)), file_(path, header(energies_)) {}
 
 void LoadStepWriter::on_start(const ObservedState& observed) {
   file_.begin();
@@ -53,7 +53,7 @@ void LoadStepWriter::write(const ObservedState& observed) {
   const State& state = observed.state();
   const auto& attempt = stepper_.attempt();
   std::vector<double> row{state.t, static_cast<double>(attempt.iterations), attempt.residual,
-                          state.q.lpNorm<Eigen::Infinity>(),
+                          space_.largest_entry(state.q),
                           stepper_.unstable() ? *stepper_.unstable() : std::numeric_limits<double>::quiet_NaN()};
   for (const auto& name : energies_) row.push_back(observed.evaluate(name)[0]);
   file_.row(row);

@@ -29,6 +29,7 @@ class LoadStepWriter : public Observer {
   void write(const ObservedState& observed);
 
   const LoadStepper& stepper_;
+  VectorSpace space_;
   std::vector<std::string> energies_;
   CsvFile file_;
 };

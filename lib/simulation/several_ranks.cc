@@ -1,5 +1,7 @@
 #include "lib/simulation/several_ranks.h"
 
+#include <stdexcept>
+
 #include "lib/core/words.h"
 #include "lib/ode/integrator.h"
 #include "lib/simulation/kinematics.h"
@@ -7,11 +9,9 @@
 namespace orthodyn {
 
 void require_to_run_on_ranks(Config& config, Scene& scene) {
-  if (scene.analysis != Analysis::dynamic)
-    config.at("analysis").fail("only dynamic analyses run on several ranks; run this one without mpirun");
-  if (scene.start == Start::equilibrium)
-    config.at("start").fail("equilibrium is not found on several ranks; start at rest, or run without mpirun");
-  if (!scene.integrator->runs_on_ranks()) {
+  if (scene.analysis == Analysis::buckling)
+    config.at("analysis").fail("buckling is analysed by one process; run it without mpirun");
+  if (scene.analysis == Analysis::dynamic && !scene.integrator->runs_on_ranks()) {
     std::vector<std::string> names;
     for (const auto& [name, entry] : Registry<IntegratorChoice>::entries())
       if (entry.make()->runs_on_ranks()) names.push_back(name);
@@ -22,6 +22,15 @@ void require_to_run_on_ranks(Config& config, Scene& scene) {
     scene = read_scene(config);
   }
   scene.output.accumulated_error = false;  // it repeats parts of the run
+}
+
+bool failed_alone(const Ranks* ranks) {
+  constexpr double kSecondsToMeet = 10;
+  return ranks && !ranks->meet(kSecondsToMeet);
+}
+
+void require_failure_of_all(const Ranks* ranks, const Outcome& outcome) {
+  if (outcome.status == Outcome::Status::failed && failed_alone(ranks)) throw std::runtime_error(outcome.message);
 }
 
 }  // namespace orthodyn

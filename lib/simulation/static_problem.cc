@@ -43,7 +43,7 @@ Scene at_rest(const Scene& scene) {
 Vector equilibrium(const Scene& scene, const BuiltScene& built) {
   if (!scene.is_static() && !scene.motions.empty()) {
     const Scene still = at_rest(scene);
-    return equilibrium(still, build(still));
+    return equilibrium(still, build(still, built.model->ranks()));
   }
   const StaticProblem problem = static_problem(scene, built);
   while (!problem.stepper->done()) problem.stepper->step();

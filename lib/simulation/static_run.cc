@@ -16,6 +16,7 @@
 #include "lib/simulation/run_record.h"
 #include "lib/simulation/observers/frames.h"
 #include "lib/simulation/setup_file.h"
+#include "lib/simulation/several_ranks.h"
 
 namespace orthodyn {
 
@@ -100,30 +101,41 @@ std::vector<ProbedDisplacement> probed_displacements(const Setup& setup, const S
     if (with_errors) errors = displacement_errors(model, equilibrium, nodes);
   } catch (const RunError&) {  // no stable equilibrium, no error of it
   }
-  const NodalExpansion nodal(model.parts(), equilibrium.t, equilibrium.q, equilibrium.v);
+  const auto u = model.evaluate("displacement", equilibrium);
   std::vector<ProbedDisplacement> out;
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    out.push_back({setup.scene.output.probes[i].first, nodal.u.col(nodes[i]), errors[i]});
+    out.push_back({setup.scene.output.probes[i].first, Vec3(&u[3 * static_cast<std::size_t>(nodes[i])]), errors[i]});
   return out;
 }
 
-EquilibriumResult equilibrium_result(const StaticProblem& problem, const State& last,
-                                     const std::optional<MeshError>& mesh_error) {
+// Without what is of the last equilibrium where other ranks do not know of it.
+EquilibriumResult equilibrium_result(const Setup& setup, const StaticProblem& problem, const Outcome& outcome,
+                                     bool with_last) {
+  const LoadStepper& stepper = *problem.stepper;
+  EquilibriumResult out{.loads_at_time = problem.path->times().end,
+                        .load_steps = stepper.steps(),
+                        .rejected_load_steps = stepper.rejected(),
+                        .jumps = stepper.jumps(),
+                        .critical_points = stepper.critical_points(),
+                        .unstable = stepper.unstable(),
+                        .residual = stepper.attempt().residual,
+                        .largest_load = problem.path->largest_load(),
+                        .residual_above_tolerance = stepper.attempt().above_tolerance,
+                        .solver = problem.solver->description(),
+                        .statistics = problem.solver->statistics()};
+  if (!with_last) return out;
+  const State& last = outcome.last;
+  out.largest_displacement = problem.path->space().largest_entry(last.q);
   const auto det_f = problem.path->evaluate("det_f.smallest", last);
-  return {.loads_at_time = problem.path->times().end,
-          .load_steps = problem.stepper->steps(),
-          .rejected_load_steps = problem.stepper->rejected(),
-          .jumps = problem.stepper->jumps(),
-          .critical_points = problem.stepper->critical_points(),
-          .unstable = problem.stepper->unstable(),
-          .largest_displacement = last.q.lpNorm<Eigen::Infinity>(),
-          .residual = problem.stepper->attempt().residual,
-          .largest_load = problem.path->largest_load(),
-          .residual_above_tolerance = problem.stepper->attempt().above_tolerance,
-          .solver = problem.solver->description(),
-          .statistics = problem.solver->statistics(),
-          .det_f = {det_f[0], static_cast<long>(det_f[1]), problem.path->times().end},
-          .mesh_error = mesh_error};
+  out.det_f = {det_f[0], static_cast<long>(det_f[1]), out.loads_at_time};
+  MeshErrorRecorder mesh_error(0);
+  if (setup.scene.output.mesh_error) mesh_error.look_at({*problem.path, last});
+  out.mesh_error = mesh_error.found();
+  // Below all loads the model has no equilibrium to tell an error of.
+  const bool is_at_all_loads = outcome.status == Outcome::Status::completed;
+  out.probes = probed_displacements(setup, {out.loads_at_time, last.q, Vector::Zero(last.q.size())},
+                                    setup.scene.output.mesh_error && is_at_all_loads);
+  return out;
 }
 
 }  // namespace
@@ -142,6 +154,7 @@ RunResult run_static_analysis(RunContext context) {
   if (own) all.insert(all.begin(), own.get());  // it may share what it keeps with those that write
   RunResult result{.scene = context.scene, .folder = folder};
   result.outcome = run_static(*problem.path, *problem.stepper, all, context.interrupt);
+  result.failed_alone = result.outcome.status == Outcome::Status::failed && failed_alone(problem.path->ranks());
   if (setup.linearity && result.outcome.status != Outcome::Status::interrupted) {
     setup.linearity->finish_at(problem.path->times().end, result.outcome.last.q);
     result.outgrown = setup.linearity->why_to_start_again();
@@ -149,14 +162,7 @@ RunResult run_static_analysis(RunContext context) {
   }
   result.model = summarize(setup);
   observers.tell(result);
-  MeshErrorRecorder mesh_error(0);
-  if (setup.scene.output.mesh_error) mesh_error.look_at({*problem.path, result.outcome.last});
-  result.equilibrium = equilibrium_result(problem, result.outcome.last, mesh_error.found());
-  // Below all loads the model has no equilibrium to tell an error of.
-  const bool is_at_all_loads = result.outcome.status == Outcome::Status::completed;
-  result.equilibrium->probes = probed_displacements(
-      setup, {problem.path->times().end, result.outcome.last.q, Vector::Zero(result.outcome.last.q.size())},
-      setup.scene.output.mesh_error && is_at_all_loads);
+  result.equilibrium = equilibrium_result(setup, problem, result.outcome, !result.failed_alone);
   record.finish(result);
   context.listener.on_result(result);
   return result;

@@ -53,6 +53,16 @@ TEST_P(SharedModel, StartsAlike) {
   EXPECT_NEAR(parts().parts().mass->total(), one().parts().mass->total(), 1e-12 * one().parts().mass->total());
 }
 
+// Of few elements some of seven ranks have none; and what is held or moved is cut by the partition.
+TEST_P(SharedModel, IsDividedAsItsNameTells) {
+  const Ranks& ranks = parts().parts().subdomain->ranks();
+  const auto& subdomain = *parts().parts().subdomain;
+  if (GetParam().name == "small" && ranks.size() == 7) EXPECT_TRUE(ranks.any(subdomain.cells().empty()));
+  if (GetParam().name != "moved" && GetParam().name != "tied") return;
+  const double has_held_ones = parts().num_dofs() < 3 * subdomain.num_owned() ? 1 : 0;
+  if (ranks.size() > 1) EXPECT_GE(ranks.sum(has_held_ones), 2);
+}
+
 TEST_P(SharedModel, HasTheSameForce) {
   const State state = some_state(), part = parts().part(state);
   Vector f(one().num_dofs()), f_part(parts().num_dofs());

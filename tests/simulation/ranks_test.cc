@@ -1,54 +1,29 @@
 // `mpirun -n N orthodyn run`, as a user starts it: results, restarts, what is told, and how it ends.
 #include <algorithm>
-#include <cmath>
 
-#include "lib/linear/solver.h"
-#include "tests/simulation/resume_fixture.h"
+#include "tests/simulation/several_ranks.h"
 
 namespace orthodyn::ranks_test {
 namespace {
 
-class SeveralRanks : public Resume {
- protected:
-  void SetUp() override {
-    if (!solver_registry().at("petsc").unavailable.empty()) GTEST_SKIP() << "built without MPI";
-  }
-
-  // Also for root, and for more ranks than there are cores.
-  static std::string mpirun(int ranks) {
-    return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
-           "OMPI_MCA_mpi_yield_when_idle=1 mpirun -n " + std::to_string(ranks) + " " + program() + " ";
-  }
-  CommandResult orthodyn_on(int ranks, const std::string& arguments) const {
-    return shell("cd " + folder_.string() + " && " + mpirun(ranks) + arguments);
-  }
-
-  void expect_alike(const std::string& name, const std::string& expected, double tolerance) const {
-    for (const char* file : {"energy.csv", "probes.csv"}) {
-      const auto found = read_rows(folder_ / name / file), rows = read_rows(folder_ / expected / file);
-      ASSERT_EQ(found.size(), rows.size()) << file;
-      for (std::size_t column = 0; column < rows.front().size(); ++column) {
-        double largest = 0, worst = 0;
-        for (std::size_t row = 0; row < rows.size(); ++row) {
-          largest = std::max(largest, std::abs(rows[row][column]));
-          worst = std::max(worst, std::abs(found[row][column] - rows[row][column]));
-        }
-        EXPECT_LE(worst, tolerance * std::max(largest, 1e-6)) << file << " column " << column;
-      }
-    }
-  }
-
-  static int count(const std::string& text, const std::string& word) {
-    int found = 0;
-    for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++found;
-    return found;
-  }
-};
-
 const std::string kShort = "time: {end: 0.4}\nintegrator: {type: generalized_alpha, step: 0.01, rtol: 1e-9}\n";
 
+const std::string kEndless = "time: {end: 1000}\nintegrator: {type: generalized_alpha, step: 0.01, rtol: 1e-9}\n";
+
+// Of a run in the background with the shell's $pid.
+std::string until_it_has_begun(const std::string& out) {
+  return "for i in $(seq 200); do [ -e " + out + "/checkpoint.cbor ] && [ -s " + out +
+         "/steps.csv ] && break; sleep 0.05; done; sleep 0.5; ";
+}
+std::string until_it_has_ended() {
+  return "for i in $(seq 300); do kill -0 $pid 2>/dev/null || break; sleep 0.1; done; "
+         "kill -0 $pid 2>/dev/null && { kill -KILL $pid; echo still there; }; wait $pid; }";
+}
+
 TEST_F(SeveralRanks, WriteWhatOneWrites) {
-  write("beam.yaml", kBeam + std::string("  reactions: true\n") + kShort);
+  write("beam.yaml", kBeam + std::string("  reactions: true\n  history: {steps: true}\n"
+                                         "  extremes: [von_mises.largest]\n"
+                                         "events: [{name: up, quantity: tip.displacement.z, crosses: 0.001}]\n") + kShort);
   ASSERT_EQ(orthodyn("run beam.yaml --quiet --out one").exit_code, 0);
   for (const int ranks : {2, 3}) {
     const std::string out = "on_" + std::to_string(ranks);
@@ -59,6 +34,12 @@ TEST_F(SeveralRanks, WriteWhatOneWrites) {
     EXPECT_TRUE(read_text(folder_ / out / "setup.vtu") == read_text(folder_ / "one/setup.vtu"));
     EXPECT_LE(difference(folder_ / out, folder_ / "one"), 1e-6);
     expect_alike(out, "one", 1e-6);
+    expect_alike(out, "one", 1e-6, {"momentum.csv"});
+    EXPECT_GE(read_text(folder_ / out / "events.csv").size(), 40u);
+    EXPECT_EQ(count(read_text(folder_ / out / "events.csv"), "up"), count(read_text(folder_ / "one/events.csv"), "up"));
+    const auto found = record(out).at("extremes"), expected = record("one").at("extremes");
+    for (const auto& [quantity, extreme] : expected.items())
+      EXPECT_NEAR(found.at(quantity).at("value"), extreme.at("value"), 1e-6 * extreme.at("value").get<double>());
     EXPECT_EQ(record(out).at("model").at("terms"), record("one").at("model").at("terms"));
     EXPECT_EQ(record(out).at("model").at("unknowns"), record("one").at("model").at("unknowns"));
     EXPECT_NEAR(record(out).at("errors").at("mesh"), record("one").at("errors").at("mesh").get<double>(), 1e-5);
@@ -67,10 +48,13 @@ TEST_F(SeveralRanks, WriteWhatOneWrites) {
 
 TEST_F(SeveralRanks, GiveTheSameBitsTwice) {
   write("beam.yaml", kBeam + kShort);
-  for (const char* out : {"first", "second"})
-    ASSERT_EQ(orthodyn_on(3, std::string("run beam.yaml --quiet --out ") + out).exit_code, 0);
-  EXPECT_EQ(read_text(folder_ / "first/energy.csv"), read_text(folder_ / "second/energy.csv"));
-  EXPECT_EQ(read_text(folder_ / "first/frames/frame_00040.vtu"), read_text(folder_ / "second/frames/frame_00040.vtu"));
+  for (const std::string solver : {"auto", "petsc"}) {
+    for (const char* out : {"first", "second"})
+      ASSERT_EQ(orthodyn_on(3, std::string("run beam.yaml --quiet --force --set integrator.linear_solver=") + solver +
+                                   " --out " + out).exit_code, 0);
+    for (const char* file : {"energy.csv", "frames/frame_00040.vtu"})
+      EXPECT_EQ(read_text(folder_ / "first" / file), read_text(folder_ / "second" / file)) << solver << " " << file;
+  }
 }
 
 TEST_F(SeveralRanks, GoOnWhereAnotherNumberOfThemStopped) {
@@ -113,17 +97,30 @@ TEST_F(SeveralRanks, AreRefusedByNameWhereTheyCannotCompute) {
   expect_refusal("check beam.yaml", "is for one process");
 }
 
+// As at Ctrl-C, which reaches mpirun: what was computed is kept, and the run goes on.
+TEST_F(SeveralRanks, EndTogetherWhenTheyAreInterrupted) {
+  write("beam.yaml", kBeam + kEndless);
+  const auto result = shell(
+      "cd " + folder_.string() + " && { " + mpirun(2) + "run beam.yaml --out stopped & pid=$!; " +
+      until_it_has_begun("stopped") + "kill -INT $(pgrep -P $pid -x mpirun || echo $pid); " + until_it_has_ended());
+  EXPECT_NE(result.exit_code, 0) << result.output;
+  EXPECT_EQ(result.output.find("still there"), std::string::npos) << result.output;
+  const double reached = read_rows(folder_ / "stopped/steps.csv").back()[0];
+  const auto resumed = orthodyn_on(2, "run beam.yaml --quiet --out stopped --resume --set time.end=" +
+                                          std::to_string(reached + 0.05));
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.output;
+}
+
 // One that is killed ends all; what was written is whole, and the run can go on.
 TEST_F(SeveralRanks, EndTogetherWhenOneIsKilled) {
-  const std::string endless = "time: {end: 1000}\nintegrator: {type: generalized_alpha, step: 0.01, rtol: 1e-9}\n";
-  write("beam.yaml", kBeam + endless);
+  write("beam.yaml", kBeam + kEndless);
   const auto result = shell(
-      "cd " + folder_.string() + " && { " + mpirun(2) + "run beam.yaml --quiet --out killed & pid=$!; "
-      "for i in $(seq 200); do [ -e killed/checkpoint.cbor ] && [ -s killed/steps.csv ] && break; sleep 0.05; done; "
-      "sleep 0.5; kill -KILL $(pgrep -P $(pgrep -P $pid -x mpirun || echo $pid) | tail -n 1); "
-      "for i in $(seq 300); do kill -0 $pid 2>/dev/null || break; sleep 0.1; done; "
-      "kill -0 $pid 2>/dev/null && { kill -KILL $pid; echo still there; }; wait $pid; }");
+      "cd " + folder_.string() + " && { " + mpirun(2) + "run beam.yaml --quiet --out killed & pid=$!; " +
+      until_it_has_begun("killed") + "kill -KILL $(pgrep -P $(pgrep -P $pid -x mpirun || echo $pid) | tail -n 1); " +
+      until_it_has_ended());
   EXPECT_NE(result.exit_code, 0) << result.output;
+  for (const auto& frame : fs::directory_iterator(folder_ / "killed/frames"))
+    EXPECT_NE(read_text(frame.path()).find("</VTKFile>"), std::string::npos) << frame.path();
   EXPECT_EQ(result.output.find("still there"), std::string::npos) << result.output;
   const double reached = read_rows(folder_ / "killed/steps.csv").back()[0];
   const auto resumed = orthodyn_on(3, "run beam.yaml --quiet --out killed --resume --set time.end=" +

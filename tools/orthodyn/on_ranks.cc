@@ -1,7 +1,9 @@
 #include "tools/orthodyn/on_ranks.h"
 
 #include <fmt/format.h>
+#include <sys/prctl.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 
@@ -28,13 +30,15 @@ int after_failure(const Ranks& ranks, const std::string& message, int exit_code)
 
 void require_one_rank_unless(bool on_ranks, const std::string& command) {
   if (!on_ranks && is_one_of_several_ranks())
-    throw ConfigError(fmt::format("`orthodyn {}` is for one process; mpirun starts several of `orthodyn run` only",
+    throw ConfigError(fmt::format("`orthodyn {}` is for one process; mpirun starts several of `orthodyn run` only, and "
+                                  "studies take --ranks",
                                   command));
 }
 
 int on_world_ranks(const std::function<int(const Ranks*)>& work) {
   const Ranks* ranks = world_ranks();
   if (!ranks) return work(nullptr);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // when mpirun is killed
   if (!ranks->is_first()) leave_files_to_others();
   try {
     return work(ranks);
