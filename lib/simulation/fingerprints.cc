@@ -60,11 +60,16 @@ const std::string& FileFingerprints::of(const std::filesystem::path& file) {
   return known.print;
 }
 
-std::string code_fingerprint() {
+namespace {
+
+std::string print_of_code() {
   Fingerprint print;
   Dl_info info{};
-  if (dladdr(reinterpret_cast<const void*>(&code_fingerprint), &info) != 0 && info.dli_fname)
+  if (dladdr(reinterpret_cast<const void*>(&code_fingerprint), &info) != 0 && info.dli_fname) {
     print.add_file(info.dli_fname);
+    const auto beside = std::filesystem::path(info.dli_fname).parent_path() / "liborthodyn_petsc.so";
+    if (std::error_code ec; std::filesystem::is_regular_file(beside, ec)) print.add_file(beside);
+  }
   const char* plugins = std::getenv("ORTHODYN_PLUGINS");
   std::istringstream listed(plugins ? plugins : "");
   for (std::string file; std::getline(listed, file, ':');) {
@@ -75,6 +80,13 @@ std::string code_fingerprint() {
   print.add(orthodyn_version()).add(blas_name());
   for (const auto& [library, version] : library_versions()) print.add(library + " " + version);
   return print.text();
+}
+
+}  // namespace
+
+std::string code_fingerprint() {
+  static const std::string print = print_of_code();
+  return print;
 }
 
 std::string machine_fingerprint() {

@@ -7,6 +7,7 @@ import tempfile
 import threading
 import time
 import unittest
+import unittest.mock
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -111,6 +112,16 @@ class AStudy(unittest.TestCase):
         spec["vary"]["materials.wood.nu"] = spec["vary"]["materials.wood.nu"][:len(before)]
         self.assertEqual(len(orthodyn.sweep(spec, "s", jobs=1, retry=True, quiet=True).table), len(before))
         self.assertEqual({path: text for path, text in self.finished().items() if path in before}, before)
+
+    def test_has_points_computed_by_several_ranks(self):
+        spec = self.long_sweep()
+        spec["vary"]["materials.wood.nu"] = spec["vary"]["materials.wood.nu"][:1]
+        alone = orthodyn.sweep(spec, "one", quiet=True).table
+        for_any_user = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+        with unittest.mock.patch.dict(os.environ, for_any_user):
+            shared = orthodyn.sweep(spec, "two", quiet=True, ranks=2).table
+        self.assertEqual(list(shared["status"]), ["completed"])
+        self.assertEqual(list(shared["unknowns"]), list(alone["unknowns"]))
 
     def test_ends_with_the_interpreter_that_asked_for_it(self):
         """Also where that is killed."""

@@ -30,7 +30,7 @@ class Jobs : public InFolder {
   }
 
   JobQueue queue(const std::string& script, int workers, OldFailures failures = OldFailures::keep) {
-    return {{program(script), workers, failures, [](const std::string&) {}}, interrupt_};
+    return {{{program(script)}, workers, failures, [](const std::string&) {}}, interrupt_};
   }
 
   bool run(const std::string& script, const std::vector<Job>& all, int workers,

@@ -41,6 +41,23 @@ TEST_F(Process, IsKilledWhenItTakesTooMuchMemory) {
   EXPECT_EQ(end.kind, ProcessEnd::Kind::out_of_memory);
 }
 
+// In a session of its own, as mpirun's ranks are in groups of their own.
+TEST_F(Process, IsKilledWithAllThatItHasStarted) {
+  const std::string child = (folder_ / "child").string();
+  EXPECT_EQ(run("setsid sh -c 'echo $$ > " + child + "; exec sleep 100' & sleep 100", 1).kind,
+            ProcessEnd::Kind::timed_out);
+  const int pid = std::stoi(read_text(child));
+  for (int k = 0; k < 100 && kill(pid, 0) == 0; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_NE(kill(pid, 0), 0);
+}
+
+TEST_F(Process, WhatItHasStartedCountsAsItsMemory) {
+  const auto end = run_process(
+      {"/bin/sh", "-c", "setsid sh -c 'x=$(head -c 100000000 /dev/zero | tr \"\\0\" x); echo $x; sleep 100'; true"},
+      folder_ / "log", {60, 5e7}, stop_);
+  EXPECT_EQ(end.kind, ProcessEnd::Kind::out_of_memory);
+}
+
 TEST_F(Process, EndsWhenThereIsAnInterrupt) {
   std::thread later([this] {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "lib/simulation/files.h"
+#include "lib/simulation/several_ranks.h"
 #include "lib/study/compare/comparison_table.h"
 #include "lib/study/compare/measurement.h"
 #include "lib/study/jobs/json_values.h"
@@ -97,18 +98,28 @@ void look_at(const Comparison& comparison, const Config& config, const std::vect
   for (const auto& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 
+void require_to_run_on_ranks(const Design& design) {
+  for (const Point& point : design.points) {
+    Config config = point_scene(design, point).resolving();
+    Scene scene = read_scene(config);
+    orthodyn::require_to_run_on_ranks(config, scene);
+  }
+}
+
 int compare(const StudyArguments& arguments) {
+  require_ranks(arguments);
   const Config config = Config::from_file(arguments.file);
   const Comparison comparison = read_comparison(config);
   require_usual_number(arguments, number_of_points(comparison));
   Design design = expand(comparison);
+  if (arguments.ranks > 1) require_to_run_on_ranks(design);
   look_at(comparison, config, scenes_of(design));
   const StudyFolder place(folder_for(arguments, "out/comparisons", comparison.name), "comparison", arguments.file);
   const fs::path& folder = place.path();
 
   ProgressReporter reporter(arguments.quiet);
   std::size_t kept = 0;
-  ComparisonRun run(comparison, std::move(design), folder, [&](const Progress& progress) {
+  ComparisonRun run(comparison, std::move(design), folder, arguments.ranks, [&](const Progress& progress) {
     kept += progress.cached && met_a_limit(progress.result.failure);
     reporter.report(progress.count, progress.title, outcome_of(progress.result), progress.cached);
   });
@@ -132,6 +143,7 @@ int compare(const StudyArguments& arguments) {
 
 void declare_comparison(StudyArguments& arguments, CommandOptions& options) {
   declare_study(arguments, options, {"comparison", "A comparison in YAML.", "comparisons", "compare", "points"});
+  declare_ranks(arguments, options, "point");
   declare_yes(arguments, options);
 }
 

@@ -59,14 +59,21 @@ std::string outcome_of(const EvaluationResult& result) {
   return join(words);
 }
 
+void refuse_modes_on_ranks(const ConvergeArguments& arguments) {
+  if (arguments.modes > 0 && arguments.ranks > 1)
+    throw ConfigError("--modes: natural frequencies are computed by one process; remove --ranks");
+}
+
 int converge(const ConvergeArguments& arguments) {
+  require_ranks(arguments);
   use_one_thread_each();
+  refuse_modes_on_ranks(arguments);
   const Convergence wanted = wanted_of(arguments);
   const Design design = design_of(wanted);
   const fs::path folder = folder_for(arguments, "out/convergence", stem(arguments.file));
   SlipTeller().tell(read_scene_file(wanted.file, {.set = wanted.set}));
   const StudyFolder place(folder, "convergence", arguments.file);
-  PointJobs factory(input_of(wanted, design), wanted.limits, folder);
+  PointJobs factory(input_of(wanted, design), wanted.limits, folder, arguments.ranks);
   std::vector<Job> jobs;
   for (const Level& level : design.levels) jobs.push_back(factory.job(level.scene));
 
@@ -101,6 +108,7 @@ int converge(const ConvergeArguments& arguments) {
 void declare(ConvergeArguments& arguments, CommandOptions& options) {
   declare_study(arguments, options, {"scene", "A scene in YAML.", "convergence", "convergence", "meshes"});
   declare_jobs(arguments, options, "Meshes");
+  declare_ranks(arguments, options, "mesh");
   options.repeated("--set", arguments.set, "Change a value of the scene by its path, e.g. mesh.cells=[10,1,1].")
       .type("PATH=VALUE");
   options

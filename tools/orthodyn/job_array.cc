@@ -15,8 +15,14 @@ namespace {
 constexpr double kMargin = 512e6;
 
 std::string command(const ArrayJob& job) {
-  return fmt::format("{} sweep {} --out {}", shell_quoted(job.program), shell_quoted(job.sweep.string()),
-                     shell_quoted(job.folder.string()));
+  return fmt::format("{} sweep {} --out {}{}", shell_quoted(job.program), shell_quoted(job.sweep.string()),
+                     shell_quoted(job.folder.string()), job.ranks > 1 ? fmt::format(" --ranks {}", job.ranks) : "");
+}
+
+// Ranks may be on several nodes.
+std::string memory(const ArrayJob& job) {
+  const long megabytes = std::lround(std::ceil((job.limits.memory + kMargin) / job.ranks / 1e6));
+  return fmt::format("{}={}", job.ranks > 1 ? "mem-per-cpu" : "mem", megabytes);
 }
 
 // Minutes that a task may take: every point until its process is killed, and the task's own look at all points.
@@ -32,9 +38,9 @@ std::string array_script(const ArrayJob& job) {
   return fmt::format(R"(#!/bin/sh
 #SBATCH --job-name={}
 #SBATCH --array=1-{}
-#SBATCH --ntasks=1
+#SBATCH --ntasks={}
 #SBATCH --cpus-per-task=1
-#SBATCH --mem={}M
+#SBATCH --{}M
 #SBATCH --time={}
 #SBATCH --output={}
 #SBATCH --open-mode=append
@@ -43,8 +49,8 @@ std::string array_script(const ArrayJob& job) {
 #   {} --collect
 {}exec {} --task "$SLURM_ARRAY_TASK_ID/{}" --jobs 1 --quiet{}
 )",
-                     sbatch_quoted(job.name), job.tasks,
-                     std::lround(std::ceil((job.limits.memory + kMargin) / 1e6)), minutes(job),
+                     sbatch_quoted(job.name), job.tasks, job.ranks,
+                     memory(job), minutes(job),
                      sbatch_quoted(log_beside(job.folder)), job.points, job.tasks,
                      job.retry ? " or has failed" : "", command(job), exported_plugins(), command(job), job.tasks,
                      job.retry ? " --retry" : "");

@@ -15,6 +15,7 @@ struct ArrayJob {
   std::size_t points = 0, tasks = 0;
   Limits limits;  // of a point
   bool retry = false;  // what failed before
+  int ranks = 1;       // that compute a point together
 };
 
 // For sbatch.

@@ -111,8 +111,9 @@ void declare(PartitionArguments& arguments, CommandOptions& options) {
   options.repeated("--set", arguments.set, "Change a value by its path.").type("PATH=VALUE");
   options.value("--parts", arguments.parts, "Numbers of parts, that is of ranks.").type("N,N,...").show_default();
   options.value("--step", arguments.step, "Seconds of a step by one rank, for a model of that by more.");
-  options.value("--exchanges", arguments.exchanges, "Exchanges of a vector with neighbours in a step.");
-  options.value("--reductions", arguments.reductions, "Sums over all ranks in a step.");
+  options.value("--exchanges", arguments.exchanges, "Exchanges of a vector with neighbours in a step.")
+      .needs("--step");
+  options.value("--reductions", arguments.reductions, "Sums over all ranks in a step.").needs("--step");
   options.value("--latency", arguments.latency, "Seconds that a message takes at least.").show_default();
   options.value("--bandwidth", arguments.bandwidth, "Bytes a second between two ranks.").show_default();
 }

@@ -21,7 +21,10 @@ std::filesystem::path folder_for(const StudyArguments& arguments, const std::fil
 // A queue that an interrupt ends, with `workers` processes at a time.
 study::JobQueue job_queue(const StudyArguments& arguments, int workers);
 
-// As many workers as were asked for, or one a processor.
+// Throws ConfigError where this build cannot compute on as many ranks as were asked for.
+void require_ranks(const StudyArguments& arguments);
+
+// As many workers as were asked for, or as many as there are processors for their ranks.
 int worker_count(const StudyArguments& arguments);
 
 // Processes that share the processors must not each start a thread of BLAS for every one of them.

@@ -11,7 +11,8 @@ namespace orthodyn {
 struct StudyArguments {
   std::string file;
   std::optional<std::string> out;
-  int jobs = 0;  // 0: as many as there are processors
+  int jobs = 0;  // 0: as many as there are processors, by ranks
+  int ranks = 1;  // that compute a piece together
   bool retry = false, quiet = false, no_report = false;
   bool yes = false;  // also for a million points and more
 };
@@ -26,6 +27,9 @@ struct StudyWords {
 void declare_study(StudyArguments& arguments, CommandOptions& options, const StudyWords& words);
 
 void declare_yes(StudyArguments& arguments, CommandOptions& options);
+
+// `piece`: "point".
+void declare_ranks(StudyArguments& arguments, CommandOptions& options, const char* piece);
 
 // `pieces`: "Points".
 void declare_jobs(StudyArguments& arguments, CommandOptions& options, const char* pieces);

@@ -69,6 +69,10 @@ std::string outcome_of(const EvaluationResult& result, const Sweep& sweep) {
 
 // Before its points are made.
 const Sweep& asked_for(const Sweep& sweep, const StudyArguments& arguments) {
+  require_ranks(arguments);
+  for (const auto& [name, figure] : sweep.quantities)
+    if (arguments.ranks > 1 && !figure.is_of_motion())
+      figure.origin.fail("natural frequencies and buckling loads are computed by one process: remove it, or --ranks");
   require_usual_number(arguments, number_of_points(sweep));
   return sweep;
 }
@@ -80,7 +84,7 @@ class SweepCommand {
         sweep_(read_sweep(Config::from_file(arguments.file))),
         points_(expand(asked_for(sweep_, arguments))),
         folder_(folder_for(arguments, "out/sweeps", sweep_.name)),
-        jobs_(jobs_of(sweep_, points_, folder_)),
+        jobs_(jobs_of(sweep_, points_, folder_, arguments.ranks)),
         work_(distinct(jobs_)) {}
 
   int execute() {
@@ -126,7 +130,8 @@ class SweepCommand {
                        work_.size(),
                        tasks,
                        sweep_.limits,
-                       arguments_.retry};
+                       arguments_.retry,
+                       arguments_.ranks};
     if (*arguments_.slurm == "submit") return submit(job);
     fmt::print("{}", array_script(job));
     return 0;
@@ -224,6 +229,7 @@ class SweepCommand {
 void declare(SweepArguments& arguments, CommandOptions& options) {
   declare_study(arguments, options, {"sweep", "A sweep in YAML.", "sweeps", "sweep", "points"});
   declare_jobs(arguments, options, "Points");
+  declare_ranks(arguments, options, "point");
   declare_yes(arguments, options);
   options.value("--task", arguments.task, "Compute only the I-th of N parts of the points; for job arrays.")
       .type("I/N");

@@ -10,11 +10,12 @@ namespace orthodyn::study::compare {
 
 namespace fs = std::filesystem;
 
-ComparisonRun::ComparisonRun(const Comparison& comparison, Design design, fs::path folder,
+ComparisonRun::ComparisonRun(const Comparison& comparison, Design design, fs::path folder, int ranks,
                              std::function<void(const Progress&)> tell)
     : comparison_(comparison),
       design_(std::move(design)),
       folder_(std::move(folder)),
+      ranks_(ranks),
       tell_(std::move(tell)),
       code_(code_fingerprint()),
       count_(design_.points.size()) {
@@ -109,6 +110,7 @@ std::string ComparisonRun::fingerprint(const Config& scene, const std::string& m
   Fingerprint hash;
   hash.add(machine_fingerprint()).add(scene.dump()).add(job.dump());
   hash.add(fmt::format("{}", comparison_.limits.memory));
+  if (ranks_ > 1) hash.add(fmt::format("{} ranks", ranks_));
   for (const auto& file : scene.file_paths()) hash.add(files_.of(file));
   return hash.add(mesh_of(scene, mesh)).text();
 }

@@ -34,8 +34,8 @@ struct Progress {
 
 class ComparisonRun {
  public:
-  // `folder`: of all results. Each measurement is told of when it is over.
-  ComparisonRun(const Comparison& comparison, Design design, std::filesystem::path folder,
+  // `folder`: of all results. `ranks`: that compute each point. Each measurement is told of when it is over.
+  ComparisonRun(const Comparison& comparison, Design design, std::filesystem::path folder, int ranks,
                 std::function<void(const Progress&)> tell);
 
   // What is finished is on disk and is not done again. False if it was interrupted. Calls `after_each` when there is
@@ -44,6 +44,7 @@ class ComparisonRun {
 
   const Comparison& comparison() const { return comparison_; }
   const Design& design() const { return design_; }
+  int ranks() const { return ranks_; }
   // By group, and by index in design().points; absent while not done.
   const std::map<std::size_t, Reference>& references() const { return references_; }
   const std::map<std::size_t, MeasurementResult>& results() const { return results_; }
@@ -69,6 +70,7 @@ class ComparisonRun {
   Comparison comparison_;
   Design design_;
   std::filesystem::path folder_;
+  int ranks_;
   std::function<void(const Progress&)> tell_;
   std::string code_;
   std::map<std::size_t, Reference> references_;

@@ -236,6 +236,7 @@ Json comparison_json(const ComparisonRun& run, const std::string& file) {
            {"settings",
             {{"repeats", comparison.repeats},
              {"samples", comparison.samples},
+             {"ranks", run.ranks()},
              {"limit_seconds", comparison.limits.seconds},
              {"limit_memory_bytes", comparison.limits.memory}}},
            {"problems", Json::array()},

@@ -9,9 +9,11 @@
 #include "lib/simulation/errors/mesh_error.h"
 #include "lib/simulation/errors/modal_solution.h"
 #include "lib/simulation/errors/probe_recorder.h"
+#include "lib/simulation/errors/whole_states.h"
 #include "lib/simulation/machine.h"
 #include "lib/simulation/observers/balance.h"
 #include "lib/simulation/run.h"
+#include "lib/simulation/several_ranks.h"
 #include "lib/study/compare/frame_keeper.h"
 #include "lib/study/jobs/deadline.h"
 #include "lib/study/jobs/json_values.h"
@@ -42,18 +44,18 @@ class EnergyCourse : public EnergyMeter {
 };
 
 std::vector<ProbePoint> probe_points(const Setup& setup) {
-  const auto& parts = setup.built.model->parts();
+  const FemModel& model = *setup.built.model;
   std::vector<ProbePoint> points;
   for (const auto& [name, probe] : setup.scene.output.probes)
-    points.push_back({name, parts.dofs->node(nearest_node(parts.mesh, probe.at))});
+    points.push_back({name, unknowns_of(model, nearest_node(model.parts().mesh, probe.at))});
   return points;
 }
 
 // Nothing acts on the body from outside: its momenta are constant.
 bool is_free(const FemModel& model) {
   const auto& parts = model.parts();
-  return parts.loads.empty() && parts.mass_damping == 0 &&
-         model.num_dofs() == 3 * static_cast<int>(parts.mesh.nodes.size());
+  const bool is_loaded = parts.subdomain ? !parts.load_descriptions.empty() : !parts.loads.empty();
+  return !is_loaded && parts.mass_damping == 0 && model.num_dofs_of_all() == 3 * std::ssize(parts.mesh.nodes);
 }
 
 // The same error in every measure.
@@ -104,13 +106,13 @@ class Measurement {
     const auto& model = *setup_.built.model;
     const auto& mesh = model.parts().mesh;
     const auto& time = setup_.scene.time;
-    result_.model = ModelSize{static_cast<std::size_t>(model.num_dofs()), mesh.tets.size(), mesh.nodes.size(),
+    result_.model = ModelSize{static_cast<std::size_t>(model.num_dofs_of_all()), mesh.tets.size(), mesh.nodes.size(),
                               time.start, time.end, mesh.order()};
     result_.decisions = setup_.integrator->decisions();
   }
 
   std::optional<ModalSolution> exact_solution() const {
-    if (!input_.exact_if_possible) return std::nullopt;
+    if (!input_.exact_if_possible || setup_.built.model->ranks()) return std::nullopt;
     return ModalSolution::find(*setup_.built.model, setup_.built.initial);
   }
 
@@ -133,14 +135,16 @@ class Measurement {
   }
 
   std::unique_ptr<TrajectoryRecorder> new_recorder() const {
-    if (!input_.at_probes) return std::make_unique<TrajectoryRecorder>(times_.size(), quantities_);
+    if (!input_.at_probes)
+      return std::make_unique<WholeRecorder>(*setup_.built.model, times_.size(), quantities_);
     return std::make_unique<ProbeRecorder>(setup_.scene.output.probes, setup_.built.model->parts().mesh, times_.size(),
                                            quantities_);
   }
 
   ReferenceNorms norms_of(Trajectory reference) const {
     if (input_.at_probes) return probe_norms(std::move(reference), setup_.scene.output.probes, followed());
-    return {*setup_.built.model, std::move(reference), probe_points(setup_), followed()};
+    const auto mass_norm = [&model = *setup_.built.model](const Eigen::MatrixXd& x) { return times_mass(model, x); };
+    return {mass_norm, std::move(reference), probe_points(setup_), followed()};
   }
 
   std::vector<FollowedQuantity> followed() const {
@@ -163,12 +167,12 @@ class Measurement {
       const auto outcome = run_once({}, {setup_.scene.time.end, {}, false}, *integrator, input_.seconds);
       if (!outcome) return false;
       wall.push_back(outcome->wall_seconds);
-      cpu.push_back(outcome->cpu_seconds);
+      cpu.push_back(setup_.built.model->space().sum(outcome->cpu_seconds));
       statistics.push_back(integrator->statistics());
       result_.factor_bytes = integrator->factor_bytes();
     }
     if (wall.empty()) return true;
-    result_.timing = Timing{wall.size(), spread(wall), spread(cpu), peak_memory()};
+    result_.timing = Timing{wall.size(), spread(wall), spread(cpu), setup_.built.model->space().sum(peak_memory())};
     result_.statistics = statistics[middle(wall)];
     return true;
   }
@@ -205,6 +209,7 @@ class Measurement {
     Deadline deadline(seconds);
     observers.push_back(&deadline);
     Outcome outcome = run(*setup_.built.model, integrator, setup_.built.initial, plan, observers, deadline.over);
+    require_failure_of_all(setup_.built.model->ranks(), outcome);
     result_.time_reached = outcome.last.t;
     if (outcome.status == Outcome::Status::completed) return outcome;
     result_.failure = failure_of(outcome, seconds);
@@ -277,11 +282,11 @@ MeasurementResult measure(Setup setup, const MeasurementInput& input, const fs::
   return Measurement(std::move(setup), input, folder).result();
 }
 
-void measure(const fs::path& folder) {
+void measure(const fs::path& folder, const Ranks* ranks) {
   serve_job(folder, [&](const Json& input) {
-    return to_json(
-        measure(set_up(Config::from_file((folder / kSceneFile).string())), measurement_input_from(input), folder));
-  });
+    const Config scene = Config::from_file((folder / kSceneFile).string());
+    return to_json(measure(set_up(scene, false, true, ranks), measurement_input_from(input), folder));
+  }, ranks);
 }
 
 }  // namespace orthodyn::study::compare

@@ -23,7 +23,8 @@ std::vector<Quantity> followed_quantities(const Setup& setup, const std::vector<
 // be read or a trajectory not be written.
 MeasurementResult measure(Setup setup, const MeasurementInput& input, const std::filesystem::path& folder);
 
-// Does the job of a folder. Throws as serve_job() does.
-void measure(const std::filesystem::path& folder);
+// Does the job of a folder; all `ranks` that compute it together call this, null for this process alone. Throws as
+// serve_job() does.
+void measure(const std::filesystem::path& folder, const Ranks* ranks);
 
 }  // namespace orthodyn::study::compare

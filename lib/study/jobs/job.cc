@@ -5,11 +5,13 @@
 #include <cstring>
 #include <fstream>
 #include <new>
+#include <stdexcept>
 
 #include "lib/core/errors.h"
 #include "lib/simulation/files.h"
 #include "lib/simulation/fingerprints.h"
 #include "lib/simulation/machine.h"
+#include "lib/simulation/several_ranks.h"
 #include "lib/study/jobs/job_result.h"
 #include "lib/study/jobs/json_values.h"
 
@@ -19,19 +21,26 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string last_line(const fs::path& file) {
+// Its last error, else what mpirun says first, between lines of dashes, else its last line.
+std::string last_words(const fs::path& file) {
   std::ifstream in(file);
-  std::string last;
-  for (std::string line; std::getline(in, line);)
-    if (!line.empty()) last = line;
-  return last;
+  std::string last, error, of_mpirun;
+  bool is_after_dashes = false;
+  for (std::string line; std::getline(in, line);) {
+    const bool is_dashes = line.starts_with("-----");
+    if (is_after_dashes && of_mpirun.empty() && !is_dashes) of_mpirun = line;
+    if (line.starts_with("error: ")) error = line;
+    if (!line.empty() && !is_dashes) last = line;
+    is_after_dashes = is_dashes;
+  }
+  return !error.empty() ? error : !of_mpirun.empty() ? of_mpirun : last;
 }
 
 Failure failure_of_process(const ProcessEnd& end, const fs::path& log) {
   if (end.kind == ProcessEnd::Kind::timed_out) return {kTimeLimit, "killed after the limit of the wall time"};
   if (end.kind == ProcessEnd::Kind::out_of_memory)
     return {reason_name(Reason::out_of_memory), "killed when it used more than the limit of memory"};
-  const std::string last = last_line(log);
+  const std::string last = last_words(log);
   const std::string how = end.kind == ProcessEnd::Kind::signalled
                               ? fmt::format("ended by signal {} ({})", end.code, strsignal(end.code))
                               : fmt::format("ended with code {}", end.code);
@@ -52,13 +61,15 @@ Json result_of(const std::function<Json()>& work) {
 
 }  // namespace
 
-Json run_job(const std::string& program, const Job& job, const Stop& stop) {
+Json run_job(const std::vector<std::string>& program, const Job& job, const Stop& stop) {
   const fs::path result_file = job.folder / kResultFile, log = job.folder / "log.txt";
   write_file(job.folder / kSceneFile, {"# " + job.title + "\n" + job.scene});
   write_file(job.folder / kInputFile, {to_text(job.input, 2)});
   std::error_code ignored;
   fs::remove(result_file, ignored);
-  const ProcessEnd end = run_process({program, job.command, job.folder.string()}, log, job.limits, stop);
+  std::vector<std::string> command = program;
+  command.insert(command.end(), {job.command, job.folder.string()});
+  const ProcessEnd end = run_process(command, log, job.limits, stop);
   if (end.kind == ProcessEnd::Kind::interrupted) return nullptr;
   Json result = read_result(job.folder);
   if (!result.is_null()) return result;
@@ -67,12 +78,14 @@ Json run_job(const std::string& program, const Job& job, const Stop& stop) {
   return result;
 }
 
-void serve_job(const fs::path& folder, const std::function<Json(const Json&)>& work) {
+void serve_job(const fs::path& folder, const std::function<Json(const Json&)>& work, const Ranks* ranks) {
   std::ifstream in(folder / kInputFile);
   const Json input = Json::parse(in);
   if (input.at("code") != code_fingerprint())
     throw RunError("the program has changed since this was started; start it again");
   Json result = result_of([&] { return work(input); });
+  const auto failure = failure_from(result);
+  if (failure && failed_alone(ranks)) throw std::runtime_error(failure->message);
   result["at"] = utc_now();
   write_result(folder, result);
 }

@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
+#include "lib/core/ranks.h"
 #include "lib/simulation/json.h"
 #include "lib/study/jobs/process.h"
 
@@ -30,14 +32,16 @@ struct Job {
   std::function<bool(const Json& result)> is_whole = {};
 };
 
-// Does a job, whatever an earlier run has left. A process that died or reached a limit is a result, too (see
-// job_result.h). Null if `stop` said so. Throws RunError if files cannot be written or no process can be started.
-// Thread-safe for jobs of different folders; the thread must outlive its process, which dies with it.
-Json run_job(const std::string& program, const Job& job, const Stop& stop);
+// Has PROGRAM... COMMAND FOLDER do a job, whatever an earlier run has left. A process that died or reached a limit is a
+// result, too (see job_result.h). Null if `stop` said so. Throws RunError if files cannot be written or no process can be
+// started. Thread-safe for jobs of different folders; the thread must outlive its process, which dies with it.
+Json run_job(const std::vector<std::string>& program, const Job& job, const Stop& stop);
 
 // The other end, called by the process of COMMAND: reads job.json, does `work` and leaves its result in result.json
 // with the time of day, "at". What goes wrong in the scene or in the run is a result; a ConfigError has the reason
 // "refused". Throws RunError if that cannot be written, or if the program is another one than that which made the job.
-void serve_job(const std::filesystem::path& folder, const std::function<Json(const Json& input)>& work);
+// `ranks`: those that do it together, all of which call this; null for this process alone. One that fails alone throws.
+void serve_job(const std::filesystem::path& folder, const std::function<Json(const Json& input)>& work,
+               const Ranks* ranks = nullptr);
 
 }  // namespace orthodyn::study

@@ -21,7 +21,7 @@ struct JobEvents {
 class JobQueue {
  public:
   struct Options {
-    std::string program;  // started as `PROGRAM COMMAND FOLDER`
+    std::vector<std::string> program;  // started as `PROGRAM... COMMAND FOLDER`
     int workers = 1;      // processes at a time
     OldFailures failures = OldFailures::keep;
     // Told of what an earlier run has left and is damaged, which is done again.

@@ -9,8 +9,11 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <system_error>
 #include <thread>
 
 #include "lib/core/errors.h"
@@ -21,6 +24,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto kPoll = std::chrono::milliseconds(5);
+constexpr int kPollsForFamily = 20;
 
 // In the child, between fork and exec: only what is safe there.
 [[noreturn]] void become(char* const* argv, const char* log, pid_t parent) {
@@ -42,6 +46,20 @@ constexpr auto kPoll = std::chrono::milliseconds(5);
   _exit(127);
 }
 
+// A process and all that it and its children have started, also those that have left its group, as ranks do.
+std::vector<pid_t> family(pid_t process) {
+  namespace fs = std::filesystem;
+  std::vector<pid_t> all{process};
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    std::error_code gone;
+    for (const auto& thread : fs::directory_iterator("/proc/" + std::to_string(all[k]) + "/task", gone)) {
+      std::ifstream children(thread.path() / "children");
+      for (pid_t child = 0; children >> child;) all.push_back(child);
+    }
+  }
+  return all;
+}
+
 // Resident memory. Limiting the addresses instead (RLIMIT_AS) has OpenBLAS wait for memory for ever.
 double memory_in_use(pid_t process) {
   std::ifstream in("/proc/" + std::to_string(process) + "/statm");
@@ -50,12 +68,28 @@ double memory_in_use(pid_t process) {
   return resident * static_cast<double>(sysconf(_SC_PAGE_SIZE));
 }
 
+// Of a process and what it has started; pages that several have in common count once.
+double memory_of_family(pid_t process) {
+  const std::vector<pid_t> all = family(process);
+  if (all.size() == 1) return memory_in_use(process);
+  double sum = 0;
+  for (const pid_t one : all) {
+    std::ifstream in("/proc/" + std::to_string(one) + "/smaps_rollup");
+    for (std::string line; std::getline(in, line);)
+      if (line.starts_with("Pss:")) sum += 1024 * std::strtod(line.c_str() + 4, nullptr);
+  }
+  return sum;
+}
+
 ProcessEnd ended(int status) {
   if (WIFSIGNALED(status)) return {ProcessEnd::Kind::signalled, WTERMSIG(status)};
   return {ProcessEnd::Kind::exited, WEXITSTATUS(status)};
 }
 
 void kill_and_reap(pid_t child) {
+  kill(child, SIGSTOP);  // it starts no more
+  std::vector<pid_t> all = family(child);
+  for (auto process = all.rbegin(); process != all.rend(); ++process) kill(*process, SIGKILL);
   kill(-child, SIGKILL);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
@@ -76,7 +110,7 @@ ProcessEnd run_process(const std::vector<std::string>& argv, const std::filesyst
 
   const auto end =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits.seconds));
-  for (;;) {
+  for (long poll = 0;; ++poll) {
     int status = 0;
     const pid_t done = waitpid(child, &status, WNOHANG);
     if (done == child) return ended(status);
@@ -87,7 +121,8 @@ ProcessEnd run_process(const std::vector<std::string>& argv, const std::filesyst
     };
     if (stop()) return killed(ProcessEnd::Kind::interrupted);
     if (Clock::now() > end) return killed(ProcessEnd::Kind::timed_out);
-    if (memory_in_use(child) > limits.memory) return killed(ProcessEnd::Kind::out_of_memory);
+    const double memory = poll % kPollsForFamily == 0 ? memory_of_family(child) : memory_in_use(child);
+    if (memory > limits.memory) return killed(ProcessEnd::Kind::out_of_memory);
     std::this_thread::sleep_for(kPoll);
   }
 }

@@ -10,7 +10,7 @@ namespace orthodyn {
 
 struct ProcessLimits {
   double seconds = 0;  // of wall time, then it is killed
-  double memory = 0;   // bytes in use, then it is killed
+  double memory = 0;   // bytes in use, by all that it has started on this machine as well; then it is killed
 };
 
 struct ProcessEnd {

@@ -13,6 +13,7 @@
 #include "lib/simulation/model_summary.h"
 #include "lib/simulation/run.h"
 #include "lib/simulation/setup.h"
+#include "lib/simulation/several_ranks.h"
 #include "lib/simulation/observers/frames.h"
 #include "lib/study/jobs/deadline.h"
 #include "lib/study/quantities/figure.h"
@@ -62,8 +63,8 @@ class TimedMeshError : public MeshErrorRecorder {
 
 class Evaluation {
  public:
-  Evaluation(const Config& scene, const EvaluationInput& input, const fs::path& folder)
-      : config_(scene), input_(input), folder_(folder) {}
+  Evaluation(const Config& scene, const EvaluationInput& input, const fs::path& folder, const Ranks* ranks)
+      : config_(scene), input_(input), folder_(folder), ranks_(ranks) {}
 
   EvaluationResult result() {
     if (wants([](const WantedFigure& f) { return !f.is_of_motion(); })) find_modes();
@@ -88,12 +89,13 @@ class Evaluation {
   }
 
   void describe(const FemModel& model) {
-    result_.unknowns = static_cast<std::size_t>(model.num_dofs());
+    result_.unknowns = static_cast<std::size_t>(model.num_dofs_of_all());
     result_.elements = model.parts().mesh.tets.size();
   }
 
   // Modes: nothing of the scene's integrator is set up.
   void find_modes() {
+    if (ranks_) throw ConfigError("natural frequencies and buckling loads are computed by one process: no --ranks");
     const auto started = std::chrono::steady_clock::now();
     const double cpu = cpu_seconds_now();
     const Scene scene = read_scene(config_);
@@ -135,7 +137,7 @@ class Evaluation {
   void follow_motion() {
     start_again_if_outgrown(config_, [&](const Config& config, const std::string& given_up) {
       result_.failure.reset();
-      Setup setup = set_up(config);
+      Setup setup = set_up(config, false, true, ranks_);
       result_.warnings = setup.built.warnings;
       if (!given_up.empty()) {
         setup.note_given_up(given_up);
@@ -154,10 +156,16 @@ class Evaluation {
     const WantedQuantities wanted = wanted_quantities(input_, setup);
     if (setup.scene.is_static()) find_equilibrium(setup, wanted);
     else integrate(setup, wanted);
+    if (ranks_) add_up(*result_.cost);
     if (result_.failure || is_outgrown(setup)) return;
     const Json costs = to_json(*result_.cost);
     for (const auto& [name, f] : input_.figures)
       if (!f.cost.empty()) keep(name, costs.at(f.cost).get<double>(), f.unit_of(""));
+  }
+
+  // What all ranks have taken together.
+  void add_up(EvaluationCost& cost) const {
+    for (double* value : {&cost.cpu_seconds, &cost.peak_memory}) *value = ranks_->sum(*value);
   }
 
   static bool is_outgrown(const Setup& setup) { return setup.linearity && setup.linearity->outgrown(); }
@@ -223,6 +231,7 @@ class Evaluation {
   bool conclude(const Outcome& outcome, const Statistics& statistics) {
     result_.cost = EvaluationCost{given_up_.cpu_seconds + outcome.cpu_seconds,
                                   given_up_.wall_seconds + outcome.wall_seconds, statistics, peak_memory()};
+    require_failure_of_all(ranks_, outcome);
     if (outcome.status != Outcome::Status::completed) result_.failure = failure_of(outcome, input_.seconds);
     return !result_.failure;
   }
@@ -240,21 +249,23 @@ class Evaluation {
   const Config& config_;
   const EvaluationInput& input_;
   const fs::path& folder_;
+  const Ranks* ranks_;
   EvaluationResult result_;
   EvaluationCost given_up_;  // of earlier attempts, with linear kinematics that were outgrown
 };
 
 }  // namespace
 
-EvaluationResult evaluate_point(const Config& scene, const EvaluationInput& input, const fs::path& folder) {
-  return Evaluation(scene, input, folder).result();
+EvaluationResult evaluate_point(const Config& scene, const EvaluationInput& input, const fs::path& folder,
+                                const Ranks* ranks) {
+  return Evaluation(scene, input, folder, ranks).result();
 }
 
-void evaluate_point(const fs::path& folder) {
+void evaluate_point(const fs::path& folder, const Ranks* ranks) {
   serve_job(folder, [&](const Json& input) {
     return to_json(
-        evaluate_point(Config::from_file((folder / kSceneFile).string()), evaluation_input_from(input), folder));
-  });
+        evaluate_point(Config::from_file((folder / kSceneFile).string()), evaluation_input_from(input), folder, ranks));
+  }, ranks);
 }
 
 }  // namespace orthodyn::study

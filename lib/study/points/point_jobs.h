@@ -1,5 +1,5 @@
 // Jobs that evaluate scenes: each in a folder whose name tells what the result depends on: the scene, the files that it
-// names, the figures, the limits, the program. Not the machine: points may come from several.
+// names, the figures, the limits, the program, the number of ranks. Not the machine: points may come from several.
 #pragma once
 
 #include <filesystem>
@@ -27,8 +27,8 @@ PointScene point_scene(const Config& scene, const std::string& title);
 
 class PointJobs {
  public:
-  // In FOLDER/points.
-  PointJobs(const EvaluationInput& input, const Limits& limits, std::filesystem::path folder);
+  // In FOLDER/points. `ranks`: that compute each.
+  PointJobs(const EvaluationInput& input, const Limits& limits, std::filesystem::path folder, int ranks);
 
   // Throws RunError if a file of the scene cannot be read.
   Job job(const PointScene& point);
@@ -37,6 +37,7 @@ class PointJobs {
   Json input_;
   Limits limits_;
   std::filesystem::path folder_;
+  int ranks_;
   std::map<std::string, std::string> meshes_;  // fingerprints by section
   FileFingerprints files_;
 };

@@ -23,8 +23,9 @@ EvaluationInput input_of(const Sweep& sweep) {
 
 }  // namespace
 
-std::vector<std::optional<Job>> jobs_of(const Sweep& sweep, const std::vector<Point>& points, const fs::path& folder) {
-  PointJobs jobs(input_of(sweep), sweep.limits, folder);
+std::vector<std::optional<Job>> jobs_of(const Sweep& sweep, const std::vector<Point>& points, const fs::path& folder,
+                                        int ranks) {
+  PointJobs jobs(input_of(sweep), sweep.limits, folder, ranks);
   std::vector<std::optional<Job>> all;
   for (const auto& point : points)
     all.push_back(point.impossible.empty() ? std::optional(jobs.job(point.scene)) : std::nullopt);

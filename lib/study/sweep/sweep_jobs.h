@@ -12,9 +12,9 @@
 namespace orthodyn::study::sweep {
 
 // By point; nothing of an impossible one. In FOLDER/points; points with the same scene share a folder. Throws RunError
-// if a file of a scene cannot be read.
+// if a file of a scene cannot be read. `ranks`: that compute each point.
 std::vector<std::optional<Job>> jobs_of(const Sweep& sweep, const std::vector<Point>& points,
-                                        const std::filesystem::path& folder);
+                                        const std::filesystem::path& folder, int ranks);
 
 // One job of each folder.
 std::vector<Job> distinct(const std::vector<std::optional<Job>>& jobs);

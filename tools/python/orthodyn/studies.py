@@ -4,6 +4,8 @@ All take
     out    the folder; default out/KIND/NAME, by the name of the file or the title. What is done there is not done again
     retry  do again what failed there
     quiet  print nothing
+
+compare, sweep and converge have each point computed by `ranks` processes of MPI together.
 """
 from __future__ import annotations
 
@@ -88,7 +90,7 @@ class Study:
 
 
 def compare(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, retry: bool = False,
-            quiet: bool = False) -> Study:
+            quiet: bool = False, ranks: int | None = None) -> Study:
     """Integrators on scenes: error against time. `study`: a YAML file, or a dict as it would hold:
 
         orthodyn.compare({"title": "Beam", "scenes": [scene], "integrators": ["cvode_bdf", "tr_bdf2"],
@@ -97,11 +99,11 @@ def compare(study: str | Path | Mapping[str, Any], out: str | Path | None = None
     A scene is a file, or a `Scene`. One point is measured after the other. `out`: the folder, default by the title; what is done
     there is not done again, what failed with `retry`.
     """
-    return _run(_Call("compare", out, quiet, retry), study)
+    return _run(_Call("compare", out, quiet, retry, ranks=ranks), study)
 
 
 def sweep(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, jobs: int | None = None, retry: bool = False,
-          quiet: bool = False) -> Study:
+          quiet: bool = False, ranks: int | None = None) -> Study:
     """A scene over values of its keys:
 
         orthodyn.sweep({"title": "Stiffer", "scene": scene, "vary": {"materials.spruce.young.0": ["8 GPa", "12 GPa"]},
@@ -110,7 +112,7 @@ def sweep(study: str | Path | Mapping[str, Any], out: str | Path | None = None, 
     A scene is a file, a `Scene`, or {"file": one of these, "set": {"damping.stiffness": "=zeta/30"}}, where what is varied
     may have a name of its own, "vary": {"zeta": [0.01, 0.1]}. `jobs` points at a time, default one a processor.
     """
-    return _run(_Call("sweep", out, quiet, retry, jobs), study)
+    return _run(_Call("sweep", out, quiet, retry, jobs, ranks), study)
 
 
 def stability(study: str | Path | Mapping[str, Any], out: str | Path | None = None, *, jobs: int | None = None,
@@ -120,9 +122,9 @@ def stability(study: str | Path | Mapping[str, Any], out: str | Path | None = No
 
 
 def converge(study: str | Path | Scene, out: str | Path | None = None, *, jobs: int | None = None, retry: bool = False,
-             quiet: bool = False) -> Study:
+             quiet: bool = False, ranks: int | None = None) -> Study:
     """A scene, or its file, on finer and finer meshes. `jobs` of them at a time, default one a processor."""
-    return _run(_Call("converge", out, quiet, retry, jobs), study)
+    return _run(_Call("converge", out, quiet, retry, jobs, ranks), study)
 
 
 def program() -> str:
@@ -143,13 +145,15 @@ class _Call:
     quiet: bool
     retry: bool
     jobs: int | None = None
+    ranks: int | None = None
 
     def folder(self, name: str) -> Path:
         return Path(self.out) if self.out else Path("out") / _FOLDER[self.kind] / name
 
     def words(self, file: str, folder: Path) -> list[str]:
-        jobs = [] if self.jobs is None else ["--jobs", str(self.jobs)]
-        return [program(), self.kind, file, "--out", str(folder), *["--retry"] * self.retry, *jobs]
+        counts = {"--jobs": self.jobs, "--ranks": self.ranks}
+        given = [word for option, count in counts.items() if count is not None for word in (option, str(count))]
+        return [program(), self.kind, file, "--out", str(folder), *["--retry"] * self.retry, *given]
 
 
 def _run(call: _Call, study: Any) -> Study:
