@@ -62,7 +62,19 @@ const std::string& FileFingerprints::of(const std::filesystem::path& file) {
 
 namespace {
 
-std::string print_of_code() {
+// As they were when this was called first: others come with what is loaded on demand.
+const std::string& versions_of_libraries() {
+  static const std::string all = [] {
+    std::string text;
+    for (const auto& [library, version] : library_versions()) text += library + " " + version + "\n";
+    return text;
+  }();
+  return all;
+}
+
+}  // namespace
+
+std::string code_fingerprint() {
   Fingerprint print;
   Dl_info info{};
   if (dladdr(reinterpret_cast<const void*>(&code_fingerprint), &info) != 0 && info.dli_fname) {
@@ -77,16 +89,7 @@ std::string print_of_code() {
     // One that the loader finds by itself is known by its name only.
     if (std::error_code ec; std::filesystem::is_regular_file(file, ec)) print.add_file(file);
   }
-  print.add(orthodyn_version()).add(blas_name());
-  for (const auto& [library, version] : library_versions()) print.add(library + " " + version);
-  return print.text();
-}
-
-}  // namespace
-
-std::string code_fingerprint() {
-  static const std::string print = print_of_code();
-  return print;
+  return print.add(orthodyn_version()).add(blas_name()).add(versions_of_libraries()).text();
 }
 
 std::string machine_fingerprint() {
