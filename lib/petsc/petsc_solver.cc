@@ -312,7 +312,8 @@ void try_options(const std::string& options) {
   }
   if (const std::string unknown = solver.unknown_options(); !unknown.empty())
     throw ConfigError("linear solver 'petsc': unknown to PETSc, or without effect here: " + unknown +
-                      "; see the manual pages of KSPSetFromOptions and PCSetFromOptions");
+                      " (diagnostics such as -log_view go in PETSC_OPTIONS); see the manual pages of "
+                      "KSPSetFromOptions and PCSetFromOptions");
 }
 
 }  // namespace

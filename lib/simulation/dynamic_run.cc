@@ -95,7 +95,8 @@ class DynamicAnalysis {
   }
 
   RunResult compute(const Checkpoint& begin, RunObservers& observers, const RunRecord& record) {
-    RunResult result{.scene = context_.scene, .folder = folder_.path(), };
+    RunResult result{.scene = context_.scene, .folder = folder_.path()};
+    result.ranks = number_of(context_.request.ranks);
     result.outcome = integrate(begin, observers, result.resumable);
     result.failed_alone = failed_alone_;
     if (setup_.linearity) setup_.linearity->finish();
@@ -131,10 +132,11 @@ class DynamicAnalysis {
     if (setup_.scene.output.accumulated_error) all.push_back(&parts_.emplace(*setup_.built.model));
     if (setup_.scene.output.mesh_error) all.push_back(&mesh_error_.emplace(outputs_left(plan)));
     DiskReserve reserve(folder_.path(), bytes_of_checkpoint());
-    const Outcome outcome =
+    Outcome outcome =
         orthodyn::run(*setup_.built.model, *setup_.integrator, state, plan, all, context_.interrupt);
     reserve.release();
     failed_alone_ = outcome.status == Outcome::Status::failed && failed_alone(setup_.built.model->ranks());
+    if (!failed_alone_) outcome.cpu_seconds = setup_.built.model->space().sum(outcome.cpu_seconds);
     const bool kept = keep(outcome, begin.begun, checkpointer);
     resumable = kept || setup_.scene.checkpoint;
     return outcome;

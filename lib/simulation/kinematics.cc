@@ -307,6 +307,12 @@ Trial try_linear(const Scene& scene, const std::vector<std::string>& open, const
 
 }  // namespace
 
+bool is_linear_anywhere(const Scene& scene) {
+  return std::any_of(scene.regions.begin(), scene.regions.end(), [&](const auto& entry) {
+    return elasticity_of(scene, entry.second).kinematics == Kinematics::linear;
+  });
+}
+
 std::unique_ptr<LinearityWatch> watch_for_the_end(const Scene& scene, const FemModel& model) {
   if (model.num_dofs() > kLargestToldOf) return nullptr;
   std::vector<std::string> names;

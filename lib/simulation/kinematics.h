@@ -112,6 +112,9 @@ struct ChosenKinematics {
 // Whether a scene leaves the kinematics of a region open.
 bool leaves_kinematics_open(const Scene& scene);
 
+// Whether a region of it has linear kinematics by its document.
+bool is_linear_anywhere(const Scene& scene);
+
 // Makes all regions corotational whose kinematics a scene's document leaves open.
 void make_corotational(Config& config);
 

@@ -170,6 +170,7 @@ RunRecord::RunRecord(const std::filesystem::path& folder, const std::string& sce
 void RunRecord::finish(const RunResult& result) const {
   Json out = begin_;
   out["status"] = status_word(result.outcome.status);
+  out["ranks"] = result.ranks;
   if (result.equilibrium) out["analysis"] = "static";
   if (result.buckling) out["analysis"] = "buckling";
   out["model"] = model_json(result.model, begin_.at("model").at("given"));

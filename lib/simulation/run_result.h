@@ -121,6 +121,7 @@ struct RunResult {
   std::optional<PassedStrain> passed_strain = {};     // where the law's limit was passed
   bool was_complete = false;                          // it was to be resumed, and had reached its end before
   std::optional<Outgrown> outgrown = {};              // why it ended, and is to start again
+  int ranks = 1;                                      // that have computed it together
   bool resumable = false;                             // the folder holds a checkpoint of a late state
   bool failed_alone = false;                          // one of several ranks: the others do not know, and wait for it
 };

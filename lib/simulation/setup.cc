@@ -178,6 +178,8 @@ Setup set_up(const Config& input, bool linear_so_far, bool is_timed, const Ranks
     if (statics && !told && scene.start == Start::rest)
       append(response_slips(config, scene, built, *statics), built.warnings);
   }
+  if (ranks && is_linear_anywhere(scene))
+    built.warnings.push_back("on several ranks it is not told how far linear kinematics are off; one process tells");
   if (!blas_is_openblas())
     built.warnings.push_back("the BLAS in use is not OpenBLAS; large factorisations will be several times slower "
                              "(Debian: libopenblas0-pthread)");

@@ -10,12 +10,13 @@ namespace orthodyn {
 
 void require_to_run_on_ranks(Config& config, Scene& scene) {
   if (scene.analysis == Analysis::buckling)
-    config.at("analysis").fail("buckling is analysed by one process; run it without mpirun");
+    config.at("analysis").fail("buckling is analysed by one process, not on several ranks");
   if (scene.analysis == Analysis::dynamic && !scene.integrator->runs_on_ranks()) {
     std::vector<std::string> names;
     for (const auto& [name, entry] : Registry<IntegratorChoice>::entries())
       if (entry.make()->runs_on_ranks()) names.push_back(name);
-    config.at("integrator").at("type").fail("does not run on several ranks; those that do: " + join(names));
+    const Config type = config.at("integrator").at("type");
+    type.fail("'" + type.text() + "' does not run on several ranks; those that do: " + join(names));
   }
   if (leaves_kinematics_open(scene)) {
     make_corotational(config);
@@ -23,6 +24,8 @@ void require_to_run_on_ranks(Config& config, Scene& scene) {
   }
   scene.output.accumulated_error = false;  // it repeats parts of the run
 }
+
+int number_of(const Ranks* ranks) { return ranks ? ranks->size() : 1; }
 
 bool failed_alone(const Ranks* ranks) {
   constexpr double kSecondsToMeet = 10;

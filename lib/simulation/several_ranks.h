@@ -11,6 +11,9 @@ namespace orthodyn {
 // Throws ConfigError, at the key, for what they cannot; makes choices that are open for one process only.
 void require_to_run_on_ranks(Config& config, Scene& scene);
 
+// How many there are; 1 for null.
+int number_of(const Ranks* ranks);
+
 // Called by a rank that has failed. Whether it is alone: the others do not come here within seconds, and nothing is
 // left but to end them. `ranks`: null for this process alone.
 bool failed_alone(const Ranks* ranks);

@@ -153,8 +153,10 @@ RunResult run_static_analysis(RunContext context) {
   const auto own = context.listener.on_begin(setup);
   if (own) all.insert(all.begin(), own.get());  // it may share what it keeps with those that write
   RunResult result{.scene = context.scene, .folder = folder};
+  result.ranks = number_of(context.request.ranks);
   result.outcome = run_static(*problem.path, *problem.stepper, all, context.interrupt);
   result.failed_alone = result.outcome.status == Outcome::Status::failed && failed_alone(problem.path->ranks());
+  if (!result.failed_alone) result.outcome.cpu_seconds = problem.path->space().sum(result.outcome.cpu_seconds);
   if (setup.linearity && result.outcome.status != Outcome::Status::interrupted) {
     setup.linearity->finish_at(problem.path->times().end, result.outcome.last.q);
     result.outgrown = setup.linearity->why_to_start_again();

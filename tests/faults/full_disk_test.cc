@@ -2,10 +2,11 @@
 // why, what there was before is still there, and the same command ends with the same result once there is room.
 #include <fmt/format.h>
 
+#include <fstream>
 #include <map>
 
 #include "lib/simulation/json.h"
-#include "tests/faults/shared_faults.h"
+#include "tests/faults/failing_writes.h"
 #include "tests/simulation/resume_fixture.h"
 #include "tests/simulation/run_program.h"
 #include "tests/study/sweep_command.h"
@@ -14,6 +15,24 @@ namespace orthodyn::full_disk_test {
 namespace {
 
 using Kind = WriteFaults::Kind;
+
+// Shared with the processes under test.
+class SharedFaults {
+ public:
+  SharedFaults(const fs::path& file, Kind kind, long k) : file_(file) {
+    std::ofstream(file, std::ios::binary) << std::string(sizeof(WriteFaults), '\0');
+    std::fstream out(file, std::ios::in | std::ios::out | std::ios::binary);
+    const WriteFaults begin{kind, k, 0};
+    out.write(reinterpret_cast<const char*>(&begin), sizeof begin);
+  }
+  long counted() const {
+    const std::string bytes = read_text(file_);
+    return reinterpret_cast<const WriteFaults*>(bytes.data())->counted;
+  }
+
+ private:
+  fs::path file_;
+};
 
 struct FaultyDisk {
   const char* name;

@@ -60,11 +60,13 @@ TEST_F(Jobs, APartitionIsToldForEachNumberOfParts) {
   // Nor on threads of the partitioner.
   const std::string large = "partition s.yaml --parts 16 --set 'mesh.cells=[60,12,12]'";
   EXPECT_EQ(orthodyn(large).output, orthodyn(large).output);
-  // Two halves of 20 elements, that tell each other nothing.
-  const std::string halves = row(orthodyn("partition s.yaml --parts 2 --step 1").output, "2");
+  // Two halves of 20 elements, that tell each other next to nothing.
+  const std::string halves =
+      row(orthodyn("partition s.yaml --parts 2 --step 1 --exchanges 1 --latency 1e-9").output, "2");
   EXPECT_NE(halves.find(" 10    1.000 "), std::string::npos) << halves;
   EXPECT_NE(halves.find(" 0.5 s      100 %"), std::string::npos) << halves;
-  for (const char* wrong : {"--parts 2,x", "--parts 1", "--parts ''", "--step -1", "--bandwidth 0"}) {
+  for (const char* wrong : {"--parts 2,x", "--parts 1", "--parts ''", "--step -1 --exchanges 1", "--step 0 --exchanges 1",
+                            "--step 1", "--step 1 --exchanges 1 --bandwidth 0", "--bandwidth 1e9"}) {
     const auto refused = orthodyn(std::string("partition s.yaml ") + wrong);
     EXPECT_EQ(refused.exit_code, 2) << wrong << refused.output;
   }

@@ -111,6 +111,18 @@ TEST_F(SeveralRanks, EndTogetherWhenTheyAreInterrupted) {
   EXPECT_EQ(resumed.exit_code, 0) << resumed.output;
 }
 
+// The first rank cannot write its frames any more, which the others do not see.
+TEST_F(SeveralRanks, EndTogetherWhenOneFailsAlone) {
+  write("beam.yaml", kBeam + kEndless);
+  const auto result = shell("cd " + folder_.string() + " && { " + mpirun(2) + "run beam.yaml --quiet --out full --set " +
+                            "output.frames=100000 & pid=$!; " + until_it_has_begun("full") +
+                            "mv full/frames full/kept; touch full/frames; " + until_it_has_ended());
+  EXPECT_EQ(result.exit_code, 3) << result.output;
+  EXPECT_EQ(count(result.output, "error: "), 1) << result.output;
+  for (const auto& frame : fs::directory_iterator(folder_ / "full/kept"))
+    EXPECT_NE(read_text(frame.path()).find("</VTKFile>"), std::string::npos) << frame.path();
+}
+
 // One that is killed ends all; what was written is whole, and the run can go on.
 TEST_F(SeveralRanks, EndTogetherWhenOneIsKilled) {
   write("beam.yaml", kBeam + kEndless);

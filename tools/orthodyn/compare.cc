@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "lib/core/words.h"
 #include "lib/simulation/files.h"
 #include "lib/simulation/several_ranks.h"
 #include "lib/study/compare/comparison_table.h"
@@ -81,8 +82,8 @@ std::vector<Config> scenes_of(const Design& design) {
   return scenes;
 }
 
-// Slips of the scenes, each once; and that they have the quantities and the fields of frames, before hours of points that
-// do not.
+// Slips of the scenes, each once; and that they have the quantities and the fields of frames, before hours of points
+// that do not.
 void look_at(const Comparison& comparison, const Config& config, const std::vector<Config>& scenes) {
   if (comparison.quantities.empty() && !comparison.frames) {
     SlipTeller teller;
@@ -98,6 +99,19 @@ void look_at(const Comparison& comparison, const Config& config, const std::vect
   for (const auto& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 
+// What `all` brings is left out where it cannot run on ranks, and what is named refused.
+Comparison on_ranks(Comparison comparison) {
+  std::vector<std::string> left_out;
+  std::erase_if(comparison.integrators, [&](const IntegratorEntry& entry) {
+    if (Registry<IntegratorChoice>::entries().at(entry.type).make()->runs_on_ranks()) return false;
+    if (!entry.by_all) entry.origin.fail("'" + entry.type + "' does not run on several ranks: remove it, or --ranks");
+    left_out.push_back(entry.type);
+    return true;
+  });
+  if (!left_out.empty()) fmt::print(stderr, "left out, for they do not run on several ranks: {}\n", join(left_out));
+  return comparison;
+}
+
 void require_to_run_on_ranks(const Design& design) {
   for (const Point& point : design.points) {
     Config config = point_scene(design, point).resolving();
@@ -109,7 +123,8 @@ void require_to_run_on_ranks(const Design& design) {
 int compare(const StudyArguments& arguments) {
   require_ranks(arguments);
   const Config config = Config::from_file(arguments.file);
-  const Comparison comparison = read_comparison(config);
+  const Comparison comparison =
+      arguments.ranks > 1 ? on_ranks(read_comparison(config)) : read_comparison(config);
   require_usual_number(arguments, number_of_points(comparison));
   Design design = expand(comparison);
   if (arguments.ranks > 1) require_to_run_on_ranks(design);

@@ -8,6 +8,7 @@
 #include "lib/core/words.h"
 #include "lib/simulation/files.h"
 #include "lib/simulation/scene_file.h"
+#include "lib/simulation/several_ranks.h"
 #include "lib/study/converge/convergence_table.h"
 #include "lib/study/converge/convergence_text.h"
 #include "lib/study/inputs/labels.h"
@@ -49,7 +50,8 @@ Convergence wanted_of(const ConvergeArguments& arguments) {
           .orders = orders_of(arguments.orders),
           .quantities = arguments.quantities,
           .modes = arguments.modes,
-          .limits = {.seconds = arguments.seconds}};
+          .limits = {.seconds = arguments.seconds},
+          .ranks = arguments.ranks};
 }
 
 std::string outcome_of(const EvaluationResult& result) {
@@ -59,15 +61,19 @@ std::string outcome_of(const EvaluationResult& result) {
   return join(words);
 }
 
-void refuse_modes_on_ranks(const ConvergeArguments& arguments) {
-  if (arguments.modes > 0 && arguments.ranks > 1)
+void require_to_run_on_ranks(const ConvergeArguments& arguments) {
+  if (arguments.ranks == 1) return;
+  if (arguments.modes > 0)
     throw ConfigError("--modes: natural frequencies are computed by one process; remove --ranks");
+  Config config = read_scene_file(arguments.file, {.set = arguments.set}).resolving();
+  Scene scene = read_scene(config);
+  orthodyn::require_to_run_on_ranks(config, scene);
 }
 
 int converge(const ConvergeArguments& arguments) {
   require_ranks(arguments);
   use_one_thread_each();
-  refuse_modes_on_ranks(arguments);
+  require_to_run_on_ranks(arguments);
   const Convergence wanted = wanted_of(arguments);
   const Design design = design_of(wanted);
   const fs::path folder = folder_for(arguments, "out/convergence", stem(arguments.file));

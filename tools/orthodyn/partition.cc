@@ -75,9 +75,12 @@ void require_positive(const std::string& option, double value, bool or_zero) {
 }
 
 int partition(const PartitionArguments& arguments) {
-  require_positive("--step", arguments.step, true);
+  require_positive("--step", arguments.step, arguments.exchanges == 0 && arguments.reductions == 0);
   require_positive("--exchanges", arguments.exchanges, true);
   require_positive("--reductions", arguments.reductions, true);
+  if (arguments.step > 0 && arguments.exchanges == 0 && arguments.reductions == 0)
+    throw ConfigError("--step: give --exchanges or --reductions as well; without them the model knows of no "
+                      "communication");
   require_positive("--latency", arguments.latency, true);
   require_positive("--bandwidth", arguments.bandwidth, false);
   const std::vector<int> numbers = whole_numbers("--parts", arguments.parts, 2, kMostParts);
@@ -88,8 +91,10 @@ int partition(const PartitionArguments& arguments) {
              mesh.order());
   const CellGraph graph = cell_graph(sorted_faces(mesh), mesh.tets.size());
   const bool with_time = arguments.step > 0;
-  fmt::print("{:>6} {:>14} {:>8} {:>16} {:>5} {:>12} {:>15} {:>11}{}\n", "parts", "elements, most", "by mean",
-             "neighbours, mean", "most", "copies, most", "exchange, most", "all",
+  fmt::print("of the largest part: elements, also as a multiple of the mean, neighbours (and their mean), copies of others'\n"
+             "nodes, bytes of a vector that it sends and receives; and what all exchange\n"
+             "{:>6} {:>9} {:>8} {:>11} {:>7} {:>8} {:>12} {:>11}{}\n",
+             "parts", "elements", "of mean", "neighbours", "(mean)", "copies", "exchange", "all",
              with_time ? fmt::format(" {:>12} {:>10}", "step", "efficiency") : "");
   for (const int parts : numbers) {
     if (static_cast<std::size_t>(parts) > mesh.tets.size()) {
@@ -97,8 +102,8 @@ int partition(const PartitionArguments& arguments) {
       continue;
     }
     const Division division = division_of(mesh, graph, parts);
-    fmt::print("{:6} {:14.0f} {:8.3f} {:16.1f} {:5.0f} {:12.0f} {:12.4g} kB {:8.4g} MB{}\n", parts,
-               division.most_cells, division.imbalance(), division.mean_neighbours, division.most_neighbours,
+    fmt::print("{:6} {:9.0f} {:8.3f} {:11.0f} {:7.1f} {:8.0f} {:9.4g} kB {:8.4g} MB{}\n", parts,
+               division.most_cells, division.imbalance(), division.most_neighbours, division.mean_neighbours,
                division.most_copies, 1e-3 * division.most_bytes, 1e-6 * division.all_bytes,
                with_time ? shown_step(division, arguments) : "");
     std::fflush(stdout);
@@ -114,8 +119,10 @@ void declare(PartitionArguments& arguments, CommandOptions& options) {
   options.value("--exchanges", arguments.exchanges, "Exchanges of a vector with neighbours in a step.")
       .needs("--step");
   options.value("--reductions", arguments.reductions, "Sums over all ranks in a step.").needs("--step");
-  options.value("--latency", arguments.latency, "Seconds that a message takes at least.").show_default();
-  options.value("--bandwidth", arguments.bandwidth, "Bytes a second between two ranks.").show_default();
+  options.value("--latency", arguments.latency, "Seconds that a message takes at least.")
+      .show_default()
+      .needs("--step");
+  options.value("--bandwidth", arguments.bandwidth, "Bytes a second between two ranks.").show_default().needs("--step");
 }
 
 const CommandRegistration partition_command(

@@ -14,6 +14,8 @@
 #include "lib/simulation/volume.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/interrupt.h"
+#include "tools/orthodyn/notice.h"
+#include "tools/orthodyn/slurm.h"
 
 namespace orthodyn {
 
@@ -29,10 +31,13 @@ namespace {
 
 // Several groups of ranks may run at a time, of which Open MPI would bind the first ranks to the first cores; and more
 // than there are cores, if that is asked for.
-void let_ranks_share_cores(int ranks) {
+void let_ranks_share_cores(int processes) {
   for (const char* variable : {"OMPI_MCA_hwloc_base_binding_policy", "PRTE_MCA_hwloc_default_binding_policy"})
     setenv(variable, "none", 0);
-  if (ranks <= static_cast<int>(std::thread::hardware_concurrency())) return;
+  const auto cores = static_cast<int>(std::thread::hardware_concurrency());
+  if (processes <= cores) return;
+  print_notice(fmt::format("warning: {} processes on {} processors: ranks wait for each other, and take many times as "
+                           "long\n", processes, cores));
   for (const char* variable : {"OMPI_MCA_rmaps_base_oversubscribe", "OMPI_MCA_mpi_yield_when_idle"})
     setenv(variable, "1", 0);
 }
@@ -45,10 +50,10 @@ bool is_on_path(const std::string& program) {
   return false;
 }
 
-std::vector<std::string> program_of_jobs(const StudyArguments& arguments) {
+std::vector<std::string> program_of_jobs(const StudyArguments& arguments, int workers) {
   const std::string own = this_program().string();
   if (arguments.ranks == 1) return {own};
-  let_ranks_share_cores(arguments.ranks);
+  let_ranks_share_cores(arguments.ranks * workers);
   return {"mpirun", "-n", std::to_string(arguments.ranks), own};
 }
 
@@ -58,7 +63,7 @@ study::JobQueue job_queue(const StudyArguments& arguments, int workers) {
   catch_interrupts();
   const auto failures = arguments.retry ? study::OldFailures::retry : study::OldFailures::keep;
   const auto warn = [](const std::string& text) { fmt::print(stderr, "warning: {}\n", text); };
-  return {{program_of_jobs(arguments), workers, failures, warn}, interrupted()};
+  return {{program_of_jobs(arguments, workers), workers, failures, warn}, interrupted()};
 }
 
 int worker_count(const StudyArguments& arguments) {
@@ -71,6 +76,10 @@ void require_ranks(const StudyArguments& arguments) {
   if (const auto& why = solver_registry().at("petsc").unavailable; !why.empty())
     throw ConfigError("--ranks: " + why);
   if (!is_on_path("mpirun")) throw ConfigError("--ranks: there is no mpirun on the PATH (Debian: openmpi-bin)");
+  if (geteuid() == 0 && !std::getenv("OMPI_ALLOW_RUN_AS_ROOT") &&
+      output_of("mpirun --version 2>&1").find("Open MPI") != std::string::npos)
+    throw ConfigError("--ranks: as root, Open MPI asks for OMPI_ALLOW_RUN_AS_ROOT=1 and "
+                      "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 in the environment");
 }
 
 void require_usual_number(const StudyArguments& arguments, double points) {

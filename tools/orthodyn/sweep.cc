@@ -161,7 +161,7 @@ class SweepCommand {
   }
 
   Json write_table() const {
-    Json table = sweep_json(sweep_, points_, jobs_, results_, arguments_.file);
+    Json table = sweep_json(sweep_, points_, jobs_, results_, arguments_.file, arguments_.ranks);
     write_file(folder_ / "sweep.json", {to_text(table, 1)});
     write_file(folder_ / "sweep.csv", {sweep_csv(table)});
     return table;

@@ -22,6 +22,7 @@ struct Convergence {
       quantities;  // "tip.displacement.z" or "max of tip.displacement.z"; none: chosen by the scene
   int modes = 0;                        // the lowest natural frequencies as well
   Limits limits{.seconds = 600};
+  int ranks = 1;  // that compute a mesh
 };
 
 // One mesh.

@@ -40,6 +40,7 @@ class Table {
             {"set", wanted_.set},
             {"written", utc_now()},
             {"machine", machine_json()},
+            {"ranks", wanted_.ranks},
             {"versions", versions_json()},
             {"ratio", kRatio},
             {"target", kTarget},

@@ -112,7 +112,7 @@ Results results_of(const std::vector<Job>& jobs) {
 }
 
 Json sweep_json(const Sweep& sweep, const std::vector<Point>& points, const std::vector<std::optional<Job>>& jobs,
-                const Results& results, const std::string& file) {
+                const Results& results, const std::string& file, int ranks) {
   Json rows = Json::array();
   std::map<std::string, std::string> units;
   std::size_t missing = 0;
@@ -135,6 +135,7 @@ Json sweep_json(const Sweep& sweep, const std::vector<Point>& points, const std:
           {"written", utc_now()},
           {"missing", missing},
           {"machine", machine_json()},
+          {"ranks", ranks},
           {"versions", versions_json()},
           {"variables", variables_json(sweep, points)},
           {"figures", figures_json(sweep, units)},

@@ -21,9 +21,10 @@ using Results = std::map<std::filesystem::path, EvaluationResult>;
 // Those that are on the disk, of processes that died as well.
 Results results_of(const std::vector<Job>& jobs);
 
-// A point that has no result, and can have one, is "missing". `jobs`: by point; `file`: the sweep's.
+// A point that has no result, and can have one, is "missing". `jobs`: by point; `file`: the sweep's;
+// `ranks`: that compute a point.
 Json sweep_json(const Sweep& sweep, const std::vector<Point>& points, const std::vector<std::optional<Job>>& jobs,
-                const Results& results, const std::string& file);
+                const Results& results, const std::string& file, int ranks);
 
 // Of sweep_json().
 std::string sweep_csv(const Json& table);

@@ -100,7 +100,9 @@ def _failures(study):
 def _details(study, folder):
     changes = "".join(f" --set {shlex.quote(s)}" for s in study.about["set"])
     machine = study.about["machine"]
-    command = f"orthodyn converge {shlex.quote(study.about['file'])}{changes} --out {shlex.quote(str(folder))}"
+    ranks = study.about.get("ranks", 1)
+    several = f" --ranks {ranks}" if ranks > 1 else ""
+    command = f"orthodyn converge {shlex.quote(study.about['file'])}{changes} --out {shlex.quote(str(folder))}{several}"
     return pairs([("Scene", study.about["file"]), ("Command", tag("code", command)),
                   ("Refinement", f"cells {study.about['ratio']} times as small on each level"),
                   ("Limit", "Richardson's extrapolation of the finest meshes; its uncertainty after Roache (1998)"),

@@ -101,4 +101,5 @@ def _figure(f):
 def _study(found):
     return Study(found["name"], [_figure(f) for f in found["figures"]],
                  [_mesh(k, row) for k, row in enumerate(found["rows"])], found["orders"], found["target"],
-                 {key: found[key] for key in ("file", "set", "written", "machine", "versions", "ratio")})
+                 {"ranks": found.get("ranks", 1),
+                  **{key: found[key] for key in ("file", "set", "written", "machine", "versions", "ratio")}})

@@ -129,7 +129,9 @@ def facts(values):
 
 def provenance(comparison, folder):
     file, place = shlex.quote(comparison.file or "FILE.yaml"), shlex.quote(str(folder))
-    command = f"orthodyn compare {file} --out {place}\ntools/draw/draw report {place}"
+    ranks = int(float(comparison.settings.get("ranks", 1)))
+    several = f" --ranks {ranks}" if ranks > 1 else ""
+    command = f"orthodyn compare {file} --out {place}{several}\ntools/draw/draw report {place}"
     blocks = (("Machine", comparison.machine), ("Versions", comparison.versions), ("Settings", comparison.settings))
     return joined([tag("div", *(tag("div", tag("h3", name), facts(values)) for name, values in blocks if values),
                        class_="columns"), tag("h3", "To reproduce"), tag("pre", tag("code", command))])

@@ -109,7 +109,9 @@ def _details(sweep, folder):
     blocks = [*((name, pairs((k, str(v)) for k, v in values)) for name, values in formulas if values),
               ("Machine of this page", facts(sweep.about["machine"])), ("Versions", facts(sweep.about["versions"]))]
     place = shlex.quote(str(folder))
-    command = f"orthodyn sweep {shlex.quote(sweep.about['file'])} --out {place}\ntools/draw/draw report {place}"
+    ranks = sweep.about.get("ranks", 1)
+    several = f" --ranks {ranks}" if ranks > 1 else ""
+    command = f"orthodyn sweep {shlex.quote(sweep.about['file'])} --out {place}{several}\ntools/draw/draw report {place}"
     listed = (joined([tag("h3", name), content]) for name, content in blocks)
     return joined([*listed, tag("h3", "To reproduce"), tag("pre", tag("code", command))])
 

@@ -134,5 +134,6 @@ def _sweep(found):
                for f in found["figures"]]
     points = _without_noise([{**p, "index": k} for k, p in enumerate(found["points"])], figures)
     return Sweep(found["title"], found["description"], found["combine"], variables, figures, found["plots"],
-                 found["frames"], points, {k: found[k] for k in ("file", "scene", "written", "machine", "versions",
-                                                                  "definitions", "missing")})
+                 found["frames"], points, {"ranks": found.get("ranks", 1),
+                                             **{k: found[k] for k in ("file", "scene", "written", "machine", "versions",
+                                                                      "definitions", "missing")}})
