@@ -87,6 +87,8 @@ void end_with_parent_if_asked() {
 
 const std::atomic<bool>& interrupted() { return flag; }
 
+void take_time_to_end() { alarm(0); }
+
 void catch_interrupts() {
   std::signal(SIGALRM, end_at_once);
   std::signal(SIGINT, on_signal);

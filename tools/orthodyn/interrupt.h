@@ -14,6 +14,9 @@ void wait_for_sigterm();
 // Where the environment variable ORTHODYN_END_WITH_PARENT is set, the program gets a SIGTERM when the one that started it
 // ends in any way: a study of a Python that is killed does not go on for hours. Programs that it starts do not see it.
 void end_with_parent_if_asked();
+// What was interrupted has come to its end: what is left to do, such as drawing, may take longer than four seconds. A
+// second signal still ends it.
+void take_time_to_end();
 // From here on a reader of what is printed that goes away does not end the program, either.
 void catch_interrupts();
 

@@ -105,6 +105,7 @@ void tell_of_interrupt(const char* pieces, const fs::path& folder) {
 }
 
 void show_report(const fs::path& folder, const StudyArguments& arguments) {
+  take_time_to_end();
   if (arguments.no_report) put_report_aside(folder, arguments.quiet);
   else draw_report(folder, arguments.quiet);
 }
