@@ -25,11 +25,11 @@ constexpr double kMostShift = 10;
 constexpr int kRigid = 6;
 constexpr double kAccuracy = 1e-11;  // of an iterative solver
 
-// A hundred solutions and more are wanted to many digits, for which a factor is made if it can be.
 std::unique_ptr<LinearSolver> make_iterative(const Pattern& pattern) {
   return make_linear_solver({"petsc", "-pc_type gamg -pc_gamg_agg_nsmooths 0 -ksp_max_it 5000"}, pattern);
 }
 
+// A hundred solutions and more are wanted to many digits, for which a factor is made if it can be.
 std::unique_ptr<LinearSolver> factor_or_iterations(const Pattern& pattern) {
   constexpr double kMostOfMemory = 0.8;
   const bool has_other = solver_registry().at("petsc").unavailable.empty();
