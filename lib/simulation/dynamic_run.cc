@@ -222,7 +222,6 @@ class DynamicAnalysis {
                                   join(changed)));
   }
 
-
   RunContext context_;
   const Setup& setup_;
   ResultFolder& folder_;
