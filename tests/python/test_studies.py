@@ -1,4 +1,5 @@
 """Studies as data frames: what they hold is what the program wrote."""
+import json
 import os
 import signal
 import subprocess
@@ -122,6 +123,7 @@ class AStudy(unittest.TestCase):
             shared = orthodyn.sweep(spec, "two", quiet=True, ranks=2).table
         self.assertEqual(list(shared["status"]), ["completed"])
         self.assertEqual(list(shared["unknowns"]), list(alone["unknowns"]))
+        self.assertEqual(json.loads(Path("two/sweep.json").read_text())["ranks"], 2)
 
     def test_ends_with_the_interpreter_that_asked_for_it(self):
         """Also where that is killed."""

@@ -22,8 +22,8 @@ class SeveralRanks : public Resume {
     return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
            "OMPI_MCA_mpi_yield_when_idle=1 ";
   }
-  static std::string mpirun(int ranks, const std::string& name = "orthodyn") {
-    return for_any_user() + "mpirun -n " + std::to_string(ranks) + " " + program(name) + " ";
+  static std::string mpirun(int ranks) {
+    return for_any_user() + "mpirun -n " + std::to_string(ranks) + " " + program() + " ";
   }
   CommandResult orthodyn_on(int ranks, const std::string& arguments) const {
     return shell("cd " + folder_.string() + " && " + mpirun(ranks) + arguments);
