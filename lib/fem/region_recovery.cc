@@ -1,0 +1,207 @@
+#include "lib/fem/region_recovery.h"
+
+#include <cmath>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include "lib/core/symmetric_eigen.h"
+
+namespace orthodyn {
+
+namespace {
+
+// Of the normal equations' eigenvalues: smaller ones are of polynomials that the points hardly tell from others.
+constexpr double kSmallest = 1e-4;
+constexpr int kPointsPerCoefficient = 4;
+constexpr int kMostRings = 3;
+constexpr double kFlat = 1e-6;  // thickness of a flat patch, of its width
+
+// Beside the constant.
+constexpr int kLinear = 3, kQuadratic = 9;
+int coefficients(int degree) { return degree == 1 ? kLinear : kQuadratic; }
+
+// x, y, z and for degree 2 their products.
+template <int kCoefficients>
+Eigen::Matrix<double, kCoefficients, 1> monomials(const Vec3& x) {
+  Eigen::Matrix<double, kCoefficients, 1> m;
+  m.template head<3>() = x;
+  if constexpr (kCoefficients == kQuadratic)
+    m.template tail<6>() << x[0] * x[0], x[1] * x[1], x[2] * x[2], x[0] * x[1], x[1] * x[2], x[2] * x[0];
+  return m;
+}
+Vector monomials(const Vec3& x, int degree) {
+  return degree == 1 ? Vector(monomials<kLinear>(x)) : Vector(monomials<kQuadratic>(x));
+}
+
+// The elements at each corner.
+class Neighbours {
+ public:
+  Neighbours(const Cells& cells, int corners, std::size_t nodes)
+      : cells_(cells), corners_(static_cast<std::size_t>(corners)), at_(nodes), mark_(cells.size(), -1) {
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      for (const int node : corners_of(k)) at_[static_cast<std::size_t>(node)].push_back(static_cast<int>(k));
+  }
+
+  // Those around a corner; none of a node that is no corner.
+  std::vector<int> patch(int node) {
+    std::vector<int> all;
+    add(node, node, all);
+    return all;
+  }
+  // With those beside the last patch. False if there are no more.
+  bool grow(int node, std::vector<int>& patch) {
+    const std::size_t size = patch.size();
+    for (std::size_t i = 0; i < size; ++i)
+      for (const int other : corners_of(static_cast<std::size_t>(patch[i]))) add(node, other, patch);
+    return patch.size() > size;
+  }
+
+ private:
+  std::span<const int> corners_of(std::size_t cell) const { return cells_[cell].first(corners_); }
+
+  void add(int centre, int node, std::vector<int>& patch) {
+    for (const int k : at_[static_cast<std::size_t>(node)]) {
+      int& mark = mark_[static_cast<std::size_t>(k)];
+      if (mark == centre) continue;
+      mark = centre;
+      patch.push_back(k);
+    }
+  }
+
+  const Cells& cells_;
+  std::size_t corners_;
+  std::vector<std::vector<int>> at_;
+  std::vector<int> mark_;  // of each element the last patch that it is in
+};
+
+// Places as the monomials take them, a row each.
+Eigen::MatrixXd monomials_at(const Eigen::Matrix3Xd& places, const Vec3& centre, const Mat3& to_patch, int degree) {
+  Eigen::MatrixXd A(places.cols(), coefficients(degree));
+  for (Eigen::Index i = 0; i < A.rows(); ++i)
+    A.row(i) = monomials(to_patch * (places.col(i) - centre), degree).transpose();
+  return A;
+}
+
+Mat3 principal_axes(const Eigen::Matrix3Xd& places) {
+  const Eigen::Matrix3Xd relative = places.colwise() - Vec3(places.rowwise().mean());
+  const auto pairs =
+      symmetric_eigenpairs<3>(Mat3(relative * relative.transpose() / static_cast<double>(places.cols())));
+  const double largest = pairs.values[2];
+  Vec3 spread;
+  for (int i = 0; i < 3; ++i) spread[i] = std::sqrt(std::max(pairs.values[i], kFlat * kFlat * largest));
+  return spread.cwiseInverse().asDiagonal() * pairs.vectors.transpose();
+}
+
+// Fits, and says whether the points are enough, and tell all polynomials apart.
+std::pair<PatchFit, bool> fit(const Eigen::Matrix3Xd& places, const Vec3& centre, int degree) {
+  const Mat3 to_patch = principal_axes(places);
+  Eigen::MatrixXd A = monomials_at(places, centre, to_patch, degree);
+  const Vector means = A.colwise().mean();
+  A.rowwise() -= means.transpose();
+  const auto pairs = symmetric_eigenpairs<Eigen::Dynamic>(Eigen::MatrixXd(A.transpose() * A));
+  const double smallest = kSmallest * pairs.values[A.cols() - 1];
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(A.cols(), A.cols());
+  for (Eigen::Index i = 0; i < A.cols(); ++i)
+    if (pairs.values[i] > smallest)
+      inverse += pairs.vectors.col(i) / pairs.values[i] * pairs.vectors.col(i).transpose();
+  const bool determined = pairs.values[0] > smallest && A.rows() >= kPointsPerCoefficient * (A.cols() + 1);
+  return {{centre, to_patch, means, std::move(inverse)}, determined};
+}
+
+}  // namespace
+
+RegionRecovery::RegionRecovery(const ElementMesh& mesh, const std::vector<int>& cells, int num_points)
+    : per_element_(num_points) {
+  std::vector<int> row_of(mesh.nodes.size(), -1), all;
+  all.reserve(cells.size() * static_cast<std::size_t>(mesh.cells.nodes_per_cell()));
+  for (const int cell : cells)
+    for (const int node : mesh.cells[static_cast<std::size_t>(cell)]) {
+      int& row = row_of[static_cast<std::size_t>(node)];
+      if (row < 0) {
+        row = static_cast<int>(nodes_.size());
+        nodes_.push_back(node);
+      }
+      all.push_back(row);
+    }
+  cells_ = Cells(mesh.cells.nodes_per_cell(), std::move(all));
+  places_.resize(3, per_element_ * static_cast<Eigen::Index>(cells.size()));
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    places_.middleCols(per_element_ * static_cast<Eigen::Index>(k), per_element_) =
+        mesh.type.points(mesh.positions(static_cast<std::size_t>(cells[k])));
+
+  const int degree = mesh.type.degree();
+  Neighbours neighbours(cells_, mesh.type.num_corners(), nodes_.size());
+  std::vector<int> patch_of(nodes_.size(), -1);
+  for (int row = 0; row < static_cast<int>(nodes_.size()); ++row) {
+    std::vector<int> elements = neighbours.patch(row);
+    if (elements.empty()) continue;
+    const Vec3& centre = mesh.nodes[static_cast<std::size_t>(nodes_[static_cast<std::size_t>(row)])];
+    auto [found, determined] = fit(places_of(elements), centre, degree);
+    for (int ring = 0; !determined && ring < kMostRings && neighbours.grow(row, elements); ++ring)
+      std::tie(found, determined) = fit(places_of(elements), centre, degree);
+    patch_of[static_cast<std::size_t>(row)] = static_cast<int>(patches_.size());
+    elements.shrink_to_fit();
+    patches_.push_back({row, std::move(elements), std::move(found), {}});
+  }
+  patches_.shrink_to_fit();
+  add_middles(mesh.type, patch_of);
+}
+
+void RegionRecovery::add_middles(const ElementType& type, const std::vector<int>& patch_of) {
+  std::vector<bool> is_known(nodes_.size(), false);
+  for (std::size_t k = 0; k < cells_.size(); ++k)
+    for (std::size_t e = 0; e < type.edges_with_middles().size(); ++e) {
+      const int middle = cells_[k][static_cast<std::size_t>(type.num_corners()) + e];
+      if (is_known[static_cast<std::size_t>(middle)]) continue;
+      is_known[static_cast<std::size_t>(middle)] = true;
+      for (const int corner : type.edges_with_middles()[e]) {
+        const int row = cells_[k][static_cast<std::size_t>(corner)];
+        patches_[static_cast<std::size_t>(patch_of[static_cast<std::size_t>(row)])].middles.push_back(middle);
+      }
+    }
+}
+
+Eigen::Matrix3Xd RegionRecovery::places_of(const std::vector<int>& elements) const {
+  Eigen::Matrix3Xd all(3, per_element_ * static_cast<Eigen::Index>(elements.size()));
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    all.middleCols(per_element_ * static_cast<Eigen::Index>(i), per_element_) =
+        places_.middleCols(per_element_ * elements[i], per_element_);
+  return all;
+}
+
+SixColumns RegionRecovery::at_nodes(const ElementMesh& mesh, const SixColumns& at_points) const {
+  return mesh.type.degree() == 1 ? at_nodes_with<kLinear>(mesh, at_points) : at_nodes_with<kQuadratic>(mesh, at_points);
+}
+
+template <int kCoefficients>
+SixColumns RegionRecovery::at_nodes_with(const ElementMesh& mesh, const SixColumns& at_points) const {
+  using Coefficients = Eigen::Matrix<double, kCoefficients, 1>;
+  using Row = Eigen::Matrix<double, 1, 6>;
+  SixColumns out = SixColumns::Zero(static_cast<Eigen::Index>(nodes_.size()), 6);
+  for (const auto& [row, elements, fit, middles] : patches_) {
+    const Coefficients means = fit.means;
+    const auto relative = [&](const Vec3& place) -> Coefficients {
+      return monomials<kCoefficients>(fit.to_patch * (place - fit.centre)) - means;
+    };
+    Row sum = Row::Zero();
+    Eigen::Matrix<double, kCoefficients, 6> moments = Eigen::Matrix<double, kCoefficients, 6>::Zero();
+    for (const int element : elements)
+      for (Eigen::Index point = per_element_ * element; point < per_element_ * (element + 1); ++point) {
+        const Row value = at_points.row(point);
+        sum += value;
+        moments += relative(places_.col(point)) * value;
+      }
+    const Row mean = sum / static_cast<double>(per_element_ * static_cast<Eigen::Index>(elements.size()));
+    const Eigen::Matrix<double, kCoefficients, 6> slopes = fit.inverse * moments;
+    const auto value_at = [&](int node) -> Row {
+      return mean + relative(mesh.nodes[static_cast<std::size_t>(nodes_[static_cast<std::size_t>(node)])]).transpose() *
+                        slopes;
+    };
+    out.row(row) = value_at(row);
+    for (const int middle : middles) out.row(middle) += 0.5 * value_at(middle);
+  }
+  return out;
+}
+
+}  // namespace orthodyn
