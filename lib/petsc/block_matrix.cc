@@ -53,7 +53,7 @@ class BlockMatrix : public SolverMatrix {
         values_[at(start_[at(row)])] = 1;
       }
     check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, rows_, rows_, start_.data(), column_.data(), values_.data(),
-                                    &matrix_));
+                                    matrix_.put()));
     if (has_points) check(MatSetBlockSize(matrix_, 3));
     check(MatSetOption(matrix_, MAT_SYMMETRIC, PETSC_TRUE));
   }

@@ -1,5 +1,4 @@
 // Ranks (lib/core/ranks.h) by MPI, with PETSc's star forests for copies of nodes.
-#include <petscsf.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -12,6 +11,7 @@
 #include "lib/core/errors.h"
 #include "lib/core/ranks.h"
 #include "lib/linear/petsc_library.h"
+#include "lib/petsc/handle.h"
 #include "lib/petsc/partition.h"
 #include "lib/petsc/session.h"
 
@@ -53,7 +53,7 @@ class StarForest : public NodeExchange {
     for (const auto& [rank, place] : copies) roots.push_back({rank, place});
     std::vector<PetscInt> leaves;
     for (std::size_t i = 0; i < copies.size(); ++i) leaves.push_back(owned + static_cast<PetscInt>(i));
-    check(PetscSFCreate(PETSC_COMM_WORLD, &forest_));
+    check(PetscSFCreate(PETSC_COMM_WORLD, forest_.put()));
     check(PetscSFSetGraph(forest_, owned, static_cast<PetscInt>(leaves.size()), leaves.data(), PETSC_COPY_VALUES,
                           roots.data(), PETSC_COPY_VALUES));
     check(PetscSFSetUp(forest_));
@@ -65,7 +65,7 @@ class StarForest : public NodeExchange {
   ~StarForest() override {
     const Session session;
     MPI_Type_free(&three_);
-    static_cast<void>(PetscSFDestroy(&forest_));
+    forest_.reset();
   }
   StarForest(const StarForest&) = delete;
   StarForest& operator=(const StarForest&) = delete;
@@ -84,7 +84,7 @@ class StarForest : public NodeExchange {
   }
 
  private:
-  PetscSF forest_ = nullptr;
+  OwnedForest forest_;
   MPI_Datatype three_ = MPI_DATATYPE_NULL;
   int owned_ = 0;
   std::size_t copies_ = 0;

@@ -2,12 +2,11 @@
 #include "lib/petsc/partition.h"
 
 #include <dlfcn.h>
-#include <petscmat.h>
-
 #include <algorithm>
 #include <cstdlib>
 
 #include "lib/linear/petsc_library.h"
+#include "lib/petsc/handle.h"
 #include "lib/petsc/session.h"
 
 namespace orthodyn::petsc {
@@ -36,22 +35,19 @@ std::vector<int> partition_cells(const CellGraph& graph, int parts) {
   check(PetscMalloc1(graph.neighbours.size() + 1, &neighbours));
   std::copy(graph.start.begin(), graph.start.end(), start);
   std::copy(graph.neighbours.begin(), graph.neighbours.end(), neighbours);
-  Mat adjacency = nullptr;
-  check(MatCreateMPIAdj(PETSC_COMM_SELF, cells, cells, start, neighbours, nullptr, &adjacency));
-  MatPartitioning partitioning = nullptr;
-  IS numbers = nullptr;
-  check(MatPartitioningCreate(PETSC_COMM_SELF, &partitioning));
+  OwnedMatrix adjacency;
+  check(MatCreateMPIAdj(PETSC_COMM_SELF, cells, cells, start, neighbours, nullptr, adjacency.put()));
+  OwnedPartitioning partitioning;
+  OwnedNumbers numbers;
+  check(MatPartitioningCreate(PETSC_COMM_SELF, partitioning.put()));
   check(MatPartitioningSetAdjacency(partitioning, adjacency));
   check(MatPartitioningSetNParts(partitioning, parts));
   check(MatPartitioningSetType(partitioning, MATPARTITIONINGPTSCOTCH));
-  check(MatPartitioningApply(partitioning, &numbers));
+  check(MatPartitioningApply(partitioning, numbers.put()));
   const PetscInt* values = nullptr;
   check(ISGetIndices(numbers, &values));
   std::copy_n(values, part.size(), part.begin());
   check(ISRestoreIndices(numbers, &values));
-  check(ISDestroy(&numbers));
-  check(MatPartitioningDestroy(&partitioning));
-  check(MatDestroy(&adjacency));
   return part;
 }
 

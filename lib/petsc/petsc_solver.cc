@@ -19,6 +19,7 @@
 #include "lib/linear/petsc_library.h"
 #include "lib/linear/solver.h"
 #include "lib/petsc/energy_test.h"
+#include "lib/petsc/handle.h"
 #include "lib/petsc/solver_matrix.h"
 
 namespace orthodyn::petsc {
@@ -56,7 +57,7 @@ class PetscSolver : public LinearSolver {
     matrix_ = SolverMatrix::of(pattern);
     takes_multigrid_ = !pattern.share || matrix_->fewest_unknowns() >= kFewestForMultigrid;
     with_blocks_ = !has_own_preconditioner_;
-    check(MatCreateVecs(matrix_->get(), &x_, &b_));
+    check(MatCreateVecs(matrix_->get(), x_.put(), b_.put()));
     make_method();
   }
 
@@ -130,7 +131,7 @@ class PetscSolver : public LinearSolver {
     KSPType method = nullptr;
     PC preconditioner = nullptr;
     PCType kind = nullptr;
-    if (method_) {
+    if (method_.get()) {
       check(KSPGetType(method_, &method));
       check(KSPGetPC(method_, &preconditioner));
       check(PCGetType(preconditioner, &kind));
@@ -161,9 +162,9 @@ class PetscSolver : public LinearSolver {
   }
 
   void release() {
-    static_cast<void>(KSPDestroy(&method_));
-    static_cast<void>(VecDestroy(&x_));
-    static_cast<void>(VecDestroy(&b_));
+    method_.reset();
+    x_.reset();
+    b_.reset();
     matrix_.reset();
     options_.reset();
     per_digit_ = fresh_per_digit_ = 0;
@@ -176,8 +177,7 @@ class PetscSolver : public LinearSolver {
     options_ = std::make_unique<Options>(std::string(kKrylov) + (with_blocks_ ? kDiagonalBlocks : kMultigrid) +
                                          everywhere() + given_);
     const InUse in_use(*options_);
-    check(KSPDestroy(&method_));
-    check(KSPCreate(pattern_->share ? PETSC_COMM_WORLD : PETSC_COMM_SELF, &method_));
+    check(KSPCreate(pattern_->share ? PETSC_COMM_WORLD : PETSC_COMM_SELF, method_.put()));
     check(KSPSetOperators(method_, matrix_->get(), matrix_->get()));
     check(KSPSetFromOptions(method_));
     check(KSPSetResidualHistory(method_, nullptr, PETSC_DECIDE, PETSC_TRUE));
@@ -267,8 +267,8 @@ class PetscSolver : public LinearSolver {
   EnergyTest test_;
   std::unique_ptr<SolverMatrix> matrix_;
   std::unique_ptr<Options> options_;
-  KSP method_ = nullptr;
-  Vec x_ = nullptr, b_ = nullptr;
+  OwnedMethod method_;
+  OwnedVector x_, b_;
   bool takes_multigrid_ = true;
   bool with_blocks_ = false;
   bool is_gamg_ = false;

@@ -34,7 +34,7 @@ class SharedMatrix : public SolverMatrix {
         column.push_back(row.back());
       }
     values_.assign(row.size(), 1);
-    check(MatCreate(PETSC_COMM_WORLD, &matrix_));
+    check(MatCreate(PETSC_COMM_WORLD, matrix_.put()));
     check(MatSetSizes(matrix_, rows_, rows_, PETSC_DETERMINE, PETSC_DETERMINE));
     check(MatSetType(matrix_, MATMPIAIJ));
     check(MatSetBlockSize(matrix_, 3));
@@ -43,9 +43,8 @@ class SharedMatrix : public SolverMatrix {
     check(MatGetDiagonalBlock(matrix_, &own));
     check(MatSetBlockSize(own, 3));
     check(MatSetOption(matrix_, MAT_SYMMETRIC, PETSC_TRUE));
-    check(MatCreateVecs(matrix_, &diagonal_, nullptr));
+    check(MatCreateVecs(matrix_, diagonal_.put(), nullptr));
   }
-  ~SharedMatrix() override { static_cast<void>(VecDestroy(&diagonal_)); }
 
   bool set(const Pattern& pattern, const double* values) override {
     bool is_finite = true;
@@ -75,7 +74,7 @@ class SharedMatrix : public SolverMatrix {
   }
 
   std::vector<double> values_;  // as PETSc was told their places: the last ones, of held coordinates, are 1
-  Vec diagonal_ = nullptr;
+  OwnedVector diagonal_;
 };
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace orthodyn::petsc {
 namespace {
 
 // Columns that are orthonormal, by Gram and Schmidt's method twice. What depends on the columns before becomes zero.
-void orthonormalize(std::vector<Vec>& columns) {
+void orthonormalize(const std::vector<OwnedVector>& columns) {
   constexpr double kDependent = 1e-8;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     double before = 0, after = 0;
@@ -35,29 +35,25 @@ std::unique_ptr<SolverMatrix> SolverMatrix::of(const Pattern& pattern) {
   return pattern.share ? make_shared_matrix(pattern) : make_block_matrix(pattern);
 }
 
-SolverMatrix::~SolverMatrix() { static_cast<void>(MatDestroy(&matrix_)); }
-
 void SolverMatrix::set_rigid_motions(const Eigen::MatrixXd& motions) {
-  std::vector<Vec> columns(static_cast<std::size_t>(motions.cols()), nullptr);
+  std::vector<OwnedVector> columns(static_cast<std::size_t>(motions.cols()));
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    check(MatCreateVecs(matrix_, &columns[c], nullptr));
+    check(MatCreateVecs(matrix_, columns[c].put(), nullptr));
     scatter(motions.col(static_cast<Eigen::Index>(c)), columns[c]);
   }
   orthonormalize(columns);
   std::vector<Vec> independent;
-  for (Vec column : columns)
+  for (const OwnedVector& column : columns)
     if (!is_zero(column)) independent.push_back(column);
-  MatNullSpace space = nullptr;
-  check(MatNullSpaceCreate(PetscObjectComm(reinterpret_cast<PetscObject>(matrix_)), PETSC_FALSE,
-                           static_cast<PetscInt>(independent.size()), independent.data(), &space));
+  OwnedNullSpace space;
+  check(MatNullSpaceCreate(PetscObjectComm(reinterpret_cast<PetscObject>(matrix_.get())), PETSC_FALSE,
+                           static_cast<PetscInt>(independent.size()), independent.data(), space.put()));
   check(MatSetNearNullSpace(matrix_, space));
-  check(MatNullSpaceDestroy(&space));
-  for (Vec& column : columns) check(VecDestroy(&column));
 }
 
 int SolverMatrix::fewest_unknowns() const {
   int fewest = static_cast<int>(place_.size());
-  const MPI_Comm ranks = PetscObjectComm(reinterpret_cast<PetscObject>(matrix_));
+  const MPI_Comm ranks = PetscObjectComm(reinterpret_cast<PetscObject>(matrix_.get()));
   const bool done = MPI_Allreduce(MPI_IN_PLACE, &fewest, 1, MPI_INT, MPI_MIN, ranks) == MPI_SUCCESS;
   return done ? fewest : 0;
 }

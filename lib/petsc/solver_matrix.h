@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/core/pattern.h"
+#include "lib/petsc/handle.h"
 #include "lib/petsc/session.h"
 
 namespace orthodyn::petsc {
@@ -17,7 +18,7 @@ class SolverMatrix {
   // collective, as is all else. Precondition: the pattern is symmetric. Throws RunError for more than 2^31 entries.
   static std::unique_ptr<SolverMatrix> of(const Pattern& pattern);
 
-  virtual ~SolverMatrix();
+  virtual ~SolverMatrix() = default;
   SolverMatrix(const SolverMatrix&) = delete;
   SolverMatrix& operator=(const SolverMatrix&) = delete;
 
@@ -39,7 +40,7 @@ class SolverMatrix {
  protected:
   SolverMatrix() = default;
 
-  Mat matrix_ = nullptr;
+  OwnedMatrix matrix_;
   int rows_ = 0;
   std::vector<PetscInt> place_;  // of each unknown its row among those of this rank
 };
