@@ -89,7 +89,7 @@ ErrorEstimator::ErrorEstimator(const Setup& setup, Plan plan)
 }
 
 ErrorEstimate ErrorEstimator::estimate(std::vector<Observer*> observers, const std::atomic<bool>& interrupt) const {
-  const Model& model = *setup_.built.model;
+  const FemModel& model = *setup_.built.model;
   ErrorEstimate estimate;
   estimate.against = refinement_.front();
   const auto integrator = refined_->make(model, task_of(setup_.scene, setup_.built));

@@ -8,6 +8,7 @@
 
 #include "lib/core/symmetric_eigen.h"
 #include "lib/simulation/errors/phase.h"
+#include "lib/simulation/errors/whole_states.h"
 
 namespace orthodyn {
 
@@ -51,19 +52,13 @@ std::vector<std::vector<double>> sizes(const std::vector<FollowedQuantity>& quan
   return all;
 }
 
-Eigen::MatrixXd times_mass(const Model& model, const Eigen::MatrixXd& x) {
-  Eigen::MatrixXd out(x.rows(), x.cols());
-  for (Eigen::Index k = 0; k < x.cols(); ++k) model.multiply_mass(x.col(k), out.col(k));
-  return out;
-}
-
 double interval(const Trajectory& t) {
   return (t.times.back() - t.times.front()) / static_cast<double>(t.times.size() - 1);
 }
 
 }  // namespace
 
-ReferenceNorms::ReferenceNorms(const Model& model, Trajectory reference, std::vector<ProbePoint> probes,
+ReferenceNorms::ReferenceNorms(const FemModel& model, Trajectory reference, std::vector<ProbePoint> probes,
                                std::vector<FollowedQuantity> quantities)
     : ReferenceNorms([&model](const Eigen::MatrixXd& x) { return times_mass(model, x); }, std::move(reference),
                      std::move(probes), std::move(quantities)) {}

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/ode/model.h"
+#include "lib/fem/fem_model.h"
 #include "lib/simulation/errors/trajectory.h"
 
 namespace orthodyn {
@@ -53,8 +53,8 @@ class ReferenceNorms {
   // Columns x as M x: |x| is the root of x' M x.
   using Metric = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& x)>;
 
-  // In the mass norm. `model` must outlive it.
-  ReferenceNorms(const Model& model, Trajectory reference, std::vector<ProbePoint> probes,
+  // In the mass norm, of trajectories of the whole model. `model` must outlive it; then all functions are collective.
+  ReferenceNorms(const FemModel& model, Trajectory reference, std::vector<ProbePoint> probes,
                  std::vector<FollowedQuantity> quantities = {});
   // In another one.
   ReferenceNorms(Metric metric, Trajectory reference, std::vector<ProbePoint> probes,

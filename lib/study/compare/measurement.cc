@@ -143,8 +143,7 @@ class Measurement {
 
   ReferenceNorms norms_of(Trajectory reference) const {
     if (input_.at_probes) return probe_norms(std::move(reference), setup_.scene.output.probes, followed());
-    const auto mass_norm = [&model = *setup_.built.model](const Eigen::MatrixXd& x) { return times_mass(model, x); };
-    return {mass_norm, std::move(reference), probe_points(setup_), followed()};
+    return {*setup_.built.model, std::move(reference), probe_points(setup_), followed()};
   }
 
   std::vector<FollowedQuantity> followed() const {
