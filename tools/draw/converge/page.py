@@ -3,7 +3,7 @@ import math
 import shlex
 
 from ..report import formatting
-from ..report.details import pairs
+from ..report.details import command, pairs
 from ..report.markup import Html, data_script, joined, scrolling, tag
 from ..report.page import SCRIPT, head
 from ..report.tables import caption, number
@@ -100,10 +100,8 @@ def _failures(study):
 def _details(study, folder):
     changes = "".join(f" --set {shlex.quote(s)}" for s in study.about["set"])
     machine = study.about["machine"]
-    ranks = study.about.get("ranks", 1)
-    several = f" --ranks {ranks}" if ranks > 1 else ""
-    command = f"orthodyn converge {shlex.quote(study.about['file'])}{changes} --out {shlex.quote(str(folder))}{several}"
-    return pairs([("Scene", study.about["file"]), ("Command", tag("code", command)),
+    made_by = command("converge", study.about["file"], folder, study.about.get("ranks", 1)) + changes
+    return pairs([("Scene", study.about["file"]), ("Command", tag("code", made_by)),
                   ("Refinement", f"cells {study.about['ratio']} times as small on each level"),
                   ("Limit", "Richardson's extrapolation of the finest meshes; its uncertainty after Roache (1998)"),
                   ("Mesh error", "share of the elastic energy, from recovered stresses (Zienkiewicz & Zhu 1992)"),

@@ -127,11 +127,20 @@ def facts(values):
     return pairs((k.replace("_bytes", "").replace("_", " "), _value(k, v)) for k, v in values.items())
 
 
-def provenance(comparison, folder):
-    file, place = shlex.quote(comparison.file or "FILE.yaml"), shlex.quote(str(folder))
-    ranks = int(float(comparison.settings.get("ranks", 1)))
+def command(study, file, folder, ranks=1):
+    """What made a study; `file` None where that is not known."""
+    place = shlex.quote(str(folder))
     several = f" --ranks {ranks}" if ranks > 1 else ""
-    command = f"orthodyn compare {file} --out {place}{several}\ntools/draw/draw report {place}"
+    return f"orthodyn {study} {shlex.quote(file or 'FILE.yaml')} --out {place}{several}"
+
+
+def drawing(folder):
+    return f"tools/draw/draw report {shlex.quote(str(folder))}"
+
+
+def provenance(comparison, folder):
+    ranks = int(float(comparison.settings.get("ranks", 1)))
+    lines = f"{command('compare', comparison.file, folder, ranks)}\n{drawing(folder)}"
     blocks = (("Machine", comparison.machine), ("Versions", comparison.versions), ("Settings", comparison.settings))
     return joined([tag("div", *(tag("div", tag("h3", name), facts(values)) for name, values in blocks if values),
-                       class_="columns"), tag("h3", "To reproduce"), tag("pre", tag("code", command))])
+                       class_="columns"), tag("h3", "To reproduce"), tag("pre", tag("code", lines))])

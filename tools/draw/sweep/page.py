@@ -1,11 +1,10 @@
 """The page of a sweep: one HTML file that opens without a network."""
 import base64
 import math
-import shlex
 from pathlib import Path
 
 from ..report import formatting
-from ..report.details import facts, pairs
+from ..report.details import command, drawing, facts, pairs
 from ..report.markup import Html, data_script, joined, scrolling, tag, void
 from ..report.page import SCRIPT, head
 from ..report.tables import caption
@@ -108,12 +107,9 @@ def _details(sweep, folder):
     formulas = (("Closed forms (SI units)", closed), ("Definitions", sweep.about["definitions"].items()))
     blocks = [*((name, pairs((k, str(v)) for k, v in values)) for name, values in formulas if values),
               ("Machine of this page", facts(sweep.about["machine"])), ("Versions", facts(sweep.about["versions"]))]
-    place = shlex.quote(str(folder))
-    ranks = sweep.about.get("ranks", 1)
-    several = f" --ranks {ranks}" if ranks > 1 else ""
-    command = f"orthodyn sweep {shlex.quote(sweep.about['file'])} --out {place}{several}\ntools/draw/draw report {place}"
+    made_by = command("sweep", sweep.about["file"], folder, sweep.about.get("ranks", 1))
     listed = (joined([tag("h3", name), content]) for name, content in blocks)
-    return joined([*listed, tag("h3", "To reproduce"), tag("pre", tag("code", command))])
+    return joined([*listed, tag("h3", "To reproduce"), tag("pre", tag("code", f"{made_by}\n{drawing(folder)}"))])
 
 
 def _tip(sweep, point):
