@@ -81,6 +81,37 @@ TEST_F(SeveralRanks, TellAFaultOfTheInputOnce) {
   EXPECT_FALSE(fs::exists(folder_ / "bad/scene.yaml"));
 }
 
+TEST_F(SeveralRanks, TellWhatIsWrongWithACommandLineOnce) {
+  for (const auto& [line, words] : {std::pair{"walk beam.yaml", "there is no command 'walk'"},
+                                    {"run beam.yaml --fast", "--fast"},
+                                    {"check beam.yaml", "is for one process"},
+                                    {"run beam.yaml --ranks 2", "has already started 3 ranks"}}) {
+    write("beam.yaml", kBeam + kShort);
+    const auto result = orthodyn_on(3, line);
+    EXPECT_EQ(result.exit_code, 2) << result.output;
+    EXPECT_EQ(count(result.output, words), 1) << result.output;
+  }
+  const auto help = orthodyn_on(2, "run --help");
+  EXPECT_EQ(help.exit_code, 0) << help.output;
+  EXPECT_EQ(count(help.output, "Usage:"), 1) << help.output;
+}
+
+TEST_F(SeveralRanks, AreStartedByAnOption) {
+  write("beam.yaml", kBeam + kShort);
+  const auto start = [&](const std::string& options) {
+    return shell("cd " + folder_.string() + " && " + for_any_user() + program() + " run beam.yaml " + options);
+  };
+  const auto result = start("--ranks 2 --out by_option");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_EQ(record("by_option").at("ranks"), 2);
+  ASSERT_EQ(orthodyn_on(2, "run beam.yaml --quiet --out by_mpirun").exit_code, 0);
+  EXPECT_EQ(read_text(folder_ / "by_option/energy.csv"), read_text(folder_ / "by_mpirun/energy.csv"));
+  EXPECT_EQ(start("--ranks 2 --out bad --set gravitas=1").exit_code, 2);
+  const auto resumed = start("--ranks 3 --quiet --out by_option --resume --set time.end=0.5");
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.output;
+  EXPECT_EQ(record("by_option").at("restarts").size(), 1u);
+}
+
 TEST_F(SeveralRanks, AreRefusedByNameWhereTheyCannotCompute) {
   write("beam.yaml", kBeam + kShort);
   const auto expect_refusal = [&](const std::string& arguments, const std::string& words) {
@@ -94,7 +125,6 @@ TEST_F(SeveralRanks, AreRefusedByNameWhereTheyCannotCompute) {
                  "'klu_full' does not run on several ranks");
   expect_refusal("run beam.yaml --set mass=consistent", "mass: lumped");
   expect_refusal("run beam.yaml --estimate-error", "--estimate-error");
-  expect_refusal("check beam.yaml", "is for one process");
 }
 
 // As at Ctrl-C, which reaches mpirun: what was computed is kept, and the run goes on.

@@ -13,6 +13,14 @@ class StudiesOnRanks : public SeveralRanks {
   CommandResult study(const std::string& arguments) const {
     return shell("cd " + folder_.string() + " && " + for_any_user() + program() + " " + arguments + " --no-report");
   }
+  // Bytes, of all points together.
+  double memory(const std::string& folder) const {
+    double sum = 0;
+    for (const auto& file : fs::recursive_directory_iterator(folder_ / folder))
+      if (file.path().filename() == "result.json")
+        sum += nlohmann::json::parse(read_text(file.path())).at("cost").at("peak_memory").get<double>();
+    return sum;
+  }
   nlohmann::json table(const std::string& file) const { return nlohmann::json::parse(read_text(folder_ / file)); }
 };
 
@@ -81,6 +89,8 @@ output: {probes: {tip: {at: [1, 0.1, 0.1]}}}
   ASSERT_EQ(study("converge bent.yaml --levels 2 --quiet --out one").exit_code, 0);
   const auto result = study("converge bent.yaml --levels 2 --ranks 2 --out two");
   ASSERT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_EQ(table("two/convergence.json").at("ranks"), 2);
+  EXPECT_GT(memory("two"), 1.5 * memory("one"));  // two processes have computed each
   const auto one = table("one/convergence.json").at("rows"), two = table("two/convergence.json").at("rows");
   ASSERT_EQ(two.size(), one.size());
   for (std::size_t k = 0; k < two.size(); ++k) {

@@ -5,8 +5,8 @@
 
 #include <CLI/CLI.hpp>
 #include <map>
+#include <sstream>
 
-#include "lib/core/errors.h"
 #include "lib/core/versions.h"
 #include "lib/core/words.h"
 #include "tools/orthodyn/command.h"
@@ -55,6 +55,12 @@ std::optional<std::string> unknown_command(const CLI::App& program) {
   return {};
 }
 
+Answer answer_of(const CLI::App& program, const CLI::ParseError& e) {
+  std::ostringstream out, err;
+  const int code = program.exit(e, out, err) == 0 ? 0 : 2;
+  return {code, out.str(), err.str()};
+}
+
 }  // namespace
 
 CommandOption& CommandOption::required() { return option_.required(), *this; }
@@ -89,6 +95,7 @@ template CommandOption CommandOptions::value(const std::string&, std::string&, c
 template CommandOption CommandOptions::value(const std::string&, int&, const std::string&);
 template CommandOption CommandOptions::value(const std::string&, double&, const std::string&);
 template CommandOption CommandOptions::value(const std::string&, std::optional<std::string>&, const std::string&);
+template CommandOption CommandOptions::value(const std::string&, std::optional<int>&, const std::string&);
 template CommandOption CommandOptions::value(const std::string&, std::optional<std::size_t>&, const std::string&);
 
 CommandOption CommandOptions::repeated(const std::string& name, std::vector<std::string>& values,
@@ -125,9 +132,10 @@ CommandLine parse_command_line(int argc, char** argv) {
       if (command.text.name == out.name) out.on_ranks = command.text.on_ranks;
   } catch (const CLI::ParseError& e) {
     if (const auto word = unknown_command(program))
-      throw ConfigError(fmt::format("there is no command '{}'{} Known: {}.", *word,
-                                    did_you_mean(*word, command_names(), "."), join(command_names())));
-    out.exit_code = program.exit(e) == 0 ? 0 : 2;
+      out.answer = {2, "", fmt::format("error: there is no command '{}'{} Known: {}.\n", *word,
+                                       did_you_mean(*word, command_names(), "."), join(command_names()))};
+    else
+      out.answer = answer_of(program, e);
   }
   return out;
 }

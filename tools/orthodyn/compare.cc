@@ -112,11 +112,11 @@ Comparison on_ranks(Comparison comparison) {
   return comparison;
 }
 
-void require_to_run_on_ranks(const Design& design) {
+void require_points_to_run_on_ranks(const Design& design) {
   for (const Point& point : design.points) {
     Config config = point_scene(design, point).resolving();
     Scene scene = read_scene(config);
-    orthodyn::require_to_run_on_ranks(config, scene);
+    require_to_run_on_ranks(config, scene);
   }
 }
 
@@ -127,7 +127,7 @@ int compare(const StudyArguments& arguments) {
       arguments.ranks > 1 ? on_ranks(read_comparison(config)) : read_comparison(config);
   require_usual_number(arguments, number_of_points(comparison));
   Design design = expand(comparison);
-  if (arguments.ranks > 1) require_to_run_on_ranks(design);
+  if (arguments.ranks > 1) require_points_to_run_on_ranks(design);
   look_at(comparison, config, scenes_of(design));
   const StudyFolder place(folder_for(arguments, "out/comparisons", comparison.name), "comparison", arguments.file);
   const fs::path& folder = place.path();

@@ -61,19 +61,19 @@ std::string outcome_of(const EvaluationResult& result) {
   return join(words);
 }
 
-void require_to_run_on_ranks(const ConvergeArguments& arguments) {
+void require_meshes_to_run_on_ranks(const ConvergeArguments& arguments) {
   if (arguments.ranks == 1) return;
   if (arguments.modes > 0)
     throw ConfigError("--modes: natural frequencies are computed by one process; remove --ranks");
   Config config = read_scene_file(arguments.file, {.set = arguments.set}).resolving();
   Scene scene = read_scene(config);
-  orthodyn::require_to_run_on_ranks(config, scene);
+  require_to_run_on_ranks(config, scene);
 }
 
 int converge(const ConvergeArguments& arguments) {
   require_ranks(arguments);
   use_one_thread_each();
-  require_to_run_on_ranks(arguments);
+  require_meshes_to_run_on_ranks(arguments);
   const Convergence wanted = wanted_of(arguments);
   const Design design = design_of(wanted);
   const fs::path folder = folder_for(arguments, "out/convergence", stem(arguments.file));

@@ -47,11 +47,9 @@ int main(int argc, char** argv) {
   end_with_parent_if_asked();
   try {
     const CommandLine line = parse_command_line(argc, argv);
-    if (!line.exit_code) {
-      require_one_rank_unless(line.on_ranks, line.name);
-      load_plugins(line.plugins);
-    }
-    const int code = line.exit_code ? *line.exit_code : line.run();
+    const std::optional<Answer> answer = line.answer ? line.answer : refusal_on_ranks(line);
+    if (!answer) load_plugins(line.plugins);
+    const int code = answer ? tell_once(*answer) : line.run();
     // What is printed may wait in a buffer until here.
     std::cout.flush();
     if (!std::cout || std::fflush(stdout) != 0)

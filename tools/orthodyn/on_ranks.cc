@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
+#include <iostream>
 
 #include "lib/core/errors.h"
 #include "lib/core/write_file.h"
@@ -28,11 +29,21 @@ int after_failure(const Ranks& ranks, const std::string& message, int exit_code)
 
 }  // namespace
 
-void require_one_rank_unless(bool on_ranks, const std::string& command) {
-  if (!on_ranks && is_one_of_several_ranks())
-    throw ConfigError(fmt::format("`orthodyn {}` is for one process; mpirun starts several of `orthodyn run` only, and "
-                                  "studies take --ranks",
-                                  command));
+std::optional<Answer> refusal_on_ranks(const CommandLine& line) {
+  if (line.on_ranks || !is_one_of_several_ranks()) return std::nullopt;
+  return Answer{2, "", fmt::format("error: `orthodyn {}` is for one process; mpirun starts several of `orthodyn run` "
+                                   "only, and studies take --ranks\n", line.name)};
+}
+
+int tell_once(const Answer& answer) {
+  return on_world_ranks([&](const Ranks* ranks) {
+    if (!ranks || ranks->is_first()) {
+      std::cout << answer.out;
+      print_notice(answer.err);
+    }
+    if (ranks) ranks->meet(kSecondsToMeet);  // the first one that ends would end the others
+    return answer.exit_code;
+  });
 }
 
 int on_world_ranks(const std::function<int(const Ranks*)>& work) {

@@ -5,11 +5,13 @@
 #include <optional>
 #include <system_error>
 
+#include "lib/linear/world.h"
 #include "lib/simulation/scene_file.h"
 #include "lib/simulation/several_ranks.h"
 #include "lib/simulation/simulation.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/interrupt.h"
+#include "tools/orthodyn/mpirun.h"
 #include "tools/orthodyn/notice.h"
 #include "tools/orthodyn/on_ranks.h"
 #include "tools/orthodyn/run_job.h"
@@ -30,7 +32,7 @@ struct RunArguments : SceneArguments {
   std::optional<std::string> out;
   bool quiet = false, force = false, resume = false, estimate_error = false, yes = false;
   std::optional<std::string> slurm;  // "print" or "submit"
-  std::optional<std::size_t> ranks;  // of the job
+  std::optional<int> ranks;          // to start, or of the job
 };
 
 // Prints what a run reports.
@@ -84,7 +86,10 @@ int exit_code(const RunResult& result) {
   return estimated ? 0 : interrupted() ? 130 : 3;
 }
 
-void refuse_on_ranks(const RunArguments& arguments) {
+void refuse_on_ranks(const RunArguments& arguments, const Ranks* ranks = nullptr) {
+  if (ranks && arguments.ranks)
+    throw ConfigError(fmt::format("--ranks starts mpirun, which has already started {} ranks here; use one of the two",
+                                  ranks->size()));
   if (arguments.estimate_error)
     throw ConfigError("--estimate-error repeats the run, which it does not on several ranks; run again with a smaller "
                       "rtol or step, and compare");
@@ -94,7 +99,7 @@ void refuse_on_ranks(const RunArguments& arguments) {
 int run_scene_on(const Ranks* ranks, const RunArguments& arguments) {
   const bool tells = !ranks || ranks->is_first();
   const auto simulation = Simulation::from_file(arguments.scene, arguments.changes);
-  if (ranks) refuse_on_ranks(arguments);
+  if (ranks) refuse_on_ranks(arguments, ranks);
   RunListener nobody;
   std::optional<Terminal> terminal;
   if (tells) terminal.emplace(arguments.quiet);
@@ -128,7 +133,7 @@ std::vector<std::string> options_of(const RunArguments& arguments) {
 int write_job(const RunArguments& arguments) {
   Config config = read_scene_file(arguments.scene, arguments.changes).resolving();
   Scene scene = read_scene(config);
-  const int ranks = static_cast<int>(arguments.ranks.value_or(1));
+  const int ranks = arguments.ranks.value_or(1);
   if (ranks > 1) {
     refuse_on_ranks(arguments);
     require_to_run_on_ranks(config, scene);
@@ -149,9 +154,19 @@ int write_job(const RunArguments& arguments) {
   return 0;
 }
 
+[[noreturn]] void run_on_ranks(const RunArguments& arguments) {
+  std::vector<std::string> words{"run", arguments.scene};
+  for (const auto& option : options_of(arguments)) words.push_back(option);
+  if (arguments.out) words.insert(words.end(), {"--out", *arguments.out});
+  if (arguments.quiet) words.push_back("--quiet");
+  if (arguments.resume) words.push_back("--resume");
+  go_on_as_ranks(*arguments.ranks, words);
+}
+
 int run_scene(const RunArguments& given) {
   const RunArguments arguments = with_scene_of_folder(given);
   if (arguments.slurm) return write_job(arguments);
+  if (arguments.ranks.value_or(1) > 1 && !is_one_of_several_ranks()) run_on_ranks(arguments);
   catch_interrupts();
   return on_world_ranks([&](const Ranks* ranks) { return run_scene_on(ranks, arguments); });
 }
@@ -172,7 +187,8 @@ void declare(RunArguments& arguments, CommandOptions& options) {
       .excludes("--resume");
   options.value("--slurm", arguments.slurm, "The run as a job of SLURM: print its script, or submit it.")
       .choice({"print", "submit"});
-  options.value("--ranks", arguments.ranks, "Ranks of the job; default one.").range(1, 1000000).needs("--slurm");
+  options.value("--ranks", arguments.ranks, "Processes that compute the scene together, started by mpirun; default one.")
+      .range(1, 1'000'000);
 }
 
 const CommandRegistration run_command({.order = 10,
@@ -181,7 +197,7 @@ const CommandRegistration run_command({.order = 10,
                                          .examples = R"(
   orthodyn run configs/scenes/cantilever.yaml --set integrator.rtol=1e-5 --out out/fine
   orthodyn run configs/scenes/laminate.yaml --set checkpoint={} --resume
-  mpirun -n 2 orthodyn run configs/scenes/cantilever.yaml
+  orthodyn run configs/scenes/cantilever.yaml --ranks 2
   orthodyn run mine.yaml --slurm --ranks 64 > job.sh; sbatch job.sh)",
                                          .on_ranks = true},
                                         declare, run_scene);

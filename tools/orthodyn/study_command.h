@@ -11,9 +11,6 @@
 
 namespace orthodyn {
 
-// This executable, which does the jobs, too.
-std::filesystem::path this_program();
-
 // --out, or else `usual` / `name`.
 std::filesystem::path folder_for(const StudyArguments& arguments, const std::filesystem::path& usual,
                                  const std::string& name);

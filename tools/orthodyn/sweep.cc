@@ -15,6 +15,7 @@
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/failure_summary.h"
 #include "tools/orthodyn/job_array.h"
+#include "tools/orthodyn/mpirun.h"
 #include "tools/orthodyn/point_warnings.h"
 #include "tools/orthodyn/progress_reporter.h"
 #include "tools/orthodyn/study_command.h"

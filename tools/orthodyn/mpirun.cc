@@ -1,0 +1,82 @@
+#include "tools/orthodyn/mpirun.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+#include <thread>
+
+#include "lib/core/errors.h"
+#include "lib/linear/solver.h"
+#include "tools/orthodyn/notice.h"
+#include "tools/orthodyn/slurm.h"
+
+namespace orthodyn {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_on_path(const std::string& program) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (access((fs::path(folder) / program).c_str(), X_OK) == 0) return true;
+  return false;
+}
+
+// Open MPI would bind the first ranks of each group to the first cores, and start no more ranks than there are cores.
+void let_ranks_share_cores(int ranks, int groups) {
+  const int processes = ranks * groups, cores = static_cast<int>(std::thread::hardware_concurrency());
+  if (groups > 1 || processes > cores)
+    for (const char* variable : {"OMPI_MCA_hwloc_base_binding_policy", "PRTE_MCA_hwloc_default_binding_policy"})
+      setenv(variable, "none", 0);
+  if (processes <= cores) return;
+  print_notice(fmt::format("warning: {} processes on {} processors: ranks wait for each other, and take many times as "
+                           "long\n", processes, cores));
+  for (const char* variable : {"OMPI_MCA_rmaps_base_oversubscribe", "OMPI_MCA_mpi_yield_when_idle"})
+    setenv(variable, "1", 0);
+}
+
+}  // namespace
+
+fs::path this_program() { return fs::read_symlink("/proc/self/exe"); }
+
+void require_mpirun() {
+  if (const auto& why = solver_registry().at("petsc").unavailable; !why.empty())
+    throw ConfigError("--ranks: " + why);
+  if (!is_on_path("mpirun")) throw ConfigError("--ranks: there is no mpirun on the PATH (Debian: openmpi-bin)");
+  if (geteuid() == 0 && !std::getenv("OMPI_ALLOW_RUN_AS_ROOT") &&
+      output_of("mpirun --version 2>&1").find("Open MPI") != std::string::npos)
+    throw ConfigError("--ranks: as root, Open MPI asks for OMPI_ALLOW_RUN_AS_ROOT=1 and "
+                      "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 in the environment");
+}
+
+std::vector<std::string> program_on_ranks(int ranks, int groups) {
+  const std::string own = this_program().string();
+  if (ranks == 1) return {own};
+  let_ranks_share_cores(ranks, groups);
+  return {"mpirun", "-n", std::to_string(ranks), own};
+}
+
+void go_on_as_ranks(int ranks, const std::vector<std::string>& options) {
+  require_mpirun();
+  std::vector<std::string> words = program_on_ranks(ranks, 1);
+  words.insert(words.end(), options.begin(), options.end());
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  // Ranks that are to end have ten seconds for their checkpoint, where Open MPI would give them one.
+  setenv("OMPI_MCA_odls_base_sigkill_timeout", "10", 0);
+  sigset_t none;  // blocked signals are inherited
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  execvp(arguments.front(), arguments.data());
+  throw RunError(fmt::format("cannot start mpirun: {}", std::strerror(errno)));
+}
+
+}  // namespace orthodyn
