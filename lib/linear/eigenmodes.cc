@@ -62,11 +62,15 @@ class Problem {
   void multiply_mass(const ConstVectorRef& x, VectorRef y) const { pattern_.multiply(M_.data(), x, y); }
   void solve_shifted(const ConstVectorRef& b, VectorRef x) const { solver_->solve(b, x); }
 
-  // Factors K + s M; false if it is not positive definite.
+  // Factors K + s M, if it is not the last one; false if it is not positive definite.
   bool shift(double s) {
+    if (shift_ == s) return is_definite_;
+    shift_ = s;
+    is_definite_ = false;
     for (std::size_t k = 0; k < K_.size(); ++k) shifted_[k] = K_[k] + s * M_[k];
     if (solver_->is_iterative()) solver_->set_rigid_motions(softest_);
-    return solver_->factor(shifted_.data()) == FactorStatus::ok;
+    is_definite_ = solver_->factor(shifted_.data()) == FactorStatus::ok;
+    return is_definite_;
   }
 
   Eigen::MatrixXd dense(const std::vector<double>& values) const {
@@ -91,6 +95,8 @@ class Problem {
   const std::vector<double>&K_, &M_;
   Eigen::MatrixXd softest_;
   std::vector<double> shifted_;
+  std::optional<double> shift_;  // of `shifted_`
+  bool is_definite_ = false;
   std::unique_ptr<LinearSolver> solver_;
 };
 
@@ -161,10 +167,11 @@ EigenPairs sparse(Problem& problem, double largest, int count) {
   const int zeros = zeros_among(pairs.values, largest);
   if (zeros == 0 || zeros == wanted) return pairs;
   const double lowest = pairs.values.tail(pairs.values.size() - zeros).cwiseAbs().minCoeff();
-  if (!(lowest > shift) || !problem.shift(lowest)) return pairs;
+  if (!(lowest > shift)) return pairs;
   // Zeros no longer stand out there, and Lanczos' method may find one of several equal eigenvalues too few.
   for (int more = wanted; more <= std::min(problem.size() - 1, wanted + 3 * kRigid); more += kRigid)
-    if (EigenPairs again = lanczos(problem, lowest, more); zeros_among(again.values, largest) >= zeros) return again;
+    if (auto again = lanczos_if_definite(problem, lowest, more); again && zeros_among(again->values, largest) >= zeros)
+      return std::move(*again);
   return pairs;
 }
 

@@ -144,7 +144,12 @@ class GatheredSolver : public LinearSolver {
       told = {static_cast<double>(kind), static_cast<double>(reason)};
     };
     try {
-      if (ranks().is_first()) work();
+      try {
+        if (ranks().is_first()) work();
+      } catch (const std::bad_alloc&) {
+        throw RunError("out of memory on the first rank; use linear_solver: petsc, or a coarser mesh",
+                       Reason::out_of_memory);
+      }
     } catch (const RunError& e) {
       tell(Failure::run, e.reason());
     } catch (const RecoverableError&) {

@@ -18,6 +18,13 @@ bool is_one_of_several_ranks() {
   return false;
 }
 
+bool is_a_later_rank() {
+  if (!is_one_of_several_ranks()) return false;
+  for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK", "SLURM_PROCID"})
+    if (const char* rank = std::getenv(name)) return std::atoi(rank) > 0;
+  return false;
+}
+
 const Ranks* world_ranks() {
   if (!is_one_of_several_ranks()) return nullptr;
   return reinterpret_cast<WorldRanks*>(petsc_function("orthodyn_world_ranks"))();

@@ -13,7 +13,9 @@ const Ranks* world_ranks();
 // ConfigError where this build has no MPI.
 std::vector<int> parts_of_cells(const CellGraph& graph, int parts);
 
-// Whether it is one of several, as the launcher tells it: without starting MPI.
+// Whether it is one of several, and whether another one is the first of them, as the launcher tells it: without
+// starting MPI.
 bool is_one_of_several_ranks();
+bool is_a_later_rank();
 
 }  // namespace orthodyn

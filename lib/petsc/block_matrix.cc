@@ -1,4 +1,5 @@
 // The matrix of a model that is whole. Values are this object's, which PETSc reads where they are.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -53,7 +54,7 @@ class BlockMatrix : public SolverMatrix {
         values_[at(start_[at(row)])] = 1;
       }
     check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, rows_, rows_, start_.data(), column_.data(), values_.data(),
-                                    matrix_.put()));
+                                    matrix_.receive()));
     if (has_points) check(MatSetBlockSize(matrix_, 3));
     check(MatSetOption(matrix_, MAT_SYMMETRIC, PETSC_TRUE));
   }

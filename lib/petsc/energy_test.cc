@@ -5,6 +5,8 @@
 #include <limits>
 #include <string>
 
+#include "lib/core/errors.h"
+
 namespace orthodyn::petsc {
 
 namespace {
@@ -28,6 +30,8 @@ void EnergyTest::attach(KSP method) {
     try {
       *reason = static_cast<EnergyTest*>(test)->test(solver, iteration, residual);
       return static_cast<PetscErrorCode>(0);
+    } catch (const RunError& e) {
+      return e.reason() == Reason::out_of_memory ? PETSC_ERR_MEM : PETSC_ERR_LIB;
     } catch (...) {
       return PETSC_ERR_LIB;
     }

@@ -4,23 +4,28 @@
 #include <petscksp.h>
 #include <petscsf.h>
 
+#include <utility>
+
 namespace orthodyn::petsc {
 
-// Where PETSc may be called, also when it ends (Session); an empty one ends anywhere.
+// Made and destroyed while a Session lives; an empty one needs none.
 template <class Object, PetscErrorCode (*kDestroy)(Object*)>
 class Handle {
  public:
   Handle() = default;
   ~Handle() { reset(); }
   Handle(Handle&& other) noexcept : object_(other.object_) { other.object_ = nullptr; }
-  Handle& operator=(Handle&&) = delete;
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(object_, other.object_);
+    return *this;
+  }
 
   void reset() {
     if (object_) static_cast<void>(kDestroy(&object_));
     object_ = nullptr;
   }
-  // For a function that makes one.
-  Object* put() {
+  // Where a function of PETSc's puts the object that it makes.
+  Object* receive() {
     reset();
     return &object_;
   }

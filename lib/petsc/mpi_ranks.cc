@@ -1,12 +1,15 @@
 // Ranks (lib/core/ranks.h) by MPI, with PETSc's star forests for copies of nodes.
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <utility>
 
 #include "lib/core/errors.h"
 #include "lib/core/ranks.h"
@@ -17,10 +20,6 @@
 
 namespace orthodyn::petsc {
 namespace {
-
-void check_mpi(int code) {
-  if (code != MPI_SUCCESS) throw RunError("MPI: a call has failed (error " + std::to_string(code) + ")");
-}
 
 // How many values each rank has, known to the first.
 struct Counts {
@@ -43,24 +42,28 @@ struct Counts {
   std::size_t sum = 0;
 };
 
-int count_of(std::span<double> values) { return static_cast<int>(values.size()); }
+int count_of(std::span<const double> values) {
+  if (values.size() > std::numeric_limits<int>::max())
+    throw RunError("MPI sends less than 2^31 numbers at a time; use a coarser mesh");
+  return static_cast<int>(values.size());
+}
 
 class StarForest : public NodeExchange {
  public:
-  StarForest(int owned, const std::vector<RemoteNode>& copies) {
+  StarForest(int owned, const std::vector<RemoteNode>& copies) : owned_(owned), copies_(copies.size()) {
     const Session session;
+    OwnedForest forest;  // which ends while the session lives, should it not be made
     std::vector<PetscSFNode> roots;
     for (const auto& [rank, place] : copies) roots.push_back({rank, place});
     std::vector<PetscInt> leaves;
     for (std::size_t i = 0; i < copies.size(); ++i) leaves.push_back(owned + static_cast<PetscInt>(i));
-    check(PetscSFCreate(PETSC_COMM_WORLD, forest_.put()));
-    check(PetscSFSetGraph(forest_, owned, static_cast<PetscInt>(leaves.size()), leaves.data(), PETSC_COPY_VALUES,
+    check(PetscSFCreate(PETSC_COMM_WORLD, forest.receive()));
+    check(PetscSFSetGraph(forest, owned, static_cast<PetscInt>(leaves.size()), leaves.data(), PETSC_COPY_VALUES,
                           roots.data(), PETSC_COPY_VALUES));
-    check(PetscSFSetUp(forest_));
+    check(PetscSFSetUp(forest));
     check_mpi(MPI_Type_contiguous(3, MPI_DOUBLE, &three_));
     check_mpi(MPI_Type_commit(&three_));
-    owned_ = owned;
-    copies_ = copies.size();
+    forest_ = std::move(forest);
   }
   ~StarForest() override {
     const Session session;
@@ -119,9 +122,9 @@ class MpiRanks : public Ranks {
 
   std::vector<double> gather(std::span<const double> values) const override {
     const Session session;
-    const Counts counts(static_cast<int>(values.size()));
+    const Counts counts(count_of(values));
     std::vector<double> all(counts.sum);
-    check_mpi(MPI_Gatherv(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, all.data(), counts.of_rank.data(),
+    check_mpi(MPI_Gatherv(values.data(), count_of(values), MPI_DOUBLE, all.data(), counts.of_rank.data(),
                           counts.starts.data(), MPI_DOUBLE, 0, PETSC_COMM_WORLD));
     return all;
   }
@@ -172,6 +175,7 @@ class MpiRanks : public Ranks {
   }
 
   void abort(int exit_code) const override {
+    std::fflush(nullptr);  // MPI may end this process as it is
     MPI_Abort(MPI_COMM_WORLD, exit_code);
     std::_Exit(exit_code);
   }

@@ -2,6 +2,7 @@
 #include "lib/petsc/partition.h"
 
 #include <dlfcn.h>
+
 #include <algorithm>
 #include <cstdlib>
 
@@ -36,14 +37,14 @@ std::vector<int> partition_cells(const CellGraph& graph, int parts) {
   std::copy(graph.start.begin(), graph.start.end(), start);
   std::copy(graph.neighbours.begin(), graph.neighbours.end(), neighbours);
   OwnedMatrix adjacency;
-  check(MatCreateMPIAdj(PETSC_COMM_SELF, cells, cells, start, neighbours, nullptr, adjacency.put()));
+  check(MatCreateMPIAdj(PETSC_COMM_SELF, cells, cells, start, neighbours, nullptr, adjacency.receive()));
   OwnedPartitioning partitioning;
   OwnedNumbers numbers;
-  check(MatPartitioningCreate(PETSC_COMM_SELF, partitioning.put()));
+  check(MatPartitioningCreate(PETSC_COMM_SELF, partitioning.receive()));
   check(MatPartitioningSetAdjacency(partitioning, adjacency));
   check(MatPartitioningSetNParts(partitioning, parts));
   check(MatPartitioningSetType(partitioning, MATPARTITIONINGPTSCOTCH));
-  check(MatPartitioningApply(partitioning, numbers.put()));
+  check(MatPartitioningApply(partitioning, numbers.receive()));
   const PetscInt* values = nullptr;
   check(ISGetIndices(numbers, &values));
   std::copy_n(values, part.size(), part.begin());

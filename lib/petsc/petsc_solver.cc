@@ -57,7 +57,7 @@ class PetscSolver : public LinearSolver {
     matrix_ = SolverMatrix::of(pattern);
     takes_multigrid_ = !pattern.share || matrix_->fewest_unknowns() >= kFewestForMultigrid;
     with_blocks_ = !has_own_preconditioner_;
-    check(MatCreateVecs(matrix_->get(), x_.put(), b_.put()));
+    check(MatCreateVecs(matrix_->get(), x_.receive(), b_.receive()));
     make_method();
   }
 
@@ -103,7 +103,7 @@ class PetscSolver : public LinearSolver {
   }
 
   void set_rigid_motions(const Eigen::MatrixXd& motions) override {
-    if (motions.size() == 0) return;
+    if (motions.cols() == 0) return;
     const Session session;
     matrix_->set_rigid_motions(motions);
   }
@@ -177,7 +177,7 @@ class PetscSolver : public LinearSolver {
     options_ = std::make_unique<Options>(std::string(kKrylov) + (with_blocks_ ? kDiagonalBlocks : kMultigrid) +
                                          everywhere() + given_);
     const InUse in_use(*options_);
-    check(KSPCreate(pattern_->share ? PETSC_COMM_WORLD : PETSC_COMM_SELF, method_.put()));
+    check(KSPCreate(ranks(), method_.receive()));
     check(KSPSetOperators(method_, matrix_->get(), matrix_->get()));
     check(KSPSetFromOptions(method_));
     check(KSPSetResidualHistory(method_, nullptr, PETSC_DECIDE, PETSC_TRUE));
@@ -189,7 +189,13 @@ class PetscSolver : public LinearSolver {
     check(PCGetType(preconditioner, &kind));
     is_gamg_ = kind && std::string(kind) == PCGAMG;
     is_set_up_ = false;
+    if (is_gamg_ && !takes_multigrid_)
+      throw ConfigError(fmt::format("linear solver 'petsc' with options '{}': multigrid does not end where a rank has "
+                                    "less than {} unknowns; use fewer ranks, or no options", given_,
+                                    kFewestForMultigrid));
   }
+
+  MPI_Comm ranks() const { return pattern_->share ? PETSC_COMM_WORLD : PETSC_COMM_SELF; }
 
   double unknowns() const {
     return pattern_->share ? static_cast<double>(pattern_->share->unknowns) : static_cast<double>(pattern_->n);
@@ -224,7 +230,7 @@ class PetscSolver : public LinearSolver {
     check(KSPSetReusePreconditioner(method_, PETSC_TRUE));
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
     check(KSPGetConvergedReason(method_, &reason));
-    is_set_up_ = reason != KSP_DIVERGED_PC_FAILED;
+    is_set_up_ = !on_any(ranks(), reason == KSP_DIVERGED_PC_FAILED);  // which a rank knows of its own part
     is_new_ = true;
     is_worse_ = false;
     fresh_per_digit_ = 0;

@@ -77,16 +77,23 @@ void check(PetscErrorCode code) {
                              detail && *detail ? ": " : "", detail ? detail : ""));
 }
 
+void check_mpi(int code) {
+  if (code != MPI_SUCCESS) throw RunError("MPI: a call has failed (error " + std::to_string(code) + ")");
+}
+
+bool on_any(MPI_Comm ranks, bool here) {
+  int any = here ? 1 : 0;
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, ranks));
+  return any != 0;
+}
+
 Options::Options(const std::string& text) {
-  check(PetscOptionsCreate(&options_));
+  check(PetscOptionsCreate(options_.receive()));
   const auto first = text.find_first_not_of(' ');
   const bool is_list = first == std::string::npos || text[first] == '-';
   if (is_list && PetscOptionsInsertString(options_, text.c_str()) == 0) return;
-  static_cast<void>(PetscOptionsDestroy(&options_));
   throw ConfigError("linear solver 'petsc': '" + text + "' is no list of options such as -ksp_type cg -pc_type gamg");
 }
-
-Options::~Options() { static_cast<void>(PetscOptionsDestroy(&options_)); }
 
 bool Options::has(const char* name) const {
   PetscBool found = PETSC_FALSE;

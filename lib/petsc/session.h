@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lib/linear/blas.h"
+#include "lib/petsc/handle.h"
 
 namespace orthodyn::petsc {
 
@@ -23,24 +24,25 @@ class Session {
   std::optional<BlasThreadLimit> serial_blas_;  // its calls are short: a second thread would wait in vain
 };
 
-// Throws RunError, with what PETSc says, for what is no success.
+// Throw RunError, with what PETSc says, for what is no success.
 void check(PetscErrorCode code);
+void check_mpi(int code);
+
+// Whether it is so on one of the ranks. Collective.
+bool on_any(MPI_Comm ranks, bool here);
 
 // Options for PETSc's objects.
 class Options {
  public:
   // As on a command line; the later of two equal ones holds. Throws ConfigError for what is no list of options.
   explicit Options(const std::string& text);
-  ~Options();
-  Options(const Options&) = delete;
-  Options& operator=(const Options&) = delete;
 
   bool has(const char* name) const;
   std::vector<std::string> unused() const;  // names, without "-", of those that nobody has asked for
   PetscOptions get() const { return options_; }
 
  private:
-  PetscOptions options_ = nullptr;
+  Handle<PetscOptions, PetscOptionsDestroy> options_;
 };
 
 // While it lives, these are the options that objects read.

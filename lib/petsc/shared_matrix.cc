@@ -16,6 +16,8 @@ class SharedMatrix : public SolverMatrix {
     const PatternShare& share = *pattern.share;
     const std::int64_t first = 3 * share.first_point;
     rows_ = 3 * share.owned_points;
+    if (on_any(PETSC_COMM_WORLD, first + rows_ > std::numeric_limits<PetscInt>::max()))
+      throw RunError("the matrix has more than 2^31 rows; use a coarser mesh");
     for (int i = 0; i < share.owned; ++i) place_.push_back(static_cast<PetscInt>(share.row[at(i)] - first));
 
     std::vector<PetscInt> row, column;
@@ -34,7 +36,7 @@ class SharedMatrix : public SolverMatrix {
         column.push_back(row.back());
       }
     values_.assign(row.size(), 1);
-    check(MatCreate(PETSC_COMM_WORLD, matrix_.put()));
+    check(MatCreate(PETSC_COMM_WORLD, matrix_.receive()));
     check(MatSetSizes(matrix_, rows_, rows_, PETSC_DETERMINE, PETSC_DETERMINE));
     check(MatSetType(matrix_, MATMPIAIJ));
     check(MatSetBlockSize(matrix_, 3));
@@ -43,7 +45,7 @@ class SharedMatrix : public SolverMatrix {
     check(MatGetDiagonalBlock(matrix_, &own));
     check(MatSetBlockSize(own, 3));
     check(MatSetOption(matrix_, MAT_SYMMETRIC, PETSC_TRUE));
-    check(MatCreateVecs(matrix_, diagonal_.put(), nullptr));
+    check(MatCreateVecs(matrix_, diagonal_.receive(), nullptr));
   }
 
   bool set(const Pattern& pattern, const double* values) override {
@@ -58,20 +60,14 @@ class SharedMatrix : public SolverMatrix {
     double least = 0;
     check(MatGetDiagonal(matrix_, diagonal_));
     check(VecMin(diagonal_, nullptr, &least));
-    int usable = is_finite && least > 0 ? 1 : 0;
-    if (MPI_Allreduce(MPI_IN_PLACE, &usable, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD) != MPI_SUCCESS) return false;
-    return usable != 0;
+    return !on_any(PETSC_COMM_WORLD, !is_finite || !(least > 0));
   }
 
   // With what PETSc keeps to sum entries by.
   std::size_t bytes() const override { return 3 * values_.size() * sizeof(double); }
 
  private:
-  static PetscInt to_index(std::int64_t row) {
-    if (row > std::numeric_limits<PetscInt>::max())
-      throw RunError("the matrix has more than 2^31 rows; use a coarser mesh");
-    return static_cast<PetscInt>(row);
-  }
+  static PetscInt to_index(std::int64_t row) { return static_cast<PetscInt>(row); }
 
   std::vector<double> values_;  // as PETSc was told their places: the last ones, of held coordinates, are 1
   OwnedVector diagonal_;

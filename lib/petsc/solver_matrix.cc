@@ -38,7 +38,7 @@ std::unique_ptr<SolverMatrix> SolverMatrix::of(const Pattern& pattern) {
 void SolverMatrix::set_rigid_motions(const Eigen::MatrixXd& motions) {
   std::vector<OwnedVector> columns(static_cast<std::size_t>(motions.cols()));
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    check(MatCreateVecs(matrix_, columns[c].put(), nullptr));
+    check(MatCreateVecs(matrix_, columns[c].receive(), nullptr));
     scatter(motions.col(static_cast<Eigen::Index>(c)), columns[c]);
   }
   orthonormalize(columns);
@@ -47,15 +47,15 @@ void SolverMatrix::set_rigid_motions(const Eigen::MatrixXd& motions) {
     if (!is_zero(column)) independent.push_back(column);
   OwnedNullSpace space;
   check(MatNullSpaceCreate(PetscObjectComm(reinterpret_cast<PetscObject>(matrix_.get())), PETSC_FALSE,
-                           static_cast<PetscInt>(independent.size()), independent.data(), space.put()));
+                           static_cast<PetscInt>(independent.size()), independent.data(), space.receive()));
   check(MatSetNearNullSpace(matrix_, space));
 }
 
 int SolverMatrix::fewest_unknowns() const {
   int fewest = static_cast<int>(place_.size());
   const MPI_Comm ranks = PetscObjectComm(reinterpret_cast<PetscObject>(matrix_.get()));
-  const bool done = MPI_Allreduce(MPI_IN_PLACE, &fewest, 1, MPI_INT, MPI_MIN, ranks) == MPI_SUCCESS;
-  return done ? fewest : 0;
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &fewest, 1, MPI_INT, MPI_MIN, ranks));
+  return fewest;
 }
 
 void SolverMatrix::scatter(const ConstVectorRef& x, Vec out) const {

@@ -1,6 +1,10 @@
 // PETSc's solver: as good as its tolerance says, whichever preconditioner it takes, and what it does where it cannot.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "lib/linear/solver.h"
 #include "tests/linear/systems.h"
 
@@ -22,6 +26,28 @@ class Petsc : public testing::Test {
 
   Random random_{93};
 };
+
+// Each point with as many others as neighbours, wherever they are.
+System far_neighbours(Random& random, int n, int count) {
+  std::vector<std::vector<int>> rows(static_cast<std::size_t>(n));
+  for (int j = 0; j < n; ++j)
+    for (int c = 0; c < count / 2; ++c) {
+      const int i = static_cast<int>(random.between(0, n - 1));
+      if (i != j) rows[static_cast<std::size_t>(std::min(i, j))].push_back(std::max(i, j));
+    }
+  System s;
+  s.pattern.n = n;
+  s.pattern.column_start.push_back(0);
+  for (int j = 0; j < n; ++j) {
+    auto& below = rows[static_cast<std::size_t>(j)];
+    below.push_back(j);
+    std::sort(below.begin(), below.end());
+    below.erase(std::unique(below.begin(), below.end()), below.end());
+    s.pattern.row.insert(s.pattern.row.end(), below.begin(), below.end());
+    s.pattern.column_start.push_back(s.pattern.non_zeros());
+  }
+  return s;
+}
 
 double energy_error(const System& s, const Vector& x, const Vector& exact) {
   const Vector e = x - exact;
@@ -107,6 +133,32 @@ TEST_F(Petsc, TakesMultigridWhereTheDiagonalIsNotEnough) {
   EXPECT_LE(energy_error(chain, x, exact), 1e-7);
 }
 
+// Matrices of a run are alike: multigrid of the first one serves, until iterations tell that it does no longer.
+TEST_F(Petsc, SetsMultigridUpAgainOnlyWhenItHasBecomeWorse) {
+  System s = laplacian(12);
+  const auto solver = factored(s, "-pc_type gamg");
+  const auto solve_with = [&](double weight) {  // of the first half of the points
+    System now = s;
+    for (int j = 0; j < now.pattern.n / 2; ++j)
+      for (int k = now.pattern.column_start[static_cast<std::size_t>(j)];
+           k < now.pattern.column_start[static_cast<std::size_t>(j) + 1]; ++k)
+        now.values[static_cast<std::size_t>(k)] *= weight;
+    for (int i = 0; i < now.pattern.n; ++i) diagonal(now, i) += 6 * weight;
+    ASSERT_EQ(solver->factor(now.values.data()), FactorStatus::ok);
+    Vector x(now.pattern.n);
+    solver->set_tolerance({1e-8});
+    solver->solve(Vector::Ones(now.pattern.n), x);
+  };
+  const auto set_ups = [&] {
+    const std::string text = solver->description();
+    return std::stoi(text.substr(text.find("set up ") + 7));
+  };
+  for (const double weight : {1.0, 1.01, 1.02, 1.03}) solve_with(weight);
+  EXPECT_EQ(set_ups(), 1) << solver->description();
+  for (const double weight : {1e4, 1e4, 1e4}) solve_with(weight);
+  EXPECT_EQ(set_ups(), 2) << solver->description();
+}
+
 TEST_F(Petsc, FindsANegativeDiagonalAtOnce) {
   System s = laplacian(4);
   diagonal(s, 20) = -0.5;
@@ -126,6 +178,18 @@ TEST_F(Petsc, FindsAnIndefiniteMatrixOnItsWay) {
   Vector x = Vector::Constant(s.pattern.n, 7);
   EXPECT_THROW(solver->solve(b, x), IndefiniteMatrix);
   EXPECT_EQ(x, Vector::Constant(s.pattern.n, 7));
+}
+
+// What a factor takes is known from its analysis: of a grid of 10^5 points little, of as many with neighbours anywhere
+// more memory and time than there are.
+TEST_F(Petsc, IsChosenWhereAFactorCostsMore) {
+  const auto chosen = [](const System& s) {
+    const auto solver = make_linear_solver({"auto"}, s.pattern);
+    return solver->description();
+  };
+  EXPECT_TRUE(chosen(laplacian(47)).starts_with("cholmod:")) << chosen(laplacian(47));
+  EXPECT_TRUE(chosen(far_neighbours(random_, 101'000, 6)).starts_with("petsc:"));
+  EXPECT_TRUE(chosen(far_neighbours(random_, 2'000, 6)).starts_with("cholmod:"));
 }
 
 TEST_F(Petsc, SaysThatItDoesNotConverge) {
