@@ -52,8 +52,9 @@ std::vector<pid_t> family(pid_t process) {
   std::vector<pid_t> all{process};
   for (std::size_t k = 0; k < all.size(); ++k) {
     std::error_code gone;
-    for (const auto& thread : fs::directory_iterator("/proc/" + std::to_string(all[k]) + "/task", gone)) {
-      std::ifstream children(thread.path() / "children");
+    const std::string tasks = "/proc/" + std::to_string(all[k]) + "/task";
+    for (fs::directory_iterator thread(tasks, gone), end; !gone && thread != end; thread.increment(gone)) {
+      std::ifstream children(thread->path() / "children");
       for (pid_t child = 0; children >> child;) all.push_back(child);
     }
   }
@@ -95,6 +96,21 @@ void kill_and_reap(pid_t child) {
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
 }
 
+// A process that this one waits for: without it, it ends with all that it has started.
+class Running {
+ public:
+  explicit Running(pid_t process) : process_(process) {}
+  ~Running() {
+    if (process_ > 0) kill_and_reap(process_);
+  }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+  void has_ended() { process_ = 0; }
+
+ private:
+  pid_t process_;
+};
+
 }  // namespace
 
 ProcessEnd run_process(const std::vector<std::string>& argv, const std::filesystem::path& log,
@@ -106,6 +122,7 @@ ProcessEnd run_process(const std::vector<std::string>& argv, const std::filesyst
   const pid_t child = fork();
   if (child < 0) throw RunError(std::string("cannot start a process: ") + std::strerror(errno));
   if (child == 0) become(arguments.data(), log.c_str(), parent);
+  Running process(child);
   setpgid(child, child);  // whoever of the two comes first
 
   const auto end =
@@ -113,16 +130,15 @@ ProcessEnd run_process(const std::vector<std::string>& argv, const std::filesyst
   for (long poll = 0;; ++poll) {
     int status = 0;
     const pid_t done = waitpid(child, &status, WNOHANG);
-    if (done == child) return ended(status);
+    if (done == child) {
+      process.has_ended();
+      return ended(status);
+    }
     if (done < 0 && errno != EINTR) throw RunError(std::string("a process was lost: ") + std::strerror(errno));
-    const auto killed = [&](ProcessEnd::Kind why) {
-      kill_and_reap(child);
-      return ProcessEnd{why, 0};
-    };
-    if (stop()) return killed(ProcessEnd::Kind::interrupted);
-    if (Clock::now() > end) return killed(ProcessEnd::Kind::timed_out);
+    if (stop()) return {ProcessEnd::Kind::interrupted, 0};
+    if (Clock::now() > end) return {ProcessEnd::Kind::timed_out, 0};
     const double memory = poll % kPollsForFamily == 0 ? memory_of_family(child) : memory_in_use(child);
-    if (memory > limits.memory) return killed(ProcessEnd::Kind::out_of_memory);
+    if (memory > limits.memory) return {ProcessEnd::Kind::out_of_memory, 0};
     std::this_thread::sleep_for(kPoll);
   }
 }
