@@ -9,7 +9,7 @@
 
 namespace orthodyn {
 
-// Of the elements of a region, in their order.
+// Of a term's elements on this rank, in their order.
 struct RegionMeshError {
   Vector volume;  // m^3
   Vector error;   // J, elastic energy of the error that the mesh makes
@@ -25,7 +25,7 @@ SixColumns misfit_of_region(const ElementMesh& mesh, const RegionRecovery& recov
 RegionMeshError mesh_error(const ElementMesh& mesh, const ElasticTerm& term, const RegionRecovery& recovery,
                            const std::vector<int>& places, const SixColumns& computed);
 
-// The integral of a : C^-1 : b over the term's elements, J, of misfits of the region.
+// The integral of a : C^-1 : b over the term's elements, J; a, b: misfits of the region.
 double misfit_product(const ElementMesh& mesh, const ElasticTerm& term, const std::vector<int>& places,
                       const SixColumns& a, const SixColumns& b);
 

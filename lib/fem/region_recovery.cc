@@ -1,5 +1,6 @@
 #include "lib/fem/region_recovery.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <tuple>
