@@ -133,7 +133,7 @@ Task task_of(const Scene& scene, const BuiltScene& built) {
 Setup set_up(const Config& input, bool linear_so_far, bool is_timed, const Ranks* ranks) {
   Config config = input.resolving();
   Scene scene = read_scene(config);
-  if (ranks) require_to_run_on_ranks(config, scene);
+  if (ranks) settle_for_ranks(config, scene);
   std::optional<KinematicsChoice> kinematics;
   std::unique_ptr<LinearityWatch> linearity;
   const auto build_it = [&] {

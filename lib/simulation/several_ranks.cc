@@ -8,7 +8,7 @@
 
 namespace orthodyn {
 
-void require_to_run_on_ranks(Config& config, Scene& scene) {
+void settle_for_ranks(Config& config, Scene& scene) {
   if (scene.analysis == Analysis::buckling)
     config.at("analysis").fail("buckling is analysed by one process, not on several ranks");
   if (scene.analysis == Analysis::dynamic && !scene.integrator->runs_on_ranks()) {

@@ -9,7 +9,7 @@
 namespace orthodyn {
 
 // Throws ConfigError, at the key, for what they cannot; makes choices that are open for one process only.
-void require_to_run_on_ranks(Config& config, Scene& scene);
+void settle_for_ranks(Config& config, Scene& scene);
 
 // How many there are; 1 for null.
 int number_of(const Ranks* ranks);

@@ -345,7 +345,7 @@ TEST_F(CommandLine, OptionsThatDoNotGoTogetherAreRefused) {
   for (const std::string arguments :
        {"run a.yaml --force --resume", "run a.yaml --resume --estimate-error", "check a.yaml --out b",
         "sweep a.yaml --tasks 3", "sweep a.yaml --jobs 0", "sweep a.yaml --slurm=fast",
-        "sweep a.yaml --collect --retry", "modes a.yaml -n 0", "run a.yaml --ranks 2"}) {
+        "sweep a.yaml --collect --retry", "modes a.yaml -n 0"}) {
     const auto result = orthodyn(arguments);
     EXPECT_EQ(result.exit_code, 2) << arguments;
     EXPECT_NE(result.output.find("Run with --help"), std::string::npos) << arguments << "\n" << result.output;

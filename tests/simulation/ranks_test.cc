@@ -85,15 +85,13 @@ TEST_F(SeveralRanks, TellWhatIsWrongWithACommandLineOnce) {
   for (const auto& [line, words] : {std::pair{"walk beam.yaml", "there is no command 'walk'"},
                                     {"run beam.yaml --fast", "--fast"},
                                     {"check beam.yaml", "is for one process"},
+                                    {"--plugin none.so run beam.yaml", "--plugin none.so: no such file"},
                                     {"run beam.yaml --ranks 2", "has already started 3 ranks"}}) {
     write("beam.yaml", kBeam + kShort);
     const auto result = orthodyn_on(3, line);
     EXPECT_EQ(result.exit_code, 2) << result.output;
     EXPECT_EQ(count(result.output, words), 1) << result.output;
   }
-  const auto help = orthodyn_on(2, "run --help");
-  EXPECT_EQ(help.exit_code, 0) << help.output;
-  EXPECT_EQ(count(help.output, "Usage:"), 1) << help.output;
 }
 
 TEST_F(SeveralRanks, AreStartedByAnOption) {
@@ -106,7 +104,12 @@ TEST_F(SeveralRanks, AreStartedByAnOption) {
   EXPECT_EQ(record("by_option").at("ranks"), 2);
   ASSERT_EQ(orthodyn_on(2, "run beam.yaml --quiet --out by_mpirun").exit_code, 0);
   EXPECT_EQ(read_text(folder_ / "by_option/energy.csv"), read_text(folder_ / "by_mpirun/energy.csv"));
-  EXPECT_EQ(start("--ranks 2 --out bad --set gravitas=1").exit_code, 2);
+  const auto bad = start("--ranks 2 --out bad --set gravitas=1");
+  EXPECT_EQ(bad.exit_code, 2) << bad.output;
+  EXPECT_EQ(count(bad.output, "error: "), 1) << bad.output;
+  const auto nothing = shell("cd " + folder_.string() + " && PATH=/nowhere " + program() + " run beam.yaml --ranks 2");
+  EXPECT_EQ(nothing.exit_code, 2) << nothing.output;
+  EXPECT_NE(nothing.output.find("no mpirun on the PATH"), std::string::npos) << nothing.output;
   const auto resumed = start("--ranks 3 --quiet --out by_option --resume --set time.end=0.5");
   EXPECT_EQ(resumed.exit_code, 0) << resumed.output;
   EXPECT_EQ(record("by_option").at("restarts").size(), 1u);
@@ -114,6 +117,13 @@ TEST_F(SeveralRanks, AreStartedByAnOption) {
 
 TEST_F(SeveralRanks, AreRefusedByNameWhereTheyCannotCompute) {
   write("beam.yaml", kBeam + kShort);
+  write("column.yaml", R"(
+analysis: buckling
+mesh: {type: box, size: [1, 0.2, 0.2], cells: [4, 1, 1]}
+materials: {soft: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
+clamps: [{surface: x0}]
+loads: [{surface: x1, force: [-20, 0, 0]}]
+)");
   const auto expect_refusal = [&](const std::string& arguments, const std::string& words) {
     const auto result = orthodyn_on(2, arguments);
     EXPECT_EQ(result.exit_code, 2) << result.output;
@@ -125,13 +135,19 @@ TEST_F(SeveralRanks, AreRefusedByNameWhereTheyCannotCompute) {
                  "'klu_full' does not run on several ranks");
   expect_refusal("run beam.yaml --set mass=consistent", "mass: lumped");
   expect_refusal("run beam.yaml --estimate-error", "--estimate-error");
+  expect_refusal("run beam.yaml --slurm", "--slurm");
+  expect_refusal("run column.yaml", "buckling is analysed by one process");
 }
 
 // As at Ctrl-C, which reaches mpirun: what was computed is kept, and the run goes on.
-TEST_F(SeveralRanks, EndTogetherWhenTheyAreInterrupted) {
+class InterruptedRanks : public SeveralRanks, public testing::WithParamInterface<const char*> {};
+
+TEST_P(InterruptedRanks, EndTogether) {
   write("beam.yaml", kBeam + kEndless);
+  const std::string start = std::string(GetParam()) == "mpirun" ? mpirun(2) : for_any_user() + program() + " ";
+  const std::string ranks = std::string(GetParam()) == "mpirun" ? "" : " --ranks 2";
   const auto result = shell(
-      "cd " + folder_.string() + " && { " + mpirun(2) + "run beam.yaml --out stopped & pid=$!; " +
+      "cd " + folder_.string() + " && { " + start + "run beam.yaml --out stopped" + ranks + " & pid=$!; " +
       until_it_has_begun("stopped") + "kill -INT $(pgrep -P $pid -x mpirun || echo $pid); " + until_it_has_ended());
   EXPECT_NE(result.exit_code, 0) << result.output;
   EXPECT_EQ(result.output.find("still there"), std::string::npos) << result.output;
@@ -140,6 +156,9 @@ TEST_F(SeveralRanks, EndTogetherWhenTheyAreInterrupted) {
                                           std::to_string(reached + 0.05));
   EXPECT_EQ(resumed.exit_code, 0) << resumed.output;
 }
+
+INSTANTIATE_TEST_SUITE_P(Start, InterruptedRanks, testing::Values("mpirun", "option"),
+                         [](const auto& how) { return std::string(how.param); });
 
 // The first rank cannot write its frames any more, which the others do not see.
 TEST_F(SeveralRanks, EndTogetherWhenOneFailsAlone) {

@@ -20,7 +20,7 @@ class SeveralRanks : public Resume {
   // Also for root, and for more ranks than there are cores.
   static std::string for_any_user() {
     return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
-           "OMPI_MCA_mpi_yield_when_idle=1 ";
+           "PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe OMPI_MCA_mpi_yield_when_idle=1 ";
   }
   static std::string mpirun(int ranks) {
     return for_any_user() + "mpirun -n " + std::to_string(ranks) + " " + program() + " ";

@@ -116,7 +116,7 @@ void require_points_to_run_on_ranks(const Design& design) {
   for (const Point& point : design.points) {
     Config config = point_scene(design, point).resolving();
     Scene scene = read_scene(config);
-    require_to_run_on_ranks(config, scene);
+    settle_for_ranks(config, scene);
   }
 }
 

@@ -67,7 +67,7 @@ void require_meshes_to_run_on_ranks(const ConvergeArguments& arguments) {
     throw ConfigError("--modes: natural frequencies are computed by one process; remove --ranks");
   Config config = read_scene_file(arguments.file, {.set = arguments.set}).resolving();
   Scene scene = read_scene(config);
-  require_to_run_on_ranks(config, scene);
+  settle_for_ranks(config, scene);
 }
 
 int converge(const ConvergeArguments& arguments) {

@@ -34,6 +34,13 @@ void start_with_one_blas_thread_if_addresses_are_limited(char** argv) {
   execv("/proc/self/exe", argv);  // returns only where it fails; then with as many threads as there are
 }
 
+int tell(const orthodyn::Answer& answer) {
+  if (answer.exit_code != 0) orthodyn::let_first_rank_tell();
+  std::cout << answer.out;
+  orthodyn::print_notice(answer.err);
+  return answer.exit_code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -47,22 +54,21 @@ int main(int argc, char** argv) {
   end_with_parent_if_asked();
   try {
     const CommandLine line = parse_command_line(argc, argv);
-    const std::optional<Answer> answer = line.answer ? line.answer : refusal_on_ranks(line);
-    if (!answer) load_plugins(line.plugins);
-    const int code = answer ? tell_once(*answer) : line.run();
+    if (!line.answer) {
+      require_one_rank_unless(line.on_ranks, line.name);
+      load_plugins(line.plugins);
+    }
+    const int code = line.answer ? tell(*line.answer) : line.run();
     // What is printed may wait in a buffer until here.
     std::cout.flush();
     if (!std::cout || std::fflush(stdout) != 0)
       throw RunError(fmt::format("cannot write to the standard output: {}", std::strerror(errno)));
     return code;
   } catch (const ConfigError& e) {
-    print_notice(fmt::format("error: {}\n", e.what()));
-    return 2;
+    return tell({2, "", fmt::format("error: {}\n", e.what())});
   } catch (const std::bad_alloc&) {
-    print_notice("error: out of memory; use a coarser mesh\n");
-    return 3;
+    return tell({3, "", "error: out of memory; use a coarser mesh\n"});
   } catch (const std::exception& e) {
-    print_notice(fmt::format("error: {}\n", e.what()));
-    return 3;
+    return tell({3, "", fmt::format("error: {}\n", e.what())});
   }
 }

@@ -29,19 +29,6 @@ bool is_on_path(const std::string& program) {
   return false;
 }
 
-// Open MPI would bind the first ranks of each group to the first cores, and start no more ranks than there are cores.
-void let_ranks_share_cores(int ranks, int groups) {
-  const int processes = ranks * groups, cores = static_cast<int>(std::thread::hardware_concurrency());
-  if (groups > 1 || processes > cores)
-    for (const char* variable : {"OMPI_MCA_hwloc_base_binding_policy", "PRTE_MCA_hwloc_default_binding_policy"})
-      setenv(variable, "none", 0);
-  if (processes <= cores) return;
-  print_notice(fmt::format("warning: {} processes on {} processors: ranks wait for each other, and take many times as "
-                           "long\n", processes, cores));
-  for (const char* variable : {"OMPI_MCA_rmaps_base_oversubscribe", "OMPI_MCA_mpi_yield_when_idle"})
-    setenv(variable, "1", 0);
-}
-
 }  // namespace
 
 fs::path this_program() { return fs::read_symlink("/proc/self/exe"); }
@@ -56,22 +43,37 @@ void require_mpirun() {
                       "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 in the environment");
 }
 
-std::vector<std::string> program_on_ranks(int ranks, int groups) {
+std::vector<std::string> program_on_ranks(int ranks) {
   const std::string own = this_program().string();
   if (ranks == 1) return {own};
-  let_ranks_share_cores(ranks, groups);
   return {"mpirun", "-n", std::to_string(ranks), own};
 }
 
-void go_on_as_ranks(int ranks, const std::vector<std::string>& options) {
+// Open MPI would bind the first ranks of each group to the first processors, and start no more than there are; versions
+// 4 and 5 read other variables.
+void let_ranks_share_processors(int ranks, int groups) {
+  if (ranks == 1 || std::getenv("SLURM_JOB_ID")) return;
+  const long processes = static_cast<long>(ranks) * groups, processors = std::thread::hardware_concurrency();
+  if (groups > 1 || processes > processors)
+    for (const char* variable : {"OMPI_MCA_hwloc_base_binding_policy", "PRTE_MCA_hwloc_default_binding_policy"})
+      setenv(variable, "none", 0);
+  if (processes <= processors) return;
+  print_notice(fmt::format("warning: {} processes on {} processors: ranks wait for each other, and take many times as "
+                           "long\n", processes, processors));
+  setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 0);
+  setenv("PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe", 0);
+  setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+}
+
+void go_on_as_ranks(int ranks, const std::vector<std::string>& words) {
   require_mpirun();
-  std::vector<std::string> words = program_on_ranks(ranks, 1);
-  words.insert(words.end(), options.begin(), options.end());
+  let_ranks_share_processors(ranks, 1);
+  std::vector<std::string> line = program_on_ranks(ranks);
+  line.insert(line.end(), words.begin(), words.end());
   std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
+  for (std::string& word : line) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  // Ranks that are to end have ten seconds for their checkpoint, where Open MPI would give them one.
-  setenv("OMPI_MCA_odls_base_sigkill_timeout", "10", 0);
+  setenv(kPatienceVariable, kPatience, 0);
   sigset_t none;  // blocked signals are inherited
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);

@@ -2,48 +2,43 @@
 
 #include <fmt/format.h>
 #include <sys/prctl.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
 #include <exception>
-#include <iostream>
 
 #include "lib/core/errors.h"
 #include "lib/core/write_file.h"
 #include "lib/linear/world.h"
+#include "lib/simulation/several_ranks.h"
 #include "tools/orthodyn/notice.h"
 
 namespace orthodyn {
 
 namespace {
 
-constexpr double kSecondsToMeet = 10;
 constexpr int kInputAtFault = 2, kCouldNotGoOn = 3;
 
 // Rethrows what all ranks have thrown on the first one.
 int after_failure(const Ranks& ranks, const std::string& message, int exit_code) {
-  if (!ranks.meet(kSecondsToMeet)) end_all_ranks(ranks, message);
+  if (failed_alone(&ranks)) end_all_ranks(ranks, message);
   if (ranks.is_first()) std::rethrow_exception(std::current_exception());
   return exit_code;
 }
 
 }  // namespace
 
-std::optional<Answer> refusal_on_ranks(const CommandLine& line) {
-  if (line.on_ranks || !is_one_of_several_ranks()) return std::nullopt;
-  return Answer{2, "", fmt::format("error: `orthodyn {}` is for one process; mpirun starts several of `orthodyn run` "
-                                   "only, and studies take --ranks\n", line.name)};
+void require_one_rank_unless(bool on_ranks, const std::string& command) {
+  if (!on_ranks && is_one_of_several_ranks())
+    throw ConfigError(fmt::format("`orthodyn {}` is for one process; mpirun starts several of `orthodyn run` only, and "
+                                  "studies take --ranks",
+                                  command));
 }
 
-int tell_once(const Answer& answer) {
-  return on_world_ranks([&](const Ranks* ranks) {
-    if (!ranks || ranks->is_first()) {
-      std::cout << answer.out;
-      print_notice(answer.err);
-    }
-    if (ranks) ranks->meet(kSecondsToMeet);  // the first one that ends would end the others
-    return answer.exit_code;
-  });
+void let_first_rank_tell() {
+  constexpr unsigned kSeconds = 2;
+  if (is_a_later_rank()) sleep(kSeconds);
 }
 
 int on_world_ranks(const std::function<int(const Ranks*)>& work) {

@@ -3,19 +3,18 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 
 #include "lib/core/ranks.h"
-#include "tools/orthodyn/command_line.h"
 
 namespace orthodyn {
 
-// What is wrong with a command line where this process is one of several, and the command is not for that.
-std::optional<Answer> refusal_on_ranks(const CommandLine& line);
+// Throws ConfigError where this process is one of several, and the command is not for that.
+void require_one_rank_unless(bool on_ranks, const std::string& command);
 
-// Prints it, once for all ranks; returns its exit code.
-int tell_once(const Answer& answer);
+// Before an error that all ranks have found, each for itself: later ranks wait while the first one tells it and ends,
+// with which mpirun ends them.
+void let_first_rank_tell();
 
 // work(ranks), which is null for a process that is alone; returns its exit code. Exceptions that all ranks throw come
 // from the first of them; the others return the exit code that belongs to it.

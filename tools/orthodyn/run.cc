@@ -19,7 +19,6 @@
 #include "tools/orthodyn/scene_options.h"
 #include "tools/orthodyn/slow_set_up.h"
 #include "tools/orthodyn/slurm.h"
-#include "tools/orthodyn/study_command.h"
 #include "tools/orthodyn/terminal_progress.h"
 
 namespace orthodyn {
@@ -136,7 +135,7 @@ int write_job(const RunArguments& arguments) {
   const int ranks = arguments.ranks.value_or(1);
   if (ranks > 1) {
     refuse_on_ranks(arguments);
-    require_to_run_on_ranks(config, scene);
+    settle_for_ranks(config, scene);
   }
   fs::path folder = fs::absolute(folder_for(arguments)).lexically_normal();
   if (folder.filename().empty()) folder = folder.parent_path();  // "out/fine/"
@@ -165,6 +164,8 @@ int write_job(const RunArguments& arguments) {
 
 int run_scene(const RunArguments& given) {
   const RunArguments arguments = with_scene_of_folder(given);
+  if (arguments.slurm && is_one_of_several_ranks())
+    throw ConfigError("--slurm writes one job, which starts mpirun itself: call it without mpirun");
   if (arguments.slurm) return write_job(arguments);
   if (arguments.ranks.value_or(1) > 1 && !is_one_of_several_ranks()) run_on_ranks(arguments);
   catch_interrupts();

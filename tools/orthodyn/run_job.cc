@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "tools/orthodyn/mpirun.h"
 #include "tools/orthodyn/slurm.h"
 
 namespace orthodyn {
@@ -12,8 +13,7 @@ std::string run_script(const RunJob& job) {
   for (const auto& option : job.options) command += " " + shell_quoted(option);
   if (job.goes_on) command += " --resume";
   std::string launch;
-  // Ranks that are to end have ten seconds for their checkpoint, where Open MPI would give them one.
-  const char* const patience = job.ranks > 1 ? "export OMPI_MCA_odls_base_sigkill_timeout=10\n" : "";
+  const std::string patience = job.ranks > 1 ? fmt::format("export {}={}\n", kPatienceVariable, kPatience) : "";
   if (job.ranks > 1) launch = fmt::format("mpirun -n {} ", job.ranks);
   if (job.ranks > 1 && job.threads > 1) launch += fmt::format("--map-by slot:PE={} ", job.threads);
   return fmt::format(R"(#!/bin/sh

@@ -162,8 +162,8 @@ void print_what_remains(const RunResult& result) {
     fmt::print(stderr, "interrupted at t = {:.6g} s; what was computed is in {}\n", result.outcome.last.t,
                result.folder.string());
   if (result.outcome.status != Outcome::Status::completed && result.resumable)
-    fmt::print(stderr, "to continue: {}orthodyn run {} --resume\n",
-               result.ranks > 1 ? fmt::format("mpirun -n {} ", result.ranks) : "", result.folder.string());
+    fmt::print(stderr, "to continue: orthodyn run {} --resume{}\n",
+               result.folder.string(), result.ranks > 1 ? fmt::format(" --ranks {}", result.ranks) : "");
 }
 
 }  // namespace

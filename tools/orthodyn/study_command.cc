@@ -26,7 +26,8 @@ study::JobQueue job_queue(const StudyArguments& arguments, int workers) {
   catch_interrupts();
   const auto failures = arguments.retry ? study::OldFailures::retry : study::OldFailures::keep;
   const auto warn = [](const std::string& text) { fmt::print(stderr, "warning: {}\n", text); };
-  return {{program_on_ranks(arguments.ranks, workers), workers, failures, warn}, interrupted()};
+  let_ranks_share_processors(arguments.ranks, workers);
+  return {{program_on_ranks(arguments.ranks), workers, failures, warn}, interrupted()};
 }
 
 int worker_count(const StudyArguments& arguments) {
