@@ -130,11 +130,10 @@ ProcessEnd run_process(const std::vector<std::string>& argv, const std::filesyst
   for (long poll = 0;; ++poll) {
     int status = 0;
     const pid_t done = waitpid(child, &status, WNOHANG);
-    if (done == child) {
-      process.has_ended();
-      return ended(status);
-    }
-    if (done < 0 && errno != EINTR) throw RunError(std::string("a process was lost: ") + std::strerror(errno));
+    const bool is_lost = done < 0 && errno != EINTR;
+    if (done == child || is_lost) process.has_ended();
+    if (done == child) return ended(status);
+    if (is_lost) throw RunError(std::string("a process was lost: ") + std::strerror(errno));
     if (stop()) return {ProcessEnd::Kind::interrupted, 0};
     if (Clock::now() > end) return {ProcessEnd::Kind::timed_out, 0};
     const double memory = poll % kPollsForFamily == 0 ? memory_of_family(child) : memory_in_use(child);
