@@ -52,12 +52,13 @@ std::vector<std::string> program_on_ranks(int ranks) {
 // Open MPI would bind the first ranks of each group to the first processors, and start no more than there are; versions
 // 4 and 5 read other variables.
 void let_ranks_share_processors(int ranks, int groups) {
-  if (ranks == 1 || std::getenv("SLURM_JOB_ID")) return;
+  if (ranks == 1) return;
   const long processes = static_cast<long>(ranks) * groups, processors = std::thread::hardware_concurrency();
-  if (groups > 1 || processes > processors)
+  const bool are_too_many = processes > processors && !std::getenv("SLURM_JOB_ID");
+  if (groups > 1 || are_too_many)
     for (const char* variable : {"OMPI_MCA_hwloc_base_binding_policy", "PRTE_MCA_hwloc_default_binding_policy"})
       setenv(variable, "none", 0);
-  if (processes <= processors) return;
+  if (!are_too_many) return;
   print_notice(fmt::format("warning: {} processes on {} processors: ranks wait for each other, and take many times as "
                            "long\n", processes, processors));
   setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 0);

@@ -22,7 +22,7 @@ inline constexpr const char* kPatience = "5";
 std::vector<std::string> program_on_ranks(int ranks);
 
 // Sets the environment of mpirun for `groups` of so many ranks at a time on this machine, and warns where there are
-// more than processors. In a job of SLURM, which knows the machines, it does nothing.
+// more than processors. In a job of SLURM, which knows how many there are, no more are started than it allows.
 void let_ranks_share_processors(int ranks, int groups);
 
 // mpirun in place of this process, so that signals reach it. `words`: of the ranks' command line, after the program.
