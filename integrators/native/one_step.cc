@@ -139,7 +139,8 @@ double OneStep::length(double t_stop) const {
   return length_of_step(h, t_stop - now_.t);
 }
 
-// Hairer, Norsett & Wanner (1993), II.4: from the size of the first and of a second derivative. The latter is looked
+// Hairer, Norsett & Wanner (1993), II.4: from the size of the first and of a second derivative, here with the time of
+// the look as the unit of time, so that the step does not depend on that of the scene. The second derivative is looked
 // for at no round part of the span, where a periodic load might be what it is now.
 double OneStep::first_step(double t_stop) {
   constexpr double kLook = 0.00618034;
@@ -156,9 +157,9 @@ double OneStep::first_step(double t_stop) {
   } catch (const RecoverableError&) {
     h *= 1e-2;
   }
-  const double largest = std::max(rate, curvature);
+  const double largest = std::max(rate, h * curvature) * h;
   if (largest <= 0) return h;
-  return std::min({rest, 100 * h, std::pow(0.01 / largest, 1.0 / orders().estimate)});
+  return std::min({rest, 100 * h, h * std::pow(0.01 / largest, 1.0 / orders().estimate)});
 }
 
 void OneStep::advance_by_fixed_step(double t_stop) {

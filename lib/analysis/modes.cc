@@ -46,19 +46,12 @@ Modes natural_modes(const Model& model, const State& about, int count) {
   EigenPairs pairs = lowest_eigenpairs(pattern, K, M, count, [&] { return model.rigid_motions(about.q); });
 
   const bool has_momentum = tells_momentum(model);
-  double lowest_elastic = 0;
-  for (const double lambda : pairs.values)
-    if (lowest_elastic == 0) lowest_elastic = std::abs(lambda);
   Modes out{{}, pairs.zeros, std::sqrt(pairs.resolution) / (2 * std::numbers::pi), pairs.solver};
   for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
     Mode mode{pairs.values[k], pairs.shapes.col(k)};
     fix_sign(mode.shape);
     if (has_momentum) mode.participation = participation(model, about, mode.shape);
-    Vector stiff(mode.shape.size()), inert(mode.shape.size());
-    pattern.multiply(K.data(), mode.shape, stiff);
-    pattern.multiply(M.data(), mode.shape, inert);
-    const double reference = std::max(std::abs(mode.lambda), lowest_elastic) * inert.norm();
-    mode.residual = reference > 0 ? (stiff - mode.lambda * inert).norm() / reference : 0;
+    mode.residual = pairs.residuals[k];
     out.modes.push_back(std::move(mode));
   }
   return out;

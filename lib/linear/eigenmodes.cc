@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -13,15 +14,19 @@
 #include "lib/core/memory.h"
 #include "lib/core/symmetric_eigen.h"
 #include "lib/linear/solver.h"
+#include "lib/linear/unit_scale.h"
 
 namespace orthodyn {
 
 namespace {
 
 constexpr int kDense = 300;          // unknowns up to which the dense problem is solved
-constexpr double kZero = 2.5e-14;    // of the largest eigenvalue
-constexpr double kFirstShift = 1e-10;  // likewise
-constexpr double kMostShift = 10;
+// Of the largest eigenvalue:
+constexpr double kZero = 2.5e-14;
+constexpr double kFirstShift = 1e-10, kMostShift = 10;
+constexpr double kRoundOff = 1e-13;
+
+constexpr double kMostResidual = 1e-6;
 constexpr int kRigid = 6;
 constexpr double kAccuracy = 1e-11;  // of an iterative solver
 
@@ -46,12 +51,18 @@ std::unique_ptr<LinearSolver> factor_or_iterations(const Pattern& pattern) {
   }
 }
 
+// In units of its own, so that absolute thresholds of libraries are relative ones: of mass the mean diagonal entry of
+// M, of eigenvalues the largest quotient of diagonal entries, from below the size of the largest eigenvalue. Powers of
+// two, which round nothing.
 class Problem {
  public:
   Problem(const Pattern& pattern, const std::vector<double>& K, const std::vector<double>& M,
           const SoftestMotions& softest, ShiftedSolver solver)
       : pattern_(pattern), K_(K), M_(M), shifted_(K.size()),
         solver_(solver == ShiftedSolver::iterative ? make_iterative(pattern) : factor_or_iterations(pattern)) {
+    const Vector k = diagonal(pattern, K).cwiseAbs(), m = diagonal(pattern, M);
+    mass_unit_ = nearest_power_of_two(m.mean());
+    unit_ = nearest_power_of_two(k.cwiseQuotient(m).maxCoeff());
     if (!solver_->is_iterative()) return;
     solver_->set_tolerance({kAccuracy, 0});
     if (softest) softest_ = softest();
@@ -59,7 +70,19 @@ class Problem {
 
   int size() const { return pattern_.n; }
   std::string solver() const { return solver_->description(); }
-  void multiply_mass(const ConstVectorRef& x, VectorRef y) const { pattern_.multiply(M_.data(), x, y); }
+  double unit() const { return unit_; }            // of eigenvalues
+  double mass_unit() const { return mass_unit_; }  // kg
+
+  // From here on all is in these units.
+  void multiply_mass(const ConstVectorRef& x, VectorRef y) const {
+    pattern_.multiply(M_.data(), x, y);
+    y /= mass_unit_;
+  }
+  void multiply_stiffness(const ConstVectorRef& x, VectorRef y) const {
+    pattern_.multiply(K_.data(), x, y);
+    y /= mass_unit_ * unit_;
+  }
+  // x = (K + s M)^-1 b, with the last shift s.
   void solve_shifted(const ConstVectorRef& b, VectorRef x) const { solver_->solve(b, x); }
 
   // Factors K + s M, if it is not the last one; false if it is not positive definite.
@@ -67,32 +90,25 @@ class Problem {
     if (shift_ == s) return is_definite_;
     shift_ = s;
     is_definite_ = false;
-    for (std::size_t k = 0; k < K_.size(); ++k) shifted_[k] = K_[k] + s * M_[k];
+    const double k = 1 / (mass_unit_ * unit_), m = s / mass_unit_;
+    for (std::size_t i = 0; i < K_.size(); ++i) shifted_[i] = k * K_[i] + m * M_[i];
     if (solver_->is_iterative()) solver_->set_rigid_motions(softest_);
     is_definite_ = solver_->factor(shifted_.data()) == FactorStatus::ok;
     return is_definite_;
   }
 
+  Eigen::MatrixXd dense_stiffness() const { return dense(K_) / (mass_unit_ * unit_); }
+  Eigen::MatrixXd dense_mass() const { return dense(M_) / mass_unit_; }
+
+ private:
   Eigen::MatrixXd dense(const std::vector<double>& values) const {
     const Eigen::MatrixXd stored(pattern_.matrix(values.data()));
     return stored.selfadjointView<Eigen::Lower>();
   }
-  const std::vector<double>& K() const { return K_; }
-  const std::vector<double>& M() const { return M_; }
 
-  // The size of the largest eigenvalue, from below: of the stiffest coordinate on its own.
-  double largest() const {
-    double largest = 0;
-    for (const int diagonal : pattern_.column_start) {  // of each lower triangle's column the first entry
-      const auto at = static_cast<std::size_t>(diagonal);
-      if (at < K_.size()) largest = std::max(largest, std::abs(K_[at] / M_[at]));
-    }
-    return largest;
-  }
-
- private:
   const Pattern& pattern_;
   const std::vector<double>&K_, &M_;
+  double mass_unit_ = 1, unit_ = 1;
   Eigen::MatrixXd softest_;
   std::vector<double> shifted_;
   std::optional<double> shift_;  // of `shifted_`
@@ -100,15 +116,18 @@ class Problem {
   std::unique_ptr<LinearSolver> solver_;
 };
 
-// As Spectra wants its operators.
+// (K + s M)^-1 times `scale`, as Spectra wants its operators.
 struct Inverse {
   using Scalar = double;
-  Problem& problem;
+  const Problem& problem;
+  double scale;
   Eigen::Index rows() const { return problem.size(); }
   Eigen::Index cols() const { return problem.size(); }
-  void set_shift(double sigma) { problem.shift(-sigma); }
+  void set_shift(double) {}  // the problem has it
   void perform_op(const double* in, double* out) const {
-    problem.solve_shifted(Eigen::Map<const Vector>(in, rows()), Eigen::Map<Vector>(out, rows()));
+    Eigen::Map<Vector> x(out, rows());
+    problem.solve_shifted(Eigen::Map<const Vector>(in, rows()), x);
+    x *= scale;
   }
 };
 struct MassProduct {
@@ -121,29 +140,35 @@ struct MassProduct {
   }
 };
 
-EigenPairs lanczos(Problem& problem, double shift, int count) {
-  Inverse inverse{problem};
+// About the largest eigenvalue of (K + s M)^-1 M.
+double size_of_inverse(const Problem& problem) {
+  const auto multiply = [&](const Vector& x, Vector& y) { problem.multiply_mass(x, y); };
+  return operator_size(problem.size(), multiply, [&](const Vector& b, Vector& x) { problem.solve_shifted(b, x); });
+}
+
+// With the problem's last shift.
+EigenPairs lanczos(const Problem& problem, double shift, int count) {
+  const double scale = 1 / size_of_inverse(problem);  // the operator's largest eigenvalue becomes about one
+  Inverse inverse{problem, scale};
   MassProduct mass{problem};
   const int basis = std::min(problem.size(), std::max(2 * count + 10, 30));
   Spectra::SymGEigsShiftSolver<Inverse, MassProduct, Spectra::GEigsMode::ShiftInvert> solver(inverse, mass, count,
-                                                                                             basis, -shift);
+                                                                                             basis, -shift / scale);
   solver.init();
   constexpr int kRestarts = 1000;
   const auto found = solver.compute(Spectra::SortRule::LargestMagn, kRestarts, 1e-12, Spectra::SortRule::SmallestAlge);
   if (solver.info() != Spectra::CompInfo::Successful)
     throw RunError(fmt::format("{} of {} modes converged in {} restarts of the Lanczos iteration; ask for fewer modes",
                                found, count, kRestarts));
-  return {solver.eigenvalues(), solver.eigenvectors()};
+  return {scale * solver.eigenvalues(), solver.eigenvectors()};
 }
 
 EigenPairs dense(const Problem& problem, int count) {
-  const auto pairs = symmetric_eigenpairs(problem.dense(problem.K()), problem.dense(problem.M()));
+  const auto pairs = symmetric_eigenpairs(problem.dense_stiffness(), problem.dense_mass());
   return {pairs.values.head(count), pairs.vectors.leftCols(count)};
 }
 
-int zeros_among(const Vector& values, double largest) {
-  return static_cast<int>((values.array().abs() <= kZero * largest).count());
-}
+int zeros_among(const Vector& values) { return static_cast<int>((values.array().abs() <= kZero).count()); }
 
 std::optional<EigenPairs> lanczos_if_definite(Problem& problem, double shift, int count) {
   try {
@@ -154,33 +179,54 @@ std::optional<EigenPairs> lanczos_if_definite(Problem& problem, double shift, in
 }
 
 // With the smallest shift that makes K + s M positive definite.
-EigenPairs first_pass(Problem& problem, double largest, int count, double& shift) {
-  for (shift = kFirstShift * largest; shift <= kMostShift * largest; shift *= 100)
+EigenPairs first_pass(Problem& problem, int count, double& shift) {
+  for (shift = kFirstShift; shift <= kMostShift; shift *= 100)
     if (auto pairs = lanczos_if_definite(problem, shift, count)) return std::move(*pairs);
   throw RunError("the stiffness is far from positive definite: modes about this state cannot be computed");
 }
 
-EigenPairs sparse(Problem& problem, double largest, int count) {
+EigenPairs sparse(Problem& problem, int count) {
   double shift = 0;
   const int wanted = std::min(problem.size() - 1, count + kRigid + 1);
-  EigenPairs pairs = first_pass(problem, largest, wanted, shift);
-  const int zeros = zeros_among(pairs.values, largest);
+  EigenPairs pairs = first_pass(problem, wanted, shift);
+  const int zeros = zeros_among(pairs.values);
   if (zeros == 0 || zeros == wanted) return pairs;
   const double lowest = pairs.values.tail(pairs.values.size() - zeros).cwiseAbs().minCoeff();
   if (!(lowest > shift)) return pairs;
   // Zeros no longer stand out there, and Lanczos' method may find one of several equal eigenvalues too few.
   for (int more = wanted; more <= std::min(problem.size() - 1, wanted + 3 * kRigid); more += kRigid)
-    if (auto again = lanczos_if_definite(problem, lowest, more); again && zeros_among(again->values, largest) >= zeros)
+    if (auto again = lanczos_if_definite(problem, lowest, more); again && zeros_among(again->values) >= zeros)
       return std::move(*again);
   return pairs;
 }
 
-EigenPairs sparse_or_failure(Problem& problem, double largest, int count) {
+EigenPairs sparse_or_failure(Problem& problem, int count) {
   try {
-    return sparse(problem, largest, count);
+    return sparse(problem, count);
   } catch (const RecoverableError& e) {
     throw RunError(std::string("modes: ") + e.what());
   }
+}
+
+// Throws RunError for one that is more than round-off.
+Vector judged_residuals(const Problem& problem, const EigenPairs& pairs) {
+  double lowest = 0;  // that is not zero
+  for (const double value : pairs.values)
+    if (lowest == 0) lowest = std::abs(value);
+  Vector residuals = Vector::Zero(pairs.values.size());
+  Vector stiff(problem.size()), inert(problem.size());
+  for (Eigen::Index k = 0; k < residuals.size(); ++k) {
+    const double reference = std::max(std::abs(pairs.values[k]), lowest);
+    if (reference == 0) continue;
+    problem.multiply_stiffness(pairs.shapes.col(k), stiff);
+    problem.multiply_mass(pairs.shapes.col(k), inert);
+    residuals[k] = (stiff - pairs.values[k] * inert).norm() / (reference * inert.norm());
+    if (!(residuals[k] <= kMostResidual + kRoundOff / reference))
+      throw RunError(fmt::format("mode {} was not found: K x differs from lambda M x by {:.2g} of it; ask for another "
+                                 "number of modes",
+                                 k + 1, residuals[k]));
+  }
+  return residuals;
 }
 
 }  // namespace
@@ -192,16 +238,17 @@ EigenPairs lowest_eigenpairs(const Pattern& pattern, const std::vector<double>& 
     throw ConfigError(
         fmt::format("{} modes were requested, but there are {} unknowns and as many modes", count, pattern.n));
   Problem problem(pattern, K, M, softest, solver);
-  const double largest = problem.largest();
   const bool small = pattern.n <= kDense || count + kRigid + 1 >= pattern.n / 2;
-  EigenPairs pairs = small ? dense(problem, count) : sparse_or_failure(problem, largest, count);
+  EigenPairs pairs = small ? dense(problem, count) : sparse_or_failure(problem, count);
   pairs.values.conservativeResize(count);
   pairs.shapes.conservativeResize(Eigen::NoChange, count);
-  pairs.zeros = zeros_among(pairs.values, largest);
-  pairs.resolution = kZero * largest;
   pairs.solver = small ? "dense" : problem.solver();
-  for (double& value : pairs.values)
-    if (std::abs(value) <= pairs.resolution) value = 0;
+  pairs.zeros = zeros_among(pairs.values);
+  pairs.values = (pairs.values.array().abs() <= kZero).select(0, pairs.values);
+  pairs.residuals = judged_residuals(problem, pairs);
+  pairs.resolution = kZero * problem.unit();
+  pairs.values *= problem.unit();
+  pairs.shapes /= std::sqrt(problem.mass_unit());
   return pairs;
 }
 

@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "lib/core/errors.h"
 #include "lib/core/symmetric_eigen.h"
 #include "lib/linear/solver.h"
+#include "lib/linear/unit_scale.h"
 
 namespace orthodyn {
 
@@ -80,24 +82,45 @@ int count_below(const Pattern& pattern, const std::vector<double>& A, const std:
   return solver->negative_eigenvalues();
 }
 
-}  // namespace
+std::vector<double> divided(const std::vector<double>& values, double by) {
+  std::vector<double> out(values);
+  for (double& value : out) value /= by;
+  return out;
+}
 
-NegativeEigenPairs negative_eigenpairs(const Pattern& pattern, const std::vector<double>& A,
-                                       const std::vector<double>& B, double bound, int count) {
-  if (!pattern.symmetric) throw ConfigError("needs a symmetric stiffness");
-  const auto solver = make_linear_solver("cholmod", pattern);
-  if (solver->factor(B.data()) != FactorStatus::ok) throw RunError("the stiffness is not positive definite");
-  count = std::min(count, count_below(pattern, A, B, -bound));
-  if (count == 0) return {};
-  if (pattern.n <= kDenseUnknowns) return dense_pairs(pattern, A, B, count);
+// Of A and B in units in which both are about one.
+NegativeEigenPairs lanczos_pairs(const Pattern& pattern, const std::vector<double>& A, const std::vector<double>& B,
+                                 LinearSolver& solver, int count) {
   const SymmetricProduct a{pattern, A}, b{pattern, B};
-  DefiniteOperator inverse{b, *solver};
+  DefiniteOperator inverse{b, solver};
   // Spectra's tolerance is relative to each eigenvalue, which asks too much of those next to zero. With all of them
   // shifted by a little more than the largest it is relative to that one there.
   const double raised = 1.1 * std::abs(lanczos(a, inverse, 1, Spectra::SortRule::LargestMagn, 1e-2).values[0]);
   const auto positive = sum(A, raised, B);
   NegativeEigenPairs pairs = lanczos({pattern, positive}, inverse, count, Spectra::SortRule::SmallestAlge, 1e-10);
   pairs.values.array() -= raised;
+  return pairs;
+}
+
+}  // namespace
+
+NegativeEigenPairs negative_eigenpairs(const Pattern& pattern, const std::vector<double>& A_given,
+                                       const std::vector<double>& B_given, double bound, int count) {
+  if (!pattern.symmetric) throw ConfigError("needs a symmetric stiffness");
+  const double unit_of_B = nearest_power_of_two(diagonal(pattern, B_given).mean());
+  const auto B = divided(B_given, unit_of_B);
+  const auto solver = make_linear_solver("cholmod", pattern);
+  if (solver->factor(B.data()) != FactorStatus::ok) throw RunError("the stiffness is not positive definite");
+  const double unit = nearest_power_of_two(operator_size(
+      pattern.n, [&](const Vector& x, Vector& y) { pattern.multiply(A_given.data(), x, y); },
+      [&](const Vector& y, Vector& x) { solver->solve(y / unit_of_B, x); }));
+  const auto A = divided(A_given, unit * unit_of_B);
+  count = std::min(count, count_below(pattern, A, B, -bound / unit));
+  if (count == 0) return {};
+  NegativeEigenPairs pairs = pattern.n <= kDenseUnknowns ? dense_pairs(pattern, A, B, count)
+                                                         : lanczos_pairs(pattern, A, B, *solver, count);
+  pairs.values *= unit;
+  pairs.shapes /= std::sqrt(unit_of_B);
   return pairs;
 }
 
