@@ -202,9 +202,9 @@ class Kinsol : public EquilibriumSolver {
     return descends_ || k == 0 || correction <= corrections_[k - 1];
   }
 
-  // df_lambda/dlambda: forces are evaluated for it where supports move.
+  // df_lambda/dlambda: forces are evaluated for it where supports move or loads follow the body.
   Vector rate(const PathPoint& at) {
-    if (!path_.moves_supports()) return path_.rate(at.lambda, at.q);
+    if (path_.has_constant_rate()) return path_.rate(at.lambda, at.q);
     const Measure measure(statistics_.force);
     return path_.rate(at.lambda, at.q);
   }

@@ -1,6 +1,7 @@
 // The equilibrium solver `kinsol` and its keys.
 #include "integrators/kinsol/kinsol.h"
 #include "integrators/solver_options.h"
+#include "lib/linear/solver.h"
 #include "lib/ode/integrator.h"
 
 namespace orthodyn::sundials {
@@ -25,6 +26,7 @@ class KinsolChoice : public EquilibriumChoice, public KinsolOptions {
     return {{"source", "Hindmarsh et al., ACM TOMS 31, 2005; Riks, Int. J. Solids Struct. 15, 1979; "
                        "Magisano, Leonetti & Garcea, CMAME 313, 2017"}};
   }
+  bool takes_unsymmetric() const override { return solver_registry().at(linear_solver.type).takes_general; }
   std::unique_ptr<EquilibriumSolver> make(const LoadPath& path, const EquilibriumTask& task) const override {
     return make_kinsol(path, task, *this);
   }

@@ -46,17 +46,28 @@ bool PathStiffness::factor() {
   const Measure measure(statistics_.factorization);
   model_.combine({0, 0, 1}, linearization_, values_.data());
   // Where the last K was indefinite this one is likely to be.
-  const bool done = negative_.value_or(0) > 0 || resists_iterations_ ? factor_indefinite() : factor_definite();
+  const bool done = !model_.pattern().symmetric                       ? factor_general()
+                    : negative_.value_or(0) > 0 || resists_iterations_ ? factor_indefinite()
+                                                                       : factor_definite();
   constant_is_factored_ = done && model_.traits().linear;
   return done;
 }
 
 bool PathStiffness::factor_with_inertia() {
-  if (solver_->checks_definiteness() || solver_->is_iterative() || !model_.pattern().symmetric) return factor();
+  if (!model_.pattern().symmetric) return factor();
+  if (solver_->checks_definiteness() || solver_->is_iterative()) return factor();
   const Measure measure(statistics_.factorization);
   model_.combine({0, 0, 1}, linearization_, values_.data());
   constant_is_factored_ = false;
   return factor_indefinite();
+}
+
+bool PathStiffness::factor_general() {
+  used_ = solver_.get();
+  const bool regular = solver_->factor(values_.data()) == FactorStatus::ok;
+  negative_.reset();
+  if (const auto odd = regular ? solver_->has_negative_determinant() : std::nullopt) negative_ = *odd ? 1 : 0;
+  return regular;
 }
 
 bool PathStiffness::factor_definite() {

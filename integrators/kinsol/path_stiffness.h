@@ -25,10 +25,10 @@ class PathStiffness {
 
   // False where K is singular. Throws RunError if memory does not suffice.
   bool factor();
-  // The same with a solver that tells the negative eigenvalues, if K is symmetric.
+  // The same with a solver that tells the negative eigenvalues.
   bool factor_with_inertia();
 
-  // Of the last factor; none where its solver does not tell: K is not symmetric.
+  // Of the last factor; of an unsymmetric K 1 if their number is odd, else 0. None where its solver does not tell.
   std::optional<int> negative_eigenvalues() const { return negative_; }
 
   // x = K^-1 b. Throws RecoverableError where an iterative solver does not converge. Precondition: the last factor()
@@ -39,6 +39,7 @@ class PathStiffness {
   std::string description() const;
 
  private:
+  bool factor_general();
   bool factor_definite();
   bool factor_indefinite();
 

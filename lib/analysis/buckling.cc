@@ -38,14 +38,10 @@ struct Divided {
   std::unique_ptr<Model> structure, loads;
 };
 
-// The body with its springs and ground, and what loads it.
 Divided divided(const FemModel& model) {
-  const auto& parts = model.parts();
-  const auto all = model.force_parts();  // elasticity first, then the other terms
-  std::vector<std::string> structure(all.begin(), all.begin() + std::ssize(parts.elastic)), loads;
-  for (std::size_t k = 0; k < parts.loads.size(); ++k)
-    (parts.loads[k]->energy_kind() == EnergyKind::elastic ? structure : loads)
-        .push_back(all[parts.elastic.size() + k]);
+  const auto loads = model.load_parts().value();
+  auto structure = model.force_parts();
+  std::erase_if(structure, [&](const std::string& part) { return std::ranges::find(loads, part) != loads.end(); });
   return {model.only(structure), model.only(loads)};
 }
 
@@ -75,48 +71,48 @@ Values stress_stiffness_at(const Model& structure, double t, const Vector& q) {
 
 // For the stresses of the response u to all loads. The central difference drops the stretching that a straight
 // displacement brings, which is of second order.
-Values stress_stiffness(const Model& structure, double t, const Vector& u) {
-  return sum(0.5, stress_stiffness_at(structure, t, u), -0.5, stress_stiffness_at(structure, t, -u));
+Values stress_stiffness(const Model& structure, double t, const Vector& unloaded, const Vector& u) {
+  return sum(0.5, stress_stiffness_at(structure, t, unloaded + u), -0.5,
+             stress_stiffness_at(structure, t, unloaded - u));
 }
 
 }  // namespace
 
-std::vector<BucklingMode> buckling_modes(const FemModel& model, double t, int count) {
+BucklingModes buckling_modes(const FemModel& model, const Vector& unloaded, double t, int count) {
   const Pattern& pattern = model.pattern();
   if (!pattern.symmetric)
     throw ConfigError("buckling needs a symmetric tangent: not that of elasticity.warped_tangent: unsymmetric");
   const auto [structure, loads] = divided(model);
-  const Vector rest = Vector::Zero(model.num_dofs());
-  const Values K = stiffness_at(*structure, t, rest, TangentKind::exact);
+  const Values K = stiffness_at(*structure, t, unloaded, TangentKind::exact);
   const auto solver = make_linear_solver("cholmod", pattern);
   if (solver->factor(K.data()) != FactorStatus::ok)
-    throw RunError("the stiffness at rest is not positive definite: the body is not held, or unstable without loads");
-  Vector f(rest.size()), u(rest.size());
-  model.force(t, rest, rest, f);
+    throw RunError("the stiffness without loads is not positive definite: the body is not held, or unstable");
+  Vector f(unloaded.size()), u(unloaded.size());
+  loads->force(t, unloaded, Vector::Zero(unloaded.size()), f);
   if (f.isZero(0)) throw RunError("nothing loads the body: it has no critical load factor");
   solver->solve(f, u);
   // Under so many times the loads: whatever these are, the difference has its digits.
   const double times = kStep * size_of(model) / u.lpNorm<Eigen::Infinity>();
   u *= times;
-  const Values rate = sum(1, stress_stiffness(*structure, t, u), times,
-                          stiffness_at(*loads, t, rest, TangentKind::exact));
-  const NegativeEigenPairs pairs =
-      negative_eigenpairs(pattern, rate, K, largest_strain(model, t, u) / kLargestStrain, count);  // nu = -times/lambda
-  std::vector<BucklingMode> modes;
+  const Values rate = sum(1, stress_stiffness(*structure, t, unloaded, u), times,
+                          stiffness_at(*loads, t, unloaded, TangentKind::exact));
+  const double smallest = largest_strain(model, t, u) / kLargestStrain;
+  const NegativeEigenPairs pairs = negative_eigenpairs(pattern, rate, K, smallest, count);  // nu = -times/lambda
+  BucklingModes out{{}, times / smallest};
   for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
     BucklingMode mode{-times / pairs.values[k], pairs.shapes.col(k)};
     Eigen::Index top = 0;
     mode.shape.cwiseAbs().maxCoeff(&top);
     if (mode.shape[top] < 0) mode.shape = -mode.shape;
-    Vector stressed(rest.size()), missing(rest.size()), elastic(rest.size());
+    Vector stressed(u.size()), missing(u.size()), elastic(u.size());
     pattern.multiply(rate.data(), mode.shape, stressed);
     solver->solve(stressed, missing);
     missing = mode.shape + mode.load_factor / times * missing;
     pattern.multiply(K.data(), missing, elastic);
     mode.residual = std::sqrt(std::max(missing.dot(elastic), 0.0));
-    modes.push_back(std::move(mode));
+    out.modes.push_back(std::move(mode));
   }
-  return modes;
+  return out;
 }
 
 }  // namespace orthodyn

@@ -13,8 +13,9 @@
 namespace orthodyn {
 
 NodalExpansion::NodalExpansion(const FemModel::Parts& parts, double at_time, const ConstVectorRef& q,
-                               const ConstVectorRef& v)
-    : time(at_time), t(parts.loads_at.value_or(at_time)), u(NodalVector::Zero(3, parts.rest->cols())), u_rate(u) {
+                               const ConstVectorRef& v, double factor)
+    : time(at_time), t(parts.loads_at.value_or(at_time)), load_factor(factor),
+      u(NodalVector::Zero(3, parts.rest->cols())), u_rate(u) {
   parts.dofs->add_to(q, u);
   parts.dofs->add_to(v, u_rate);
   if (parts.subdomain) {
@@ -67,7 +68,15 @@ NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& noda
                         const std::vector<const Term*>& some) {
   NodalVector sum = NodalVector::Zero(3, nodal.x.cols());
   on_all_ranks(parts.subdomain.get(), [&] {
-    for (const Term* term : some) term->add_force(nodal.state(), sum);
+    if (nodal.load_factor == 1) {
+      for (const Term* term : some) term->add_force(nodal.state(), sum);
+    } else {
+      for (const Term* term : some)
+        if (term->is_load()) term->add_force(nodal.state(), sum);
+      sum *= nodal.load_factor;
+      for (const Term* term : some)
+        if (!term->is_load()) term->add_force(nodal.state(), sum);
+    }
     if (parts.subdomain && !(sum.allFinite() && nodal.u_rate.allFinite()))
       throw RecoverableError("the force is not finite");
   });
@@ -223,6 +232,15 @@ double largest_quotient(const FemModel::Parts& parts, Vector row_sums) {
 }
 
 std::vector<std::string> FemModel::force_parts() const { return part_names(parts_); }
+
+std::optional<std::vector<std::string>> FemModel::load_parts() const {
+  const auto terms = all_terms(parts_);
+  const auto names = term_names(terms);
+  std::vector<std::string> loads;
+  for (std::size_t k = 0; k < terms.size(); ++k)
+    if (terms[k]->is_load()) loads.push_back(names[k]);
+  return loads;
+}
 
 std::unique_ptr<Model> FemModel::only(const std::vector<std::string>& parts) const {
   return std::make_unique<PartModel>(*this, parts);

@@ -78,6 +78,7 @@ class FemModel : public Model {
   double frequency_bound() const override;
   std::vector<std::string> force_parts() const override;
   std::unique_ptr<Model> only(const std::vector<std::string>& parts) const override;
+  std::optional<std::vector<std::string>> load_parts() const override;
   const DiscreteGradient* discrete_gradient() const override { return mean_force_.get(); }
   std::vector<double> breakpoints(double start, double end) const override;
   StepLimits step_limits(double start, double end) const override;
@@ -111,19 +112,23 @@ class FemModel : public Model {
 
 // All nodes' positions and displacements (m) and velocities (m/s) at a state of the free coordinates.
 struct NodalExpansion {
-  NodalExpansion(const FemModel::Parts& parts, double time, const ConstVectorRef& q, const ConstVectorRef& v);
+  NodalExpansion(const FemModel::Parts& parts, double time, const ConstVectorRef& q, const ConstVectorRef& v,
+                 double load_factor = 1);
   NodalState state() const { return {t, x, u, u_rate}; }
   double time;  // of the model, s
   double t;     // of its loads, s
+  double load_factor;
   NodalVector u, u_rate, x;
 };
 
-// The forces of all terms on all nodes, N; of copies of other ranks' nodes they are zero. Collective.
+// The forces of all terms on all nodes, N, those of loads times the load factor; of copies of other ranks' nodes they are
+// zero. Collective.
 NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& nodal);
 // The same of some of them.
 NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& nodal,
                         const std::vector<const Term*>& some);
 std::vector<const Term*> all_terms(const FemModel::Parts& parts);
+std::vector<std::string> term_names(const std::vector<const Term*>& terms);  // as force_parts() has them
 
 // What the terms are, for people: on all ranks.
 std::vector<std::string> term_descriptions(const FemModel::Parts& parts);

@@ -132,7 +132,7 @@ double dissipated_power(const View& view) {
 double load_power(const View& view) {
   const auto& parts = view.parts();
   double power = parts.moved ? view.support_forces().cwiseProduct(view.nodal().u_rate).sum() : 0;
-  for (const auto& term : parts.loads) power += term->load_power(view.state());
+  for (const auto& term : parts.loads) power += view.nodal().load_factor * term->load_power(view.state());
   return power;
 }
 
@@ -143,7 +143,7 @@ double imbalance(const View& view) {
   const Vector still = Vector::Zero(parts.dofs->num_dofs());
   Vector q(still.size()), free(still.size());
   parts.dofs->restrict_to(nodal.u, q);
-  const NodalExpansion resting(parts, nodal.time, q, still);
+  const NodalExpansion resting(parts, nodal.time, q, still, nodal.load_factor);
   free_forces(parts, resting, still, term_forces(parts, resting), free);
   NodalVector forces = NodalVector::Zero(3, nodal.x.cols());
   parts.dofs->add_to(free, forces);

@@ -13,7 +13,7 @@ class FemStateView : public StateView {
  public:
   // `parts` must outlive it.
   FemStateView(const FemModel::Parts& parts, const State& state)
-      : parts_(parts), nodal_(parts, state.t, state.q, state.v) {}
+      : parts_(parts), nodal_(parts, state.t, state.q, state.v, state.load_factor) {}
 
   std::vector<double> evaluate(const std::string& name) const override;
 

@@ -12,6 +12,8 @@ namespace {
 const char* const kMassDamping = "mass damping";
 const char* const kSupportPull = "pull of moved supports";
 
+}  // namespace
+
 std::vector<std::string> term_names(const std::vector<const Term*>& terms) {
   std::vector<std::string> names;
   for (const Term* term : terms) {
@@ -24,8 +26,6 @@ std::vector<std::string> term_names(const std::vector<const Term*>& terms) {
   return names;
 }
 
-}  // namespace
-
 std::vector<std::string> part_names(const FemModel::Parts& parts) {
   auto names = term_names(all_terms(parts));
   if (parts.mass_damping > 0) names.push_back(kMassDamping);
@@ -33,7 +33,7 @@ std::vector<std::string> part_names(const FemModel::Parts& parts) {
   return names;
 }
 
-PartModel::PartModel(const FemModel& whole, const std::vector<std::string>& names) : whole_(whole) {
+PartModel::PartModel(const FemModel& whole, const std::vector<std::string>& names) : whole_(whole), traits_(whole.traits()) {
   const auto terms = all_terms(whole.parts());
   const auto known = term_names(terms);
   const auto wanted = [&](const std::string& name) {
@@ -44,6 +44,8 @@ PartModel::PartModel(const FemModel& whole, const std::vector<std::string>& name
   elastic_ = std::any_of(known.begin(), known.begin() + static_cast<long>(whole.parts().elastic.size()), wanted);
   mass_damping_ = wanted(kMassDamping);
   support_pull_ = wanted(kSupportPull);
+  const auto is_dead = [](const Term* term) { return term->is_dead(); };
+  if (!mass_damping_ && std::all_of(terms_.begin(), terms_.end(), is_dead)) traits_.linear = true;
 }
 
 void PartModel::force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const {
@@ -63,6 +65,16 @@ void PartModel::assemble(double t, const ConstVectorRef& q, const ConstVectorRef
   on_all_ranks(whole_.parts().subdomain.get(), [&] {
     for (const Term* term : terms_)
       term->add_tangent(nodal.state(), kind, out.stiffness.data(), damped ? out.damping.data() : nullptr);
+  });
+}
+
+void PartModel::assemble_mixed(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
+                               Linearization& out) const {
+  const Vector still = Vector::Zero(q.size());
+  const NodalExpansion before(whole_.parts(), t_before, q_before, still), nodal(whole_.parts(), t, q, still);
+  out.stiffness.assign(pattern().row.size(), 0);
+  on_all_ranks(whole_.parts().subdomain.get(), [&] {
+    for (const Term* term : terms_) term->add_mixed_tangent(before.state(), nodal.state(), out.stiffness.data());
   });
 }
 

@@ -22,7 +22,8 @@ class PartModel : public Model {
   const Ranks* ranks() const override { return whole_.ranks(); }
   Eigen::Index num_dofs_of_all() const override { return whole_.num_dofs_of_all(); }
   Vector part_of(const Vector& all) const override { return whole_.part_of(all); }
-  const Traits& traits() const override { return whole_.traits(); }
+  // The whole model's; dead loads alone are linear.
+  const Traits& traits() const override { return traits_; }
   void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override;
   const Pattern& pattern() const override { return whole_.pattern(); }
   void combine(const Weights& w, const Linearization& at, double* values) const override;
@@ -40,8 +41,11 @@ class PartModel : public Model {
  private:
   void assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                 Linearization& out) const override;
+  void assemble_mixed(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
+                      Linearization& out) const override;
 
   const FemModel& whole_;
+  Traits traits_;
   std::vector<const Term*> terms_;
   bool elastic_ = false;
   bool mass_damping_ = false;

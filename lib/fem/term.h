@@ -41,6 +41,13 @@ class Term {
 
   virtual void add_force(const NodalState& s, NodalVector& f) const = 0;
 
+  // Whether it loads the body, so that a load factor of statics and buckling multiplies its force. Else it is a part of
+  // the structure, as springs are: it acts in full from the start.
+  virtual bool is_load() const { return energy_kind() != EnergyKind::elastic; }
+
+  // Whether its force depends on time alone, neither on positions nor on velocities; then it adds no tangent.
+  virtual bool is_dead() const { return false; }
+
   // What it exerts at the peak of its factor between s.t and `end` (s), on the body in state s.
   virtual void add_peak_force(const NodalState& s, double /*end*/, NodalVector& f) const { add_force(s, f); }
 

@@ -40,6 +40,10 @@ class TermChoice {
   // Pairs of nodes that the term's tangent couples although they share no element.
   virtual NodePairs couplings(const TetMesh& /*mesh*/) const { return {}; }
 
+  // Whether -df/dx of the term is symmetric for a body that is held in these coordinates (3 node + component), but for
+  // what depends on velocities. Statics then store K as it is; elsewhere its symmetric part is taken.
+  virtual bool has_symmetric_tangent(const TetMesh& /*mesh*/, const std::vector<bool>& /*held*/) const { return true; }
+
   // What changes for integrators when the model has such a term; nothing for a conservative linear force. A force that
   // depends on velocity must say damping_matrix (else methods with a mean force leave it out), one that depends on t
   // time_dependent, one that is not linear in q and v linear = false, one with kinks smooth = false; not conservative,

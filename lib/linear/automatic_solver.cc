@@ -1,4 +1,4 @@
-// Takes the Cholesky factor where it fits and costs less than iterations do, else PETSc.
+// Takes the Cholesky factor where it fits and costs less than iterations do, else PETSc; KLU for unsymmetric matrices.
 #include <fmt/format.h>
 
 #include "lib/core/memory.h"
@@ -26,6 +26,7 @@ bool is_cheaper_by_iterations(const Pattern& pattern, double factor_bytes) {
 class AutomaticSolver : public LinearSolver {
  public:
   void analyze(const Pattern& pattern) override {
+    if (!pattern.symmetric) return take("klu", pattern);
     if (pattern.share) return take(pattern.share->unknowns < kIterativeFrom ? "cholmod" : "petsc", pattern);
     const bool has_petsc = solver_registry().at("petsc").unavailable.empty();
     if (!has_petsc || pattern.n < kIterativeFrom) return take("cholmod", pattern);
@@ -52,6 +53,7 @@ class AutomaticSolver : public LinearSolver {
   bool wants_rigid_motions() const override { return solver_->wants_rigid_motions(); }
   void set_rigid_motions(const Eigen::MatrixXd& motions) override { solver_->set_rigid_motions(motions); }
   int negative_eigenvalues() const override { return solver_->negative_eigenvalues(); }
+  std::optional<bool> has_negative_determinant() const override { return solver_->has_negative_determinant(); }
   std::size_t factor_bytes() const override { return solver_ ? solver_->factor_bytes() : 0; }
   std::string description() const override {
     return solver_ ? fmt::format("{}: {}", type_, solver_->description()) : "not chosen yet";
@@ -71,8 +73,8 @@ class AutomaticSolver : public LinearSolver {
 const bool automatic_registered =
     solver_registry()
         .emplace("auto", SolverKind{"cholmod where its factor fits in memory and costs less than iterations, else "
-                                    "petsc; on several ranks petsc from 100,000 unknowns on; symmetric tangents.",
-                                    false, [](const std::string&) { return std::make_unique<AutomaticSolver>(); },
+                                    "petsc; on several ranks petsc from 100,000 unknowns on. klu where the tangent is unsymmetric.",
+                                    true, [](const std::string&) { return std::make_unique<AutomaticSolver>(); },
                                     false, "", true})
         .second;
 

@@ -104,18 +104,24 @@ class GatheredSolver : public LinearSolver {
 
   FactorStatus factor(const double* values) override {
     const auto all = ranks().gather({values, num_entries_});
-    std::array<double, 2> told{};  // the status, and how many eigenvalues are negative
+    std::array<double, 3> told{};  // the status, how many eigenvalues are negative, the sign of the determinant
     on_first([&] {
       const FactorStatus status = solver_->factor(whole_.values(all));
-      told = {static_cast<double>(status), static_cast<double>(solver_->negative_eigenvalues())};
+      told = {static_cast<double>(status), static_cast<double>(solver_->negative_eigenvalues()), 0};
+      if (const auto negative = status == FactorStatus::ok ? solver_->has_negative_determinant() : std::nullopt)
+        told[2] = *negative ? -1 : 1;
     });
     ranks().broadcast(told);
     negative_ = static_cast<int>(told[1]);
+    sign_ = told[2];
     return static_cast<FactorStatus>(told[0]);
   }
 
   bool checks_definiteness() const override { return checks_definiteness_; }
   int negative_eigenvalues() const override { return negative_; }
+  std::optional<bool> has_negative_determinant() const override {
+    return sign_ == 0 ? std::nullopt : std::optional(sign_ < 0);
+  }
 
   void solve(const ConstVectorRef& b, VectorRef x) override {
     std::vector<double> all = ranks().gather({b.data(), static_cast<std::size_t>(b.size())});
@@ -176,6 +182,7 @@ class GatheredSolver : public LinearSolver {
   std::unique_ptr<LinearSolver> solver_;
   bool checks_definiteness_ = false;
   int negative_ = 0;
+  double sign_ = 0;  // of the determinant; 0: not known
 };
 
 }  // namespace

@@ -1,6 +1,8 @@
 // KLU (Davis & Palamadai Natarajan): sparse LU for general matrices, minimum-degree ordering.
 #include <klu.h>
 
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "lib/core/errors.h"
@@ -12,6 +14,17 @@ namespace {
 
 // Kept pivots may let entries grow by the inverse of this: three digits at most are lost.
 constexpr double kSmallestReciprocalGrowth = 1e-3;
+
+bool is_odd(std::span<const int> permutation) {
+  std::vector<bool> seen(permutation.size(), false);
+  bool odd = false;
+  for (std::size_t k = 0; k < permutation.size(); ++k)
+    for (std::size_t i = k; !seen[i]; i = static_cast<std::size_t>(permutation[i])) {
+      seen[i] = true;
+      if (static_cast<std::size_t>(permutation[i]) != k) odd = !odd;
+    }
+  return odd;
+}
 
 class Klu : public LinearSolver {
  public:
@@ -58,6 +71,15 @@ class Klu : public LinearSolver {
   void solve(const ConstVectorRef& b, VectorRef x) override {
     x = b;
     klu_solve(symbolic_, numeric_, static_cast<int>(x.size()), 1, x.data(), &common_);
+  }
+
+  // The row scales are positive.
+  std::optional<bool> has_negative_determinant() const override {
+    const auto* pivots = static_cast<const double*>(numeric_->Udiag);
+    const auto n = static_cast<std::size_t>(symbolic_->n);
+    bool negative = is_odd({numeric_->Pnum, n}) != is_odd({symbolic_->Q, n});
+    for (std::size_t k = 0; k < n; ++k) negative = negative != (pivots[k] < 0);
+    return negative;
   }
 
   std::size_t factor_bytes() const override {

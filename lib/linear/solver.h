@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "lib/core/errors.h"
@@ -61,6 +62,10 @@ class LinearSolver {
   // How many eigenvalues of A are negative (Sylvester's law of inertia: of its pivots as many are), of the last factor
   // of a solver for indefinite matrices; 0 of others.
   virtual int negative_eigenvalues() const { return 0; }
+
+  // Of the last factor of a solver for unsymmetric matrices; none where it does not tell. As eigenvalues come in conjugate
+  // pairs, an odd number of them is negative where the determinant is.
+  virtual std::optional<bool> has_negative_determinant() const { return std::nullopt; }
 
   // Bytes taken at the peak of a factorisation: the factor and the solver's workspace. After analyze()
   // a prediction.

@@ -39,7 +39,9 @@ class EquilibriumSolver {
   // What K tells at an equilibrium.
   struct Response {
     Vector rate;       // dq/dlambda = K^-1 f_lambda', m
-    std::optional<int> unstable;  // negative eigenvalues of K: directions in which the body leaves; none: not known
+    // Negative eigenvalues of K: directions in which the body leaves; of an unsymmetric K 1 if their number is odd, else
+    // 0. None: not known.
+    std::optional<int> unstable;
     Vector weakest;  // K^-1 b for a fixed b that is in no body's symmetry: where K is nearly singular, its null vector
     double stiffness = 0;  // 1 / (b . K^-1 b): crosses zero with an eigenvalue of K
   };
@@ -70,6 +72,8 @@ struct EquilibriumTask {
 class EquilibriumChoice {
  public:
   virtual ~EquilibriumChoice() = default;
+  // Whether it serves models whose K is unsymmetric.
+  virtual bool takes_unsymmetric() const { return false; }
   // Throws ConfigError if the solver cannot serve the model, which must outlive it.
   virtual std::unique_ptr<EquilibriumSolver> make(const LoadPath& path, const EquilibriumTask& task) const = 0;
 };

@@ -92,10 +92,18 @@ void LoadStepper::note_turn(const Place& next) {
   steepest_ = growth;
 }
 
+// Where a shorter step took no fewer iterations than the one before, its length is not what makes them many.
 void LoadStepper::adapt() {
   const long iterations = tracer_->place().attempt.iterations;
-  if (iterations <= kEasy) step_ *= 2;
-  else if (iterations > kHard) step_ /= 2;
+  const bool was_in_vain = was_halved_ && iterations >= iterations_;
+  was_halved_ = false;
+  if (iterations <= kEasy || (iterations > kHard && was_in_vain)) {
+    step_ *= 2;
+  } else if (iterations > kHard) {
+    step_ /= 2;
+    was_halved_ = true;
+  }
+  iterations_ = iterations;
   step_ = std::max(step_, smallest_step_);
 }
 

@@ -97,6 +97,8 @@ class LoadStepper {
   double step_ = 0, smallest_step_ = 0;  // along the path
   std::vector<CriticalPoint> critical_;
   double steepest_ = 0;  // growth at the last turn
+  long iterations_ = 0;      // of the last step
+  bool was_halved_ = false;  // after it, as they were many
   bool stops_ = false;   // the last of them is where it stops
   bool leaves_ = false;  // there it is to jump next
   long steps_ = 0, rejected_ = 0, jumps_ = 0;

@@ -17,6 +17,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -131,6 +132,8 @@ class Model : public OutputSource {
   // some of them; this model must outlive it. Precondition: the names are among force_parts().
   virtual std::vector<std::string> force_parts() const { return {}; }
   virtual std::unique_ptr<Model> only(const std::vector<std::string>& parts) const;
+  // Those of them that load the model: in statics a load factor multiplies them (lib/ode/load_path.h). None: not known.
+  virtual std::optional<std::vector<std::string>> load_parts() const { return std::nullopt; }
 
   // Times in (start, end), s, where f is not smooth: multistep methods restart there. Ascending.
   virtual std::vector<double> breakpoints(double start, double end) const;

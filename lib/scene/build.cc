@@ -233,7 +233,14 @@ NodePairs pairs_here(const NodePairs& pairs, const Subdomain& subdomain) {
 
 }  // namespace
 
-BuiltScene build(const Scene& scene, const Ranks* ranks) {
+bool has_unsymmetric_load(const Scene& scene, const TetMesh& mesh) {
+  const auto terms = scene.force_terms();
+  const std::vector<bool> held = make_supports(scene, mesh).held;
+  return std::any_of(terms.begin(), terms.end(),
+                     [&](const TermChoice* term) { return !term->has_symmetric_tangent(mesh, held); });
+}
+
+BuiltScene build(const Scene& scene, const Ranks* ranks, MatrixStorage storage) {
   if (ranks) require_divisible(scene);
   LoadedMesh loaded = load_mesh(scene);
   FemModel::Parts parts;
@@ -257,9 +264,10 @@ BuiltScene build(const Scene& scene, const Ranks* ranks) {
   const TetMesh& own = subdomain ? part : parts.mesh;
   const int num_nodes = static_cast<int>(own.nodes.size());
   parts.dofs = std::make_unique<DofMap>(num_nodes, supports.held, subdomain ? subdomain->num_owned() : num_nodes);
-  const bool symmetric = std::all_of(regions.begin(), regions.end(), [&](const Region* r) {
-    return elasticity_of(scene, *r).has_symmetric_tangent();
-  });
+  const bool symmetric = storage == MatrixStorage::by_elasticity &&
+                         std::all_of(regions.begin(), regions.end(), [&](const Region* r) {
+                           return elasticity_of(scene, *r).has_symmetric_tangent();
+                         });
   const ElementMesh elements(own);
   parts.pattern = std::make_unique<BlockPattern>(elements.cells, *parts.dofs, symmetric, pairs);
   if (subdomain) parts.pattern->set_share(share_of(*parts.dofs, *subdomain));

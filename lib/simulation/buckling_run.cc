@@ -29,9 +29,9 @@ double mesh_error(const FemModel& model, const State& rest, const Vector& shape)
   return parts.recovery->product(misfit, misfit);
 }
 
-BucklingResult describe(const FemModel& model, const State& rest, const std::vector<BucklingMode>& modes) {
-  BucklingResult result{.loads_at_time = rest.t};
-  for (const BucklingMode& mode : modes)
+BucklingResult describe(const FemModel& model, const State& rest, const BucklingModes& found, int wanted) {
+  BucklingResult result{.loads_at_time = rest.t, .wanted = wanted, .limit = found.limit};
+  for (const BucklingMode& mode : found.modes)
     result.modes.push_back({mode.load_factor, mode.residual, mesh_error(model, rest, mode.shape)});
   return result;
 }
@@ -61,16 +61,19 @@ RunResult run_buckling_analysis(RunContext context) {
   const auto& folder = context.folder.path();
   const RunRecord record(folder, context.scene, context.set, {}, given_terms(setup.config));
   write_file(folder / "scene.yaml", {context.resolved});
-  const State rest{t, Vector::Zero(model.num_dofs()), Vector::Zero(model.num_dofs())};
+  const State rest{t, unloaded_shape(setup.scene, setup.built), Vector::Zero(model.num_dofs())};
   RunResult result{.scene = context.scene, .folder = folder};
   result.buckling = BucklingResult{.loads_at_time = t};
   result.outcome = supervise(rest, {}, [&](Outcome& outcome) {
-    const auto modes = buckling_modes(model, t, setup.scene.buckling->count);
+    const int count = setup.scene.buckling->count;
+    const BucklingModes found = buckling_modes(model, rest.q, t, count);
+    const auto& modes = found.modes;
     if (modes.empty())
       throw RunError(
           "these loads do not buckle the body: no positive critical load factor was found. Loads that pull do "
           "not, nor does a body of linear kinematics, which has no stress stiffness");
-    result.buckling = describe(model, rest, modes);
+    result.buckling = describe(model, rest, found, count);
+    result.buckling->unsymmetric = has_unsymmetric_load(setup.scene, model.parts().mesh);
     write(folder, model, rest, modes, *result.buckling);
     outcome.status = Outcome::Status::completed;
   });

@@ -102,6 +102,9 @@ struct EquilibriumResult {
 // Of a buckling analysis, the lowest load factor first.
 struct BucklingResult {
   double loads_at_time = 0;  // s
+  int wanted = 0;            // modes that were asked for
+  double limit = 0;          // load factor above which no mode is told: linear statics reach a strain of a tenth
+  bool unsymmetric = false;  // the stiffness of a load is, and its symmetric part was taken
   struct Mode {
     double load_factor = 0, residual = 0;
     double mesh_error = 0;  // the share by which the mesh makes the factor too high, estimated

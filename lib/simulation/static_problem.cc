@@ -17,19 +17,64 @@ void require_held(const Scene& scene, const FemModel& model, double t) {
   scene.clamps.front().origin.fail(message);
 }
 
+namespace {
+
+Statics statics_of(const Scene& scene) { return scene.statics ? *scene.statics : Statics::spec().by_default(); }
+
+double time_of_loads(const Scene& scene) { return scene.is_static() ? scene.time.end : scene.time.start; }
+
+double size_of_motion(const FemModel& model) { return 0.1 * bounding_box(model.parts().mesh).size().maxCoeff(); }
+
+struct Following {
+  std::unique_ptr<EquilibriumSolver> solver;
+  std::unique_ptr<LoadStepper> stepper;
+};
+
+Following follow(const LoadPath& path, const Statics& statics, double length) {
+  const double force = path.largest_load();
+  Following out;
+  out.solver = statics.solver->make(path, {force > 0 ? force : 1, length});
+  out.stepper = std::make_unique<LoadStepper>(path, *out.solver, statics, length);
+  return out;
+}
+
+// The shape in which the body rests without loads.
+Vector settled(const FemModel& model, const PathTimes& times, const Statics& statics, double length) {
+  const auto path = LoadPath::settling(model, times, Vector::Zero(model.num_dofs()));
+  if (!path) return Vector::Zero(model.num_dofs());
+  const Following settling = follow(*path, statics, length);
+  try {
+    while (!settling.stepper->done()) settling.stepper->step();
+  } catch (const RunError& e) {
+    throw RunError(fmt::format("without loads, under the forces of springs and ground on the rest shape alone: {}",
+                               e.what()),
+                   e.reason());
+  }
+  return settling.stepper->state().q;
+}
+
+}  // namespace
+
 StaticProblem static_problem(const Scene& scene, const BuiltScene& built) {
-  const FemModel& model = *built.model;
-  const double t = scene.is_static() ? scene.time.end : scene.time.start;
-  require_held(scene, model, t);
+  const Statics statics = statics_of(scene);
+  const double t = time_of_loads(scene);
+  require_held(scene, *built.model, t);
   StaticProblem problem;
+  if (statics.solver->takes_unsymmetric() && has_unsymmetric_load(scene, built.model->parts().mesh))
+    problem.own = std::make_unique<BuiltScene>(build(scene, built.model->ranks(), MatrixStorage::general));
+  const FemModel& model = problem.own ? *problem.own->model : *built.model;
   const PathTimes times = scene.is_static() && model.parts().moved ? PathTimes(t - 1, t) : PathTimes(t);
-  problem.path = std::make_unique<LoadPath>(model, times, Vector::Zero(model.num_dofs()));
-  const double force = problem.path->largest_load();
-  const double length = 0.1 * bounding_box(model.parts().mesh).size().maxCoeff();
-  const Statics statics = scene.statics ? *scene.statics : Statics::spec().by_default();
-  problem.solver = statics.solver->make(*problem.path, {force > 0 ? force : 1, length});
-  problem.stepper = std::make_unique<LoadStepper>(*problem.path, *problem.solver, statics, length);
+  const double length = size_of_motion(model);
+  problem.path = std::make_unique<LoadPath>(model, times, settled(model, times, statics, length));
+  Following loading = follow(*problem.path, statics, length);
+  problem.solver = std::move(loading.solver);
+  problem.stepper = std::move(loading.stepper);
   return problem;
+}
+
+Vector unloaded_shape(const Scene& scene, const BuiltScene& built) {
+  const FemModel& model = *built.model;
+  return settled(model, time_of_loads(scene), statics_of(scene), size_of_motion(model));
 }
 
 Scene at_rest(const Scene& scene) {

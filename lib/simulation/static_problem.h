@@ -9,7 +9,8 @@
 namespace orthodyn {
 
 struct StaticProblem {
-  std::unique_ptr<LoadPath> path;  // of the scene's model, from its rest shape
+  std::unique_ptr<BuiltScene> own;  // of the path, where its K is unsymmetric by loads; else null
+  std::unique_ptr<LoadPath> path;   // from the shape in which the body rests without loads
   std::unique_ptr<EquilibriumSolver> solver;
   std::unique_ptr<LoadStepper> stepper;
 };
@@ -17,9 +18,14 @@ struct StaticProblem {
 // Throws ConfigError, at the scene's clamps, for a body that has rigid motions left at time t, s.
 void require_held(const Scene& scene, const FemModel& model, double t);
 
-// The loads are those at the end of the time span in statics, at its start for a start from equilibrium. Throws
-// ConfigError for a body that is not held. `built` must outlive the problem.
+// The loads are those at the end of the time span in statics, at its start for a start from equilibrium. Where springs
+// or the ground push at the body in its rest shape, it is first let settle without loads. Throws ConfigError for a body
+// that is not held, RunError where it does not settle. `built` must outlive the problem.
 StaticProblem static_problem(const Scene& scene, const BuiltScene& built);
+
+// The free coordinates in which the body rests without loads, under the forces of springs and ground alone: zero where
+// these do not push at its rest shape. Throws as above.
+Vector unloaded_shape(const Scene& scene, const BuiltScene& built);
 
 // The static counterpart of a dynamic scene: its body as it is at the start, with supports that stand still, and with
 // the usual `statics` if it has none.

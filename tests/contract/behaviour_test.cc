@@ -282,12 +282,13 @@ TEST_P(Contract, AnIndefiniteTangentFallsBackToGaussNewtonWhichIsCounted) {
   if (!tested(GetParam().integrator).stiff) GTEST_SKIP() << "takes short steps only";
   const auto model = upright_column();
   const auto integrator = make(model, {1e-3, 2});
+  constexpr double kEnd = 1000;  // at rest, with steps as long as the tangent allows
   State state = model.initial();
   integrator->start(state);
   StepInfo info;
-  do info = integrator->step(100);
-  while (info.t < 100);
-  integrator->interpolate(100, state);
+  do info = integrator->step(kEnd);
+  while (info.t < kEnd);
+  integrator->interpolate(kEnd, state);
   EXPECT_NEAR(state.q[0], 0, 1e-12);
   EXPECT_NEAR(state.q[1], 1 - SpringPendulum::kGravity / SpringPendulum::kStiffness, 1e-4);
   if (looks_at_definiteness(GetParam().solver)) EXPECT_GT(integrator->statistics().gauss_newton_fallbacks, 0);

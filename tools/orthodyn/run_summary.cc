@@ -154,6 +154,10 @@ void print_buckling(const RunResult& result, const BucklingResult& buckling) {
     fmt::print("  {:4}  {:11.6g}  {:>12}   {:8.1e}\n", k + 1, mode.load_factor,
                fmt::format("{:+.2g} %", 100 * mode.mesh_error), mode.residual);
   }
+  if (std::ssize(buckling.modes) < buckling.wanted && !buckling.modes.empty())
+    fmt::print("  {} of the {} modes asked for lie below load factor {:.4g}, at which linear statics reach a strain of "
+               "10 %: beyond it there are no buckling loads\n",
+               buckling.modes.size(), buckling.wanted, buckling.limit);
   fmt::print("  {:<20} {}\n", "results", result.folder.string());
 }
 

@@ -22,6 +22,7 @@ class DeadLoad : public Term {
   std::unique_ptr<Term> part(const Subdomain& subdomain) const override {
     return std::make_unique<DeadLoad>(name_, subdomain.owned(forces_), factor_, amount_);
   }
+  bool is_dead() const override { return true; }
   void add_force(const NodalState& s, NodalVector& f) const override;
   void add_peak_force(const NodalState& s, double end, NodalVector& f) const override;
   double seconds_at_peak(double start, double end) const override { return factor_->seconds_at_peak(start, end); }

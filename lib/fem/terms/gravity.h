@@ -20,6 +20,7 @@ class Gravity : public Term {
   }
   // Its masses are this rank's already.
   std::unique_ptr<Term> part(const Subdomain&) const override { return std::make_unique<Gravity>(*this); }
+  bool is_dead() const override { return true; }
   void add_force(const NodalState&, NodalVector& f) const override { f += g_ * masses_.transpose(); }
   EnergyKind energy_kind() const override { return EnergyKind::gravitational; }
   double energy(const NodalState& s) const override { return -g_.dot(s.u * masses_); }

@@ -1,6 +1,9 @@
 #include "lib/fem/terms/pressure.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
 
 #include "lib/element/axial.h"
 #include "lib/element/tri3.h"
@@ -42,6 +45,57 @@ FaceNodes<F> PressedFace<F>::forces(const NodalVector& x) const {
   return out;
 }
 
+// K_ab = sum_k W_ak A_b(k), skew A_b = d(x_,1 x x_,2)/dx_b = N_b,2 [x_,1] - N_b,1 [x_,2].
+template <Face F>
+typename PressedFace<F>::Stiffness PressedFace<F>::stiffness(const NodalVector& all) const {
+  const FaceNodes<F> x = positions_of<F>(nodes, all);
+  Stiffness K = Stiffness::Zero();
+  for (int k = 0; k < F::kTangentPoints; ++k) {
+    const auto slopes = F::slopes(tangent_point(k));
+    const Eigen::Matrix<double, 3, 2> tangents = x * slopes;
+    const Mat3 first = cross_matrix<double>(tangents.col(0)), second = cross_matrix<double>(tangents.col(1));
+    for (Eigen::Index b = 0; b < F::kNodes; ++b) {
+      const Mat3 area_gradient = slopes(b, 1) * first - slopes(b, 0) * second;
+      for (Eigen::Index a = 0; a < F::kNodes; ++a)
+        K.template block<3, 3>(3 * a, 3 * b) += weights(a, k) * area_gradient;
+    }
+  }
+  return K;
+}
+
+namespace {
+
+template <Face F>
+Mat3 block_of(const typename PressedFace<F>::Stiffness& K, std::size_t i, std::size_t j) {
+  return K.template block<3, 3>(3 * static_cast<Eigen::Index>(i), 3 * static_cast<Eigen::Index>(j));
+}
+
+}  // namespace
+
+template <Face F>
+bool has_symmetric_stiffness(const std::vector<PressedFace<F>>& faces, const NodalVector& x,
+                             const std::vector<bool>& held) {
+  constexpr double kRoundOff = 1e-10;
+  std::map<std::pair<int, int>, Mat3> skew;  // K_ab - K_ba^T for a >= b
+  double largest = 0;
+  for (const PressedFace<F>& face : faces) {
+    const auto K = face.stiffness(x);
+    largest = std::max(largest, K.cwiseAbs().maxCoeff());
+    for (std::size_t i = 0; i < F::kNodes; ++i)
+      for (std::size_t j = 0; j < F::kNodes; ++j)
+        if (face.nodes[i] >= face.nodes[j])
+          skew.try_emplace({face.nodes[i], face.nodes[j]}, Mat3::Zero()).first->second +=
+              block_of<F>(K, i, j) - block_of<F>(K, j, i).transpose();
+  }
+  const auto is_held = [&](int node, int c) { return held[static_cast<std::size_t>(3 * node + c)]; };
+  for (const auto& [nodes, block] : skew)
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c)
+        if (!is_held(nodes.first, r) && !is_held(nodes.second, c) && std::abs(block(r, c)) > kRoundOff * largest)
+          return false;
+  return true;
+}
+
 template <Face F>
 std::unique_ptr<Term> Pressure<F>::part(const Subdomain& subdomain) const {
   std::vector<PressedFace<F>> own;
@@ -71,28 +125,20 @@ void Pressure<F>::add_peak_force(const NodalState& s, double end, NodalVector& f
   add_force_of(factor_->peak(s.t, end), s.x, f);
 }
 
-// -df_a/dx_b = sum_k W_ak A_b(k), skew A_b = d(x_,1 x x_,2)/dx_b = N_b,2 [x_,1] - N_b,1 [x_,2].
 template <Face F>
 void Pressure<F>::add_tangent(const NodalState& s, TangentKind kind, double* stiffness, double*) const {
   if (kind == TangentKind::gauss_newton) return;  // indefinite
   const double factor = factor_->value(s.t);
-  for (const auto& [nodes, weights] : faces_) {
-    const FaceNodes<F> x = positions_of<F>(nodes, s.x);
-    for (int k = 0; k < F::kTangentPoints; ++k) {
-      const auto slopes = F::slopes(tangent_point(k));
-      const Eigen::Matrix<double, 3, 2> tangents = x * slopes;
-      const Mat3 first = factor * cross_matrix<double>(tangents.col(0));
-      const Mat3 second = factor * cross_matrix<double>(tangents.col(1));
-      const auto area_gradient = [&](Eigen::Index b) { return slopes(b, 1) * first - slopes(b, 0) * second; };
-      for (std::size_t i = 0; i < F::kNodes; ++i)
-        for (std::size_t j = 0; j < F::kNodes; ++j) {
-          if (pattern_.symmetric() && nodes[i] <= nodes[j]) continue;  // the diagonal's symmetric part is zero
-          const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
-          Mat3 block = weights(a, k) * area_gradient(b);
-          if (pattern_.symmetric()) block = 0.5 * (block - weights(b, k) * area_gradient(a));
-          pattern_.add(nodes[i], nodes[j], pattern_.offset(nodes[i], nodes[j]), block, stiffness);
-        }
-    }
+  for (const PressedFace<F>& face : faces_) {
+    const auto K = face.stiffness(s.x);
+    for (std::size_t i = 0; i < F::kNodes; ++i)
+      for (std::size_t j = 0; j < F::kNodes; ++j) {
+        const int a = face.nodes[i], b = face.nodes[j];
+        if (pattern_.symmetric() && a <= b) continue;  // the diagonal's symmetric part is zero
+        Mat3 block = factor * block_of<F>(K, i, j);
+        if (pattern_.symmetric()) block = 0.5 * (block + factor * block_of<F>(K, j, i).transpose());
+        pattern_.add(a, b, pattern_.offset(a, b), block, stiffness);
+      }
   }
 }
 
@@ -111,6 +157,10 @@ std::vector<double> Pressure<F>::breakpoints(double start, double end) const {
 
 template struct PressedFace<Tri3>;
 template struct PressedFace<Tri6>;
+template bool has_symmetric_stiffness(const std::vector<PressedFace<Tri3>>&, const NodalVector&,
+                                      const std::vector<bool>&);
+template bool has_symmetric_stiffness(const std::vector<PressedFace<Tri6>>&, const NodalVector&,
+                                      const std::vector<bool>&);
 template class Pressure<Tri3>;
 template class Pressure<Tri6>;
 

@@ -5,13 +5,14 @@
 // with the tangents x_,1 and x_,2 of a face and p at rest. Exact for a uniform pressure; see PressedFace.
 //
 // A surface without boundary under uniform pressure has the energy p V; the force of others has none, so its work
-// counts as that of a load. Of the derivative -df_a/dx_b a symmetric pattern takes the symmetric part: exact where the
-// pressure is uniform on a closed surface, or on one whose edge is held; elsewhere the Newton matrix is approximate and
-// the force exact (Hibbitt 1979, Some follower forces and load stiffness).
+// counts as that of a load. The derivative -df_a/dx_b is symmetric where the pressure is uniform on a closed surface, or
+// on one whose edge is held (Hibbitt 1979, Some follower forces and load stiffness). Elsewhere a symmetric pattern takes
+// its symmetric part: an approximate Newton matrix, an exact force.
 #pragma once
 
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "lib/config/point_quantity.h"
 #include "lib/element/face.h"
@@ -32,7 +33,17 @@ struct PressedFace {
 
   // A column per node, at positions x (m) of all nodes, N.
   FaceNodes<F> forces(const NodalVector& x) const;
+
+  // -df/dx by its nodes' coordinates, N/m.
+  using Stiffness = Eigen::Matrix<double, 3 * F::kNodes, 3 * F::kNodes>;
+  Stiffness stiffness(const NodalVector& x) const;
 };
+
+// Whether their stiffnesses at positions x (m) make up a symmetric one of a body that is held in these coordinates
+// (3 node + component), to round-off.
+template <Face F>
+bool has_symmetric_stiffness(const std::vector<PressedFace<F>>& faces, const NodalVector& x,
+                             const std::vector<bool>& held);
 
 template <Face F>
 class Pressure : public Term {

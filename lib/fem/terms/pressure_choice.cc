@@ -49,6 +49,12 @@ class PressureChoice : public TermChoice {
     return body.mesh.order() == 1 ? make_of<Tri3>(body) : make_of<Tri6>(body);
   }
 
+  bool has_symmetric_tangent(const TetMesh& mesh, const std::vector<bool>& held) const override {
+    if (!follows()) return true;
+    const auto faces = surface_or_all(mesh, surface_, origin);
+    return mesh.order() == 1 ? is_symmetric<Tri3>(mesh, faces, held) : is_symmetric<Tri6>(mesh, faces, held);
+  }
+
   // One that follows: its stiffness changes with the shape; an open surface's work depends on the path.
   void declare(Traits& traits) const override {
     declare_load(*factor_, traits);
@@ -69,6 +75,17 @@ class PressureChoice : public TermChoice {
         [&](std::span<const int> nodes, const FaceNodes<F>& X) { faces.emplace_back(nodes, X, pressure_); });
     if (follows()) return std::make_unique<Pressure<F>>(where, std::move(faces), factor_, body.pattern);
     return std::make_unique<DeadLoad>("pressure on " + where, forces_at_rest<F>(body.rest, faces), factor_, "dead");
+  }
+
+  template <Face F>
+  bool is_symmetric(const TetMesh& mesh, const std::vector<Triangle>& triangles, const std::vector<bool>& held) const {
+    std::vector<PressedFace<F>> faces;
+    NodalVector rest(3, static_cast<Eigen::Index>(mesh.nodes.size()));
+    for (Eigen::Index i = 0; i < rest.cols(); ++i) rest.col(i) = mesh.nodes[static_cast<std::size_t>(i)];
+    for_each_face_of<F>(mesh, triangles, [&](std::span<const int> nodes, const FaceNodes<F>& X) {
+      faces.emplace_back(nodes, X, pressure_);
+    });
+    return has_symmetric_stiffness<F>(faces, rest, held);
   }
 
   std::optional<std::string> surface_;

@@ -126,7 +126,7 @@ class Evaluation {
     for (const auto& [name, f] : input_.figures) count = std::max(count, f.buckling.value_or(0));
     if (count == 0) return;
     require_held(scene, *built.model, scene.time.end);
-    const auto modes = buckling_modes(*built.model, scene.time.end, count);
+    const auto modes = buckling_modes(*built.model, unloaded_shape(scene, built), scene.time.end, count).modes;
     for (const auto& [name, f] : input_.figures) {
       if (!f.buckling) continue;
       const auto k = static_cast<std::size_t>(*f.buckling - 1);
