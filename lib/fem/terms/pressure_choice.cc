@@ -96,7 +96,7 @@ class PressureChoice : public TermChoice {
 
 const bool pressure_registered = Registry<TermChoice>::add<PressureChoice>(
     "pressure",
-    "Pressure on a surface, which it follows by default (the symmetric part of its stiffness enters K), or dead.");
+    "Pressure on a surface, which it follows by default (of an unsymmetric stiffness motions take the symmetric part), or dead.");
 
 }  // namespace
 }  // namespace orthodyn
