@@ -18,6 +18,7 @@
 #include "lib/core/errors.h"
 #include "lib/linear/petsc_library.h"
 #include "lib/linear/solver.h"
+#include "lib/petsc/allowed_options.h"
 #include "lib/petsc/energy_test.h"
 #include "lib/petsc/handle.h"
 #include "lib/petsc/solver_matrix.h"
@@ -317,9 +318,8 @@ void try_options(const std::string& options) {
                       std::to_string(pattern.n) + " unknowns: " + e.what());
   }
   if (const std::string unknown = solver.unknown_options(); !unknown.empty())
-    throw ConfigError("linear solver 'petsc': unknown to PETSc, or without effect here: " + unknown +
-                      " (diagnostics such as -log_view go in PETSC_OPTIONS); see the manual pages of "
-                      "KSPSetFromOptions and PCSetFromOptions");
+    throw ConfigError("linear solver 'petsc': unknown to this PETSc, or without effect here: " + unknown +
+                      "; see the manual pages of KSPSetFromOptions and PCSetFromOptions");
 }
 
 }  // namespace
@@ -327,6 +327,7 @@ void try_options(const std::string& options) {
 
 extern "C" [[gnu::visibility("default")]] orthodyn::LinearSolver* orthodyn_make_petsc_solver(
     const std::string& options) {
+  orthodyn::petsc::require_allowed(options);
   if (!options.empty()) orthodyn::petsc::try_options(options);
   return new orthodyn::petsc::PetscSolver(options);
 }

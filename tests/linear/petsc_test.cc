@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -230,6 +232,33 @@ TEST_F(Petsc, RefusesOptionsThatNobodyKnows) {
       EXPECT_NE(e.message().find(named), std::string::npos) << e.message();
     }
   }
+}
+
+// Whatever writes, reads or waits: viewers, monitors, files of options, of solvers within solvers as well.
+TEST_F(Petsc, RefusesOptionsThatDoNotTuneAMethod) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "petsc_option";
+  for (const std::string name :
+       {"-ksp_view", "-ksp_view_mat", "-ksp_monitor", "-ksp_monitor_solution", "-ksp_converged_reason",
+        "-ksp_converged_rate", "-mg_levels_ksp_view", "-mg_levels_1_ksp_monitor", "-mg_coarse_sub_ksp_view_rhs",
+        "-sub_mg_levels_2_ksp_view", "-pc_hypre_mat_view", "-mat_view", "-mat_factor_view", "-log_view", "-info",
+        "-options_view", "-options_file", "-mat_mumps_icntl_1", "-prefix_push", "-petsc_sleep", "--ksp_view"})
+    for (const std::string& value : {":" + file.string(), "ascii:" + file.string(), file.string(), std::string("1")}) {
+      std::ofstream(file) << "kept";
+      EXPECT_THROW(make_linear_solver({"petsc", "-ksp_type cg " + name + " " + value}), ConfigError) << name << value;
+      EXPECT_THROW(make_linear_solver({"petsc", "\t" + name + "\t" + value}), ConfigError) << name << value;
+      std::string content;
+      std::ifstream(file) >> content;
+      EXPECT_EQ(content, "kept") << name << " " << value;
+    }
+  std::filesystem::remove(file);
+}
+
+TEST_F(Petsc, TakesOptionsOfSolversWithinSolvers) {
+  for (const std::string options :
+       {"-pc_type gamg -mg_levels_ksp_type richardson -mg_levels_pc_type sor -mg_coarse_pc_type lu",
+        "-pc_type bjacobi -sub_pc_type ilu -sub_pc_factor_levels 1 -pc_bjacobi_blocks 2",
+        "-pc_type asm -pc_asm_overlap 2 -sub_pc_factor_shift_amount -1e-30"})
+    EXPECT_NO_THROW(make_linear_solver({"petsc", options})) << options;
 }
 
 TEST_F(Petsc, GivesTheSameBitsAgain) {
