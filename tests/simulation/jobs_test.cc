@@ -24,6 +24,23 @@ TEST_F(Jobs, ARunIsPrintedAsAJob) {
   EXPECT_EQ(orthodyn("run 'my \"s\".yaml' --slurm --ranks 2 --set integrator.type=modal").exit_code, 2);
 }
 
+// A line break in a name would end a comment of the script, and what follows would be a command of it.
+TEST_F(Jobs, NoNameBecomesACommand) {
+  for (const std::string break_ : {"\n", "\r", "\t", "\x7f"}) {
+    const std::string name = "a" + break_ + "touch made #";
+    write(name + ".yaml", kSwing);
+    for (const std::string& arguments :
+         {"run '" + name + ".yaml' --slurm", "run '" + name + ".yaml' --slurm --ranks 2",
+          "run '" + name + ".yaml' --slurm --out 'out" + break_ + "touch made #'"}) {
+      const auto result = orthodyn(arguments);
+      EXPECT_EQ(result.exit_code, 2) << result.output;
+      EXPECT_NE(result.output.find("line break"), std::string::npos) << result.output;
+      EXPECT_EQ(result.output.find("#SBATCH"), std::string::npos) << result.output;
+    }
+    EXPECT_EQ(orthodyn("run '" + name + ".yaml' --slurm --out out/fine").exit_code, 0);  // quoted in its only line
+  }
+}
+
 TEST_F(Jobs, ARunIsSubmitted) {
   write("s.yaml", kSwing);
   write("sbatch", "#!/bin/sh\necho 4711\n");

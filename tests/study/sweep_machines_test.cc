@@ -114,6 +114,15 @@ TEST_F(SweepCommand, PrintsAnArrayForNamesWithBlanksAndPatterns) {
   EXPECT_NE(script.find("#SBATCH --mem=1512M\n"), std::string::npos) << script;
 }
 
+TEST_F(SweepCommand, PrintsNoArrayForANameWithALineBreak) {
+  write("a\ntouch made #.yaml", kMany);
+  for (const char* out : {"", " --out out/fine"}) {
+    const auto result = orthodyn(std::string("sweep 'a\ntouch made #.yaml' --slurm") + out);
+    EXPECT_EQ(result.exit_code, 2) << result.output;
+    EXPECT_EQ(result.output.find("#SBATCH"), std::string::npos) << result.output;
+  }
+}
+
 // nu = 0.6 is no material, and 'nowhere' no surface.
 TEST_F(SweepCommand, TellsOfPointsThatCannotBeBeforeAnArrayIsPrinted) {
   const auto array_of = [&](const std::string& vary) {

@@ -52,7 +52,7 @@ std::string array_script(const ArrayJob& job) {
                      sbatch_quoted(job.name), job.tasks, job.ranks,
                      memory(job), minutes(job),
                      sbatch_quoted(log_beside(job.folder)), job.points, job.tasks,
-                     job.retry ? " or has failed" : "", command(job), exported_plugins(), command(job), job.tasks,
+                     job.retry ? " or has failed" : "", one_line(command(job)), exported_plugins(), command(job), job.tasks,
                      job.retry ? " --retry" : "");
 }
 

@@ -1,5 +1,6 @@
 #include "tools/orthodyn/slurm.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
@@ -15,7 +16,17 @@ std::string shell_quoted(const std::string& text) {
   return out + "'";
 }
 
+const std::string& one_line(const std::string& text) {
+  const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
+  if (const auto at = std::find_if(text.begin(), text.end(), is_control); at != text.end())
+    throw ConfigError("'" + std::string(text.begin(), at) +
+                      "...': a line break or another control character follows, which would end a line of the script "
+                      "for SLURM; rename the file, or give the results another name with --out");
+  return text;
+}
+
 std::string sbatch_quoted(const std::string& text) {
+  one_line(text);
   std::string out = "\"";
   for (const char c : text) out += c == '"' || c == '\\' ? std::string{'\\', c} : std::string(1, c);
   return out + "\"";

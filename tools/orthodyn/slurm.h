@@ -6,7 +6,11 @@
 
 namespace orthodyn {
 
-// For a shell; for a line #SBATCH.
+// The text itself, for a comment of a script. Throws ConfigError for control characters: what follows a line break
+// would be a command.
+const std::string& one_line(const std::string& text);
+
+// For a shell; for a line #SBATCH, which throws as one_line() does.
 std::string shell_quoted(const std::string& text);
 std::string sbatch_quoted(const std::string& text);
 
