@@ -5,17 +5,24 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
 #include "lib/core/errors.h"
 
 namespace orthodyn {
 
 namespace {
+
 bool leaves_files_to_others = false;
-}
+
+// What fsync says: some file systems cannot sync a folder, or anything, and say so.
+bool is_lasting(int status) { return status == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS; }
+
+}  // namespace
 
 bool writes_files() { return !leaves_files_to_others; }
 void leave_files_to_others() { leaves_files_to_others = true; }
@@ -24,6 +31,18 @@ void fail_to_write(const std::filesystem::path& path) {
   throw RunError(fmt::format("cannot write {}: {}; free some space or choose another folder with --out",
                              path.string(), std::strerror(errno)),
                  Reason::disk);
+}
+
+bool write_all(int file, std::string_view text, std::size_t at) {
+  while (!text.empty()) {
+    const auto written = ::pwrite(file, text.data(), text.size(), static_cast<off_t>(at));
+    if (written < 0 && errno == EINTR) continue;
+    if (written == 0) errno = ENOSPC;
+    if (written <= 0) return false;
+    at += static_cast<std::size_t>(written);
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
 }
 
 namespace {
@@ -36,6 +55,50 @@ void write_in_place(const std::filesystem::path& path, const std::vector<std::st
   if (!out) fail_to_write(path);
 }
 
+// A new file beside the one that is meant: nobody else's, whatever stands there under a similar name, a link included.
+class PartialFile {
+ public:
+  explicit PartialFile(const std::filesystem::path& whole) {
+    constexpr int kMost = 1000;
+    static std::atomic<unsigned> count = 0;
+    for (int attempt = 0; attempt < kMost && file_ < 0; ++attempt) {
+      path_ = fmt::format("{}.{}-{}.part", whole.string(), ::getpid(), ++count);
+      file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+      if (file_ < 0 && errno != EEXIST && errno != EINTR) break;
+    }
+    if (file_ < 0) fail_to_write(whole);
+  }
+  ~PartialFile() {
+    const int error = errno;
+    if (file_ >= 0) ::close(file_);
+    if (!path_.empty()) ::unlink(path_.c_str());
+    errno = error;
+  }
+  PartialFile(const PartialFile&) = delete;
+  PartialFile& operator=(const PartialFile&) = delete;
+
+  // All of these: false with the reason in errno.
+  bool write(const std::vector<std::string>& parts) {
+    for (const auto& text : parts) {
+      if (!write_all(file_, text, size_)) return false;
+      size_ += text.size();
+    }
+    return true;
+  }
+  bool make_lasting() const { return is_lasting(::fsync(file_)); }
+  bool rename_to(const std::filesystem::path& whole) {
+    const bool closed = ::close(std::exchange(file_, -1)) == 0;  // some file systems write only now
+    if (!closed || ::rename(path_.c_str(), whole.c_str()) != 0) return false;
+    path_.clear();
+    return true;
+  }
+
+ private:
+  std::string path_;
+  int file_ = -1;
+  std::size_t size_ = 0;
+};
+
 void write_whole_file(const std::filesystem::path& path, const std::vector<std::string>& parts, bool lasting) {
   if (!writes_files()) return;
   std::error_code ec;
@@ -43,19 +106,8 @@ void write_whole_file(const std::filesystem::path& path, const std::vector<std::
   if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found)
     return write_in_place(path, parts);
   make_folder_of(path);
-  const std::filesystem::path part = path.string() + ".part";
-  try {
-    write_in_place(part, parts);
-    if (lasting) make_lasting(part);
-    std::filesystem::rename(part, path, ec);
-    errno = ec.value();
-    if (ec) fail_to_write(path);
-  } catch (const RunError&) {
-    const int error = errno;
-    std::filesystem::remove(part, ec);
-    errno = error;
-    fail_to_write(path);
-  }
+  PartialFile part(path);
+  if (!part.write(parts) || (lasting && !part.make_lasting()) || !part.rename_to(path)) fail_to_write(path);
   if (lasting) make_lasting(path.has_parent_path() ? path.parent_path() : ".");  // the new name
 }
 
@@ -81,12 +133,11 @@ void make_lasting(const std::filesystem::path& path) {
   if (!writes_files()) return;
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) fail_to_write(path);
-  const int status = ::fsync(file);
+  const bool lasts = is_lasting(::fsync(file));
   const int error = errno;
   ::close(file);
   errno = error;
-  // Some file systems cannot sync a folder, or anything, and say so.
-  if (status != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS) fail_to_write(path);
+  if (!lasts) fail_to_write(path);
 }
 
 }  // namespace orthodyn

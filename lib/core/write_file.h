@@ -1,8 +1,10 @@
 // Files that are whole or absent. All throw RunError with the reason of the system.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace orthodyn {
@@ -12,12 +14,16 @@ namespace orthodyn {
 bool writes_files();
 void leave_files_to_others();
 
-// Writes the parts one after the other. To a neighbouring name first, then renamed: the file is
+// Writes the parts one after the other. To a new file NAME.<process>-<number>.part first, then renamed: the file is
 // whole or absent. Its folder is made. Devices and pipes are written to as they are.
 void write_file(const std::filesystem::path& path, const std::vector<std::string>& parts);
 
 // The same; it survives a power cut once this has returned.
 void write_lasting_file(const std::filesystem::path& path, const std::vector<std::string>& parts);
+
+// Writes all of a text into an open file, `at` bytes from its begin, as many calls to the system as it takes. False with
+// the reason in errno.
+bool write_all(int file, std::string_view text, std::size_t at);
 
 // Waits until what was written to a file is on the disk.
 void make_lasting(const std::filesystem::path& path);

@@ -30,8 +30,9 @@ constexpr const char* kLock = ".orthodyn-run";  // not run.json, which is rename
 bool is_unused(const fs::path& folder) {
   std::error_code ec;
   for (const auto& entry : fs::directory_iterator(folder, ec)) {
-    const auto name = entry.path().filename();
-    if (name != kLock && name != std::string(kRunRecordFile) + ".part") return false;
+    const std::string name = entry.path().filename().string();
+    const bool is_part = name.starts_with(std::string(kRunRecordFile) + ".") && name.ends_with(".part");
+    if (name != kLock && !is_part) return false;
   }
   return true;
 }

@@ -118,7 +118,8 @@ TEST_F(Stopped, OnlyFramesOfTheRunAreRemovedWhenItGoesOn) {
   const auto frames = folder_ / "out/beam/frames";
   const std::vector<std::string> others{"frame_99999.png", "frame_99999.vtu.bak", "frame_99999.vtu.part.txt",
                                         "frame_7.vtu"};
-  const std::vector<std::string> ours{"frame_99999.vtu", "frame_99998.vtu.part", "frame_00000.vtu.part"};
+  const std::vector<std::string> ours{"frame_99999.vtu", "frame_99998.vtu.part", "frame_00000.vtu.part",
+                                      "frame_00000.vtu.123-4.part"};
   for (const auto& name : others) std::ofstream(frames / name) << "x";
   for (const auto& name : ours) std::ofstream(frames / name) << "x";
   ASSERT_EQ(orthodyn("run beam.yaml --quiet --resume").exit_code, 0);

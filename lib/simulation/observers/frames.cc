@@ -125,7 +125,8 @@ void FrameWriter::remove_frames_from(std::size_t count) const {
     unsigned long k = 0;
     if (std::sscanf(name.c_str(), "frame_%lu.vtu", &k) != 1) continue;
     const std::string whole = frame(k).filename().string();
-    if ((name == whole && k >= count) || name == whole + ".part") surplus.push_back(entry.path());
+    const bool is_part = name.starts_with(whole + ".") && name.ends_with(".part");
+    if ((name == whole && k >= count) || is_part) surplus.push_back(entry.path());
   }
   for (const auto& path : surplus)
     if (!fs::remove(path, ec) && ec)
