@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <fstream>
 
 #include "lib/core/errors.h"
 
@@ -24,13 +23,15 @@ ReservedFile::ReservedFile(std::filesystem::path path, const std::string& conten
 
 void ReservedFile::rewrite(const std::string& content) const {
   if (!writes_files()) return;
-  std::fstream out(path_, std::ios::in | std::ios::out | std::ios::binary);
+  const int file = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file < 0) fail_to_write(path_);
   std::string text = content;
   if (text.size() < room_) text.append(room_ - text.size(), '\n');
-  out.write(text.data(), static_cast<std::streamsize>(text.size()));
-  out.close();
-  if (!out) fail_to_write(path_);
-  std::filesystem::resize_file(path_, content.size());
+  const bool written = write_all(file, text, 0) && ::ftruncate(file, static_cast<off_t>(content.size())) == 0;
+  const int error = errno;
+  const bool closed = ::close(file) == 0;
+  if (!written) errno = error;
+  if (!written || !closed) fail_to_write(path_);
 }
 
 GrowingFile::GrowingFile(std::filesystem::path path, std::string head, std::string tail)
@@ -54,7 +55,7 @@ void GrowingFile::begin() {
   append(head_);
 }
 
-// One call to the system: somebody who reads, or a signal that ends us, finds the old end or the new one.
+// One call to the system, as a rule: somebody who reads, or a signal that ends us, finds the old end or the new one.
 void GrowingFile::append(const std::string& entry) {
   write_at_end(entry + tail_);
   size_ += entry.size();
@@ -62,13 +63,11 @@ void GrowingFile::append(const std::string& entry) {
 
 void GrowingFile::write_at_end(const std::string& text) {
   if (!writes_files()) return;
-  const auto written = ::pwrite(file_, text.data(), text.size(), static_cast<off_t>(size_));
-  if (written == static_cast<ssize_t>(text.size())) return;
-  const int error = written < 0 ? errno : ENOSPC;
+  if (write_all(file_, text, size_)) return;
+  const int error = errno;
   // Back to the end mark, for which there was room before.
-  if (::pwrite(file_, tail_.data(), tail_.size(), static_cast<off_t>(size_)) == static_cast<ssize_t>(tail_.size()) &&
-      ::ftruncate(file_, static_cast<off_t>(size_ + tail_.size())) != 0)
-    errno = error;
+  if (write_all(file_, tail_, size_))
+    static_cast<void>(::ftruncate(file_, static_cast<off_t>(size_ + tail_.size())) == 0);
   errno = error;
   fail_to_write(path_);
 }
