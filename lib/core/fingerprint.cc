@@ -10,11 +10,11 @@
 namespace orthodyn {
 
 Fingerprint& Fingerprint::add(const std::string& text) {
-  const auto mix = [this](const std::string& part) {
-    for (const char c : part) hash_ = (hash_ ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  };
-  mix(fmt::format("{}:", text.size()));
-  mix(text);
+  return add_piece(fmt::format("{}:", text.size())).add_piece(text);
+}
+
+Fingerprint& Fingerprint::add_piece(std::string_view piece) {
+  for (const char c : piece) hash_ = (hash_ ^ static_cast<unsigned char>(c)) * 0x100000001b3;
   return *this;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace orthodyn {
 
@@ -12,9 +13,13 @@ namespace orthodyn {
 class Fingerprint {
  public:
   Fingerprint& add(const std::string& text);
+  // Goes on with a text that comes in pieces, wherever it is cut.
+  Fingerprint& add_piece(std::string_view piece);
   // The file's content. Throws RunError if it cannot be read.
   Fingerprint& add_file(const std::filesystem::path& path);
   std::string text() const;  // 16 hexadecimal digits
+  // 53 bits of it, which a double holds. A single byte that differs changes these as well.
+  double number() const { return static_cast<double>(hash_ & ((std::uint64_t{1} << 53) - 1)); }
 
  private:
   std::uint64_t hash_ = 0xcbf29ce484222325;

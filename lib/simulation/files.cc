@@ -6,14 +6,30 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <fstream>
 
 #include "lib/core/errors.h"
 
 namespace orthodyn {
 
 namespace {
+
 constexpr std::size_t kReserved = 16384;  // bytes beyond the first content
+
+Fingerprint fingerprint_of_begin(std::istream& in, std::size_t size) {
+  constexpr std::size_t kPiece = 1 << 20;
+  Fingerprint print;
+  std::string piece;
+  for (std::size_t left = size; left > 0 && in; left -= std::min(left, piece.size())) {
+    piece.resize(std::min(left, kPiece));
+    in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    print.add_piece({piece.data(), static_cast<std::size_t>(in.gcount())});
+  }
+  return print;
+}
+
 }  // namespace
 
 ReservedFile::ReservedFile(std::filesystem::path path, const std::string& content)
@@ -52,6 +68,7 @@ void GrowingFile::begin() {
   make_folder_of(path_);
   open(O_CREAT | O_TRUNC);
   size_ = 0;
+  print_ = {};
   append(head_);
 }
 
@@ -59,6 +76,7 @@ void GrowingFile::begin() {
 void GrowingFile::append(const std::string& entry) {
   write_at_end(entry + tail_);
   size_ += entry.size();
+  print_.add_piece(entry);
 }
 
 void GrowingFile::write_at_end(const std::string& text) {
@@ -72,45 +90,42 @@ void GrowingFile::write_at_end(const std::string& text) {
   fail_to_write(path_);
 }
 
-void GrowingFile::require(std::size_t size) const {
-  if (!writes_files()) return;
-  std::error_code ec;
-  const auto found = std::filesystem::file_size(path_, ec);
-  if (ec)
-    throw ConfigError(path_.string(),
-                      fmt::format("cannot be read ({}), but the checkpoint goes on writing to it; put it back, or "
-                                  "start anew with --force in place of --resume",
-                                  ec.message()));
-  if (found < size)
-    throw ConfigError(path_.string(),
-                      fmt::format("has {} bytes, but the checkpoint knows of {}: the end is lost; start anew with "
-                                  "--force in place of --resume",
-                                  found, size));
+void GrowingFile::save(Archive& archive) const {
+  make_lasting(path_);
+  archive.put_count("bytes", size_);
+  archive.put("fingerprint", print_.number());
 }
 
-void GrowingFile::go_on(std::size_t size) {
+void GrowingFile::restore(const Archive& archive) {
+  size_ = archive.count("bytes");
+  print_ = {};
+  if (!writes_files()) return;
+  std::ifstream in(path_, std::ios::binary);
+  std::error_code ec;
+  const auto found = std::filesystem::file_size(path_, ec);
+  if (ec || !in)
+    throw ConfigError(path_.string(), fmt::format("cannot be read{}, but the checkpoint goes on writing to it; {}",
+                                                  ec ? " (" + ec.message() + ")" : "", kPutBack));
+  if (found < size_)
+    throw ConfigError(path_.string(), fmt::format("has {} bytes, but the checkpoint knows of {}: the end is lost; {}",
+                                                  found, size_, kPutBack));
+  print_ = fingerprint_of_begin(in, size_);
+  if (print_.number() != archive.number("fingerprint"))
+    throw ConfigError(path_.string(), fmt::format("is damaged: its first {} bytes are not those that the checkpoint "
+                                                  "knows of; {}",
+                                                  size_, kPutBack));
+}
+
+void GrowingFile::go_on() {
   open(0);
-  size_ = size;
   write_at_end(tail_);
   if (!writes_files()) return;
   if (::ftruncate(file_, static_cast<off_t>(size_ + tail_.size())) != 0) fail_to_write(path_);
 }
 
-void GrowingFile::make_lasting() const { orthodyn::make_lasting(path_); }
-
 CsvFile::CsvFile(const std::filesystem::path& path, const std::vector<std::string>& header)
     : file_(path, fmt::format("{}\n", fmt::join(header, ",")), "") {}
 
 void CsvFile::row(const std::vector<double>& values) { file_.append(fmt::format("{}\n", fmt::join(values, ","))); }
-
-void CsvFile::save(Archive& archive) const {
-  file_.make_lasting();
-  archive.put_count("bytes", file_.size());
-}
-
-void CsvFile::restore(const Archive& archive) {
-  kept_ = archive.count("bytes");
-  file_.require(kept_);
-}
 
 }  // namespace orthodyn

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/fingerprint.h"
 #include "lib/core/write_file.h"
 #include "lib/simulation/observers/archive.h"
 
@@ -34,14 +35,13 @@ class GrowingFile {
   void begin();
   // In one piece, and before the next call returns in the file.
   void append(const std::string& entry);
-  // Bytes without the end mark.
-  std::size_t size() const { return size_; }
 
-  // Opens what an earlier process has written and cuts it down to `size`.
-  void go_on(std::size_t size);
-  // Throws ConfigError if the file has fewer bytes than that.
-  void require(std::size_t size) const;
-  void make_lasting() const;
+  // Its length and fingerprint without the end mark, for a checkpoint; what was written is on the disk afterwards.
+  void save(Archive& archive) const;
+  // Throws ConfigError if the file does not begin with what save() knew of.
+  void restore(const Archive& archive);
+  // After restore(): opens what an earlier process has written and cuts it down to what save() knew of.
+  void go_on();
 
  private:
   void open(int flags);
@@ -50,8 +50,13 @@ class GrowingFile {
   std::filesystem::path path_;
   std::string head_, tail_;
   int file_ = -1;
-  std::size_t size_ = 0;
+  std::size_t size_ = 0;  // bytes without the end mark
+  Fingerprint print_;     // of these
 };
+
+// What to do where results are not as a checkpoint knows them.
+inline constexpr const char* kPutBack = "put it back, or start anew with --force in place of --resume";
+
 
 // A CSV file whose rows are in the file as soon as they are written.
 class CsvFile {
@@ -60,15 +65,13 @@ class CsvFile {
   void begin() { file_.begin(); }
   void row(const std::vector<double>& values);
 
-  // Its length, for a checkpoint; what was written is on the disk afterwards.
-  void save(Archive& archive) const;
-  void restore(const Archive& archive);
-  // After restore().
-  void go_on() { file_.go_on(kept_); }
+  // As a GrowingFile.
+  void save(Archive& archive) const { file_.save(archive); }
+  void restore(const Archive& archive) { file_.restore(archive); }
+  void go_on() { file_.go_on(); }
 
  private:
   GrowingFile file_;
-  std::size_t kept_ = 0;
 };
 
 }  // namespace orthodyn

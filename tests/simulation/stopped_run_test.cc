@@ -97,7 +97,8 @@ TEST_F(Stopped, ADamagedCheckpointIsRefusedAndNothingDestroyed) {
 
 TEST_F(Stopped, ACheckpointOfAnotherVersionIsNamed) {
   std::string text = read_text(checkpoint_);
-  text.replace(text.find(" 004 "), 5, " 001 ");
+  const auto number = text.find("checkpoint ") + std::string("checkpoint ").size();
+  text.replace(number, 3, "001");
   std::ofstream(checkpoint_, std::ios::binary) << text;
   expect_refused("beam.yaml", "version 1 of the format");
 }
@@ -107,6 +108,37 @@ TEST_F(Stopped, ALostFrameOrTableIsNamedAndNothingElseTouched) {
   expect_refused("beam.yaml", "probes.csv: has 40 bytes");
   fs::remove(folder_ / "out/beam/frames/frame_00001.vtu");
   expect_refused("beam.yaml", "frame_00001.vtu: is missing");
+}
+
+// Whatever the checkpoint goes on from: every file that it adds to, and every frame before it.
+TEST_F(Stopped, DamagedResultsAreNamedAndNothingElseTouched) {
+  for (const char* name : {"frames/frame_00000.vtu", "frames/frame_00002.vtu", "frames.pvd", "probes.csv", "energy.csv",
+                           "momentum.csv", "steps.csv"}) {
+    const fs::path file = folder_ / "out/beam" / name;
+    const std::string whole = read_text(file);
+    const auto put = [&](const std::string& text) { std::ofstream(file, std::ios::binary) << text; };
+    std::string flipped = whole;
+    flipped[flipped.size() / 3] ^= 1;
+    std::string digits = whole;  // still a table
+    const auto digit = digits.find_first_of("0123456789", digits.size() / 2);
+    digits[digit] = digits[digit] == '7' ? '8' : '7';
+    for (const std::string& damaged : {std::string(), whole.substr(0, whole.size() / 2), flipped, digits,
+                                       std::string(whole.size(), '\0')}) {
+      put(damaged);
+      expect_refused("beam.yaml", fs::path(name).filename().string() + ": ");
+    }
+    put(whole);
+  }
+  EXPECT_EQ(orthodyn("run beam.yaml --quiet --resume").exit_code, 0);
+}
+
+// What was written after the checkpoint is computed again.
+TEST_F(Stopped, WhatFollowsTheCheckpointMayBeDamaged) {
+  for (const char* name : {"probes.csv", "energy.csv", "frames.pvd"})
+    std::ofstream(folder_ / "out/beam" / name, std::ios::binary | std::ios::app) << "1,2";
+  ASSERT_EQ(orthodyn("run beam.yaml --quiet --resume").exit_code, 0);
+  ASSERT_EQ(orthodyn("run beam.yaml --quiet --out whole").exit_code, 0);
+  expect_same_times(folder_ / "out/beam", folder_ / "whole");
 }
 
 TEST_F(Stopped, WithoutItsCheckpointItIsRefused) {

@@ -19,7 +19,7 @@ namespace {
 using SortedJson = nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr int kVersion = 4;
+constexpr int kVersion = 5;
 constexpr const char* kCheckpointMark = "orthodyn checkpoint ";
 constexpr std::size_t kHeadSize = 2 + 20 + 3 + 1 + 16;  // CBOR's own, mark, version, space, fingerprint
 
@@ -86,7 +86,7 @@ Checkpoint from_json(const SortedJson& json) {
   c.begun = json.at("begun");
   c.state = {json.at("t"), vector(json.at("q")), vector(json.at("v"))};
   c.last_output = json.at("last_output");
-  c.last_history = json.value("last_history", c.last_output);
+  c.last_history = json.at("last_history");
   const auto& rhythm = json.at("rhythm");
   c.schedule = {rhythm.at(0), rhythm.at(1), rhythm.at(2)};
   c.effort = Effort::from(archive(json.at("effort")));

@@ -36,8 +36,6 @@ Effort Effort::from(const Archive& archive) {
   Effort out;
   for (const auto& [name, count] : kCounts) out.statistics.*count = static_cast<long>(archive.count(name));
   for (const auto& [name, cost] : kCosts) {
-    const bool is_new = cost == &Statistics::modes || cost == &Statistics::observation;
-    if (is_new && !archive.has(name)) continue;  // older checkpoints have none
     const auto& values = archive.numbers(name, 2);
     out.statistics.*cost = {static_cast<long>(values[0]), values[1]};
   }

@@ -14,7 +14,6 @@ class Archive {
   void put(const std::string& name, std::vector<double> values) { values_[name] = std::move(values); }
   void put_count(const std::string& name, std::size_t value) { put(name, static_cast<double>(value)); }
 
-  bool has(const std::string& name) const { return values_.contains(name); }
   // Throw ConfigError if there is no such entry, or one of another length.
   double number(const std::string& name) const { return numbers(name, 1)[0]; }
   std::size_t count(const std::string& name) const;

@@ -113,7 +113,7 @@ void EventFinder::save(Archive& archive) const {
 void EventFinder::restore(const Archive& archive) {
   const auto& sides = archive.numbers("sides", side_.size());
   std::transform(sides.begin(), sides.end(), side_.begin(), [](double side) { return sign(side); });
-  if (archive.has("happened")) happened_ = archive.numbers("happened", events_.size());
+  happened_ = archive.numbers("happened", events_.size());
 }
 
 }  // namespace orthodyn

@@ -13,14 +13,12 @@ void EventWriter::on_event(const Crossing& crossing) {
 }
 
 void EventWriter::save(Archive& archive) {
-  file_.make_lasting();
-  archive.put_count("bytes", file_.size());
+  file_.save(archive);
   finder_.save(archive);
 }
 
 void EventWriter::restore(const Archive& archive) {
-  kept_ = archive.count("bytes");
-  file_.require(kept_);
+  file_.restore(archive);
   finder_.restore(archive);
 }
 

@@ -15,7 +15,7 @@ class EventWriter : public Observer {
   EventWriter(const std::filesystem::path& path, EventFinder& finder);
 
   void on_start(const ObservedState&) override { file_.begin(); }
-  void on_resume(const ObservedState&) override { file_.go_on(kept_); }
+  void on_resume(const ObservedState&) override { file_.go_on(); }
   void on_event(const Crossing& crossing) override;
   void save(Archive& archive) override;
   void restore(const Archive& archive) override;
@@ -23,7 +23,6 @@ class EventWriter : public Observer {
  private:
   EventFinder& finder_;
   GrowingFile file_;
-  std::size_t kept_ = 0;  // bytes, of a checkpoint
 };
 
 }  // namespace orthodyn

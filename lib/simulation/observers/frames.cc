@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
 #include "lib/core/errors.h"
+#include "lib/core/fingerprint.h"
 #include "lib/core/write_file.h"
 #include "lib/mesh/io/vtk_grid.h"
 #include "lib/mesh/io/vtu_text.h"
@@ -44,6 +47,19 @@ VtuGrid grid_of(const Geometry& geometry, std::vector<VtuField> fields, VtuNumbe
   return grid;
 }
 
+double fingerprint_of(const std::vector<std::string>& parts) {
+  Fingerprint print;
+  for (const std::string& part : parts) print.add_piece(part);
+  return print.number();
+}
+
+double fingerprint_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return Fingerprint().add_piece(text.view()).number();
+}
+
 }  // namespace
 
 void write_vtu(const std::filesystem::path& path, const Geometry& geometry, std::vector<VtuField> fields,
@@ -67,11 +83,13 @@ void FrameWriter::write(const ObservedState& observed) {
     fields.push_back({info.name, info.location, info.components, observed.evaluate(info.name)});
   if (!writes_files()) {
     ++frames_;
+    prints_.push_back(0);
     return;
   }
   const fs::path path = frame(frames_);
   const Geometry geometry = model_.geometry();
-  write_file(path, vtu_text(grid_of(geometry, std::move(fields), VtuNumber::float32, mesh_), VtuStorage::raw));
+  const auto text = vtu_text(grid_of(geometry, std::move(fields), VtuNumber::float32, mesh_), VtuStorage::raw);
+  write_file(path, text);
   try {
     collection_.append(fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"frames/{}\"/>\n", observed.t(),
                                    path.filename().string()));
@@ -81,6 +99,7 @@ void FrameWriter::write(const ObservedState& observed) {
     throw;
   }
   ++frames_;
+  prints_.push_back(fingerprint_of(text));
 }
 
 fs::path FrameWriter::frame(std::size_t k) const { return folder_ / "frames" / fmt::format("frame_{:05}.vtu", k); }
@@ -94,25 +113,28 @@ void FrameWriter::save(Archive& archive) {
   const bool any_new = lasting_ < frames_;
   for (; lasting_ < frames_; ++lasting_) make_lasting(frame(lasting_));
   if (any_new) make_lasting(folder_ / "frames");  // their names
-  collection_.make_lasting();
+  collection_.save(archive);
   archive.put_count("frames", frames_);
-  archive.put_count("bytes", collection_.size());
+  archive.put("fingerprints", prints_);
 }
 
 void FrameWriter::restore(const Archive& archive) {
+  collection_.restore(archive);
   frames_ = lasting_ = archive.count("frames");
-  kept_ = archive.count("bytes");
-  collection_.require(kept_);
-  for (std::size_t k = 0; k < frames_ && writes_files(); ++k)
+  prints_ = archive.numbers("fingerprints", frames_);
+  for (std::size_t k = 0; k < frames_ && writes_files(); ++k) {
     if (std::error_code ec; !fs::exists(frame(k), ec))
       throw ConfigError(frame(k).string(),
-                        fmt::format("is missing, but the checkpoint knows of {} frames; put it back, or start anew "
-                                    "with --force in place of --resume",
-                                    frames_));
+                        fmt::format("is missing, but the checkpoint knows of {} frames; {}", frames_, kPutBack));
+    if (fingerprint_of(frame(k)) != prints_[k])
+      throw ConfigError(frame(k).string(), fmt::format("is damaged or not of this run: its bytes are not those that "
+                                                       "the checkpoint knows of; {}",
+                                                       kPutBack));
+  }
 }
 
 void FrameWriter::on_resume(const ObservedState&) {
-  collection_.go_on(kept_);
+  collection_.go_on();
   if (writes_files()) remove_frames_from(frames_);
 }
 

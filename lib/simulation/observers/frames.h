@@ -49,7 +49,7 @@ class FrameWriter : public Observer {
   std::vector<OutputInfo> fields_;
   GrowingFile collection_;
   std::size_t frames_ = 0, lasting_ = 0;  // written, and known to be on the disk
-  std::size_t kept_ = 0;                  // bytes of the collection, of a checkpoint
+  std::vector<double> prints_;            // fingerprints of the frames
 };
 
 }  // namespace orthodyn

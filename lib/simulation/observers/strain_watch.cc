@@ -31,7 +31,7 @@ void StrainWatch::save(Archive& archive) {
 }
 
 void StrainWatch::restore(const Archive& archive) {
-  if (archive.has("last_look")) last_look_ = archive.number("last_look");  // older checkpoints have none
+  last_look_ = archive.number("last_look");
   largest_energy_ = archive.number("largest_energy");
   const auto& worst = archive.numbers("worst", 2);
   if (worst[0] > 0)
