@@ -21,6 +21,7 @@ class Agenda {
       const auto near = std::lower_bound(others.begin(), others.end(), t - tiny);
       if (near != others.end() && *near <= t + tiny) t = *near;
     }
+    times_.erase(std::unique(times_.begin(), times_.end()), times_.end());
   }
   void skip_until(double last, double tiny) {
     while (next_ < times_.size() && times_[next_] <= last + tiny) ++next_;
@@ -203,9 +204,12 @@ std::vector<double> evenly_spaced(double start, double end, int frames) {
 
 std::vector<double> by_interval(double start, double end, double interval) {
   std::vector<double> times;
+  // Late times have larger round-off than an interval may allow for.
+  const double round_off = 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(start), std::abs(end));
+  const double same = std::max(1e-9 * interval, round_off);
   for (long k = 1;; ++k) {
     const double t = start + static_cast<double>(k) * interval;
-    if (t > end - 1e-9 * interval) break;
+    if (t > end - same) break;
     times.push_back(t);
   }
   times.push_back(end);

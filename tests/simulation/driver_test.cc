@@ -1,4 +1,6 @@
 // The driver and its files, on small scenes.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstring>
@@ -51,6 +53,38 @@ TEST(OutputTimes, CoverTheSpanEvenlyAndEndOnIt) {
   EXPECT_EQ(by_interval(0, 1, 0.4), (std::vector<double>{0.4, 0.8, 1}));
   EXPECT_EQ(by_interval(0, 0.3, 0.1).size(), 3u);  // no doubled end from rounding
   EXPECT_TRUE(evenly_spaced(0, 1, 0).empty());
+}
+
+// Wherever the start lies, and for ends that are reached with and without round-off.
+TEST(OutputTimes, ByIntervalNeverComeTwice) {
+  for (const double start : {0.0, 1e-3, -1.0, 7.0, 1e3, 1e6, -1e6, 1e8})
+    for (const double interval : {1e-2, 0.1, 0.3, 1.0 / 3, 7e-3})
+      for (const int count : {1, 2, 3, 7, 10, 33, 100}) {
+        const double end = start + count * interval;
+        const auto times = by_interval(start, end, interval);
+        ASSERT_EQ(times.size(), static_cast<std::size_t>(count)) << start << " " << interval;
+        EXPECT_EQ(times.back(), end);
+        double before = start;
+        for (const double t : times) {
+          EXPECT_NEAR(t - before, interval, 1e-2 * interval) << start;
+          before = t;
+        }
+      }
+}
+
+TEST(Driver, DeliversEveryOutputOnceAtLateTimes) {
+  for (const double start : {0.0, 1e3, 1e6}) {
+    std::string yaml = kSwing;
+    yaml.replace(yaml.find("{end: 0.5}"), 10, fmt::format("{{start: {}, end: {}}}", start, start + 0.1));
+    Case swing(yaml);
+    Recorder seen;
+    swing.run_with({.output_times = by_interval(start, start + 0.1, 1e-2),
+                    .history_times = by_interval(start, start + 0.1, 1e-2)},
+                   {&seen});
+    EXPECT_EQ(seen.outputs.size(), 11u);  // with the start
+    EXPECT_EQ(seen.history.size(), 10u);
+    EXPECT_EQ(std::adjacent_find(seen.outputs.begin(), seen.outputs.end()), seen.outputs.end());
+  }
 }
 
 TEST(Driver, DeliversEveryOutputOnceAndInOrder) {
