@@ -72,12 +72,13 @@ void take_in(const std::vector<double>& values, const FieldOfRegion& field, doub
   }
 }
 
-bool has_node(const ElementMesh& mesh, const ElasticTerm& term, int node) {
-  const auto& own = term.definition().cells;
-  return std::any_of(own.begin(), own.end(), [&](int cell) {
+// Of the whole mesh, whichever rank has the cell. Collective.
+bool has_node(const FemModel& model, const ElementMesh& mesh, const ElasticTerm& term, int node) {
+  const auto& own = model.ranks() ? term.definition().numbers : term.definition().cells;
+  return model.space().any(std::any_of(own.begin(), own.end(), [&](int cell) {
     const auto nodes = mesh.cells[static_cast<std::size_t>(cell)];
     return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
-  });
+  }));
 }
 
 void fail_without_strength(const std::string& field, const std::string& what, const Origin& origin) {
@@ -101,13 +102,13 @@ void require_strengths(const std::string& field, const std::string& region, cons
 void require_field_at(const std::string& field, int node, const FemModel& model, const Origin& origin) {
   const ElementMesh mesh(model.parts().mesh);
   const ElasticTerm* const named = region_of(field, model);
-  if (named && !has_node(mesh, *named, node))
+  if (named && !has_node(model, mesh, *named, node))
     origin.fail(fmt::format("'{}': the probe's node is not of region {}; move the probe, or take the field without a "
                             "region", field, named->region()));
   if (!needs_strength(field)) return;
   std::string region;
   for (const auto& term : model.parts().elastic) {
-    if ((named && term.get() != named) || !has_node(mesh, *term, node)) continue;
+    if ((named && term.get() != named) || !has_node(model, mesh, *term, node)) continue;
     if (term->definition().strength) return;
     region = term->region();
   }

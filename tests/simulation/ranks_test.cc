@@ -46,6 +46,37 @@ TEST_F(SeveralRanks, WriteWhatOneWrites) {
   }
 }
 
+// A region may be of one rank alone, and a rank of one region: what needs strengths, or a region at a node, is asked of
+// all ranks.
+TEST_F(SeveralRanks, KnowWhichRegionsANodeIsOf) {
+  const std::string body =
+      "mesh: {type: box, size: [2, 1, 1], cells: [4, 2, 2], order: 1, parts: {up: {min: [1, 0, 0], max: [2, 1, 1]}}}\n"
+      "materials:\n"
+      "  a: {type: isotropic, density: 1000, young: 1e6, nu: 0.3, strength: {tension: 1e3, compression: 1e3, "
+      "shear: 1e3}}\n"
+      "  b: {type: isotropic, density: 1000, young: 2e6, nu: 0.3}\n"
+      "clamps: [{surface: x0}]\ngravity: [0, 0, -1]\ntime: {end: 0.1}\n"
+      "integrator: {type: arkode_dirk, step: 0.05}\n";
+  const auto probed = [&](const std::string& regions, const std::string& at, const std::string& field) {
+    write("s.yaml", body + "regions: " + regions + "\noutput: {frames: 2, extremes: [von_mises.largest], probes: {p: {at: " +
+                        at + ", fields: [" + field + "]}}}\n");
+    const auto one = orthodyn("run s.yaml --quiet --force --out one");
+    for (const int ranks : {2, 3}) {
+      const auto several = orthodyn_on(ranks, "run s.yaml --quiet --force --out several");
+      EXPECT_EQ(several.exit_code, one.exit_code) << several.output << one.output;
+      if (one.exit_code == 0) expect_alike("several", "one", 1e-6);
+      else EXPECT_EQ(count(several.output, one.output.substr(0, one.output.find('\n'))), 1) << several.output;
+    }
+    return one.exit_code;
+  };
+  const std::string all = "{all: {material: a}}", two = "{body: {material: b}, up: {material: a}}";
+  for (const char* at : {"[0.5, 0, 0]", "[1, 1, 1]", "[2, 1, 1]"}) EXPECT_EQ(probed(all, at, "max_stress"), 0) << at;
+  EXPECT_EQ(probed(two, "[2, 1, 1]", "max_stress"), 0);
+  EXPECT_EQ(probed(two, "[2, 1, 1]", "up.nodal_stress_material"), 0);
+  EXPECT_EQ(probed(two, "[0, 0, 0]", "max_stress"), 2);
+  EXPECT_EQ(probed(two, "[0, 0, 0]", "up.nodal_stress_material"), 2);
+}
+
 TEST_F(SeveralRanks, GiveTheSameBitsTwice) {
   write("beam.yaml", kBeam + kShort);
   for (const std::string solver : {"auto", "petsc"}) {
