@@ -18,21 +18,50 @@ class EnergyOfStress {
  public:
   EnergyOfStress(const ElementMesh& mesh, const ElasticTerm& term)
       : mesh_(mesh), term_(term), compliance_(Mat6(term.stiffness().inverse())),
-        shares_(mesh.type.consistent_mass(positions(0), 1) / volume(0)) {
+        straight_(mesh.type.num_corners() == kCornersOfTet ? shares_of(unit_tetrahedron()) : ElementMatrix()) {
     if (term.definition().axes.uniform()) in_space_ = compliance_in_space(0);
   }
 
   double volume(int k) const { return mesh_.type.lumped_mass(positions(k), 1).sum(); }
 
-  // The mean of a : C^-1 : b / 2, J/m^3. As shares of the volume the integrals are the same for all elements with
-  // straight edges.
+  // The mean of a : C^-1 : b / 2, J/m^3.
   double density(int k, const ElementRows& a, const ElementRows& b) const {
     const Mat6 compliance = in_space_ ? *in_space_ : compliance_in_space(k);
-    const ElementRows of_b = shares_.lazyProduct(b);
+    const ElementRows of_b = shares(k).lazyProduct(b);
     return 0.5 * a.lazyProduct(compliance).cwiseProduct(of_b).sum();
   }
 
  private:
+  static constexpr int kCornersOfTet = 4;
+
+  // Integrals of products of two shapes as shares of the volume: the same for all tetrahedra with straight edges.
+  ElementMatrix shares(int k) const {
+    const ElementType::Nodes X = positions(k);
+    return straight_.size() > 0 && is_straight(X) ? straight_ : shares_of(X);
+  }
+  ElementMatrix shares_of(const ElementType::Nodes& X) const {
+    return mesh_.type.consistent_mass(X, 1) / mesh_.type.lumped_mass(X, 1).sum();
+  }
+
+  // Whether edges are so but for round-off.
+  bool is_straight(const ElementType::Nodes& X) const {
+    constexpr double kRoundOff = 1e-14;  // of the coordinates
+    Eigen::Index middle = mesh_.type.num_corners();
+    for (const auto& [i, j] : mesh_.type.edges_with_middles()) {
+      const Vec3 bulge = X.col(middle++) - (X.col(i) + X.col(j)) / 2;
+      if (bulge.norm() > kRoundOff * (X.col(i).norm() + X.col(j).norm())) return false;
+    }
+    return true;
+  }
+
+  ElementType::Nodes unit_tetrahedron() const {
+    ElementType::Nodes X = ElementType::Nodes::Zero(3, mesh_.type.num_nodes());
+    X.block<3, 3>(0, 1).setIdentity();
+    Eigen::Index middle = kCornersOfTet;
+    for (const auto& [i, j] : mesh_.type.edges_with_middles()) X.col(middle++) = (X.col(i) + X.col(j)) / 2;
+    return X;
+  }
+
   // With sigma' = K sigma it is K C^-1' K^T for K that of the inverse rotation.
   Mat6 compliance_in_space(int k) const {
     const Mat6 to_material = stress_rotation(term_.axes_at_rest(k, 0).transpose());
@@ -45,7 +74,7 @@ class EnergyOfStress {
   const ElasticTerm& term_;
   Mat6 compliance_;
   std::optional<Mat6> in_space_;  // where it is the same for all elements
-  ElementMatrix shares_;
+  ElementMatrix straight_;  // of a tetrahedron with straight edges; empty for other elements
 };
 
 // Of the elements of a region, at their nodes: what was computed at their points, and the recovered less that.
