@@ -28,24 +28,52 @@ double number_in(const std::filesystem::path& file) {
   return std::ifstream(file) >> number ? number : kUnlimited;
 }
 
-// The least of this process's control group and those above it.
-double group_limit() {
+// The number beside a name in a file of such lines; 0 where there is none.
+double number_beside(const std::string& name, const std::filesystem::path& file) {
+  std::ifstream in(file);
+  double number = 0;
+  for (std::string found; in >> found >> number;)
+    if (found == name) return number;
+  return 0;
+}
+
+// Names of files in the folder of a control group.
+struct GroupFiles {
+  const char *folder, *limit, *used, *unused_cache;
+};
+constexpr GroupFiles kVersion1{"memory", "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"};
+constexpr GroupFiles kVersion2{"", "memory.max", "memory.current", "inactive_file"};
+
+// What all processes of a group use together; what files keep in memory without need is given up before it gets scarce.
+double used_by(const std::filesystem::path& group, const GroupFiles& files) {
+  const double used = number_in(group / files.used);
+  return used < kUnlimited ? used - number_beside(files.unused_cache, group / "memory.stat") : 0;
+}
+
+}  // namespace
+
+GroupMemory memory_of_groups(const std::filesystem::path& groups, const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
-  double least = kUnlimited;
-  std::ifstream groups("/proc/self/cgroup");
-  for (std::string line; std::getline(groups, line);) {  // "0::/a/b", of version 1 "7:memory:/a/b"
+  GroupMemory least{kUnlimited, kUnlimited};
+  std::ifstream in(groups);
+  for (std::string line; std::getline(in, line);) {  // "0::/a/b", of version 1 "7:memory:/a/b"
     const bool is_first = line.find(":memory:") != std::string::npos;
     if (!is_first && !line.starts_with("0::")) continue;
-    const fs::path root = is_first ? "/sys/fs/cgroup/memory" : "/sys/fs/cgroup";
-    const char* file = is_first ? "memory.limit_in_bytes" : "memory.max";
-    fs::path group = line.substr(line.rfind(':') + 2);
-    for (;; group = group.parent_path()) {
-      least = std::min(least, number_in(root / group / file));
+    const GroupFiles& files = is_first ? kVersion1 : kVersion2;
+    for (fs::path group = line.substr(line.rfind(':') + 2);; group = group.parent_path()) {
+      const fs::path here = folder / files.folder / group;
+      const double limit = number_in(here / files.limit);
+      least.limit = std::min(least.limit, limit);
+      if (limit < kUnlimited) least.left = std::min(least.left, limit - used_by(here, files));
       if (group.empty()) break;
     }
   }
   return least;
 }
+
+namespace {
+
+GroupMemory memory_of_own_groups() { return memory_of_groups("/proc/self/cgroup", "/sys/fs/cgroup"); }
 
 // A line of a file of /proc in kB, in bytes; 0 where there is none.
 double proc_bytes(const char* file, const std::string& name) {
@@ -59,14 +87,14 @@ double proc_bytes(const char* file, const std::string& name) {
 
 double memory_limit() {
   const double physical = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  return std::min({physical, limit_of(RLIMIT_AS), limit_of(RLIMIT_RSS), group_limit()});
+  return std::min({physical, limit_of(RLIMIT_AS), limit_of(RLIMIT_RSS), memory_of_own_groups().limit});
 }
 
 double memory_left() {
   const double free = proc_bytes("/proc/meminfo", "MemAvailable") + proc_bytes("/proc/meminfo", "SwapFree");
   const double addresses = limit_of(RLIMIT_AS) - proc_bytes("/proc/self/status", "VmSize");
-  const double resident = group_limit() - proc_bytes("/proc/self/status", "VmRSS");  // Linux ignores RLIMIT_RSS
-  return std::max(0.0, std::min({free > 0 ? free : memory_limit(), addresses, resident}));
+  // Linux ignores RLIMIT_RSS.
+  return std::max(0.0, std::min({free > 0 ? free : memory_limit(), addresses, memory_of_own_groups().left}));
 }
 
 bool addresses_are_limited() { return limit_of(RLIMIT_AS) < kUnlimited; }
