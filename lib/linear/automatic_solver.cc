@@ -11,7 +11,9 @@ namespace {
 // Unknowns: below the first a factor costs less (docs/decisions.md). From the second on its analysis is not tried: a
 // guess, as is the share.
 constexpr int kIterativeFrom = 100'000, kOnlyIterativeFrom = 3'000'000;
-constexpr double kShareOfMemory = 0.6;  // of what is left, that a factor may take
+// Of what the process may use, that a factor may take. What others happen to leave of it decides nothing: the same
+// scene has the same solver.
+constexpr double kShareOfMemory = 0.6;
 
 constexpr double kSolutions = 15;  // of an adaptive run for each factor, measured
 
@@ -23,6 +25,18 @@ bool is_cheaper_by_iterations(const Pattern& pattern, double factor_bytes) {
          all * (kSetUp + kSolutions * kIterations * kIteration);
 }
 
+// Empty where a factor fits and costs less.
+std::string why_iterations(const Pattern& pattern, double factor_bytes) {
+  constexpr double kGigabyte = 1e9;
+  const double gigabytes = factor_bytes / kGigabyte, limit = memory_limit();
+  if (factor_bytes > kShareOfMemory * limit)
+    return fmt::format("a factor takes {:.3g} GB, more than {} of {:.3g} GB of memory", gigabytes, kShareOfMemory,
+                       limit / kGigabyte);
+  if (is_cheaper_by_iterations(pattern, factor_bytes))
+    return fmt::format("a factor of {:.3g} GB costs more than iterations", gigabytes);
+  return "";
+}
+
 class AutomaticSolver : public LinearSolver {
  public:
   void analyze(const Pattern& pattern) override {
@@ -30,18 +44,20 @@ class AutomaticSolver : public LinearSolver {
     if (pattern.share) return take(pattern.share->unknowns < kIterativeFrom ? "cholmod" : "petsc", pattern);
     const bool has_petsc = solver_registry().at("petsc").unavailable.empty();
     if (!has_petsc || pattern.n < kIterativeFrom) return take("cholmod", pattern);
-    if (pattern.n >= kOnlyIterativeFrom) return take("petsc", pattern);
+    if (pattern.n >= kOnlyIterativeFrom)
+      return take("petsc", pattern, fmt::format("no factor is tried of {} unknowns", pattern.n));
     try {
       take("cholmod", pattern);
     } catch (const RunError&) {  // more than 2^31 entries, or no memory for the analysis
-      return take("petsc", pattern);
+      return take("petsc", pattern, "a factor cannot be analysed");
     }
     const auto factor = static_cast<double>(solver_->factor_bytes());
-    if (factor <= kShareOfMemory * memory_left() && !is_cheaper_by_iterations(pattern, factor)) return;
+    const std::string because = why_iterations(pattern, factor);
+    if (because.empty()) return;
     try {
-      take("petsc", pattern);
+      take("petsc", pattern, because);
     } catch (const ConfigError&) {  // it cannot be loaded here
-      take("cholmod", pattern);
+      take("cholmod", pattern, because + ", but PETSc cannot be loaded");
     }
   }
 
@@ -56,17 +72,20 @@ class AutomaticSolver : public LinearSolver {
   std::optional<bool> has_negative_determinant() const override { return solver_->has_negative_determinant(); }
   std::size_t factor_bytes() const override { return solver_ ? solver_->factor_bytes() : 0; }
   std::string description() const override {
-    return solver_ ? fmt::format("{}: {}", type_, solver_->description()) : "not chosen yet";
+    if (!solver_) return "not chosen yet";
+    return fmt::format("{}: {}{}", type_, solver_->description(), because_.empty() ? "" : "; " + because_);
   }
 
  private:
-  void take(const char* type, const Pattern& pattern) {
+  void take(const char* type, const Pattern& pattern, const std::string& because = "") {
     solver_.reset();  // before the next one takes memory
     solver_ = make_linear_solver({type}, pattern);
     type_ = type;
+    because_ = because;
   }
 
   const char* type_ = "";
+  std::string because_;  // where a factor is not taken
   std::unique_ptr<LinearSolver> solver_;
 };
 
