@@ -108,6 +108,19 @@ class AProblem(unittest.TestCase):
                 with self.subTest(text), self.assertRaisesRegex(error, text):
                     orthodyn.Problem([1.0], lambda t, q, v: given if t >= begin else -q).solve((0, 1), [1.0])
 
+    def test_tells_what_is_wrong_with_a_tangent_by_the_kind_of_error(self):
+        from orthodyn import _core
+        for given, error, text in ((None, TypeError, "no pair"), ((), TypeError, "no pair"), (1.0, TypeError, "no pair"),
+                                   ((np.ones(1),), TypeError, "no pair"),
+                                   ((None, None), TypeError, "the stiffness is no array of numbers"),
+                                   (("x", None), TypeError, "the stiffness is no array of numbers"),
+                                   ((np.ones(2), None), ValueError, "the stiffness has 2 numbers, expected 1")):
+            with self.subTest(text), self.assertRaisesRegex(error, text):
+                problem = orthodyn.Problem([1.0], lambda t, q, v: -q)
+                problem._core = lambda *_, given=given: _core.PythonModel(
+                    np.ones(1), lambda t, q, v: -q, lambda t, q, v: given, [0, 1], [0], True, False, False, False)
+                problem.solve((0, 1), [1.0])
+
     def test_says_what_it_needs(self):
         problem = orthodyn.Problem([1.0], lambda t, q, v: 1 - q)
         for call, text in ((lambda: problem.solve((0, 1), [0.0]), "tells no size of the motion"),

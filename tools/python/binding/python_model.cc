@@ -72,14 +72,19 @@ void PythonModel::combine(const Weights& w, const Linearization& at, double* val
 
 void PythonModel::assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind,
                            Linearization& out) const {
-  const py::tuple both = called([&] { return parts_.tangent(t, copied(q), copied(v)); });
   const auto values = [&](const py::object& given, const char* what) {
     const Numbers array = numbers(given, parts_.pattern.non_zeros(), what);
     return std::vector<double>(array.data(), array.data() + array.size());
   };
-  out.stiffness = values(both[0], "the stiffness");
-  out.damping.clear();
-  if (parts_.damped) out.damping = values(both[1], "the damping");
+  called([&]() -> py::object {
+    const py::object both = parts_.tangent(t, copied(q), copied(v));
+    if (!py::isinstance<py::tuple>(both) || py::len(both) != 2) throw py::type_error("the tangent is no pair (K, D)");
+    const auto pair = both.cast<py::tuple>();
+    out.stiffness = values(pair[0], "the stiffness");
+    out.damping.clear();
+    if (parts_.damped) out.damping = values(pair[1], "the damping");
+    return py::none();
+  });
 }
 
 }  // namespace orthodyn::python
