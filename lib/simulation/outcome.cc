@@ -4,6 +4,8 @@
 #include <ctime>
 #include <new>
 
+#include "lib/core/parallel.h"
+
 namespace orthodyn {
 
 const char* status_word(Outcome::Status status) {
@@ -15,7 +17,13 @@ const char* status_word(Outcome::Status status) {
   return "";
 }
 
-double cpu_seconds_now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+// With one thread for loops BLAS has one as well (RunThreads): all that is done is done by this one, and what other runs
+// of the process do at the same time is not counted.
+double cpu_seconds_now() {
+  timespec now{};
+  clock_gettime(loop_threads() == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 namespace {
 

@@ -27,7 +27,8 @@ struct Outcome {
 
 const char* status_word(Outcome::Status status);  // "completed"
 
-// Processor time of this process, s.
+// Processor time, s, of which differences count: of this thread where its loops run on one, else of the process. Between
+// the two of a difference the number of threads is the same.
 double cpu_seconds_now();
 
 // Calls `work`, turns the exception that stops it into the outcome, and calls on_end of the observers.

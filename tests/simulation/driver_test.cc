@@ -161,6 +161,23 @@ TEST(Driver, TurnsALackOfMemoryIntoAnOutcomeThatSaysSo) {
   EXPECT_STREQ(reason_name(outcome.reason), "out of memory");
 }
 
+// A neighbour in this process works ten times as long.
+TEST(Outcomes, ARunIsToldItsOwnProcessorTime) {
+  const auto work_for = [](std::chrono::milliseconds time) {
+    const auto end = std::chrono::steady_clock::now() + time;
+    while (std::chrono::steady_clock::now() < end) {
+    }
+  };
+  std::thread neighbour([&] { work_for(std::chrono::milliseconds(500)); });
+  const auto outcome = supervise({}, {}, [&](Outcome&) {
+    work_for(std::chrono::milliseconds(50));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  });
+  neighbour.join();
+  EXPECT_GT(outcome.cpu_seconds, 0);
+  EXPECT_LE(outcome.cpu_seconds, 0.1);
+}
+
 class Files : public InFolder {};
 
 TEST_F(Files, FrameZeroIsTheInitialStateAndTimesAreReal) {
