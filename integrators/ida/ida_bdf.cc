@@ -3,6 +3,7 @@
 #include <ida/ida.h>
 #include <ida/ida_ls.h>
 
+#include "integrators/finite_force.h"
 #include "integrators/sundials/multistep.h"
 #include "integrators/sundials/newton_at_kinks.h"
 #include "integrators/sundials/sundials_integrator.h"
@@ -117,7 +118,7 @@ class IdaBdf : public SundialsIntegrator {
       const Measure measure(me.statistics_.force);
       positions(r) = positions(y_dot) - velocities(y);
       me.model_.force(t, positions(y), velocities(y), velocities(r));
-      require_finite(velocities(r));
+      require_finite(me.model_, velocities(r));
       me.model_.multiply_mass(velocities(y_dot), me.momentum_);
       velocities(r) = me.momentum_ - velocities(r);
     });

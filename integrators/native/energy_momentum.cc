@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrators/finite_force.h"
 #include "integrators/native/anderson.h"
 #include "integrators/native/one_step.h"
 #include "integrators/newton_matrix.h"
@@ -141,7 +142,7 @@ class EnergyMomentum : public OneStep {
       const StepEnd& from = now();
       gradient_.mean_force(from.t, from.q, from.t + h, from.q + h * v_, v_, r_);
     }
-    if (!r_.allFinite()) throw RecoverableError("the force is not finite");
+    require_finite(model_, r_);
     model_.multiply_mass(x_, mx_);
     r_ -= mx_;
     matrix_.solve(r_, r_);

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "integrators/finite_force.h"
+
 namespace orthodyn {
 
 ExplicitStep::ExplicitStep(const Model& model, const Words& words, int order, long max_steps)
@@ -63,7 +65,7 @@ void ExplicitStep::interpolate(double t, State& out) const {
 void ExplicitStep::acceleration(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef a) {
   const Measure measure(statistics_.force);
   model_.force(t, q, v, a);
-  if (!a.allFinite()) throw RecoverableError("the force is not finite");
+  require_finite(model_, a);
   model_.solve_mass(a);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "integrators/finite_force.h"
 #include "lib/core/errors.h"
 #include "lib/core/golden.h"
 
@@ -27,7 +28,7 @@ Vector ModalLoad::force(double t) {
   const Vector zero = Vector::Zero(model_.num_dofs());
   Vector f(zero.size());
   model_.force(t, zero, zero, f);
-  if (!f.allFinite()) throw RecoverableError("the force is not finite");
+  require_finite(model_, f);
   return f;
 }
 

@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "integrators/finite_force.h"
+
 namespace orthodyn {
 
 namespace {
@@ -25,7 +27,7 @@ OneStep::OneStep(std::string name, const Model& model, const LinearOptions& opti
 void OneStep::force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) {
   const Measure measure(statistics_.force);
   model_.force(t, q, v, f);
-  if (!f.allFinite()) throw RecoverableError("the force is not finite");
+  require_finite(model_, f);
 }
 
 void OneStep::start(const State& state) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrators/finite_force.h"
 #include "lib/core/errors.h"
 
 namespace orthodyn {
@@ -105,7 +106,7 @@ void StageSolver::correction(const Stage& stage, const ConstVectorRef& x, const 
     const Measure measure(statistics_.force);
     model_.force(stage.t, q, v, r_);
   }
-  if (!r_.allFinite()) throw RecoverableError("the force is not finite");
+  require_finite(model_, r_);
   model_.multiply_mass(x, work_);
   r_ -= work_;
   matrix_.set_newton_tolerance(norm_.root_mean_square_at(kLinearShare * tolerance_, stage.w_k, stage.w_d));

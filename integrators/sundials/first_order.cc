@@ -1,5 +1,7 @@
 #include "integrators/sundials/first_order.h"
 
+#include "integrators/finite_force.h"
+
 namespace orthodyn::sundials {
 
 FirstOrderIntegrator::FirstOrderIntegrator(const std::string& name, const Model& model, const Settings& settings)
@@ -19,7 +21,7 @@ int FirstOrderIntegrator::evaluate_acceleration(const Model& model, double t, N_
   return guarded(callback_context_, [&] {
     const Measure measure(statistics_.force);
     model.force(t, positions(y), velocities(y), a);
-    require_finite(a);
+    require_finite(model, a);
     model.solve_mass(a);
   });
 }

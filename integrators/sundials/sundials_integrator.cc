@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "integrators/finite_force.h"
 #include "integrators/scaled_norm.h"
 
 namespace orthodyn::sundials {
@@ -177,7 +178,7 @@ void SundialsIntegrator::initial_acceleration(const Model& model, double t, Vect
   try {
     const Measure measure(statistics_.force);
     model.force(t, positions(y()), velocities(y()), a);
-    require_finite(a);
+    require_finite(model, a);
   } catch (const RecoverableError& e) {
     throw RunError(fmt::format("{} stopped at t = {:.6g} s: the force cannot be evaluated ({}); check the initial "
                                "state and the loads",
