@@ -32,10 +32,17 @@ class ArkStep : public FirstOrderIntegrator {
 
   void attach_newton();
 
-  // True at the end of the last step, where the derivative is known: the first stage of the next step asks
-  // for it, and a force that could not be evaluated there would end the integration.
-  bool at_end(double t, N_Vector y) const {
-    return t == end_.t && model_.space().all(positions(y) == end_.q && velocities(y) == end_.v);
+  // A callback's body: take_known() at the end of the last step, where the derivative is known, else evaluate(), which
+  // returns a flag. The first stage of the next step asks for it, and a force that could not be evaluated there would
+  // end the integration.
+  template <class TakeKnown, class Evaluate>
+  int known_or_evaluated(double t, N_Vector y, TakeKnown&& take_known, Evaluate&& evaluate) {
+    bool is_known = false;
+    const int thrown = guarded(callback_context_, [&] {
+      is_known = t == end_.t && model_.space().all(positions(y) == end_.q && velocities(y) == end_.v);
+      if (is_known) take_known();
+    });
+    return thrown != 0 || is_known ? thrown : evaluate();
   }
   const StepEnd& end() const { return end_; }
 

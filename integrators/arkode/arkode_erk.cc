@@ -36,14 +36,15 @@ class ArkodeErk : public ArkStep {
 
   static int right_hand_side(sunrealtype t, N_Vector y, N_Vector y_dot, void* user) {
     auto& me = static_cast<ArkodeErk&>(*static_cast<ArkStep*>(user));
-    if (me.at_end(t, y)) {
+    const auto take_end = [&] {
       positions(y_dot) = me.end().v;
       velocities(y_dot) = me.end().a;
-      return 0;
-    }
-    const int flag = me.evaluate(t, y, y_dot);
-    me.last_acceleration_ = velocities(y_dot);
-    return flag;
+    };
+    return me.known_or_evaluated(t, y, take_end, [&] {
+      const int flag = me.evaluate(t, y, y_dot);
+      me.last_acceleration_ = velocities(y_dot);
+      return flag;
+    });
   }
 
   Tableau tableau_;

@@ -64,25 +64,21 @@ class ArkodeImex : private Split, public ArkStep {
   static int explicit_force(sunrealtype t, N_Vector y, N_Vector y_dot, void* user) {
     auto& me = self(user);
     positions(y_dot).setZero();
-    if (me.at_end(t, y)) {
-      velocities(y_dot) = me.end_explicit_;
-      return 0;
-    }
-    const int flag = me.evaluate_acceleration(*me.split.explicit_part, t, y, velocities(y_dot));
-    me.last_.explicit_part = velocities(y_dot);
-    return flag;
+    return me.known_or_evaluated(t, y, [&] { velocities(y_dot) = me.end_explicit_; }, [&] {
+      const int flag = me.evaluate_acceleration(*me.split.explicit_part, t, y, velocities(y_dot));
+      me.last_.explicit_part = velocities(y_dot);
+      return flag;
+    });
   }
 
   static int implicit_force(sunrealtype t, N_Vector y, N_Vector y_dot, void* user) {
     auto& me = self(user);
     positions(y_dot) = velocities(y);
-    if (me.at_end(t, y)) {
-      velocities(y_dot) = me.end().a - me.end_explicit_;
-      return 0;
-    }
-    const int flag = me.evaluate_acceleration(*me.split.implicit_part, t, y, velocities(y_dot));
-    me.last_.implicit_part = velocities(y_dot);
-    return flag;
+    return me.known_or_evaluated(t, y, [&] { velocities(y_dot) = me.end().a - me.end_explicit_; }, [&] {
+      const int flag = me.evaluate_acceleration(*me.split.implicit_part, t, y, velocities(y_dot));
+      me.last_.implicit_part = velocities(y_dot);
+      return flag;
+    });
   }
 
   // M^-1 f of the stage evaluated last, which after a step is its end.

@@ -100,7 +100,7 @@ std::size_t Cvode::workspace_bytes() const {
 
 void Cvode::attach_newton() {
   if (model_.traits().smooth) {
-    newton_.emplace(y(), context_, model_.space(), reduced_ ? reduced_->least_rate() : 0);
+    newton_.emplace(y(), context_, callback_context_, model_.space(), reduced_ ? reduced_->least_rate() : 0);
     require(CVodeSetNonlinearSolver(memory(), newton_->get()));
   } else {
     newton_at_kinks_.emplace(settings_.options.rtol, y(), context_);

@@ -24,16 +24,16 @@ int guarded(CallbackContext& context, Body&& body) {
     body();
     return 0;
   } catch (const RecoverableError& e) {
-    context.recoverable_cause = e.what();
+    try {
+      context.recoverable_cause = e.what();
+    } catch (...) {  // no memory for the words
+      context.recoverable_cause.clear();
+    }
     return 1;
   } catch (...) {
     context.failure = std::current_exception();
     return -1;
   }
-}
-
-inline void require_finite(const ConstVectorRef& f) {
-  if (!f.allFinite()) throw RecoverableError("the force is not finite");
 }
 
 }  // namespace orthodyn::sundials

@@ -15,9 +15,10 @@ constexpr double kGivenUp = 2;       // growth of a correction at which the solv
 
 }  // namespace
 
-SecantNewton::SecantNewton(N_Vector y, SUNContext context, const VectorSpace& space, double least_rate)
-    : newton_(SUNNonlinSol_Newton(y, context)), solver_(SUNNonlinSolNewEmpty(context)), least_rate_(least_rate),
-      space_(space) {
+SecantNewton::SecantNewton(N_Vector y, SUNContext context, CallbackContext& callbacks, const VectorSpace& space,
+                           double least_rate)
+    : newton_(SUNNonlinSol_Newton(y, context)), solver_(SUNNonlinSolNewEmpty(context)), callbacks_(callbacks),
+      least_rate_(least_rate), space_(space) {
   if (!newton_ || !solver_) throw RunError("SUNDIALS could not create Newton's iteration", Reason::out_of_memory);
   solver_->content = this;
   plain_.setZero(view(y).size());
@@ -90,12 +91,15 @@ int SecantNewton::iteration() const {
 
 int SecantNewton::correct(N_Vector b) {
   if (const int flag = solve_(b, memory_); flag != 0) return flag;
-  auto d = view(b);
+  if (iteration() == 1) first_rate_ = std::max(kFastest * first_rate_, N_VWrmsNorm(b, weights_) / first_size_);
+  return guarded(callbacks_, [&] { take_in(view(b)); });
+}
+
+void SecantNewton::take_in(VectorRef d) {
   plain_ = d;
   if (iteration() == 0) {  // of another step, or with another matrix
     known_ = 0;
   } else {
-    if (iteration() == 1) first_rate_ = std::max(kFastest * first_rate_, N_VWrmsNorm(b, weights_) / first_size_);
     effect_[0] += plain_;
     change_[0] += effect_[0];
     known_ = std::min(known_ + 1, kDepth);
@@ -105,7 +109,6 @@ int SecantNewton::correct(N_Vector b) {
   std::rotate(effect_.rbegin(), effect_.rbegin() + 1, effect_.rend());
   change_[0] = d;
   effect_[0] = -plain_;
-  return 0;
 }
 
 int SecantNewton::test(double size, double tolerance) {

@@ -14,6 +14,7 @@
 
 #include <array>
 
+#include "integrators/sundials/callbacks.h"
 #include "integrators/sundials/handles.h"
 #include "lib/ode/vector_space.h"
 
@@ -22,8 +23,9 @@ namespace orthodyn::sundials {
 class SecantNewton {
  public:
   // least_rate: corrections are known to shrink by this factor at best, where those of a direct solver may do better.
-  // `space`: that of the model's vectors.
-  SecantNewton(N_Vector y, SUNContext context, const VectorSpace& space = {}, double least_rate = 0);
+  // `space`: that of the model's vectors. `callbacks` takes exceptions of its sums over ranks past SUNDIALS' code.
+  SecantNewton(N_Vector y, SUNContext context, CallbackContext& callbacks, const VectorSpace& space = {},
+               double least_rate = 0);
   SecantNewton(const SecantNewton&) = delete;
   SecantNewton& operator=(const SecantNewton&) = delete;
 
@@ -40,6 +42,7 @@ class SecantNewton {
   void delegate();
   int solve(N_Vector y0, N_Vector y, N_Vector weights, sunrealtype tolerance, sunbooleantype set_up, void* memory);
   int correct(N_Vector b);  // the linear solve of one iteration, and what the secants make of it
+  void take_in(VectorRef d);
   void improve(VectorRef d) const;
   int test(double size, double tolerance);
   int iteration() const;
@@ -49,6 +52,7 @@ class SecantNewton {
   SUNNonlinSolSysFn system_ = nullptr;
   SUNNonlinSolLSetupFn set_up_ = nullptr;
   SUNNonlinSolLSolveFn solve_ = nullptr;
+  CallbackContext& callbacks_;
   void* memory_ = nullptr;      // of the integrator
   N_Vector weights_ = nullptr;  // of this solve
   // dx_i + dd_i and dd_i, the latest first; between two iterations dx and -d of the last one.

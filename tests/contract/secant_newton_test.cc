@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <stdexcept>
 
 namespace orthodyn::secant_newton_test {
 namespace {
@@ -53,7 +54,8 @@ TEST(SecantNewton, SolvesAtOnceWhatIsOffByTwoFactors) {
   const Context context;
   Problem problem{(Vector(6) << 0.5, 0.5, 1.6, 0.5, 1.6, 1.6).finished()};
   const OwnedVector y = make_vector(6, context);
-  const SecantNewton newton(y.get(), context);
+  CallbackContext callbacks;
+  const SecantNewton newton(y.get(), context, callbacks);
   for (const char* time : {"first", "second"}) {  // no secant is left of the first
     SCOPED_TRACE(time);
     EXPECT_LE((problem.solution(newton.get(), context) - Vector::Ones(6)).norm(), 1e-12);
@@ -65,7 +67,8 @@ TEST(SecantNewton, ConvergesWithManyFactors) {
   const Context context;
   Problem problem{Vector::LinSpaced(40, 0.4, 1.6)};
   const OwnedVector y = make_vector(40, context);
-  const SecantNewton newton(y.get(), context);
+  CallbackContext callbacks;
+  const SecantNewton newton(y.get(), context, callbacks);
   EXPECT_LE((problem.solution(newton.get(), context) - Vector::Ones(40)).norm(), 1e-10);
   EXPECT_LT(problem.solves, 55) << "as many as without secants";
 }
@@ -75,7 +78,8 @@ TEST(SecantNewton, SolvesAtOnceWhatIsOffByOneFactor) {
   const Context context;
   Problem problem{Vector::Constant(6, 1.6)};
   const OwnedVector y = make_vector(6, context);
-  const SecantNewton newton(y.get(), context);
+  CallbackContext callbacks;
+  const SecantNewton newton(y.get(), context, callbacks);
   EXPECT_LE((problem.solution(newton.get(), context) - Vector::Ones(6)).norm(), 1e-12);
   EXPECT_EQ(problem.solves, 3);
 }
@@ -83,7 +87,8 @@ TEST(SecantNewton, SolvesAtOnceWhatIsOffByOneFactor) {
 TEST(SecantNewton, ForgetsASolveThatWentWrong) {
   const Context context;
   const OwnedVector y = make_vector(6, context);
-  const SecantNewton newton(y.get(), context);
+  CallbackContext callbacks;
+  const SecantNewton newton(y.get(), context, callbacks);
   Problem wrong{Vector::Constant(6, std::numeric_limits<double>::quiet_NaN())};
   EXPECT_NE(wrong.solve_from_zero(newton.get(), context, nullptr), 0);
   Problem problem{Vector::Constant(6, 1.6)};
@@ -91,11 +96,38 @@ TEST(SecantNewton, ForgetsASolveThatWentWrong) {
 }
 
 // The second correction is zero.
+// A lost rank, say: the exception is kept for whoever called SUNDIALS, which is told that something is wrong.
+TEST(SecantNewton, PassesNoExceptionThroughSundials) {
+  struct Lost : Ranks {
+    int rank() const override { return 0; }
+    int size() const override { return 2; }
+    void sum(std::span<double>) const override { throw std::runtime_error("lost"); }
+    void max(std::span<double>) const override {}
+    long sum_before(long) const override { return 0; }
+    void broadcast(std::span<double>) const override {}
+    std::vector<double> gather(std::span<const double>) const override { return {}; }
+    void scatter(std::span<const double>, std::span<double>) const override {}
+    std::vector<int> partition(const CellGraph&) const override { return {}; }
+    std::unique_ptr<NodeExchange> exchange(int, const std::vector<RemoteNode>&) const override { return nullptr; }
+    bool meet(double) const override { return false; }
+    void abort(int) const override { std::abort(); }
+  } const lost;
+  const Context context;
+  Problem problem{Vector::Constant(6, 0.5)};
+  const OwnedVector y = make_vector(6, context);
+  CallbackContext callbacks;
+  const SecantNewton newton(y.get(), context, callbacks, VectorSpace(&lost, 12));
+  EXPECT_LT(problem.solve_from_zero(newton.get(), context, nullptr), 0);
+  ASSERT_TRUE(callbacks.failure);
+  EXPECT_THROW(std::rethrow_exception(callbacks.failure), std::runtime_error);
+}
+
 TEST(SecantNewton, TakesAnExactMatrix) {
   const Context context;
   Problem problem{Vector::Ones(6)};
   const OwnedVector y = make_vector(6, context);
-  const SecantNewton newton(y.get(), context);
+  CallbackContext callbacks;
+  const SecantNewton newton(y.get(), context, callbacks);
   EXPECT_EQ(problem.solution(newton.get(), context), Vector(Vector::Ones(6)));
   EXPECT_EQ(problem.solves, 2);
 }
