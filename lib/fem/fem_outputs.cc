@@ -61,7 +61,7 @@ Output at_nodes(const TensorField& tensor, int region = kAllRegions) {
   return {{fmt::format("nodal_{}", tensor.name), Location::node, 6, tensor.unit,
            fmt::format("{}. Recovered at the nodes.", tensor.sentence), tensor.components},
           [&tensor, region](const View& view) {
-            return tensor_at_nodes(*view.parts().recovery, view.state(), tensor, region);
+            return tensor_at_nodes(view.recovered(), tensor, region);
           },
           Together::same};
 }
@@ -70,7 +70,7 @@ Output at_nodes(const DerivedField& derived, int region = kAllRegions) {
   const auto count = static_cast<int>(std::max<std::size_t>(derived.components.size(), 1));
   return {{derived.name, Location::node, count, derived.unit, derived.sentence, derived.components},
           [&derived, region](const View& view) {
-            return derived_at_nodes(*view.parts().recovery, view.parts().elastic, view.state(), derived, region);
+            return derived_at_nodes(view.recovered(), view.parts().elastic, derived, region);
           },
           Together::same};
 }
@@ -85,7 +85,7 @@ std::vector<Output> nodal_outputs(int region) {
 
 // Of each element the energy of the error for its volume, J/m^3.
 Values mesh_error_density(const View& view) {
-  const auto errors = view.parts().recovery->mesh_errors(view.state());
+  const auto& errors = view.mesh_errors();
   const auto& terms = view.parts().elastic;
   Values out(view.parts().mesh.region_of.size());
   for (std::size_t r = 0; r < terms.size(); ++r)
@@ -96,7 +96,7 @@ Values mesh_error_density(const View& view) {
 
 Values mesh_error(const View& view) {
   Values out{0, 0};
-  for (const RegionMeshError& region : view.parts().recovery->mesh_errors(view.state())) {
+  for (const RegionMeshError& region : view.mesh_errors()) {
     out[0] += region.error.sum();
     out[1] += region.energy;
   }

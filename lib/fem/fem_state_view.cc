@@ -58,6 +58,15 @@ NodalVector FemStateView::compute_momentum() const {
   return p + parts_.support_mass->times(moved) + held_part(*parts_.dofs, parts_.support_mass->times(free));
 }
 
+RecoveredTensors& FemStateView::recovered() const {
+  if (!recovered_) recovered_.emplace(*parts_.recovery, state());
+  return *recovered_;
+}
+
+const std::vector<RegionMeshError>& FemStateView::mesh_errors() const {
+  return once(mesh_errors_, [&] { return parts_.recovery->mesh_errors(state()); });
+}
+
 const NodalVector& FemStateView::support_forces() const {
   return once(support_forces_, [&] { return orthodyn::support_forces(parts_, nodal_); });
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lib/fem/fem_model.h"
+#include "lib/fem/nodal_fields.h"
 
 namespace orthodyn {
 
@@ -30,6 +31,10 @@ class FemStateView : public StateView {
   // M_ff v_f, and with moved nodes M v; kg m/s.
   const NodalVector& momentum() const;
 
+  // What is recovered from stresses at the points (stress_recovery.h).
+  RecoveredTensors& recovered() const;
+  const std::vector<RegionMeshError>& mesh_errors() const;
+
   // What the surroundings exert on held and moved nodes (reactions.h), N.
   const NodalVector& support_forces() const;
 
@@ -43,6 +48,8 @@ class FemStateView : public StateView {
   mutable std::optional<double> kinetic_energy_;
   mutable std::optional<Vector> free_momentum_;
   mutable std::optional<NodalVector> momentum_, support_forces_;
+  mutable std::optional<RecoveredTensors> recovered_;
+  mutable std::optional<std::vector<RegionMeshError>> mesh_errors_;
 };
 
 }  // namespace orthodyn

@@ -48,9 +48,8 @@ const TensorField& tensor_of(const DerivedField& derived) {
 
 // Visits the recovered tensor of each node of a region.
 template <class Visit>
-void for_each_node(const StressRecovery& recovery, const NodalState& s, const TensorField& tensor, std::size_t region,
-                   Visit&& visit) {
-  const auto [nodes, values] = recovery.at_nodes_of_region(region, s, tensor);
+void for_each_node(RecoveredTensors& recovered, const TensorField& tensor, std::size_t region, Visit&& visit) {
+  const auto& [nodes, values] = recovered.of(tensor, region);
   for (std::size_t i = 0; i < nodes->size(); ++i)
     visit(static_cast<std::size_t>((*nodes)[i]), Vec6(values.row(static_cast<Eigen::Index>(i))));
 }
@@ -88,26 +87,37 @@ const std::vector<DerivedField>& derived_fields() {
   return all;
 }
 
-std::vector<double> tensor_at_nodes(const StressRecovery& recovery, const NodalState& s, const TensorField& tensor,
-                                    int region) {
-  std::vector<double> out(6 * recovery.num_nodes(), region < 0 ? 0 : kNone);
-  if (region < 0) {
-    const auto all = recovery.at_nodes(s, tensor);
-    std::copy(all.data(), all.data() + all.size(), out.begin());
-  } else {
-    for_each_node(recovery, s, tensor, static_cast<std::size_t>(region), [&](std::size_t node, const Vec6& value) {
-      std::copy(value.begin(), value.end(), out.begin() + static_cast<std::ptrdiff_t>(6 * node));
-    });
+const StressRecovery::OfRegion& RecoveredTensors::of(const TensorField& tensor, std::size_t region) {
+  const auto key = std::make_pair(&tensor, region);
+  const auto found = kept_.find(key);
+  if (found != kept_.end()) return found->second;
+  return kept_.emplace(key, recovery_.at_nodes_of_region(region, state_, tensor)).first->second;
+}
+
+std::vector<double> tensor_at_nodes(RecoveredTensors& recovered, const TensorField& tensor, int region) {
+  std::vector<double> out(6 * recovered.num_nodes(), region < 0 ? 0 : kNone);
+  const auto at = [&](std::size_t node) { return Eigen::Map<Vec6>(out.data() + 6 * node); };
+  if (region >= 0) {
+    for_each_node(recovered, tensor, static_cast<std::size_t>(region),
+                  [&](std::size_t node, const Vec6& value) { at(node) = value; });
+    return out;
   }
+  std::vector<int> count(recovered.num_nodes(), 0);
+  for (std::size_t r = 0; r < recovered.num_regions(); ++r)
+    for_each_node(recovered, tensor, r, [&](std::size_t node, const Vec6& value) {
+      at(node) += value;
+      ++count[node];
+    });
+  for (std::size_t node = 0; node < count.size(); ++node) at(node) /= std::max(count[node], 1);
   return out;
 }
 
-std::vector<double> derived_at_nodes(const StressRecovery& recovery, const StressRecovery::Terms& terms,
-                                     const NodalState& s, const DerivedField& derived, int region) {
+std::vector<double> derived_at_nodes(RecoveredTensors& recovered, const StressRecovery::Terms& terms,
+                                     const DerivedField& derived, int region) {
   const std::size_t count = std::max<std::size_t>(derived.components.size(), 1);
-  std::vector<double> out(count * recovery.num_nodes(), kNone);
+  std::vector<double> out(count * recovered.num_nodes(), kNone);
   const auto add = [&](std::size_t r) {
-    for_each_node(recovery, s, tensor_of(derived), r, [&](std::size_t node, const Vec6& tensor) {
+    for_each_node(recovered, tensor_of(derived), r, [&](std::size_t node, const Vec6& tensor) {
       const auto values = derived.of(tensor, terms[r]->definition());
       auto at = out.begin() + static_cast<std::ptrdiff_t>(count * node);
       if (std::isnan(*at) || values[0] > *at) std::copy(values.begin(), values.end(), at);

@@ -3,7 +3,9 @@
 // largest.
 #pragma once
 
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lib/fem/stress_recovery.h"
@@ -39,11 +41,30 @@ struct DerivedField {
 // von_mises, principal_stress, principal_strain, nodal_det_f, max_stress, tsai_wu, hashin.
 const std::vector<DerivedField>& derived_fields();
 
-// One value set per node of the mesh, NaN off the region. `region`: the index of an elastic term, or -1 for all.
-std::vector<double> tensor_at_nodes(const StressRecovery& recovery, const NodalState& s, const TensorField& tensor,
-                                    int region);
-std::vector<double> derived_at_nodes(const StressRecovery& recovery, const StressRecovery::Terms& terms,
-                                     const NodalState& s, const DerivedField& derived, int region);
+// The recovered tensors of one state: each is computed when it is first asked for, and kept for all fields that are made
+// of it. Not thread-safe.
+class RecoveredTensors {
+ public:
+  // Both must outlive it, and what the state refers to.
+  RecoveredTensors(const StressRecovery& recovery, const NodalState& s) : recovery_(recovery), state_(s) {}
+
+  // Of a region; valid as long as this. Collective where it is computed.
+  const StressRecovery::OfRegion& of(const TensorField& tensor, std::size_t region);
+
+  std::size_t num_nodes() const { return recovery_.num_nodes(); }
+  std::size_t num_regions() const { return recovery_.num_regions(); }
+
+ private:
+  const StressRecovery& recovery_;
+  NodalState state_;
+  std::map<std::pair<const TensorField*, std::size_t>, StressRecovery::OfRegion> kept_;
+};
+
+// One value set per node of the mesh, NaN off the region. `region`: the index of an elastic term, or -1 for all: of a
+// tensor then the mean of the regions of a node.
+std::vector<double> tensor_at_nodes(RecoveredTensors& recovered, const TensorField& tensor, int region);
+std::vector<double> derived_at_nodes(RecoveredTensors& recovered, const StressRecovery::Terms& terms,
+                                     const DerivedField& derived, int region);
 
 // The fields that can be asked for in one region, as "REGION.FIELD" of a state's view.
 std::vector<OutputInfo> region_fields();

@@ -72,22 +72,6 @@ StressRecovery::OfRegion StressRecovery::at_nodes_of_region(std::size_t region, 
   return {&recovery.nodes(), recovery.at_nodes(ElementMesh(mesh_), of_all_ranks(region, at_points(term, value)))};
 }
 
-Eigen::Matrix<double, 6, Eigen::Dynamic> StressRecovery::at_nodes(const NodalState& s, const Seen& seen) const {
-  const auto nodes_of_mesh = static_cast<Eigen::Index>(num_nodes());
-  Eigen::Matrix<double, 6, Eigen::Dynamic> sum = Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, nodes_of_mesh);
-  std::vector<int> count(num_nodes(), 0);
-  for (std::size_t r = 0; r < terms_.size(); ++r) {
-    const auto [nodes, values] = at_nodes_of_region(r, s, seen);
-    for (std::size_t i = 0; i < nodes->size(); ++i) {
-      const int node = (*nodes)[i];
-      sum.col(node) += values.row(static_cast<Eigen::Index>(i)).transpose();
-      ++count[static_cast<std::size_t>(node)];
-    }
-  }
-  for (Eigen::Index i = 0; i < sum.cols(); ++i) sum.col(i) /= std::max(count[static_cast<std::size_t>(i)], 1);
-  return sum;
-}
-
 std::vector<RegionMeshError> StressRecovery::mesh_errors(const NodalState& s) const {
   const ElementMesh mesh(mesh_);
   std::vector<RegionMeshError> all;

@@ -29,13 +29,11 @@ class StressRecovery {
       : mesh_(mesh), terms_(terms), subdomain_(subdomain) {}
 
   std::size_t num_nodes() const { return mesh_.nodes.size(); }
+  std::size_t num_regions() const { return terms_.size(); }
 
-  // Of what is seen at the points, six components: a column per node of the mesh; at nodes of several regions their
-  // mean.
+  // Of what is seen at the points, six components, in one term's region by itself: its nodes, and a row for each. Valid
+  // as long as this.
   using Seen = std::function<Vec6(const PointObservation&)>;
-  Eigen::Matrix<double, 6, Eigen::Dynamic> at_nodes(const NodalState& s, const Seen& seen) const;
-
-  // The same of one term's region by itself: its nodes, and a row for each. Valid as long as this.
   struct OfRegion {
     const std::vector<int>* nodes;
     SixColumns values;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/fem/fem_state_view.h"
 #include "tests/fem/built_scene.h"
 
 namespace orthodyn::state_view_test {
@@ -57,6 +58,25 @@ TEST_P(Views, DoNotSeeWhatTheStateBecomesAfterwards) {
   const auto before = scene.model().evaluate("energy.kinetic", state);
   state.v *= 2;
   EXPECT_EQ(view->evaluate("energy.kinetic"), before);
+}
+
+int looks = 0;
+
+// Von Mises' stress, principal ones and exposures are all of one tensor.
+TEST_P(Views, ATensorIsRecoveredOnceForAllThatIsMadeOfIt) {
+  const FemStateView view(scene.model().parts(), state);
+  const TensorField counted{"counted", "1", "", {}, [](const PointObservation& o) {
+                              ++looks;
+                              return o.strain;
+                            }};
+  looks = 0;
+  const auto& first = view.recovered().of(counted, 0);
+  const int once = looks;
+  EXPECT_GT(once, 0);
+  EXPECT_EQ(&view.recovered().of(counted, 0), &first);
+  EXPECT_EQ(tensor_at_nodes(view.recovered(), counted, 0).size(), 6 * scene.mesh().nodes.size());
+  EXPECT_EQ(looks, once);
+  EXPECT_EQ(&view.mesh_errors(), &view.mesh_errors());
 }
 
 }  // namespace
