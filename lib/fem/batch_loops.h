@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "lib/element/batch.h"
@@ -50,26 +51,24 @@ class BatchLoops {
     return total;
   }
 
-  // The batch of the smallest of_batch(batch), and that; -1 without elements.
+  // The batch of the smallest of_batch(batch), and that; -1 without elements, or where none is less than infinity.
   struct Smallest {
     double value;
     int batch;
   };
   template <class OfBatch>
   Smallest smallest(OfBatch&& of_batch) const {
-    const auto of_group = [&](const ElementGroups::Range& group) {
-      double least = std::numeric_limits<double>::infinity();
-      in_group(group, [&](int b) { least = std::min(least, of_batch(b)); });
+    const Smallest none{std::numeric_limits<double>::infinity(), -1};
+    const auto all = groups_.of_each([&](const ElementGroups::Range& group) {
+      Smallest least = none;
+      in_group(group, [&](int b) {
+        if (const double value = of_batch(b); value < least.value) least = {value, b};
+      });
       return least;
-    };
-    if (size_ == 0) return {std::numeric_limits<double>::infinity(), -1};
-    const std::vector<double> all = groups_.of_each(of_group);
-    const auto least = std::min_element(all.begin(), all.end());
-    int batch = -1;
-    in_group(groups_.elements(static_cast<int>(least - all.begin())), [&](int b) {
-      if (batch < 0 && of_batch(b) == *least) batch = b;
     });
-    return {*least, batch};
+    return std::accumulate(all.begin(), all.end(), none, [](const Smallest& least, const Smallest& other) {
+      return other.value < least.value ? other : least;
+    });
   }
 
  private:

@@ -36,10 +36,10 @@ class ElementGroups {
                    [&](int i) { visit(elements(groups[static_cast<std::size_t>(i)])); });
   }
 
-  // of_group(range), a number, of every group, in parallel.
+  // of_group(range) of every group, in parallel.
   template <class OfGroup>
-  std::vector<double> of_each(OfGroup&& of_group) const {
-    std::vector<double> all(static_cast<std::size_t>(size_));
+  auto of_each(OfGroup&& of_group) const {
+    std::vector<decltype(of_group(Range{}))> all(static_cast<std::size_t>(size_));
     parallel_for(size_, [&](int group) { all[static_cast<std::size_t>(group)] = of_group(elements(group)); });
     return all;
   }

@@ -1,10 +1,13 @@
 #include "lib/fem/element_groups.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <set>
 
+#include "lib/fem/batch_loops.h"
+#include "lib/mesh/box.h"
 #include "tests/fem/built_scene.h"
 
 namespace orthodyn::element_groups_test {
@@ -79,6 +82,28 @@ TEST_P(Groups, OfFewElementsAreOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Orders, Groups, testing::Values(1, 2));
+
+// Whatever a number would be if it were computed again.
+TEST(BatchLoops, TheSmallestIsOfTheBatchThatGaveIt) {
+  const TetMesh mesh = make_box({.cells = {6, 5, 4}});
+  std::vector<int> cells(mesh.tets.size());
+  std::iota(cells.begin(), cells.end(), 0);
+  const ElementMesh elements(mesh);
+  const BatchLoops loops(elements, cells);
+  const int batches = (static_cast<int>(cells.size()) + BatchLoops::kLanes - 1) / BatchLoops::kLanes;
+  for (const int wanted : {0, 7, batches - 1}) {
+    std::vector<int> calls(static_cast<std::size_t>(batches), 0);
+    const auto found = loops.smallest([&](int b) {
+      const int before = calls[static_cast<std::size_t>(b)]++;
+      return (b == wanted ? 1.0 : 2.0) + 1e-16 * b + before;
+    });
+    EXPECT_EQ(found.batch, wanted);
+    EXPECT_EQ(*std::max_element(calls.begin(), calls.end()), 1);
+  }
+  EXPECT_EQ(loops.smallest([](int) { return std::numeric_limits<double>::infinity(); }).batch, -1);
+  EXPECT_EQ(loops.smallest([](int b) { return b == 3 ? 1 : std::numeric_limits<double>::quiet_NaN(); }).batch, 3);
+  EXPECT_EQ(BatchLoops(elements, {}).smallest([](int) { return 0.0; }).batch, -1);
+}
 
 }  // namespace
 }  // namespace orthodyn::element_groups_test
