@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <cstdlib>
-#include <utility>
 
 #include "lib/core/errors.h"
 #include "lib/core/versions.h"
@@ -13,27 +14,41 @@ namespace orthodyn::petsc {
 namespace {
 
 // Without mpirun there is nobody to talk to: no daemon, and no network to be looked for (0.5 s become 0.07). Open MPI's
-// settings; others do not read them.
+// settings, which it takes from the environment alone; others do not read them.
+//
+// Other threads may read the environment meanwhile, so that nothing of it is changed: while this lives the process has
+// another list, of the same texts and these. It stays, for whoever still has it.
 class WithoutOthers {
  public:
-  WithoutOthers() {
+  WithoutOthers() : before_(environ) {
     if (std::getenv("OMPI_COMM_WORLD_SIZE") || std::getenv("PMI_SIZE") || std::getenv("PMIX_RANK")) return;
-    for (const auto& [name, value] : kSettings)
-      if (!std::getenv(name)) {
-        setenv(name, value, 0);
-        set_.push_back(name);
+    static std::vector<char*> list;
+    for (char** entry = before_; entry && *entry; ++entry) list.push_back(*entry);
+    for (std::string& setting : settings())
+      if (const std::string name = setting.substr(0, setting.find('=')); !std::getenv(name.c_str())) {
+        list.push_back(setting.data());
+        names_.push_back(name);
       }
+    list.push_back(nullptr);
+    environ = ours_ = list.data();
   }
   ~WithoutOthers() {  // the processes that this one starts may have others
-    for (const char* name : set_) unsetenv(name);
+    if (!ours_) return;
+    if (environ == ours_) environ = before_;
+    else for (const std::string& name : names_) unsetenv(name.c_str());  // MPI has set something, in a list of its own
   }
   WithoutOthers(const WithoutOthers&) = delete;
   WithoutOthers& operator=(const WithoutOthers&) = delete;
 
  private:
-  static constexpr std::pair<const char*, const char*> kSettings[] = {
-      {"OMPI_MCA_ess_singleton_isolated", "1"}, {"OMPI_MCA_pml", "ob1"}, {"OMPI_MCA_btl", "self"}};
-  std::vector<const char*> set_;
+  static std::vector<std::string>& settings() {
+    static std::vector<std::string> all{"OMPI_MCA_ess_singleton_isolated=1", "OMPI_MCA_pml=ob1", "OMPI_MCA_btl=self"};
+    return all;
+  }
+
+  char** before_;
+  char** ours_ = nullptr;
+  std::vector<std::string> names_;
 };
 
 struct Process {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -262,6 +263,14 @@ TEST_F(Petsc, TakesOptionsOfSolversWithinSolvers) {
         "-pc_type bjacobi -sub_pc_type ilu -sub_pc_factor_levels 1 -pc_bjacobi_blocks 2",
         "-pc_type asm -pc_asm_overlap 2 -sub_pc_factor_shift_amount -1e-30"})
     EXPECT_NO_THROW(make_linear_solver({"petsc", options})) << options;
+}
+
+// Processes that this one starts may have others to talk to.
+TEST_F(Petsc, LeavesTheEnvironmentAsItWas) {
+  factored(laplacian(3));
+  for (const char* name : {"OMPI_MCA_pml", "OMPI_MCA_btl", "OMPI_MCA_ess_singleton_isolated"})
+    EXPECT_EQ(std::getenv(name), nullptr) << name;
+  EXPECT_NE(std::getenv("PATH"), nullptr);
 }
 
 TEST_F(Petsc, GivesTheSameBitsAgain) {
