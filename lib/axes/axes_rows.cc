@@ -4,6 +4,7 @@
 
 #include "lib/config/csv_table.h"
 #include "lib/core/errors.h"
+#include "lib/core/file_kind.h"
 #include "lib/mesh/io/mesh_file.h"
 
 namespace orthodyn {
@@ -81,7 +82,7 @@ AxesRows read_axes_mesh(const FilePath& file) {
 
 AxesRows read_axes_rows(const FilePath& file) {
   const std::string extension = std::filesystem::path(file.path).extension().string();
-  if (!std::filesystem::is_regular_file(file.path)) throw ConfigError(file.where, "no such file: " + file.path);
+  if (!is_file(file.path)) throw ConfigError(file.where, "no such file: " + file.path);
   if (extension == ".csv") return read_axes_csv(file);
   if (extension == ".vtu" || extension == ".inp") return read_axes_mesh(file);
   throw ConfigError(

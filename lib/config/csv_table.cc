@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "lib/core/errors.h"
+#include "lib/core/file_kind.h"
 #include "lib/core/parse_number.h"
 
 namespace orthodyn {
@@ -81,7 +82,7 @@ int CsvTable::index(std::size_t row, const std::string& name) const {
 
 CsvTable read_csv(const FilePath& file, const std::vector<std::string>& required,
                   const std::vector<std::string>& optional) {
-  if (!std::filesystem::is_regular_file(file.path)) throw ConfigError(file.where, "no such file: " + file.path);
+  if (!is_file(file.path)) throw ConfigError(file.where, "no such file: " + file.path);
   std::ifstream in(file.path);
   if (!in) throw ConfigError(file.where, "cannot be read: " + file.path);
   CsvTable table{file.path, {}, {}, {}};

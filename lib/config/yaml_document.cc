@@ -13,6 +13,7 @@
 
 #include "lib/config/yaml_slips.h"
 #include "lib/core/errors.h"
+#include "lib/core/file_kind.h"
 #include "lib/core/utf8.h"
 
 namespace orthodyn {
@@ -165,7 +166,7 @@ class Inclusion {
     namespace fs = std::filesystem;
     if (!named.IsScalar()) fail(named, file, "expected the name of a file");
     const std::string other = (fs::path(file).parent_path() / named.Scalar()).string();
-    if (!fs::is_regular_file(other)) fail(named, file, "no such file: " + other);
+    if (!is_file(other)) fail(named, file, "no such file: " + other);
     const std::string identity = fs::weakly_canonical(other).string();
     if (std::find(open_.begin(), open_.end(), identity) != open_.end())
       fail(named, file, other + " includes itself");

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "lib/core/errors.h"
+#include "lib/core/file_kind.h"
 #include "lib/core/words.h"
 #include "lib/simulation/files.h"
 #include "tools/orthodyn/command.h"
@@ -195,7 +196,7 @@ int init(const InitArguments& arguments) {
     throw ConfigError(fmt::format("there is no template for '{}'; known: {}", kind, join(names)));
   }
   const fs::path path = arguments.file.value_or(kind + ".yaml");
-  if (fs::exists(path)) throw ConfigError(path.string(), "already exists; choose another name");
+  if (is_there(path)) throw ConfigError(path.string(), "already exists; choose another name");
   write_file(path, {modeline(kind), with_file_name(start->second, path.string())});
   fmt::print("{}\n", path.string());
   return 0;

@@ -11,6 +11,7 @@
 #include "lib/axes/axes_source.h"
 #include "lib/config/registry.h"
 #include "lib/core/errors.h"
+#include "lib/core/file_kind.h"
 #include "lib/core/versions.h"
 #include "lib/core/words.h"
 #include "lib/fem/term_choice.h"
@@ -66,7 +67,7 @@ void load(const std::string& file) {
 void load_plugins(const std::vector<std::string>& files) {
   auto all = from_environment();
   for (const auto& file : files) {
-    if (!std::filesystem::exists(file)) throw ConfigError("--plugin " + file + ": no such file");
+    if (!is_there(file)) throw ConfigError("--plugin " + file + ": no such file");
     const std::string path = std::filesystem::absolute(file).lexically_normal().string();
     if (std::find(all.begin(), all.end(), path) == all.end()) all.push_back(path);
   }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <system_error>
 
+#include "lib/core/file_kind.h"
 #include "lib/linear/world.h"
 #include "lib/simulation/scene_file.h"
 #include "lib/simulation/several_ranks.h"
@@ -68,7 +69,7 @@ class Terminal : public RunListener {
 
 // `run DIR --resume` is the scene in that folder.
 RunArguments with_scene_of_folder(RunArguments arguments) {
-  if (!arguments.resume || !fs::is_directory(arguments.scene)) return arguments;
+  if (!arguments.resume || !is_folder(arguments.scene)) return arguments;
   if (!arguments.out) arguments.out = arguments.scene;
   arguments.scene = (fs::path(arguments.scene) / "scene.yaml").string();
   return arguments;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "lib/core/file_kind.h"
 #include "lib/mesh/io/gmsh.h"
 #include "lib/mesh/io/mesh_file.h"
 #include "lib/mesh/io/mesh_format.h"
@@ -20,7 +21,7 @@ const Rule kRefineRule{.range = {0, 6}};
 constexpr const char* kScale = "Multiplies coordinates: 0.001 if they are in mm.";
 
 void require_file(const FilePath& file) {
-  if (!std::filesystem::is_regular_file(file.path)) throw ConfigError(file.where, "no such file: " + file.path);
+  if (!is_file(file.path)) throw ConfigError(file.where, "no such file: " + file.path);
 }
 
 // What is made of the mesh of any file.

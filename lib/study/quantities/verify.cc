@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "lib/core/file_kind.h"
 #include "lib/simulation/static_problem.h"
 #include "lib/simulation/load_steps.h"
 #include "lib/simulation/run.h"
@@ -67,8 +68,8 @@ bool CaseResult::passed() const {
 std::vector<std::string> find_cases(const std::vector<std::string>& places) {
   std::vector<std::string> files;
   for (const auto& place : places) {
-    if (!fs::exists(place)) throw ConfigError(place, "no such file or folder");
-    if (!fs::is_directory(place)) {
+    if (!is_there(place)) throw ConfigError(place, "no such file or folder");
+    if (!is_folder(place)) {
       files.push_back(place);
       continue;
     }
