@@ -86,6 +86,14 @@ void refuse_missing_units(const Config& list, const std::vector<double>& si, std
   }
 }
 
+// Products and squares of quantities must be numbers as well.
+void require_computable(const Config& config, double x, std::string_view unit) {
+  constexpr double kSmallest = 1e-100, kLargest = 1e100;
+  if (x == 0 || (std::abs(x) >= kSmallest && std::abs(x) <= kLargest)) return;
+  config.fail(fmt::format("{} {} cannot be computed with: it must be 0, or between {:.0e} and {:.0e} in size",
+                          number_text(x), unit, kSmallest, kLargest));
+}
+
 }  // namespace
 
 std::size_t index_of_word(const Config& config, const std::vector<std::string>& words) {
@@ -100,6 +108,7 @@ double read_number(const Config& config, const Rule& rule) {
   if (!rule.range.contains(x))
     config.fail(fmt::format("must be {}{}{}, found {}", range_text(rule.range),
                             rule.unit.empty() ? "" : " ", rule.unit, number_text(x)));
+  if (!rule.unit.empty()) require_computable(config, x, rule.unit);
   return x;
 }
 

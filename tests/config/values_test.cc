@@ -72,6 +72,20 @@ TEST(ReadEnum, RefusesOtherWordsWithTheNearestOne) {
   EXPECT_TRUE(holds(refusal_of<Split>("fiv"), "expected one of five, six, found 'fiv'; did you mean 'five'?"));
 }
 
+// Whatever its dimension, in whatever unit: squares and products are to be numbers.
+TEST(ReadNumber, OfAQuantityIsOneThatCanBeComputedWith) {
+  for (const char* unit : {"m", "Pa", "kg/m^3", "m/s^2", "N", "s"}) {
+    for (const char* text : {"0", "1e-100", "-1e-100", "1e100", "-1e100", "1e-9", "-0.0"})
+      EXPECT_NO_THROW(read<double>(text, {.unit = unit})) << text;
+    for (const char* text : {"1e-101", "-1e-101", "1e101", "1e308", "-1e308", "1e-308", "5e-324"}) {
+      EXPECT_TRUE(starts(refusal_of<double>(text, {.unit = unit}), "a.yaml:1:")) << text;
+      EXPECT_TRUE(holds(refusal_of<double>(text, {.unit = unit}), "cannot be computed with")) << text;
+    }
+  }
+  EXPECT_TRUE(holds(refusal_of<double>("1e99 Gm", {.unit = "m"}), "cannot be computed with"));
+  EXPECT_EQ(read<double>("1e300"), 1e300);  // a plain number
+}
+
 TEST(ReadVec3, AsksForAUnitThatItsNeighbourHas) {
   const Rule stiffness{.unit = "Pa"}, length{.unit = "m"};
   EXPECT_EQ(

@@ -89,10 +89,13 @@ void add_traction_slip(const Config& config, const Scene& scene, double share, W
 
 Warnings response_slips(const Config& config, const Scene& scene, const BuiltScene& built,
                         const StaticResponse& statics) {
-  if (!statics.exists() || statics.load.isZero(0)) return {};
+  if (statics.load.isZero(0)) return {};
   const double extent = bounding_box(built.model->parts().mesh).size().maxCoeff();
-  const double share = statics.displacement.lpNorm<Eigen::Infinity>() / extent;
   const LikelySlip slip = slip_of_size(config, extent, stiffest_constant(scene, *built.model));
+  if (!statics.load.allFinite())
+    throw ConfigError(slip.place, "the loads are too large to be numbers; " + slip.words);
+  if (!statics.exists()) return {};
+  const double share = statics.displacement.lpNorm<Eigen::Infinity>() / extent;
   const std::string finding = fmt::format("the loads move the body by {} (by linear statics)", moved_by(share));
   if (share > kImpossible) throw ConfigError(slip.place, fmt::format("{}; {}", finding, slip.words));
   if (share > kTooFar) return {fmt::format("{}: {}; {}", slip.place, finding, slip.words)};
