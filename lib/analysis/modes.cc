@@ -36,7 +36,7 @@ double Mode::frequency() const { return angular_frequency() / (2 * std::numbers:
 
 Modes natural_modes(const Model& model, const State& about, int count) {
   if (!model.pattern().symmetric)
-    throw ConfigError("modes need a symmetric tangent: not that of elasticity.warped_tangent: unsymmetric");
+    throw ConfigError("elasticity", "modes need a symmetric tangent: not that of elasticity.warped_tangent: unsymmetric");
   const Pattern& pattern = model.pattern();
   Linearization at;
   model.linearize(about.t, about.q, Vector::Zero(about.q.size()), TangentKind::exact, at);

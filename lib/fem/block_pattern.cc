@@ -78,7 +78,7 @@ BlockPattern::BlockPattern(const Cells& cells, const DofMap& dofs, bool symmetri
   };
   for_each_entry([&](int) { ++entries; }, [] {});
   if (entries > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    throw ConfigError("the matrix has more than 2^31 entries; use a coarser mesh");
+    throw ConfigError("mesh", "the matrix has more than 2^31 entries; use a coarser mesh");
   pattern_.row.reserve(entries);
   for_each_entry([&](int row) { pattern_.row.push_back(row); },
                  [&] { pattern_.column_start.push_back(pattern_.non_zeros()); });

@@ -78,7 +78,7 @@ void add_force_terms(const Scene& scene, const NodalVector& rest, FemModel::Part
     if (parts.subdomain) {
       parts.load_descriptions.push_back(made->description());
       auto part = made->part(*parts.subdomain);
-      if (!part) throw ConfigError(fmt::format("the term '{}' does not run on several ranks", made->name()));
+      if (!part) throw ConfigError("terms", fmt::format("'{}' does not run on several ranks", made->name()));
       made = std::move(part);
     }
     parts.loads.push_back(std::move(made));
@@ -209,7 +209,7 @@ void require_mass(double mass) {
 // What several ranks cannot share.
 void require_divisible(const Scene& scene) {
   if (scene.mass == MassKind::consistent)
-    throw ConfigError("mass: consistent does not run on several ranks; set `mass: lumped`");
+    throw ConfigError("mass", "consistent does not run on several ranks; set `mass: lumped`");
 }
 
 // The unknowns of this rank by their numbers in the model that is not in parts.
@@ -231,16 +231,7 @@ NodePairs pairs_here(const NodePairs& pairs, const Subdomain& subdomain) {
   return here;
 }
 
-}  // namespace
-
-bool has_unsymmetric_load(const Scene& scene, const TetMesh& mesh) {
-  const auto terms = scene.force_terms();
-  const std::vector<bool> held = make_supports(scene, mesh).held;
-  return std::any_of(terms.begin(), terms.end(),
-                     [&](const TermChoice* term) { return !term->has_symmetric_tangent(mesh, held); });
-}
-
-BuiltScene build(const Scene& scene, const Ranks* ranks, MatrixStorage storage) {
+BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage storage) {
   if (ranks) require_divisible(scene);
   LoadedMesh loaded = load_mesh(scene);
   FemModel::Parts parts;
@@ -287,6 +278,19 @@ BuiltScene build(const Scene& scene, const Ranks* ranks, MatrixStorage storage) 
   add_note_on_means(scene, built.model->parts().mesh, built.warnings);
   built.initial = initial_state(scene.initial, scene.time.start, *built.model);
   return built;
+}
+
+}  // namespace
+
+bool has_unsymmetric_load(const Scene& scene, const TetMesh& mesh) {
+  const auto terms = scene.force_terms();
+  const std::vector<bool> held = make_supports(scene, mesh).held;
+  return std::any_of(terms.begin(), terms.end(),
+                     [&](const TermChoice* term) { return !term->has_symmetric_tangent(mesh, held); });
+}
+
+BuiltScene build(const Scene& scene, const Ranks* ranks, MatrixStorage storage) {
+  return scene.places.with([&] { return build_model(scene, ranks, storage); });
 }
 
 }  // namespace orthodyn

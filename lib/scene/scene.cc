@@ -191,12 +191,23 @@ void require_countable_times(const Config& config, const Scene& scene) {
 
 }  // namespace
 
+namespace {
+
+Places places_of(const Config& config) {
+  std::map<std::string, std::string> sections;
+  for (const std::string& key : config.keys()) sections[key] = config.at(key).where();
+  return {config.file(), std::move(sections)};
+}
+
+}  // namespace
+
 Scene read_scene(const Config& input) {
   const Config config = input.resolving();
   if (config.is_map() && config.has("scenes"))
     config.at("scenes").fail("a scene has no such key; a comparison of scenes is run by `orthodyn compare`");
   const bool is_timed = config.is_map() && config.has("time") && !config.at("time").is_null();
   Scene scene = Scene::spec().read(config);
+  scene.places = places_of(config);
   complete_terms(config, scene);
   switch (scene.analysis) {
     case Analysis::dynamic: check_dynamic(config, scene, is_timed); break;

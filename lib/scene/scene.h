@@ -22,6 +22,7 @@
 #include "lib/scene/expectation.h"
 #include "lib/scene/initial.h"
 #include "lib/scene/output_files.h"
+#include "lib/scene/places.h"
 #include "lib/scene/region.h"
 #include "lib/scene/static_analysis.h"
 #include "lib/scene/time_span.h"
@@ -64,6 +65,7 @@ struct Scene {
   std::optional<CheckpointSchedule> checkpoint;
   std::vector<Expectation> expect;
   std::optional<int> threads;  // of a run; none: as many as the machine has (RunThreads)
+  Places places;
 
   static const Spec<Scene>& spec();
 

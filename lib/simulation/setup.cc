@@ -130,9 +130,9 @@ Task task_of(const Scene& scene, const BuiltScene& built) {
   return {scales, built.initial, end, interval};
 }
 
-Setup set_up(const Config& input, bool linear_so_far, bool is_timed, const Ranks* ranks) {
-  Config config = input.resolving();
-  Scene scene = read_scene(config);
+namespace {
+
+Setup set_up(Config config, Scene scene, bool linear_so_far, bool is_timed, const Ranks* ranks) {
   if (ranks) settle_for_ranks(config, scene);
   std::optional<KinematicsChoice> kinematics;
   std::unique_ptr<LinearityWatch> linearity;
@@ -185,6 +185,14 @@ Setup set_up(const Config& input, bool linear_so_far, bool is_timed, const Ranks
                              "(Debian: libopenblas0-pthread)");
   return {std::move(config), std::move(scene), std::move(built), std::move(integrator), std::move(events),
           std::move(kinematics), std::move(linearity), wall, cpu};
+}
+
+}  // namespace
+
+Setup set_up(const Config& input, bool linear_so_far, bool is_timed, const Ranks* ranks) {
+  const Config config = input.resolving();
+  const Scene scene = read_scene(config);
+  return scene.places.with([&] { return set_up(config, scene, linear_so_far, is_timed, ranks); });
 }
 
 }  // namespace orthodyn

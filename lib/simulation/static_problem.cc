@@ -13,7 +13,7 @@ void require_held(const Scene& scene, const FemModel& model, double t) {
       "{}: it has no definite place at rest. Clamp it so that all six rigid motions are held (a surface, or three "
       "points that are not in line)",
       freedom);
-  if (scene.clamps.empty()) throw ConfigError("clamps", message);
+  if (scene.clamps.empty()) throw scene.places.placed(ConfigError("clamps", message));
   scene.clamps.front().origin.fail(message);
 }
 
@@ -30,19 +30,21 @@ struct Following {
   std::unique_ptr<LoadStepper> stepper;
 };
 
-Following follow(const LoadPath& path, const Statics& statics, double length) {
+Following follow(const Scene& scene, const LoadPath& path, double length) {
+  const Statics statics = statics_of(scene);
   const double force = path.largest_load();
   Following out;
-  out.solver = statics.solver->make(path, {force > 0 ? force : 1, length});
+  out.solver =
+      scene.places.with([&] { return statics.solver->make(path, {force > 0 ? force : 1, length}); }, "statics");
   out.stepper = std::make_unique<LoadStepper>(path, *out.solver, statics, length);
   return out;
 }
 
 // The shape in which the body rests without loads.
-Vector settled(const FemModel& model, const PathTimes& times, const Statics& statics, double length) {
+Vector settled(const Scene& scene, const FemModel& model, const PathTimes& times) {
   const auto path = LoadPath::settling(model, times, Vector::Zero(model.num_dofs()));
   if (!path) return Vector::Zero(model.num_dofs());
-  const Following settling = follow(*path, statics, length);
+  const Following settling = follow(scene, *path, size_of_motion(model));
   try {
     while (!settling.stepper->done()) settling.stepper->step();
   } catch (const RunError& e) {
@@ -56,25 +58,22 @@ Vector settled(const FemModel& model, const PathTimes& times, const Statics& sta
 }  // namespace
 
 StaticProblem static_problem(const Scene& scene, const BuiltScene& built) {
-  const Statics statics = statics_of(scene);
   const double t = time_of_loads(scene);
   require_held(scene, *built.model, t);
   StaticProblem problem;
-  if (statics.solver->takes_unsymmetric() && has_unsymmetric_load(scene, built.model->parts().mesh))
+  if (statics_of(scene).solver->takes_unsymmetric() && has_unsymmetric_load(scene, built.model->parts().mesh))
     problem.own = std::make_unique<BuiltScene>(build(scene, built.model->ranks(), MatrixStorage::general));
   const FemModel& model = problem.own ? *problem.own->model : *built.model;
   const PathTimes times = scene.is_static() && model.parts().moved ? PathTimes(t - 1, t) : PathTimes(t);
-  const double length = size_of_motion(model);
-  problem.path = std::make_unique<LoadPath>(model, times, settled(model, times, statics, length));
-  Following loading = follow(*problem.path, statics, length);
+  problem.path = std::make_unique<LoadPath>(model, times, settled(scene, model, times));
+  Following loading = follow(scene, *problem.path, size_of_motion(model));
   problem.solver = std::move(loading.solver);
   problem.stepper = std::move(loading.stepper);
   return problem;
 }
 
 Vector unloaded_shape(const Scene& scene, const BuiltScene& built) {
-  const FemModel& model = *built.model;
-  return settled(model, time_of_loads(scene), statics_of(scene), size_of_motion(model));
+  return settled(scene, *built.model, time_of_loads(scene));
 }
 
 Scene at_rest(const Scene& scene) {

@@ -1,6 +1,8 @@
 // Bad scenes: one clear message with file:line:column, what was found, what is allowed.
 #include <sys/resource.h>
 
+#include <cctype>
+
 #include "lib/simulation/setup.h"
 #include "tests/scene/scenes.h"
 
@@ -18,6 +20,9 @@ TEST_P(Refusal, NamesThePlaceAndTheRemedy) {
   const auto& bad = GetParam();
   const std::string message = refusal(replaced(kValidScene, bad.from, bad.to));
   for (const auto& part : bad.says) EXPECT_NE(message.find(part), std::string::npos) << part << "\nin: " << message;
+  const std::string file = "scene.yaml:";  // and the line of what is there; what is missing has none
+  const bool is_missing = message.find("is missing") != std::string::npos;
+  EXPECT_TRUE(is_missing || (message.starts_with(file) && std::isdigit(message[file.size()]))) << message;
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -66,9 +71,13 @@ INSTANTIATE_TEST_SUITE_P(
                  "time:",
                  "output: {probes: {\"a,b\": {at: [0, 0, 0]}}}\ntime:",
                  {"output.probes.a,b", "no commas"}},
-        BadScene{"no_mass", "1000", "1e-310", {"mesh", "its mass is", "check density"}},
-        BadScene{"too_long", "size: [2, 1, 1]", "size: [1e300, 1, 1]", {"mesh: it extends", "unit of length"}},
-        BadScene{"too_flat", "size: [2, 1, 1]", "size: [2, 1e-200, 1]", {"mesh: it extends", "1e-50 m"}},
+        BadScene{"no_density", "1000", "1e-310", {"materials.soft.density", "1e-310", "0, or between"}},
+        BadScene{"gravity_without_end",
+                 "time:",
+                 "gravity: [0, 0, 1e308]\ntime:",
+                 {"scene.yaml:6:17: gravity.2", "1e+308", "cannot be computed with"}},
+        BadScene{"too_long", "size: [2, 1, 1]", "size: [1e60, 1, 1]", {"mesh: it extends", "unit of length"}},
+        BadScene{"too_flat", "size: [2, 1, 1]", "size: [2, 1e-60, 1]", {"mesh: it extends", "1e-50 m"}},
         BadScene{"more_elements_than_numbers",
                  "cells: [2, 1, 1]",
                  "cells: [1000000, 1000000, 1000000]",
