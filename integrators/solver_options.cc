@@ -15,7 +15,8 @@ struct SolverSection {
     static const auto s =
         Spec<SolverSection>()
             .key("type", &SolverSection::type, "One of `orthodyn list solvers`.", {.required = true})
-            .key("options", &SolverSection::options, "What the solver is told, as on a command line: -ksp_type cg.");
+            .key("options", &SolverSection::options, "What the solver is told, as on a command line: -ksp_type cg. Of PETSc what chooses a method and sets its "
+                 "numbers; views and monitors go in the environment's PETSC_OPTIONS.");
     return s;
   }
 };
