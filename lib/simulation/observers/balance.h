@@ -19,8 +19,8 @@ struct EnergyBalance {
 
 class EnergyMeter : public Observer {
  public:
-  // `integrator` is the one that is run; both must outlive this. Powers are integrated over every step, by
-  // Gauss' two points on the integrator's dense output or at its mean state, but only where they can differ from zero.
+  // `integrator` is the one that is run; both must outlive this. The work of forces is integrated over every step along
+  // the positions of the integrator's dense output or at its mean state, but only where it can differ from zero.
   EnergyMeter(const Model& model, const Integrator& integrator, EnergyTimes times = EnergyTimes::steps);
   void on_start(const ObservedState& observed) override;
   void on_output(const ObservedState& observed) override { look(observed); }
@@ -43,6 +43,7 @@ class EnergyMeter : public Observer {
  private:
   // To a time within the integrator's last step, s.
   void advance_powers(double t);
+  void add_work(double begin, double duration);
   void add_powers(const State& at, double duration);
   void look(const ObservedState& observed);
   void take_energies(const ObservedState& observed);
