@@ -14,7 +14,8 @@ import numpy as np  # noqa: E402
 from PIL import Image  # noqa: E402
 
 from draw.cli import main  # noqa: E402
-from draw.modes import Shapes, factor_label, frequency_label, read_modes  # noqa: E402
+from draw.modes import Picture, Shapes, factor_label, frequency_label, read_modes  # noqa: E402
+from draw.scene import PictureSpec  # noqa: E402
 from tiny_result import POINTS, Vtu  # noqa: E402
 
 
@@ -52,6 +53,33 @@ class Modes(unittest.TestCase):
         write_modes(self.folder, [1.0, 2.0])
         np.testing.assert_array_equal(Shapes(self.folder).frame(1).node_fields["displacement"], np.roll(POINTS, 1, axis=1))
         self.assertEqual(read_modes(self.folder), ([1.0, 2.0], frequency_label))
+
+    def test_signs_tell_what_moves_against_the_largest(self):
+        folder = write_modes(self.folder, [1.0])
+        shape = np.zeros_like(POINTS)
+        shape[:, 2] = [0.2, -1, 0.5, 0, 0.3]
+        (folder / "modes/mode_001.vtu").write_bytes(Vtu().content({"shape": shape}, {}))
+        swing = Shapes(folder).frame(0).node_fields["swing"][:, 0]
+        np.testing.assert_allclose(swing, [-0.2, 1, -0.5, 0, -0.3], atol=1e-12)
+
+    def test_nodal_lines_are_where_the_sign_changes(self):
+        folder = write_modes(self.folder, [1.0])
+        shape = np.zeros_like(POINTS)
+        shape[:, 0] = POINTS[:, 2] - 0.25  # a plane across the body
+        (folder / "modes/mode_001.vtu").write_bytes(Vtu().content({"shape": shape}, {}))
+        series, drawn = Shapes(folder), []
+        picture = Picture(series, [0], PictureSpec(color="swing"))
+        frame = series.frame(0)
+
+        class Lines:
+            def add_segments(self, start, end, *_):
+                drawn.append((start, end))
+        picture.add_lines(Lines(), frame.points, picture.corner_values(frame))
+        height = picture.camera.flat(np.array([[0, 0, 0.25], [1, 0, 0.25], [0, 1, 0.25]]))
+        (start, end), = drawn
+        for ends in (start, end):  # in the plane z = 1/4, seen by the camera
+            share = np.linalg.lstsq((height[1:] - height[0]).T, (ends - height[0]).T, rcond=None)[0]
+            np.testing.assert_allclose(height[0] + (share.T @ (height[1:] - height[0])), ends, atol=1e-9)
 
     def test_labels_are_short(self):
         self.assertEqual([frequency_label(f) for f in (12.5, 1299.0381, -3.0)], ["12.5 Hz", "1.299 kHz", "-3 Hz"])

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .body import INK, front_faces
 from .errors import DrawError
 from .picture import draw_strip
 from .scene import Scene, PictureSpec
@@ -24,12 +25,37 @@ class Shapes(Series):
         if "shape" not in frame.node_fields:
             raise DrawError(f"{self.paths[index]}: has no field 'shape'; did `orthodyn modes` write it?")
         shape = frame.node_fields["shape"]
+        swing = _along_largest(shape)[:, None]
         return replace(frame, points=frame.points + frame.node_fields.get("displacement", 0),
-                       node_fields={"displacement": shape, "shape": shape})
+                       node_fields={"displacement": shape, "shape": shape, "swing": swing})
+
+
+def _along_largest(shape):
+    """With its sign, the part of (n,3) along the direction in which most of it moves; the largest is 1."""
+    along = shape @ np.linalg.eigh(shape.T @ shape)[1][:, -1]
+    return along / (along[np.argmax(abs(along))] or 1)
 
 
 class Picture(Scene):
     note = ""  # how far a shape is enlarged means nothing
+
+    def add_lines(self, paint, points, values):
+        """Nodal lines: where the corners of faces that are seen have values of both signs."""
+        flat = self.camera.flat(points)
+        seen = front_faces(self.surface, flat) & (values.min(axis=1) < 0) & (values.max(axis=1) > 0)
+        corners, own = points[self.surface.faces[seen]], values[seen]
+        ends = [[] for _ in own]
+        for k in range(3):
+            a, b = own[:, k], own[:, (k + 1) % 3]
+            for f in np.nonzero((a < 0) != (b < 0))[0]:
+                share = a[f] / (a[f] - b[f])
+                ends[f].append((1 - share) * corners[f, k] + share * corners[f, (k + 1) % 3])
+        if not ends:
+            return
+        start, end = np.array([e[:2] for e in ends]).swapaxes(0, 1)
+        nearer = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=-1).max(axis=1)
+        paint.add_segments(self.camera.flat(start), self.camera.flat(end), self.camera.depth(0.5 * (start + end)) + nearer,
+                           INK, 1.1)
 
 
 def frequency_label(hertz):
@@ -59,6 +85,11 @@ def read_modes(folder):
     raise DrawError(f"{folder}: no modes.csv of `orthodyn modes` and no buckling.csv of a buckling analysis")
 
 
+def is_of_modes(folder):
+    """Whether its shapes vibrate; those of buckling do not."""
+    return (Path(folder) / "modes.csv").is_file()
+
+
 def _read_all(folder, shapes):
     figures, label = read_modes(folder)
     if len(figures) != len(shapes):
@@ -79,7 +110,7 @@ def draw_modes(folder, path, count, view, up):
     if not chosen:
         raise DrawError(f"{folder}: all {len(figures)} modes are rigid; ask for more with -n")
     scale = LARGEST * float(np.ptp(shapes.frame(chosen[0]).points, axis=0).max())
-    spec = PictureSpec(color="shape", view=view, up=up, scale=scale, ghost=True, limits=(0, 1))
+    spec = PictureSpec(color="swing", view=view, up=up, scale=scale, ghost=True, limits=(-1, 1))
     scene = Picture(shapes, chosen, spec)
     scene.labels = {k: f"{k + 1}: {label(figures[k])}" for k in chosen}
     return draw_strip(scene, chosen, path)

@@ -13,8 +13,8 @@ AT_NODES = "nodal_"  # the same field, recovered at the nodes
 # Fields at the nodes that follow from the recovered ones.
 FIGURES = ("von_mises", "principal_stress", "principal_strain", "max_stress", "tsai_wu", "hashin")
 TITLES = {"von_mises": "von Mises", "tsai_wu": "Tsai-Wu", "hashin": "Hashin", "det_f": "volume ratio det F",
-          "difference": "difference from the reference"}
-NEUTRAL = {"det_f": 1.0, "nodal_det_f": 1.0}  # the value of the undeformed body; every other signed field has 0
+          "difference": "difference from the reference", "swing": "shape, with its sign"}
+NEUTRAL = {"det_f": 1.0, "nodal_det_f": 1.0, "swing": 0.0}  # the value of the undeformed body; every other signed field has 0
 
 
 def von_mises(s):

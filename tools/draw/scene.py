@@ -76,6 +76,9 @@ class Scene:
     def note(self):
         return "" if self.spec.scale == 1 else f"deformation × {self.spec.scale:g}"
 
+    def add_lines(self, paint, points, values):
+        """Lines on the body beside its edges: none."""
+
     def draw(self, axes, index, budget):
         """The body at frame `index` into axes whose limits are set already."""
         frame = self._frame(index)
@@ -85,6 +88,7 @@ class Scene:
         add_body(paint, self.surface, points, values, self.colouring, self.camera, budget)
         if self.spec.grain:
             self._grain_on(axes, frame.points).add(paint, frame, points, values, self.colouring, self.camera)
+        self.add_lines(paint, points, values)
         paint.draw(axes)
         if self.spec.ghost:
             draw_ghost(axes, self.surface, frame.points, self.camera)
