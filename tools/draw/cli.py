@@ -222,17 +222,14 @@ def _compare(args):
     yield from draw_comparison(args.results, args.out or Path(args.results[-1]) / "pictures")
 
 
-SMALL, VISIBLE = 0.02, 0.1  # shares of the body: a motion below the one is not seen, one of the other is
-
-
 def _hint_of_scale(args):
     """Enlarging is the user's choice; that the motion cannot be seen is said."""
-    from . import series, units
+    from .series import Series
     if args.scale != 1:
         return
-    _, largest, extent = series.Series(args.result).peak
-    if 0 < largest < SMALL * extent:
-        scale = units.round_length(VISIBLE * extent / largest)
+    series = Series(args.result)
+    if scale := series.visible_scale:
+        _, largest, extent = series.peak
         print(f"draw: the largest motion is {100 * largest / extent:.2g} % of the body: --scale {scale:g} shows it",
               file=sys.stderr)
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from . import units
 from .errors import DrawError
 from .vtu import read_vtu
 
@@ -31,6 +32,7 @@ def is_static(folder):
 
 
 MOST_LOOKS = 200
+SMALL, VISIBLE = 0.02, 0.1  # shares of the body: a motion below the one is not seen, one of the other is
 
 
 class Series:
@@ -77,6 +79,12 @@ class Series:
             if np.isfinite(size) and size > largest:
                 best, largest = index, float(size)
         return best, largest, float(np.ptp(self.frame(0).points, axis=0).max())
+
+    @property
+    def visible_scale(self):
+        """By how much to enlarge a motion that could not be seen otherwise; None where it can be, and where there is none."""
+        _, largest, extent = self.peak
+        return units.round_length(VISIBLE * extent / largest) if 0 < largest < SMALL * extent else None
 
     def telling(self, count):
         """As evenly(), but for the frame of the largest displacement in the place of the inner one nearest to it."""

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..modes import LARGEST, Shapes, labelled_modes
+from ..modes import LARGEST, Shapes, is_of_modes, labelled_modes
 from ..series import Series, is_static
 from . import end_states, points, runs
 from .item import Item, Source, name_of
@@ -28,7 +28,15 @@ def source_of(name):
             return of_it(folder)
     if (folder / "modes.pvd").is_file() and not (folder / "frames.pvd").is_file():
         return _of_shapes(folder)
-    return Source("run", [Item(name_of(folder), Series(folder), folder, is_static=is_static(folder))], {})
+    series = Series(folder)
+    return Source("run", [Item(name_of(folder), series, folder, is_static=is_static(folder))], _at_largest(series))
+
+
+def _at_largest(series):
+    """At rest there is nothing to see, nor in a motion that is too small."""
+    peak, _, _ = series.peak
+    start = {} if peak is None else {"time": float(series.times[peak])}
+    return {**start, "scale": series.visible_scale} if series.visible_scale else start
 
 
 def _of_shapes(folder):
@@ -36,7 +44,7 @@ def _of_shapes(folder):
     shapes = Shapes(folder)
     scale = LARGEST * float(np.ptp(shapes.frame(0).points, axis=0).max())
     return Source("shapes", [Item(name_of(folder), shapes, labels=labelled_modes(folder, shapes))],
-                  {"color": "shape", "scale": scale})
+                  {"color": "swing", "range": [-1, 1], "scale": scale, "swing": is_of_modes(folder)})
 
 
 def told_apart(items):

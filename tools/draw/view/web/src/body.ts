@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { lines, paint, type Paint } from "./material";
 import type { Quantity } from "./description";
-import type { Result, Strokes } from "./result";
+import type { Mesh, Result, Strokes } from "./result";
 import { Section, type Cut, type Plane } from "./section";
 
 export interface Look {
@@ -21,10 +21,11 @@ export interface Hit {
   point: THREE.Vector3;
 }
 
+const SWING = "swing"; // signed shapes of modes: lines where they are zero
 const HELD = 0xd1622b, LOAD = 0x8e44ad;
 const LIFT = 3e-3; // of the body's extent: strokes above the surface
-const MOST_ARROWS = 300;
-const ARROW = 0.12; // of the body's extent: that of the largest load
+const MOST_ARROWS = 40; // more hide the body
+const ARROW = 0.09; // of the body's extent: that of the largest load
 
 export class Body {
   readonly group = new THREE.Group();
@@ -40,7 +41,10 @@ export class Body {
   private readonly creases: THREE.LineSegments;
   private readonly outline: THREE.LineSegments;
   private readonly strokes: THREE.LineSegments | null;
-  private readonly held: THREE.Points;
+  private readonly held: THREE.Points; // single ones
+  private readonly heldNodes: number[];
+  private readonly heldEdges: Uint32Array; // around held faces
+  private readonly heldOutline: THREE.LineSegments;
   private readonly arrows: THREE.LineSegments;
   private readonly section = new Section();
   private cut: Cut | null = null;
@@ -65,10 +69,13 @@ export class Body {
     const most = Math.max(0, ...[...result.strokes.values()].map((s) => s.face.length));
     this.strokes = most ? segments(2 * most, lines(0x101214)) : null;
     this.held = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ color: HELD, size: 5, sizeAttenuation: false }));
-    this.arrows = segments(6 * this.arrowNodes().length, lines(LOAD));
+    [this.heldEdges, this.heldNodes] = outlined(mesh, result.marks.held);
+    this.heldOutline = segments(this.heldEdges.length, Object.assign(lines(HELD, 0.95), { depthTest: false })); // after what is opaque
+    this.heldOutline.renderOrder = 1; // over the edges of the shape
+    this.arrows = segments(6 * this.arrowNodes().length, lines(LOAD, 0.8));
     this.extent = extentOf(mesh.rest);
     const body = new THREE.Mesh(this.surface, this.paint);
-    for (const part of [body, this.cap, this.edges, this.creases, this.outline, this.strokes, this.held, this.arrows])
+    for (const part of [body, this.cap, this.edges, this.creases, this.outline, this.strokes, this.held, this.heldOutline, this.arrows])
       if (part) {
         part.frustumCulled = false;
         this.group.add(part);
@@ -81,7 +88,7 @@ export class Body {
     for (const material of [this.paint, this.capPaint])
       Object.assign(material.uniforms, {
         map: { value: map }, size: { value: size }, categories: { value: quantity.categories }, low: { value: low },
-        high: { value: high }, nan: { value: nan },
+        high: { value: high }, nan: { value: nan }, nodal: { value: quantity.field === SWING },
       });
   }
 
@@ -107,7 +114,7 @@ export class Body {
       this.strokes.visible = given !== undefined;
       if (given) this.fillStrokes(this.strokes, given);
     }
-    this.held.visible = this.arrows.visible = look.marks;
+    this.held.visible = this.heldOutline.visible = this.arrows.visible = look.marks;
     if (look.marks) this.fillMarks();
   }
 
@@ -226,9 +233,10 @@ export class Body {
   }
 
   private fillMarks(): void {
-    const { held, loaded, loads } = this.result.marks;
-    const points = new Float32Array(3 * held.length);
-    held.forEach((node, k) => points.set(this.positions.subarray(3 * node, 3 * node + 3), 3 * k));
+    const { loaded, loads } = this.result.marks;
+    fillPairs(this.heldOutline, this.heldEdges, this.positions);
+    const points = new Float32Array(3 * this.heldNodes.length);
+    this.heldNodes.forEach((node, k) => points.set(this.positions.subarray(3 * node, 3 * node + 3), 3 * k));
     this.held.geometry.setAttribute("position", new THREE.BufferAttribute(points, 3));
     const size = (k: number) => Math.hypot(loads[3 * k] as number, loads[3 * k + 1] as number, loads[3 * k + 2] as number);
     let largest = 0;
@@ -242,6 +250,30 @@ export class Body {
     attribute.array.set(out);
     attribute.needsUpdate = true;
   }
+}
+
+// The edges around held faces, in pairs, and the held nodes that are in none. A face is held if its corners are, and those
+// of a face beside it, about in its plane: where two clamped edges meet there is a face between them that is held by chance.
+function outlined({ faces, rest }: Mesh, held: Uint32Array): [Uint32Array, number[]] {
+  const isHeld = new Set(held), beside = new Map<string, number[]>(), edge = (a: number, b: number) => `${Math.min(a, b)} ${Math.max(a, b)}`;
+  const corners = (f: number) => [0, 1, 2].map((k) => faces[3 * f + k] as number);
+  const edges = (f: number) => corners(f).map((a, k, all): [number, number] => [a, all[(k + 1) % 3] as number]);
+  const at = (node: number) => new THREE.Vector3().fromArray(rest, 3 * node);
+  const normal = (f: number) => {
+    const [a, b, c] = corners(f).map(at) as [THREE.Vector3, THREE.Vector3, THREE.Vector3];
+    return b.sub(a).cross(c.sub(a)).normalize();
+  };
+  const given = Array.from({ length: faces.length / 3 }, (_, f) => f).filter((f) => corners(f).every((node) => isHeld.has(node)));
+  for (const f of given) for (const [a, b] of edges(f)) beside.set(edge(a, b), [...(beside.get(edge(a, b)) ?? []), f]);
+  const flat = (f: number, [a, b]: [number, number]) => (beside.get(edge(a, b)) ?? []).some((g) => g !== f && normal(f).dot(normal(g)) > 0.8);
+  const rim: number[] = [], covered = new Set<number>();
+  for (const f of given) {
+    const own = edges(f), inner = own.filter((pair) => flat(f, pair));
+    if (!inner.length) continue;
+    corners(f).forEach((node) => covered.add(node));
+    own.filter((pair) => !inner.includes(pair)).forEach((pair) => rim.push(...pair));
+  }
+  return [Uint32Array.from(rim), [...held].filter((node) => !covered.has(node))];
 }
 
 // Three segments: a shaft that ends at the tip, and two sides of its head.

@@ -59,6 +59,7 @@ export interface Start {
   range?: [number, number]; // of the colours
   scale?: number;
   rest?: boolean; // the rest shape too
+  swing?: boolean; // frames are shapes of modes, each of which swings
   still?: boolean; // a picture: no controls
 }
 

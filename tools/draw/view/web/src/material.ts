@@ -24,7 +24,7 @@ const fragmentShader = `
 uniform sampler2D map;
 uniform float low, high, size;
 uniform vec3 nan, back;
-uniform bool categories, painted;
+uniform bool categories, painted, nodal;
 varying float vValue;
 varying vec3 vNormal;
 void main() {
@@ -32,6 +32,7 @@ void main() {
   float place = categories ? (mod(floor(vValue + 0.5), size) + 0.5) / size : clamp((vValue - low) / (high - low), 0.0, 1.0);
   vec3 colour = texture2D(map, vec2(categories ? place : (place * (size - 1.0) + 0.5) / size, 0.5)).rgb;
   if (!(vValue == vValue)) colour = nan;
+  if (nodal && abs(vValue) < 1.2 * fwidth(vValue)) colour *= 0.2;
   if (!painted) colour = back;
   vec3 n = normalize(vNormal);
   if (!gl_FrontFacing) { n = -n; colour = back * 0.8; }
@@ -47,7 +48,7 @@ export function paint(): Paint {
     polygonOffsetUnits: 1,
     uniforms: {
       map: { value: null }, low: { value: 0 }, high: { value: 1 }, size: { value: 1 }, categories: { value: false },
-      painted: { value: true }, nan: { value: new THREE.Color() }, back: { value: new THREE.Color(0.55, 0.57, 0.6) },
+      painted: { value: true }, nodal: { value: false }, nan: { value: new THREE.Color() }, back: { value: new THREE.Color(0.55, 0.57, 0.6) },
     },
   });
 }

@@ -18,6 +18,7 @@ const VIEWS: Record<string, [string, number, number]> = {
 };
 const KEYS = "space: play; ← →: a frame back, on; Home, End: first, last; 1 – 4: views; e: edges; g: grain; c: clip plane; " +
   "drag: turn; right button or two fingers: move; wheel: nearer";
+const SWING_SECONDS = 2; // of a shape, to and fro
 const AHEAD = 3; // frames that are unpacked before they are shown, while time goes on
 const SCALES = [0.1, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 1e4, 1e5];
 
@@ -52,6 +53,8 @@ export class View {
   private table: string | null = null;
   private tableChosen = element("select");
   private turn = 0; // of refresh()
+  private swing = 1; // of the enlarged shape, while it swings
+  private swinging = false;
   private pointer: { x: number; y: number } | null = null;
 
   constructor(
@@ -83,7 +86,7 @@ export class View {
     if (before) this.player.setSpeed(before.speed);
     this.slider.max = String(times.length - 1);
     this.slider.addEventListener("input", () => void this.player.goTo(Number(this.slider.value)));
-    this.play = button("▶", "Play (space)", () => this.player.toggle());
+    this.play = button("▶", "Play (space)", () => this.togglePlay());
     const charts = element("div", { class: "charts" });
     this.curves = new Curves(charts, results, (time) => void this.player.goToTime(time));
     this.labels = results.map(() => element("small", { class: "label" }));
@@ -105,6 +108,7 @@ export class View {
     const { quantity, range, look, table } = this, speed = this.player.speed, clip = this.clip.clipped;
     const kept = { time: this.player.time, quantity, range, look, clip, direction: this.stage.eye(), speed, table };
     if (this.player.playing) this.player.toggle();
+    this.swinging = false;
     ++this.turn; // what is being unpacked is shown nowhere
     this.listening.abort();
     this.stage.end();
@@ -122,6 +126,22 @@ export class View {
     if (this.table) await this.curves.show(this.table);
     this.showTime();
     this.stage.drawNow();
+    const { swing, still } = this.about.start;
+    if (swing && !still && !matchMedia("(prefers-reduced-motion: reduce)").matches) this.togglePlay();
+  }
+
+  // Time goes on, or a shape swings.
+  private togglePlay(): void {
+    if (!this.about.start.swing) return this.player.toggle();
+    this.swinging = !this.swinging;
+    const began = performance.now();
+    const advance = async (): Promise<void> => {
+      this.swing = this.swinging ? Math.cos((2 * Math.PI * (performance.now() - began)) / 1000 / SWING_SECONDS) : 1;
+      await this.refresh();
+      if (this.swinging) requestAnimationFrame(() => void advance());
+    };
+    void advance();
+    this.showTime();
   }
 
   // For scripts and tests: what a value is at a place on the page, and where a node is.
@@ -155,17 +175,18 @@ export class View {
 
   private async refresh(): Promise<void> {
     const { quantity } = this, plane = this.plane(), turn = ++this.turn;
+    const look = { ...this.look, scale: this.swing * this.look.scale };
     for (const body of this.bodies) {
       const frame = body.result.frameAt(this.player.time), own = body.result.quantity(quantity.key);
       const [moved, values] = await Promise.all([body.result.displacement(frame), own && body.result.values(own, frame)]);
       if (turn !== this.turn) return; // another frame was asked for meanwhile
       if (this.player.playing && own)
         for (let ahead = 1; ahead <= AHEAD; ++ahead) body.result.prepare(own, frame + ahead);
-      body.update(moved, values, own, this.look, plane);
+      body.update(moved, values, own, look, plane);
     }
     this.stage.setPlane(plane);
     this.pointed(this.pointer);
-    if (this.player.playing) this.stage.drawNow(); // within the frame of the clock that asked for it
+    if (this.player.playing || this.swinging) this.stage.drawNow(); // within the frame of the clock that asked for it
     else this.stage.draw();
   }
 
@@ -218,7 +239,7 @@ export class View {
     this.clock.textContent = labels.some((l) => l) ? count : `${said}  (${count})`;
     this.slider.value = String(player.frame);
     this.slider.setAttribute("aria-valuetext", text);
-    this.play.textContent = player.playing ? "❚❚" : "▶";
+    this.play.textContent = player.playing || this.swinging ? "❚❚" : "▶";
     this.curves.setTime(player.time);
   }
 
@@ -315,7 +336,7 @@ export class View {
     if (target.tagName === "INPUT" && target !== this.slider) return;
     const { player } = this, view = VIEWS[event.key];
     const actions: Record<string, () => void> = {
-      " ": () => player.toggle(), ArrowLeft: () => void player.goTo(player.frame - 1),
+      " ": () => this.togglePlay(), ArrowLeft: () => void player.goTo(player.frame - 1),
       ArrowRight: () => void player.goTo(player.frame + 1), Home: () => void player.goTo(0),
       End: () => void player.goTo(player.times.length - 1), e: () => this.next("#edges"), c: () => this.next("#clip"),
       g: () => this.next("#grain"),
