@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
 #include <utility>
 
 #include "lib/core/words.h"
+#include "lib/mesh/io/abaqus_axes.h"
 #include "lib/mesh/io/abaqus_file.h"
 #include "lib/mesh/io/text_tokens.h"
 #include "lib/mesh/split_cells.h"
@@ -31,17 +33,15 @@ class AbaqusMesh {
     nodes_ = numbers_of(draft_.nodes);
     cells_ = numbers_of(draft_.cells);
     faces_ = numbers_of(file_.faces);
+    left_out_ = numbers_of(file_.left_out);
     budget_ = 1000 + 100 * (nodes_.size() + cells_.size() + faces_.size());
   }
 
   LoadedMesh build() {
     make_draft();
-    Warnings warnings;
-    std::vector<const Mat3*> axes;
-    for (const AbaqusSection& section : file_.sections) axes.push_back(axes_of(section, warnings));
+    const std::vector<Mat3> axes = axes_of_cells();
     LoadedMesh loaded = build_mesh(std::move(draft_));
-    loaded.warnings.insert(loaded.warnings.end(), warnings.begin(), warnings.end());
-    if (std::any_of(axes.begin(), axes.end(), [](const Mat3* Q) { return Q; })) add_axes(axes, loaded);
+    if (!axes.empty()) add_axes(axes, loaded);
     return loaded;
   }
 
@@ -55,17 +55,57 @@ class AbaqusMesh {
       auto& uses = draft_.node_sets[set.name];
       for (const AbaqusMembers& m : set.members) append_node_uses(m, uses);
     }
+    warn_of_undefined_elements();
   }
 
-  // Axes 1 and 2 of each tet as cell data; those of space where its section has no orientation.
-  void add_axes(const std::vector<const Mat3*>& axes, LoadedMesh& loaded) const {
+  // Those of each cell by the orientation of its section, or those of space; none if no section has one.
+  std::vector<Mat3> axes_of_cells() {
+    std::vector<Mat3> axes;
+    std::map<std::string, AbaqusAxes> known;
+    for (std::size_t c = 0; c < draft_.cells.size(); ++c) {
+      if (section_of_[c] < 0) continue;
+      const AbaqusSection& section = file_.sections[static_cast<std::size_t>(section_of_[c])];
+      if (section.orientation.empty()) continue;
+      if (axes.empty()) axes.assign(draft_.cells.size(), Mat3::Identity());
+      auto found = known.find(section.orientation);
+      if (found == known.end()) found = known.emplace(section.orientation, axes_by(section)).first;
+      axes[c] = found->second.of(c, centre_of(draft_.cells[c]));
+    }
+    return axes;
+  }
+
+  AbaqusAxes axes_by(const AbaqusSection& section) {
+    const AbaqusOrientation* orientation = find_abaqus(file_.orientations, section.orientation);
+    if (!orientation)
+      draft_.fail(section.elements.place,
+                  fmt::format("*SOLID SECTION: no *ORIENTATION {}", TextTokens::quoted(section.orientation)));
+    return AbaqusAxes(
+        file_, *orientation,
+        [&](const AbaqusMembers& members, const std::function<void(std::size_t)>& use) {
+          each_element(members, cells_, use);
+        },
+        [&](std::int64_t node) { return position(node, orientation->place); });
+  }
+
+  const Vec3& position(std::int64_t tag, FilePlace place) const {
+    const auto found = std::lower_bound(nodes_.begin(), nodes_.end(), std::pair(tag, std::size_t{0}));
+    if (found == nodes_.end() || found->first != tag)
+      draft_.fail(place, fmt::format("node {} is not defined in *NODE", tag % kAbaqusAssembly));
+    return draft_.nodes[found->second].x;
+  }
+
+  Vec3 centre_of(const FileCell& cell) const {
+    Vec3 sum = Vec3::Zero();
+    for (const std::int64_t node : cell.corners()) sum += position(node, cell.place);
+    return sum / static_cast<double>(cell.corners().size());
+  }
+
+  // Axes 1 and 2 of each tet as cell data.
+  static void add_axes(const std::vector<Mat3>& axes, LoadedMesh& loaded) {
     const TetMesh& mesh = loaded.mesh;
     CellData first{.name = "axis_1", .components = 3}, second{.name = "axis_2", .components = 3};
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-      const std::size_t cell = mesh.cell_of.empty() ? t : static_cast<std::size_t>(mesh.cell_of[t]);
-      const int section = section_of_[cell];
-      const Mat3* given = section < 0 ? nullptr : axes[static_cast<std::size_t>(section)];
-      const Mat3 Q = given ? *given : Mat3::Identity();
+      const Mat3& Q = axes[mesh.cell_of.empty() ? t : static_cast<std::size_t>(mesh.cell_of[t])];
       first.values.insert(first.values.end(), Q.col(0).begin(), Q.col(0).end());
       second.values.insert(second.values.end(), Q.col(1).begin(), Q.col(1).end());
     }
@@ -109,9 +149,9 @@ class AbaqusMesh {
   }
 
   const AbaqusSet& find(const AbaqusSets& sets, const AbaqusMembers& m, const char* keyword) const {
-    const auto found = sets.find(m.set);
-    if (found == sets.end()) draft_.fail(m.place, fmt::format("no *{} {}", keyword, TextTokens::quoted(m.set)));
-    return found->second;
+    const AbaqusSet* found = find_abaqus(sets, m.set);
+    if (!found) draft_.fail(m.place, fmt::format("no *{} {}", keyword, TextTokens::quoted(m.set)));
+    return *found;
   }
 
   // Sets may name sets; `depth` bounds circles.
@@ -128,15 +168,68 @@ class AbaqusMesh {
   }
 
   void append_node_uses(const AbaqusMembers& m, std::vector<FileNodeUse>& uses, int depth = 0) {
+    if (m.of_elements) return append_nodes_of_elements(m, uses);
     if (m.set.empty()) {
       const std::size_t found = each(m, nodes_, [&](std::size_t n) { uses.push_back({draft_.nodes[n].tag, m.place}); });
-      if (found == 0) draft_.fail(m.place, fmt::format("*NSET: node {} is not defined in *NODE", m.first));
+      if (found == 0 || (m.listed && found < count_of(m))) fail_node(m);
       return;
     }
     if (depth > 20) draft_.fail(m.place, fmt::format("set {} contains itself", TextTokens::quoted(m.set)));
     for (const AbaqusMembers& inner : find(file_.node_sets, m, "NSET").members) {
       spend(m.place);
       append_node_uses(inner, uses, depth + 1);
+    }
+  }
+
+  static std::size_t count_of(const AbaqusMembers& m) { return static_cast<std::size_t>(m.last - m.first) + 1; }
+
+  // Precondition: not all of these numbers exist.
+  [[noreturn]] void fail_node(const AbaqusMembers& m) const {
+    std::int64_t missing = m.first;
+    for (auto it = std::lower_bound(nodes_.begin(), nodes_.end(), std::pair(m.first, std::size_t{0}));
+         it != nodes_.end() && it->first == missing; ++it)
+      ++missing;
+    if (missing >= kAbaqusAssembly)
+      draft_.fail(m.place, fmt::format("*NSET: node {} is not defined in the assembly; for one of an instance give "
+                                       "INSTANCE=name",
+                                       missing - kAbaqusAssembly));
+    draft_.fail(m.place, fmt::format("*NSET: node {} is not defined in *NODE", missing));
+  }
+
+  void append_nodes_of_elements(const AbaqusMembers& m, std::vector<FileNodeUse>& uses) {
+    const auto use = [&](std::int64_t node) {
+      spend(m.place);
+      uses.push_back({node, m.place});
+    };
+    const AbaqusMembers elements{.set = m.set, .place = m.place};
+    each_element(elements, cells_, [&](std::size_t c) {
+      const FileCell& cell = draft_.cells[c];
+      for (const std::int64_t node : cell.corners()) use(node);
+      if (cell.midsides) std::for_each(cell.midsides->begin(), cell.midsides->end(), use);
+      for (const FileEdge& edge : cell.edges) use(edge.middle);
+    });
+    each_element(elements, faces_, [&](std::size_t f) {
+      for (const std::int64_t node : file_.faces[f].corners()) use(node);
+      std::for_each(file_.face_middles[f].begin(), file_.face_middles[f].end(), use);
+    });
+  }
+
+  // Elements that a set lists and that no *ELEMENT defines.
+  void warn_of_undefined_elements() {
+    const auto within = [](const AbaqusMembers& m, const Numbers& numbers) {
+      const auto before = [](const auto& entry, std::int64_t number) { return entry.first < number; };
+      const auto begin = std::lower_bound(numbers.begin(), numbers.end(), m.first, before);
+      return static_cast<std::size_t>(std::lower_bound(begin, numbers.end(), m.last + 1, before) - begin);
+    };
+    for (const auto& [key, set] : file_.element_sets) {
+      std::size_t missing = 0;
+      for (const AbaqusMembers& m : set.members)
+        if (m.listed && m.set.empty())
+          missing += count_of(m) - std::min(count_of(m), within(m, cells_) + within(m, faces_) + within(m, left_out_));
+      if (missing > 0)
+        draft_.warnings.push_back(fmt::format("{}: element set \"{}\" lists {} that no *ELEMENT defines",
+                                              draft_.files.front(), set.name,
+                                              counted(static_cast<long>(missing), "element")));
     }
   }
 
@@ -217,20 +310,6 @@ class AbaqusMesh {
                                             draft_.files.front(), join(others)));
   }
 
-  // Of a section that names one; null where it has none, or one of a system that is not read, which is said.
-  const Mat3* axes_of(const AbaqusSection& section, Warnings& warnings) const {
-    if (section.orientation.empty()) return nullptr;
-    const auto found = file_.orientations.find(section.orientation);
-    if (found == file_.orientations.end())
-      draft_.fail(section.elements.place,
-                  fmt::format("*SOLID SECTION: no *ORIENTATION {}", TextTokens::quoted(section.orientation)));
-    if (found->second.axes) return &*found->second.axes;
-    warnings.push_back(fmt::format("{}: orientation \"{}\" is not read, for it is not of SYSTEM=RECTANGULAR by "
-                                   "coordinates: its elements have the axes of space; give them `axes` in the scene",
-                                   draft_.where(found->second.place), found->second.name));
-    return nullptr;
-  }
-
   FileFace face_of(const FileCell& cell, const AbaqusFace& face, const std::string& surface) const {
     const std::vector<Places>& faces = faces_of(cell.kind);
     if (face.side >= faces.size())
@@ -243,10 +322,30 @@ class AbaqusMesh {
     return out;
   }
 
+  // SPOS or SNEG: the shell itself, seen from the side of its normal or from the other.
+  void add_sides_of_shells(const AbaqusFace& side, const std::string& surface, std::vector<FileFace>& faces) {
+    const std::size_t found = each_element(side.elements, faces_, [&](std::size_t f) {
+      faces.push_back(file_.faces[f]);
+      if (side.side == AbaqusFace::kNegative) {
+        const auto corners = faces.back().corners();
+        std::reverse(corners.begin() + 1, corners.end());
+      }
+    });
+    if (found == 0)
+      draft_.fail(side.elements.place,
+                  fmt::format("surface {}: SPOS and SNEG are sides of shells and membranes, and there is no such "
+                              "element; solid elements have S1 to S6",
+                              TextTokens::quoted(surface)));
+  }
+
   void add_surfaces() {
     for (const auto& [key, surface] : file_.surfaces) {
       auto& faces = draft_.surfaces[surface.name];
       for (const AbaqusFace& face : surface.faces) {
+        if (face.side >= AbaqusFace::kPositive) {
+          add_sides_of_shells(face, surface.name, faces);
+          continue;
+        }
         const std::size_t found = each_element(face.elements, cells_, [&, &name = surface.name](std::size_t c) {
           faces.push_back(face_of(draft_.cells[c], face, name));
         });
@@ -265,7 +364,7 @@ class AbaqusMesh {
 
   AbaqusFile file_;
   MeshDraft& draft_;
-  Numbers nodes_, cells_, faces_;
+  Numbers nodes_, cells_, faces_, left_out_;
   std::size_t budget_ = 0;
   std::vector<int> section_of_;  // of each cell, an index into file_.sections; -1 for none
 };

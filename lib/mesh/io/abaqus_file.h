@@ -1,9 +1,10 @@
-// What an Abaqus input file says of its mesh. Names are compared in capitals.
+// What an Abaqus input file says of its mesh. Names are compared in capitals; those of an instance begin with its name,
+// "PART-1-1.SIDE", as Abaqus itself refers to them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,47 +18,96 @@ struct AbaqusMembers {
   std::int64_t first = 0, last = 0, step = 1;
   std::string set = {};  // in capitals; empty for numbers
   FilePlace place = {};
+  bool listed = false;       // not by GENERATE: each number must exist
+  bool of_elements = false;  // of a node set: the nodes of the elements of `set`
 };
 
 struct AbaqusSet {
   std::string name;  // as first spelled
-  std::vector<AbaqusMembers> members;
-  int order = 0;  // of the last line that added to it
+  std::vector<AbaqusMembers> members = {};
+  int order = 0;              // of the last line that added to it
+  std::string instance = {};  // as spelled, of a set within one
 };
 
 struct AbaqusFace {
+  static constexpr std::size_t kPositive = 6, kNegative = 7;  // SPOS, SNEG of a shell
   AbaqusMembers elements;
   std::size_t side = 0;  // 0 to 5 for S1 to S6
 };
 
 struct AbaqusSurface {
   std::string name;
-  std::vector<AbaqusFace> faces;
+  std::vector<AbaqusFace> faces = {};
+  std::string instance = {};
 };
 
-// *SOLID SECTION: an element set, and the name of the orientation of its material in capitals ("" for none).
+// x -> R x + t, of an instance.
+struct AbaqusPlacement {
+  Mat3 R = Mat3::Identity();
+  Vec3 t = Vec3::Zero();
+  Vec3 operator()(const Vec3& x) const { return R * x + t; }
+};
+
+// *SOLID SECTION: an element set, and names in capitals ("" for none).
 struct AbaqusSection {
   AbaqusMembers elements;
-  std::string orientation = {};
+  std::string orientation = {}, material = {};
 };
 
-// *ORIENTATION: the columns are local axes 1, 2, 3; none for a system that is not read.
+// *ORIENTATION: a system through the points a, b and c, which stand here, are those of nodes, or are listed by element.
 struct AbaqusOrientation {
+  enum class System { rectangular, z_rectangular, cylindrical, spherical };
+
   std::string name;  // as spelled
-  std::optional<Mat3> axes;
+  System system = System::rectangular;
+  std::array<Vec3, 3> points = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  // where they lie once placed
+  std::vector<std::int64_t> nodes = {};                                     // instead of points
+  std::string distribution = {}, angles = {};                               // in capitals
+  Eigen::Index axis = 0;                                                    // turned about by `degrees` or `angles`
+  double degrees = 0;
+  AbaqusPlacement placement = {};
+  FilePlace place = {};
+};
+
+// *DISTRIBUTION by element: six coordinates of the points a and b, or an angle.
+struct AbaqusDistribution {
+  struct Row {
+    AbaqusMembers elements;
+    std::array<double, 6> values = {};
+  };
+  std::string name;
+  std::size_t count = 0;  // of values in a row, 6 or 1; 0 of one that is not read
+  std::vector<Row> rows = {};
+  std::vector<Row> others = {};  // one, of the elements that no row names, or none
   FilePlace place = {};
 };
 
 using AbaqusSets = std::map<std::string, AbaqusSet>;
 
+// Is added to the numbers of nodes and elements of an assembly that has instances.
+inline constexpr std::int64_t kAbaqusAssembly = 1'000'000'000'000'000;
+
 struct AbaqusFile {
   MeshDraft draft;              // nodes and solid elements
   std::vector<FileFace> faces;  // elements of three or four corners, of shells and the like
+  std::vector<std::vector<std::int64_t>> face_middles;  // of each the other nodes
+  std::vector<FileNodeUse> left_out;                    // numbers of elements of other types
   AbaqusSets node_sets, element_sets;
   std::map<std::string, AbaqusSurface> surfaces;
   std::vector<AbaqusSection> sections;
   std::map<std::string, AbaqusOrientation> orientations;
+  std::map<std::string, AbaqusDistribution> distributions;
 };
+
+// The entry of a name, which is that of its instance or else that of the model: "PART-1-1.SIDE", then "SIDE". Null if
+// there is none.
+template <class Value>
+const Value* find_abaqus(const std::map<std::string, Value>& all, const std::string& name) {
+  auto found = all.find(name);
+  const std::size_t dot = name.rfind('.');
+  if (found == all.end() && dot != std::string::npos) found = all.find(name.substr(dot + 1));
+  return found == all.end() ? nullptr : &found->second;
+}
 
 // Throws ConfigError.
 AbaqusFile read_abaqus_keywords(const std::string& path, std::string_view text);

@@ -80,9 +80,9 @@ void add_abaqus_mesh(TextLines& lines, const TetMesh& mesh) {
 }
 
 // Gives sets their names in the file.
-class Names {
+class AbaqusNames {
  public:
-  explicit Names(Warnings& losses) : losses_(losses) {}
+  explicit AbaqusNames(Warnings& losses) : losses_(losses) {}
   std::string give(const std::string& name) { return unique_name(taken_, name, abaqus_name(name), losses_); }
 
  private:
@@ -95,14 +95,14 @@ void add_regions(TextLines& lines, const TetMesh& mesh, Warnings& losses) {
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
     members[static_cast<std::size_t>(mesh.region_of[e])].push_back(static_cast<int>(e) + 1);
   }
-  Names names(losses);
+  AbaqusNames names(losses);
   for (std::size_t r = 0; r < members.size(); ++r) {
     add_set(lines, "ELSET", names.give(mesh.region_names[r]), members[r]);
   }
 }
 
 void add_node_sets(TextLines& lines, const TetMesh& mesh, Warnings& losses) {
-  Names names(losses);
+  AbaqusNames names(losses);
   for (const auto& [name, nodes] : mesh.node_sets) {
     std::vector<int> numbers = nodes;
     for (int& n : numbers) ++n;
@@ -112,7 +112,7 @@ void add_node_sets(TextLines& lines, const TetMesh& mesh, Warnings& losses) {
 
 void add_surfaces(TextLines& lines, const TetMesh& mesh, Warnings& losses) {
   if (mesh.surfaces.empty()) return;
-  Names names(losses);
+  AbaqusNames names(losses);
   const std::vector<TetFace> faces = sorted_faces(mesh);
   for (const auto& [name, triangles] : mesh.surfaces) {
     lines.line("*SURFACE", "TYPE=ELEMENT", "NAME=" + quoted_if_needed(names.give(name)));

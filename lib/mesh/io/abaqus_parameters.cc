@@ -1,0 +1,89 @@
+#include "lib/mesh/io/abaqus_parameters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "lib/core/words.h"
+
+namespace orthodyn {
+namespace {
+
+struct Parameters {
+  std::vector<std::string> used, harmless;
+  std::map<std::string, const char*> refused = {};  // with what to do
+};
+
+// By keyword. Source: Abaqus keywords reference, 2016 to 2024.
+const std::map<std::string, Parameters>& parameter_table() {
+  constexpr const char* kPlies = "plies through one element are not read; mesh each ply with elements of its own";
+  constexpr const char* kWhole = "only surfaces that list faces of elements are read; list them";
+  constexpr const char* kImport = "what an earlier analysis left is not read; write the part itself";
+  static const std::map<std::string, Parameters> all{
+      {"NODE", {{"NSET", "SYSTEM", "INPUT"}, {}}},
+      {"ELEMENT",
+       {{"TYPE", "ELSET", "INPUT"},
+        {"SOLIDELEMENTNUMBERING"},  // of acoustic infinite elements' and cohesive layers' own output
+        {{"FILE", "elements of a substructure are not read"},
+         {"OFFSET", "it adds to numbers of nodes; write the numbers themselves"}}}},
+      {"NSET", {{"NSET", "ELSET", "GENERATE", "INSTANCE", "INPUT"}, {"INTERNAL", "UNSORTED"}}},
+      {"ELSET", {{"ELSET", "GENERATE", "INSTANCE", "INPUT"}, {"INTERNAL", "UNSORTED"}}},
+      {"SURFACE",
+       {{"NAME", "TYPE"},
+        {"INTERNAL", "NOOFFSET", "NOTHICK", "PROPERTY", "SCALETHICK", "MAXRATIO", "FILLETRADIUS", "TRACKING"},
+        {{"COMBINE", kWhole},
+         {"COMPLEMENT", kWhole},
+         {"CROP", kWhole},
+         {"DEFINITION", kWhole},
+         {"REGIONTYPE", kWhole},
+         {"TRIM", kWhole}}}},
+      {"SOLIDSECTION",
+       {{"ELSET", "MATERIAL", "ORIENTATION"},
+        {"CONTROLS", "LAYUP", "REFNODE"},
+        {{"COMPOSITE", kPlies}, {"STACKDIRECTION", kPlies}, {"SYMMETRIC", kPlies}, {"ORDER", kPlies}}}},
+      {"ORIENTATION",
+       {{"NAME", "SYSTEM", "DEFINITION"},
+        {},
+        {{"LOCALDIRECTIONS", "axes of fibres within the axes are not read; turn the orientation itself"}}}},
+      {"DISTRIBUTION",
+       {{"NAME", "LOCATION", "TABLE", "INPUT"},
+        {},
+        {{"DESIGNVARIABLE", "it is read by adjoint analyses only"},
+         {"EXTERNALFIELD", "values of an output database are not read; list them"}}}},
+      {"DISTRIBUTIONTABLE", {{"NAME"}, {}}},
+      {"PART", {{"NAME"}, {}}},
+      {"ASSEMBLY", {{"NAME"}, {}}},
+      {"INSTANCE", {{"NAME", "PART"}, {}, {{"INSTANCE", kImport}, {"LIBRARY", kImport}}}},
+      {"ENDPART", {}},
+      {"ENDINSTANCE", {}},
+      {"ENDASSEMBLY", {}},
+      {"INCLUDE", {{"INPUT"}, {}, {{"PASSWORD", "files that are encrypted are not read"}}}},
+  };
+  return all;
+}
+
+bool is_among(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+bool check_abaqus_parameters(const AbaqusKeyword& keyword, const std::function<void(const std::string&)>& fail) {
+  const auto found = parameter_table().find(keyword.name);
+  if (found == parameter_table().end()) return false;
+  const Parameters& known = found->second;
+  for (const auto& [name, value] : keyword.parameters) {
+    if (is_among(known.used, name) || is_among(known.harmless, name)) continue;
+    const auto refused = known.refused.find(name);
+    if (refused != known.refused.end()) fail(fmt::format("{}, {}: {}", keyword.spelled, name, refused->second));
+    std::vector<std::string> names = known.used;
+    names.insert(names.end(), known.harmless.begin(), known.harmless.end());
+    fail(fmt::format("{} has no parameter {}; {}", keyword.spelled, TextTokens::quoted(name),
+                     names.empty() ? "it has none" : "known: " + join(names)));
+  }
+  return true;
+}
+
+}  // namespace orthodyn
