@@ -138,6 +138,7 @@ void add_equilibrium(Json& out, const EquilibriumResult& equilibrium, const Outc
   out["critical_points"] = Json::array();
   for (const CriticalPoint& point : equilibrium.critical_points) out["critical_points"].push_back(to_json(point));
   out["unstable_directions"] = to_json(equilibrium.unstable);
+  out["unsymmetric_stiffness"] = equilibrium.unsymmetric;
   out["largest_displacement"] = equilibrium.largest_displacement;
   out["residual"] = equilibrium.residual;
   out["solver"] = equilibrium.solver;

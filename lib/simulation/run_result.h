@@ -89,6 +89,7 @@ struct EquilibriumResult {
   long jumps = 0;                         // down the energy to another path
   std::vector<CriticalPoint> critical_points = {};
   std::optional<int> unstable = {};       // directions in which it is unstable; none: not known
+  bool unsymmetric = false;               // K is: critical points are where its determinant changes its sign
   double largest_displacement = 0;        // m, of a coordinate
   double residual = 0, largest_load = 0;  // N, of a coordinate
   bool residual_above_tolerance = false;

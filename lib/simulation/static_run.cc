@@ -118,6 +118,7 @@ EquilibriumResult equilibrium_result(const Setup& setup, const StaticProblem& pr
                         .jumps = stepper.jumps(),
                         .critical_points = stepper.critical_points(),
                         .unstable = stepper.unstable(),
+                        .unsymmetric = !problem.path->pattern().symmetric,
                         .residual = stepper.attempt().residual,
                         .largest_load = problem.path->largest_load(),
                         .residual_above_tolerance = stepper.attempt().above_tolerance,

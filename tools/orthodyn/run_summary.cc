@@ -129,8 +129,11 @@ void print_equilibrium(const RunResult& result, const EquilibriumResult& equilib
   if (equilibrium.jumps > 0)
     fmt::print("  {:<20} {}, down the energy to a stable equilibrium on another path\n", "jumps", equilibrium.jumps);
   if (equilibrium.unstable.value_or(0) > 0)
-    fmt::print("  {:<20} the last equilibrium is unstable in {} direction{}\n", "stability", *equilibrium.unstable,
-               *equilibrium.unstable == 1 ? "" : "s");
+    fmt::print("  {:<20} the last equilibrium is unstable in {}\n", "stability",
+               equilibrium.unsymmetric ? "an odd number of directions" : counted(*equilibrium.unstable, "direction"));
+  else if (equilibrium.unsymmetric)
+    fmt::print("  {:<20} by the sign of the determinant, for the stiffness is unsymmetric; growing vibrations (flutter) "
+               "are not looked for\n", "stability");
   fmt::print("  {:<20} {}\n", "solver", equilibrium.solver);
   if (!result.model.kinematics.empty()) fmt::print("  {:<20} {}\n", "kinematics", result.model.kinematics);
   fmt::print("  {:<20} {:.6g} m\n", "largest displacement", equilibrium.largest_displacement);
