@@ -26,7 +26,8 @@ TEST_F(FileNames, OfAScene) {
           "loads: [{surface: x1, force: [0, 0, 1], factor: {type: table, file: " + name + ".csv}}]",
           "include: " + name + ".yaml"}) {
       std::string scene = kSwing;
-      if (section.starts_with("mesh")) scene.erase(scene.find("mesh:"), scene.find('\n', scene.find("mesh:")) - 1);
+      if (const auto mesh = scene.find("mesh:"); section.starts_with("mesh"))
+        scene.erase(mesh, scene.find('\n', mesh) - mesh);
       write("s.yaml", scene + section + "\n");
       const auto result = orthodyn("check s.yaml");
       EXPECT_EQ(result.exit_code, 2) << result.output.substr(0, 300) << section.substr(0, 60);

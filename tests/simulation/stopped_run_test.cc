@@ -112,7 +112,7 @@ TEST_F(Stopped, ALostFrameOrTableIsNamedAndNothingElseTouched) {
 
 // Whatever the checkpoint goes on from: every file that it adds to, and every frame before it.
 TEST_F(Stopped, DamagedResultsAreNamedAndNothingElseTouched) {
-  for (const char* name : {"frames/frame_00000.vtu", "frames/frame_00002.vtu", "frames.pvd", "probes.csv", "energy.csv",
+  for (const char* name : {"frames/frame_00000.vtu", "frames/frame_00001.vtu", "frames.pvd", "probes.csv", "energy.csv",
                            "momentum.csv", "steps.csv"}) {
     const fs::path file = folder_ / "out/beam" / name;
     const std::string whole = read_text(file);
