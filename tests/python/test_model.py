@@ -76,7 +76,7 @@ class AModel(unittest.TestCase):
         self.assertIn("energy.elastic", self.model.outputs)
         kinetic = self.model.evaluate("energy.kinetic", 0, q, v)
         np.testing.assert_allclose(kinetic, [0.5 * v @ (self.model.mass @ v)], rtol=1e-12)
-        with self.assertRaisesRegex(KeyError, "energy.elatsic"):
+        with self.assertRaisesRegex(KeyError, "energy.elatsic'; did you mean 'energy.elastic'. There are .*energy.kinetic"):
             self.model.evaluate("energy.elatsic", 0, q)
 
     def test_refuses_vectors_of_another_length(self):

@@ -156,6 +156,21 @@ class AResult(InAFolder):
         with self.assertRaisesRegex(ValueError, "no field 'dispalcement'; there are displacement"):
             orthodyn.Scene(beam()).run(fields=["dispalcement"])
 
+    def test_says_which_columns_and_tables_there_are(self):
+        result = orthodyn.Scene(beam()).run(self.folder / "r")
+        with self.assertRaisesRegex(KeyError, "no column 'tip'; there are t, tip.displacement.x"):
+            result.probes["tip"]
+        with self.assertRaisesRegex(FileNotFoundError, "bogus.*tables that are there: energy, probes"):
+            result.table("bogus")
+
+    def test_from_a_dict_goes_by_its_name_in_messages(self):
+        scene = beam()
+        scene["clamps"] = [{"surfcae": "x0"}]
+        with self.assertRaises(orthodyn.ConfigError) as caught:
+            orthodyn.Scene(scene, "bridge").model()
+        self.assertTrue(str(caught.exception).startswith("bridge: clamps.0"), caught.exception)
+        self.assertNotIn("bridge.yaml", str(caught.exception))
+
     def test_goes_on_where_it_was_interrupted(self):
         scene = orthodyn.Scene(beam(checkpoint={})).set("checkpoint.every", 0.01)
         with self.assertRaises(orthodyn.RunError):

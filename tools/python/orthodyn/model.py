@@ -1,6 +1,7 @@
 """The finite element model of a scene, M q'' = f(t, q, v), on its free coordinates q (m)."""
 from __future__ import annotations
 
+import difflib
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -104,7 +105,8 @@ class Model:
         """An output at a state: (nodes or elements, components), or (components,) of one for the whole body."""
         known = {output: (place, components) for output, place, components, _, _ in self._core.outputs()}
         if name not in known:
-            raise KeyError(f"no output '{name}'; see outputs")
+            near = difflib.get_close_matches(name, known, 1)
+            raise KeyError(f"no output '{name}'; " + (f"did you mean '{near[0]}'? " if near else "") + f"There are {', '.join(known)}")
         place, components = known[name]
         values = self._core.evaluate(name, t, self._own(q, "q"), self._still(v))
         return values if place == GLOBAL else values.reshape(-1, components)

@@ -22,6 +22,13 @@ TEMPORARY = "orthodyn-"  # how folders of results begin that have no place of th
 CELL_TYPES = {4: "tetra", 10: "tetra10"}
 
 
+class Columns(dict[str, np.ndarray]):
+    """The columns of a table, by name; says which there are where a name is none of them."""
+
+    def __missing__(self, name: str) -> np.ndarray:
+        raise KeyError(f"no column '{name}'; there are {', '.join(self)}")
+
+
 class Result:
     """The result of a run. Fields that a run in this process kept are those that the library computed, in double precision;
     all others, and those of `Result.load`, are read from the frames, in single."""
@@ -70,8 +77,7 @@ class Result:
         try:
             return Series(str(self.folder))
         except DrawError as error:
-            known = ", ".join(sorted(path.stem for path in self.folder.glob("*.csv"))) or "none"
-            raise FileNotFoundError(f"{error} (tables that are there: {known})") from None
+            raise FileNotFoundError(f"{error} (tables that are there: {self._tables()})") from None
 
     @cached_property
     def times(self) -> np.ndarray:
@@ -132,13 +138,16 @@ class Result:
 
     def table(self, name: str) -> dict[str, np.ndarray]:
         """The columns of a CSV file: "probes", "energy", "momentum", "steps", ... The first is t, s."""
-        return {column.name: column.values for column in self._table(name).columns.values()}
+        return Columns((column.name, column.values) for column in self._table(name).columns.values())
 
     def _table(self, name: str) -> Table:
         try:
             return Table(self.folder / f"{name}.csv")
         except DrawError as error:
-            raise FileNotFoundError(str(error)) from None
+            raise FileNotFoundError(f"{error} (tables that are there: {self._tables()})") from None
+
+    def _tables(self) -> str:
+        return ", ".join(sorted(path.stem for path in self.folder.glob("*.csv"))) or "none"
 
     @property
     def probes(self) -> dict[str, np.ndarray]:

@@ -2,11 +2,13 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 import tempfile
 import warnings
 import weakref
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +33,7 @@ class Scene:
         self._text = as_yaml(scene)
         self.name = name
         self._file = str(Path(f"{name}.yaml").absolute())
+        self._is_file = False
         self._set: tuple[str, ...] = ()
         self._integrator: str | None = None
 
@@ -42,7 +45,7 @@ class Scene:
         except (OSError, UnicodeDecodeError) as error:
             raise _core.ConfigError(f"{file}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
         made = cls({}, Path(file).stem)
-        made._text, made._file = text, str(Path(file).absolute())
+        made._text, made._file, made._is_file = text, str(Path(file).absolute()), True
         made._simulation()
         return made
 
@@ -65,7 +68,20 @@ class Scene:
         return made
 
     def _simulation(self) -> _core.Simulation:
-        return _core.Simulation.from_text(self._text, self._file, list(self._set), self._integrator)
+        with self._by_name():
+            return _core.Simulation.from_text(self._text, self._file, list(self._set), self._integrator)
+
+    def _named(self, text: str) -> str:
+        """A message, in which a scene from a dict goes by its name: there is no file, and no line."""
+        return text if self._is_file else re.sub(re.escape(self._file) + r"(:\d+)*", lambda _: self.name, text)
+
+    @contextmanager
+    def _by_name(self) -> Iterator[None]:
+        try:
+            yield
+        except (_core.ConfigError, _core.RunError) as error:
+            error.args = tuple(self._named(part) if isinstance(part, str) else part for part in error.args)
+            raise
 
     @property
     def folder(self) -> Path:
@@ -78,7 +94,9 @@ class Scene:
 
     def model(self) -> Model:
         """The finite element model. Raises ConfigError for a scene that is at fault."""
-        return Model(_core.SceneModel(self._simulation()))
+        simulation = self._simulation()
+        with self._by_name():
+            return Model(_core.SceneModel(simulation))
 
     def run(self, out: str | Path | None = None, *, force: bool = False, resume: bool = False, estimate_error: bool = False,
             fields: Iterable[str] | None = None, progress: bool | None = None) -> Result:
@@ -103,9 +121,11 @@ class Scene:
         result = Result(folder)
         if holder:
             weakref.finalize(result, shutil.rmtree, holder, True)
-        told = _Told(Progress(self.name) if Progress.wanted(progress) else Silence())
+        told = _Told(Progress(self.name) if Progress.wanted(progress) else Silence(), self._named)
+        simulation = self._simulation()
         try:
-            status, message, kept = self._simulation().run(str(folder), force, resume, estimate_error, fields, told)
+            with self._by_name():
+                status, message, kept = simulation.run(str(folder), force, resume, estimate_error, fields, told)
         except KeyboardInterrupt as interrupt:
             interrupt.result = result  # type: ignore[attr-defined]
             raise
@@ -114,9 +134,9 @@ class Scene:
         result._keep(kept)
         for text in result.record.get("warnings", ()):
             if text not in told.texts:
-                warnings.warn(_core.in_python(text), OrthodynWarning, stacklevel=2)
+                warnings.warn(self._named(_core.in_python(text)), OrthodynWarning, stacklevel=2)
         if status == "failed":
-            error = _core.RunError(_core.in_python(message))
+            error = _core.RunError(self._named(_core.in_python(message)))
             error.result = result  # type: ignore[attr-defined]
             raise error
         return result
@@ -133,15 +153,16 @@ class Scene:
 
 
 class _Told:
-    """What a run tells while it works."""
+    """What a run tells while it works; `named` is what its messages go through."""
 
-    def __init__(self, progress: Progress | Silence) -> None:
+    def __init__(self, progress: Progress | Silence, named: Callable[[str], str]) -> None:
         self.progress = progress
+        self._named = named
         self.texts: set[str] = set()
 
     def on_warning(self, text: str) -> None:
         self.texts.add(text)
-        warnings.warn(_core.in_python(text), OrthodynWarning, stacklevel=3)
+        warnings.warn(self._named(_core.in_python(text)), OrthodynWarning, stacklevel=3)
 
     def on_notice(self, text: str) -> None:
         self.progress.say(_core.in_python(text))
