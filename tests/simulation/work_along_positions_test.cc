@@ -4,7 +4,7 @@
 #include "lib/simulation/observers/balance.h"
 #include "tests/scene/scenes.h"
 
-namespace orthodyn::energy_work_test {
+namespace orthodyn::work_along_positions_test {
 namespace {
 
 // Displacements p(t) times a direction, with velocities p'(t) times it and noise.
@@ -53,7 +53,7 @@ Vector arbitrary(int n, double size) {
 
 // int_0^1 (3 t^2 - 1)^2 dt = 4/5 times the power at speed one. Gauss' two points are off by h^5/4320 times the fourth
 // derivative, 216, in a step: 0.4 % here.
-TEST(EnergyWork, IsAlongThePositionsWhateverTheVelocitiesAre) {
+TEST(WorkAlongPositions, IsTheSameWhateverTheVelocitiesAre) {
   const BuiltScene built = bar();
   const FemModel& model = *built.model;
   const Vector direction = arbitrary(model.num_dofs(), 1e-3), none = Vector::Zero(model.num_dofs());
@@ -65,7 +65,7 @@ TEST(EnergyWork, IsAlongThePositionsWhateverTheVelocitiesAre) {
   EXPECT_NEAR(clean.dissipated, 0.8 * power, 0.01 * power);
 }
 
-TEST(EnergyWork, OfAConstantForceIsForceTimesWay) {
+TEST(WorkAlongPositions, OfAConstantForceIsForceTimesWay) {
   const BuiltScene built = bar();
   const FemModel& model = *built.model;
   const Vector direction = arbitrary(model.num_dofs(), 1e-3), noise = arbitrary(model.num_dofs(), 2e-3).reverse();
@@ -85,4 +85,4 @@ TEST(EnergyWork, OfAConstantForceIsForceTimesWay) {
 }
 
 }  // namespace
-}  // namespace orthodyn::energy_work_test
+}  // namespace orthodyn::work_along_positions_test
