@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <span>
@@ -10,7 +11,10 @@
 
 #include "lib/core/errors.h"
 #include "lib/core/words.h"
+#include "lib/element/tet10.h"
+#include "lib/mesh/cell_volume.h"
 #include "lib/mesh/node_numbers.h"
+#include "lib/mesh/quadratic.h"
 #include "lib/mesh/split_cells.h"
 #include "lib/mesh/split_middles.h"
 
@@ -178,16 +182,68 @@ TetMesh number_nodes(const MeshDraft& draft, FaceOrigins& face_origins) {
   return mesh;
 }
 
-// True if it turned them.
-bool turn_if_all_inverted(TetMesh& mesh, std::size_t cells) {
-  const auto inverted = [&](const Tet& tet) { return signed_volume6(mesh, tet) < 0; };
-  if (cells < 2 || !std::all_of(mesh.tets.begin(), mesh.tets.end(), inverted)) return false;
-  for (Tet& tet : mesh.tets) std::swap(tet[2], tet[3]);
-  for (Midsides& middles : mesh.midsides) {
-    std::swap(middles[1], middles[4]);
-    std::swap(middles[2], middles[3]);
+// Elements of the file all of whose tets are inverted.
+std::vector<std::size_t> turn_inverted(TetMesh& mesh) {
+  std::vector<std::size_t> turned;
+  for (std::size_t begin = 0, end = 0; begin < mesh.tets.size(); begin = end) {
+    bool all = true;
+    for (end = begin; end < mesh.tets.size() && mesh.cell_of[end] == mesh.cell_of[begin]; ++end)
+      all = all && signed_volume6(mesh, mesh.tets[end]) < 0;
+    if (!all) continue;
+    turned.push_back(static_cast<std::size_t>(mesh.cell_of[begin]));
+    for (std::size_t t = begin; t < end; ++t) {
+      std::swap(mesh.tets[t][2], mesh.tets[t][3]);
+      if (mesh.midsides.empty()) continue;
+      std::swap(mesh.midsides[t][1], mesh.midsides[t][4]);
+      std::swap(mesh.midsides[t][2], mesh.midsides[t][3]);
+    }
   }
-  return true;
+  return turned;
+}
+
+std::string note_of_turned(const MeshDraft& draft, const std::vector<std::size_t>& turned) {
+  const std::size_t all = draft.cells.size();
+  if (turned.empty()) return "";
+  if (turned.size() == all && all > 1)
+    return fmt::format("{}: all {} elements count their nodes the other way round; they were turned",
+                       draft.files.front(), all);
+  const FileCell& first = draft.cells[turned.front()];
+  return fmt::format("{}: {} of {} elements count their nodes the other way round, the first is element {}; they were "
+                     "turned",
+                     draft.where(first.place), turned.size(), all, first.tag);
+}
+
+double volume_of_tets(const TetMesh& mesh) {
+  double sum = 0;
+  const Cells cells = tet_cells(mesh);
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (mesh.order() == 1) {
+      sum += signed_volume6(mesh, mesh.tets[c]) / 6;
+      continue;
+    }
+    ElementNodes<10> X;
+    for (std::size_t a = 0; a < 10; ++a)
+      X.col(static_cast<Eigen::Index>(a)) = mesh.nodes[static_cast<std::size_t>(cells[c][a])];
+    sum += Tet10::mass(X, 1);
+  }
+  return sum;
+}
+
+// "" if the tets fill the elements of the file to within 1e-3 of their volume.
+std::string note_of_volume(const MeshDraft& draft, const TetMesh& mesh) {
+  constexpr double kTold = 1e-3;
+  const NodeNumbers number(draft.nodes);
+  const auto position = [&](std::int64_t tag) -> const Vec3& {
+    return draft.nodes[static_cast<std::size_t>(number(tag))].x;
+  };
+  double before = 0;
+  for (const FileCell& cell : draft.cells) before += std::abs(volume_of(cell, position));
+  const double after = volume_of_tets(mesh);
+  if (!(std::abs(after - before) > kTold * before)) return "";
+  return fmt::format("{}: the elements have a volume of {:.6g} by their own shape functions, the tetrahedra that they "
+                     "are split into {:.6g} ({:+.2g} %): faces that are curved across their diagonals are approximated; "
+                     "finer elements, or tetrahedra in the file, make the difference smaller",
+                     draft.files.front(), before, after, 100 * (after / before - 1));
 }
 
 // "beam.msh: 120 hexahedra and 30 wedges are split into 750 tetrahedra", or "" if all are tetrahedra.
@@ -243,6 +299,18 @@ MeshOrigin origin_of(const MeshDraft& draft, const TetMesh& mesh, const FaceOrig
 
 }  // namespace
 
+void FileCell::add_face_middle(const std::array<std::size_t, 4>& places, std::int64_t middle) {
+  const std::array<std::int64_t, 4> n{nodes[places[0]], nodes[places[1]], nodes[places[2]], nodes[places[3]]};
+  if (std::set(n.begin(), n.end()).size() < 4) return;  // of a collapsed element: no quadrilateral
+  edges.push_back({n[0], n[2], middle});
+  edges.push_back({n[1], n[3], middle});
+}
+
+void FileCell::add_centre(std::int64_t middle) {
+  if (std::set(nodes.begin(), nodes.end()).size() < 8) return;
+  for (std::size_t k = 0; k < 4; ++k) edges.push_back({nodes[k], nodes[4 + (k + 2) % 4], middle});
+}
+
 int MeshDraft::region_index(const std::string& name) {
   const auto [entry, is_new] = region_indices.emplace(name, static_cast<int>(region_names.size()));
   if (is_new) region_names.push_back(name);
@@ -264,13 +332,14 @@ LoadedMesh build_mesh(MeshDraft draft) {
   check_diagonals(draft);
   FaceOrigins face_origins;
   LoadedMesh loaded{.mesh = number_nodes(draft, face_origins), .warnings = std::move(draft.warnings)};
-  if (turn_if_all_inverted(loaded.mesh, draft.cells.size())) {
-    loaded.warnings.push_back(fmt::format("{}: all {} elements count their nodes the other way round; they were turned",
-                                          draft.files.front(), draft.cells.size()));
-  }
+  const auto tell = [&](std::string note) {
+    if (!note.empty()) loaded.warnings.push_back(std::move(note));
+  };
+  tell(note_of_turned(draft, turn_inverted(loaded.mesh)));
   const std::string note = note_of_split(draft, loaded.mesh.tets.size());
-  if (!note.empty()) loaded.warnings.push_back(note);
+  tell(note);
   const Warnings found = validate(loaded.mesh, origin_of(draft, loaded.mesh, face_origins));
+  if (!note.empty()) tell(note_of_volume(draft, loaded.mesh));
   if (note.empty()) loaded.mesh.cell_of.clear();
   loaded.warnings.insert(loaded.warnings.end(), found.begin(), found.end());
   return loaded;

@@ -219,9 +219,9 @@ TEST(GmshRefuses, NodesDefinedTwice) {
   expect_refused(kFile41, "4\n5\n", "4\n2\n", "node tag 2 is defined twice", 5);
 }
 
-TEST(GmshRefuses, InvertedElements) {
-  expect_refused(kFile22, "1 2 3 4\n", "2 1 3 4\n", "element 4: inverted (volume -0.167 m^3)");
-  expect_refused(kFile41, "4 1 2 3 4\n", "4 2 1 3 4\n", "element 4: inverted (volume -0.167 m^3)");
+// Turned, it overlaps its neighbour: a node was pushed through it.
+TEST(GmshRefuses, ElementsThatOverlapOnceTheyAreTurned) {
+  EXPECT_NE(refusal(replaced(kFile22, "5 1 1 1\n", "5 -1 -1 -1\n")).find("element 5: overlaps"), std::string::npos);
 }
 
 TEST(GmshRefuses, DegenerateElements) {

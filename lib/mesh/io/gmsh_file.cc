@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <span>
 #include <string_view>
 
 namespace orthodyn {
@@ -198,6 +199,17 @@ const std::vector<std::array<std::size_t, 2>>& gmsh_edges_of(CellKind kind) {
   return kind == CellKind::pyramid ? pyramid : kind == CellKind::wedge ? wedge : hexahedron;
 }
 
+// Those of complete elements: within the faces, in the order of Gmsh's manual, then within a hexahedron.
+void add_inner_nodes(FileCell& cell, std::span<const std::int64_t> nodes) {
+  using Faces = std::vector<std::array<std::size_t, 4>>;
+  static const Faces pyramid{{0, 3, 2, 1}}, wedge{{0, 1, 4, 3}, {0, 3, 5, 2}, {1, 2, 5, 4}};
+  static const Faces hexahedron{{0, 3, 2, 1}, {0, 1, 5, 4}, {0, 4, 7, 3}, {1, 2, 6, 5}, {2, 3, 7, 6}, {4, 5, 6, 7}};
+  const Faces& faces = cell.kind == CellKind::pyramid ? pyramid : cell.kind == CellKind::wedge ? wedge : hexahedron;
+  if (nodes.size() < faces.size()) return;
+  for (std::size_t f = 0; f < faces.size(); ++f) cell.add_face_middle(faces[f], nodes[f]);
+  if (nodes.size() > faces.size()) cell.add_centre(nodes[faces.size()]);
+}
+
 void read_element_nodes(TextTokens& tokens, const GmshType& type, std::int64_t tag, int groups, GmshFile& file) {
   using enum GmshType::Role;
   const FilePlace place{tokens.line()};
@@ -219,6 +231,7 @@ void read_element_nodes(TextTokens& tokens, const GmshType& type, std::int64_t t
       const auto& edges = gmsh_edges_of(type.kind);
       for (std::size_t e = 0; e < edges.size(); ++e)
         cell.edges.push_back({cell.nodes[edges[e][0]], cell.nodes[edges[e][1]], middles[e]});
+      add_inner_nodes(cell, std::span(middles).subspan(edges.size()));
     }
   } else if (type.role == face && grouped) {
     FileFace face{.tag = tag, .sides = type.corners, .place = place};

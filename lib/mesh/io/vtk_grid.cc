@@ -59,6 +59,7 @@ struct VtkSolid {
   CellKind kind;
   std::size_t points;
   Places corners;  // in the order of cell_kind.h
+  std::vector<std::array<std::size_t, 4>> faces = {};  // those that have a node within
 };
 
 const VtkSolid* solid_of(double type) {
@@ -73,8 +74,9 @@ const VtkSolid* solid_of(double type) {
       {25, {CellKind::hexahedron, 20, eight}},
       {26, {CellKind::wedge, 15, six}},
       {27, {CellKind::pyramid, 13, five}},
-      {29, {CellKind::hexahedron, 27, eight}},
-      {32, {CellKind::wedge, 18, six}}};
+      {29, {CellKind::hexahedron, 27, eight,
+            {{0, 3, 7, 4}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 2, 6, 7}, {0, 1, 2, 3}, {4, 5, 6, 7}}}},
+      {32, {CellKind::wedge, 18, six, {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}}}};
   const auto found = solids.find(type);
   return found == solids.end() ? nullptr : &found->second;
 }
@@ -149,6 +151,10 @@ void add_nodes_and_cells(const VtkGrid& grid, const std::vector<std::size_t>& so
       const auto& edges = edges_of(cell.kind);
       for (std::size_t e = 0; e < edges.size(); ++e)
         cell.edges.push_back({cell.nodes[edges[e][0]], cell.nodes[edges[e][1]], point(solid.corners.size() + e)});
+      const std::size_t behind = solid.corners.size() + edges.size();
+      for (std::size_t f = 0; f < solid.faces.size() && behind + f < solid.points; ++f)
+        cell.add_face_middle(solid.faces[f], point(behind + f));
+      if (behind + solid.faces.size() < solid.points) cell.add_centre(point(solid.points - 1));
     }
     if (cell.kind == CellKind::wedge) turn_wedge(cell, draft.nodes);
     draft.cells.push_back(cell);
