@@ -82,6 +82,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Format{"bricks_gmsh.inp", read_abaqus_text}, Format{"bricks_gmsh.vtk", read_vtk_text},
                     Format{"bricks_o2_gmsh.vtk", read_vtk_text}, Format{"tube_hexahedra_gmsh.inp", read_abaqus_text},
                     Format{"tube_wedges_41.msh", read_gmsh_text}, Format{"two_instances.inp", read_abaqus_text},
+                    Format{"two_boxes_22_binary.msh", read_gmsh_text},
+                    Format{"two_boxes_41_binary.msh", read_gmsh_text},
                     Format{"cube_o2.ele", read_damaged_quadratic_elements}),
     [](const auto& test) {
       std::string name = test.param.seed;

@@ -6,7 +6,9 @@
 #include <set>
 #include <string>
 
+#include "lib/mesh/io/gmsh.h"
 #include "lib/mesh/io/mesh_file.h"
+#include "lib/mesh/io/text_tokens.h"
 #include "tests/mesh/refusal.h"
 
 namespace orthodyn::owner_files_test {
@@ -51,6 +53,43 @@ INSTANTIATE_TEST_SUITE_P(Written, TwoBoxes,
                                          "two_boxes_gmsh.vtk", "two_boxes_meshio_ascii.vtu",
                                          "two_boxes_meshio_zlib.vtu", "two_boxes_meshio_ascii.vtk",
                                          "two_boxes_meshio_binary.vtk"));
+
+// Gmsh wrote each once as text and once as bytes.
+TEST(OwnerFiles, BinaryGmshFilesAreThoseInAscii) {
+  for (const std::string version : {"22", "41"}) {
+    const LoadedMesh text = load("two_boxes_" + version + ".msh"), bytes = load("two_boxes_" + version + "_binary.msh");
+    ASSERT_EQ(bytes.mesh.nodes.size(), text.mesh.nodes.size());
+    for (std::size_t n = 0; n < text.mesh.nodes.size(); ++n)
+      EXPECT_LT((bytes.mesh.nodes[n] - text.mesh.nodes[n]).norm(), 1e-14);
+    EXPECT_EQ(bytes.mesh.tets, text.mesh.tets);
+    EXPECT_EQ(bytes.mesh.region_of, text.mesh.region_of);
+    EXPECT_EQ(bytes.mesh.region_names, text.mesh.region_names);
+    EXPECT_EQ(bytes.mesh.surfaces, text.mesh.surfaces);
+    EXPECT_EQ(bytes.mesh.node_sets, text.mesh.node_sets);
+  }
+}
+
+// 2.1 is read as 2.2; in 2.0 the names of physical groups do not say their dimension.
+TEST(OwnerFiles, OlderGmshFilesAreThoseOf22) {
+  const std::string path = std::string(ORTHODYN_SOURCE_DIR) + "/tests/mesh/data/two_boxes_22.msh";
+  const std::string now = read_text_file(path);
+  const TetMesh mesh = load("two_boxes_22.msh").mesh;
+  const TetMesh of21 = read_gmsh_text("a.msh", replaced(now, "\n2.2 0", "\n2.1 0")).mesh;
+  EXPECT_EQ(of21.tets, mesh.tets);
+  EXPECT_EQ(of21.region_names, mesh.region_names);
+  const std::size_t begin = now.find("$PhysicalNames"), end = now.find("$EndPhysicalNames");
+  std::string section = now.substr(begin, end - begin), without;
+  for (std::size_t at = 0, line = 0; at < section.size(); ++line) {
+    const std::size_t next = section.find('\n', at) + 1;
+    without += section.substr(at + (line > 1 ? section.find(' ', at) - at + 1 : 0),
+                              next - at - (line > 1 ? section.find(' ', at) - at + 1 : 0));
+    at = next;
+  }
+  const TetMesh of20 = read_gmsh_text("a.msh", replaced(replaced(now, "\n2.2 0", "\n2 0"), section, without)).mesh;
+  EXPECT_EQ(of20.region_names, mesh.region_names);
+  EXPECT_EQ(of20.surfaces, mesh.surfaces);
+  EXPECT_EQ(of20.node_sets, mesh.node_sets);
+}
 
 TEST(OwnerFiles, EveryKindOfVtkFileGivesTheSameMeshAndCellData) {
   const LoadedMesh first = load("two_boxes_meshio_ascii.vtu");

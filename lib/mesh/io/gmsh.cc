@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cstdlib>
 #include <map>
@@ -9,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "lib/core/words.h"
+#include "lib/mesh/io/gmsh_binary.h"
 #include "lib/mesh/io/gmsh_file.h"
 #include "lib/mesh/io/text_tokens.h"
 
@@ -44,13 +48,48 @@ class MeshBuilder {
         tokens_.fail(fmt::format("the file ends without ${}; is it truncated?", name));
       }
     }
-    if (file_.cells.empty()) {
-      tokens_.fail_at(file_.section_lines.at("Elements"), "no solid elements: did you mesh in 3D (gmsh -3)?");
+    if (file_.cells.empty()) tokens_.fail_at(file_.section_lines.at("Elements"), "no solid elements: " + why_no_cells());
+  }
+
+  // Gmsh saves elements of physical groups only, if there are some.
+  std::string why_no_cells() const {
+    std::vector<std::string> groups;
+    bool names_volume = false;
+    for (const auto& [dim_tag, name] : file_.names) {
+      if (dim_tag.first < 3) groups.push_back(fmt::format("\"{}\"", name));
+      else names_volume = true;
     }
+    for (const auto& [dim_tag, set] : file_.entity_groups)
+      if (groups.empty() && set > 0) groups.push_back("of surfaces, curves or points");
+    if (is_flat()) return "this is a 2D mesh, whose nodes lie in one plane; extrude the surface, and mesh in 3D (gmsh -3)";
+    const auto is_volume = [](const auto& entity) { return entity.first.first == 3; };
+    const bool lists_entities = file_.section_lines.contains("Entities");
+    const bool has_volume = std::any_of(file_.entity_groups.begin(), file_.entity_groups.end(), is_volume);
+    if (!names_volume && !groups.empty() && (has_volume || !lists_entities))
+      return fmt::format("there are physical groups ({}) but no Physical Volume, and Gmsh saves only elements that are in "
+                         "a physical group; add one, for example Physical Volume(\"body\") = {{1}}; (or set Mesh.SaveAll "
+                         "= 1), and mesh in 3D (gmsh -3)",
+                         join(groups));
+    return "did you mesh in 3D (gmsh -3)?";
+  }
+
+  // Whether the nodes lie in a plane, of a file that lists no volume.
+  bool is_flat() const {
+    for (const auto& [dim_tag, set] : file_.entity_groups)
+      if (dim_tag.first == 3) return false;
+    if (file_.nodes.empty()) return false;
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const FileNode& node : file_.nodes) {
+      const Vec3 x = node.x - file_.nodes.front().x;
+      spread += x * x.transpose();
+    }
+    const auto values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues();
+    return values[0] <= 1e-12 * values[2];
   }
 
   std::string group_name(int dim, int tag) const {
-    const auto name = file_.names.find({dim, tag});
+    auto name = file_.names.find({dim, tag});
+    if (name == file_.names.end()) name = file_.names.find({kAnyDimension, tag});
     if (name != file_.names.end() && !name->second.empty()) return name->second;
     return fmt::format("{}{}", kKinds[dim], tag);
   }
@@ -122,6 +161,7 @@ class MeshBuilder {
     const auto& regions = draft_.region_names;
     for (const auto& [dim_tag, name] : file_.names) {
       const auto [dim, tag] = dim_tag;
+      if (dim == kAnyDimension) continue;
       const std::string used = group_name(dim, tag);
       const bool empty = (dim < 2 && !draft_.node_sets.contains(used)) ||
                          (dim == 2 && !draft_.surfaces.contains(used)) ||
@@ -147,6 +187,7 @@ const bool gmsh_registered[] = {
 LoadedMesh read_gmsh(const std::string& path) { return read_gmsh_text(path, read_text_file(path)); }
 
 LoadedMesh read_gmsh_text(const std::string& path, std::string_view text) {
+  if (is_binary_gmsh(text)) return read_gmsh_text(path, ascii_of_binary_gmsh(path, text));
   TextTokens tokens(path, text);
   GmshFile file = read_gmsh_sections(tokens);
   return build_mesh(MeshBuilder(file, tokens).build());

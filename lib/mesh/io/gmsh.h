@@ -1,4 +1,4 @@
-// Meshes of solid elements in Gmsh's .msh files, formats 2.2 and 4.1, ASCII.
+// Meshes of solid elements in Gmsh's .msh files, formats 2.0 to 2.2 and 4.1, ASCII or binary (2.2 and 4.1).
 //
 // Format: Geuzaine and Remacle, Gmsh reference manual, "MSH file format" and "MSH file format
 // version 2 (Legacy)".
@@ -22,7 +22,7 @@ namespace orthodyn {
 // by the size of the file, whatever counts it announces.
 LoadedMesh read_gmsh(const std::string& path);
 
-// The same from a text; `path` is for messages.
+// The same from a text, or from bytes, whose messages name the lines of the same file in ASCII; `path` is for messages.
 LoadedMesh read_gmsh_text(const std::string& path, std::string_view text);
 
 // Regions, surfaces and node sets as physical volumes, surfaces and points.

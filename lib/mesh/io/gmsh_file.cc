@@ -47,13 +47,14 @@ std::string read_name(TextTokens& tokens) {
   return std::string(rest.substr(1, rest.size() - 2));
 }
 
-void read_physical_names(TextTokens& tokens, const GmshSection& section, GmshFile& file) {
+void read_names(TextTokens& tokens, const GmshSection& section, GmshFile& file, bool with_dimension) {
   const std::int64_t announced = tokens.count("the number of physical names");
   tokens.finish_line();
   for (std::int64_t i = 0; i < announced; ++i) {
     expect_record(tokens, section, i, announced, "names");
-    const std::int64_t dim = tokens.integer("the dimension of a physical group");
-    if (dim < 0 || dim > 3) tokens.fail(fmt::format("dimension {}; expected 0 to 3", dim));
+    const std::int64_t dim =
+        with_dimension ? tokens.integer("the dimension of a physical group") : kAnyDimension;
+    if (with_dimension && (dim < 0 || dim > 3)) tokens.fail(fmt::format("dimension {}; expected 0 to 3", dim));
     const int tag = read_tag(tokens, "the tag of a physical group");
     if (!file.names.emplace(GmshFile::DimTag(static_cast<int>(dim), tag), read_name(tokens)).second) {
       tokens.fail(fmt::format("physical group {} of dimension {} is named twice", tag, dim));
@@ -63,22 +64,31 @@ void read_physical_names(TextTokens& tokens, const GmshSection& section, GmshFil
   end_section(tokens, section);
 }
 
+void read_physical_names(TextTokens& tokens, const GmshSection& section, GmshFile& file) {
+  read_names(tokens, section, file, true);
+}
+
+void read_names_without_dimension(TextTokens& tokens, const GmshSection& section, GmshFile& file) {
+  read_names(tokens, section, file, false);
+}
+
 [[noreturn]] void refuse_version(const TextTokens& tokens, int line, const std::string& version) {
-  tokens.fail_at(line, fmt::format("Gmsh format {}; only 2.2 and 4.1 are read; {}", version, kConvert));
+  tokens.fail_at(line, fmt::format("Gmsh format {}; only 2.0 to 2.2 and 4.1 are read; {}", version, kConvert));
 }
 
 // Leaves the cursor behind $EndMeshFormat.
 GmshSectionReaders read_format(TextTokens& tokens, const GmshSection& section) {
   const double version = tokens.real("the version of the format");
   const std::int64_t binary = tokens.integer("the file type (0 = ASCII)");
-  if (version != 2.2 && version != 4.1) {
-    refuse_version(tokens, tokens.line(), fmt::format("{}", version));
-  };
-  if (binary != 0) tokens.fail(fmt::format("a binary file; {}", kConvert));
+  const bool second = version == 2 || version == 2.1 || version == 2.2;  // 2.0 has names of groups without dimension
+  if (!second && version != 4.1) refuse_version(tokens, tokens.line(), fmt::format("{}", version));
+  if (binary != 0) tokens.fail(fmt::format("file type {}; {}", binary, kConvert));
   tokens.integer("the size of numbers");
   tokens.finish_line();
   end_section(tokens, section);
-  return version == 2.2 ? gmsh_v2_sections() : gmsh_v4_sections();
+  GmshSectionReaders readers = second ? gmsh_v2_sections() : gmsh_v4_sections();
+  readers["PhysicalNames"] = version == 2 ? read_names_without_dimension : read_physical_names;
+  return readers;
 }
 
 // Gmsh allows $Comments before $MeshFormat.
@@ -97,7 +107,6 @@ GmshSection find_format(TextTokens& tokens) {
 
 GmshFile read_gmsh_sections(TextTokens& tokens) {
   GmshSectionReaders readers = read_format(tokens, find_format(tokens));
-  readers["PhysicalNames"] = read_physical_names;
   GmshFile file;
   while (!tokens.at_end()) {
     const GmshSection section = begin_section(tokens);
@@ -162,7 +171,7 @@ GmshType check_element_type(const TextTokens& tokens, std::int64_t type) {
   static const std::map<std::int64_t, GmshType> types{
       {1, {line, 2, 2}},
       {8, {line, 3, 2}},
-      {26, {}}, {27, {}}, {28, {}},  // lines of higher order
+      {26, {ignored, 4}}, {27, {ignored, 5}}, {28, {ignored, 6}},  // lines of higher order
       {15, {point, 1, 1}},
       {2, {face, 3, 3}},
       {9, {face, 6, 3}},

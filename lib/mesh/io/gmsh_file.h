@@ -33,6 +33,9 @@ struct Grouped {
 };
 
 
+// Of the names of physical groups in format 2.0, which do not say.
+inline constexpr int kAnyDimension = -1;
+
 struct GmshFile {
   using DimTag = std::pair<int, int>;
 
