@@ -9,6 +9,7 @@
 #include "lib/mesh/io/gmsh.h"
 #include "lib/mesh/io/mesh_file.h"
 #include "lib/mesh/io/text_tokens.h"
+#include "lib/mesh/io/vtk.h"
 #include "tests/mesh/refusal.h"
 
 namespace orthodyn::owner_files_test {
@@ -89,6 +90,18 @@ TEST(OwnerFiles, OlderGmshFilesAreThoseOf22) {
   EXPECT_EQ(of20.region_names, mesh.region_names);
   EXPECT_EQ(of20.surfaces, mesh.surfaces);
   EXPECT_EQ(of20.node_sets, mesh.node_sets);
+}
+
+// Colors of pictures stand between the arrays, as bytes in a binary file.
+TEST(OwnerFiles, TablesOfColorsInVtkFilesAreSkipped) {
+  const std::string head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n"
+                           "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\nCELL_DATA 1\n";
+  const std::string region = "SCALARS region int 1\nLOOKUP_TABLE colors\n3\n";
+  const std::string colors = "LOOKUP_TABLE colors 2\n0 0 0 1\n1 1 1 1\nCOLOR_SCALARS rgb 3\n0.5 0.5 1\n";
+  for (const std::string& text : {head + region + colors, head + colors + region})
+    EXPECT_EQ(read_vtk_text("a.vtk", text).mesh.region_names, std::vector<std::string>{"region3"});
+  const std::string binary = read_text_file(std::string(ORTHODYN_SOURCE_DIR) + "/tests/mesh/data/two_boxes_meshio_binary.vtk") + "LOOKUP_TABLE colors 2\n" + std::string("\0\0\0\1\n\xff\xff$", 8) + "\n";
+  EXPECT_EQ(read_vtk_text("a.vtk", binary).mesh.tets, load("two_boxes_meshio_binary.vtk").mesh.tets);
 }
 
 TEST(OwnerFiles, EveryKindOfVtkFileGivesTheSameMeshAndCellData) {

@@ -47,7 +47,12 @@ class AbaqusMesh {
 
  private:
   void make_draft() {
-    if (draft_.cells.empty()) draft_.fail({}, "no solid elements (C3D4, C3D8, C3D6, ...)");
+    if (draft_.cells.empty())
+      draft_.fail({}, fmt::format("no solid elements (C3D4, C3D8, C3D6, ...){}",
+                                  faces_.empty() ? ""
+                                                 : fmt::format(": {} elements of planes or shells alone are a 2D mesh or "
+                                                               "a surface; mesh its inside",
+                                                               faces_.size())));
     check_elements_differ();
     add_regions();
     add_surfaces();

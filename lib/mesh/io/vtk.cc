@@ -64,6 +64,12 @@ class VtkReader {
       skip_to_blank_line();
     } else if (word == "FIELD") {
       read_field();
+    } else if (word == "LOOKUP_TABLE") {
+      tokens_.word("the name of a table");
+      skip_colors(times(count("the number of colors"), 4));
+    } else if (word == "COLOR_SCALARS") {
+      tokens_.word("a name");
+      skip_colors(times(tuples_, read_components()));
     } else {
       read_attribute(word);
     }
@@ -142,6 +148,9 @@ class VtkReader {
       if (target_ && tuples == tuples_) target_->push_back(std::move(data));  // else it belongs to the whole file
     }
   }
+
+  // Colors of pictures: bytes in a binary file, real numbers in a text.
+  void skip_colors(std::uint64_t numbers) { read_numbers(numbers, {'u', 1}); }
 
   int read_components() {
     const std::int64_t components = tokens_.integer("the number of components");

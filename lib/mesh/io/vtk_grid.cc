@@ -112,7 +112,13 @@ std::vector<std::size_t> select_solids(const VtkGrid& grid, MeshDraft& draft) {
   if (begin != static_cast<double>(grid.connectivity.size())) {
     fail(grid, fmt::format("connectivity has {} entries, but the cells end at {}", grid.connectivity.size(), begin));
   }
-  if (solids.empty()) fail(grid, "no solid cells (tetrahedra are cell type 10 or 24, hexahedra 12, wedges 13)");
+  if (solids.empty()) {
+    const bool has_faces = std::any_of(grid.types.begin(), grid.types.end(),
+                                       [](double type) { return type == 5 || type == 9 || type == 22 || type == 23; });
+    fail(grid, fmt::format("no solid cells (tetrahedra are cell type 10 or 24, hexahedra 12, wedges 13){}",
+                           has_faces ? ": triangles and quadrilaterals alone are a 2D mesh or a surface; mesh its inside"
+                                     : ""));
+  }
   if (solids.size() < grid.types.size()) {
     draft.warnings.push_back(fmt::format("{}: {} vertices, lines, triangles and quadrilaterals are ignored", grid.path,
                                          grid.types.size() - solids.size()));
