@@ -27,7 +27,7 @@ def study(rows, **changes):
     return {"orthodyn_convergence": 1, "name": "beam", "file": "beam.yaml", "set": ["mesh.cells=[1,1,1]"],
             "written": "2026-01-31T12:00:00Z", "machine": {"processor": "x"}, "versions": {}, "ratio": 2, "target": 0.01,
             "orders": [1, 2], "figures": [{"name": "f", "unit": "m", "limit": 2.0, "uncertainty": 1e-4, "from_order": 2,
-                                           "cost_of_target": costs(40.0, 0.5)}],
+                                           "cost_of_target": costs(40.0, 0.5), "answer": "f is 2 m"}],
             "rows": rows, **changes}
 
 
@@ -51,6 +51,11 @@ class OfAConvergence(OfAComparison):
         text, page = self.page_of(study(ROWS))
         self.assertIn("quadratic elements by 80 ×", text)
         self.assertEqual(page.tables[0][1][:2], ["f [m]", "2 ± 0.0001"])
+
+    def test_a_sentence_comes_first_and_each_figure_has_one_plot(self):
+        text, _ = self.page_of(study(ROWS))
+        self.assertIn('<p class="headline">f is 2 m</p>', text)
+        self.assertEqual(text.count("<figure"), 1)
 
     def answer_of(self, cost_of_target):
         figure = dict(study([])["figures"][0], cost_of_target=cost_of_target)

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "lib/simulation/machine.h"
+#include "lib/study/converge/convergence_answer.h"
 #include "lib/study/converge/richardson.h"
 #include "lib/study/inputs/labels.h"
 #include "lib/study/jobs/json_values.h"
@@ -100,10 +101,11 @@ class Table {
     return r && r->*cost ? (r->*cost)->cpu_seconds : kNaN;
   }
 
-  // Of natural frequencies there is none.
-  double mesh_error(std::size_t level, const WantedFigure& figure) const {
+  // Of a frequency or a buckling load its own, of others the share of the elastic energy.
+  double mesh_error(std::size_t level, const WantedFigure& figure, const std::string& name) const {
     const EvaluationResult* r = result(level);
-    return r && figure.is_of_motion() ? r->mesh_error.value_or(kNaN) : kNaN;
+    if (!r) return kNaN;
+    return figure.is_of_motion() ? r->mesh_error.value_or(kNaN) : entry(r->figure_errors, name).value_or(kNaN);
   }
 
   // CPU time at which the error of elements of an order falls to the target, s, between the points that enclose it; at
@@ -138,12 +140,31 @@ class Table {
       out["limit"] = found->value.limit;
       out["uncertainty"] = found->value.uncertainty;
       out["from_order"] = found->order;
-      out["observed"] = found->value.order.has_value();
+    } else {
+      out["why_no_limit"] = why_no_limit(name);
     }
     Json costs = Json::array();
     for (const int order : wanted_.orders) costs.push_back(cost_of_target(order, name, figure));
     out["cost_of_target"] = costs;
+    out["answer"] = answer(out, finest(name), kTarget);
     return out;
+  }
+
+  std::string why_no_limit(const std::string& figure) const {
+    const std::vector<double> last = values(wanted_.orders.back(), figure);
+    if (last.size() < 3 && wanted_.levels < 3) return "it takes three levels to see one (--levels 3)";
+    if (last.size() < 3) return fmt::format("only {} of its meshes came to an end", last.size());
+    const auto* at = last.data() + last.size() - 3;
+    return fmt::format("{:.4g}, {:.4g}, {:.4g} on the last three meshes do not approach one: refine further, or look "
+                       "for what has none, such as the stress at a corner", at[0], at[1], at[2]);
+  }
+
+  // Of the highest order: the value of its finest mesh, and the estimate of that mesh's error.
+  std::optional<FinestMesh> finest(const std::string& name) const {
+    for (std::size_t i = design_.levels.size(); i-- > 0;)
+      if (const double v = value(i, name); std::isfinite(v))
+        return FinestMesh{v, mesh_error(i, *entry(design_.figures, name), name), design_.levels[i].order};
+    return std::nullopt;
   }
 
   // On the level's own value and the two before it.
@@ -171,7 +192,7 @@ class Table {
       figures[name] = {{"value", finite_or_null(value(i, name))},
                        {"error", finite_or_null(error(i, name))},
                        {"order", observed_order(i, name)},
-                       {"mesh_error", finite_or_null(mesh_error(i, figure))},
+                       {"mesh_error", finite_or_null(mesh_error(i, figure, name))},
                        {"cpu_seconds", finite_or_null(cpu_seconds(i, figure))}};
     out["figures"] = figures;
     return out;

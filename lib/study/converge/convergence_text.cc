@@ -17,7 +17,7 @@ std::string heading(const Json& figure) {
   return figure.at("name").get<std::string>() + (unit.empty() ? "" : " [" + unit + "]");
 }
 
-std::string answer(const Json& table, const Json& figure) {
+std::string costs(const Json& table, const Json& figure) {
   std::string out;
   for (const auto& cost : figure.at("cost_of_target"))
     out += fmt::format("{}order {}: {}", out.empty() ? "" : ", ", cost.at("order").get<int>(),
@@ -53,16 +53,10 @@ std::string convergence_csv(const Json& table) {
 
 std::string convergence_text(const Json& table) {
   std::string out;
+  for (const auto& figure : table.at("figures")) out += fmt::format("{}\n", figure.at("answer").get<std::string>());
   for (const auto& figure : table.at("figures")) {
     const std::string name = figure.at("name");
     out += fmt::format("\n{}", heading(figure));
-    if (figure.at("limit").is_number())
-      out +=
-          fmt::format(": limit {:.6g}, known to {:.1g} (by elements of order {}{})", figure.at("limit").get<double>(),
-                      figure.at("uncertainty").get<double>(), figure.at("from_order").get<int>(),
-                      figure.at("observed").get<bool>()
-                          ? ""
-                          : "; no order of convergence was observed: errors are rough, take more levels");
     out += fmt::format("\n  {:>5} {:>5} {:>9} {:>13} {:>9} {:>6} {:>10} {:>9}\n", "order", "level", "unknowns", "value",
                        "error", "order", "mesh error", "CPU [s]");
     for (const auto& row : table.at("rows")) {
@@ -76,7 +70,7 @@ std::string convergence_text(const Json& table) {
                           ? ""
                           : "  " + row.at("status").get<std::string>() + ": " + row.at("reason").get<std::string>());
     }
-    out += "  " + answer(table, figure) + "\n";
+    if (figure.at("limit").is_number()) out += "  " + costs(table, figure) + "\n";
   }
   return out;
 }

@@ -7,9 +7,9 @@ namespace orthodyn::study::converge {
 
 namespace {
 
-constexpr double kSafe = 1.25, kUnsafe = 3;  // Roache's factors with and without an observed order
-
-constexpr double kLowest = 0.5, kAssumed = 1;        // orders
+constexpr double kSafe = 1.25;  // Roache's factor with an observed order
+constexpr double kLowest = 0.5;  // order
+constexpr double kSame = 1e-9;   // relative: values of solvers' round-off
 
 // Of three values, where the second step is the smaller one and in the same direction.
 std::optional<double> observed_order(double coarse, double middle, double fine, double ratio) {
@@ -22,16 +22,14 @@ std::optional<double> observed_order(double coarse, double middle, double fine, 
 
 std::optional<Extrapolation> extrapolate(const std::vector<double>& values, double ratio, double highest) {
   const std::size_t n = values.size();
-  if (n < 2) return std::nullopt;
-  const double fine = values[n - 1], step = fine - values[n - 2];
-  Extrapolation out;
-  if (n >= 3) out.order = observed_order(values[n - 3], values[n - 2], fine, ratio);
-  const bool observed = out.order && *out.order >= kLowest;
-  const double order = observed ? std::min(*out.order, highest) : kAssumed;
-  const double correction = step / (std::pow(ratio, order) - 1);
-  out.limit = fine + correction;
-  out.uncertainty = (observed ? kSafe : kUnsafe) * std::abs(correction);
-  return out;
+  if (n < 3) return std::nullopt;
+  const double coarse = values[n - 3], middle = values[n - 2], fine = values[n - 1];
+  const double spread = std::max({coarse, middle, fine}) - std::min({coarse, middle, fine});
+  if (spread <= kSame * std::abs(fine)) return Extrapolation{fine, spread, std::nullopt};
+  const auto order = observed_order(coarse, middle, fine, ratio);
+  if (!order || *order < kLowest) return std::nullopt;
+  const double correction = (fine - middle) / (std::pow(ratio, std::min(*order, highest)) - 1);
+  return Extrapolation{fine + correction, kSafe * std::abs(correction), order};
 }
 
 }  // namespace orthodyn::study::converge

@@ -9,12 +9,13 @@ namespace orthodyn::study::converge {
 
 struct Extrapolation {
   double limit = 0;
-  double uncertainty = 0;       // of the limit, absolute: 1.25 or 3 times its distance from the finest value
-  std::optional<double> order;  // observed on the last three values, where they approach a limit
+  double uncertainty = 0;       // of the limit, absolute: 1.25 times its distance from the finest value
+  std::optional<double> order;  // observed on the last three values; none of values that are the same
 };
 
 // `values` from coarse to fine, each mesh `ratio` times as fine as the one before. The observed order is taken from 1/2
-// to `highest`; where there is none, 1, with the larger uncertainty. None for fewer than two values.
+// to `highest`. None for fewer than three values, and for values whose last two steps do not show an order of at least
+// 1/2: they may be far from any limit, or have none.
 std::optional<Extrapolation> extrapolate(const std::vector<double>& values, double ratio, double highest);
 
 }  // namespace orthodyn::study::converge

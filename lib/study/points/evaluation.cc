@@ -99,6 +99,7 @@ Json to_json(const EvaluationResult& r) {
   if (r.failure) json["reason"] = r.failure->reason, json["message"] = r.failure->message;
   if (!r.frame.empty()) json["frame"] = r.frame;
   if (r.mesh_error) json["mesh_error"] = *r.mesh_error;
+  for (const auto& [name, error] : r.figure_errors) json["figure_errors"][name] = finite_or_null(error);
   if (!r.kinematics.empty()) json["kinematics"] = r.kinematics;
   if (!r.warnings.empty()) json["warnings"] = r.warnings;
   return json;
@@ -118,6 +119,8 @@ EvaluationResult evaluation_from(const Json& json) {
   r.kinematics = json.value("kinematics", "");
   r.warnings = json.value("warnings", std::vector<std::string>());
   if (json.contains("mesh_error")) r.mesh_error = json.at("mesh_error").get<double>();
+  const Json errors = member(json, "figure_errors");
+  for (const auto& [name, error] : errors.items()) r.figure_errors.emplace_back(name, number_or_nan(error));
   return r;
 }
 

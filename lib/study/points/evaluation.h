@@ -43,7 +43,8 @@ struct EvaluationResult {
   std::optional<EvaluationCost> modes_cost;  // of natural frequencies, where some are wanted
   std::optional<std::size_t> unknowns, elements;  // of the model
   std::string frame;                              // the file of the picture's state; "" for none
-  std::optional<double> mesh_error;               // MeshError::relative
+  std::optional<double> mesh_error;               // MeshError::relative, of the motion or the equilibrium
+  Named<double> figure_errors;                    // of frequencies and buckling loads: by what share they are too high
   std::string kinematics;                         // what was taken for `auto`, and why; "" where the scene says which
   std::vector<std::string> warnings;              // of the scene's set-up: slips, strain limits
 };

@@ -9,8 +9,8 @@ from ..report.page import SCRIPT, head
 from ..report.tables import caption, number
 from .figures import Figures, words
 
-READ = ("Marks are meshes, each twice as fine as the one before; strokes are errors of the same mesh estimated from "
-        "recovered stresses. Lower left is better. The dashed line is an error of one per cent; hollow marks are below "
+READ = ("Marks are meshes, each twice as fine as the one before; strokes are errors of the same mesh as it "
+        "estimates them itself. Lower left is better. The dashed line is an error of one per cent; hollow marks are below "
         "the uncertainty of the limit.")
 
 
@@ -59,6 +59,13 @@ def _table(title, heads, rows, label, kind=None):
 
 
 def _answer(study):
+    """A sentence of the first figure as the headline, of the others as a list; then all as a table."""
+    first, *others = [f.answer for f in study.figures]
+    return joined([tag("p", first, class_="headline"), tag("ul", *(tag("li", s) for s in others)) if others else None,
+                   _limits(study)])
+
+
+def _limits(study):
     heads = [("Figure", False), ("Limit", False)]
     heads += [(f"{words(o)} [s]", True) for o in study.orders]
     heads.append(("Cheaper", False))
@@ -104,7 +111,8 @@ def _details(study, folder):
     return pairs([("Scene", study.about["file"]), ("Command", tag("code", made_by)),
                   ("Refinement", f"cells {study.about['ratio']} times as small on each level"),
                   ("Limit", "Richardson's extrapolation of the finest meshes; its uncertainty after Roache (1998)"),
-                  ("Mesh error", "share of the elastic energy, from recovered stresses (Zienkiewicz & Zhu 1992)"),
+                  ("Mesh error", "of frequencies and load factors their own, of others the share of the elastic energy; "
+                   "estimated on each mesh by itself"),
                   ("Machine", machine.get("processor", "")), ("Written", study.about["written"])])
 
 
@@ -118,9 +126,8 @@ def _tip(study, mesh):
 def page(study, folder):
     figures = Figures(study)
     pictures = [joined([tag("h3", f.heading) if len(study.figures) > 1 else None,
-                        *(tag("figure", tag("div", picture, class_="stage"),
-                              tag("figcaption", READ) if f is study.figures[0] and k == 0 else None,
-                              aria_label=f.name) for k, picture in enumerate(figures.of(f)))])
+                        tag("figure", tag("div", figures.of(f), class_="stage"),
+                            tag("figcaption", READ) if f is study.figures[0] else None, aria_label=f.name)])
                 for f in study.figures]
     parts = [("answer", "Result", _answer(study)), ("errors", "Errors", joined(pictures)),
              ("meshes", "Meshes", joined([_meshes(study), _failures(study)])),

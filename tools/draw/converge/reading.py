@@ -41,6 +41,7 @@ class Figure:
     from_order: int
     cost_of_target: dict  # CPU seconds by order of the elements
     at_most: frozenset    # of these the orders whose coarsest mesh is good enough already
+    answer: str = ""      # in a sentence
 
     @property
     def heading(self):
@@ -95,7 +96,7 @@ def _mesh(index, row):
 def _figure(f):
     return Figure(f["name"], f["unit"], _number(f["limit"]), _number(f.get("uncertainty")), f.get("from_order", 0),
                   {c["order"]: _number(c["cpu_seconds"]) for c in f["cost_of_target"]},
-                  frozenset(c["order"] for c in f["cost_of_target"] if c["at_most"]))
+                  frozenset(c["order"] for c in f["cost_of_target"] if c["at_most"]), f.get("answer", ""))
 
 
 def _study(found):
