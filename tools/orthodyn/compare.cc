@@ -7,6 +7,7 @@
 
 #include "lib/core/words.h"
 #include "lib/simulation/files.h"
+#include "lib/simulation/errors/mesh_error.h"
 #include "lib/simulation/several_ranks.h"
 #include "lib/study/compare/comparison_table.h"
 #include "lib/study/compare/measurement.h"
@@ -120,6 +121,19 @@ void require_points_to_run_on_ranks(const Design& design) {
   }
 }
 
+// Where reference and points have one mesh its error is in none of theirs.
+void warn_of_shared_meshes(const Json& table) {
+  for (const Json& problem : table.at("problems")) {
+    const Json& reference = problem.at("reference");
+    const Json error = reference.value("shared_mesh_error", Json());
+    if (!error.is_number() || !(error > kCoarseMesh)) continue;
+    fmt::print(stderr,
+               "warning: {}: errors are those in time; the mesh puts reference and points off by about {:.2g} of the "
+               "elastic energy: a smaller error in time means little for the body itself\n",
+               problem.at("label").get<std::string>(), error.get<double>());
+  }
+}
+
 int compare(const StudyArguments& arguments) {
   require_ranks(arguments);
   const Config config = Config::from_file(arguments.file);
@@ -147,6 +161,7 @@ int compare(const StudyArguments& arguments) {
   if (!complete) tell_of_interrupt("points", folder);
   if (!arguments.quiet && !table.is_null()) print_answers(table);
   if (arguments.no_report || !table.is_null()) show_report(folder, arguments);
+  if (!table.is_null()) warn_of_shared_meshes(table);
   print_failed_references(run);
   FailureSummary failures;
   for (const auto& [i, result] : run.results())

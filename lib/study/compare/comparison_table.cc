@@ -31,8 +31,8 @@ Json no_reference(const std::string& method, const Json& message) {
   return {{"kind", "none"}, {"method", method}, {"message", message}, {"checked", false}};
 }
 
-// `wanted`: the comparison asks for references.
-Json reference_json(const Reference* reference, bool wanted) {
+// `wanted`: the comparison asks for references. `own_mesh`: they have meshes of their own.
+Json reference_json(const Reference* reference, bool wanted, bool own_mesh) {
   if (!reference) return no_reference("", wanted ? "not computed yet" : "no reference was requested");
   const MeasurementResult& result = reference->result;
   if (reference->folder.empty()) return no_reference(reference->method, message_of(result.failure));
@@ -45,7 +45,7 @@ Json reference_json(const Reference* reference, bool wanted) {
           {"seconds", optional_json(result.seconds)},
           {"message", reference->check ? message_of(reference->check->failure) : Json()},
           {"errors", json_or_null(errors)},
-          {"mesh_error", optional_json(result.mesh_error)},
+          {own_mesh ? "mesh_error" : "shared_mesh_error", optional_json(result.mesh_error)},
           {"unknowns", member(to_json(result).at("model"), "unknowns")},
           {"folder", reference->folder}};
 }
@@ -78,7 +78,7 @@ Json problem_json(const Design& design, const Problem& problem, const Reference*
           {"probe_scales", member(scales, "probes")},
           {"quantity_scales", member(scales, "quantities")},
           {"dominant_frequency", member(scales, "dominant_frequency")},
-          {"reference", reference_json(reference, wanted)}};
+          {"reference", reference_json(reference, wanted, design.across_meshes)}};
 }
 
 Json method_json(const Method& method) {

@@ -187,7 +187,7 @@ class Measurement {
     std::vector<Observer*> observers{trajectory.get(), &energy, &inversion};
     if (is_free(model)) observers.push_back(&momentum);
     if (keeps_frames()) observers.push_back(&frames_);
-    if (input_.at_probes && input_.keep_trajectory) observers.push_back(&mesh_error);
+    if (input_.keep_trajectory) observers.push_back(&mesh_error);
     const Plan plan{setup_.scene.time.end, times_, false};
     const auto outcome = run_once(observers, plan, *integrator, kPatience * input_.seconds);
     if (!outcome) return;

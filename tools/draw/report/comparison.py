@@ -81,6 +81,7 @@ class Reference:
     mesh_error: float = math.nan  # an estimate; of a reference with a mesh of its own
     unknowns: float = math.nan
     folder: str = ""  # in that of the comparison
+    shared_mesh_error: float = math.nan  # of the mesh that the points have, too: no part of their errors
 
     @property
     def has_own_mesh(self):

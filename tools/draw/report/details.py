@@ -25,6 +25,9 @@ def _reference_words(problem):
         parts.append(f". It has a mesh of its own, of {formatting.count(reference.unknowns)} unknowns, whose error is "
                      f"about {formatting.exponent(reference.mesh_error)}, by the share of the elastic energy that "
                      "recovered stresses tell")
+    if formatting.known(reference.shared_mesh_error):
+        parts.append(f". It has the mesh of the scene, as all points have: errors are those in time, and the mesh puts all "
+                     f"of them off by about {formatting.exponent(reference.shared_mesh_error)} of the elastic energy")
     return "".join(parts) + "." + (f" {reference.message}" if reference.message else "")
 
 

@@ -104,7 +104,7 @@ def _drifts(node):
 def _reference(node):
     return Reference(node.text("kind", "none"), node.text("method"), node.text("check"), node.number("seconds"),
                      node.text("message"), _errors(node.child("errors")), node.number("mesh_error"),
-                     node.number("unknowns"), node.text("folder"))
+                     node.number("unknowns"), node.text("folder"), node.number("shared_mesh_error"))
 
 
 def _problem(node):
