@@ -116,7 +116,8 @@ const Spec<Output>& Output::spec() {
                "After runs of about 500 steps or more, estimate how far the errors of the steps have added up by "
                "integrating a few short parts again; costs a few per cent.")
           .key("mesh_error", &Output::mesh_error,
-               "Estimate the error of the mesh from stresses recovered at the nodes, at some of the outputs.")
+               "Estimate the error of the mesh: by finer elements in the state that is deformed the most, where these have up "
+               "to 120,000 unknowns; else by stresses recovered at the nodes, at some of the outputs.")
           .key("energy_times", &Output::energy_times,
                "outputs: energies are computed for the rows of energy.csv; steps: also after each step, and the drift "
                "in the summary covers all of them. This costs about one evaluation of the forces per step.")

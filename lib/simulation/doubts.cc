@@ -1,5 +1,7 @@
 #include "lib/simulation/doubts.h"
 
+#include "lib/simulation/errors/estimated_error.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -49,7 +51,7 @@ std::string mesh_sentence(const ModelSummary& model, double error) {
   return fmt::format(
       "the mesh is coarse for this motion: of the elastic energy about {:.2g} is its error. Deflections are too small "
       "and frequencies too high. {}, and compare (frames with the field mesh_error show where)",
-      error, model.order == 1 ? "Take mesh.order: 2 or finer cells" : "Take finer cells");
+      error, finer_mesh(model.order));
 }
 
 constexpr const char* kBuckles =
@@ -122,6 +124,7 @@ std::vector<std::string> doubts(const RunResult& result) {
   const auto& mesh = result.motion ? result.motion->mesh_error
                                    : result.equilibrium ? result.equilibrium->mesh_error : std::nullopt;
   if (mesh && mesh->relative > kCoarseMesh) all.push_back(mesh_sentence(result.model, mesh->relative));
+  if (mesh && !mesh->blind.empty()) all.push_back(blindness_warning(mesh->blind));
   if (const auto& error = result.model.linear_error; error && *error > kMuchError)
     all.push_back(result.model.buckles ? kBuckles : linearity_sentence(*error));
   if (const auto& motion = result.motion) {

@@ -12,6 +12,7 @@
 #include "lib/simulation/model_summary.h"
 #include "lib/simulation/observers/run_observers.h"
 #include "lib/simulation/run_context.h"
+#include "lib/simulation/errors/estimated_error.h"
 #include "lib/simulation/run_record.h"
 #include "lib/simulation/several_ranks.h"
 
@@ -180,6 +181,9 @@ class DynamicAnalysis {
     if (const auto& m = observers.momentum) out.momentum = {m->angular_drift(), m->angular_scale()};
     out.silent_events = observers.silent_events();
     if (mesh_error_) out.mesh_error = mesh_error_->found();
+    if (out.mesh_error && outcome.status == Outcome::Status::completed)
+      out.mesh_error = look_closer(setup_.scene, *setup_.built.model, *mesh_error_->most_deformed(), true,
+                                   *out.mesh_error).error;
     out.rtol = Registry<IntegratorChoice>::read(setup_.config.at("integrator"))->settings().rtol;
     if (outcome.status == Outcome::Status::failed && !failed_alone_)
       out.failure = failure_place(*setup_.built.model, outcome.last);

@@ -66,7 +66,7 @@ Json error_json(const ErrorEstimate& e) {
 }
 
 Json errors_json(const ErrorBalance& errors) {
-  Json out{{"mesh", errors.mesh}};
+  Json out{{"mesh", errors.mesh}, {"mesh_by", errors.mesh_by}};
   if (errors.time) out["time"] = *errors.time;
   if (!errors.advice.empty()) out["advice"] = errors.advice;
   return out;

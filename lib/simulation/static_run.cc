@@ -6,6 +6,7 @@
 
 #include "lib/analysis/displacement_error.h"
 #include "lib/core/words.h"
+#include "lib/simulation/errors/estimated_error.h"
 #include "lib/simulation/static_problem.h"
 #include "lib/simulation/files.h"
 #include "lib/simulation/given_terms.h"
@@ -89,18 +90,28 @@ void refuse_what_is_for_motion(const RunRequest& request) {
     throw ConfigError("--estimate-error: a static analysis has no error of integration; remove it");
 }
 
-// At the last equilibrium. Errors where they are asked for; NaN where it is unstable.
-std::vector<ProbedDisplacement> probed_displacements(const Setup& setup, const State& equilibrium, bool with_errors) {
-  const FemModel& model = *setup.built.model;
+std::vector<int> probed_nodes(const Setup& setup) {
   std::vector<int> nodes;
   for (const auto& [name, probe] : setup.scene.output.probes)
-    nodes.push_back(nearest_node(model.parts().mesh, probe.at));
-  if (nodes.empty()) return {};
-  std::vector<Vec3> errors(nodes.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+    nodes.push_back(nearest_node(setup.built.model->parts().mesh, probe.at));
+  return nodes;
+}
+
+// Of the probes' nodes by the dual problem; NaN where the equilibrium is unstable.
+std::vector<Vec3> dual_errors(const FemModel& model, const State& equilibrium, const std::vector<int>& nodes) {
   try {
-    if (with_errors) errors = displacement_errors(model, equilibrium, nodes);
+    return displacement_errors(model, equilibrium, nodes);
   } catch (const RunError&) {  // no stable equilibrium, no error of it
+    return {};
   }
+}
+
+// At the last equilibrium. `errors`: empty where they are not known.
+std::vector<ProbedDisplacement> probed_displacements(const Setup& setup, const State& equilibrium,
+                                                     std::vector<Vec3> errors) {
+  const FemModel& model = *setup.built.model;
+  const std::vector<int> nodes = probed_nodes(setup);
+  if (errors.empty()) errors.assign(nodes.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
   const auto u = model.evaluate("displacement", equilibrium);
   std::vector<ProbedDisplacement> out;
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -132,10 +143,20 @@ EquilibriumResult equilibrium_result(const Setup& setup, const StaticProblem& pr
   MeshErrorRecorder mesh_error(0);
   if (setup.scene.output.mesh_error) mesh_error.look_at({*problem.path, last});
   out.mesh_error = mesh_error.found();
+  const FemModel& model = *setup.built.model;
+  const State equilibrium{out.loads_at_time, last.q, Vector::Zero(last.q.size())};
+  const std::vector<int> nodes = probed_nodes(setup);
+  std::vector<Vec3> errors;
   // Below all loads the model has no equilibrium to tell an error of.
-  const bool is_at_all_loads = outcome.status == Outcome::Status::completed;
-  out.probes = probed_displacements(setup, {out.loads_at_time, last.q, Vector::Zero(last.q.size())},
-                                    setup.scene.output.mesh_error && is_at_all_loads);
+  if (setup.scene.output.mesh_error && outcome.status == Outcome::Status::completed) {
+    if (out.mesh_error) {
+      FoundByFiner found = look_closer(setup.scene, model, equilibrium, false, *out.mesh_error, nodes);
+      out.mesh_error = found.error;
+      errors = std::move(found.displacements);
+    }
+    if (errors.empty() && !nodes.empty()) errors = dual_errors(model, equilibrium, nodes);
+  }
+  out.probes = probed_displacements(setup, equilibrium, std::move(errors));
   return out;
 }
 

@@ -52,7 +52,7 @@ class Modes(unittest.TestCase):
     def test_shapes_are_read_as_what_moves_the_body(self):
         write_modes(self.folder, [1.0, 2.0])
         np.testing.assert_array_equal(Shapes(self.folder).frame(1).node_fields["displacement"], np.roll(POINTS, 1, axis=1))
-        self.assertEqual(read_modes(self.folder), ([1.0, 2.0], frequency_label))
+        self.assertEqual(read_modes(self.folder), ([1.0, 2.0], ["1 Hz", "2 Hz"]))
 
     def test_signs_tell_what_moves_against_the_largest(self):
         folder = write_modes(self.folder, [1.0])
@@ -83,6 +83,8 @@ class Modes(unittest.TestCase):
 
     def test_labels_are_short(self):
         self.assertEqual([frequency_label(f) for f in (12.5, 1299.0381, -3.0)], ["12.5 Hz", "1.299 kHz", "-3 Hz"])
+        self.assertEqual([frequency_label(1299.0381, e) for e in (0.3, 0.01, 1e-4, 0.0)],
+                         ["1.3 kHz", "1.3 kHz", "1.299 kHz", "1.299 kHz"])
 
     def test_what_is_missing_is_said_in_one_line(self):
         write_modes(self.folder, [0, 0])

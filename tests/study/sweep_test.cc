@@ -135,10 +135,10 @@ quantities: {steps: {cost: steps}, hertz: {mode: 1}}
   ASSERT_EQ(done.exit_code, 0) << done.output;
   const std::string csv = read_text(folder_ / "out/sweeps/s/sweep.csv");
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
-            "point,young [Pa],density [g/cm^3],force.0 [N],nu,steps,hertz [Hz],status,reason,message,"
+            "point,young [Pa],density [g/cm^3],force.0 [N],nu,steps,hertz [Hz],hertz.mesh_error,status,reason,message,"
             "wall_seconds [s],cpu_seconds [s],mesh_error,warnings,unknowns,folder");
   std::istringstream lines(csv);
-  for (std::string line; std::getline(lines, line);) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 15) << line;
+  for (std::string line; std::getline(lines, line);) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 16) << line;
 }
 
 TEST_F(SweepCommand, TellsWhatALaterPointWarnsOf) {
@@ -179,6 +179,26 @@ output: {probes: {tip: {at: [1, 0.05, 0.05]}}}
     ASSERT_EQ(done.exit_code, 0) << done.output;
     EXPECT_EQ(done.output.find("warning: the mesh is coarse") != std::string::npos, coarse) << done.output;
     EXPECT_EQ(table().at("points")[0].at("mesh_error").get<double>() > 0.05, coarse);
+  }
+}
+
+// Frequencies, too, though nothing moves that recovered stresses could be seen in.
+TEST_F(SweepCommand, TellsHowFarTheMeshPutsFrequenciesOff) {
+  for (const bool coarse : {false, true}) {
+    write("bar.yaml", std::string("mesh: {type: box, size: [1, 0.1, 0.1], cells: ") +
+                          (coarse ? "[4, 1, 1], order: 1" : "[8, 1, 1]") + R"(}
+materials: {soft: {type: isotropic, density: 1000, young: 1e9, nu: 0.3}}
+clamps: [{surface: x0}]
+time: {end: 1}
+)");
+    write("s.yaml", "scene: bar.yaml\nvary: {materials.soft.young: [1e9, 2e9]}\nquantities: {hertz: {mode: 1}}\n");
+    const auto done = sweep();
+    ASSERT_EQ(done.exit_code, 0) << done.output;
+    EXPECT_EQ(done.output.find("the mesh is coarse for frequencies of 2 of 2 points: up to ") != std::string::npos,
+              coarse) << done.output;
+    const double error = table().at("points")[0].at("figure_errors").at("hertz");
+    EXPECT_EQ(error > 0.05, coarse) << error;
+    EXPECT_GT(error, 1e-4);
   }
 }
 

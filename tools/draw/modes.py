@@ -1,5 +1,6 @@
 """Natural modes or buckling shapes as small multiples: enlarged to be seen, over the outline of the body."""
 import csv
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -58,12 +59,19 @@ class Picture(Scene):
                            INK, 1.1)
 
 
-def frequency_label(hertz):
-    return f"{hertz / 1000:.4g} kHz" if abs(hertz) >= 1000 else f"{hertz:.4g} Hz"
+def digits(error):
+    """Those that an error of this share does not touch, and one more; 4 where it is not known."""
+    known = math.isfinite(error) and error != 0
+    return min(max(math.ceil(-math.log10(abs(error))) + 1, 2), 4) if known else 4
 
 
-def factor_label(factor):
-    return f"load factor {factor:.4g}"
+def frequency_label(hertz, error=math.nan):
+    value, unit = (hertz / 1000, "kHz") if abs(hertz) >= 1000 else (hertz, "Hz")
+    return f"{float(f'{value:.{digits(error) - 1}e}'):.4g} {unit}"
+
+
+def factor_label(factor, error=math.nan):
+    return f"load factor {float(f'{factor:.{digits(error) - 1}e}'):.4g}"
 
 
 # What tells a mode from others, its column, its label, and the command that writes it.
@@ -72,14 +80,15 @@ KINDS = (("modes.csv", "frequency [Hz]", frequency_label, "orthodyn modes"),
 
 
 def read_modes(folder):
-    """The figure of each mode and how to label it."""
+    """The figure of each mode, and its label with as many digits as the mesh lets be known."""
     for name, column, label, command in KINDS:
         path = Path(folder) / name
         if not path.exists():
             continue
         try:
             with open(path, newline="", encoding="utf-8") as file:
-                return [float(row[column]) for row in csv.DictReader(file)], label
+                rows = [(float(row[column]), float(row.get("mesh_error") or "nan")) for row in csv.DictReader(file)]
+                return [figure for figure, _ in rows], [label(*row) for row in rows]
         except (KeyError, TypeError, ValueError) as error:
             raise DrawError(f"{path}: not readable as what `{command}` writes ({error})") from None
     raise DrawError(f"{folder}: no modes.csv of `orthodyn modes` and no buckling.csv of a buckling analysis")
@@ -91,26 +100,26 @@ def is_of_modes(folder):
 
 
 def _read_all(folder, shapes):
-    figures, label = read_modes(folder)
+    figures, labels = read_modes(folder)
     if len(figures) != len(shapes):
         raise DrawError(f"{folder}: the table and modes.pvd do not belong together; compute them again")
-    return figures, label
+    return figures, labels
 
 
 def labelled_modes(folder, shapes):
     """'3: 12.5 Hz' of each."""
-    figures, label = _read_all(folder, shapes)
-    return [f"{k + 1}: {label(figure)}" for k, figure in enumerate(figures)]
+    _, labels = _read_all(folder, shapes)
+    return [f"{k + 1}: {label}" for k, label in enumerate(labels)]
 
 
 def draw_modes(folder, path, count, view, up):
     shapes = Shapes(folder)
-    figures, label = _read_all(folder, shapes)
+    figures, labels = _read_all(folder, shapes)
     chosen = [k for k in range(len(shapes)) if figures[k] != 0][:count]
     if not chosen:
         raise DrawError(f"{folder}: all {len(figures)} modes are rigid; ask for more with -n")
     scale = LARGEST * float(np.ptp(shapes.frame(chosen[0]).points, axis=0).max())
     spec = PictureSpec(color="swing", view=view, up=up, scale=scale, ghost=True, limits=(-1, 1))
     scene = Picture(shapes, chosen, spec)
-    scene.labels = {k: f"{k + 1}: {label(figures[k])}" for k in chosen}
+    scene.labels = {k: f"{k + 1}: {labels[k]}" for k in chosen}
     return draw_strip(scene, chosen, path)

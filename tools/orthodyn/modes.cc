@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "lib/core/digits.h"
 #include "lib/simulation/modes/modal_analysis.h"
 #include "lib/simulation/modes/modes_folder.h"
 #include "tools/orthodyn/command.h"
@@ -54,13 +55,24 @@ void print_table(const ModalAnalysis& analysis, bool equilibrium) {
   for (std::size_t k = 0; k < modes.modes.size(); ++k) {
     const Vec3 share = 100 * modes.modes[k].effective_mass() / mass;
     sum += share;
-    fmt::print("  {:4}  {:14.7g}  {:>11}   {:12.3f} {:12.3f} {:12.3f}   {:18.1e}\n", k + 1,
-               modes.modes[k].frequency(), by_the_mesh(analysis, k),
+    fmt::print("  {:4}  {:>14}  {:>11}   {:12.3f} {:12.3f} {:12.3f}   {:18.1e}\n", k + 1,
+               known_digits(modes.modes[k].frequency(), analysis.mesh_errors()[k]), by_the_mesh(analysis, k),
                share[0], share[1], share[2], modes.modes[k].residual);
   }
   fmt::print("  {:4}  {:>14}  {:11}   {:12.3f} {:12.3f} {:12.3f}\n", "", "sum", "", sum[0], sum[1], sum[2]);
   if (modes.modes.front().lambda < 0)
     fmt::print("negative frequencies: the state is unstable, motion grows at that rate (rad/s: angular_frequency)\n");
+}
+
+// How the errors by the mesh were found, and what of them to heed.
+void tell_errors(const ModalAnalysis& analysis) {
+  const FrequencyErrors& errors = analysis.how_estimated();
+  fmt::print("errors by the mesh from {}\n",
+             errors.by_finer_elements ? fmt::format("finer elements, in {:.2g} s of CPU", errors.cpu_seconds)
+                                      : std::string("recovered stresses"));
+  const int order = analysis.model().parts().mesh.order();
+  for (const std::string& warning : {frequency_warning(errors, order), blindness_warning(errors.blind)})
+    if (!warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
 }
 
 int compute_modes(const ModesArguments& arguments) {
@@ -73,6 +85,7 @@ int compute_modes(const ModesArguments& arguments) {
   if (arguments.quiet) return 0;
   const Modes& modes = analysis.modes();
   print_table(analysis, arguments.equilibrium);
+  tell_errors(analysis);
   fmt::print("results {}\n", folder.string());
   if (modes.zeros < arguments.count) draw_modes(folder);
   else fmt::print("no picture: all {} modes {}; ask for more with -n\n", modes.zeros,

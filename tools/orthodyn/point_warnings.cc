@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <set>
 #include <string>
@@ -28,6 +29,28 @@ void warn_of_coarse_meshes(const Json& table) {
              "Deflections are too small and frequencies too high; orthodyn converge tells by how much\n",
              count, table.at("points").size(), worst->at("mesh_error").get<double>(),
              worst->at("title").get<std::string>());
+}
+
+// Of frequencies, which have an error of their own.
+void warn_of_coarse_frequencies(const Json& table) {
+  std::size_t count = 0;
+  double worst = 0;
+  std::string which;
+  for (const auto& point : table.at("points")) {
+    bool is_coarse = false;
+    for (const auto& [figure, error] : point.at("figure_errors").items()) {
+      if (!error.is_number() || !(std::abs(error.get<double>()) > kCoarseMesh)) continue;
+      is_coarse = true;
+      if (std::abs(error.get<double>()) <= std::abs(worst)) continue;
+      worst = error.get<double>();
+      which = fmt::format("{}, {}", figure, point.at("title").get<std::string>());
+    }
+    count += is_coarse;
+  }
+  if (count > 0)
+    fmt::print(stderr, "warning: the mesh is coarse for frequencies of {} of {} points: up to {:.2g} % too {} ({}; "
+                       "columns .mesh_error of sweep.csv)\n",
+               count, table.at("points").size(), 100 * std::abs(worst), worst > 0 ? "high" : "low", which);
 }
 
 // What a warning says, without the point's folder and figures.
@@ -69,6 +92,7 @@ void warn_of_points(const Json& table) {
 
 void tell_warnings_of_points(const Json& table) {
   warn_of_coarse_meshes(table);
+  warn_of_coarse_frequencies(table);
   warn_of_points(table);
 }
 

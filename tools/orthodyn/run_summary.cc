@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/digits.h"
 #include "lib/core/words.h"
 #include "lib/simulation/doubts.h"
 #include "lib/simulation/errors/error_balance.h"
@@ -60,7 +61,8 @@ void print_energy(const EnergySummary& energy) {
 void print_errors(const RunResult& result, int width) {
   const auto errors = error_balance(result);
   if (!errors) return;
-  fmt::print("  {:<{}} mesh {:.1e} of the elastic energy{}{}{}\n", "errors, about", width, errors->mesh,
+  fmt::print("  {:<{}} mesh {:.1e} of the elastic energy (by {}){}{}{}\n", "errors, about", width, errors->mesh,
+             errors->mesh_by,
              errors->time     ? fmt::format(", time {:.1e} of the motion", *errors->time)
              : result.motion  ? ", time not estimated (--estimate-error)"
                               : "",
@@ -70,6 +72,12 @@ void print_errors(const RunResult& result, int width) {
 std::string three(const Vec3& v, const char* format) {
   const auto number = [&](double x) { return fmt::format(fmt::runtime(format), x); };
   return fmt::format("({}, {}, {})", number(v[0]), number(v[1]), number(v[2]));
+}
+
+// With as many digits as the errors leave.
+std::string three_known(const Vec3& v, const Vec3& error) {
+  const auto number = [&](int i) { return known_digits(v[i], v[i] == 0 ? 0 : error[i] / v[i]); };
+  return fmt::format("({}, {}, {})", number(0), number(1), number(2));
 }
 
 void print_extremes(const RunResult& result, bool is_static) {
@@ -142,7 +150,7 @@ void print_equilibrium(const RunResult& result, const EquilibriumResult& equilib
   print_errors(result, 20);
   print_extremes(result, true);
   for (const auto& [probe, value, error] : equilibrium.probes)
-    fmt::print("  {:<20} moved by {} m{}\n", probe, three(value, "{:.6g}"),
+    fmt::print("  {:<20} moved by {} m{}\n", probe, three_known(value, error),
                error.allFinite() ? fmt::format("; its error due to the mesh is about {} m", three(error, "{:.1e}"))
                                  : "");
   fmt::print("  {:<20} {}\n", "results", result.folder.string());

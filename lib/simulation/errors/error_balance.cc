@@ -51,7 +51,10 @@ std::optional<ErrorBalance> error_balance(const RunResult& result) {
   const auto& mesh = result.motion ? result.motion->mesh_error : result.equilibrium->mesh_error;
   if (!mesh) return std::nullopt;
   const std::optional<double> time = result.motion ? time_error(*result.motion) : std::nullopt;
-  return ErrorBalance{mesh->relative, time, advice(result, mesh->relative, time)};
+  const std::string by = mesh->by_finer_elements
+                             ? fmt::format("finer elements, {:.2g} s of CPU", mesh->cpu_seconds)
+                             : std::string("recovered stresses");
+  return ErrorBalance{mesh->relative, by, time, advice(result, mesh->relative, time)};
 }
 
 }  // namespace orthodyn

@@ -27,11 +27,14 @@ void MeshErrorRecorder::look_at(const ObservedState& observed) {
   elastic_ += energy[1];
   kinetic_ += observed.evaluate("energy.kinetic")[0];
   ++samples_;
+  if (!(energy[1] > largest_)) return;
+  largest_ = energy[1];
+  most_deformed_ = observed.state();
 }
 
 std::optional<MeshError> MeshErrorRecorder::found() const {
   if (!(elastic_ > kDeformed * kinetic_)) return std::nullopt;
-  return MeshError{error_ / (error_ + elastic_), samples_};
+  return MeshError{.relative = error_ / (error_ + elastic_), .samples = samples_};
 }
 
 }  // namespace orthodyn

@@ -1,9 +1,11 @@
-// How far the mesh puts a run off, by recovered stresses (lib/fem/stress_recovery.h): the share of the elastic energy
-// that the error takes, over some states of the run. As the energy of a body under given loads, its deflections are
+// How far the mesh puts a run off: the share of the elastic energy that the error takes. By finer elements
+// (estimated_error.h) in the state that is deformed the most, or by recovered stresses (lib/fem/stress_recovery.h) over
+// some states of the run. As the energy of a body under given loads, its deflections are
 // too small by about that share where they follow the loads slowly, and natural frequencies too high by half of it.
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "lib/simulation/observers/observer.h"
 
@@ -15,6 +17,9 @@ inline constexpr double kCoarseMesh = 0.05;
 struct MeshError {
   double relative = 0;  // of the elastic energy
   int samples = 0;      // states that were looked at
+  bool by_finer_elements = false;  // else by recovered stresses
+  std::string blind = {};          // what the estimate may not see, and what to do, in a sentence; "" if nothing
+  double cpu_seconds = 0;          // that the finer elements took
 };
 
 class MeshErrorRecorder : public Observer {
@@ -29,10 +34,15 @@ class MeshErrorRecorder : public Observer {
   // None where nothing was deformed to speak of.
   std::optional<MeshError> found() const;
 
+  // Of those that were looked at the one of the largest elastic energy.
+  const std::optional<State>& most_deformed() const { return most_deformed_; }
+
  private:
   std::size_t outputs_, stride_, seen_ = 0;
   double error_ = 0, elastic_ = 0, kinetic_ = 0;  // J, sums
   int samples_ = 0;
+  double largest_ = 0;  // J, elastic
+  std::optional<State> most_deformed_;
 };
 
 }  // namespace orthodyn

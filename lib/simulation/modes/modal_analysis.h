@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "lib/analysis/modes.h"
+#include "lib/simulation/errors/estimated_error.h"
 #include "lib/simulation/setup.h"
 
 namespace orthodyn {
@@ -19,20 +20,20 @@ class ModalAnalysis {
   const State& about() const { return about_; }
   const Modes& modes() const { return modes_; }
   // Of each mode that is not at zero the share by which the mesh makes its frequency too high, estimated; 0 of others.
-  const std::vector<double>& mesh_errors() const { return mesh_errors_; }
+  const std::vector<double>& mesh_errors() const { return mesh_errors_.shares; }
+  const FrequencyErrors& how_estimated() const { return mesh_errors_; }
   // How many of them the geometry leaves free: 0 Hz.
   int rigid() const { return rigid_; }
 
  private:
   State state_about(bool equilibrium_asked) const;
-  std::vector<double> find_mesh_errors() const;
 
   const Setup& setup_;
   Scene scene_;                        // with supports that stand still
   std::optional<BuiltScene> rebuilt_;  // where the supports of the scene's own model move
   State about_;
   Modes modes_;
-  std::vector<double> mesh_errors_;
+  FrequencyErrors mesh_errors_;
   int rigid_ = 0;
 };
 

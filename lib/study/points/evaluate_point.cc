@@ -6,7 +6,7 @@
 #include "lib/scene/quantity.h"
 #include "lib/analysis/buckling.h"
 #include "lib/simulation/static_problem.h"
-#include "lib/simulation/errors/mesh_error.h"
+#include "lib/simulation/errors/estimated_error.h"
 #include "lib/simulation/errors/snapshot.h"
 #include "lib/simulation/load_steps.h"
 #include "lib/simulation/machine.h"
@@ -105,7 +105,8 @@ class Evaluation {
     for (const bool about_equilibrium : {false, true}) find_modes(still, built, about_equilibrium);
     find_buckling(still, built);
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
-    result_.cost = result_.modes_cost = EvaluationCost{cpu_seconds_now() - cpu, wall.count(), {}, peak_memory()};
+    result_.cost = result_.modes_cost =
+        EvaluationCost{cpu_seconds_now() - cpu - diagnostics_cpu_, wall.count() - diagnostics_wall_, {}, peak_memory()};
   }
 
   void find_modes(const Scene& scene, const BuiltScene& built, bool about_equilibrium) {
@@ -117,8 +118,19 @@ class Evaluation {
     if (wanted.empty()) return;
     const Vector zero = Vector::Zero(built.model->num_dofs());
     const State about{scene.time.end, about_equilibrium ? equilibrium(scene, built) : zero, zero};
-    const auto frequencies = wanted_frequencies(wanted, *built.model, about);
-    for (std::size_t k = 0; k < names.size(); ++k) keep(names[k], frequencies[k], wanted[k].unit_of(""));
+    const WantedModes found = wanted_modes(wanted, *built.model, about);
+    for (std::size_t k = 0; k < names.size(); ++k)
+      keep(names[k], found.chosen[k] ? found.modes.modes[*found.chosen[k]].frequency() : std::nan(""),
+           wanted[k].unit_of(""));
+    if (!input_.mesh_error || found.modes.modes.empty()) return;
+    const auto begin = std::chrono::steady_clock::now();
+    const double cpu = cpu_seconds_now();
+    const FrequencyErrors errors = frequency_errors_of(scene, *built.model, about, found.modes);
+    for (std::size_t k = 0; k < names.size(); ++k)
+      if (found.chosen[k]) result_.figure_errors.emplace_back(names[k], errors.shares[*found.chosen[k]]);
+    if (const std::string warning = blindness_warning(errors.blind); !warning.empty()) result_.warnings.push_back(warning);
+    diagnostics_cpu_ += cpu_seconds_now() - cpu;
+    diagnostics_wall_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
   void find_buckling(const Scene& scene, const BuiltScene& built) {
@@ -187,6 +199,11 @@ class Evaluation {
     MeshErrorRecorder mesh_error(0);
     if (input_.mesh_error) mesh_error.look_at(observed);
     keep(mesh_error);
+    if (result_.mesh_error && !ranks_) {
+      const MeshError found = look_closer(setup.scene, *setup.built.model, state, false, *mesh_error.found()).error;
+      result_.mesh_error = found.relative;
+      if (!found.blind.empty()) result_.warnings.push_back(blindness_warning(found.blind));
+    }
     draw(*setup.built.model, state);
   }
 
@@ -251,6 +268,7 @@ class Evaluation {
   const fs::path& folder_;
   const Ranks* ranks_;
   EvaluationResult result_;
+  double diagnostics_cpu_ = 0, diagnostics_wall_ = 0;  // s, of estimates of errors: no cost of what is computed
   EvaluationCost given_up_;  // of earlier attempts, with linear kinematics that were outgrown
 };
 

@@ -22,25 +22,30 @@ Modes elastic_modes(const Model& model, const State& about, int count) {
   return modes;
 }
 
-double frequency_of(const WantedFigure& f, const Modes& modes) {
+std::optional<std::size_t> chosen_by(const WantedFigure& f, const Modes& modes) {
   const auto first = modes.modes.begin() + std::min<std::ptrdiff_t>(modes.zeros, std::ssize(modes.modes));
-  if (f.mode) return modes.modes.end() - first < *f.mode ? std::nan("") : first[*f.mode - 1].frequency();
+  const auto number = [&](auto mode) { return static_cast<std::size_t>(mode - modes.modes.begin()); };
+  if (f.mode) return modes.modes.end() - first < *f.mode ? std::nullopt : std::optional(number(first + *f.mode - 1));
   const auto last = first + std::min<std::ptrdiff_t>(kAlong, modes.modes.end() - first);
   const auto axis = static_cast<Eigen::Index>(*f.along);
   const auto less = [&](const Mode& a, const Mode& b) { return a.effective_mass()[axis] < b.effective_mass()[axis]; };
   const auto found = std::max_element(first, last, less);
-  return found == last ? std::nan("") : found->frequency();
+  return found == last ? std::nullopt : std::optional(number(found));
 }
 
 }  // namespace
 
-std::vector<double> wanted_frequencies(const std::vector<WantedFigure>& figures, const Model& model,
-                                       const State& about) {
+WantedModes wanted_modes(const std::vector<WantedFigure>& figures, const Model& model, const State& about) {
   int count = 1;
   for (const auto& f : figures) count = std::max(count, f.along ? kAlong : f.mode.value_or(1));
-  const Modes modes = elastic_modes(model, about, count);
-  std::vector<double> out;
-  for (const auto& f : figures) out.push_back(frequency_of(f, modes));
+  WantedModes out{elastic_modes(model, about, count), {}};
+  std::size_t highest = 0;
+  for (const auto& f : figures) {
+    out.chosen.push_back(chosen_by(f, out.modes));
+    if (out.chosen.back()) highest = std::max(highest, *out.chosen.back() + 1);
+  }
+  out.modes.modes.resize(highest);
+  out.modes.zeros = std::min(out.modes.zeros, static_cast<int>(highest));
   return out;
 }
 

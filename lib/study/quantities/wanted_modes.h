@@ -1,6 +1,8 @@
 // Natural frequencies of a point of a sweep: by number, rigid modes not counted, or by effective mass along an axis.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "lib/analysis/modes.h"
@@ -8,9 +10,14 @@
 
 namespace orthodyn {
 
-// The frequency of each figure, which has `mode` or `along`, in Hz; NaN for a mode that the model is too small to have.
+// Modes, up to the highest that is wanted, and of each figure, which has `mode` or `along`, which of them it is; none
+// where the model is too small to have it.
+struct WantedModes {
+  Modes modes;
+  std::vector<std::optional<std::size_t>> chosen;
+};
+
 // Throws what natural_modes() throws.
-std::vector<double> wanted_frequencies(const std::vector<WantedFigure>& figures, const Model& model,
-                                       const State& about);
+WantedModes wanted_modes(const std::vector<WantedFigure>& figures, const Model& model, const State& about);
 
 }  // namespace orthodyn

@@ -14,7 +14,7 @@ namespace {
 EvaluationInput input_of(const Sweep& sweep) {
   EvaluationInput input{sweep.quantities, {}, {}, sweep.limits.seconds, code_fingerprint()};
   input.mesh_error = std::any_of(sweep.quantities.begin(), sweep.quantities.end(),
-                                 [](const auto& named) { return !named.second.quantity.empty(); });
+                                 [](const auto& named) { return named.second.cost.empty(); });
   if (!sweep.frames) return input;
   input.frame = sweep.frames->color.substr(0, sweep.frames->color.find('.'));
   input.frame_at = sweep.frames->at;

@@ -46,6 +46,7 @@ Json figures_json(const Sweep& sweep, const std::map<std::string, std::string>& 
                    {"factor", f.unit.empty() ? 1 : si_factor(f.unit)},
                    {"scale", Value<Scale>::yaml(f.scale)},
                    {"closed_form", f.closed_form},
+                   {"has_own_error", !f.is_of_motion()},
                    {"fails_at_one", fails_at_one(f)}});
   }
   return all;
@@ -90,10 +91,12 @@ Json point_json(const Sweep& sweep, const Point& point, const std::optional<Job>
     out["values"][sweep.vary[k].name] = value.number ? Json(*value.number) : Json(value.label);
   }
   out["figures"] = Json::object();
+  out["figure_errors"] = Json::object();
   out["closed_forms"] = Json::object();
   for (std::size_t q = 0; q < sweep.quantities.size(); ++q) {
     const std::string& name = sweep.quantities[q].first;
     out["figures"][name] = member(member(computed, "figures"), name);
+    out["figure_errors"][name] = member(member(computed, "figure_errors"), name);
     out["closed_forms"][name] = finite_or_null(point.closed_forms[q]);
   }
   for (const char* key : {"reason", "message", "cost", "model", "frame", "mesh_error", "warnings"})
@@ -173,6 +176,7 @@ std::string csv_head(const Json& table) {
   for (const auto& v : table.at("variables")) out += "," + csv_cell(heading(v));
   for (const auto& f : table.at("figures")) {
     out += "," + csv_cell(heading(f));
+    if (f.at("has_own_error")) out += "," + csv_cell(f.at("name").get<std::string>() + ".mesh_error");
     if (f.at("closed_form") == "") continue;
     Json closed = f;
     closed["name"] = f.at("name").get<std::string>() + ".closed_form";
@@ -198,6 +202,7 @@ std::string csv_row(const Json& table, const Json& point, std::size_t number) {
     const std::string name = f.at("name");
     const Json &value = point.at("figures").at(name), &closed = point.at("closed_forms").at(name);
     add(divided(value, f.at("factor")));
+    if (f.at("has_own_error")) add(point.at("figure_errors").at(name));
     if (f.at("closed_form") == "") continue;
     add(divided(closed, f.at("factor")));
     add(difference(value, closed));

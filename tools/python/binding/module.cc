@@ -96,14 +96,15 @@ void declare_scene_model(py::module_& m) {
       .def("mass", [](const SceneModel& s) { return array_of(s.mass()); })
       .def("modes",
            [](const SceneModel& s, int count, bool about_equilibrium) {
-             std::pair<std::vector<double>, std::vector<double>> found;
+             SceneModel::FoundModes found;
              {
                const py::gil_scoped_release unlocked;
                found = s.modes(count, about_equilibrium);
              }
-             const auto k = static_cast<py::ssize_t>(found.first.size());
-             return py::make_tuple(array_of(std::move(found.first)),
-                                   array_of(std::move(found.second), {k, s.model().num_dofs()}));
+             const auto k = static_cast<py::ssize_t>(found.frequencies.size());
+             return py::make_tuple(array_of(std::move(found.frequencies)),
+                                   array_of(std::move(found.shapes), {k, s.model().num_dofs()}),
+                                   array_of(std::move(found.mesh_errors)));
            })
       .def("unknowns",
            [](const SceneModel& s) {

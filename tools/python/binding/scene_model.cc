@@ -71,14 +71,14 @@ std::vector<double> SceneModel::evaluate(const std::string& name, double t, cons
   return model().evaluate(name, {t, q, v});
 }
 
-std::pair<std::vector<double>, std::vector<double>> SceneModel::modes(int count, bool about_equilibrium) const {
+SceneModel::FoundModes SceneModel::modes(int count, bool about_equilibrium) const {
   const ModalAnalysis analysis(setup_, count, about_equilibrium);
-  std::vector<double> frequencies, shapes;
+  FoundModes found{{}, {}, analysis.mesh_errors()};
   for (const Mode& mode : analysis.modes().modes) {
-    frequencies.push_back(mode.frequency());
-    shapes.insert(shapes.end(), mode.shape.data(), mode.shape.data() + mode.shape.size());
+    found.frequencies.push_back(mode.frequency());
+    found.shapes.insert(found.shapes.end(), mode.shape.data(), mode.shape.data() + mode.shape.size());
   }
-  return {std::move(frequencies), std::move(shapes)};
+  return found;
 }
 
 Vector SceneModel::equilibrium() const {

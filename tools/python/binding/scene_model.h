@@ -38,7 +38,10 @@ class SceneModel {
   std::vector<double> evaluate(const std::string& name, double t, const ConstVectorRef& q, const ConstVectorRef& v) const;
 
   // Hz, and the shapes (count x n), M-orthonormal.
-  std::pair<std::vector<double>, std::vector<double>> modes(int count, bool about_equilibrium) const;
+  struct FoundModes {
+    std::vector<double> frequencies, shapes, mesh_errors;
+  };
+  FoundModes modes(int count, bool about_equilibrium) const;
   // Free displacements under all loads at the end of the scene's time.
   Vector equilibrium() const;
 

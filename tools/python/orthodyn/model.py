@@ -15,12 +15,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, repr=False)
 class Modes:
-    """Natural modes: `frequencies` (k,), Hz; `shapes` (k, n) on the free coordinates, M-orthonormal."""
+    """Natural modes: `frequencies` (k,), Hz; `shapes` (k, n) on the free coordinates, M-orthonormal; `mesh_errors` (k,), the
+    share by which the mesh makes each frequency too high, estimated; 0 of rigid modes."""
     frequencies: np.ndarray
     shapes: np.ndarray
+    mesh_errors: np.ndarray
 
     def __repr__(self) -> str:
-        return f"Modes({np.array2string(self.frequencies, precision=5, threshold=20)} Hz)"
+        frequencies = np.array2string(self.frequencies, precision=5, threshold=20)
+        errors = np.array2string(100 * self.mesh_errors, precision=2, threshold=20)
+        return f"Modes({frequencies} Hz, by the mesh too high by {errors} %)"
 
 
 class Model:

@@ -1,0 +1,44 @@
+// The mesh's error of equilibria, motions and modes, and how it was found: by finer elements (finer_solution.h) where
+// these can be afforded, else by recovered stresses (lib/fem/stress_recovery.h), with a word on what they may not see.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/simulation/errors/finer_solution.h"
+#include "lib/simulation/errors/mesh_error.h"
+
+namespace orthodyn {
+
+// Whether finer elements are affordable: one process holds the model, and they have at most this many unknowns.
+inline constexpr double kMostFinerUnknowns = 120'000;
+bool is_affordable(const FemModel& model);
+
+// Replaces what recovered stresses have found of a state by what finer elements find, or else says what the former may
+// not see. `displacements`: of each of the nodes, where they are found.
+struct FoundByFiner {
+  MeshError error;
+  std::vector<Vec3> displacements = {};  // empty: not found
+};
+FoundByFiner look_closer(const Scene& scene, const FemModel& model, const State& state, bool in_motion,
+                         const MeshError& recovered, const std::vector<int>& nodes = {});
+
+struct FrequencyErrors {
+  std::vector<double> shares;      // of each mode that by which it is too high; 0 of those at zero
+  bool by_finer_elements = false;  // else by recovered stresses and the difference of lumped and consistent mass
+  std::string blind = {};          // as of MeshError
+  double cpu_seconds = 0;
+};
+FrequencyErrors frequency_errors_of(const Scene& scene, const FemModel& model, const State& about, const Modes& modes);
+
+// "the mesh makes mode 1 about 33 % too high, ...", or "" where all are below kCoarseMesh.
+std::string frequency_warning(const FrequencyErrors& errors, int order);
+
+// "the mesh's error may be larger than estimated: ...", of MeshError::blind; "" where that is.
+std::string blindness_warning(const std::string& blind);
+
+// What would make a mesh's error smaller: "Take mesh.order: 2 or finer cells".
+std::string finer_mesh(int order);
+
+}  // namespace orthodyn
