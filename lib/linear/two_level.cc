@@ -1,7 +1,6 @@
 #include "lib/linear/two_level.h"
 
 #include <Eigen/IterativeLinearSolvers>
-
 #include <algorithm>
 #include <utility>
 
@@ -24,7 +23,9 @@ class TwoLevelSolver::Smoother {
 };
 
 TwoLevelSolver::TwoLevelSolver(const Pattern& pattern, const std::vector<double>& values, CoarseSolution coarse)
-    : pattern_(pattern), values_(values), coarse_(std::move(coarse)),
+    : pattern_(pattern),
+      values_(values),
+      coarse_(std::move(coarse)),
       smoother_(std::make_unique<Smoother>(pattern.matrix(values.data()))) {
   if (!smoother_->ok()) throw IndefiniteMatrix("the matrix has no incomplete factor");
 }
@@ -49,7 +50,8 @@ TwoLevelSolver::Solution TwoLevelSolver::solve(const ConstVectorRef& b, double a
     gains.push_back(alpha * rz);
     out.energy += gains.back();
     double late = 0;
-    for (int k = 0; k < std::min<int>(kLook, out.iterations); ++k) late += gains[gains.size() - 1 - static_cast<std::size_t>(k)];
+    for (int k = 0; k < std::min<int>(kLook, out.iterations); ++k)
+      late += gains[gains.size() - 1 - static_cast<std::size_t>(k)];
     if (out.iterations > kLook && late <= accuracy * out.energy) {
       out.converged = true;
       break;

@@ -1,9 +1,9 @@
 // Digits that follow an error.
+#include "lib/core/digits.h"
+
 #include <gtest/gtest.h>
 
 #include <limits>
-
-#include "lib/core/digits.h"
 
 namespace orthodyn::digits_test {
 namespace {

@@ -1,7 +1,7 @@
 // Conjugate gradients with a coarse space, on a string of springs whose every other node the coarse space has.
-#include <gtest/gtest.h>
-
 #include "lib/linear/two_level.h"
+
+#include <gtest/gtest.h>
 
 namespace orthodyn::two_level_test {
 namespace {
@@ -42,9 +42,8 @@ TEST(TwoLevelSolver, SolvesAndTellsTheEnergyFromBelow) {
   constexpr int n = 41;
   const String s = string_of(n);
   const Eigen::MatrixXd A = dense(s), P = lift(n), coarse = P.transpose() * A * P;
-  const TwoLevelSolver solver(s.pattern, s.values, [&](const ConstVectorRef& b) {
-    return Vector(P * coarse.ldlt().solve(P.transpose() * b));
-  });
+  const TwoLevelSolver solver(
+      s.pattern, s.values, [&](const ConstVectorRef& b) { return Vector(P * coarse.ldlt().solve(P.transpose() * b)); });
   const Vector b = Vector::LinSpaced(n, 1, 3), x = A.ldlt().solve(b);
   const auto found = solver.solve(b, 1e-12, 200);
   EXPECT_TRUE(found.converged);
@@ -64,9 +63,9 @@ TEST(TwoLevelSolver, RefusesAMatrixThatIsNotPositiveDefinite) {
   constexpr int n = 21;
   const String s = string_of(n, -0.5);
   const Vector b = Vector::Ones(n);
-  EXPECT_THROW(TwoLevelSolver(s.pattern, s.values, [](const ConstVectorRef& r) { return Vector(0 * r); })
-                   .solve(b, 1e-12, 200),
-               IndefiniteMatrix);
+  EXPECT_THROW(
+      TwoLevelSolver(s.pattern, s.values, [](const ConstVectorRef& r) { return Vector(0 * r); }).solve(b, 1e-12, 200),
+      IndefiniteMatrix);
 }
 
 TEST(TwoLevelSolver, HasNothingToDoForNoLoad) {

@@ -37,30 +37,30 @@ std::string block(const std::string& size, const std::string& material, const st
          ", cells: CELLS, order: ORDER}\nmaterials: {m: " + material + "}\n" + rest;
 }
 
-std::string isotropic(double nu) {
-  return fmt::format("{{type: isotropic, density: 1000, young: 1e9, nu: {}}}", nu);
-}
+std::string isotropic(double nu) { return fmt::format("{{type: isotropic, density: 1000, young: 1e9, nu: {}}}", nu); }
 
 const char* const kSpruce = "{type: preset, name: sitka_spruce}";
 const char* const kBent = "clamps: [{surface: x0}]\nloads: [{surface: x1, force: [0, 0, -1]}]\n";
 const char* const kPressed =
-    "clamps: [{surface: x0}, {surface: x1}, {surface: y0}, {surface: y1}]\nloads: [{surface: z1, traction: [0, 0, -1]}]\n";
+    "clamps: [{surface: x0}, {surface: x1}, {surface: y0}, {surface: y1}]\nloads: [{surface: z1, traction: [0, 0, "
+    "-1]}]\n";
 const char* const kPlaneStrain =
     "clamps: [{surface: x0}, {surface: y0, components: [y]}, {surface: y1, components: [y]}]\n"
     "loads: [{surface: x1, force: [0, 0, -1]}]\n";
 
 std::vector<Body> bodies() {
   const Vec3 tip(1, 0.1, 0.1), middle(0.2, 0.15, 0), end(0.5, 0.1, 0.4);
-  return {{"a plate 10 to 1", block("[0.4, 0.3, 0.04]", kSpruce, kPressed), "[8, 6, 1]", "[16, 12, 3]", 2, middle, 2},
-          {"a plate 100 to 1", block("[0.4, 0.3, 0.004]", kSpruce, kPressed), "[8, 6, 1]", "[24, 18, 1]", 2, middle, 2},
-          {"a plate 200 to 1", block("[0.4, 0.3, 0.002]", kSpruce, kPressed), "[8, 6, 1]", "[24, 18, 1]", 2, middle, 2},
-          {"a beam 10 to 1", block("[1, 0.1, 0.1]", isotropic(0.3), kBent), "[10, 2, 2]", "[16, 2, 2]", 1, tip, 2},
-          {"a beam 10 to 1, quadratic", block("[1, 0.1, 0.1]", kSpruce, kBent), "[8, 1, 1]", "[20, 3, 3]", 2, tip, 2},
-          {"nu 0.49", block("[0.5, 0.1, 0.4]", isotropic(0.49), kPlaneStrain), "[5, 1, 4]", "[14, 1, 11]", 1, end, 2},
-          {"nu 0.499", block("[0.5, 0.1, 0.4]", isotropic(0.499), kPlaneStrain), "[5, 1, 4]", "[14, 1, 11]", 1, end, 2},
-          {"nu 0.4999", block("[0.5, 0.1, 0.4]", isotropic(0.4999), kPlaneStrain), "[5, 1, 4]", "[14, 1, 11]", 1, end, 2},
-          {"nu 0.4999, quadratic", block("[0.5, 0.1, 0.4]", isotropic(0.4999), kPlaneStrain), "[4, 1, 3]",
-           "[16, 1, 12]", 2, end, 2}};
+  return {
+      {"a plate 10 to 1", block("[0.4, 0.3, 0.04]", kSpruce, kPressed), "[8, 6, 1]", "[16, 12, 3]", 2, middle, 2},
+      {"a plate 100 to 1", block("[0.4, 0.3, 0.004]", kSpruce, kPressed), "[8, 6, 1]", "[24, 18, 1]", 2, middle, 2},
+      {"a plate 200 to 1", block("[0.4, 0.3, 0.002]", kSpruce, kPressed), "[8, 6, 1]", "[24, 18, 1]", 2, middle, 2},
+      {"a beam 10 to 1", block("[1, 0.1, 0.1]", isotropic(0.3), kBent), "[10, 2, 2]", "[16, 2, 2]", 1, tip, 2},
+      {"a beam 10 to 1, quadratic", block("[1, 0.1, 0.1]", kSpruce, kBent), "[8, 1, 1]", "[20, 3, 3]", 2, tip, 2},
+      {"nu 0.49", block("[0.5, 0.1, 0.4]", isotropic(0.49), kPlaneStrain), "[5, 1, 4]", "[14, 1, 11]", 1, end, 2},
+      {"nu 0.499", block("[0.5, 0.1, 0.4]", isotropic(0.499), kPlaneStrain), "[5, 1, 4]", "[14, 1, 11]", 1, end, 2},
+      {"nu 0.4999", block("[0.5, 0.1, 0.4]", isotropic(0.4999), kPlaneStrain), "[5, 1, 4]", "[14, 1, 11]", 1, end, 2},
+      {"nu 0.4999, quadratic", block("[0.5, 0.1, 0.4]", isotropic(0.4999), kPlaneStrain), "[4, 1, 3]", "[16, 1, 12]", 2,
+       end, 2}};
 }
 
 class Locking : public testing::TestWithParam<Body> {};
@@ -86,16 +86,18 @@ TEST_P(Locking, IsSeenByFinerElements) {
   };
   const FemModel& model = *coarse->built.model;
   const State state{coarse->scene.time.end, q, Vector::Zero(q.size())};
-  const auto found = look_closer(coarse->scene, model, state, false, {},
-                                 {nearest_node(model.parts().mesh, body.probe)});
+  const auto found =
+      look_closer(coarse->scene, model, state, false, {}, {nearest_node(model.parts().mesh, body.probe)});
   ASSERT_TRUE(found.error.by_finer_elements);
   const double computed = moved(*coarse, q), error = moved(*fine, fine_q) - computed;
   const double energy = model.evaluate("energy.elastic", state)[0];
   const double all = fine->built.model->evaluate("energy.elastic", {0, fine_q, Vector::Zero(fine_q.size())})[0];
-  RecordProperty("effectivity", fmt::format("{:.2f} {:.2f}", found.displacements[0][body.component] / error, found.error.relative / (1 - energy / all)));
-  std::printf("%s: computed %g error %g told %g (%.2f); energy %g told %g (%.2f) recovered %g\n", body.name, computed, error,
-              found.displacements[0][body.component], found.displacements[0][body.component] / error, 1 - energy / all, found.error.relative,
-              found.error.relative / (1 - energy / all), model.evaluate("energy.mesh_error", state)[0] / energy);
+  RecordProperty("effectivity", fmt::format("{:.2f} {:.2f}", found.displacements[0][body.component] / error,
+                                            found.error.relative / (1 - energy / all)));
+  std::printf("%s: computed %g error %g told %g (%.2f); energy %g told %g (%.2f) recovered %g\n", body.name, computed,
+              error, found.displacements[0][body.component], found.displacements[0][body.component] / error,
+              1 - energy / all, found.error.relative, found.error.relative / (1 - energy / all),
+              model.evaluate("energy.mesh_error", state)[0] / energy);
   EXPECT_GT(found.displacements[0][body.component] / error, 0.7);
   EXPECT_LT(found.displacements[0][body.component] / error, 1.5);
   EXPECT_GT(found.error.relative / (1 - energy / all), 0.7);
@@ -104,9 +106,9 @@ TEST_P(Locking, IsSeenByFinerElements) {
 
 TEST(LockingFrequencies, AreSeenByFinerElements) {
   const auto analyse = [](const std::string& cells, const std::string& more) {
-    const orthodyn::Setup setup = set_up(Config::from_text(
-        "mesh: {type: box, size: [0.4, 0.3, 0.003], cells: " + cells + "}\nmaterials: {m: " + kSpruce +
-        "}\ntime: {end: 1}\n" + more));
+    const orthodyn::Setup setup =
+        set_up(Config::from_text("mesh: {type: box, size: [0.4, 0.3, 0.003], cells: " + cells +
+                                 "}\nmaterials: {m: " + kSpruce + "}\ntime: {end: 1}\n" + more));
     const ModalAnalysis analysis(setup, 9, false);
     std::vector<std::pair<double, double>> out;
     for (std::size_t k = static_cast<std::size_t>(analysis.modes().zeros); k < 9; ++k)
@@ -119,7 +121,8 @@ TEST(LockingFrequencies, AreSeenByFinerElements) {
     const auto fine = analyse("[28, 21, 1]", more), coarse = analyse("[8, 6, 1]", more);
     for (std::size_t k = 0; k < 3; ++k) {
       const double error = coarse[k].first / fine[k].first - 1;
-      std::printf("mode %zu: %g, error %g told %g (%.2f)\n", k, coarse[k].first, error, coarse[k].second, coarse[k].second / error);
+      std::printf("mode %zu: %g, error %g told %g (%.2f)\n", k, coarse[k].first, error, coarse[k].second,
+                  coarse[k].second / error);
       EXPECT_GT(coarse[k].second / error, 0.7);
       EXPECT_LT(coarse[k].second / error, 1.5);
     }
@@ -133,15 +136,17 @@ std::string blind(const std::string& scene, bool by_finer_elements) {
 }
 
 TEST(BlindSpot, IsNamedWhereRecoveredStressesCannotSee) {
-  const std::string plate = block("[0.4, 0.3, 0.003]", kSpruce, kPressed), beam = block("[1, 0.1, 0.1]", kSpruce, kBent);
+  const std::string plate = block("[0.4, 0.3, 0.003]", kSpruce, kPressed),
+                    beam = block("[1, 0.1, 0.1]", kSpruce, kBent);
   EXPECT_NE(blind(with(plate, "[8, 6, 1]", 2), false).find("times as wide as thick, and the body bends"),
             std::string::npos);
   EXPECT_EQ(blind(with(plate, "[8, 6, 1]", 2), true), "");  // they see it
   EXPECT_EQ(blind(with(beam, "[10, 1, 1]", 2), false), "");
   // Pulled, not bent: nothing locks.
-  const std::string pulled = block("[0.4, 0.3, 0.003]", isotropic(0.3),
-                                   "clamps: [{surface: x0, components: [x]}, {surface: y0, components: [y]}, {surface: z0, "
-                                   "components: [z]}]\nloads: [{surface: x1, traction: [1, 0, 0]}]\n");
+  const std::string pulled =
+      block("[0.4, 0.3, 0.003]", isotropic(0.3),
+            "clamps: [{surface: x0, components: [x]}, {surface: y0, components: [y]}, {surface: z0, "
+            "components: [z]}]\nloads: [{surface: x1, traction: [1, 0, 0]}]\n");
   EXPECT_EQ(blind(with(pulled, "[8, 6, 1]", 2), false), "");
 }
 
@@ -151,8 +156,9 @@ TEST(BlindSpot, IsNamedOfLawsThatAreFarStifferInOneWay) {
             std::string::npos);
   EXPECT_EQ(blind(with(body(isotropic(0.4999)), "[5, 1, 1]", 1), true), "");
   EXPECT_EQ(blind(with(body(isotropic(0.3)), "[5, 1, 1]", 1), false), "");
-  const char* const fibres = "{type: orthotropic, density: 400, young: [1e12, 1e8, 1e8], nu12: 0.3, nu23: 0.3, nu13: "
-                             "0.3, g12: 5e7, g23: 4e7, g13: 5e7}";
+  const char* const fibres =
+      "{type: orthotropic, density: 400, young: [1e12, 1e8, 1e8], nu12: 0.3, nu23: 0.3, nu13: "
+      "0.3, g12: 5e7, g23: 4e7, g13: 5e7}";
   for (const bool by_finer : {false, true})
     EXPECT_NE(blind(with(body(fibres), "[5, 1, 1]", 2), by_finer).find("along its stiffest direction"),
               std::string::npos);

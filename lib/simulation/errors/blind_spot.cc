@@ -62,7 +62,8 @@ Bending bending(const FemModel& model, const State& state) {
     for (int k = 0; k < term->size(); ++k) {
       const auto own = strains.middleCols(points * k, points);
       const Vec6 mean = own.rowwise().mean();
-      const double volume = std::abs(signed_volume6(parts.mesh, parts.mesh.tets[static_cast<std::size_t>(term->cell(k))]));
+      const double volume =
+          std::abs(signed_volume6(parts.mesh, parts.mesh.tets[static_cast<std::size_t>(term->cell(k))]));
       const double square = volume * own.squaredNorm();
       all += square;
       varying += volume * (own.colwise() - mean).squaredNorm();
@@ -77,11 +78,12 @@ std::string flat_cells(const FemModel& model, const State& state) {
   const auto [share, flatness] = bending(model, state);
   const int order = model.parts().mesh.order();
   if (!(flatness > kFlat) || (order == 2 && share < kBends)) return "";
-  return fmt::format("cells are {:.0f} times as wide as thick{}: {} tetrahedra are then too stiff all alike (they lock), "
-                     "and the true error may be several times the estimate. Make cells narrower{}, or see with "
-                     "orthodyn converge",
-                     flatness, order == 1 ? ", and where the body bends" : ", and the body bends",
-                     order == 1 ? "linear" : "quadratic", order == 1 ? ", take mesh.order: 2" : "");
+  return fmt::format(
+      "cells are {:.0f} times as wide as thick{}: {} tetrahedra are then too stiff all alike (they lock), "
+      "and the true error may be several times the estimate. Make cells narrower{}, or see with "
+      "orthodyn converge",
+      flatness, order == 1 ? ", and where the body bends" : ", and the body bends", order == 1 ? "linear" : "quadratic",
+      order == 1 ? ", take mesh.order: 2" : "");
 }
 
 std::string stiff_law(const FemModel& model, bool by_finer_elements) {
@@ -90,14 +92,16 @@ std::string stiff_law(const FemModel& model, bool by_finer_elements) {
     const auto [ratio, volumetric] = contrast(term->stiffness());
     if (by_finer_elements && volumetric) continue;
     if (ratio < (volumetric ? stiff_volume(order) : stiff_direction(order))) continue;
-    return fmt::format("region '{}' is {:.0f} times as stiff {} as in its softest shear: {} tetrahedra are then too "
-                       "stiff all alike (they lock), and the true error may be {} the estimate. {}, or see with "
-                       "orthodyn converge",
-                       term->region(), ratio, volumetric ? "against a change of volume" : "along its stiffest direction",
-                       order == 1 ? "linear" : "quadratic",
-                       by_finer_elements ? "two or three times" : "many times",
-                       order == 1 ? "Take mesh.order: 2" : volumetric ? "Take a smaller nu if it is not meant so, finer "
-                                                                        "cells" : "Take finer cells");
+    return fmt::format(
+        "region '{}' is {:.0f} times as stiff {} as in its softest shear: {} tetrahedra are then too "
+        "stiff all alike (they lock), and the true error may be {} the estimate. {}, or see with "
+        "orthodyn converge",
+        term->region(), ratio, volumetric ? "against a change of volume" : "along its stiffest direction",
+        order == 1 ? "linear" : "quadratic", by_finer_elements ? "two or three times" : "many times",
+        order == 1   ? "Take mesh.order: 2"
+        : volumetric ? "Take a smaller nu if it is not meant so, finer "
+                       "cells"
+                     : "Take finer cells");
   }
   return "";
 }

@@ -1,5 +1,5 @@
-// What an estimate of the mesh's error may not see: cells and laws for which elements lock, all in the same way, so that
-// stresses agree from one to the next and are wrong together.
+// What an estimate of the mesh's error may not see: cells and laws for which elements lock, all in the same way, so
+// that stresses agree from one to the next and are wrong together.
 #pragma once
 
 #include <string>

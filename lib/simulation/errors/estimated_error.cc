@@ -132,9 +132,8 @@ std::string frequency_warning(const FrequencyErrors& errors, int order) {
     return fmt::format("mode {} about {:.2g} % too {}", mode - errors.shares.begin() + 1, 100 * std::abs(*mode),
                        *mode > 0 ? "high" : "low");
   };
-  return fmt::format("the mesh is coarse for {} of {} frequencies: {}{}. {}, and compare", count,
-                     errors.shares.size(), in_words(first), worst == first ? "" : ", " + in_words(worst),
-                     finer_mesh(order));
+  return fmt::format("the mesh is coarse for {} of {} frequencies: {}{}. {}, and compare", count, errors.shares.size(),
+                     in_words(first), worst == first ? "" : ", " + in_words(worst), finer_mesh(order));
 }
 
 }  // namespace orthodyn

@@ -96,7 +96,8 @@ FinerModel::Rows FinerModel::nodal_lift(const TetMesh& fine) const {
     for (std::size_t e = 0; e < kTetEdges.size(); ++e) {
       const int node = cells[k][4 + e];
       if (std::exchange(known[static_cast<std::size_t>(node)], 1)) continue;
-      const Barycentric L = (place_in(parent, cells[k][kTetEdges[e][0]]) + place_in(parent, cells[k][kTetEdges[e][1]])) / 2;
+      const Barycentric L =
+          (place_in(parent, cells[k][kTetEdges[e][0]]) + place_in(parent, cells[k][kTetEdges[e][1]])) / 2;
       const Vector shape = mesh.order() == 1 ? Vector(L) : Vector(Tet10::shape(L));
       for (std::size_t a = 0; a < parent.size(); ++a)
         if (const double value = shape[static_cast<Eigen::Index>(a)]; value != 0)

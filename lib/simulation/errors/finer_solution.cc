@@ -14,12 +14,13 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kAccuracy = 0.02;    // of the correction's energy
+constexpr double kAccuracy = 0.02;  // of the correction's energy
 constexpr int kMostIterations = 300;
 constexpr double kFreeShift = 1e-10;  // of the largest squared frequency: makes the stiffness of a free body definite
 
 // Energies of errors decline with the size of cells by its power of 1 (edges, corners) to 4 (smooth, quadratic): of
-// quadratic elements divided in two 1/2 to 15/16 is seen. Quadratic elements in the place of linear ones see nearly all.
+// quadratic elements divided in two 1/2 to 15/16 is seen. Quadratic elements in the place of linear ones see nearly
+// all.
 double beyond(int order) { return order == 1 ? 1 : 4.0 / 3; }
 
 // On a model's pattern. Without a shift they are the same.
@@ -49,11 +50,12 @@ class FinerSystem {
     if (coarse_->factor(small.shifted.data()) != FactorStatus::ok)
       throw RunError("the tangent cannot be factorised: it is singular or unstable");
     values_ = matrices(finer.model(), coarse.t, q_, shift);
-    solver_ = std::make_unique<TwoLevelSolver>(finer.model().pattern(), values_.shifted, [this](const ConstVectorRef& b) {
-      Vector x = finer_.lower(b);
-      coarse_->solve(x, x);
-      return finer_.lift(x);
-    });
+    solver_ =
+        std::make_unique<TwoLevelSolver>(finer.model().pattern(), values_.shifted, [this](const ConstVectorRef& b) {
+          Vector x = finer_.lower(b);
+          coarse_->solve(x, x);
+          return finer_.lift(x);
+        });
   }
 
   TwoLevelSolver::Solution solve(const Vector& b) const { return solver_->solve(b, kAccuracy, kMostIterations); }

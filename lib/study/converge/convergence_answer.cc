@@ -39,8 +39,7 @@ std::string answer(const Json& figure, const std::optional<FinestMesh>& finest, 
   }
   if (!finest) return fmt::format("{} is not known: no mesh has it", name);
   return fmt::format("{} has no limit yet: {}. The finest mesh gives {}{}", name,
-                     figure.at("why_no_limit").get<std::string>(),
-                     with_unit(finest->value, finest->mesh_error, unit),
+                     figure.at("why_no_limit").get<std::string>(), with_unit(finest->value, finest->mesh_error, unit),
                      std::isfinite(finest->mesh_error)
                          ? fmt::format(", whose error by the mesh is estimated at {:.2g} %", 100 * finest->mesh_error)
                          : ", of which no estimate of the error is at hand");

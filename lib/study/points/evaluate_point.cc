@@ -128,7 +128,7 @@ class Evaluation {
     const FrequencyErrors errors = frequency_errors_of(scene, *built.model, about, found.modes);
     for (std::size_t k = 0; k < names.size(); ++k)
       if (found.chosen[k]) result_.figure_errors.emplace_back(names[k], errors.shares[*found.chosen[k]]);
-    if (const std::string warning = blindness_warning(errors.blind); !warning.empty()) result_.warnings.push_back(warning);
+    if (!errors.blind.empty()) result_.warnings.push_back(blindness_warning(errors.blind));
     diagnostics_cpu_ += cpu_seconds_now() - cpu;
     diagnostics_wall_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
