@@ -28,6 +28,12 @@ void refuse_assignment(const std::string& text) {
   }
 }
 
+// As in Python and Fortran.
+void refuse_double_star(const std::string& text) {
+  if (text.find("**") != std::string::npos)
+    throw std::invalid_argument("A power is written ^, as in sin(t)^2, not **.");
+}
+
 // muParser ends some of its messages with a full stop, others without.
 std::string as_sentence(const std::string& message) { return message.ends_with('.') ? message : message + "."; }
 
@@ -64,6 +70,7 @@ Formula::Formula(const std::string& text, const std::vector<std::string>& variab
     parser.DefineConst("e", std::numbers::e);
     for (std::size_t i = 0; i < variables.size(); ++i) parser.DefineVar(variables[i], &parsed->variables[i]);
     refuse_assignment(text);
+    refuse_double_star(text);
     parser.SetExpr(text);
     parser.Eval();
     if (parser.GetNumResults() > 1)

@@ -62,6 +62,15 @@ std::string place_below(const Key& key) {
 
 std::string belongs_below(const std::string& section) { return "; it belongs below " + section + ": indent it."; }
 
+// `{density: 400,5}`: the digits behind a comma are a key without a value.
+std::string decimal_comma(const std::string& name, const Config& section, const std::string& before) {
+  const bool is_digits = !name.empty() && name.find_first_not_of("0123456789") == std::string::npos;
+  if (!is_digits || before.empty() || !section.at(name).is_null() || !section.at(before).is_scalar()) return "";
+  const std::string text = section.at(before).text();
+  if (!section.at(before).reads_as_number() || text.find('.') != std::string::npos) return "";
+  return "; is it meant as '" + before + ": " + text + "." + name + "'? A comma separates keys; decimals have a point.";
+}
+
 // "; it belongs below 'mesh': indent it.", or else a name that is near. Where the key before it is empty, that is its
 // section.
 std::string hint_for(const std::string& name, const Config& section, const std::string& before,
@@ -73,6 +82,8 @@ std::string hint_for(const std::string& name, const Config& section, const std::
     if (key.name == before && !is_given(section, before)) return belongs_below(place_below(key));
     if (name != "type") holders.push_back(place_below(key));
   }
+  if (const std::string hint = decimal_comma(name, section, before); !hint.empty()) return hint;
+  if (const std::string hint = hint_for_foreign_key(name, known); !hint.empty()) return hint;
   if (holders.empty() || holders.size() > kMostHolders) return did_you_mean(name, known, ".");
   return belongs_below(join(holders, " or "));
 }

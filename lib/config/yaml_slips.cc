@@ -149,4 +149,32 @@ bool is_key_with_value(const YAML::Node& key, const YAML::Node& value) {
   return value.IsNull() || std::string("[{\"'").find(text[colon + 1]) != std::string::npos;
 }
 
+namespace {
+
+struct ForeignKey {
+  const char *name, *here, *hint;  // of sections that have the key `here`
+};
+
+constexpr const char* kRatio =
+    "; a damping ratio xi at the frequency f (Hz) is stiffness: xi/(pi f), in s, or mass: 4 pi f xi, in 1/s.";
+
+constexpr ForeignKey kForeignKeys[] = {
+    {"ratio", "stiffness", kRatio},
+    {"damping_ratio", "stiffness", kRatio},
+    {"zeta", "stiffness", kRatio},
+    {"xi", "stiffness", kRatio},
+    {"alpha", "mass", "; Rayleigh's alpha is 'mass', 1/s."},
+    {"beta", "mass", "; Rayleigh's beta is 'stiffness', s."},
+    {"rho", "density", "; the density is 'density', kg/m^3."},
+    {"E", "young", "; Young's modulus is 'young', Pa."},
+};
+
+}  // namespace
+
+std::string hint_for_foreign_key(const std::string& name, const std::vector<std::string>& known) {
+  for (const ForeignKey& key : kForeignKeys)
+    if (name == key.name && std::find(known.begin(), known.end(), key.here) != known.end()) return key.hint;
+  return "";
+}
+
 }  // namespace orthodyn

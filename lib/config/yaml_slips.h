@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "lib/config/yaml_document.h"
 
@@ -21,5 +22,9 @@ void refuse_open_bracket(const std::string& text, const std::string& file, const
 
 // A key such as "end:0.1" or "clamps:[{surface", which can only be a key and the beginning of its value.
 bool is_key_with_value(const YAML::Node& key, const YAML::Node& value);
+
+// Of keys that other programs have: "; a damping ratio ... is stiffness: ..." for an unknown key of a section with the
+// keys `known`; "" where nothing is known of it.
+std::string hint_for_foreign_key(const std::string& name, const std::vector<std::string>& known);
 
 }  // namespace orthodyn

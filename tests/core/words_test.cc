@@ -19,6 +19,10 @@ TEST(DidYouMean, NamesTheNearest) {
   EXPECT_EQ(did_you_mean("shearfactor", names), "; did you mean 'shear_factor'?");
 }
 
+TEST(DidYouMean, TakesASwapOfNeighboursForOneChange) {
+  EXPECT_EQ(did_you_mean("g31", {"nu31", "g12", "g23", "g13"}), "; did you mean 'g13'?");
+}
+
 TEST(DidYouMean, NamesNothingThatIsFar) {
   EXPECT_EQ(did_you_mean("gravity", {"density", "young"}), "");
   EXPECT_EQ(did_you_mean("gravity", {"density", "young"}, "."), ".");

@@ -297,6 +297,54 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"a_largest_step_of_nothing", kRtol, "rtol: 1e-4, h_max: 1e-12", kWarned, "such steps"}),
     [](const auto& slip) { return slip.param.name; });
 
+// A strip of spruce, of nine constants.
+const std::string kStrip = R"(mesh: {type: box, size: [1, 0.05, 0.01], cells: [4, 1, 1]}
+materials:
+  spruce: {type: orthotropic, density: 400, young: [10.8e9, 0.84e9, 0.46e9], nu12: 0.44, nu23: 0.44, nu13: 0.45,
+           g12: 0.69e9, g23: 0.032e9, g13: 0.66e9}
+regions: {body: {material: spruce, axes: {first: [1, 0, 0], second: [0, 1, 0]}}}
+clamps: [{surface: x0}]
+loads: [{surface: x1, force: [0, 0, -1]}]
+time: {end: 0.1}
+)";
+
+class SlipsOfAStrip : public testing::TestWithParam<Slip> {};
+
+TEST_P(SlipsOfAStrip, AreNamed) {
+  const Slip& slip = GetParam();
+  const Said said = said_of(replaced(kStrip, slip.from, slip.to));
+  EXPECT_EQ(said.refused, slip.refused) << said.words;
+  EXPECT_THAT(said.words, AllOf(HasSubstr(slip.says), HasSubstr("scene.yaml:")));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, SlipsOfAStrip,
+    testing::Values(
+        Slip{"no_clamps", "clamps: [{surface: x0}]\n", "", kWarned, "Is a clamp missing?"},
+        Slip{"the_other_ratio_of_a_pair", "nu13: 0.45", "nu13: 0.0225", kWarned,
+             "is it nu31 that is 0.0225? Then nu13 is 0.528"},
+        Slip{"grain_through_the_thickness", "first: [1, 0, 0], second: [0, 1, 0]", "first: [0, 0, 1], second: [1, 0, 0]",
+             kWarned, "points through the body, along z"},
+        Slip{"the_other_name_of_a_shear_modulus", "g13: 0.66e9", "g31: 0.66e9", kRefused, "did you mean 'g13'?"},
+        Slip{"a_decimal_comma", "density: 400", "density: 400,5", kRefused, "is it meant as 'density: 400.5'?"},
+        Slip{"a_damping_ratio_by_name", "time: {end: 0.1}", "time: {end: 0.1}\ndamping: {ratio: 0.02}", kRefused,
+             "stiffness: xi/(pi f)"},
+        Slip{"a_power_as_in_python", "force: [0, 0, -1]",
+             "force: [0, 0, -1], factor: {type: expression, formula: \"sin(t)**2\"}", kRefused,
+             "A power is written ^"},
+        Slip{"an_end_in_ms", "end: 0.1", "end: 200", kWarned, "in ms?"}),
+    [](const auto& slip) { return slip.param.name; });
+
+TEST(Slips, AreNoneOfAStripOrOfABlowToAFreeBody) {
+  EXPECT_EQ(said_of(kStrip).words, "");
+  const std::string free = replaced(kStrip, "clamps: [{surface: x0}]\n", "");
+  EXPECT_EQ(said_of(replaced(free, "force: [0, 0, -1]",
+                             "force: [0, 0, -1], factor: {type: table, points: [[0, 0], [0.001, 1], [0.002, 0]]}")).words,
+            "");
+  EXPECT_EQ(said_of(replaced(free, "loads: [{surface: x1, force: [0, 0, -1]}]",
+                             "loads: [{surface: x1, force: [1, 0, 0]}, {surface: x0, force: [-1, 0, 0]}]")).words, "");
+}
+
 TEST(Slips, AreNoneWhereOnlyAnotherSurfaceIsBelowTheGround) {
   const std::string ground = "terms: [{type: ground, surface: z1, point: [0, 0, 0.05], stiffness: 1e6}]";
   EXPECT_EQ(said_of(replaced(kCantilever, kLoad, ground)).words, "");

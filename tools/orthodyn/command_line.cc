@@ -55,6 +55,28 @@ std::optional<std::string> unknown_command(const CLI::App& program) {
   return {};
 }
 
+// "--n" of a command that has "-n".
+std::string nearest_option(const std::string& word, const CLI::App& command) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_snames())
+      if (word == "--" + name) return fmt::format("; did you mean '-{}'?", name);
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  return did_you_mean(word, known, ".");
+}
+
+// A word with dashes that the command does not know.
+std::optional<std::string> unknown_option(const CLI::App& program) {
+  if (program.get_subcommands().empty()) return {};
+  const CLI::App& command = *program.get_subcommands().front();
+  for (const std::string& word : program.remaining(true))
+    if (word.starts_with("-") && word.size() > 1)
+      return fmt::format("error: {} has no option '{}'{} See orthodyn {} --help.\n", command.get_name(), word,
+                         nearest_option(word.substr(0, word.find('=')), command), command.get_name());
+  return {};
+}
+
 Answer answer_of(const CLI::App& program, const CLI::ParseError& e) {
   std::ostringstream out, err;
   const int code = program.exit(e, out, err) == 0 ? 0 : 2;
@@ -134,6 +156,8 @@ CommandLine parse_command_line(int argc, char** argv) {
     if (const auto word = unknown_command(program))
       out.answer = {2, "", fmt::format("error: there is no command '{}'{} Known: {}.\n", *word,
                                        did_you_mean(*word, command_names(), "."), join(command_names()))};
+    else if (const auto sentence = unknown_option(program))
+      out.answer = {2, "", *sentence};
     else
       out.answer = answer_of(program, e);
   }

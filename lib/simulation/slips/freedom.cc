@@ -54,11 +54,39 @@ Way carried_away(const Subject& subject) {
   return {farthest / total_mass(*subject.built.model), last};
 }
 
+// A load that does not end, nor turn around, within the run: a blow does. Loads that hold each other are none together.
+bool is_steady(const Subject& subject, const Vec3& last) {
+  constexpr double kNone = 1e-6;
+  double largest = 0, smallest_along = last.norm();
+  int after_start = 0;
+  visit_times(subject, [&](double t) {
+    const Vec3 now = total_load(subject, t);
+    largest = std::max(largest, now.norm());
+    if (t > (subject.start() + subject.end()) / 2) {
+      ++after_start;
+      smallest_along = std::min(smallest_along, now.dot(last.stableNormalized()));
+    }
+  });
+  const auto& parts = subject.built.model->parts();
+  NodalVector f = NodalVector::Zero(3, static_cast<Eigen::Index>(parts.mesh.nodes.size()));
+  const NodalExpansion nodal(parts, subject.end(), subject.built.initial.q,
+                             Vector::Zero(subject.built.model->num_dofs()));
+  for (const auto& load : parts.loads)
+    if (load->energy_kind() != EnergyKind::gravitational) load->add_force(nodal.state(), f);
+  const double held_by_each_other = kNone * f.colwise().norm().sum();
+  return after_start > 0 && last.norm() > held_by_each_other && smallest_along > largest / 2;
+}
+
 void add_drift_slip(const Subject& subject, Warnings& out) {
   const Scene& scene = subject.scene;
   if (!subject.moves() || subject.held() || scene.loads.empty() || !scene.terms.empty() || !scene.motions.empty())
     return;
   const auto [way, until] = carried_away(subject);
+  const Vec3 last = total_load(subject, subject.end());
+  if (way <= kFarAway * subject.extent && is_steady(subject, last))
+    out.push_back(fmt::format("{}: nothing holds the body, and they push it to the end, with {:.3g} N in all: it is "
+                              "carried away ({:.2g} m until {:.4g} s) rather than bent. Is a clamp missing?",
+                              subject.config.at("loads").where(), last.norm(), way, until));
   if (way > kFarAway * subject.extent)
     out.push_back(fmt::format("{}: nothing holds the body, and they carry it {:.3g} m away until {:.4g} s, {:.0f} "
                               "times its length: is a clamp missing?", subject.config.at("loads").where(), way,

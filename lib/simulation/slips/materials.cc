@@ -70,6 +70,33 @@ std::string odd_modulus(const Config& material) {
   return odd.empty() ? odd_unit(shear) : odd;
 }
 
+// nu13 of a table that means nu31, which is less by E3/E1: then it is as small as that, and the others are not.
+std::string swapped_ratio(const Config& material) {
+  constexpr double kStiffer = 5, kSmall = 0.1, kLeastUsual = 0.15, kMostUsual = 0.8;
+  if (!material.has("young") || !material.at("young").is_sequence() || material.at("young").size() != 3) return "";
+  const auto number = [&](int i, int j) -> std::optional<double> {
+    const auto given = value_at(material, {fmt::format("nu{}{}", i, j)});
+    if (!given || !given->reads_as_number()) return {};
+    return given->number();
+  };
+  const auto young = [&](int i) {
+    return read_number(material.at("young").at(static_cast<std::size_t>(i - 1)), {.unit = "Pa"});
+  };
+  std::string found;
+  bool others_are_usual = false;
+  for (int i = 1; i <= 3; ++i)
+    for (int j = 1; j <= 3; ++j) {
+      const auto nu = i == j ? std::nullopt : number(i, j);
+      if (!nu) continue;
+      const double ratio = young(i) / young(j), meant = *nu * ratio;
+      others_are_usual = others_are_usual || (ratio > 1 && *nu > kLeastUsual);
+      if (ratio > kStiffer && *nu > 0 && *nu < kSmall && meant > kLeastUsual && meant < kMostUsual)
+        found = fmt::format("nu{0}{1} = {2:.4g} makes nu{1}{0} {3:.2g}, for nu{0}{1}/E{0} = nu{1}{0}/E{1}: is it nu{1}{0} "
+                            "that is {2:.4g}? Then nu{0}{1} is {4:.3g}", i, j, *nu, *nu / ratio, meant);
+    }
+  return others_are_usual ? found : "";
+}
+
 // `given`: as the user wrote it, if he did.
 std::string dense_slip(double density, const std::optional<Config>& given) {
   const auto parts = given && given->is_scalar() && !given->reads_as_number() ? split_quantity(given->text())
@@ -96,6 +123,8 @@ std::string wave_slip(double wave, double density, double stiffest) {
 std::string slip_of(const Material& material, const std::optional<Config>& given) {
   if (given)
     if (const std::string odd = odd_modulus(*given); !odd.empty()) return odd;
+  if (given)
+    if (const std::string swapped = swapped_ratio(*given); !swapped.empty()) return swapped;
   const double density = material.density(), wave = fastest_wave(material);
   const Vec6 lambda = symmetric_eigenvalues(voigt(material.stiffness()));
   const double stiffest = lambda.maxCoeff(), softest = lambda.minCoeff();

@@ -1,9 +1,12 @@
 // Lengths that do not go with the body: its own size, and points that are far outside of it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "lib/axes/axes_source.h"
+#include "lib/scene/region.h"
 #include "lib/simulation/slips/subject.h"
 
 namespace orthodyn::slip {
@@ -79,6 +82,33 @@ void add_direction_slips(const Subject& subject, Warnings& out) {
   });
 }
 
+// Of a body of one material, along one direction: boards, strips and plates are not cut with the grain through them.
+void add_grain_slip(const Subject& subject, Warnings& out) {
+  constexpr double kFarStiffer = 5, kFarThinner = 2, kAlong = 0.95;
+  if (subject.scene.regions.size() != 1) return;
+  const auto& [name, region] = *subject.scene.regions.begin();
+  const auto& terms = subject.built.model->parts().elastic;
+  if (!region.axes || !region.axes->uniform() || terms.empty()) return;
+  const Mat6 C = voigt(material_in(subject.scene, terms.front()->region()).stiffness());
+  const Vec3 young = Mat6(C.inverse()).diagonal().head<3>().cwiseInverse();
+  const Vec3 size = subject.box.size();
+  int grain = 0, thin = 0;
+  young.maxCoeff(&grain);
+  size.minCoeff(&thin);
+  const int a = (grain + 1) % 3, b = (grain + 2) % 3;
+  const double stiffer = young[grain] / std::max(young[a], young[b]);
+  const double thinner = std::min(size[(thin + 1) % 3], size[(thin + 2) % 3]) / size[thin];
+  if (!(stiffer > kFarStiffer) || !(thinner > kFarThinner)) return;
+  Warnings notes;
+  const TetMesh& mesh = subject.built.model->parts().mesh;
+  const Vec3 direction = region.axes->field(mesh, notes)(centroid(mesh, 0), 0).col(grain);
+  if (std::abs(direction[thin]) < kAlong) return;
+  out.push_back(fmt::format("{}: axis {}, {:.2g} times as stiff as the others, points through the body, along {}, where "
+                            "it is {:.3g} m thin: boards and strips have the grain along them. Are 'first' and 'second' "
+                            "of 'axes' as you mean them?", subject.config.at("regions").where(), grain + 1, stiffer,
+                            "xyz"[thin], size[thin]));
+}
+
 void add_repeated_clamps(const Subject& subject, Warnings& out) {
   if (!subject.config.has("clamps")) return;
   const Config clamps = subject.config.at("clamps");
@@ -98,6 +128,7 @@ void add_place_slips(const Subject& subject, Warnings& out) {
   add_anchor_slips(subject, out);
   add_angle_slips(subject, out);
   add_direction_slips(subject, out);
+  add_grain_slip(subject, out);
   add_repeated_clamps(subject, out);
   const TetMesh& mesh = subject.built.model->parts().mesh;
   const auto check = [&](const Config& place, const std::string& what, const Vec3& point) {

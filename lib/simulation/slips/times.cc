@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kShortest = 1e-2;  // of the time that a wave takes along the body
 constexpr double kLongest = 1e9;
-constexpr double kMostPeriods = 3000;  // of bending
+constexpr double kMostPeriods = 1000;  // of bending
 constexpr double kLongRun = 10;        // s
 constexpr double kEarly = 0.01;        // of the run
 constexpr double kFewest = 0.01, kMost = 1e6;  // cycles of a sine
