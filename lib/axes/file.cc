@@ -1,4 +1,6 @@
 // `axes: {type: file}`: the axes of each element from a file, as measured or as computed elsewhere.
+#include <cmath>
+
 #include "lib/axes/axes_rows.h"
 #include "lib/axes/axes_source.h"
 #include "lib/axes/frame.h"
@@ -29,14 +31,17 @@ class AxesFile : public AxesSource {
     const AxesRows given = read_axes_rows(file_);
     // Rows of CSV stand for the elements of the mesh file, from which several tets may have been cut.
     const std::vector<int> cell_of = given.mesh ? std::vector<int>{} : mesh.cell_of;
-    const auto num_elements = cell_of.empty() ? mesh.tets.size() : static_cast<std::size_t>(cell_of.back()) + 1;
+    const auto num_elements = given.mesh        ? given.mesh->tets.size()
+                              : cell_of.empty() ? mesh.tets.size()
+                                                : static_cast<std::size_t>(cell_of.back()) + 1;
     if (given.every && given.rows.size() != num_elements)
       throw ConfigError(
           given.path,
           fmt::format("{} rows for a mesh of {} elements{}; give one for each, or a column 'element'",
                       given.rows.size(), num_elements,
                       cell_of.empty() ? "" : fmt::format(" (split into {} tetrahedra)", mesh.tets.size())));
-    if (given.mesh) check_same_mesh(given, mesh);
+    const std::size_t children = given.mesh ? children_in(given, mesh) : 1;
+    if (given.mesh) check_same_mesh(given, mesh, children);
     auto axes = std::make_shared<std::vector<Mat3>>(num_elements, Mat3::Zero());
     for (const auto& row : given.rows) {
       if (static_cast<std::size_t>(row.element) >= num_elements)
@@ -48,8 +53,9 @@ class AxesFile : public AxesSource {
       Q = rotation(given, row);
     }
     note_repairs(given, notes);
-    return [this, axes, cell_of](const Vec3&, int tet) {
-      const int element = cell_of.empty() ? tet : cell_of[static_cast<std::size_t>(tet)];
+    return [this, axes, cell_of, children](const Vec3&, int tet) {
+      const int element =
+          cell_of.empty() ? tet / static_cast<int>(children) : cell_of[static_cast<std::size_t>(tet)];
       const Mat3& Q = (*axes)[static_cast<std::size_t>(element)];
       if (Q.isZero(0))
         throw ConfigError(file_.where, fmt::format("{} has no row for element {}", file_.path, element));
@@ -58,23 +64,44 @@ class AxesFile : public AxesSource {
   }
 
  private:
-  // That elements lie in the same places up to a shift and a scale (`scale: 0.001` of a mesh in mm).
-  static void check_same_mesh(const AxesRows& given, const TetMesh& mesh) {
-    const int count = static_cast<int>(mesh.tets.size());
-    const auto extent = [&](const TetMesh& m) {
-      Box box{centroid(m, 0), centroid(m, 0)};
-      for (int e = 1; e < count; ++e) {
-        const Vec3 c = centroid(m, e);
+  // Into how many each of the file's tets was divided by `refine`: 1, 8, 64, ...; the children of tet k follow each other
+  // (lib/mesh/refine.h).
+  static std::size_t children_in(const AxesRows& given, const TetMesh& mesh) {
+    const std::size_t there = given.mesh->tets.size(), here = mesh.tets.size();
+    std::size_t children = 1;
+    while (there * children < here) children *= 8;
+    if (there * children != here)
+      throw ConfigError(given.path, fmt::format("{} tetrahedra for a mesh of {}; the axes are of another mesh", there, here));
+    return children;
+  }
+
+  // The mean of the corners of a tet, or of the children of one. Those of straight edges have the same: the four at the
+  // corners lie around it, and so do the four of the octahedron between them.
+  static Vec3 centre(const TetMesh& mesh, std::size_t tet, std::size_t children) {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t k = 0; k < children; ++k) sum += centroid(mesh, static_cast<int>(tet * children + k));
+    return sum / static_cast<double>(children);
+  }
+
+  // That elements lie in the same places up to a shift and a scale (`scale: 0.001` of a mesh in mm). Curved edges shift
+  // the children by less than a quarter of an element.
+  static void check_same_mesh(const AxesRows& given, const TetMesh& mesh, std::size_t children) {
+    const std::size_t count = given.mesh->tets.size();
+    if (count < 2) return;
+    const auto extent = [&](const TetMesh& m, std::size_t of_each) {
+      Box box{centre(m, 0, of_each), centre(m, 0, of_each)};
+      for (std::size_t e = 1; e < count; ++e) {
+        const Vec3 c = centre(m, e, of_each);
         box = {box.min.cwiseMin(c), box.max.cwiseMax(c)};
       }
       return box;
     };
-    const Box there = extent(*given.mesh), here = extent(mesh);
-    if (count < 2) return;
-    for (int e = 0; e < count; ++e) {
-      const Vec3 a = (centroid(*given.mesh, e) - there.min) / there.diagonal(),
-                 b = (centroid(mesh, e) - here.min) / here.diagonal();
-      if (!((a - b).norm() < 1e-4))
+    const Box there = extent(*given.mesh, 1), here = extent(mesh, children);
+    for (std::size_t e = 0; e < count; ++e) {
+      const Vec3 a = (centre(*given.mesh, e, 1) - there.min) / there.diagonal(),
+                 b = (centre(mesh, e, children) - here.min) / here.diagonal();
+      const double size = std::cbrt(std::abs(signed_volume6(*given.mesh, given.mesh->tets[e]))) / there.diagonal();
+      if (!((a - b).norm() < (children == 1 ? 1e-4 : std::max(1e-4, 0.25 * size))))
         throw ConfigError(given.path,
                           fmt::format("cell {} is not where element {} of the scene's mesh is; the axes are of another "
                                       "mesh, or its elements or nodes have another order",

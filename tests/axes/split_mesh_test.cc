@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "lib/mesh/io/vtu.h"
+#include "lib/mesh/refine.h"
 #include "tests/axes/axes_of.h"
 
 namespace orthodyn::split_mesh_test {
@@ -82,6 +83,30 @@ TEST_F(AxesOfASplitMesh, MayBeCellDataOfTheHexahedra) { expect_those_of_cells(fi
 
 TEST_F(AxesOfASplitMesh, MayBeCellDataOfTheTetrahedra) {
   expect_those_of_cells(field(write(".vtu", write_vtu(read_vtu_text("cubes.vtu", kVtu)).files.front().text)));
+}
+
+// Of the hexahedra, of their tetrahedra as another file has them, and of rows; the grain of the second cube along y.
+TEST_F(AxesOfASplitMesh, StayWhereTheMeshIsRefined) {
+  const std::string of_tets = write_vtu(read_vtu_text("cubes.vtu", kVtu)).files.front().text;
+  LoadedMesh loaded{.mesh = mesh_};
+  for (int level = 0; level < 2; ++level) {
+    refine(loaded);
+    mesh_ = loaded.mesh;
+    expect_those_of_cells(field(write(".vtu", kVtu)));
+    expect_those_of_cells(field(write(".vtu", of_tets)));
+    expect_those_of_cells(field(write(".csv", kHead + kFirst + kSecond)));
+  }
+}
+
+TEST_F(AxesOfASplitMesh, OfAnotherMeshAreRefusedWhereItIsRefined) {
+  LoadedMesh loaded{.mesh = mesh_};
+  refine(loaded);
+  std::swap(loaded.mesh.tets[0], loaded.mesh.tets[95]);
+  std::rotate(loaded.mesh.tets.begin(), loaded.mesh.tets.begin() + 48, loaded.mesh.tets.end());
+  mesh_ = loaded.mesh;
+  EXPECT_TRUE(holds(refusal([&] { field(write(".vtu", kVtu)); }), "is not where element"));
+  mesh_.tets.pop_back();
+  EXPECT_TRUE(holds(refusal([&] { field(write(".vtu", kVtu)); }), "12 tetrahedra for a mesh of 95"));
 }
 
 TEST_F(AxesOfASplitMesh, ThatAreNoRotationAreRefusedWithTheCell) {
