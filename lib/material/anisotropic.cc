@@ -1,7 +1,7 @@
 // All 21 constants of C by name, as crystals, bone and homogenised composites are tabulated.
 //
-// Tables number the shear strains in two ways: 4, 5, 6 = 23, 13, 12 (most of them) or 12, 23, 31 (this
-// project's, and Li & Barbic's). Both readings are positive definite, so nothing could notice a mistake:
+// Tables number the shear strains in three ways: 4, 5, 6 = 23, 13, 12 (most of them) or 12, 23, 31 (this
+// project's, and Li & Barbic's); Abaqus has 12, 13, 23. All readings are positive definite, so nothing could notice a mistake:
 // the order is a key without default.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,12 +15,13 @@
 
 namespace orthodyn {
 
-enum class VoigtOrder { s23_13_12, s12_23_31 };
+enum class VoigtOrder { s23_13_12, s12_23_31, abaqus };
 
 template <>
 struct Words<VoigtOrder> {
-  static constexpr std::array<std::pair<VoigtOrder, const char*>, 2> list{
-      {{VoigtOrder::s23_13_12, "11-22-33-23-13-12"}, {VoigtOrder::s12_23_31, "11-22-33-12-23-31"}}};
+  static constexpr std::array<std::pair<VoigtOrder, const char*>, 3> list{
+      {{VoigtOrder::s23_13_12, "11-22-33-23-13-12"}, {VoigtOrder::s12_23_31, "11-22-33-12-23-31"},
+       {VoigtOrder::abaqus, "abaqus"}}};
 };
 
 namespace {
@@ -66,7 +67,8 @@ class Anisotropic : public Material {
     Spec<A> s;
     s.key("density", &A::density_, "Mass density.", {.required = true, .unit = "kg/m^3", .range = kPositive});
     s.key("voigt_order", &A::order_,
-          "What the indices 1 to 6 of the table mean: most tables have 4, 5, 6 = 23, 13, 12.", {.required = true});
+          "What the indices 1 to 6 of the table mean: most tables have 4, 5, 6 = 23, 13, 12, "
+          "Abaqus (abaqus) 12, 13, 23.", {.required = true});
     s.key("strength", &A::strength_, kStrengthSentence);
     for (const Entry& e : entries()) {
       const bool needed = e.diagonal() || e.column() < 3;
@@ -90,8 +92,9 @@ class Anisotropic : public Material {
 
   // In the order of stiffness.h.
   AnisotropicStiffness given() const {
-    constexpr std::array<int, 6> usual{0, 1, 2, 4, 5, 3}, ours{0, 1, 2, 3, 4, 5};
-    const auto& place = order_ == VoigtOrder::s23_13_12 ? usual : ours;
+    constexpr std::array<int, 6> usual{0, 1, 2, 4, 5, 3}, ours{0, 1, 2, 3, 4, 5},
+        abaqus{0, 1, 2, 3, 5, 4};
+    const auto& place = order_ == VoigtOrder::s23_13_12 ? usual : order_ == VoigtOrder::abaqus ? abaqus : ours;
     AnisotropicStiffness C;
     for (const Entry& e : entries()) {
       const int i = place[static_cast<std::size_t>(e.row())], j = place[static_cast<std::size_t>(e.column())];

@@ -42,14 +42,23 @@ TEST(Anisotropic, InTheOrderOfThisProjectIsTheMatrixGiven) {
 }
 
 // By tensor components: pair[i] is what index i of the table means.
-TEST(Anisotropic, InTheUsualOrderHasItsComponentsWhereTheTableSays) {
+void expect_components(const std::string& order, const std::array<std::array<int, 2>, 6>& pair) {
   Random random(71);
   const Mat6 table = random_positive(random);
-  const Mat6 C = stiffness_of(input(table, kUsual));
-  constexpr int pair[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j)
-      EXPECT_EQ(component(C, pair[i][0], pair[i][1], pair[j][0], pair[j][1]), table(i, j)) << i << j;
+  const Mat6 C = stiffness_of(input(table, order));
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = 0; j < 6; ++j)
+      EXPECT_EQ(component(C, pair[i][0], pair[i][1], pair[j][0], pair[j][1]),
+                table(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)))
+          << order << i << j;
+}
+
+TEST(Anisotropic, InTheUsualOrderHasItsComponentsWhereTheTableSays) {
+  expect_components(kUsual, {{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}});
+}
+
+TEST(Anisotropic, InTheOrderOfAbaqusHasItsComponentsWhereTheTableSays) {
+  expect_components("abaqus", {{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}});
 }
 
 TEST(Anisotropic, HasNoDefaultForTheOrderOfItsIndices) {
