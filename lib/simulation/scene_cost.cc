@@ -149,9 +149,9 @@ class Judge {
           error));
     if (error > kCoarseMesh)
       found_.push_back(
-          fmt::format("nothing of the mesh, whose error is about {:.1e} of the elastic energy: finer cells or "
-                      "mesh.order: 2 would reduce it",
-                      error));
+          fmt::format("nothing of the mesh, whose error is about {:.1e} of the elastic energy: finer cells{} would "
+                      "reduce it",
+                      error, parts().mesh.order() == 1 ? " or mesh.order: 2" : ""));
   }
 
   void look_at_kinematics() {
