@@ -8,6 +8,7 @@
 #include "lib/core/errors.h"
 #include "lib/core/file_kind.h"
 #include "lib/core/words.h"
+#include "lib/mesh/io/abaqus_scene.h"
 #include "lib/simulation/files.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/installed_paths.h"
@@ -20,7 +21,7 @@ namespace {
 
 struct InitArguments {
   std::string kind;
-  std::optional<std::string> file;
+  std::optional<std::string> file, from;
 };
 
 constexpr const char* kSceneHead = R"(# What this scene shows, in a sentence.
@@ -187,6 +188,25 @@ std::string modeline(const std::string& kind) {
   return fs::exists(schema) ? fmt::format("# yaml-language-server: $schema={}\n", schema.string()) : "";
 }
 
+constexpr const char* kAfterDeck = R"(
+# clamps:
+#   - nodes: NAME            # or surface: NAME
+# loads:
+#   - surface: NAME
+#     force: [0, 0, -5]      # N in total
+)";
+
+// What an Abaqus file has, in the place of the template's mesh, materials and regions.
+std::string from_deck(const std::string& kind, const std::string& deck, const fs::path& scene) {
+  if (kind != "scene" && kind != "static")
+    throw ConfigError(fmt::format("--from makes a scene (scene or static), no {}", kind));
+  if (fs::path(deck).extension() != ".inp")
+    throw ConfigError(deck, "--from reads Abaqus files (.inp); meshes of other formats have no materials to take over");
+  const std::string file = fs::proximate(fs::absolute(deck), fs::absolute(scene).parent_path()).string();
+  return kSceneHead + std::string(kind == "static" ? kAnalysis : "") + "\n" + scene_of_abaqus(deck, file) + kAfterDeck +
+         (kind == "static" ? "" : "\ntime: {end: 1}             # s\n");
+}
+
 int init(const InitArguments& arguments) {
   const std::string& kind = arguments.kind;
   const auto start = starts().find(kind);
@@ -197,7 +217,8 @@ int init(const InitArguments& arguments) {
   }
   const fs::path path = arguments.file.value_or(kind + ".yaml");
   if (is_there(path)) throw ConfigError(path.string(), "already exists; choose another name");
-  write_file(path, {modeline(kind), with_file_name(start->second, path.string())});
+  const std::string text = arguments.from ? from_deck(kind, *arguments.from, path) : start->second;
+  write_file(path, {modeline(kind), with_file_name(text, path.string())});
   fmt::print("{}\n", path.string());
   return 0;
 }
@@ -205,11 +226,14 @@ int init(const InitArguments& arguments) {
 void declare(InitArguments& arguments, CommandOptions& options) {
   options.value("kind", arguments.kind, "scene, static, comparison, sweep or stability.").required();
   options.value("file", arguments.file, "Its name; default KIND.yaml.").type("FILE.yaml");
+  options.value("--from", arguments.from, "Take mesh, materials, sections and orientations from an Abaqus file; what is "
+                "left out is listed.").type("DECK.inp");
 }
 
 const CommandRegistration init_command(
     {.order = 110, .name = "init", .sentence = "Write a commented file to start from.", .examples = R"(
   orthodyn init scene my.yaml
+  orthodyn init scene part.yaml --from part.inp
   orthodyn init sweep)"},
     declare, init);
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -82,6 +83,15 @@ struct AbaqusDistribution {
   FilePlace place = {};
 };
 
+// *MATERIAL with the lines of its *ELASTIC and *DENSITY.
+struct AbaqusMaterial {
+  std::string name = {};
+  std::string type = {};  // of *ELASTIC: "ISOTROPIC", or another word in capitals without blanks
+  std::vector<std::vector<double>> elastic = {}, density = {};
+  std::string problem = {};  // why it cannot be read, or ""
+  FilePlace place = {};
+};
+
 using AbaqusSets = std::map<std::string, AbaqusSet>;
 
 // Is added to the numbers of nodes and elements of an assembly that has instances.
@@ -97,6 +107,8 @@ struct AbaqusFile {
   std::vector<AbaqusSection> sections;
   std::map<std::string, AbaqusOrientation> orientations;
   std::map<std::string, AbaqusDistribution> distributions;
+  std::map<std::string, AbaqusMaterial> materials;
+  std::set<std::string> skipped;  // "*BOUNDARY", ...
 };
 
 // The entry of a name, which is that of its instance or else that of the model: "PART-1-1.SIDE", then "SIDE". Null if
