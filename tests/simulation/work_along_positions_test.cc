@@ -61,7 +61,8 @@ TEST(WorkAlongPositions, IsTheSameWhateverTheVelocitiesAre) {
   const EnergyBalance clean = told(model, direction, none), noisy = told(model, direction, noise);
   EXPECT_NEAR(noisy.dissipated, clean.dissipated, 1e-9 * clean.dissipated);
   EXPECT_NEAR(noisy.loads, clean.loads, 1e-9 * std::abs(clean.loads) + 1e-12);
-  const double power = ObservedState(model, State{0, none, direction}).evaluate("power.dissipated")[0];
+  const State moving{0, none, direction};
+  const double power = ObservedState(model, moving).evaluate("power.dissipated")[0];
   EXPECT_NEAR(clean.dissipated, 0.8 * power, 0.01 * power);
 }
 
