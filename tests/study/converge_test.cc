@@ -113,8 +113,8 @@ TEST_F(Converge, ModesHaveTheirOwnCostAndTheirOwnEstimate) {
   for (const auto& row : all.at("rows")) {
     const Json& of_mode = row.at("figures").at("frequency of mode 1");
     const Json& of_statics = row.at("figures").at("energy.elastic");
-    EXPECT_GT(of_mode.at("mesh_error"), 0);
-    EXPECT_LT(of_mode.at("mesh_error"), 0.05);
+    EXPECT_NE(of_mode.at("mesh_error"), 0);  // negative where the lumped mass lowers it by more than the mesh raises it
+    EXPECT_LT(std::abs(of_mode.at("mesh_error").get<double>()), 0.05);
     EXPECT_TRUE(of_statics.at("mesh_error").is_number());
     EXPECT_NE(of_mode.at("cpu_seconds"), of_statics.at("cpu_seconds"));
   }
@@ -142,7 +142,7 @@ TEST_F(Converge, TellsNoLimitOfTwoLevels) {
 
 TEST_F(Converge, AnswersInASentence) {
   const auto done = converge("--order 2");
-  EXPECT_NE(done.output.find("tip.displacement.magnitude is 0.00402"), std::string::npos) << done.output;
+  EXPECT_NE(done.output.find("tip.displacement.magnitude is 4.02"), std::string::npos) << done.output;
   EXPECT_NE(done.output.find(" m, known to "), std::string::npos) << done.output;
   EXPECT_NE(done.output.find("; an error of 1 % takes "), std::string::npos) << done.output;
 }

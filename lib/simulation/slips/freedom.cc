@@ -55,7 +55,8 @@ Way carried_away(const Subject& subject) {
 }
 
 // A load that does not end, nor turn around, within the run: a blow does. Loads that hold each other are none together.
-bool is_steady(const Subject& subject, const Vec3& last) {
+// last, N: at the end of the way.
+bool is_steady(const Subject& subject, const Vec3& last, double until) {
   constexpr double kNone = 1e-6;
   double largest = 0, smallest_along = last.norm();
   int after_start = 0;
@@ -69,7 +70,7 @@ bool is_steady(const Subject& subject, const Vec3& last) {
   });
   const auto& parts = subject.built.model->parts();
   NodalVector f = NodalVector::Zero(3, static_cast<Eigen::Index>(parts.mesh.nodes.size()));
-  const NodalExpansion nodal(parts, subject.end(), subject.built.initial.q,
+  const NodalExpansion nodal(parts, until, subject.built.initial.q,
                              Vector::Zero(subject.built.model->num_dofs()));
   for (const auto& load : parts.loads)
     if (load->energy_kind() != EnergyKind::gravitational) load->add_force(nodal.state(), f);
@@ -82,8 +83,8 @@ void add_drift_slip(const Subject& subject, Warnings& out) {
   if (!subject.moves() || subject.held() || scene.loads.empty() || !scene.terms.empty() || !scene.motions.empty())
     return;
   const auto [way, until] = carried_away(subject);
-  const Vec3 last = total_load(subject, subject.end());
-  if (way <= kFarAway * subject.extent && is_steady(subject, last))
+  const Vec3 last = total_load(subject, until);
+  if (way <= kFarAway * subject.extent && is_steady(subject, last, until))
     out.push_back(fmt::format("{}: nothing holds the body, and they push it to the end, with {:.3g} N in all: it is "
                               "carried away ({:.2g} m until {:.4g} s) rather than bent. Is a clamp missing?",
                               subject.config.at("loads").where(), last.norm(), way, until));
