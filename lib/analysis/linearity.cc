@@ -84,16 +84,6 @@ LinearityError Linearity::error(double t, const Vector& q, const Terms& terms) {
   return {kUnknown, kUnknown, true};
 }
 
-double Linearity::softening(double t, const Vector& mean, const Vector& swing) {
-  if (!factor_for(t, mean)) throw RunError("the stiffness is singular: the body is not held");
-  Vector there = Vector::Zero(mean.size()), back = there, x(mean.size()), Mx(mean.size());
-  add_correction(t, mean + swing, terms_, there);
-  add_correction(t, mean - swing, terms_, back);
-  solver_->solve((there - back) / 2, x);
-  model_.multiply_mass(x, Mx);
-  return swing.dot(Mx);
-}
-
 LinearityError Linearity::distance(double t, const Vector& q, const Terms& terms) {
   constexpr double kAccuracy = 0.02;  // of the error itself
   constexpr double kSlowest = 0.7;    // contraction of the energy of steps

@@ -35,13 +35,6 @@ class Linearity {
   LinearityError error(double t, const Vector& q) { return error(t, q, terms_); }
   LinearityError error(double t, const Vector& q, const Terms& terms);
 
-  // By how much softer the exact force is for a swing of `swing` to both sides of `mean`, in kg m^2: swing . M x, with x
-  // the displacement by half the difference between what the exact force adds at the two ends. What is odd in the
-  // displacement, as of a body that is stiffer to one side, has no part in it: it cancels within a period. Over
-  // swing . M swing it is twice the share by which the frequency is too high. Throws RunError where the tangent cannot be
-  // factorised, RecoverableError where there is no force.
-  double softening(double t, const Vector& mean, const Vector& swing);
-
  private:
   bool factor(double t, const Vector& q, TangentKind kind);
   bool factor_for(double t, const Vector& q);  // as error() needs it

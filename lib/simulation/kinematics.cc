@@ -123,9 +123,7 @@ void make_corotational(Config& config) {
 LinearityWatch::LinearityWatch(const FemModel& model, std::vector<LinearRegion> regions, double start, double end,
                                double allowed, std::string only_linear)
     : model_(model), regions_(std::move(regions)), allowed_(allowed), start_(start), span_(end - start), time_(start),
-      largest_{start, 0, Vector::Zero(model.num_dofs())}, only_linear_(std::move(only_linear)) {
-  if (std::isfinite(span_)) swing_.emplace(model, start, span_);
-}
+      largest_{start, 0, Vector::Zero(model.num_dofs())}, only_linear_(std::move(only_linear)) {}
 
 Linearity& LinearityWatch::linearity() {
   if (!linearity_) linearity_.emplace(model_, terms_of(regions_), span_);
@@ -173,30 +171,24 @@ std::optional<Outgrown> LinearityWatch::why_to_start_again() {
 void LinearityWatch::finish() {
   try {
     if (largest_.norm > checked_) note(largest_.t, largest_.q);
-    if (swing_) swing_->finish(linearity());
-    sum_up();
+    error_ = std::max(error_, local_ + phase_of(stiffness_));
   } catch (const RunError&) {
     error_ = std::numeric_limits<double>::quiet_NaN();
   }
 }
 
 void LinearityWatch::save(Archive& archive) {
-  archive.put("found", {checked_, local_, stiffness_, error_, largest_.t});
+  archive.put("found", {checked_, velocity_, local_, stiffness_, error_, largest_.t});
   archive.put("largest", std::vector<double>(largest_.q.begin(), largest_.q.end()));
-  if (!swing_) return;
-  take_in_swing();
-  swing_->save(archive);
-  if (!std::isfinite(allowed_)) linearity_.reset();  // its factor is not wanted again before the next time
 }
 
 void LinearityWatch::restore(const Archive& archive) {
-  const auto& found = archive.numbers("found", 5);
-  checked_ = found[0], local_ = found[1], stiffness_ = found[2], error_ = found[3];
+  const auto& found = archive.numbers("found", 6);
+  checked_ = found[0], velocity_ = found[1], local_ = found[2], stiffness_ = found[3], error_ = found[4];
   const auto& q = archive.numbers("largest", static_cast<std::size_t>(model_.num_dofs()));
-  largest_.t = found[4];
+  largest_.t = found[5];
   largest_.q = Eigen::Map<const Vector>(q.data(), model_.num_dofs());
   largest_.norm = norm(largest_.q);
-  if (swing_) swing_->restore(archive);
 }
 
 // The error grows no faster than the square of the displacement.
@@ -208,26 +200,17 @@ double LinearityWatch::next_look() const {
 
 void LinearityWatch::look_at(const State& state) {
   time_ = state.t;
+  velocity_ = std::max(velocity_, norm(state.v));
   if (const double q = norm(state.q); q > largest_.norm) largest_ = {state.t, q, state.q};
   if (largest_.norm > next_look()) note(state.t, state.q);
-  if (swing_) swing_->look_at(state);
-  if (std::isfinite(allowed_)) take_in_swing();
-  sum_up();
+  error_ = std::max(error_, local_ + phase_of(stiffness_));
   if (outgrown()) refuse_outgrown();
 }
 
-void LinearityWatch::take_in_swing() {
-  try {
-    if (swing_) swing_->evaluate(linearity());
-  } catch (const RunError&) {
-    error_ = std::numeric_limits<double>::quiet_NaN();
-  }
-}
-
-double LinearityWatch::phase() const { return swing_ && largest_.norm > 0 ? swing_->error() / largest_.norm : 0; }
-
+// A stiffness that is off by a share of e shifts a frequency by e/2.
 double LinearityWatch::phase_of(double stiffness) const {
-  return stiffness_ > 0 ? phase() * std::min(stiffness / stiffness_, 1.0) : 0;
+  const double turns = largest_.norm > 0 ? velocity_ / largest_.norm * (time_ - start_) : 0;  // rad
+  return turns > 0 ? stiffness * turns / 2 : 0;
 }
 
 std::vector<std::string> LinearityWatch::to_give_up(double t, const Vector& q) {
@@ -257,7 +240,8 @@ std::string outcome_of(const LinearityWatch& watch) {
   if (std::isnan(watch.error())) return fmt::format("linear{}: how far off is not known", where);
   if (watch.unstable()) return fmt::format("linear{}: {}", where, kUnstable);
   const bool is_watched = std::isfinite(watch.allowed());
-  return fmt::format("linear{}: off by {}{}", where, how_much(watch.error(), "{:.1e}"),
+  return fmt::format("linear{}: off by {}{}{}", where, how_much(watch.error(), "{:.1e}"),
+                     std::isfinite(watch.error()) ? " at most" : "",
                      is_watched ? fmt::format(", where {:.1e} is allowed", watch.allowed()) : "");
 }
 

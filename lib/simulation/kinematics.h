@@ -2,7 +2,6 @@
 // are used.
 #pragma once
 
-#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -12,7 +11,6 @@
 #include "lib/analysis/linearity.h"
 #include "lib/scene/build.h"
 #include "lib/simulation/observers/observer.h"
-#include "lib/simulation/swing_phase.h"
 
 namespace orthodyn {
 
@@ -83,19 +81,16 @@ class LinearityWatch : public Observer {
   void note(double t, const Vector& q);  // the error there
   double next_look() const;            // the displacement from which on the error has to be computed anew
   double norm(const Vector& x) const;  // in the mass norm
-  double phase() const;                     // what a vibration has gained or lost makes of the largest displacement
-  double phase_of(double stiffness) const;  // the share of that by terms that are off so far
-  void take_in_swing();
-  void sum_up() { error_ = std::max(error_, local_ + phase()); }
+  double phase_of(double stiffness) const;  // rad, that a vibration has gained or lost by such an error
   Linearity& linearity();
 
   const FemModel& model_;
   std::vector<LinearRegion> regions_;
   std::optional<Linearity> linearity_;  // made when it is needed first
-  std::optional<SwingPhase> swing_;     // none in statics
   double allowed_, start_, span_, time_;
   Largest largest_;
   double checked_ = 0;   // the displacement at which the error was computed last
+  double velocity_ = 0;  // the largest so far
   double local_ = 0, stiffness_ = 0, error_ = 0;
   bool unstable_ = false;
   std::string only_linear_;
