@@ -1,10 +1,10 @@
 #include "lib/linear/unit_scale.h"
 
-#include <Spectra/Util/SimpleRandom.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "lib/core/golden.h"
 
 namespace orthodyn {
 
@@ -19,7 +19,8 @@ Vector diagonal(const Pattern& pattern, const std::vector<double>& values) {
 
 double operator_size(int n, const VectorFunction& first, const VectorFunction& second) {
   constexpr int kSteps = 3;
-  Vector x = Spectra::SimpleRandom<double>(0).random_vec(n), between(n), image(n);
+  Vector x(n), between(n), image(n);
+  for (int i = 0; i < n; ++i) x[i] = golden_share(i) - 0.5;  // in no body's symmetry
   double size = 0;
   for (int k = 0; k < kSteps && x.norm() > 0; ++k) {
     x.normalize();
