@@ -16,6 +16,7 @@ PROGRAM = os.environ.get("ORTHODYN_EXECUTABLE", "orthodyn")
 # Warnings begin like these.
 EXPECTED = {
     "free_flight": ["the mesh is coarse for this motion"],  # it shows that the force conserves, on any mesh
+    "xylophone_bar": ["the mesh is coarse for this motion"],  # held at lines and points, as it says: finer cells give way more
 }
 # Without ORTHODYN_LONG these are left out: 3 s of CPU and more.
 LONG = {"cantilever", "drop", "free_flight", "laminate", "muscle", "stem", "tube_lrt", "tuning_fork", "twist", "xylophone_bar"}
