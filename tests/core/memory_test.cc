@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cmath>
 #include <fstream>
+#include <string>
 
 namespace orthodyn::memory_test {
 namespace {
@@ -13,7 +16,7 @@ namespace fs = std::filesystem;
 
 class Groups : public testing::Test {
  protected:
-  Groups() : folder_(fs::path(testing::TempDir()) / "memory_groups") { fs::remove_all(folder_); }
+  Groups() : folder_(fs::path(testing::TempDir()) / ("memory_groups_" + std::to_string(getpid()))) { fs::remove_all(folder_); }
   ~Groups() override { fs::remove_all(folder_); }
 
   void put(const fs::path& file, const std::string& text) const {
