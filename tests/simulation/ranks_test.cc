@@ -42,7 +42,7 @@ TEST_F(SeveralRanks, WriteWhatOneWrites) {
       EXPECT_NEAR(found.at(quantity).at("value"), extreme.at("value"), 1e-6 * extreme.at("value").get<double>());
     EXPECT_EQ(record(out).at("model").at("terms"), record("one").at("model").at("terms"));
     EXPECT_EQ(record(out).at("model").at("unknowns"), record("one").at("model").at("unknowns"));
-    // By recovered stresses; those of one process, by finer elements, see more.
+    // Several ranks estimate the error from recovered stresses, one process by finer elements, which see more of it.
     EXPECT_GT(record(out).at("errors").at("mesh"), 0.5 * record("one").at("errors").at("mesh").get<double>());
     EXPECT_LE(record(out).at("errors").at("mesh"), record("one").at("errors").at("mesh").get<double>());
   }
