@@ -9,6 +9,10 @@ namespace orthodyn {
 namespace {
 
 void check_expectation(const Expectation& e, const Config& config) {
+  if (!e.quantity.empty() + e.mode.has_value() + e.buckling.has_value() != 1)
+    config.fail("give exactly one of: quantity, mode, buckling");
+  if (e.is_eigenvalue() && (e.take != Take::end || e.at || e.of))
+    config.fail("'take', 'at' and 'of' go with a quantity; a mode and a critical load factor have one value");
   if (e.relative.has_value() == e.absolute.has_value()) config.fail("give exactly one of relative, absolute");
   if (e.relative && e.value == 0) config.at("relative").fail("means nothing for the value 0; give 'absolute'");
   check_take(e.take, e.at, e.of, config);
@@ -46,8 +50,15 @@ const Spec<Expectation>& Expectation::spec() {
       Spec<Expectation>()
           .key("quantity", &Expectation::quantity,
                "A probe's field and component (tip.displacement.z, or .magnitude) or a scalar of the whole body "
-               "(energy.balance, momentum.angular.z, von_mises.largest).",
-               {.required = true})
+               "(energy.balance, momentum.angular.z, von_mises.largest).")
+          .key("mode", &Expectation::mode,
+               "Instead of a quantity: the natural frequency in Hz of this mode about the shape at rest, rigid modes not "
+               "counted.",
+               {.range = {1, 1000}})
+          .key("buckling", &Expectation::buckling,
+               "Instead of a quantity, with analysis: buckling: the critical load factor with this number, from the "
+               "lowest.",
+               {.range = {1, 1000}})
           .key("take", &Expectation::take, kTakeSentence)
           .key("at", &Expectation::at, "The value at this time, instead of `take`.", {.unit = "s"})
           .key("value", &Expectation::value, "The expected figure, in SI units or with a unit.",
@@ -75,6 +86,8 @@ void Expectation::require_units(const std::string& quantity_unit) const {
 double Expectation::limit() const { return relative ? *relative * std::abs(value) : absolute.value_or(0.0).si(); }
 
 std::string Expectation::title() const {
+  if (mode) return fmt::format("frequency of mode {}", *mode);
+  if (buckling) return fmt::format("critical load factor {}", *buckling);
   if (at) return fmt::format("{} at {:.6g} s", quantity, *at);
   return fmt::format("{} of {}", Value<Take>::yaml(take), quantity);
 }

@@ -1,5 +1,5 @@
-// What a scene is expected to show: one figure of its trajectory, known from elsewhere. A scene with
-// expectations is a test case for `orthodyn verify`.
+// A figure that is known from elsewhere: of a quantity over time or in equilibrium, a natural frequency, or a critical
+// load factor. A scene with expectations is a test case for `orthodyn verify`.
 #pragma once
 
 #include <array>
@@ -42,8 +42,11 @@ inline constexpr const char* kTakeSentence =
     "which its size first passes `of`.";
 inline constexpr const char* kOfSentence = "What a drift or gain is relative to; the size that an onset passes.";
 
+// Of exactly one of: quantity, mode, buckling.
 struct Expectation {
-  std::string quantity;      // "tip.displacement.z", "energy.balance", "momentum.angular.magnitude"
+  std::string quantity;         // "tip.displacement.z", "energy.balance", "momentum.angular.magnitude"
+  std::optional<int> mode;      // from 1, rigid modes not counted: its frequency in Hz, about the shape at rest
+  std::optional<int> buckling;  // from 1: the critical load factor
   Take take = Take::end;
   std::optional<double> at;  // s, in place of `take`
   Measured value;            // in the quantity's unit
@@ -56,12 +59,15 @@ struct Expectation {
   Origin origin;
   static const Spec<Expectation>& spec();
 
+  // Known without a motion or an equilibrium.
+  bool is_eigenvalue() const { return mode || buckling; }
+
   // Throws ConfigError for a unit that is none of the quantity's; its own is SI.
   void require_units(const std::string& quantity_unit) const;
 
   // The largest |computed - value| that passes.
   double limit() const;
-  // "max of tip.displacement.z"
+  // "max of tip.displacement.z", "frequency of mode 4", "critical load factor 1"
   std::string title() const;
 };
 

@@ -140,15 +140,22 @@ void check_buckling(const Config& config, Scene& scene, bool is_timed) {
     config.at("motions").fail(
         "a buckling analysis takes loads that grow in proportion, and no prescribed displacements; "
         "follow the path with analysis: static and find where it becomes unstable");
-  if (!scene.expect.empty())
-    config.at("expect").fail("a buckling analysis has critical load factors only; a sweep takes them as figures "
-                             "({buckling: 1})");
+  for (const Expectation& e : scene.expect)
+    if (!e.buckling)
+      e.origin.fail("a buckling analysis has critical load factors only: {buckling: 1, value: ...}");
   const Output& output = scene.output;
   const Output usual;
   if (output.fields != usual.fields || !output.probes.empty() || !output.extremes.empty() || output.reactions ||
       output.momentum || output.interval || output.frames || output.history)
     config.at("output").fail("a buckling analysis writes its load factors and shapes only; remove it");
   if (!scene.buckling) scene.buckling = Buckling::spec().read(config.fill("buckling", "{}"));
+}
+
+// A critical load factor is found by no other analysis.
+void check_expectations(const Scene& scene) {
+  if (scene.analysis == Analysis::buckling) return;
+  for (const Expectation& e : scene.expect)
+    if (e.buckling) e.origin.fail("'buckling' goes with analysis: buckling");
 }
 
 bool is_given(const Config& section, const std::string& key) {
@@ -214,6 +221,7 @@ Scene read_scene(const Config& input) {
     case Analysis::statical: check_static(config, scene, is_timed); break;
     case Analysis::buckling: check_buckling(config, scene, is_timed); break;
   }
+  check_expectations(scene);
   if (!config.has("materials")) fill_mesh_materials(config, scene);
   if (scene.materials.empty()) config.at("materials").fail("is empty; give at least one material");
   require_admissible_materials(config, scene);

@@ -56,6 +56,10 @@ void check_outputs(const Scene& scene, const FemModel& model) {
 
 void check_expectations(const Scene& scene, const FemModel& model) {
   for (const auto& e : scene.expect) {
+    if (e.is_eigenvalue()) {
+      e.require_units(e.mode ? "Hz" : "");
+      continue;
+    }
     const Quantity quantity = find_quantity(e.quantity, scene, model, e.origin);
     if (quantity.components() > 1 && !(quantity.is_vector() && !e.at && e.take == Take::drift))
       e.origin.fail(quantity.ask_for_component());

@@ -1,6 +1,8 @@
 // Verification: what passes, what misses, what is refused.
 #include "lib/study/quantities/verify.h"
 
+#include <sstream>
+
 #include "tests/simulation/run_program.h"
 
 namespace orthodyn::study::verify_test {
@@ -51,6 +53,32 @@ TEST_F(Verify, TakesFiguresAtATimeAndOverTime) {
   EXPECT_EQ(done.exit_code, 0) << done.output;
   const std::string xml = read_text(folder_ / "out.xml");
   EXPECT_NE(xml.find("tests=\"6\" failures=\"0\" errors=\"0\""), std::string::npos) << xml;
+}
+
+// A rod of one linear element along x: of all modes along it the first, with the displacement u x/L, has
+// omega^2 = 3 E/(rho L^2), for E/rho = 1000 m^2/s^2 and L = 1 m. At the same time its end is at rest.
+TEST_F(Verify, TakesModesBesideFiguresOfAMotion) {
+  write("rod.yaml", R"(mesh: {type: box, size: [1, 0.01, 0.01], cells: [1, 1, 1], order: 1}
+materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
+mass: consistent
+clamps: [{surface: x0}, {surface: x1, components: [y, z]}]
+time: {end: 0.1}
+output: {probes: {end: {at: [1, 0, 0]}}}
+expect:
+- {quantity: end.displacement.x, value: 0, absolute: 1 nm, source: s, reason: r}
+- {mode: 1, value: 8.717252 Hz, relative: 1e-6, source: sqrt(3 E/rho)/(2 pi L), reason: one element}
+- {mode: 20, value: 1, relative: 1e-6, source: s, reason: there are four unknowns}
+)");
+  const auto done = orthodyn("verify rod.yaml");
+  EXPECT_EQ(done.exit_code, 1) << done.output;
+  std::vector<std::string> passed, missed;
+  std::istringstream lines(done.output);
+  for (std::string line; std::getline(lines, line);)
+    if (line.ends_with(" pass")) passed.push_back(line);
+    else if (line.ends_with(" MISS")) missed.push_back(line);
+  EXPECT_EQ(passed.size(), 2u) << done.output;
+  ASSERT_EQ(missed.size(), 1u) << done.output;
+  EXPECT_NE(missed[0].find("frequency of mode 20"), std::string::npos) << missed[0];
 }
 
 TEST_F(Verify, JUnitTellsWhatWasMissedAndEscapesIt) {
@@ -109,7 +137,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{"quantity: corner.displacement.z, value: 1, relative: 1, at: 3", "time span"},
                     Refusal{"quantity: corner.displacement.z, value: 1, relative: 1, at: 1, take: max",
                             "replaces 'take'"},
-                    Refusal{"quantity: corner.displacement.z, value: 1, relative: 1, of: 2", "take: drift"}));
+                    Refusal{"quantity: corner.displacement.z, value: 1, relative: 1, of: 2", "take: drift"},
+                    Refusal{"value: 1, relative: 1", "exactly one of: quantity, mode, buckling"},
+                    Refusal{"mode: 1, value: 1, relative: 1, take: max", "go with a quantity"},
+                    Refusal{"mode: 1, value: 1 kg, relative: 1", "Hz"},
+                    Refusal{"buckling: 1, value: 1, relative: 1", "analysis: buckling"}));
 
 TEST_F(Verify, RefusesAFolderWithoutCasesAndASceneWithoutExpectations) {
   write("plain.yaml", kFall);

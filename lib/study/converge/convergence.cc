@@ -40,7 +40,8 @@ void add_named(Named<WantedFigure>& figures, const std::string& text) {
 void add_usual(Named<WantedFigure>& figures, const Scene& scene) {
   const bool is_static = scene.is_static();
   for (const Expectation& e : scene.expect)
-    if (e.quantity != kEnergyBalance)
+    if (e.is_eigenvalue()) add(figures, {.mode = e.mode, .buckling = e.buckling}, e.title());
+    else if (e.quantity != kEnergyBalance)
       add(figures, {.quantity = e.quantity, .take = e.take, .at = e.at, .of = e.of}, e.title());
   if (!figures.empty()) return;
   for (const auto& [name, probe] : scene.output.probes) {

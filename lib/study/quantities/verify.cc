@@ -9,6 +9,7 @@
 #include "lib/simulation/load_steps.h"
 #include "lib/simulation/run.h"
 #include "lib/simulation/setup.h"
+#include "lib/study/quantities/eigenvalue_checks.h"
 #include "lib/study/quantities/figure.h"
 
 namespace orthodyn::study {
@@ -17,31 +18,39 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<Quantity> quantities_of(const Setup& setup) {
-  const Origin origin{setup.config.where()};
+// Expectations of quantities, in their order, and the quantities.
+struct Wanted {
+  std::vector<Expectation> expectations;
   std::vector<Quantity> quantities;
-  for (const auto& e : setup.scene.expect)
-    quantities.push_back(find_quantity(e.quantity, setup.scene, *setup.built.model, origin));
-  return quantities;
+};
+
+Wanted wanted_quantities(const Setup& setup) {
+  const Origin origin{setup.config.where()};
+  Wanted wanted;
+  for (const auto& e : setup.scene.expect) {
+    if (e.is_eigenvalue()) continue;
+    wanted.expectations.push_back(e);
+    wanted.quantities.push_back(find_quantity(e.quantity, setup.scene, *setup.built.model, origin));
+  }
+  return wanted;
 }
 
 CaseResult verify_equilibrium(const Setup& setup, const std::atomic<bool>& interrupt) {
-  const auto quantities = quantities_of(setup);
+  const auto [expectations, quantities] = wanted_quantities(setup);
   const StaticProblem problem = static_problem(setup.scene, setup.built);
   CaseResult result{setup.config.file(), run_static(*problem.path, *problem.stepper, {}, interrupt), {}};
   if (setup.linearity) setup.linearity->require(problem.path->times().end, result.outcome.last.q);
   const State state{problem.path->times().end, result.outcome.last.q, result.outcome.last.v};
   const ObservedState observed(*setup.built.model, state);
   for (std::size_t q = 0; q < quantities.size(); ++q)
-    result.checks.push_back({setup.scene.expect[q],
+    result.checks.push_back({expectations[q],
                              problem.stepper->done() ? quantities[q].values(observed)[0] : std::nan(""),
                              quantities[q].unit});
   return result;
 }
 
 CaseResult verify_motion(const Setup& setup, std::vector<Observer*> observers, const std::atomic<bool>& interrupt) {
-  const auto& expectations = setup.scene.expect;
-  const auto quantities = quantities_of(setup);
+  const auto [expectations, quantities] = wanted_quantities(setup);
   SeriesRecorder recorder(*setup.built.model, *setup.integrator, quantities);
   observers.push_back(&recorder);
   if (setup.linearity) observers.push_back(setup.linearity.get());
@@ -55,6 +64,24 @@ CaseResult verify_motion(const Setup& setup, std::vector<Observer*> observers, c
     result.checks.push_back({expectations[q], result.completed() ? figure(expectations[q], recorder, q) : std::nan(""),
                              figure_unit(expectations[q].take, quantities[q].unit)});
   return result;
+}
+
+CaseResult verify_motion_or_equilibrium(const Setup& setup, const std::vector<Observer*>& observers,
+                                        const std::atomic<bool>& interrupt) {
+  const bool has_quantities = !std::ranges::all_of(setup.scene.expect, &Expectation::is_eigenvalue);
+  if (!has_quantities) return {setup.config.file(), Outcome{.last = setup.built.initial}, {}};
+  return setup.scene.is_static() ? verify_equilibrium(setup, interrupt) : verify_motion(setup, observers, interrupt);
+}
+
+// Time and failure of what finds them are added to those of the run.
+void verify_eigenvalues(const Setup& setup, CaseResult& result) {
+  if (std::ranges::none_of(setup.scene.expect, &Expectation::is_eigenvalue)) return;
+  std::vector<Check> checks;
+  const Outcome outcome = supervise(result.outcome.last, {}, [&](Outcome&) { checks = eigenvalue_checks(setup); });
+  result.outcome.wall_seconds += outcome.wall_seconds;
+  result.outcome.cpu_seconds += outcome.cpu_seconds;
+  if (result.completed()) result.outcome.status = outcome.status, result.outcome.message = outcome.message;
+  result.checks.insert(result.checks.end(), checks.begin(), checks.end());
 }
 
 }  // namespace
@@ -95,8 +122,9 @@ CaseResult verify(const Config& scene) {
 
 CaseResult verify(const Setup& setup, const std::vector<Observer*>& observers, const std::atomic<bool>& interrupt) {
   require_expectations(setup.scene, setup.config);
-  if (setup.scene.is_static()) return verify_equilibrium(setup, interrupt);
-  return verify_motion(setup, observers, interrupt);
+  CaseResult result = verify_motion_or_equilibrium(setup, observers, interrupt);
+  verify_eigenvalues(setup, result);
+  return result;
 }
 
 }  // namespace orthodyn::study

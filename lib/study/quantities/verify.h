@@ -7,16 +7,9 @@
 #include "lib/config/config.h"
 #include "lib/simulation/outcome.h"
 #include "lib/simulation/setup.h"
+#include "lib/study/quantities/check.h"
 
 namespace orthodyn::study {
-
-struct Check {
-  Expectation expectation;
-  double computed = 0;  // NaN where the run has no such figure
-  std::string unit = {};
-  double difference() const { return computed - expectation.value; }
-  bool passed() const;
-};
 
 struct CaseResult {
   std::string file;
