@@ -40,9 +40,8 @@ struct Divided {
 
 Divided divided(const FemModel& model) {
   const auto loads = model.load_parts().value();
-  auto structure = model.force_parts();
-  std::erase_if(structure, [&](const std::string& part) { return std::ranges::find(loads, part) != loads.end(); });
-  return {model.only(structure), model.only(loads)};
+  auto structure = without_loads(model);
+  return {structure ? std::move(structure) : model.only(model.force_parts()), model.only(loads)};
 }
 
 // The largest strain of a small displacement, by the norm of its components.

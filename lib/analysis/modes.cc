@@ -38,11 +38,13 @@ Modes natural_modes(const Model& model, const State& about, int count) {
   if (!model.pattern().symmetric)
     throw ConfigError("elasticity", "modes need a symmetric tangent: not that of elasticity.warped_tangent: unsymmetric");
   const Pattern& pattern = model.pattern();
+  const auto unloaded = about.load_factor == 0 ? without_loads(model) : nullptr;
+  const Model& acting = unloaded ? *unloaded : model;
   Linearization at;
-  model.linearize(about.t, about.q, Vector::Zero(about.q.size()), TangentKind::exact, at);
+  acting.linearize(about.t, about.q, Vector::Zero(about.q.size()), TangentKind::exact, at);
   std::vector<double> K(pattern.row.size()), M(pattern.row.size());
-  model.combine({0, 0, 1}, at, K.data());
-  model.combine({1, 0, 0}, at, M.data());
+  acting.combine({0, 0, 1}, at, K.data());
+  acting.combine({1, 0, 0}, at, M.data());
   EigenPairs pairs = lowest_eigenpairs(pattern, K, M, count, [&] { return model.rigid_motions(about.q); });
 
   const bool has_momentum = tells_momentum(model);

@@ -32,7 +32,8 @@ struct Modes {
   std::string solver = {};  // of the linear systems
 };
 
-// Throws ConfigError if the model has fewer modes or an unsymmetric tangent, RunError if they cannot be found.
+// About a state under its loads; with a load factor of 0 about one without them, where they add no stiffness. Throws
+// ConfigError if the model has fewer modes or an unsymmetric tangent, RunError if they cannot be found.
 Modes natural_modes(const Model& model, const State& about, int count);
 
 }  // namespace orthodyn

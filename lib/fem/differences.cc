@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace orthodyn {
 
@@ -26,6 +27,19 @@ DifferenceWeights::DifferenceWeights(double x) {
   }
   first = c[1];
   second = c[2];
+}
+
+// Over a part of its limits a function is close to a cubic: a third of a period.
+DifferenceStep::DifferenceStep(StepLimits limits, double start, double end)
+    : longest_((end - start) / 1000), limits_(std::move(limits)) {}
+
+double DifferenceStep::at(double t) const {
+  constexpr double kStepsToAPart = 32, kReach = (DifferenceWeights::kPoints - 1) / 2.0;
+  double step = longest_;
+  for (double begin = t - kReach * step; limits_.latest_end(begin) - begin < kStepsToAPart * step;
+       begin = t - kReach * step)
+    step /= 2;
+  return step;
 }
 
 SmoothStretch::SmoothStretch(double t, double step, const std::vector<double>& kinks) {

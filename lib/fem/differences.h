@@ -9,9 +9,23 @@
 #include <array>
 #include <vector>
 
+#include "lib/ode/step_limits.h"
+
 namespace orthodyn {
 
-inline constexpr double kUsualResolution = 1e-3;  // s
+// Distance of the points, s: a given one; or from 60 to 1000 of them to a period of what the function does about the
+// time, however short or long that is.
+class DifferenceStep {
+ public:
+  explicit DifferenceStep(double given) : longest_(given) {}
+  // limits: of the function between start and end, s.
+  DifferenceStep(StepLimits limits, double start, double end);
+  double at(double t) const;
+
+ private:
+  double longest_;
+  StepLimits limits_;
+};
 
 template <class T>
 struct Differences {

@@ -34,13 +34,14 @@ std::unique_ptr<LinearSolver> make_iterative(const Pattern& pattern) {
   return make_linear_solver({"petsc", "-pc_type gamg -pc_gamg_agg_nsmooths 0 -ksp_max_it 5000"}, pattern);
 }
 
-// A hundred solutions and more are wanted to many digits, for which a factor is made if it can be.
+// A hundred solutions and more are wanted to many digits, for which a factor is made if it may fit: by the memory that
+// the process may ever use, so that the same problem is always solved the same way.
 std::unique_ptr<LinearSolver> factor_or_iterations(const Pattern& pattern) {
   constexpr double kMostOfMemory = 0.8;
   const bool has_other = solver_registry().at("petsc").unavailable.empty();
   try {
     auto solver = make_solver_for(pattern);
-    if (!has_other || static_cast<double>(solver->factor_bytes()) <= kMostOfMemory * memory_left()) return solver;
+    if (!has_other || static_cast<double>(solver->factor_bytes()) <= kMostOfMemory * memory_limit()) return solver;
   } catch (const RunError&) {  // it cannot even be analysed
     if (!has_other) throw;
   }

@@ -1,5 +1,6 @@
 #include "lib/ode/model.h"
 
+#include <algorithm>
 #include <atomic>
 #include <stdexcept>
 
@@ -38,5 +39,13 @@ std::unique_ptr<Model> Model::only(const std::vector<std::string>&) const {
 }
 
 std::vector<double> Model::breakpoints(double, double) const { return {}; }
+
+std::unique_ptr<Model> without_loads(const Model& model) {
+  const auto loads = model.load_parts();
+  if (!loads || loads->empty()) return nullptr;
+  auto structure = model.force_parts();
+  std::erase_if(structure, [&](const std::string& part) { return std::ranges::find(*loads, part) != loads->end(); });
+  return model.only(structure);
+}
 
 }  // namespace orthodyn

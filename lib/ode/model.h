@@ -168,4 +168,7 @@ class Model : public OutputSource {
   Number number_;
 };
 
+// The model without what loads it, which must outlive this; null where nothing does, or where that is not known.
+std::unique_ptr<Model> without_loads(const Model& model);
+
 }  // namespace orthodyn

@@ -79,9 +79,14 @@ void check_velocity(const Scene& scene, const SupportMotion& given, const Motion
                     "neighbours; use a smooth_step, or mass: lumped");
 }
 
-std::shared_ptr<const Motion> motion_in(const Scene& scene, const SupportMotion& given) {
-  if (scene.is_static()) return std::make_shared<StillMotion>(given.motion(scene.time.start), scene.time.end);
-  return given.motion(scene.time.start);
+std::shared_ptr<const Motion> motion_in(const Scene& scene, const SupportMotion& given, const TetMesh& mesh,
+                                        const std::vector<int>& nodes) {
+  NodalVector X(3, std::ssize(nodes));
+  for (Eigen::Index i = 0; i < X.cols(); ++i)
+    X.col(i) = mesh.nodes[static_cast<std::size_t>(nodes[static_cast<std::size_t>(i)])];
+  auto motion = given.motion(scene.time.start, scene.time.end, X);
+  if (scene.is_static()) return std::make_shared<StillMotion>(std::move(motion), scene.time.end);
+  return motion;
 }
 
 }  // namespace
@@ -96,7 +101,9 @@ Supports make_supports(const Scene& scene, const TetMesh& mesh) {
   }
   for (std::size_t k = 0; k < scene.motions.size(); ++k) {
     const SupportMotion& given = scene.motions[k];
-    out.moved.push_back({motion_in(scene, given), selected_nodes(given, mesh), component_mask(given.components)});
+    auto nodes = selected_nodes(given, mesh);
+    auto motion = motion_in(scene, given, mesh, nodes);
+    out.moved.push_back({std::move(motion), std::move(nodes), component_mask(given.components)});
     check_velocity(scene, given, *out.moved.back().motion);
     owners.add(named(given.name, "motion", k), given, out.moved.back().nodes, out.moved.back().components, true);
   }

@@ -1,6 +1,8 @@
 // Factors in time: values, rates, kinks.
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -22,6 +24,16 @@ TEST(TimeFunction, ConstantIsConstant) {
   EXPECT_TRUE(f->constant());
   EXPECT_TRUE(f->kinks().empty());
   EXPECT_EQ(f->peak(0, 1), 2);
+}
+
+TEST(TimeFunction, FormulaHasItsRatesOverASpanOfAnyLength) {
+  for (const double T : {1e-9, 1.0, 1e6}) {
+    const double w = 2 * std::numbers::pi / T;
+    const auto f = factor(fmt::format("{{type: expression, formula: sin({:.17g}*t)}}", w))->over(0, 3 * T);
+    ASSERT_NE(f, nullptr);
+    EXPECT_NEAR(f->rate(0.3 * T) / w, std::cos(w * 0.3 * T), 1e-8) << T;
+    EXPECT_NEAR(f->curvature(0.3 * T) / (w * w), -std::sin(w * 0.3 * T), 1e-8) << T;
+  }
 }
 
 TEST(TimeFunction, RampRisesBetweenItsKinks) {

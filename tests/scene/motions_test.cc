@@ -124,7 +124,7 @@ TEST(FormulaMotion, ThatHasNoValueIsNotBlamedOnTheIntegrator) {
 TEST(FormulaMotion, IsNeverEvaluatedBeforeTheStart) {
   const Scene scene = read_scene(
       Config::from_text(kValidScene + "motions: [{surface: x1, displacement: [t^2.5, 0, 0], resolution: 1e-4}]\n"));
-  const auto motion = scene.motions[0].motion(scene.time.start);
+  const auto motion = scene.motions[0].motion(scene.time.start, scene.time.end, NodalVector(Vec3(2, 1, 1)));
   const double h = 1e-4;
   for (const double t : {0.0, h / 10, h, 100 * h}) {  // to within the rates' size at h from the singularity
     const Moved moved = motion->at(t, NodalVector(Vec3(2, 1, 1)));

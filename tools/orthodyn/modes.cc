@@ -86,6 +86,10 @@ int compute_modes(const ModesArguments& arguments) {
   const Modes& modes = analysis.modes();
   print_table(analysis, arguments.equilibrium);
   tell_errors(analysis);
+  if (analysis.takes_symmetric_part())
+    fmt::print(stderr,
+               "warning: a load that follows the body has an unsymmetric stiffness, of which modes take the symmetric "
+               "part; they do not show flutter. A motion shows it (analysis: dynamic)\n");
   fmt::print("results {}\n", folder.string());
   if (modes.zeros < arguments.count) draw_modes(folder);
   else fmt::print("no picture: all {} modes {}; ask for more with -n\n", modes.zeros,

@@ -62,7 +62,7 @@ const Spec<SupportMotion>& SupportMotion::spec() {
           .key(
               "resolution", &SupportMotion::resolution,
               "Step of the differences that give the formulas' velocity and acceleration: a sixtieth of their shortest "
-              "period, or less; default 1e-3 s.",
+              "period, or less; default by what they do in the time span.",
               {.unit = "s", .range = kPositive})
           .check(check_motion);
   return s;
@@ -73,12 +73,16 @@ void SupportMotion::declare(Traits& traits) const {
   traits.conservative = false;
 }
 
-std::shared_ptr<const Motion> SupportMotion::motion(double start) const {
-  if (displacement)
-    return std::make_shared<FormulaMotion>(*displacement, resolution.value_or(kUsualResolution), kinks, start);
+std::shared_ptr<const Motion> SupportMotion::motion(double start, double end, const NodalVector& X) const {
+  if (displacement) {
+    DifferenceStep step = resolution ? DifferenceStep(*resolution)
+                                     : DifferenceStep(step_limits_of(*displacement, start, end, kinks, X), start, end);
+    return std::make_shared<FormulaMotion>(*displacement, std::move(step), kinks, start);
+  }
   const Rotation turn = rotation.value_or(Rotation{});
+  const auto resolved = factor->over(start, end);
   return std::make_shared<RigidMotion>(translation.value_or(Vec3::Zero()), turn.point, turn.axis.normalized(),
-                                       turn.angle, factor);
+                                       turn.angle, resolved ? resolved : factor);
 }
 
 }  // namespace orthodyn

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <memory>
 #include <optional>
 
@@ -36,8 +35,8 @@ struct SupportMotion : Selection {
   // What changes for integrators when supports are moved.
   void declare(Traits& traits) const;
 
-  // start: the time before which it is never asked for, s.
-  std::shared_ptr<const Motion> motion(double start = -std::numeric_limits<double>::infinity()) const;
+  // Between two times, s, before the first of which it is never asked for; of the points X at rest, m.
+  std::shared_ptr<const Motion> motion(double start, double end, const NodalVector& X) const;
 };
 
 }  // namespace orthodyn

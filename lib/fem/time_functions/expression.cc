@@ -24,7 +24,8 @@ class Expression : public TimeFunction {
                  "times of the span.",
                  {.range = kNonNegative})
             .key("resolution", &Expression::resolution_,
-                 "Step of the differences that give rate and curvature: a sixtieth of its shortest period, or less.",
+                 "Step of the differences that give rate and curvature: a sixtieth of its shortest period, or less; "
+                 "default by what it does in the span.",
                  {.unit = "s", .range = kPositive});
     return s;
   }
@@ -32,6 +33,12 @@ class Expression : public TimeFunction {
   double rate(double t) const override { return differences(t).first; }
   double curvature(double t) const override { return differences(t).second; }
   std::vector<double> kinks() const override { return kinks_; }
+  std::shared_ptr<const TimeFunction> over(double start, double end) const override {
+    if (resolution_ || !(end > start)) return nullptr;
+    auto resolved = std::make_shared<Expression>(*this);
+    resolved->step_ = DifferenceStep(step_limits(start, end), start, end);
+    return resolved;
+  }
   StepLimits step_limits(double start, double end) const override {
     return StepLimits::of([this](double t) { return formula_.at(t); }, start, end, kinks_);
   }
@@ -51,13 +58,15 @@ class Expression : public TimeFunction {
 
  private:
   Differences<double> differences(double t) const {
-    return smooth_differences<double>([&](double s) { return formula_.at(s); }, t, resolution_, kinks_);
+    const double step = resolution_ ? *resolution_ : step_.at(t);
+    return smooth_differences<double>([&](double s) { return formula_.at(s); }, t, step, kinks_);
   }
 
   TimeFormula formula_;
   std::vector<double> kinks_;
   std::optional<double> peak_;
-  double resolution_ = kUsualResolution;
+  std::optional<double> resolution_;
+  DifferenceStep step_{1e-3};  // where no span is known
 };
 
 const bool expression_registered = Registry<TimeFunction>::add<Expression>("expression", "A formula of t.");

@@ -18,6 +18,8 @@ class TimeFunction {
   virtual bool constant() const { return false; }
   virtual std::vector<double> kinks() const { return {}; }                 // where it is not smooth
   virtual bool has_continuous_rate() const { return kinks().empty(); }
+  // One whose rate and curvature are right for what it does between two times, s; null where its own are exact.
+  virtual std::shared_ptr<const TimeFunction> over(double /*start*/, double /*end*/) const { return nullptr; }
   // What it does between the kinks.
   virtual StepLimits step_limits(double /*start*/, double /*end*/) const { return {}; }
   // The largest magnitude it reaches between two times, or ever: for default scales of errors.

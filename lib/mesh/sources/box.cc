@@ -1,4 +1,8 @@
 // The mesh source `box`.
+#include <algorithm>
+#include <array>
+#include <optional>
+
 #include "lib/mesh/box.h"
 #include "lib/mesh/mesh_source.h"
 #include "lib/mesh/sources/element_order.h"
@@ -55,19 +59,23 @@ class BoxSource : public MeshSource, public BoxMesh {
             .key("size", &BoxMesh::size, "Edge lengths.", {.required = true, .unit = "m", .range = kPositive})
             .key("cells", &BoxMesh::cells, "Cells along x, y, z.", {.required = true, .range = {1, 1e6}})
             .key("origin", &BoxMesh::origin, "The corner with the lowest coordinates.", {.unit = "m"})
-            .key("split", &BoxMesh::split,
-                 "Tets per cell: five (mirror symmetric for even cells) or six (all cells alike).")
+            .key("split", &BoxSource::split_,
+                 "Tets per cell: five (mirror symmetric for even cells) or six (all cells alike). Default: six for "
+                 "quadratic tetrahedra in cells that are more than three times wider than thick, where five are far too "
+                 "stiff; else five.")
             .key("order", &BoxSource::order, kOrderSentence, kOrderRule)
             .key("parts", &BoxSource::parts_,
                  "Further regions by name: the elements whose centroid lies between `min` and `max`.")
             .check([](const BoxSource& box, const Config& config) {
-              const double tets_per_cell = box.split == BoxMesh::Split::five ? 5 : 6;
+              const double tets_per_cell = box.chosen_split() == BoxMesh::Split::five ? 5 : 6;
               require_room(tets_per_cell * box.cells[0] * box.cells[1] * box.cells[2], config.at("cells"));
             });
     return s;
   }
   LoadedMesh load() const override {
-    TetMesh mesh = make_box(*this);
+    BoxMesh box = *this;
+    box.split = chosen_split();
+    TetMesh mesh = make_box(box);
     for (const auto& [name, part] : parts_) assign(mesh, name, part);
     set_order(mesh, order);
     return {std::move(mesh), {}};
@@ -76,6 +84,18 @@ class BoxSource : public MeshSource, public BoxMesh {
   int order = kDefaultOrder;
 
  private:
+  Split chosen_split() const {
+    return split_.value_or(order == 2 && has_flat_cells() ? Split::six : Split::five);
+  }
+  bool has_flat_cells() const {
+    std::array<double, 3> edges;
+    for (std::size_t i = 0; i < 3; ++i) edges[i] = size[static_cast<Eigen::Index>(i)] / cells[i];
+    std::sort(edges.begin(), edges.end());
+    return edges[1] > kFlat * edges[0];
+  }
+
+  static constexpr double kFlat = 3;
+  std::optional<Split> split_;
   Named<BoxRegion> parts_;
 };
 

@@ -28,9 +28,11 @@ struct Matrices {
   std::vector<double> stiffness, shifted;
 };
 
-Matrices matrices(const FemModel& model, double t, const Vector& q, double shift) {
+Matrices matrices(const FemModel& whole, const State& about, double shift) {
+  const auto unloaded = about.load_factor == 0 ? without_loads(whole) : nullptr;
+  const Model& model = unloaded ? *unloaded : whole;
   Linearization at;
-  model.linearize(t, q, Vector::Zero(q.size()), TangentKind::exact, at);
+  model.linearize(about.t, about.q, Vector::Zero(about.q.size()), TangentKind::exact, at);
   Matrices out{std::vector<double>(at.stiffness.size()), std::vector<double>(at.stiffness.size())};
   model.combine({0, 0, 1}, at, out.stiffness.data());
   model.combine({shift, 0, 1}, at, out.shifted.data());
@@ -45,11 +47,11 @@ class FinerSystem {
     const FemModel& model = finer.coarse();
     if (!model.pattern().symmetric || !finer.model().pattern().symmetric)
       throw RunError("the tangent is not symmetric");
-    const Matrices small = matrices(model, coarse.t, coarse.q, shift);
+    const Matrices small = matrices(model, coarse, shift);
     coarse_ = make_solver_for(model.pattern());
     if (coarse_->factor(small.shifted.data()) != FactorStatus::ok)
       throw RunError("the tangent cannot be factorised: it is singular or unstable");
-    values_ = matrices(finer.model(), coarse.t, q_, shift);
+    values_ = matrices(finer.model(), {coarse.t, q_, {}, coarse.load_factor}, shift);
     solver_ =
         std::make_unique<TwoLevelSolver>(finer.model().pattern(), values_.shifted, [this](const ConstVectorRef& b) {
           Vector x = finer_.lower(b);

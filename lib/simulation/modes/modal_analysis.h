@@ -22,6 +22,9 @@ class ModalAnalysis {
   // Of each mode that is not at zero the share by which the mesh makes its frequency too high, estimated; 0 of others.
   const std::vector<double>& mesh_errors() const { return mesh_errors_.shares; }
   const FrequencyErrors& how_estimated() const { return mesh_errors_; }
+  // Of the stiffness that loads add, such as pressure on a surface with free edges: the rest of it, by which motion may
+  // grow (flutter), is left out.
+  bool takes_symmetric_part() const { return takes_symmetric_part_; }
   // How many of them the geometry leaves free: 0 Hz.
   int rigid() const { return rigid_; }
 
@@ -35,6 +38,7 @@ class ModalAnalysis {
   Modes modes_;
   FrequencyErrors mesh_errors_;
   int rigid_ = 0;
+  bool takes_symmetric_part_ = false;
 };
 
 }  // namespace orthodyn

@@ -117,7 +117,8 @@ class Evaluation {
         names.push_back(name), wanted.push_back(f);
     if (wanted.empty()) return;
     const Vector zero = Vector::Zero(built.model->num_dofs());
-    const State about{scene.time.end, about_equilibrium ? equilibrium(scene, built) : zero, zero};
+    const State about{scene.time.end, about_equilibrium ? equilibrium(scene, built) : zero, zero,
+                      about_equilibrium ? 1.0 : 0.0};
     const WantedModes found = wanted_modes(wanted, *built.model, about);
     for (std::size_t k = 0; k < names.size(); ++k)
       keep(names[k], found.chosen[k] ? found.modes.modes[*found.chosen[k]].frequency() : std::nan(""),

@@ -19,7 +19,7 @@ void check_frequencies(const Setup& setup, std::vector<Check>& checks) {
   const Scene scene = setup.scene.is_static() ? setup.scene : at_rest(setup.scene);
   const BuiltScene built = build(scene);
   const Vector zero = Vector::Zero(built.model->num_dofs());
-  const WantedModes found = wanted_modes(wanted, *built.model, {scene.time.end, zero, zero});
+  const WantedModes found = wanted_modes(wanted, *built.model, {scene.time.end, zero, zero, 0});
   auto chosen = found.chosen.begin();
   for (const auto& e : setup.scene.expect) {
     if (!e.mode) continue;

@@ -69,7 +69,11 @@ CaseResult verify_motion(const Setup& setup, std::vector<Observer*> observers, c
 CaseResult verify_motion_or_equilibrium(const Setup& setup, const std::vector<Observer*>& observers,
                                         const std::atomic<bool>& interrupt) {
   const bool has_quantities = !std::ranges::all_of(setup.scene.expect, &Expectation::is_eigenvalue);
-  if (!has_quantities) return {setup.config.file(), Outcome{.last = setup.built.initial}, {}};
+  if (!has_quantities) {
+    CaseResult result{setup.config.file(), {}, {}};
+    result.outcome.last = setup.built.initial;
+    return result;
+  }
   return setup.scene.is_static() ? verify_equilibrium(setup, interrupt) : verify_motion(setup, observers, interrupt);
 }
 

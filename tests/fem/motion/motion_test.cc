@@ -31,7 +31,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Motions, testing::Values(kTurnAndShift, kFormula
                          [](const auto& tested) { return tested.index == 0 ? "rigid" : "formulas"; });
 
 TEST_P(Motions, HaveTheVelocityAndAccelerationOfTheirDisplacements) {
-  const auto motion = read_motion(GetParam()).motion();
+  const auto motion = read_motion(GetParam()).motion(0, 2, some_points());
   const NodalVector X = some_points();
   for (const double t : {0.4, 1.0, 1.7}) {
     const auto displacement = [&](double h) { return Vector(motion->at(t + h, X).u.reshaped()); };
@@ -41,9 +41,32 @@ TEST_P(Motions, HaveTheVelocityAndAccelerationOfTheirDisplacements) {
   }
 }
 
+// Without a resolution, whatever the unit of time: a fast and a slow motion, and a pulse after a long rest.
+TEST(FormulaMotion, HasItsRatesAtAnyScaleOfTime) {
+  const NodalVector X = some_points();
+  for (const double T : {1e-9, 1e-3, 1.0, 1e6}) {
+    const double w = 2 * std::numbers::pi / T, width = T / 500;
+    const auto sine = read_motion(fmt::format("{{surface: x1, displacement: [sin({:.17g}*t), 0, 0]}}", w)).motion(0, 3 * T, X);
+    const auto pulse =
+        read_motion(fmt::format("{{surface: x1, displacement: [\"exp(-((t - {:.17g})/{:.17g})^2)\", 0, 0]}}", T, width))
+            .motion(0, 3 * T, X);
+    for (const double share : {0.0, 0.3, 1.0, 2.71}) {
+      const Moved moved = sine->at(share * T, X);
+      EXPECT_NEAR(moved.v(0, 0) / w, std::cos(w * share * T), 1e-8) << T;
+      EXPECT_NEAR(moved.a(0, 0) / (w * w), -std::sin(w * share * T), 1e-8) << T;
+    }
+    for (const double away : {-300.0, -30.0, -3.0, -1.0, 0.0, 0.4, 2.0, 30.0}) {
+      const Moved moved = pulse->at(T + away * width, X);
+      const double height = std::exp(-away * away);
+      EXPECT_NEAR(moved.v(0, 0) * width, -2 * away * height, 1e-7) << T << " " << away;
+      EXPECT_NEAR(moved.a(0, 0) * width * width, (4 * away * away - 2) * height, 1e-6) << T << " " << away;
+    }
+  }
+}
+
 TEST(RigidMotion, KeepsDistancesAndTurnsByTheWholeAngle) {
   const auto motion = read_motion("{surface: x1, rotation: {point: [1, 0, 0], axis: [0, 0, 5], angle: 450 deg}, "
-                                  "factor: {type: constant}}").motion();
+                                  "factor: {type: constant}}").motion(0, 2, some_points());
   NodalVector X(3, 2);
   X << 2, 1, 0, 0, 7, -1;
   const Moved moved = motion->at(0, X);
@@ -54,7 +77,7 @@ TEST(RigidMotion, KeepsDistancesAndTurnsByTheWholeAngle) {
 
 TEST(RigidMotion, ByASmallAngleHasAllDigits) {
   const auto motion = read_motion("{surface: x1, rotation: {point: [0, 0, 0], axis: [0, 0, 1], angle: 1e-9 rad}, "
-                                  "factor: {type: constant}}").motion();
+                                  "factor: {type: constant}}").motion(0, 2, some_points());
   NodalVector X(3, 1);
   X << 3, 4, 0;
   const Vec3 expected(-4e-9 - 1.5e-18, 3e-9 - 2e-18, 0);  // angle x r - angle^2 r/2
@@ -62,7 +85,7 @@ TEST(RigidMotion, ByASmallAngleHasAllDigits) {
 }
 
 TEST(RigidMotion, PassesHalfATurnWithoutAJump) {
-  const auto motion = read_motion(kTurnAndShift).motion();
+  const auto motion = read_motion(kTurnAndShift).motion(0, 2, some_points());
   const NodalVector X = some_points();
   for (double t = 0; t < 2; t += 0.01)
     EXPECT_LE((motion->at(t + 1e-6, X).u - motion->at(t, X).u - 1e-6 * motion->at(t, X).v).norm(), 1e-9) << t;
@@ -200,7 +223,7 @@ TEST_P(MovedBody, GainsTheWorkOfItsSupportsLessWhatIsDissipated) {
 
 TEST(MovedBody, IsFreeOfStressWhereAllOfItTurnsWithItsSupport) {
   const BuiltTestScene s(scene("motions:\n  - " + kTurnAndShift));
-  const auto motion = read_motion(kTurnAndShift).motion();
+  const auto motion = read_motion(kTurnAndShift).motion(0, 2, some_points());
   const NodalVector& X = *s.model().parts().rest;
   for (const double t : {0.7, 1.3, 2.0}) {
     const NodalVector u = motion->at(t, X).u;
