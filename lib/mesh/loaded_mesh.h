@@ -1,7 +1,9 @@
 // What a mesh file says: the mesh, and what else it holds about its elements.
 #pragma once
 
+#include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,10 +11,10 @@
 
 namespace orthodyn {
 
-// Engineering constants of a region as the file gives them, unchecked but for positive moduli and
-// density.
+// Constants of a region as the file gives them, unchecked but for those of Vega files, whose moduli and densities are
+// positive.
 struct MeshMaterial {
-  enum class Kind { isotropic, orthotropic };
+  enum class Kind { isotropic, orthotropic, anisotropic };
 
   std::string name;
   std::string where = {};  // "turtle.veg:1557"
@@ -21,7 +23,19 @@ struct MeshMaterial {
   Vec3 young = Vec3::Zero();    // E1, E2, E3, Pa; isotropic: all the same
   double nu12 = 0, nu23 = 0, nu31 = 0;  // nu_ij: contraction along j when stretched along i
   double g12 = 0, g23 = 0, g31 = 0;     // Pa
+  std::optional<double> nu13 = {};      // where the file has it, and nu31 follows
+  // Anisotropic: C11, C12, C22, C13, C23, C33, C14, ... C66, Pa, with 4, 5, 6 = 12, 13, 23 (voigt_order: abaqus).
+  std::array<double, 21> stiffness = {};
   Mat3 axes = Mat3::Identity();         // orthonormal, right-handed; columns are directions 1, 2, 3
+  std::string axes_file = {};           // that has those of each element, instead of `axes`
+
+  std::string problem = {};  // why there are no constants, or ""; where: `where`
+  // What the file gives the material beside a law that is linear and elastic: where, and its name.
+  struct Beyond {
+    std::string where, name;
+  };
+  std::vector<Beyond> beyond = {};
+  std::vector<std::string> without_effect = {};  // names of what changes no motion
 };
 
 // Values per element: values[components * element + component].
@@ -34,7 +48,7 @@ struct CellData {
 struct LoadedMesh {
   TetMesh mesh = {};
   Warnings warnings = {};
-  std::map<std::string, MeshMaterial> materials = {};  // by region; empty, or one for each region
+  std::map<std::string, MeshMaterial> materials = {};  // by region; not of all, if the file does not say
   std::vector<CellData> cell_data = {};
 };
 

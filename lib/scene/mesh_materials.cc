@@ -2,24 +2,46 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <utility>
+
+#include "lib/core/words.h"
+
 namespace orthodyn {
 
 namespace {
 
-std::string material_yaml(const MeshMaterial& m) {
-  if (m.kind == MeshMaterial::Kind::isotropic)
-    return fmt::format("{{type: isotropic, density: {}, young: {}, nu: {}}}", number_text(m.density),
-                       number_text(m.young[0]), number_text(m.nu12));
-  return fmt::format(
-      "{{type: orthotropic, density: {}, young: {}, nu12: {}, nu23: {}, nu31: {}, g12: {}, g23: {}, g13: {}}}",
-      number_text(m.density), Value<Vec3>::yaml(m.young), number_text(m.nu12), number_text(m.nu23),
-      number_text(m.nu31), number_text(m.g12), number_text(m.g23), number_text(m.g31));
+std::string stiffness_yaml(const MeshMaterial& m) {
+  std::string text = fmt::format("{{type: anisotropic, voigt_order: abaqus, density: {}", number_text(m.density));
+  std::size_t k = 0;
+  for (int column = 1; column <= 6; ++column)
+    for (int row = 1; row <= column; ++row, ++k)
+      if (m.stiffness[k] != 0 || row == column || column <= 3)
+        text += fmt::format(", c{}{}: {}", row, column, number_text(m.stiffness[k]));
+  return text + "}";
 }
 
 std::string region_yaml(const MeshMaterial& m) {
   if (m.axes == Mat3::Identity()) return "{}";
   return fmt::format("{{axes: {{first: {}, second: {}}}}}", Value<Vec3>::yaml(m.axes.col(0)),
                      Value<Vec3>::yaml(m.axes.col(1)));
+}
+
+void fill_axes_by_element(const Config& region, const std::string& file) {
+  region.fill("axes", "{type: file}").fill_text("file", std::filesystem::absolute(file).string());
+}
+
+// What the file has for a material and we do not is refused, not dropped.
+void check_can_be_taken(const MeshMaterial& m) {
+  if (!m.problem.empty())
+    throw ConfigError(m.where, fmt::format("material '{}' of the mesh: {}; give `materials` in the scene, where the "
+                                           "file's are not used then",
+                                           m.name, m.problem));
+  for (const auto& [where, name] : m.beyond)
+    throw ConfigError(where, fmt::format("material '{}' of the mesh: {} is not read, and only linear elasticity is "
+                                         "computed; to do so without it give `materials` in the scene (`orthodyn init "
+                                         "--from` writes them)",
+                                         m.name, name));
 }
 
 void check_all_regions_have_one(const Config& config, const LoadedMesh& loaded) {
@@ -35,17 +57,34 @@ void check_all_regions_have_one(const Config& config, const LoadedMesh& loaded) 
 
 }  // namespace
 
+std::string material_yaml(const MeshMaterial& m) {
+  if (m.kind == MeshMaterial::Kind::isotropic)
+    return fmt::format("{{type: isotropic, density: {}, young: {}, nu: {}}}", number_text(m.density),
+                       number_text(m.young[0]), number_text(m.nu12));
+  if (m.kind == MeshMaterial::Kind::anisotropic) return stiffness_yaml(m);
+  const auto [ratio, value] = m.nu13 ? std::pair("nu13", *m.nu13) : std::pair("nu31", m.nu31);
+  return fmt::format(
+      "{{type: orthotropic, density: {}, young: {}, nu12: {}, nu23: {}, {}: {}, g12: {}, g23: {}, g13: {}}}",
+      number_text(m.density), Value<Vec3>::yaml(m.young), number_text(m.nu12), number_text(m.nu23), ratio,
+      number_text(value), number_text(m.g12), number_text(m.g23), number_text(m.g31));
+}
+
 LoadedMesh load_mesh(const Scene& scene) { return scene.loaded ? *scene.loaded : scene.mesh->load(); }
 
 void fill_mesh_materials(const Config& config, Scene& scene) {
   if (!scene.mesh->may_bring_materials())
     config.fail("key 'materials' is missing (name: section with type)");
-  scene.loaded = std::make_shared<const LoadedMesh>(scene.mesh->load());
-  const LoadedMesh& loaded = *scene.loaded;
+  const auto mesh = std::make_shared<LoadedMesh>(scene.mesh->load());
+  LoadedMesh& loaded = *mesh;
+  scene.loaded = mesh;
   check_all_regions_have_one(config, loaded);
   const Config materials = config.fill("materials", "{}");
   for (const auto& [region, material] : loaded.materials) {
+    check_can_be_taken(material);
     if (materials.has(material.name)) continue;
+    if (!material.without_effect.empty())
+      loaded.warnings.push_back(fmt::format("{}: material '{}' of the mesh: without effect here: {}", material.where,
+                                            material.name, join(material.without_effect)));
     try {
       const Config filled = materials.fill(material.name, material_yaml(material));
       scene.materials.emplace_back(material.name, Registry<Material>::read(filled));
@@ -55,8 +94,11 @@ void fill_mesh_materials(const Config& config, Scene& scene) {
   }
   if (!scene.regions.empty()) return;
   const Config regions = config.fill("regions", "{}");
-  for (const auto& [name, material] : loaded.materials)
-    regions.fill(name, region_yaml(material)).fill_text("material", material.name);
+  for (const auto& [name, material] : loaded.materials) {
+    const Config region = regions.fill(name, region_yaml(material));
+    region.fill_text("material", material.name);
+    if (!material.axes_file.empty()) fill_axes_by_element(region, material.axes_file);
+  }
   scene.regions = Value<Named<Region>>::read(regions, {});
 }
 

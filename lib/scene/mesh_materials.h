@@ -11,6 +11,9 @@ namespace orthodyn {
 // of those of some of its regions.
 void fill_mesh_materials(const Config& config, Scene& scene);
 
+// The constants as the scene's input says them, on one line: "{type: isotropic, ...}". Precondition: no problem.
+std::string material_yaml(const MeshMaterial& material);
+
 // The scene's mesh, which is read here if it was not for its materials. Throws ConfigError.
 LoadedMesh load_mesh(const Scene& scene);
 

@@ -39,7 +39,7 @@ const Spec<Scene>& Scene::spec() {
                "dynamic: the motion over time. static: the equilibrium under all loads, which grow step by step. "
                "buckling: the load factors at which the body at rest would buckle, and how (linear).")
           .key("mesh", &Scene::mesh, "Where the mesh comes from.", {.required = true})
-          .key("materials", &Scene::materials, "Materials by name; required unless the mesh file brings them (.veg).")
+          .key("materials", &Scene::materials, "Materials by name. Left out, those of the mesh file (.veg, .inp) are used, with the regions' axes.")
           .key("regions", &Scene::regions,
                "Material and axes of each region of the mesh by its name, or of `all`; default: the only "
                "material everywhere.")

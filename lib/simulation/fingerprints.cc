@@ -20,6 +20,15 @@ std::string bytes(const std::vector<T>& list) {
   return {reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T)};
 }
 
+const char* kind_name(MeshMaterial::Kind kind) {
+  switch (kind) {
+    case MeshMaterial::Kind::isotropic: return "isotropic";
+    case MeshMaterial::Kind::orthotropic: return "orthotropic";
+    case MeshMaterial::Kind::anisotropic: return "anisotropic";
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string mesh_fingerprint(const TetMesh& mesh) {
@@ -39,10 +48,12 @@ std::string mesh_fingerprint(const LoadedMesh& loaded) {
   Fingerprint print;
   print.add(mesh_fingerprint(loaded.mesh));
   for (const auto& [region, m] : loaded.materials) {
-    print.add(region).add(m.name).add(m.kind == MeshMaterial::Kind::isotropic ? "isotropic" : "orthotropic");
+    print.add(region).add(m.name).add(kind_name(m.kind)).add(m.problem);
     std::vector<double> constants{m.density, m.nu12, m.nu23, m.nu31, m.g12, m.g23, m.g31};
     constants.insert(constants.end(), m.young.begin(), m.young.end());
     constants.insert(constants.end(), m.axes.data(), m.axes.data() + m.axes.size());
+    if (m.kind == MeshMaterial::Kind::anisotropic)
+      constants.insert(constants.end(), m.stiffness.begin(), m.stiffness.end());
     print.add(bytes(constants));
   }
   for (const auto& data : loaded.cell_data)

@@ -31,6 +31,8 @@ Body, S1
 *Material, name=steel
 *Elastic
 2e11, 0.3
+*Boundary
+10, 1, 3
 )";
 
 LoadedMesh load(const std::string& text) { return read_abaqus_text("body.inp", text); }
@@ -83,7 +85,7 @@ TEST(Abaqus, SetsMayNameSets) {
 TEST(Abaqus, WarnsOfWhatItSkips) {
   const LoadedMesh loaded = load(kDeck);
   ASSERT_EQ(loaded.warnings.size(), 2u);
-  EXPECT_CONTAINS(loaded.warnings[0], "only the mesh is read; skipped: *ELASTIC, *MATERIAL");
+  EXPECT_CONTAINS(loaded.warnings[0], "only the mesh is read; skipped: *BOUNDARY");
 }
 
 TEST(Abaqus, SaysWhichElementsALaterSetTakes) {
@@ -141,8 +143,8 @@ TEST(Abaqus, OrientationsHaveAnOriginAndAnAngle) {
 
 TEST(Abaqus, OrientationsThatAreNotReadAreNamed) {
   EXPECT_CONTAINS(refusal(kDeck + "*Orientation, name=Grain, system=user\n" + kSections),
-                  "body.inp:25: *ORIENTATION, SYSTEM=\"user\" is not read; read are RECTANGULAR, Z RECTANGULAR,");
-  EXPECT_CONTAINS(refusal(kDeck + kSections), "body.inp:26: *SOLID SECTION: no *ORIENTATION \"GRAIN\"");
+                  "body.inp:27: *ORIENTATION, SYSTEM=\"user\" is not read; read are RECTANGULAR, Z RECTANGULAR,");
+  EXPECT_CONTAINS(refusal(kDeck + kSections), "body.inp:28: *SOLID SECTION: no *ORIENTATION \"GRAIN\"");
   EXPECT_CONTAINS(refusal(kDeck + "*Orientation, name=Grain\n0, 1, 0, 0, 2, 0\n" + kSections), "points are on a line");
   EXPECT_CONTAINS(refusal(kDeck + "*Orientation, name=Grain\n0, 1, 0, 0\n" + kSections), "with 4 coordinates");
   EXPECT_CONTAINS(refusal(kDeck + "*Orientation, name=Grain\n0, 1, 0, 0, 0, 1\n4, 30\n" + kSections),

@@ -8,7 +8,7 @@
 #include "lib/core/errors.h"
 #include "lib/core/file_kind.h"
 #include "lib/core/words.h"
-#include "lib/mesh/io/abaqus_scene.h"
+#include "lib/scene/abaqus_scene.h"
 #include "lib/simulation/files.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/installed_paths.h"

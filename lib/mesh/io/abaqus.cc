@@ -40,7 +40,9 @@ class AbaqusMesh {
   LoadedMesh build() {
     make_draft();
     const std::vector<Mat3> axes = axes_of_cells();
+    std::map<std::string, MeshMaterial> materials = materials_of_regions();
     LoadedMesh loaded = build_mesh(std::move(draft_));
+    loaded.materials = std::move(materials);
     if (!axes.empty()) add_axes(axes, loaded);
     return loaded;
   }
@@ -115,6 +117,24 @@ class AbaqusMesh {
       second.values.insert(second.values.end(), Q.col(1).begin(), Q.col(1).end());
     }
     loaded.cell_data = {std::move(first), std::move(second)};
+  }
+
+  std::map<std::string, MeshMaterial> materials_of_regions() const {
+    std::map<std::string, MeshMaterial> materials;
+    for (const auto& [name, section] : section_of_region_)
+      if (!section->material.empty()) materials.emplace(name, material_of(*section));
+    return materials;
+  }
+
+  MeshMaterial material_of(const AbaqusSection& section) const {
+    const auto found = file_.materials.find(section.material);
+    MeshMaterial material = found == file_.materials.end()
+                                ? MeshMaterial{.name = section.material,
+                                               .where = file_.draft.where(section.elements.place),
+                                               .problem = "the file has no such *MATERIAL"}
+                                : mesh_material(found->second, file_.draft);
+    if (!section.orientation.empty()) material.axes_file = file_.draft.files.front();
+    return material;
   }
 
   void check_elements_differ() const {
@@ -270,6 +290,7 @@ class AbaqusMesh {
       if (region[c] < 0) continue;
       region[c] = count++;
       draft_.region_names.push_back(c < candidates.size() ? candidates[c].name : count == 1 ? "body" : "unassigned");
+      if (c < file_.sections.size()) section_of_region_[draft_.region_names.back()] = &file_.sections[c];
     }
     for (std::size_t t = 0; t < last.size(); ++t) {
       draft_.cells[t].region = region[last[t] < 0 ? candidates.size() : static_cast<std::size_t>(last[t])];
@@ -372,10 +393,15 @@ class AbaqusMesh {
   Numbers nodes_, cells_, faces_, left_out_;
   std::size_t budget_ = 0;
   std::vector<int> section_of_;  // of each cell, an index into file_.sections; -1 for none
+  std::map<std::string, const AbaqusSection*> section_of_region_;
 };
 
 const bool abaqus_registered = register_mesh_format(
-    {.name = "Abaqus", .endings = {".inp"}, .read = read_abaqus, .write = write_abaqus});
+    {.name = "Abaqus",
+     .endings = {".inp"},
+     .read = read_abaqus,
+     .write = write_abaqus,
+     .brings_materials = true});
 
 }  // namespace
 

@@ -32,7 +32,7 @@ struct Scope {
 
 class AbaqusReader {
  public:
-  AbaqusReader(const std::string& path, std::string_view text) : file_(draft_of(path)), lines_(file_.draft, text) {}
+  AbaqusReader(const std::string& path, std::string_view text) : file_(draft_of(path)), lines_(file_.draft, text), materials_(lines_, file_.materials) {}
 
   AbaqusFile read() {
     if (!lines_.at_keyword()) {
@@ -65,6 +65,7 @@ class AbaqusReader {
 
   void read_keyword(const AbaqusKeyword& keyword) {
     const std::string& name = keyword.name;
+    if (materials_.read(keyword)) return;
     if (name == "NODE") return read_nodes(keyword);
     if (name == "ELEMENT") return read_elements(keyword);
     if (name == "NSET") return read_set(keyword, "NSET", file_.node_sets);
@@ -81,39 +82,7 @@ class AbaqusReader {
       return lines_.skip_data();
     refuse_what_makes_nodes(keyword);
     skipped_.insert(keyword.spelled);
-    if (name == "MATERIAL") begin_material(keyword);
-    if (material_ && name == "ELASTIC") {
-      material_->type = abaqus_word(keyword.parameter("TYPE"));
-      material_->elastic = numbers_of_material(keyword, {"TYPE", "MODULI"});
-    } else if (material_ && name == "DENSITY") {
-      material_->density = numbers_of_material(keyword, {});
-    }
     lines_.skip_data();
-  }
-
-  void begin_material(const AbaqusKeyword& keyword) {
-    const std::string name = name_of(keyword);
-    material_ = &file_.materials[in_capitals(name)];
-    *material_ = {.name = name, .place = keyword.place};
-  }
-
-  // What is no number, or depends on more than its place, is a problem only for those who want the material.
-  std::vector<std::vector<double>> numbers_of_material(const AbaqusKeyword& keyword,
-                                                       const std::vector<std::string>& known) {
-    for (const auto& [name, value] : keyword.parameters)
-      if (std::find(known.begin(), known.end(), name) == known.end())
-        material_->problem = fmt::format("{}, {} is not read", keyword.spelled, name);
-    std::vector<std::vector<double>> out;
-    while (!lines_.at_keyword()) {
-      auto& row = out.emplace_back();
-      const auto& fields = lines_.data();
-      if (is_name(fields)) {
-        material_->problem = fmt::format("{} by a distribution is not read", keyword.spelled);
-        continue;
-      }
-      for (std::size_t k = 0; k < fields.size(); ++k) row.push_back(lines_.real(k, "a constant"));
-    }
-    return out;
   }
 
   void refuse_what_makes_nodes(const AbaqusKeyword& keyword) const {
@@ -592,8 +561,8 @@ class AbaqusReader {
 
   AbaqusFile file_;
   AbaqusLines lines_;
+  AbaqusMaterialReader materials_;
   Scope scope_;
-  AbaqusMaterial* material_ = nullptr;  // the last one that began
   std::map<std::string, Part> parts_;
   std::map<std::string, Scope> instances_;
   std::map<std::string, std::vector<std::string>> tables_;

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "lib/mesh/io/abaqus_material.h"
 #include "lib/mesh/mesh_draft.h"
 
 namespace orthodyn {
@@ -83,15 +84,6 @@ struct AbaqusDistribution {
   FilePlace place = {};
 };
 
-// *MATERIAL with the lines of its *ELASTIC and *DENSITY.
-struct AbaqusMaterial {
-  std::string name = {};
-  std::string type = {};  // of *ELASTIC: "ISOTROPIC", or another word in capitals without blanks
-  std::vector<std::vector<double>> elastic = {}, density = {};
-  std::string problem = {};  // why it cannot be read, or ""
-  FilePlace place = {};
-};
-
 using AbaqusSets = std::map<std::string, AbaqusSet>;
 
 // Is added to the numbers of nodes and elements of an assembly that has instances.
@@ -107,7 +99,7 @@ struct AbaqusFile {
   std::vector<AbaqusSection> sections;
   std::map<std::string, AbaqusOrientation> orientations;
   std::map<std::string, AbaqusDistribution> distributions;
-  std::map<std::string, AbaqusMaterial> materials;
+  AbaqusMaterials materials;
   std::set<std::string> skipped;  // "*BOUNDARY", ...
 };
 

@@ -157,6 +157,7 @@ const bool vega_registered = register_mesh_format({.name = "Vega",
                                               .endings = {".veg"},
                                               .read = read_vega,
                                               .write = write_vega,
+                                              .brings_materials = true,
                                               .holds_materials = true,
                                               .holds_surfaces = false});
 

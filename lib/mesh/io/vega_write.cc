@@ -1,4 +1,6 @@
 // Vega: sets, materials and regions; .bou for the node set "fixed".
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <span>
@@ -28,6 +30,17 @@ std::string material_line(const MeshMaterial& m) {
   lines.line("ORTHOTROPIC", m.density, m.young, m.nu12, m.nu23, m.nu31, m.g12, m.g23, m.g31,
              std::span<const double>(axes.data(), 9));
   return lines.take();
+}
+
+bool can_hold(const MeshMaterial& m, Warnings& losses) {
+  const bool holds = m.problem.empty() && m.kind != MeshMaterial::Kind::anisotropic;
+  if (!m.problem.empty()) losses.push_back(fmt::format("material \"{}\" is lost: {}", m.name, m.problem));
+  else if (!holds) losses.push_back(fmt::format("the format cannot hold \"{}\", a stiffness by its entries: lost", m.name));
+  for (const auto& [where, name] : m.beyond)
+    losses.push_back(fmt::format("the format cannot hold {} of material \"{}\": lost", name, m.name));
+  if (holds && !m.axes_file.empty())
+    losses.push_back(fmt::format("the format cannot hold axes by element: lost those of material \"{}\"", m.name));
+  return holds;
 }
 
 // Numbers from 1, ten on a line, each with a comma behind it.
@@ -71,7 +84,7 @@ void add_regions(TextLines& lines, const LoadedMesh& loaded, Warnings& losses) {
       lines.text(number_list(elements_in(loaded.mesh, static_cast<int>(r))));
     }
     const auto m = loaded.materials.find(region);
-    if (m == loaded.materials.end()) continue;
+    if (m == loaded.materials.end() || !can_hold(m->second, losses)) continue;
     const NameAndLine material{m->second.name, material_line(m->second)};
     if (!materials.contains(material)) {
       materials[material] = unique_name(material_names, material.first, vega_name(material.first), losses);

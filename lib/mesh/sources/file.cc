@@ -1,8 +1,10 @@
 // The mesh sources that read files: file (any format, by its ending), gmsh, vega.
 #include <fmt/format.h>
 
+#include <array>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "lib/core/file_kind.h"
 #include "lib/mesh/io/gmsh.h"
@@ -14,6 +16,16 @@
 #include "lib/mesh/sources/element_order.h"
 
 namespace orthodyn {
+
+// What the numbers of a file stand for.
+enum class FileUnits { si, mm_t_s };
+
+template <>
+struct Words<FileUnits> {
+  static constexpr std::array<std::pair<FileUnits, const char*>, 2> list{
+      {{FileUnits::si, "SI"}, {FileUnits::mm_t_s, "mm_t_s"}}};
+};
+
 namespace {
 
 constexpr const char* kRefineSentence = "How often each tetrahedron is divided into eight.";
@@ -22,6 +34,18 @@ constexpr const char* kScale = "Multiplies coordinates: 0.001 if they are in mm.
 
 void require_file(const FilePath& file) {
   if (!is_file(file.path)) throw ConfigError(file.where, "no such file: " + file.path);
+}
+
+// Of a file in mm, t and s, and so N and MPa, to SI.
+void convert_from_mm_t_s(LoadedMesh& loaded, const std::string& path) {
+  constexpr double kPascals = 1e6;  // in a MPa
+  scale_mesh(loaded.mesh, 0.001, path);
+  for (auto& [region, m] : loaded.materials) {
+    m.density *= 1e12;
+    m.young *= kPascals;
+    for (double* modulus : {&m.g12, &m.g23, &m.g31}) *modulus *= kPascals;
+    for (double& entry : m.stiffness) entry *= kPascals;
+  }
 }
 
 // What is made of the mesh of any file.
@@ -50,15 +74,27 @@ class FileSource : public MeshSource, public FileOptions {
         Spec<FileSource>()
             .key("file", &FileSource::file, "A mesh file; relative to the scene.", {.required = true})
             .key("scale", &FileSource::scale, kScale, {.range = kPositive})
+            .key("units", &FileSource::units_,
+                 "Of the file's coordinates, and of its materials where the scene has no `materials`: SI, or mm_t_s for "
+                 "mm, t and s, with which moduli are in MPa and densities in t/mm^3.")
             .key("order", &FileSource::order, kFileOrderSentence, kOrderRule)
-            .key("refine", &FileSource::refinements, kRefineSentence, kRefineRule);
+            .key("refine", &FileSource::refinements, kRefineSentence, kRefineRule)
+            .check([](const FileSource& source, const Config& config) {
+              if (source.units_ != FileUnits::si && source.scale != 1)
+                config.at("scale").fail("has no meaning beside `units: mm_t_s`, which makes m of mm; remove one of them");
+            });
     return s;
   }
   LoadedMesh load() const override {
     require_file(file);
-    return as_wanted(read_mesh(file.path));
+    LoadedMesh loaded = read_mesh(file.path);
+    if (units_ == FileUnits::mm_t_s) convert_from_mm_t_s(loaded, file.path);
+    return as_wanted(std::move(loaded));
   }
-  bool may_bring_materials() const override { return mesh_format_of(file.path).holds_materials; }
+  bool may_bring_materials() const override { return mesh_format_of(file.path).brings_materials; }
+
+ private:
+  FileUnits units_ = FileUnits::si;
 };
 
 class GmshSource : public MeshSource, public FileOptions {
@@ -108,7 +144,8 @@ class VegaSource : public MeshSource, public FileOptions {
 };
 
 const bool file_registered[] = {
-    Registry<MeshSource>::add<FileSource>("file", "A mesh file of any known format, chosen by its ending."),
+    Registry<MeshSource>::add<FileSource>("file", "A mesh file of any known format, chosen by its ending. Of .veg and .inp a scene "
+                                          "may leave out `materials`."),
     Registry<MeshSource>::add<GmshSource>(
         "gmsh", "A Gmsh file. Physical volumes become regions, physical surfaces surfaces, physical curves and points "
                 "node sets."),
