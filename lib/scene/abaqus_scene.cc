@@ -3,68 +3,131 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <map>
 #include <set>
-#include <vector>
 
 #include "lib/core/words.h"
 #include "lib/mesh/io/abaqus.h"
-#include "lib/mesh/io/abaqus_file.h"
 #include "lib/mesh/io/mesh_format.h"
 #include "lib/mesh/io/text_tokens.h"
+#include "lib/scene/abaqus_conditions.h"
 #include "lib/scene/mesh_materials.h"
 
 namespace orthodyn {
 namespace {
 
-std::string yaml_name(const std::string& name) {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
-  if (!name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) &&
-      std::all_of(name.begin(), name.end(), plain))
-    return name;
-  std::string quoted = "\"";
-  for (const char c : name) quoted += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
-  return quoted + "\"";
+bool can_be_taken(const LoadedMesh& loaded) {
+  return std::all_of(loaded.mesh.region_names.begin(), loaded.mesh.region_names.end(), [&](const std::string& region) {
+    const auto found = loaded.materials.find(region);
+    return found != loaded.materials.end() && found->second.problem.empty() && found->second.beyond.empty();
+  });
 }
 
-std::string material_line(const MeshMaterial& m) {
+// For readers: the scene takes these from the file.
+std::string materials_in_comments(const LoadedMesh& loaded) {
+  std::string text = "# Materials and axes are those of the file; typed `materials` and `regions` take their place.\n";
+  for (const auto& [region, m] : loaded.materials)
+    text += fmt::format("#   {}: {} {}{}\n", region, m.name, material_yaml(m),
+                        m.axes_file.empty() ? "" : ", axes by its orientation");
+  return text;
+}
+
+std::string material_entry(const MeshMaterial& m) {
   if (!m.problem.empty()) return fmt::format("  # {}: {}; give it here\n", yaml_name(m.name), m.problem);
   std::string beyond;
   for (const auto& [where, name] : m.beyond) beyond += fmt::format("{}{}", beyond.empty() ? "   # without " : ", ", name);
   return fmt::format("  {}: {}{}\n", yaml_name(m.name), material_yaml(m), beyond);
 }
 
-std::string list(const char* what, std::vector<std::string> names) {
+std::string typed_materials(const LoadedMesh& loaded, const std::string& file) {
+  std::map<std::string, const MeshMaterial*> by_name;
+  for (const auto& [region, m] : loaded.materials) by_name[m.name] = &m;
+  std::string text = "materials:\n";
+  for (const auto& [name, m] : by_name) text += material_entry(*m);
+  text += "\nregions:\n";
+  for (const std::string& region : loaded.mesh.region_names) {
+    const auto m = loaded.materials.find(region);
+    if (m == loaded.materials.end()) {
+      text += fmt::format("  # {}: {{material: }}, has no section\n", yaml_name(region));
+      continue;
+    }
+    const std::string axes =
+        m->second.axes_file.empty() ? "" : fmt::format(", axes: {{type: file, file: {}}}", yaml_name(file));
+    text += fmt::format("  {}: {{material: {}{}}}\n", yaml_name(region), yaml_name(m->second.name), axes);
+  }
+  return text;
+}
+
+std::string yaml_list(const char* key, const std::vector<std::string>& entries) {
+  if (entries.empty()) return "";
+  std::string text = fmt::format("\n{}:\n", key);
+  for (const std::string& entry : entries) text += "  - " + entry + "\n";
+  return text;
+}
+
+std::string conditions_text(const SceneConditions& conditions) {
+  std::string text;
+  if (conditions.is_linear) text += "\nelasticity: {kinematics: linear}   # a *STEP without NLGEOM\n";
+  if (!conditions.gravity.empty()) text += fmt::format("\ngravity: {}\n", conditions.gravity);
+  text += yaml_list("clamps", conditions.clamps) + yaml_list("motions", conditions.motions) +
+          yaml_list("loads", conditions.loads) + yaml_list("terms", conditions.terms);
+  if (conditions.clamps.empty() && conditions.motions.empty())
+    text += "\n# clamps:\n#   - nodes: NAME            # or surface: NAME\n";
+  if (conditions.loads.empty() && conditions.terms.empty() && conditions.gravity.empty())
+    text += "\n# loads:\n#   - surface: NAME\n#     force: [0, 0, -5]      # N in total\n";
+  return text;
+}
+
+// What the scene does not have, beside conditions, which tell their own.
+std::vector<std::string> others_left_out(const AbaqusFile& deck, const LoadedMesh& loaded) {
+  std::vector<std::string> names;
+  for (const auto& [what, place] : deck.skipped) {
+    static const std::set<std::string> told{"*BOUNDARY", "*CLOAD", "*DLOAD", "*DSLOAD", "*STEP", "*END STEP"};
+    if (!told.contains(what))
+      names.push_back(place.line > 0 ? fmt::format("{} (line {})", what, place.line) : what);
+  }
+  std::set<std::string> used;
+  for (const auto& [region, m] : loaded.materials) {
+    used.insert(in_capitals(m.name));
+    for (const auto& [where, name] : m.beyond)
+      names.push_back(fmt::format("{} of material {} ({})", name, m.name, where));
+    if (!m.without_effect.empty())
+      names.push_back(fmt::format("of material {}, without effect here: {}", m.name, join(m.without_effect)));
+  }
+  for (const auto& [key, material] : deck.materials)
+    if (!used.contains(key))
+      names.push_back(fmt::format("*MATERIAL {} (line {}): no section has it", material.name, material.place.line));
+  return names;
+}
+
+std::string comment(const char* what, const std::vector<std::string>& names) {
   return names.empty() ? "" : fmt::format("# {}: {}\n", what, join(names));
 }
 
 }  // namespace
 
-std::string scene_of_abaqus(const std::string& path, const std::string& file) {
+AbaqusScene scene_of_abaqus(const std::string& path, const std::string& file, const AbaqusSceneOptions& options) {
   const std::string content = read_text_file(path);
   const AbaqusFile deck = read_abaqus_keywords(path, content);
-  const LoadedMesh loaded = read_abaqus_text(path, content);
-  std::string text = fmt::format("mesh: {{type: file, file: {}}}   # scale: 0.001 if it is in mm\n\n", yaml_name(file));
-  text += "# As in the file. orthodyn computes in Pa and kg/m^3: of a file in N, mm and t, multiply moduli by 1e6 and densities\n"
-          "# by 1e12.\nmaterials:\n";
-  for (const auto& [key, material] : deck.materials) text += material_line(mesh_material(material, deck.draft));
-  text += "\nregions:\n";
-  std::set<std::string> named;
-  for (const AbaqusSection& section : deck.sections) {
-    const AbaqusSet* set = find_abaqus(deck.element_sets, section.elements.set);
-    const auto& regions = loaded.mesh.region_names;
-    if (!set || std::find(regions.begin(), regions.end(), set->name) == regions.end()) continue;
-    if (!named.insert(set->name).second) continue;
-    const auto material = deck.materials.find(section.material);
-    text += fmt::format("  {}: {{material: {}{}}}\n", yaml_name(set->name),
-                        yaml_name(material == deck.materials.end() ? section.material : material->second.name),
-                        section.orientation.empty() ? "" : fmt::format(", axes: {{type: file, file: {}}}", yaml_name(file)));
-  }
-  for (const std::string& region : loaded.mesh.region_names)
-    if (!named.contains(region)) text += fmt::format("  # {}: {{material: }}, has no section\n", yaml_name(region));
-  text += "\n# What the file has beside, for clamps, loads and probes.\n";
-  text += list("surfaces", names_of(loaded.mesh.surfaces)) + list("node sets", names_of(loaded.mesh.node_sets));
-  return text + list("left out", {deck.skipped.begin(), deck.skipped.end()});
+  LoadedMesh loaded = read_abaqus_text(path, content);
+  convert_to_si(loaded, options.units, path);
+  const SceneConditions conditions =
+      conditions_of(deck, loaded, options.units,
+                    options.is_static ? "{type: constant}" : "{type: smooth_step, end: 1}");
+  AbaqusScene scene;
+  scene.text = options.units == FileUnits::si
+                   ? fmt::format("mesh: {{type: file, file: {}}}   # units: mm_t_s if it is in mm, N and MPa\n\n",
+                                 yaml_name(file))
+                   : fmt::format("mesh: {{type: file, file: {}, units: mm_t_s}}\n\n", yaml_name(file));
+  scene.text += can_be_taken(loaded) ? materials_in_comments(loaded) : typed_materials(loaded, file);
+  scene.text += conditions_text(conditions);
+  scene.text += "\n# What the file has, for clamps, loads and probes.\n";
+  scene.text += comment("surfaces", names_of(loaded.mesh.surfaces)) + comment("node sets", names_of(loaded.mesh.node_sets));
+  scene.left_out = others_left_out(deck, loaded);
+  scene.left_out.insert(scene.left_out.end(), conditions.left_out.begin(), conditions.left_out.end());
+  if (!scene.left_out.empty()) scene.text += "\n# Left out of the file:\n";
+  for (const std::string& what : scene.left_out) scene.text += "#   " + what + "\n";
+  return scene;
 }
 
 }  // namespace orthodyn

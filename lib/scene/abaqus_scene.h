@@ -1,15 +1,28 @@
-// A scene to start from, with what an Abaqus input file has: mesh, materials, sections and orientations.
-//
-// Source of the order of constants: Abaqus keywords reference, *ELASTIC.
+// A scene to start from, with what an Abaqus input file has: mesh, materials, sections, orientations, boundary
+// conditions and loads.
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include "lib/mesh/file_units.h"
 
 namespace orthodyn {
 
-// The YAML text. Of *ELASTIC it has ISOTROPIC, ENGINEERING CONSTANTS, ORTHOTROPIC and ANISOTROPIC, in the deck's own
-// units; comments name the materials that are not read and why, the surfaces and node sets, and the keywords that are
-// left out. `path` is read, `file` is what the scene calls it. Throws ConfigError as read_abaqus() does.
-std::string scene_of_abaqus(const std::string& path, const std::string& file);
+struct AbaqusScene {
+  std::string text;                    // YAML
+  std::vector<std::string> left_out;  // what the file has beside, with its lines; the text has it as comments
+};
+
+// How the scene goes on in time, and in which units the file is.
+struct AbaqusSceneOptions {
+  bool is_static = false;
+  FileUnits units = FileUnits::si;
+};
+
+// The scene leaves out `materials` and `regions` where the file's can be used, which the program then does; else it has
+// those that can be read, and comments name the others and why. `path` is read, `file` is what the scene calls it.
+// Throws ConfigError as read_abaqus() does.
+AbaqusScene scene_of_abaqus(const std::string& path, const std::string& file, const AbaqusSceneOptions& options = {});
 
 }  // namespace orthodyn

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/mesh/refusal.h"
 
 namespace orthodyn::abaqus_scene_test {
@@ -14,15 +16,23 @@ std::string scene(const std::string& material) {
                         "*ELEMENT, TYPE=C3D4, ELSET=Upper-part\n1, 1, 2, 3, 4\n*SURFACE, NAME=Base\n1, S1\n"
                         "*ORIENTATION, NAME=O\n0, 1, 0, -1, 0, 0\n*MATERIAL, NAME=M\n" + material +
                         "*SOLID SECTION, ELSET=Upper-part, MATERIAL=m, ORIENTATION=O\n*BOUNDARY\n1, 1, 3\n");
-  return scene_of_abaqus(folder.path("a.inp"), "a.inp");
+  return scene_of_abaqus(folder.path("a.inp"), "a.inp").text;
 }
 
-TEST(AbaqusScene, HasMeshSectionAndOrientationAndListsTheRest) {
+TEST(AbaqusScene, TakesMaterialsOfTheFileWhereTheyCanBeUsed) {
   const std::string text = scene("*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n");
   EXPECT_CONTAINS(text, "mesh: {type: file, file: \"a.inp\"}");
-  EXPECT_CONTAINS(text, "  M: {type: isotropic, density: 7800, young: 200000000000, nu: 0.3}\n");
+  EXPECT_CONTAINS(text, "\n#   Upper-part: M {type: isotropic, density: 7800, young: 200000000000, nu: 0.3}, axes by its");
+  EXPECT_EQ(text.find("\nmaterials:"), std::string::npos) << text;
+  EXPECT_CONTAINS(text, "\nclamps:\n  - {nodes: boundary_1}\n");
+  EXPECT_CONTAINS(text, "# surfaces: Base\n# node sets: All, boundary_1\n");
+}
+
+TEST(AbaqusScene, TypesMaterialsThatTheFileHasMoreOf) {
+  const std::string text = scene("*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*PLASTIC\n1e8, 0\n");
+  EXPECT_CONTAINS(text, "\n  M: {type: isotropic, density: 7800, young: 200000000000, nu: 0.3}   # without *PLASTIC\n");
   EXPECT_CONTAINS(text, "  \"Upper-part\": {material: M, axes: {type: file, file: \"a.inp\"}}\n");
-  EXPECT_CONTAINS(text, "# surfaces: Base\n# node sets: All\n# left out: *BOUNDARY\n");
+  EXPECT_CONTAINS(text, "#   *PLASTIC of material M (");
 }
 
 // Abaqus lists nu12, nu13, nu23 and G12, G13, G23, the last on a line of its own, and C by columns in the order 11 22 33
@@ -48,6 +58,67 @@ TEST(AbaqusScene, MaterialsThatAreNotReadAreNamedWithTheirReason) {
   reason("*DENSITY\n1\n*ELASTIC, TYPE=LAMINA\n1, 2, 0.3, 1, 1, 1\n", "*ELASTIC, TYPE=LAMINA is not read");
   reason("*DENSITY\n1\n*ELASTIC, DEPENDENCIES=1\n1, 0.3\n", "*ELASTIC, DEPENDENCIES is not read");
   reason("*DENSITY\nFIELD\n*ELASTIC\n1, 0.3\n", "*DENSITY by a distribution is not read");
+}
+
+// A brick of sides 2, 3 and 5, with these lines behind its mesh and material.
+AbaqusScene brick(const std::string& conditions, const AbaqusSceneOptions& options = {.is_static = true}) {
+  const TemporaryFolder folder;
+  folder.write("a.inp",
+               "*NODE\n1, 0, 0, 0\n2, 2, 0, 0\n3, 2, 3, 0\n4, 0, 3, 0\n5, 0, 0, 5\n6, 2, 0, 5\n7, 2, 3, 5\n8, 0, 3, 5\n"
+               "*ELEMENT, TYPE=C3D8, ELSET=All\n1, 1, 2, 3, 4, 5, 6, 7, 8\n*NSET, NSET=Foot\n1, 2, 3, 4\n"
+               "*SURFACE, NAME=Top\n1, S2\n*MATERIAL, NAME=M\n*ELASTIC\n1000, 0\n*DENSITY\n1\n"
+               "*SOLID SECTION, ELSET=All, MATERIAL=M\n" + conditions);
+  return scene_of_abaqus(folder.path("a.inp"), "a.inp", options);
+}
+
+TEST(AbaqusScene, BoundaryConditionsBecomeClampsAndMotions) {
+  EXPECT_CONTAINS(brick("*BOUNDARY\nFoot, ENCASTRE\n").text, "clamps:\n  - {nodes: Foot}\n");
+  EXPECT_CONTAINS(brick("*BOUNDARY\nFoot, ZSYMM\nFoot, 1\n").text, "  - {nodes: Foot, components: [x, z]}\n");
+  EXPECT_CONTAINS(brick("*BOUNDARY\nFoot, 2, 3, 0.5\n").text,
+                  "motions:\n  - {nodes: Foot, components: [y, z], translation: [0, 0.5, 0.5], factor: {type: constant}}\n");
+  const std::string numbers = brick("*BOUNDARY\n5, 1, 3\n6, 1, 3\n7, 1\n").text;
+  EXPECT_CONTAINS(numbers, "  - {nodes: boundary_1}\n  - {nodes: boundary_2, components: [x]}\n");
+}
+
+// *CLOAD acts on each node of a set. Gravity, traction and pressure are as they stand.
+TEST(AbaqusScene, LoadsBecomeTermsLoadsAndGravity) {
+  EXPECT_CONTAINS(brick("*CLOAD\nFoot, 3, 2.5\n").text, "  - {type: point_load, nodes: Foot, force: [0, 0, 10]}");
+  EXPECT_CONTAINS(brick("*CLOAD\n7, 1, 2.5\n").text, "{type: point_load, nodes: cload_1, force: [2.5, 0, 0]}\n");
+  EXPECT_CONTAINS(brick("*DLOAD\nAll, GRAV, 9.81, 0, 0, -2\n").text, "\ngravity: [0, 0, -9.81]\n");
+  EXPECT_CONTAINS(brick("*DLOAD\n1, P2, 7\n").text, "  - {type: pressure, surface: dload_1, pressure: 7}\n");
+  EXPECT_CONTAINS(brick("*DSLOAD\nTop, P, 7\n").text, "  - {type: pressure, surface: Top, pressure: 7}\n");
+  EXPECT_CONTAINS(brick("*DSLOAD, FOLLOWER=NO\nTop, TRVEC, 5, 0, 3, 4\n").text, "{surface: Top, traction: [0, 3, 4]}\n");
+  EXPECT_CONTAINS(brick("*STEP\n*STATIC\n*DSLOAD\nTop, P, 7\n*END STEP\n").text, "elasticity: {kinematics: linear}");
+  EXPECT_EQ(brick("*STEP, NLGEOM\n*STATIC\n*END STEP\n").text.find("kinematics"), std::string::npos);
+}
+
+TEST(AbaqusScene, MillimetresAndMegapascalsAreConverted) {
+  const std::string text = brick("*BOUNDARY\nFoot, 1, 1, 2\n*DLOAD\n1, P2, 7\n, GRAV, 9810, 0, 0, -1\n*CLOAD\n7, 1, 3\n",
+                                 {.is_static = true, .units = FileUnits::mm_t_s}).text;
+  EXPECT_CONTAINS(text, "units: mm_t_s}");
+  EXPECT_CONTAINS(text, "translation: [0.002, 0, 0]");
+  EXPECT_CONTAINS(text, "pressure: 7000000}");
+  EXPECT_CONTAINS(text, "gravity: [0, 0, -9.81]");
+  EXPECT_CONTAINS(text, "force: [3, 0, 0]");
+}
+
+TEST(AbaqusScene, WhatIsLeftOutIsNamedWithItsLine) {
+  const auto expect = [](const std::string& conditions, const std::string& what) {
+    const AbaqusScene made = brick(conditions);
+    EXPECT_NE(std::find(made.left_out.begin(), made.left_out.end(), what), made.left_out.end()) << made.text;
+    EXPECT_CONTAINS(made.text, "#   " + what + "\n");
+  };
+  expect("*BOUNDARY, AMPLITUDE=A\nFoot, 1\n", "*BOUNDARY (line 23): AMPLITUDE is not read");
+  expect("*BOUNDARY\nFoot, 4, 6\n", "*BOUNDARY (line 23): it is of rotations, which nodes of solids have not");
+  expect("*CLOAD\nFoot, 5, 1\n", "*CLOAD (line 23): a moment; nodes of solids have no rotations");
+  expect("*CLOAD\nHead, 1, 1\n", "*CLOAD (line 23): no such nodes in the mesh");
+  expect("*DLOAD\nAll, BX, 1\n", "*DLOAD (line 23): loads of type BX are not read");
+  expect("*DSLOAD\nTop, HP, 1\n", "*DSLOAD (line 23): loads of type HP are not read");
+  expect("*STEP\n*END STEP\n*STEP\n*CLOAD\n7, 1, 1\n", "*CLOAD (line 26): of a later step; the first is taken");
+  expect("*TRANSFORM, NSET=Foot\n1, 1, 0, -1, 1, 0\n*CLOAD\n7, 1, 1\n",
+         "*CLOAD (line 25): *TRANSFORM may turn its directions");
+  expect("*BOUNDARY\nFoot, 1\n*STEP\n*BOUNDARY, OP=NEW\nFoot, 2\n", "*BOUNDARY (line 23): the first step removes it (OP=NEW)");
+  expect("*OUTPUT, FIELD\n", "*OUTPUT (line 22)");
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ namespace {
 
 struct InitArguments {
   std::string kind;
-  std::optional<std::string> file, from;
+  std::optional<std::string> file, from, units;
 };
 
 constexpr const char* kSceneHead = R"(# What this scene shows, in a sentence.
@@ -188,23 +188,21 @@ std::string modeline(const std::string& kind) {
   return fs::exists(schema) ? fmt::format("# yaml-language-server: $schema={}\n", schema.string()) : "";
 }
 
-constexpr const char* kAfterDeck = R"(
-# clamps:
-#   - nodes: NAME            # or surface: NAME
-# loads:
-#   - surface: NAME
-#     force: [0, 0, -5]      # N in total
-)";
-
 // What an Abaqus file has, in the place of the template's mesh, materials and regions.
-std::string from_deck(const std::string& kind, const std::string& deck, const fs::path& scene) {
+std::string from_deck(const std::string& kind, const std::string& deck, const std::string& units,
+                      const fs::path& scene) {
   if (kind != "scene" && kind != "static")
     throw ConfigError(fmt::format("--from makes a scene (scene or static), no {}", kind));
+  if (units != "SI" && units != "mm_t_s") throw ConfigError(fmt::format("--units {}: SI or mm_t_s", units));
   if (fs::path(deck).extension() != ".inp")
     throw ConfigError(deck, "--from reads Abaqus files (.inp); meshes of other formats have no materials to take over");
   const std::string file = fs::proximate(fs::absolute(deck), fs::absolute(scene).parent_path()).string();
-  return kSceneHead + std::string(kind == "static" ? kAnalysis : "") + "\n" + scene_of_abaqus(deck, file) + kAfterDeck +
-         (kind == "static" ? "" : "\ntime: {end: 1}             # s\n");
+  const bool is_static = kind == "static";
+  const AbaqusScene made =
+      scene_of_abaqus(deck, file, {is_static, units == "mm_t_s" ? FileUnits::mm_t_s : FileUnits::si});
+  for (const std::string& what : made.left_out) fmt::print(stderr, "left out: {}\n", what);
+  return kSceneHead + std::string(is_static ? kAnalysis : "") + "\n" + made.text +
+         (is_static ? "" : "\ntime: {end: 1}             # s\n");
 }
 
 int init(const InitArguments& arguments) {
@@ -217,7 +215,9 @@ int init(const InitArguments& arguments) {
   }
   const fs::path path = arguments.file.value_or(kind + ".yaml");
   if (is_there(path)) throw ConfigError(path.string(), "already exists; choose another name");
-  const std::string text = arguments.from ? from_deck(kind, *arguments.from, path) : start->second;
+  if (arguments.units && !arguments.from) throw ConfigError("--units goes with --from DECK.inp");
+  const std::string text =
+      arguments.from ? from_deck(kind, *arguments.from, arguments.units.value_or("SI"), path) : start->second;
   write_file(path, {modeline(kind), with_file_name(text, path.string())});
   fmt::print("{}\n", path.string());
   return 0;
@@ -226,14 +226,17 @@ int init(const InitArguments& arguments) {
 void declare(InitArguments& arguments, CommandOptions& options) {
   options.value("kind", arguments.kind, "scene, static, comparison, sweep or stability.").required();
   options.value("file", arguments.file, "Its name; default KIND.yaml.").type("FILE.yaml");
-  options.value("--from", arguments.from, "Take mesh, materials, sections and orientations from an Abaqus file; what is "
-                "left out is listed.").type("DECK.inp");
+  options.value("--from", arguments.from, "Take mesh, materials, sections, orientations, boundary conditions and loads "
+                "from an Abaqus file; what is left out is listed.").type("DECK.inp");
+  options.value("--units", arguments.units, "Of that file: SI (default), or mm_t_s for mm, t and s with N and MPa.")
+      .type("UNITS");
 }
 
 const CommandRegistration init_command(
     {.order = 110, .name = "init", .sentence = "Write a commented file to start from.", .examples = R"(
   orthodyn init scene my.yaml
   orthodyn init scene part.yaml --from part.inp
+  orthodyn init static part.yaml --from part.inp --units mm_t_s
   orthodyn init sweep)"},
     declare, init);
 

@@ -60,7 +60,9 @@ class AbaqusMesh {
     add_surfaces();
     for (const auto& [key, set] : file_.node_sets) {
       auto& uses = draft_.node_sets[set.name];
-      for (const AbaqusMembers& m : set.members) append_node_uses(m, uses);
+      for (const AbaqusMembers& m : set.members)
+        if (set.of_condition) each(m, nodes_, [&](std::size_t n) { uses.push_back({draft_.nodes[n].tag, m.place}); });
+        else append_node_uses(m, uses);
     }
     warn_of_undefined_elements();
   }
@@ -364,8 +366,25 @@ class AbaqusMesh {
                               TextTokens::quoted(surface)));
   }
 
+  // What a *DLOAD lists: there may be elements of other kinds, whose loads have the same names.
+  void add_loaded_faces(const AbaqusSurface& surface) {
+    std::vector<FileFace> faces;
+    for (const AbaqusFace& face : surface.faces) {
+      if (!face.elements.set.empty() && !find_abaqus(file_.element_sets, face.elements.set)) continue;
+      each_element(face.elements, cells_, [&](std::size_t c) {
+        if (face.side < faces_of(draft_.cells[c].kind).size())
+          faces.push_back(face_of(draft_.cells[c], face, surface.name));
+      });
+    }
+    if (!faces.empty()) draft_.surfaces[surface.name] = std::move(faces);
+  }
+
   void add_surfaces() {
     for (const auto& [key, surface] : file_.surfaces) {
+      if (surface.of_condition) {
+        add_loaded_faces(surface);
+        continue;
+      }
       auto& faces = draft_.surfaces[surface.name];
       for (const AbaqusFace& face : surface.faces) {
         if (face.side >= AbaqusFace::kPositive) {

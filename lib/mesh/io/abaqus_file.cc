@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cmath>
 #include <numbers>
-#include <set>
 #include <utility>
 
 #include "lib/core/words.h"
@@ -81,8 +80,52 @@ class AbaqusReader {
         name == "HEADING" || name == "PREPRINT")
       return lines_.skip_data();
     refuse_what_makes_nodes(keyword);
-    skipped_.insert(keyword.spelled);
+    skip(keyword.spelled);
+    if (name == "STEP") file_.steps.push_back(keyword);
+    if (name == "BOUNDARY" || name == "CLOAD" || name == "DLOAD" || name == "DSLOAD") read_conditions(keyword);
     lines_.skip_data();
+  }
+
+  void skip(const std::string& what) { file_.skipped.try_emplace(what, lines_.place()); }
+
+  void read_conditions(const AbaqusKeyword& keyword) {
+    std::map<std::string, std::string> made;  // by what stands behind the numbers: the key of their set
+    while (!lines_.at_keyword()) {
+      const auto fields = lines_.data();
+      if (fields.empty()) continue;
+      AbaqusCondition condition{keyword, file_.steps.size(), "", {fields.begin() + 1, fields.end()}, lines_.place()};
+      if (fields[0].empty() || gather(condition, member(fields[0], scope_), made))
+        file_.conditions.push_back(std::move(condition));
+    }
+  }
+
+  // Gives the condition its target. False where that was given to one with the same fields before, which acts on these
+  // numbers, too.
+  bool gather(AbaqusCondition& condition, const AbaqusMembers& members, std::map<std::string, std::string>& made) {
+    const std::string& name = condition.keyword.name;
+    const std::string label = condition.fields.empty() ? "" : abaqus_word(condition.fields[0]);
+    const bool of_faces = name == "DLOAD" && label.size() == 2 && label[0] == 'P' && label[1] >= '1' && label[1] <= '6';
+    condition.target = members.set;
+    if (!of_faces && (!members.set.empty() || name == "DLOAD" || name == "DSLOAD")) return true;
+    const auto [found, is_new] = made.try_emplace(join(condition.fields));
+    if (is_new) found->second = of_faces ? make_own(name, file_.surfaces) : make_own(name, file_.node_sets);
+    condition.target = found->second;
+    if (of_faces) file_.surfaces[found->second].faces.push_back({members, static_cast<std::size_t>(label[1] - '1')});
+    else file_.node_sets[found->second].members.push_back(members);
+    return is_new;
+  }
+
+  // A set or surface of a condition; returns its key.
+  template <class Thing>
+  static std::string make_own(const std::string& keyword, std::map<std::string, Thing>& things) {
+    std::string name = keyword;
+    for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    for (int k = 1;; ++k) {
+      Thing own{.name = fmt::format("{}_{}", name, k)};
+      own.of_condition = true;
+      const std::string key = in_capitals(own.name);
+      if (things.emplace(key, std::move(own)).second) return key;
+    }
   }
 
   void refuse_what_makes_nodes(const AbaqusKeyword& keyword) const {
@@ -179,7 +222,7 @@ class AbaqusReader {
       lines_.fail(fmt::format("{} parts, and no *INSTANCE that places them", parts_.size()));
     } else {
       for (const auto& [key, part] : parts_)
-        if (!part.is_placed) skipped_.insert("*PART " + TextTokens::quoted(part.name) + ", which no *INSTANCE places");
+        if (!part.is_placed) skip("*PART " + TextTokens::quoted(part.name) + ", which no *INSTANCE places");
     }
   }
 
@@ -395,7 +438,7 @@ class AbaqusReader {
     const std::string name = name_of(keyword);
     const std::string type = abaqus_word(keyword.parameter("TYPE"));
     if (!type.empty() && type != "ELEMENT") {
-      skipped_.insert("*SURFACE of type " + TextTokens::quoted(type));
+      skip("*SURFACE of type " + TextTokens::quoted(type));
       return lines_.skip_data();
     }
     AbaqusSurface& surface =
@@ -506,7 +549,7 @@ class AbaqusReader {
     const std::string location = abaqus_word(keyword.parameter("LOCATION"));
     if (location.empty() || location == "ELEMENT") out.count = values_of(keyword);
     if (out.count == 0) {
-      skipped_.insert("*DISTRIBUTION " + TextTokens::quoted(out.name));
+      skip("*DISTRIBUTION " + TextTokens::quoted(out.name));
       lines_.skip_data();
     }
     while (!lines_.at_keyword()) {
@@ -537,7 +580,6 @@ class AbaqusReader {
   }
 
   void warn() {
-    file_.skipped = skipped_;
     Warnings& warnings = file_.draft.warnings;
     const std::string& path = file_.draft.files.front();
     std::vector<std::string> others, shifted;
@@ -548,9 +590,11 @@ class AbaqusReader {
     for (const auto& [key, scope] : instances_)
       if (scope.offset > 0) shifted.push_back(fmt::format("{} is added to those of {}", scope.offset, scope.instance));
     if (!shifted.empty()) warnings.push_back(fmt::format("{}: numbers of nodes and elements: {}", path, join(shifted)));
-    if (!skipped_.empty())
+    std::vector<std::string> skipped;
+    for (const auto& [what, place] : file_.skipped) skipped.push_back(what);
+    if (!skipped.empty())
       warnings.push_back(
-          fmt::format("{}: only the mesh is read; skipped: {}", path, join({skipped_.begin(), skipped_.end()})));
+          fmt::format("{}: only mesh and materials are read; skipped: {}", path, join(skipped)));
   }
 
   struct Part {
@@ -567,7 +611,6 @@ class AbaqusReader {
   std::map<std::string, Scope> instances_;
   std::map<std::string, std::vector<std::string>> tables_;
   std::map<std::string, std::size_t> left_out_;  // by type
-  std::set<std::string> skipped_;
   std::vector<std::int64_t> nodes_;  // of the element that is read
   std::int64_t largest_ = 0;         // number of a node or element of a part
   int order_ = 0;

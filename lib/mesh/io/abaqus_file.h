@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +28,7 @@ struct AbaqusSet {
   std::vector<AbaqusMembers> members = {};
   int order = 0;              // of the last line that added to it
   std::string instance = {};  // as spelled, of a set within one
+  bool of_condition = false;  // made of the nodes that a condition lists
 };
 
 struct AbaqusFace {
@@ -41,6 +41,7 @@ struct AbaqusSurface {
   std::string name;
   std::vector<AbaqusFace> faces = {};
   std::string instance = {};
+  bool of_condition = false;  // made of the faces that a *DLOAD lists
 };
 
 // x -> R x + t, of an instance.
@@ -84,6 +85,16 @@ struct AbaqusDistribution {
   FilePlace place = {};
 };
 
+// A line of *BOUNDARY, *CLOAD, *DLOAD or *DSLOAD. Numbers that share what stands behind them are one line with a set, or
+// a surface, of their own ("boundary_1").
+struct AbaqusCondition {
+  AbaqusKeyword keyword;
+  std::size_t step = 0;      // 0 of the model, 1 of the first step
+  std::string target = {};   // a key of node_sets, element_sets or surfaces, or "" for all
+  std::vector<std::string> fields = {};  // behind that
+  FilePlace place = {};
+};
+
 using AbaqusSets = std::map<std::string, AbaqusSet>;
 
 // Is added to the numbers of nodes and elements of an assembly that has instances.
@@ -100,7 +111,9 @@ struct AbaqusFile {
   std::map<std::string, AbaqusOrientation> orientations;
   std::map<std::string, AbaqusDistribution> distributions;
   AbaqusMaterials materials;
-  std::set<std::string> skipped;  // "*BOUNDARY", ...
+  std::vector<AbaqusCondition> conditions;
+  std::vector<AbaqusKeyword> steps;
+  std::map<std::string, FilePlace> skipped;  // "*OUTPUT", ... with the first place
 };
 
 // The entry of a name, which is that of its instance or else that of the model: "PART-1-1.SIDE", then "SIDE". Null if

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lib/core/file_kind.h"
+#include "lib/mesh/file_units.h"
 #include "lib/mesh/io/gmsh.h"
 #include "lib/mesh/io/mesh_file.h"
 #include "lib/mesh/io/mesh_format.h"
@@ -16,9 +17,6 @@
 #include "lib/mesh/sources/element_order.h"
 
 namespace orthodyn {
-
-// What the numbers of a file stand for.
-enum class FileUnits { si, mm_t_s };
 
 template <>
 struct Words<FileUnits> {
@@ -34,18 +32,6 @@ constexpr const char* kScale = "Multiplies coordinates: 0.001 if they are in mm.
 
 void require_file(const FilePath& file) {
   if (!is_file(file.path)) throw ConfigError(file.where, "no such file: " + file.path);
-}
-
-// Of a file in mm, t and s, and so N and MPa, to SI.
-void convert_from_mm_t_s(LoadedMesh& loaded, const std::string& path) {
-  constexpr double kPascals = 1e6;  // in a MPa
-  scale_mesh(loaded.mesh, 0.001, path);
-  for (auto& [region, m] : loaded.materials) {
-    m.density *= 1e12;
-    m.young *= kPascals;
-    for (double* modulus : {&m.g12, &m.g23, &m.g31}) *modulus *= kPascals;
-    for (double& entry : m.stiffness) entry *= kPascals;
-  }
 }
 
 // What is made of the mesh of any file.
@@ -88,7 +74,7 @@ class FileSource : public MeshSource, public FileOptions {
   LoadedMesh load() const override {
     require_file(file);
     LoadedMesh loaded = read_mesh(file.path);
-    if (units_ == FileUnits::mm_t_s) convert_from_mm_t_s(loaded, file.path);
+    convert_to_si(loaded, units_, file.path);
     return as_wanted(std::move(loaded));
   }
   bool may_bring_materials() const override { return mesh_format_of(file.path).brings_materials; }

@@ -1,0 +1,270 @@
+#include "lib/scene/abaqus_conditions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "lib/config/values.h"
+#include "lib/core/parse_number.h"
+#include "lib/core/words.h"
+
+namespace orthodyn {
+namespace {
+
+constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+
+// Displacements that are held by a name. Source: *BOUNDARY, "types of boundary conditions".
+const std::map<std::string, std::vector<std::size_t>>& named_supports() {
+  static const std::map<std::string, std::vector<std::size_t>> all{
+      {"ENCASTRE", {0, 1, 2}}, {"PINNED", {0, 1, 2}}, {"XSYMM", {0}},     {"YSYMM", {1}},
+      {"ZSYMM", {2}},          {"XASYMM", {1, 2}},    {"YASYMM", {0, 2}}, {"ZASYMM", {0, 1}}};
+  return all;
+}
+
+std::string components_yaml(const std::vector<std::size_t>& components) {
+  std::vector<std::string> names;
+  for (const std::size_t c : components) names.push_back(kAxes[c]);
+  return components.size() == 3 ? "" : fmt::format(", components: [{}]", join(names));
+}
+
+class ConditionWriter {
+ public:
+  ConditionWriter(const AbaqusFile& deck, const LoadedMesh& loaded, FileUnits units, std::string factor)
+      : deck_(deck), loaded_(loaded), factors_(factors_of(units)), factor_(std::move(factor)) {}
+
+  SceneConditions write() {
+    for (const AbaqusCondition& c : deck_.conditions)
+      if (c.step == 1 && abaqus_word(c.keyword.parameter("OP")) == "NEW") replaced_.insert(c.keyword.name);
+    for (const AbaqusCondition& c : deck_.conditions)
+      if (const std::string why = add(c); !why.empty()) leave_out(c, why);
+    add_supports();
+    add_forces();
+    if (gravity_ != Vec3::Zero()) out_.gravity = Value<Vec3>::yaml(factors_.length * gravity_);
+    if (!deck_.steps.empty()) {
+      const AbaqusKeyword& step = deck_.steps.front();
+      out_.is_linear = !step.has("NLGEOM") || abaqus_word(step.parameter("NLGEOM")) == "NO";
+    }
+    for (const auto& [what, lines] : left_out_)
+      out_.left_out.push_back(fmt::format("{} ({} {}): {}", what.first, lines.size() == 1 ? "line" : "lines",
+                                          shortened(lines), what.second));
+    return std::move(out_);
+  }
+
+ private:
+  // Returns why the line is left out, or "".
+  std::string add(const AbaqusCondition& c) {
+    if (c.step > 1) return "of a later step; the first is taken";
+    if (c.step == 0 && replaced_.contains(c.keyword.name)) return "the first step removes it (OP=NEW)";
+    for (const auto& [name, value] : c.keyword.parameters) {
+      const bool is_plain = name == "OP" || (name == "TYPE" && abaqus_word(value) == "DISPLACEMENT") ||
+                            (name == "FOLLOWER" && abaqus_word(value) == "NO");
+      if (!is_plain) return fmt::format("{} is not read", name);
+    }
+    if (c.fields.empty()) return "nothing behind the set";
+    const bool has_directions = c.keyword.name == "BOUNDARY" || c.keyword.name == "CLOAD";
+    if (has_directions && deck_.skipped.contains("*TRANSFORM")) return "*TRANSFORM may turn its directions";
+    if (c.keyword.name == "BOUNDARY") return add_support(c);
+    if (c.keyword.name == "CLOAD") return add_force(c);
+    if (c.keyword.name == "DSLOAD") return add_surface_load(c);
+    return abaqus_word(c.fields[0]) == "GRAV" ? add_gravity(c) : add_face_load(c);
+  }
+
+  // The name of a target in the mesh; none if the mesh has no such set, or surface.
+  template <class Thing>
+  std::optional<std::string> name_of_target(const AbaqusCondition& c, const std::map<std::string, Thing>& things,
+                                            const auto& in_mesh) const {
+    const Thing* found = find_abaqus(things, c.target);
+    if (!found || !in_mesh.contains(found->name)) return std::nullopt;
+    return found->name;
+  }
+  std::optional<std::string> node_set(const AbaqusCondition& c) const {
+    return name_of_target(c, deck_.node_sets, loaded_.mesh.node_sets);
+  }
+  std::optional<std::string> surface(const AbaqusCondition& c) const {
+    return name_of_target(c, deck_.surfaces, loaded_.mesh.surfaces);
+  }
+
+  // Empty fields are zero; none where it is no number.
+  static std::optional<double> number(const AbaqusCondition& c, std::size_t field, double absent = 0) {
+    if (field >= c.fields.size() || c.fields[field].empty()) return absent;
+    std::string text = c.fields[field];
+    std::replace_if(
+        text.begin(), text.end(), [](char x) { return x == 'D' || x == 'd'; }, 'e');
+    double value = 0;
+    if (!parse_number(std::string_view(text), value)) return std::nullopt;
+    return value;
+  }
+
+  // Components first to last of displacements, and their value; or a name for those that are held.
+  std::string add_support(const AbaqusCondition& c) {
+    const auto set = node_set(c);
+    if (!set) return "no such nodes in the mesh";
+    if (const auto named = named_supports().find(abaqus_word(c.fields[0])); named != named_supports().end()) {
+      for (const std::size_t k : named->second) support(*set)[k] = 0;
+      return "";
+    }
+    const auto first = number(c, 0), last = number(c, 1, first.value_or(0)), value = number(c, 2);
+    if (!first || !last || !value) return "components or value are no numbers";
+    if (*first < 1 || *last < *first || *last > 6) return "it is of no displacement";
+    if (*first > 3) return "it is of rotations, which nodes of solids have not";
+    for (std::size_t k = static_cast<std::size_t>(*first); k <= std::min<std::size_t>(3, static_cast<std::size_t>(*last)); ++k)
+      support(*set)[k - 1] = *value * factors_.length;
+    return "";
+  }
+
+  using Displacement = std::array<std::optional<double>, 3>;
+  Displacement& support(const std::string& set) {
+    const auto found = std::find_if(supports_.begin(), supports_.end(), [&](const auto& s) { return s.first == set; });
+    return found != supports_.end() ? found->second : supports_.emplace_back(set, Displacement{}).second;
+  }
+
+  void add_supports() {
+    for (const auto& [set, values] : supports_) {
+      std::vector<std::size_t> held, moved;
+      Vec3 translation = Vec3::Zero();
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!values[k]) continue;
+        (*values[k] == 0 ? held : moved).push_back(k);
+        translation[static_cast<Eigen::Index>(k)] = *values[k];
+      }
+      if (!held.empty()) out_.clamps.push_back(fmt::format("{{nodes: {}{}}}", yaml_name(set), components_yaml(held)));
+      if (!moved.empty())
+        out_.motions.push_back(fmt::format("{{nodes: {}{}, translation: {}, factor: {}}}", yaml_name(set),
+                                           components_yaml(moved), Value<Vec3>::yaml(translation), factor_));
+    }
+  }
+
+  // A force on each node of a set.
+  std::string add_force(const AbaqusCondition& c) {
+    const auto set = node_set(c);
+    if (!set) return "no such nodes in the mesh";
+    const auto component = number(c, 0), value = number(c, 1);
+    if (!component || !value || *component < 1) return "component or value are no numbers";
+    if (*component > 3) return "a moment; nodes of solids have no rotations";
+    auto found = std::find_if(forces_.begin(), forces_.end(), [&](const auto& f) { return f.first == *set; });
+    if (found == forces_.end()) found = forces_.emplace(forces_.end(), *set, Vec3::Zero());
+    found->second[static_cast<Eigen::Index>(*component) - 1] += *value;
+    return "";
+  }
+
+  void add_forces() {
+    for (const auto& [set, force] : forces_) {
+      const auto count = loaded_.mesh.node_sets.at(set).size();
+      out_.terms.push_back(fmt::format("{{type: point_load, nodes: {}, force: {}}}{}", yaml_name(set),
+                                       Value<Vec3>::yaml(static_cast<double>(count) * force),
+                                       count == 1 ? "" : fmt::format("   # of {} nodes together", count)));
+    }
+  }
+
+  std::string add_pressure(const AbaqusCondition& c) {
+    const auto name = surface(c);
+    const auto value = number(c, 1);
+    if (!name) return "no such surface in the mesh";
+    if (!value) return "its pressure is no number";
+    out_.terms.push_back(fmt::format("{{type: pressure, surface: {}, pressure: {}}}", yaml_name(*name),
+                                     number_text(*value * factors_.stress)));
+    return "";
+  }
+
+  std::string add_surface_load(const AbaqusCondition& c) {
+    const std::string label = abaqus_word(c.fields[0]);
+    if (label == "P") return add_pressure(c);
+    if (label != "TRVEC") return fmt::format("loads of type {} are not read", label);
+    const auto name = surface(c);
+    const auto traction = directed(c);
+    if (!name) return "no such surface in the mesh";
+    if (!traction) return "its traction is no magnitude with a direction";
+    out_.loads.push_back(fmt::format("{{surface: {}, traction: {}}}", yaml_name(*name),
+                                     Value<Vec3>::yaml(factors_.stress * *traction)));
+    return "";
+  }
+
+  std::string add_face_load(const AbaqusCondition& c) {
+    const std::string label = abaqus_word(c.fields[0]);
+    if (label.size() == 2 && label[0] == 'P' && std::isdigit(static_cast<unsigned char>(label[1]))) return add_pressure(c);
+    return fmt::format("loads of type {} are not read", label);
+  }
+
+  std::string add_gravity(const AbaqusCondition& c) {
+    if (!covers_body(c)) return "it acts on a part of the body only";
+    const auto g = directed(c);
+    if (!g) return "its acceleration is no magnitude with a direction";
+    gravity_ += *g;
+    return "";
+  }
+
+  // A magnitude, and three components of its direction.
+  static std::optional<Vec3> directed(const AbaqusCondition& c) {
+    const auto size = number(c, 1), x = number(c, 2), y = number(c, 3), z = number(c, 4);
+    if (!size || !x || !y || !z || Vec3(*x, *y, *z).norm() == 0) return std::nullopt;
+    return *size * Vec3(*x, *y, *z).normalized();
+  }
+
+  bool covers_body(const AbaqusCondition& c) const {
+    if (c.target.empty()) return true;
+    std::set<std::int64_t> found;
+    collect(c.target, found, 0);
+    return std::all_of(deck_.draft.cells.begin(), deck_.draft.cells.end(),
+                       [&](const FileCell& cell) { return found.contains(cell.tag); });
+  }
+
+  void collect(const std::string& key, std::set<std::int64_t>& found, int depth) const {
+    const AbaqusSet* set = find_abaqus(deck_.element_sets, key);
+    if (!set || depth > 20) return;
+    for (const AbaqusMembers& m : set->members) {
+      if (!m.set.empty()) {
+        collect(m.set, found, depth + 1);
+        continue;
+      }
+      for (const FileCell& cell : deck_.draft.cells)
+        if (cell.tag >= m.first && cell.tag <= m.last && (cell.tag - m.first) % m.step == 0) found.insert(cell.tag);
+    }
+  }
+
+  void leave_out(const AbaqusCondition& c, const std::string& why) {
+    left_out_[{c.keyword.spelled, why}].push_back(c.place.line);
+  }
+
+  static std::string shortened(const std::vector<int>& lines) {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < std::min<std::size_t>(5, lines.size()); ++k) names.push_back(std::to_string(lines[k]));
+    if (lines.size() > 5) names.push_back(fmt::format("and {} more", lines.size() - 5));
+    return join(names);
+  }
+
+  const AbaqusFile& deck_;
+  const LoadedMesh& loaded_;
+  UnitFactors factors_;
+  std::string factor_;
+  std::set<std::string> replaced_;
+  std::vector<std::pair<std::string, Displacement>> supports_;
+  std::vector<std::pair<std::string, Vec3>> forces_;
+  Vec3 gravity_ = Vec3::Zero();
+  std::map<std::pair<std::string, std::string>, std::vector<int>> left_out_;
+  SceneConditions out_;
+};
+
+}  // namespace
+
+SceneConditions conditions_of(const AbaqusFile& deck, const LoadedMesh& loaded, FileUnits units,
+                              const std::string& factor) {
+  return ConditionWriter(deck, loaded, units, factor).write();
+}
+
+std::string yaml_name(const std::string& name) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
+  if (!name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) &&
+      std::all_of(name.begin(), name.end(), plain))
+    return name;
+  std::string quoted = "\"";
+  for (const char c : name) quoted += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace orthodyn
