@@ -6,71 +6,18 @@
 #include <charconv>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
 
+#include "lib/mesh/io/middle_order.h"
 #include "lib/mesh/io/text_lines.h"
 #include "lib/mesh/io/text_tokens.h"
 #include "lib/mesh/mesh_draft.h"
-#include "lib/mesh/node_numbers.h"
 #include "lib/mesh/quadratic.h"
 
 namespace orthodyn {
 namespace {
-
-// Puts the nodes on the edges of quadratic tetrahedra into the order of kTetEdges, whichever order a version of TetGen
-// lists them in: the one in which most elements have them nearest to where TetGen makes them, half way.
-class MiddleSorter {
- public:
-  explicit MiddleSorter(std::vector<FileNode> nodes) : nodes_(std::move(nodes)), number_(sorted(nodes_)) {}
-
-  void sort(std::vector<FileCell>& tets) const {
-    std::map<Order, int> found;
-    for (const FileCell& tet : tets)
-      if (const auto order = order_of(tet)) ++found[*order];
-    if (found.empty()) return;
-    const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
-    const Order order = std::max_element(found.begin(), found.end(), fewer)->first;
-    for (FileCell& tet : tets) {
-      const auto listed = *tet.midsides;
-      for (std::size_t e = 0; e < order.size(); ++e) (*tet.midsides)[e] = listed[order[e]];
-    }
-  }
-
- private:
-  using Order = std::array<std::size_t, 6>;  // for each edge the place in the list
-
-  // None where nodes are missing, which is refused later, or one is nearest to two edges.
-  std::optional<Order> order_of(const FileCell& tet) const {
-    for (const std::int64_t tag : tet.corners())
-      if (number_(tag) < 0) return std::nullopt;
-    for (const std::int64_t tag : *tet.midsides)
-      if (number_(tag) < 0) return std::nullopt;
-    Order order{};
-    std::set<std::size_t> taken;
-    for (std::size_t e = 0; e < kTetEdges.size(); ++e) {
-      const Vec3 half_way = 0.5 * (at(tet.nodes[kTetEdges[e][0]]) + at(tet.nodes[kTetEdges[e][1]]));
-      const auto nearer = [&](std::int64_t a, std::int64_t b) {
-        return (at(a) - half_way).squaredNorm() < (at(b) - half_way).squaredNorm();
-      };
-      const auto nearest = std::min_element(tet.midsides->begin(), tet.midsides->end(), nearer);
-      order[e] = static_cast<std::size_t>(nearest - tet.midsides->begin());
-      if (!taken.insert(order[e]).second) return std::nullopt;
-    }
-    return order;
-  }
-
-  static const std::vector<FileNode>& sorted(std::vector<FileNode>& nodes) {
-    std::stable_sort(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) { return a.tag < b.tag; });
-    return nodes;
-  }
-  const Vec3& at(std::int64_t tag) const { return nodes_[static_cast<std::size_t>(number_(tag))].x; }
-
-  std::vector<FileNode> nodes_;
-  NodeNumbers number_;
-};
 
 class TetgenReader {
  public:
@@ -144,7 +91,7 @@ class TetgenReader {
       for (std::int64_t k = 1; k < attributes; ++k) tokens.real("an attribute");
       draft_.cells.push_back(tet);
     });
-    if (nodes == 10) MiddleSorter(draft_.nodes).sort(draft_.cells);
+    if (nodes == 10) sort_middles(draft_.nodes, draft_.cells);
   }
 
   void read_faces(std::string_view text) {
