@@ -44,6 +44,12 @@ class AProblem(unittest.TestCase):
                 self.assertLess(errors[1], 0.25 if method == "backward_euler" else 2e-3)
                 self.assertLess(errors[1], 0.5 * errors[0])
 
+    def test_is_solved_by_what_suits_it_where_nothing_is_said(self):
+        for matrix in ({}, {"stiffness": [[100.0]], "symmetric": True, "linear": True}):
+            found = orthodyn.Problem([1.0], lambda t, q, v: -100 * q, **matrix).solve((0, 10), [1.0], rtol=1e-4)  # 16 periods
+            self.assertIn("because", found.decisions)
+            self.assertLess(np.abs(found.q[:, 0] - np.cos(10 * found.t)).max(), 20e-4)
+
     def test_with_a_fixed_step_has_the_order_of_its_method(self):
         exact = np.cos(2.0)
         problem = orthodyn.Problem([1.0], lambda t, q, v: -q, [[1.0]], symmetric=True, linear=True)

@@ -63,15 +63,26 @@ py::dict statistics_of(const Statistics& s) {
   return out;
 }
 
+// What the model's functions raise keeps its kind, also where `auto` looks at them to choose.
+std::unique_ptr<Integrator> made(const IntegratorChoice& choice, const PythonModel& model, const Task& task) {
+  try {
+    return choice.make(model, task);
+  } catch (const std::exception&) {
+    model.rethrow();
+    throw;
+  }
+}
+
 }  // namespace
 
 py::dict integrate(const PythonModel& model, const IntegrateRequest& request) {
   const double end = request.times.back(), interval = (end - request.initial.t) / static_cast<double>(request.times.size());
-  const Scales scales{request.position_scale, request.velocity_scale};
+  // They are sizes of the motion itself, whose frequency is about their ratio.
+  const Scales scales{request.position_scale, request.velocity_scale, request.velocity_scale / request.position_scale};
   const Task task{[=] { return scales; }, request.initial, end, interval};
   const Config options = Config::from_text(request.integrator, "integrator");
   const auto choice = Registry<IntegratorChoice>::read(options);
-  const auto integrator = choice->make(model, task);
+  const auto integrator = made(*choice, model, task);
   std::atomic<bool> interrupt{false};
   Trajectory trajectory(interrupt);
   const Outcome outcome = run(model, *integrator, request.initial, {.end = end, .output_times = request.times},

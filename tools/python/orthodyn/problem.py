@@ -62,11 +62,12 @@ class Problem:
         self._symmetric, self._linear, self._time_dependent = symmetric, linear, time_dependent
 
     def solve(self, t_span: tuple[float, float], q0: Sequence[float], v0: Sequence[float] | None = None, *,
-              integrator: str = "cvode_bdf", times: Sequence[float] | int = 100, position_scale: float | None = None,
+              integrator: str = "auto", times: Sequence[float] | int = 100, position_scale: float | None = None,
               velocity_scale: float | None = None, **options: Any) -> Solution:
         """The motion from q0, v0 over t_span.
 
-        integrator      any that `orthodyn list integrators` names; options are its keys: rtol=1e-6, step=1e-3, ...
+        integrator      any that `orthodyn list integrators` names; `auto` chooses one, which `decisions` tells. Options are its
+                        keys: rtol=1e-6, step=1e-3, ...
         times           when the state is wanted, or how many evenly spaced ones; the end is always among them
         position_scale, velocity_scale
                         sizes of the motion, relative to which errors are at tolerance; default the largest of q0 and of v0, or
