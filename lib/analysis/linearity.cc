@@ -1,6 +1,7 @@
 #include "lib/analysis/linearity.h"
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -20,6 +21,18 @@ std::unique_ptr<ElasticTerm> with_exact_force(const ElasticTerm& term, const Ele
   ElasticRegion region = term.definition();
   region.options = {};
   return elements.type.elastic_term(elements, std::move(region), pattern);
+}
+
+// What is odd in `swing` of shift(mean + swing). Where that is not found it is taken as cubic, from a smaller swing.
+std::optional<Vector> odd_part(const std::function<std::optional<Vector>(const Vector&)>& shift, const Vector& mean,
+                               const Vector& swing) {
+  constexpr double kLeast = 0.1;  // of the swing
+  for (double share = 1; share > kLeast; share /= 2) {
+    const std::optional<Vector> to = shift(mean + share * swing);
+    const std::optional<Vector> fro = to ? shift(mean - share * swing) : std::nullopt;
+    if (to && fro) return Vector((*to - *fro) / (2 * share * share * share));
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -85,17 +98,28 @@ LinearityError Linearity::error(double t, const Vector& q, const Terms& terms) {
 }
 
 LinearityError Linearity::distance(double t, const Vector& q, const Terms& terms) {
-  constexpr double kAccuracy = 0.02;  // of the error itself
-  constexpr double kSlowest = 0.7;    // contraction of the energy of steps
-  constexpr int kMostTangents = 6;    // of the exact force, one a step, where the linear stiffness does not serve
-  const Vector still = Vector::Zero(q.size());
-  Vector at_q(q.size()), there(q.size()), step(q.size()), Mq(q.size()), Mx(q.size());
+  Vector Mq(q.size()), Mx(q.size());
   model_.multiply_mass(q, Mq);
   const double square = q.dot(Mq);
   if (!(square > 0)) return {};
+  const std::optional<Vector> x = shift(t, q, terms);
+  if (!x) return {kUnknown, kUnknown};
+  model_.multiply_mass(*x, Mx);
+  return {norm(*x, Mx) / std::sqrt(square), std::abs(x->dot(Mq)) / square};
+}
+
+std::optional<Vector> Linearity::shift(double t, const Vector& q, const Terms& terms) {
+  constexpr double kAccuracy = 0.02;  // of the error itself
+  constexpr double kSlowest = 0.7;    // contraction of the energy of steps
+  constexpr int kMostTangents = 12;  // of the exact force, one a step, where the linear stiffness does not serve
+  const Vector still = Vector::Zero(q.size());
+  Vector at_q(q.size()), there(q.size()), step(q.size()), Mx(q.size());
+  model_.multiply_mass(q, Mx);
+  const double size = norm(q, Mx);
   Vector x = still;
+  if (!(size > 0)) return x;
   try {
-    if (!factor_for(t, q)) return {kUnknown, kUnknown};
+    if (!factor_for(t, q)) return std::nullopt;
     model_.force(t, q, still, at_q);
     int tangents = 0;
     for (double before = kUnknown;;) {
@@ -109,14 +133,38 @@ LinearityError Linearity::distance(double t, const Vector& q, const Terms& terms
       const double last = norm(step, Mx);
       model_.multiply_mass(x, Mx);
       const double all = norm(x, Mx);
-      if (last <= kAccuracy * all || std::max(last, all) <= kNegligible * std::sqrt(square))
-        return {all / std::sqrt(square), std::abs(x.dot(Mq)) / square};
+      if (last <= kAccuracy * all || std::max(last, all) <= kNegligible * size) return x;
       if (tangents > 0 || !(energy < kSlowest * before))
-        if (++tangents > kMostTangents || !factor_exact(t, q + x, terms)) return {kUnknown, kUnknown};
+        if (++tangents > kMostTangents || !factor_exact(t, q + x, terms)) return std::nullopt;
       before = energy;
     }
   } catch (const RecoverableError&) {
-    return {kUnknown, kUnknown};
+    return std::nullopt;
+  }
+}
+
+VibrationDrift Linearity::drift(double t, const Vector& mean, const Vector& swing, double omega) {
+  const Vector still = Vector::Zero(mean.size());
+  Vector Ms(mean.size()), at_base(mean.size()), there(mean.size());
+  model_.multiply_mass(swing, Ms);
+  const double square = swing.dot(Ms);
+  if (!(square > 0) || !(omega > 0)) return {};
+  // A mean of large rotations is no state of the body: where these are possible, all at the end counts as odd.
+  const bool is_linear = model_.traits().linear;
+  const Vector base = is_linear ? mean : mean + swing;
+  const auto shift_from = [&](const Vector& q) { return shift(t, q, terms_); };
+  const std::optional<Vector> found = is_linear ? odd_part(shift_from, mean, swing) : shift_from(base);
+  if (!found) return {kUnknown, 0};
+  const Vector& x = *found;
+  try {
+    model_.force(t, base, still, at_base);
+    model_.force(t, base, omega * swing, there);
+    const double decay = std::max(swing.dot(at_base - there) / (2 * omega * square), 0.0);
+    model_.force(t, base + x, still, there);
+    const double by_mass = std::abs(x.dot(Ms)), by_stiffness = std::abs(swing.dot(at_base - there));
+    return {std::min(omega * by_mass, std::sqrt(by_mass * by_stiffness)) / (2 * std::sqrt(square)), decay};
+  } catch (const RecoverableError&) {
+    return {kUnknown, 0};
   }
 }
 

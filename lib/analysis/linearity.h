@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "lib/fem/fem_model.h"
@@ -22,6 +23,12 @@ struct LinearityError {
   bool unstable = false;    // in statics: an equilibrium of the exact force that does not last; both are infinite
 };
 
+// Of a vibration: how fast the exact force makes it part from the linear one, in the mass norm, sqrt(kg) m/s, and the
+// decay of free vibrations of that shape by the model's damping, 1/s.
+struct VibrationDrift {
+  double rate = 0, decay = 0;
+};
+
 class Linearity {
  public:
   using Terms = std::vector<std::size_t>;  // indices of FemModel::Parts::elastic
@@ -35,6 +42,10 @@ class Linearity {
   LinearityError error(double t, const Vector& q) { return error(t, q, terms_); }
   LinearityError error(double t, const Vector& q, const Terms& terms);
 
+  // Of a vibration of frequency omega, rad/s, about `mean` that swings by `swing` to both sides; see PhaseError for the
+  // formula. The rate is infinite where no equilibrium is found.
+  VibrationDrift drift(double t, const Vector& mean, const Vector& swing, double omega);
+
  private:
   bool factor(double t, const Vector& q, TangentKind kind);
   bool factor_for(double t, const Vector& q);  // as error() needs it
@@ -42,6 +53,8 @@ class Linearity {
   // is unstable there.
   bool factor_exact(double t, const Vector& q, const Terms& terms);
   LinearityError distance(double t, const Vector& q, const Terms& terms);  // to the equilibrium with the exact force
+  // The displacement to it from q; none where it is not found.
+  std::optional<Vector> shift(double t, const Vector& q, const Terms& terms);
   // What the exact force adds to that of the model, on the free coordinates.
   void add_correction(double t, const Vector& q, const Terms& terms, Vector& f) const;
 

@@ -143,10 +143,10 @@ class DynamicAnalysis {
     return outcome;
   }
 
-  // At most: displacements and velocities, one vector of the watch over linear kinematics, and small parts.
+  // At most: displacements and velocities, three vectors of the watch over linear kinematics, and small parts.
   std::size_t bytes_of_checkpoint() const {
     constexpr std::size_t kSmallParts = 64 << 10;
-    return 3 * sizeof(double) * static_cast<std::size_t>(setup_.built.model->num_dofs_of_all()) + kSmallParts +
+    return 5 * sizeof(double) * static_cast<std::size_t>(setup_.built.model->num_dofs_of_all()) + kSmallParts +
            2 * context_.resolved.size();
   }
 

@@ -21,6 +21,8 @@ constexpr double kLeastGrowth = 1.05, kLargestGrowth = 2;  // of the displacemen
 constexpr double kTiny = 1e-300;         // in place of zero
 constexpr int kLargestToldOf = 200000;   // unknowns: a factorisation of more is not done unasked
 constexpr double kOvershoot = 2;         // of a load applied at once, over its static response
+constexpr double kParted = 2;            // of the motion: the error of what is wholly out of phase
+constexpr double kHopeless = 1;          // of the motion: an error that need not be known better
 constexpr double kClearly = 3;           // times what is allowed: then linear kinematics are not tried
 
 double allowed_error(const Scene& scene) {
@@ -123,7 +125,9 @@ void make_corotational(Config& config) {
 LinearityWatch::LinearityWatch(const FemModel& model, std::vector<LinearRegion> regions, double start, double end,
                                double allowed, std::string only_linear)
     : model_(model), regions_(std::move(regions)), allowed_(allowed), start_(start), span_(end - start), time_(start),
-      largest_{start, 0, Vector::Zero(model.num_dofs())}, only_linear_(std::move(only_linear)) {}
+      largest_{start, 0, Vector::Zero(model.num_dofs())}, only_linear_(std::move(only_linear)) {
+  if (std::isfinite(span_)) phase_.emplace(model, start);
+}
 
 Linearity& LinearityWatch::linearity() {
   if (!linearity_) linearity_.emplace(model_, terms_of(regions_), span_);
@@ -171,24 +175,27 @@ std::optional<Outgrown> LinearityWatch::why_to_start_again() {
 void LinearityWatch::finish() {
   try {
     if (largest_.norm > checked_) note(largest_.t, largest_.q);
-    error_ = std::max(error_, local_ + phase_of(stiffness_));
+    const bool is_known = error_ < kHopeless;
+    error_ = std::max(error_, local_ + share(phase_ && is_known ? phase_->error_now(linearity()) : 0));
   } catch (const RunError&) {
     error_ = std::numeric_limits<double>::quiet_NaN();
   }
 }
 
 void LinearityWatch::save(Archive& archive) {
-  archive.put("found", {checked_, velocity_, local_, stiffness_, error_, largest_.t});
+  archive.put("found", {checked_, local_, stiffness_, error_, largest_.t});
   archive.put("largest", std::vector<double>(largest_.q.begin(), largest_.q.end()));
+  if (phase_) phase_->save(archive);
 }
 
 void LinearityWatch::restore(const Archive& archive) {
-  const auto& found = archive.numbers("found", 6);
-  checked_ = found[0], velocity_ = found[1], local_ = found[2], stiffness_ = found[3], error_ = found[4];
+  const auto& found = archive.numbers("found", 5);
+  checked_ = found[0], local_ = found[1], stiffness_ = found[2], error_ = found[3];
   const auto& q = archive.numbers("largest", static_cast<std::size_t>(model_.num_dofs()));
-  largest_.t = found[5];
+  largest_.t = found[4];
   largest_.q = Eigen::Map<const Vector>(q.data(), model_.num_dofs());
   largest_.norm = norm(largest_.q);
+  if (phase_) phase_->restore(archive);
 }
 
 // The error grows no faster than the square of the displacement.
@@ -200,17 +207,31 @@ double LinearityWatch::next_look() const {
 
 void LinearityWatch::look_at(const State& state) {
   time_ = state.t;
-  velocity_ = std::max(velocity_, norm(state.v));
   if (const double q = norm(state.q); q > largest_.norm) largest_ = {state.t, q, state.q};
   if (largest_.norm > next_look()) note(state.t, state.q);
-  error_ = std::max(error_, local_ + phase_of(stiffness_));
+  if (phase_) phase_->look_at(state);
+  if (phase_ && phase_->is_full()) take_in_phase();
   if (outgrown()) refuse_outgrown();
 }
 
-// A stiffness that is off by a share of e shifts a frequency by e/2.
+void LinearityWatch::take_in_phase() {
+  if (!(error_ < kHopeless)) return phase_->skip();
+  try {
+    phase_->take_in(linearity());
+    error_ = std::max(error_, local_ + share(phase_->error()));
+  } catch (const RunError&) {
+    error_ = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+// Motions that have parted differ by twice their size at most.
+double LinearityWatch::share(double phase) const {
+  return largest_.norm > 0 ? std::min(phase / largest_.norm, kParted) : 0;
+}
+
 double LinearityWatch::phase_of(double stiffness) const {
-  const double turns = largest_.norm > 0 ? velocity_ / largest_.norm * (time_ - start_) : 0;  // rad
-  return turns > 0 ? stiffness * turns / 2 : 0;
+  if (!phase_ || !(stiffness_ > 0)) return 0;
+  return share(phase_->error()) * std::min(stiffness / stiffness_, 1.0);
 }
 
 std::vector<std::string> LinearityWatch::to_give_up(double t, const Vector& q) {
@@ -240,8 +261,7 @@ std::string outcome_of(const LinearityWatch& watch) {
   if (std::isnan(watch.error())) return fmt::format("linear{}: how far off is not known", where);
   if (watch.unstable()) return fmt::format("linear{}: {}", where, kUnstable);
   const bool is_watched = std::isfinite(watch.allowed());
-  return fmt::format("linear{}: off by {}{}{}", where, how_much(watch.error(), "{:.1e}"),
-                     std::isfinite(watch.error()) ? " at most" : "",
+  return fmt::format("linear{}: off by {}{}", where, how_much(watch.error(), "{:.1e}"),
                      is_watched ? fmt::format(", where {:.1e} is allowed", watch.allowed()) : "");
 }
 

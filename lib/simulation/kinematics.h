@@ -11,6 +11,7 @@
 #include "lib/analysis/linearity.h"
 #include "lib/scene/build.h"
 #include "lib/simulation/observers/observer.h"
+#include "lib/simulation/phase_error.h"
 
 namespace orthodyn {
 
@@ -81,7 +82,9 @@ class LinearityWatch : public Observer {
   void note(double t, const Vector& q);  // the error there
   double next_look() const;            // the displacement from which on the error has to be computed anew
   double norm(const Vector& x) const;  // in the mass norm
-  double phase_of(double stiffness) const;  // rad, that a vibration has gained or lost by such an error
+  void take_in_phase();
+  double share(double phase) const;         // of the motion, what has added up in a vibration
+  double phase_of(double stiffness) const;  // of that, by terms that are off so far
   Linearity& linearity();
 
   const FemModel& model_;
@@ -89,8 +92,8 @@ class LinearityWatch : public Observer {
   std::optional<Linearity> linearity_;  // made when it is needed first
   double allowed_, start_, span_, time_;
   Largest largest_;
-  double checked_ = 0;   // the displacement at which the error was computed last
-  double velocity_ = 0;  // the largest so far
+  double checked_ = 0;  // the displacement at which the error was computed last
+  std::optional<PhaseError> phase_;  // none in statics
   double local_ = 0, stiffness_ = 0, error_ = 0;
   bool unstable_ = false;
   std::string only_linear_;
