@@ -95,7 +95,7 @@ TEST(Medit, RefusalsNameLineAndRemedy) {
   EXPECT_CONTAINS(refusal(replaced(kMesh, "Vertices\n7", "Vertices\n6")), "expected a keyword, found \"0\"");
   EXPECT_CONTAINS(refusal(kMesh.substr(0, kMesh.find("1 0 1 4"))), "the file ends after 4 of 7 Vertices");
   EXPECT_CONTAINS(refusal_of([] { read_mesh("body.meshb"); }), "the binary form of Medit files is not read");
-  EXPECT_CONTAINS(refusal_of([] { read_mesh("body.med"); }), "meshio convert body.med body.vtu");
+  EXPECT_CONTAINS(refusal_of([] { read_mesh("body.med"); }), "meshio.write('body.vtu', meshio.read('body.med'))");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "lib/analysis/buckling.h"
+#include "lib/analysis/modes.h"
 #include "lib/mesh/box.h"
 #include "lib/mesh/quadratic.h"
 #include "lib/simulation/static_problem.h"
@@ -151,6 +152,16 @@ TEST(Ring, BucklesAtTheOnePressureThatFollowsItAndTheOtherThatDoesNot) {
       EXPECT_NEAR(1.5 * expected * point.load_factor, expected, 0.001 * expected) << follows;
     }
   }
+}
+
+TEST(Ring, HasModesAboutRestThatNoPressureChanges) {
+  const auto lowest = [](double pressure, double load_factor) {
+    const BuiltTestScene s(ring(true, pressure, "analysis: static"));
+    return natural_modes(s.model(), {1, s.zero(), s.zero(), load_factor}, 1).modes[0].frequency();
+  };
+  const double pressure = critical_pressure(true) / 2, without = lowest(0, 0);
+  EXPECT_NEAR(lowest(pressure, 0), without, 1e-9 * without);
+  EXPECT_GT(std::abs(lowest(pressure, 1) - without), 1e-3 * without);  // so that there is something to leave out
 }
 
 // A shallow arch between clamps under pressure that follows its upper side.

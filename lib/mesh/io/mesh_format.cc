@@ -49,10 +49,10 @@ const MeshFormat& mesh_format_of(const std::string& path) {
     if (std::count(format.endings.begin(), format.endings.end(), ending) > 0) return format;
   }
   throw ConfigError(path, fmt::format("no mesh format has the ending \"{}\"; known: {}. meshio (apt install "
-                                      "python3-meshio) converts some others, without the names of sets: meshio convert "
-                                      "{} {}",
-                                      ending, known_mesh_endings(), path,
-                                      std::filesystem::path(path).replace_extension(".vtu").string()));
+                                      "python3-meshio) converts some others, without the names of sets: python3 -c "
+                                      "\"import meshio; meshio.write('{}', meshio.read('{}'))\"",
+                                      ending, known_mesh_endings(),
+                                      std::filesystem::path(path).replace_extension(".vtu").string(), path));
 }
 
 Warnings losses_in(const MeshFormat& format, const LoadedMesh& loaded) {

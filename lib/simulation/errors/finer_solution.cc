@@ -30,7 +30,7 @@ struct Matrices {
 
 Matrices matrices(const FemModel& whole, const State& about, double shift) {
   const auto unloaded = about.load_factor == 0 ? without_loads(whole) : nullptr;
-  const Model& model = unloaded ? *unloaded : whole;
+  const Model& model = unloaded ? *unloaded : static_cast<const Model&>(whole);
   Linearization at;
   model.linearize(about.t, about.q, Vector::Zero(about.q.size()), TangentKind::exact, at);
   Matrices out{std::vector<double>(at.stiffness.size()), std::vector<double>(at.stiffness.size())};
