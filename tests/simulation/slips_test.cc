@@ -47,18 +47,6 @@ Said said_of(const std::string& scene) {
   }
 }
 
-// All masses of a cube of one linear cell lie in its corners: its moments are m a^2/2 in place of m a^2/6.
-TEST(Slips, AMomentOfInertiaOfLumpedMassesIsToldWhereTheBodyMayTurn) {
-  const std::string cube = R"(mesh: {type: box, size: [1, 1, 1], cells: [1, 1, 1], order: 1}
-materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
-initial: {spin: [0, 0, 1]}
-time: {end: 1}
-)";
-  EXPECT_THAT(said_of(cube).words, HasSubstr("moment of inertia +2e+02 % off"));
-  EXPECT_EQ(said_of(cube + "mass: consistent\n").words, "");
-  EXPECT_THAT(said_of(cube + "clamps: [{surface: x0}]\n").words, testing::Not(HasSubstr("moment of inertia")));
-}
-
 struct Slip {
   std::string name, from, to;
   bool refused;

@@ -67,6 +67,7 @@ class BoxSource : public MeshSource, public BoxMesh {
             .key("parts", &BoxSource::parts_,
                  "Further regions by name: the elements whose centroid lies between `min` and `max`.")
             .check([](const BoxSource& box, const Config& config) {
+              if (!box.split_) config.fill("split", Value<Split>::yaml(box.chosen_split()));
               const double tets_per_cell = box.chosen_split() == BoxMesh::Split::five ? 5 : 6;
               require_room(tets_per_cell * box.cells[0] * box.cells[1] * box.cells[2], config.at("cells"));
             });
