@@ -39,9 +39,7 @@ struct Divided {
 };
 
 Divided divided(const FemModel& model) {
-  const auto loads = model.load_parts().value();
-  auto structure = without_loads(model);
-  return {structure ? std::move(structure) : model.only(model.force_parts()), model.only(loads)};
+  return {without_loads(model), model.only(model.load_parts().value())};
 }
 
 // The largest strain of a small displacement, by the norm of its components.

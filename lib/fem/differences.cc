@@ -31,7 +31,7 @@ DifferenceWeights::DifferenceWeights(double x) {
 
 // Over a part of its limits a function is close to a cubic: a third of a period.
 DifferenceStep::DifferenceStep(StepLimits limits, double start, double end)
-    : longest_((end - start) / 1000), limits_(std::move(limits)) {}
+    : longest_(end > start ? (end - start) / 1000 : 1), limits_(std::move(limits)) {}
 
 double DifferenceStep::at(double t) const {
   constexpr double kStepsToAPart = 32, kReach = (DifferenceWeights::kPoints - 1) / 2.0;

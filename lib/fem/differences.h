@@ -13,8 +13,8 @@
 
 namespace orthodyn {
 
-// Distance of the points, s: a given one; or from 60 to 1000 of them to a period of what the function does about the
-// time, however short or long that is.
+// The step of the differences, s: a given one, or one chosen at each time so that the function's period about that time
+// has 60 to 1000 steps.
 class DifferenceStep {
  public:
   explicit DifferenceStep(double given) : longest_(given) {}

@@ -11,8 +11,8 @@
 
 namespace orthodyn {
 
-// Constants of a region as the file gives them, unchecked but for those of Vega files, whose moduli and densities are
-// positive.
+// Material constants of a region as read from the file. The Vega reader checks that moduli and densities are positive;
+// other readers check nothing.
 struct MeshMaterial {
   enum class Kind { isotropic, orthotropic, anisotropic };
 
@@ -27,15 +27,15 @@ struct MeshMaterial {
   // Anisotropic: C11, C12, C22, C13, C23, C33, C14, ... C66, Pa, with 4, 5, 6 = 12, 13, 23 (voigt_order: abaqus).
   std::array<double, 21> stiffness = {};
   Mat3 axes = Mat3::Identity();         // orthonormal, right-handed; columns are directions 1, 2, 3
-  std::string axes_file = {};           // that has those of each element, instead of `axes`
+  std::string axes_file = {};           // file with the material axes of each element; replaces `axes`
 
-  std::string problem = {};  // why there are no constants, or ""; where: `where`
-  // What the file gives the material beside a law that is linear and elastic: where, and its name.
+  std::string problem = {};  // why the constants could not be read, or ""
+  // A keyword that goes beyond linear elasticity: its place in the file, and its name.
   struct Beyond {
     std::string where, name;
   };
   std::vector<Beyond> beyond = {};
-  std::vector<std::string> without_effect = {};  // names of what changes no motion
+  std::vector<std::string> without_effect = {};  // keywords that do not affect the motion
 };
 
 // Values per element: values[components * element + component].

@@ -47,11 +47,7 @@ void LoadPath::divide(Loaded loaded) {
     unbalanced_ = force_at_rest(model_, times_.begin, start_);
     return;
   }
-  auto structure_parts = model_.force_parts();
-  std::erase_if(structure_parts, [&](const std::string& part) {
-    return std::find(load_parts->begin(), load_parts->end(), part) != load_parts->end();
-  });
-  structure_ = model_.only(structure_parts);
+  structure_ = without_loads(model_);
   if (loaded == Loaded::no) {
     unbalanced_ = force_at_rest(*structure_, times_.begin, start_);
   } else if (!load_parts->empty()) {

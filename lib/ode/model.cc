@@ -42,7 +42,7 @@ std::vector<double> Model::breakpoints(double, double) const { return {}; }
 
 std::unique_ptr<Model> without_loads(const Model& model) {
   const auto loads = model.load_parts();
-  if (!loads || loads->empty()) return nullptr;
+  if (!loads) return nullptr;
   auto structure = model.force_parts();
   std::erase_if(structure, [&](const std::string& part) { return std::ranges::find(*loads, part) != loads->end(); });
   return model.only(structure);

@@ -168,7 +168,8 @@ class Model : public OutputSource {
   Number number_;
 };
 
-// The model without what loads it, which must outlive this; null where nothing does, or where that is not known.
+// The parts of the model's force that are no loads, with its mass; null where load_parts() are not known. `model` must
+// outlive it.
 std::unique_ptr<Model> without_loads(const Model& model);
 
 }  // namespace orthodyn

@@ -46,10 +46,7 @@ class ConditionWriter {
     add_supports();
     add_forces();
     if (gravity_ != Vec3::Zero()) out_.gravity = Value<Vec3>::yaml(factors_.length * gravity_);
-    if (!deck_.steps.empty()) {
-      const AbaqusKeyword& step = deck_.steps.front();
-      out_.is_linear = !step.has("NLGEOM") || abaqus_word(step.parameter("NLGEOM")) == "NO";
-    }
+    out_.is_linear = !deck_.steps.empty() && is_linear();
     for (const auto& [what, lines] : left_out_)
       out_.left_out.push_back(fmt::format("{} ({} {}): {}", what.first, lines.size() == 1 ? "line" : "lines",
                                           shortened(lines), what.second));
@@ -57,6 +54,13 @@ class ConditionWriter {
   }
 
  private:
+  // Whether the first step neglects large displacements.
+  bool is_linear() const {
+    if (deck_.steps.empty()) return true;
+    const AbaqusKeyword& step = deck_.steps.front();
+    return !step.has("NLGEOM") || abaqus_word(step.parameter("NLGEOM")) == "NO";
+  }
+
   // Returns why the line is left out, or "".
   std::string add(const AbaqusCondition& c) {
     if (c.step > 1) return "of a later step; the first is taken";
@@ -179,6 +183,7 @@ class ConditionWriter {
     const auto name = surface(c);
     const auto traction = directed(c);
     if (!name) return "no such surface in the mesh";
+    if (!is_linear() && !c.keyword.has("FOLLOWER")) return "it turns with the surface (FOLLOWER=YES is the default)";
     if (!traction) return "its traction is no magnitude with a direction";
     out_.loads.push_back(fmt::format("{{surface: {}, traction: {}}}", yaml_name(*name),
                                      Value<Vec3>::yaml(factors_.stress * *traction)));

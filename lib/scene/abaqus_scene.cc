@@ -25,7 +25,7 @@ bool can_be_taken(const LoadedMesh& loaded) {
 
 // For readers: the scene takes these from the file.
 std::string materials_in_comments(const LoadedMesh& loaded) {
-  std::string text = "# Materials and axes are those of the file; typed `materials` and `regions` take their place.\n";
+  std::string text = "# Materials and axes come from the mesh file. Sections `materials` and `regions` in this scene replace them.\n";
   for (const auto& [region, m] : loaded.materials)
     text += fmt::format("#   {}: {} {}{}\n", region, m.name, material_yaml(m),
                         m.axes_file.empty() ? "" : ", axes by its orientation");

@@ -21,8 +21,8 @@ constexpr double kLeastGrowth = 1.05, kLargestGrowth = 2;  // of the displacemen
 constexpr double kTiny = 1e-300;         // in place of zero
 constexpr int kLargestToldOf = 200000;   // unknowns: a factorisation of more is not done unasked
 constexpr double kOvershoot = 2;         // of a load applied at once, over its static response
-constexpr double kParted = 2;            // of the motion: the error of what is wholly out of phase
-constexpr double kHopeless = 1;          // of the motion: an error that need not be known better
+constexpr double kParted = 2;            // relative error of two motions that are fully out of phase
+constexpr double kHopeless = 1;          // relative error above which no better estimate is needed
 constexpr double kClearly = 3;           // times what is allowed: then linear kinematics are not tried
 
 double allowed_error(const Scene& scene) {

@@ -18,7 +18,7 @@ class TimeFunction {
   virtual bool constant() const { return false; }
   virtual std::vector<double> kinks() const { return {}; }                 // where it is not smooth
   virtual bool has_continuous_rate() const { return kinks().empty(); }
-  // One whose rate and curvature are right for what it does between two times, s; null where its own are exact.
+  // A copy whose rate and curvature are accurate between two times, s; null if those of this function are exact.
   virtual std::shared_ptr<const TimeFunction> over(double /*start*/, double /*end*/) const { return nullptr; }
   // What it does between the kinks.
   virtual StepLimits step_limits(double /*start*/, double /*end*/) const { return {}; }

@@ -32,7 +32,7 @@ struct MeshFormat {
   LoadedMesh (*read)(const std::string& path);
   // Makes texts, touches no disk. Null: the format is only read.
   WrittenMesh (*write)(const LoadedMesh& loaded) = nullptr;
-  bool brings_materials = false;  // a file may say of what its regions are
+  bool brings_materials = false;  // files may define the materials of their regions
   // What is false is lost in writing. Every format holds nodes, elements and regions.
   bool holds_materials = false;
   bool holds_surfaces = true;

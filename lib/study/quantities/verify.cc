@@ -77,7 +77,7 @@ CaseResult verify_motion_or_equilibrium(const Setup& setup, const std::vector<Ob
   return setup.scene.is_static() ? verify_equilibrium(setup, interrupt) : verify_motion(setup, observers, interrupt);
 }
 
-// Time and failure of what finds them are added to those of the run.
+// The time of the eigenvalue solution is added to that of the run; its failure becomes that of the run.
 void verify_eigenvalues(const Setup& setup, CaseResult& result) {
   if (std::ranges::none_of(setup.scene.expect, &Expectation::is_eigenvalue)) return;
   std::vector<Check> checks;

@@ -41,7 +41,7 @@ TEST_P(Motions, HaveTheVelocityAndAccelerationOfTheirDisplacements) {
   }
 }
 
-// Without a resolution, whatever the unit of time: a fast and a slow motion, and a pulse after a long rest.
+// No resolution is given: the step of the differences must suit fast and slow motions, and a pulse after a long rest.
 TEST(FormulaMotion, HasItsRatesAtAnyScaleOfTime) {
   const NodalVector X = some_points();
   for (const double T : {1e-9, 1e-3, 1.0, 1e6}) {
