@@ -114,6 +114,8 @@ TEST(AbaqusScene, WhatIsLeftOutIsNamedWithItsLine) {
   expect("*CLOAD\nHead, 1, 1\n", "*CLOAD (line 23): no such nodes in the mesh");
   expect("*DLOAD\nAll, BX, 1\n", "*DLOAD (line 23): loads of type BX are not read");
   expect("*DSLOAD\nTop, HP, 1\n", "*DSLOAD (line 23): loads of type HP are not read");
+  expect("*STEP, NLGEOM\n*DSLOAD\nTop, TRVEC, 5, 0, 3, 4\n*END STEP\n",
+         "*DSLOAD (line 24): it turns with the surface (FOLLOWER=YES is the default)");
   expect("*STEP\n*END STEP\n*STEP\n*CLOAD\n7, 1, 1\n", "*CLOAD (line 26): of a later step; the first is taken");
   expect("*TRANSFORM, NSET=Foot\n1, 1, 0, -1, 1, 0\n*CLOAD\n7, 1, 1\n",
          "*CLOAD (line 25): *TRANSFORM may turn its directions");
