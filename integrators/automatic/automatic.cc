@@ -1,10 +1,10 @@
 // `auto`: looks at the model and the task, takes one of the other integrators and says why.
 //
 // It knows what comparisons have taught (docs/speed-against-error.md); a comparison of all methods on the scene
-// itself is better founded: `orthodyn compare`.
+// itself is better founded: `orthodyn compare`. Linear models whose lowest modes say all take `modal`.
 #include <algorithm>
 
-#include "integrators/automatic/cost_estimate.h"
+#include "integrators/automatic/modal_plan.h"
 #include "integrators/error_control.h"
 #include "integrators/solver_options.h"
 #include "lib/core/words.h"
@@ -17,6 +17,8 @@ struct AutomaticOptions : ErrorControl {
   std::optional<std::string> method;
   std::string rationale;
   std::optional<double> safety;
+  std::optional<int> modes;
+  std::string kept;
 };
 
 // Does what the chosen integrator does, and tells of the choice among its decisions.
@@ -38,9 +40,10 @@ class Automatic : public Integrator {
   Decisions decisions() const override {
     Decisions all{{"method", choice_.method}, {"because", choice_.rationale}};
     if (choice_.safety) all.emplace_back("safety", number_text(*choice_.safety));
+    if (choice_.modes) all.emplace_back("modes", std::to_string(*choice_.modes));
     for (const auto& decision : scale_decisions(scales_)) all.push_back(decision);
     for (const auto& decision : integrator_->decisions())
-      if (decision.first == "linear_solver") all.push_back(decision);
+      if (decision.first == "linear_solver" || decision.first == "kept") all.push_back(decision);
     return all;
   }
 
@@ -62,6 +65,9 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public Automatic
           .key("safety", &C::safety,
                "Safety factor of central_differences, if that is the method; written by the program.",
                {.range = {0, 1, true, true}})
+          .key("modes", &C::modes, "How many modes are kept by modal, if that is the method; written by the program.",
+               {.range = {1}})
+          .key("kept", &C::kept, "Of modal: what was kept, and what that leaves out, in words; written by the program.")
           .check([](const C& options, const Config& config) { options.check_method(config); });
     }();
     return s;
@@ -79,18 +85,25 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public Automatic
     if (!method && own.omega == 0) own.omega = task.scales().omega;  // also where the scales themselves are given
     // central_differences has no error control whose steps could be limited.
     const bool limits_steps = h0 || h_max || h_min > 0;
-    const MethodChoice choice = method ? MethodChoice{*method, rationale, safety}
-                                       : choose_method(estimate_cost(model, task, own, linear_solver), rtol,
-                                                       limits_steps ? 0 : static_cast<double>(max_steps));
+    const MethodChoice choice = method ? MethodChoice{*method, rationale, safety, modes}
+                                       : choose(model, task, own, limits_steps ? 0 : static_cast<double>(max_steps));
     IntegratorSettings wanted = settings();
     wanted.position_scale = own.position;
     wanted.velocity_scale = own.velocity;
     wanted.safety = choice.safety;
+    wanted.modes = choice.modes;
     const auto options = Registry<IntegratorChoice>::entries().at(choice.method).make()->with(wanted);
     return std::make_unique<Automatic>(options->make(model, task), choice, own);
   }
 
  private:
+  MethodChoice choose(const Model& model, const Task& task, const Scales& own, double most_explicit_steps) const {
+    const CostEstimate cost = estimate_cost(model, task, own, linear_solver);
+    MethodChoice stepping = choose_method(cost, rtol, most_explicit_steps);
+    if (auto modal = plan_modal(model, task, cost, rtol, stepping)) return *std::move(modal);
+    return stepping;
+  }
+
   void check_method(const Config& config) const {
     if (!method) return;
     auto names = Registry<IntegratorChoice>::names();

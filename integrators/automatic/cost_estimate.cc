@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <utility>
 
 #include "integrators/damping_ratio.h"
 #include "integrators/newton_matrix.h"
@@ -18,9 +20,22 @@ namespace {
 // Measured: a force takes about 2.2 ns per entry of the tangent's lower triangle, a tangent five forces.
 constexpr double kForce = 2.2, kTangent = 5;
 
+// Of tr_bdf2 on q'' = -omega^2 q with the amplitude as position scale, measured at rtol 1e-2 ... 1e-5 over 10 ... 100
+// rad: what each radian adds to the error, of the motion, at rtol 1e-3; it goes with rtol^(2/3). The error that is
+// accepted is a multiple of rtol.
+constexpr double kPhaseError = 1.2e-3, kMostPhaseError = 20;
+
+double phase_error_of_order_two(double phase, double rtol) { return kPhaseError * phase * std::pow(rtol / 1e-3, 2.0 / 3); }
+
 // Of an L-stable method of order two, measured at rtol 1e-3: steps for each radian of the motion, iterations for each
 // step, and tangents with their factors for each step.
 constexpr double kSteps = 7, kIterations = 4, kTangents = 0.3;
+
+double steps_of_order_two(double phase, double rtol) { return 10 + kSteps * phase * std::pow(1e-3 / rtol, 1.0 / 3); }
+
+double cost_of_implicit_step(const CostEstimate& cost) {
+  return kIterations * (1 + cost.solve_cost) + kTangents * (kTangent + cost.factor_cost);
+}
 
 CostEstimate estimate_here(const Model& model, const Task& task, const Scales& scales,
                            const SolverChoice& linear_solver) {
@@ -41,7 +56,8 @@ CostEstimate estimate_here(const Model& model, const Task& task, const Scales& s
   const double n = static_cast<double>(model.num_dofs_of_all());
   const double non_zeros = model.space().sum(model.pattern().non_zeros()), force = kForce * non_zeros;
   namespace each = solver_cost;
-  if (matrix.is_iterative()) {
+  cost.has_factor = !matrix.is_iterative();
+  if (!cost.has_factor) {
     const double all = 2 * non_zeros;
     cost.solve_cost = each::kIterations * each::kIteration * all / force;
     cost.factor_cost = each::kSetUp * all / force;
@@ -73,21 +89,28 @@ double safety_of_central_differences(const CostEstimate& cost, double rtol) {
 }
 
 MethodChoice choose_method(const CostEstimate& cost, double rtol, double most_explicit_steps) {
-  const double implicit_steps = 10 + kSteps * cost.phase * std::pow(1e-3 / rtol, 1.0 / 3);
-  const double implicit_cost =
-      implicit_steps * (kIterations * (1 + cost.solve_cost) + kTangents * (kTangent + cost.factor_cost));
+  const double implicit_steps = steps_of_order_two(cost.phase, rtol), step_cost = cost_of_implicit_step(cost);
+  const double implicit_cost = implicit_steps * step_cost;
   const double safety = safety_of_central_differences(cost, rtol);
   const double explicit_cost = cost.explicit_steps / safety;  // a force a step
   if (explicit_cost < std::min(implicit_cost, most_explicit_steps))
     return {
         "central_differences",
         fmt::format("{:.2g} explicit steps cost less than about {:.2g} implicit ones", explicit_cost, implicit_steps),
-        safety};
+        safety, std::nullopt, explicit_cost};
+  const auto implicit = [&](const char* method, std::string why) {
+    const double steps = steps_of_order_two(std::max(cost.phase, cost.known_phase), rtol);
+    return MethodChoice{method, std::move(why), std::nullopt, std::nullopt, steps * step_cost};
+  };
   if (suits_high_orders(cost.damping_ratio, rtol))
-    return {"cvode_bdf", "well damped, where multistep methods of high order take long steps"};
+    return implicit("cvode_bdf", "well damped, where multistep methods of high order take long steps");
   if (rtol <= 1e-4)
-    return {"arkode_dirk", "hardly damped, where Runge-Kutta methods of high order keep fast oscillations"};
-  return {"tr_bdf2", "hardly damped and a moderate accuracy, where an L-stable method of order 2 is cheapest"};
+    return implicit("arkode_dirk", "hardly damped, where Runge-Kutta methods of high order keep fast oscillations");
+  if (const double error = phase_error_of_order_two(cost.known_phase, rtol); error > kMostPhaseError * rtol)
+    return implicit("arkode_dirk", fmt::format("hardly damped and {:.2g} periods long, in which a method of order 2 "
+                                               "would be off by {:.1g} of the motion",
+                                               cost.known_phase / (2 * std::numbers::pi), error));
+  return implicit("tr_bdf2", "hardly damped and a moderate accuracy, where an L-stable method of order 2 is cheapest");
 }
 
 }  // namespace orthodyn

@@ -18,6 +18,7 @@ struct CostEstimate {
   double phase = 0;                        // rad, by which the motion goes on over the time span, about
   double known_phase = 0;                  // the same where the motion's frequency is known; 0 where it is not
   double solve_cost = 0, factor_cost = 0;  // of an implicit step's solve and factorisation, in forces
+  bool has_factor = true;                  // false where an iterative method solves
 };
 
 // At task.initial, by which the model's stiffness is that of the whole run. `linear_solver` is one of n x n matrices
@@ -28,6 +29,8 @@ CostEstimate estimate_cost(const Model& model, const Task& task, const Scales& s
 struct MethodChoice {
   std::string method, rationale;      // no colon in the latter: it becomes a value of the input
   std::optional<double> safety = {};  // of central_differences
+  std::optional<int> modes = {};      // of modal
+  double cost = 0;                    // of the run, in forces, about
 };
 
 // The cheapest method for a local error of rtol. No explicit one that would need more than `most_explicit_steps`.

@@ -14,6 +14,7 @@
 
 #include "integrators/error_control.h"
 #include "integrators/fixed_step.h"
+#include "integrators/native/modal.h"
 #include "integrators/native/modal_basis.h"
 #include "integrators/native/modal_load.h"
 #include "integrators/native/modal_motion.h"
@@ -51,7 +52,6 @@ class Modal : public Integrator {
       interval_ = (task.end - task.initial.t) / kLeastSteps;
       if (task.output_interval > 0) interval_ = std::min(interval_, task.output_interval);
     }
-    check_start(task.initial);
   }
 
   void start(const State& state) override {
@@ -125,6 +125,29 @@ class Modal : public Integrator {
     return rates > 0 ? std::min(of_load, kSmoothPhase / std::sqrt(rates / energy)) : of_load;
   }
 
+  // What of the initial state the modes do not represent starts vibrations that are lost. Throws ConfigError where they are large.
+  void check_start(const State& initial) {
+    StepLoad load;
+    try {
+      load = loads_.at(initial.t);
+    } catch (const RecoverableError&) {
+      return;  // the first step will tell, with the time
+    }
+    from_ = initial;
+    begin_ = modal_state(basis_, initial);
+    ModalTruncation at_start(basis_);
+    at_start.start(initial, begin_, load);
+    at_start.reach(begin_, load, 0);
+    if (const double share = at_start.displacement_share(); share > kMisfit)
+      throw ConfigError(fmt::format(
+          "the modes kept ({}) do not contain the motion that the initial state and the loads start: about "
+          "{:.2g} of it is in those left out; keep more of them (`modes`, `below`), or use another integrator",
+          basis_.size(), share));
+    share_at_start_ = at_start.displacement_share();
+  }
+
+  ModalShares left_out() const { return {truncation_.displacement_share(), truncation_.velocity_share()}; }
+
   const Statistics& statistics() const override { return statistics_; }
   std::size_t factor_bytes() const override { return basis_.factor_bytes(); }
   std::size_t bytes() const override {
@@ -166,27 +189,6 @@ class Modal : public Integrator {
     if (!begun && share == 0) return text;  // the loads will tell
     text += fmt::format("; what is left out{} is about {:.2g} of the motion", begun ? "" : " at the start", share);
     return share > options_.rtol ? text + ", more than rtol (keep more modes to reduce it)" : text;
-  }
-
-  // What of the initial state the modes do not represent starts vibrations that are lost.
-  void check_start(const State& initial) {
-    StepLoad load;
-    try {
-      load = loads_.at(initial.t);
-    } catch (const RecoverableError&) {
-      return;  // the first step will tell, with the time
-    }
-    from_ = initial;
-    begin_ = modal_state(basis_, initial);
-    ModalTruncation at_start(basis_);
-    at_start.start(initial, begin_, load);
-    at_start.reach(begin_, load, 0);
-    if (const double share = at_start.displacement_share(); share > kMisfit)
-      throw ConfigError(fmt::format(
-          "the modes kept ({}) do not contain the motion that the initial state and the loads start: about "
-          "{:.2g} of it is in those left out; keep more of them (`modes`, `below`), or use another integrator",
-          basis_.size(), share));
-    share_at_start_ = at_start.displacement_share();
   }
 
   // The error of a step in units of the tolerance; none if a force cannot be evaluated.
@@ -274,7 +276,9 @@ class ModalChoice : public SettableChoice<ModalChoice>, public ModalOptions {
     if (!modes && !below)
       throw ConfigError("modal needs to know which modes to keep: give `modes`, such as 40, or `below`, such as 2 kHz "
                         "(`orthodyn modes` lists the frequencies of a scene)");
-    return std::make_unique<Modal>(model, task, *this);
+    auto modal = std::make_unique<Modal>(model, task, *this);
+    modal->check_start(task.initial);
+    return modal;
   }
 };
 
@@ -282,4 +286,22 @@ const bool modal_registered = Registry<IntegratorChoice>::add<ModalChoice>(
     "modal", "Linear models by their lowest modes, each exact in time, with the static response of the others.");
 
 }  // namespace
+
+std::optional<ModalShares> try_modal(const Model& model, const Task& task, int modes, double rtol, long most_forces) {
+  ModalOptions options;
+  options.modes = modes;
+  options.rtol = rtol;
+  Modal modal(model, task, options);
+  std::vector<double> ends = model.breakpoints(task.initial.t, task.end);
+  ends.push_back(task.end);
+  State state = task.initial;
+  for (const double end : ends) {
+    modal.start(state);
+    while (modal.step(end).t < end)
+      if (modal.statistics().force.count > most_forces) return std::nullopt;
+    modal.interpolate(end, state);
+  }
+  return modal.left_out();
+}
+
 }  // namespace orthodyn

@@ -39,12 +39,6 @@ Reach reach_of_supports(const FemModel& model, double start, double end) {
   return {space.largest(reach.distance), space.largest(reach.speed)};
 }
 
-// Of twice the static response, what blows that end within a period leave: three times their root mean square.
-double share_reached(const VectorSpace& space, const StaticResponse& statics) {
-  const double deflection = space.largest_entry(statics.displacement);
-  return deflection > 0 ? std::min(1.0, 1.5 * statics.struck / deflection) : 1;
-}
-
 // m; 0 where it is not known. Displacements are twice those of the loads' static response, and three times the root
 // mean square of the vibrations that initial velocities or blows start.
 double size_of_motion(const VectorSpace& space, const State& initial, const StaticResponse& statics,

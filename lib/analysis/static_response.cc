@@ -88,6 +88,11 @@ std::vector<Vector> static_displacements(const FemModel& model, const std::vecto
   return out;
 }
 
+double share_reached(const VectorSpace& space, const StaticResponse& statics) {
+  const double deflection = space.largest_entry(statics.displacement);
+  return deflection > 0 ? std::min(1.0, 1.5 * statics.struck / deflection) : 1;
+}
+
 StaticResponse static_response(const FemModel& model, const State& initial, double end) {
   StaticResponse response{peak_load(model, initial, end, 0, model.parts().loads.size()), {}};
   const Vector& load = response.load;

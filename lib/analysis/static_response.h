@@ -20,6 +20,10 @@ struct StaticResponse {
   bool known = false;    // whether there is a displacement; of several ranks some may have no unknowns
 };
 
+// The share of twice the static response that a motion reaches: 1, or less where the loads are blows; then three times
+// the root mean square that they leave.
+double share_reached(const VectorSpace& space, const StaticResponse& statics);
+
 // From the initial state to the time `end`, s.
 StaticResponse static_response(const FemModel& model, const State& initial, double end);
 

@@ -312,14 +312,15 @@ Trial try_linear(const Scene& scene, const std::vector<std::string>& open, const
     if (!predict) return {.watch = std::move(watch)};
     const StaticResponse response = static_response(*built.model, built.initial, scene.time.end);
     if (!response.exists()) return {.watch = std::move(watch)};
-    const Vector q = built.initial.q + (is_static ? 1 : kOvershoot) * response.displacement;
+    const double reached = is_static ? 1 : kOvershoot * share_reached(built.model->space(), response);
+    const Vector q = built.initial.q + reached * response.displacement;
     const LinearityError error = watch->error_at(scene.time.end, q);
     if (error.displacement <= kClearly * allowed) return {.watch = std::move(watch)};
     return {.given_up = watch->to_give_up(scene.time.end, q),
             .why = error.unstable ? kUnstable
                                   : fmt::format("linear kinematics would be off by {}{}, where {:.2g} is allowed",
                                                 how_much(error.displacement),
-                                                is_static ? "" : " at twice the static response", allowed)};
+                                                is_static ? "" : " at the displacement that the loads reach", allowed)};
   } catch (const RunError& e) {
     return {.given_up = open, .why = e.what()};
   }

@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "integrators/automatic/cost_estimate.h"
+#include "integrators/automatic/modal_plan.h"
 #include "integrators/error_control.h"
 #include "tests/contract/integrators.h"
 
@@ -24,7 +24,9 @@ std::map<std::string, std::string> decisions(const Integrator& integrator) {
 MethodChoice expected_choice(const SmallModel& model, double rtol) {
   const Task task{[&] { return model.scales(); }, model.initial(), model.end(), model.end() / 50};
   const long max_steps = ErrorControl{}.max_steps;
-  return choose_method(estimate_cost(model, task, model.scales(), "cholmod"), rtol, static_cast<double>(max_steps));
+  const CostEstimate cost = estimate_cost(model, task, model.scales(), "cholmod");
+  const MethodChoice stepping = choose_method(cost, rtol, static_cast<double>(max_steps));
+  return plan_modal(model, task, cost, rtol, stepping).value_or(stepping);
 }
 
 TEST(Automatic, TakesTheMethodOfItsEstimate) {
@@ -38,6 +40,7 @@ TEST(Automatic, TakesTheMethodOfItsEstimate) {
       EXPECT_EQ(said.at("method"), expected.method);
       EXPECT_EQ(said.at("because"), expected.rationale);
       EXPECT_EQ(said.contains("safety"), expected.safety.has_value());
+      EXPECT_EQ(said.contains("modes"), expected.modes.has_value());
       methods.insert(expected.method);
     }
   EXPECT_GE(methods.size(), 2u);  // the models are such that the choice matters
@@ -58,6 +61,18 @@ TEST(Automatic, TakesTheStepsThatTheMethodTakesWithItsOptions) {
         EXPECT_TRUE(decisions(*automatic).at(key).starts_with("klu"));
       }
     }
+}
+
+// A chain of eight has few modes: all are taken where that pays.
+TEST(Automatic, TakesAllModesOfASmallLinearModel) {
+  const auto model = chain(true);
+  const auto integrator = make(model, "type: auto, rtol: 1e-6");
+  EXPECT_EQ(decisions(*integrator).at("method"), "modal");
+  EXPECT_EQ(decisions(*integrator).at("modes"), "8");
+  const State last = integrate(model, *integrator);
+  EXPECT_LE(distance(last, model.exact(last.t), model.scales()), 1e-10);
+  const auto nonlinear = pendulum();
+  EXPECT_FALSE(decisions(*make(nonlinear, "type: auto, rtol: 1e-6")).contains("modes"));
 }
 
 TEST(Automatic, GivesUpAfterItsOwnMaximumOfSteps) {

@@ -70,6 +70,19 @@ TEST(MethodChoice, IsOfHighOrderAtATightTolerance) {
   EXPECT_EQ(method(implicit_only(), 1.01e-4), "tr_bdf2");
 }
 
+// A method of order 2 lags by 1.2e-3 in each radian at rtol 1e-3, and by 1.2e-2/10^(1/3) at 1e-2; 20 rtol is accepted.
+TEST(MethodChoice, IsOfHighOrderWhereTheLagOfManyPeriodsAddsUp) {
+  const auto over = [](double phase, double rtol) {
+    CostEstimate cost = implicit_only();
+    cost.known_phase = phase;
+    return method(cost, rtol);
+  };
+  EXPECT_EQ(over(16.5, 1e-3), "tr_bdf2");
+  EXPECT_EQ(over(16.8, 1e-3), "arkode_dirk");
+  EXPECT_EQ(over(35.7, 1e-2), "tr_bdf2");
+  EXPECT_EQ(over(36.1, 1e-2), "arkode_dirk");
+}
+
 TEST(MethodChoice, ExplainsItselfWithoutAColonSinceThatBecomesAValueOfTheInput) {
   for (const auto& cost : {with_explicit_cost(1), implicit_only(1), implicit_only()})
     for (const double rtol : {1e-3, 1e-6}) {

@@ -11,6 +11,7 @@
 #include "lib/core/symmetric_eigen.h"
 #include "lib/core/memory.h"
 #include "lib/simulation/axes_file.h"
+#include "lib/simulation/faster.h"
 #include "lib/simulation/layers.h"
 #include "lib/simulation/run_cost.h"
 #include "lib/simulation/scene_cost.h"
@@ -166,6 +167,15 @@ void print_time(const Setup& setup, const std::vector<TermCost>& terms) {
   fmt::print("  in all {}\n", shown_seconds(cost.seconds()));
 }
 
+void print_faster(const Setup& setup, const std::vector<TermCost>& terms) {
+  const auto way = faster_way(setup, run_cost(setup, terms));
+  if (!way) return;
+  fmt::print("faster\n  with {} (which takes {}): about {:.2g} s in place of {:.2g} s\n",
+             fmt::join(way->changes, " and "), way->method, way->then, way->now);
+  if (way->error)
+    fmt::print("  linear kinematics would be off by about {:.1g} of the motion; a run tells how far they are\n", *way->error);
+}
+
 void print_disk(const Setup& setup) {
   const Volume volume = volume_of(setup);
   fmt::print("disk\n");
@@ -232,6 +242,7 @@ int check(const CheckArguments& arguments) {
   if (has_time || !setup.integrator) {
     const auto costs = term_costs(model, setup.built.initial, kSecondsOfCosts);
     print_time(setup, costs);
+    if (has_time) print_faster(setup, costs);
     print_disk(setup);
     print_cost(setup, costs);
   }
