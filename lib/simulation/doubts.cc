@@ -124,6 +124,8 @@ std::vector<std::string> doubts(const RunResult& result) {
   const auto& mesh = result.motion ? result.motion->mesh_error
                                    : result.equilibrium ? result.equilibrium->mesh_error : std::nullopt;
   if (mesh && mesh->relative > kCoarseMesh) all.push_back(mesh_sentence(result.model, mesh->relative));
+  if (mesh)
+    if (auto sentence = stress_warning(*mesh, result.model.order); !sentence.empty()) all.push_back(std::move(sentence));
   if (mesh && !mesh->blind.empty()) all.push_back(blindness_warning(mesh->blind));
   if (const auto& error = result.model.linear_error; error && *error > kMuchError)
     all.push_back(result.model.buckles ? kBuckles : linearity_sentence(*error));

@@ -67,6 +67,9 @@ void print_errors(const RunResult& result, int width) {
              : result.motion  ? ", time not estimated (--estimate-error)"
                               : "",
              errors->advice.empty() ? "" : ": ", errors->advice);
+  for (const ProbedError& e : errors->probed)
+    fmt::print("  {:<{}} {} of {} {:.1e}{} ({:.2g} % of its size), due to the mesh\n", "", width, e.field, e.probe, e.error,
+               e.unit == "1" ? "" : " " + e.unit, 100 * e.share());
 }
 
 std::string three(const Vec3& v, const char* format) {
@@ -162,7 +165,7 @@ void print_buckling(const RunResult& result, const BucklingResult& buckling) {
   if (!buckling.modes.empty()) fmt::print("  mode  load factor   by the mesh   residual\n");
   for (std::size_t k = 0; k < buckling.modes.size(); ++k) {
     const auto& mode = buckling.modes[k];
-    fmt::print("  {:4}  {:11.6g}  {:>12}   {:8.1e}\n", k + 1, mode.load_factor,
+    fmt::print("  {:4}  {:>11}  {:>12}   {:8.1e}\n", k + 1, known_digits(mode.load_factor, mode.mesh_error),
                fmt::format("{:+.2g} %", 100 * mode.mesh_error), mode.residual);
   }
   if (std::ssize(buckling.modes) < buckling.wanted && !buckling.modes.empty())

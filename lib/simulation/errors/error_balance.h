@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lib/simulation/run_result.h"
 
@@ -12,6 +13,7 @@ struct ErrorBalance {
   double mesh = 0;             // MeshError::relative
   std::string mesh_by;         // "finer elements, 0.2 s of CPU"
   std::optional<double> time;  // of the motion: estimated, or as far as errors of steps have added up; else unknown
+  std::vector<ProbedError> probed;  // MeshError::probed
   std::string advice;          // "the mesh dominates: use finer cells; rtol 1e-3 would do"
 };
 

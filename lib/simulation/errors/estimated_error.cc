@@ -7,6 +7,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/fem/element_mesh.h"
+#include "lib/mesh/selection.h"
 #include "lib/simulation/errors/blind_spot.h"
 #include "lib/simulation/outcome.h"
 
@@ -83,6 +84,30 @@ State along_a_shape(const FemModel& model, const State& about, const Modes& mode
   return {about.t, about.q + 1e-6 * extent / std::max(shape.lpNorm<Eigen::Infinity>(), 1e-300) * shape, about.v};
 }
 
+std::string unit_of(const std::string& field, const FemModel& model) {
+  const auto all = model.outputs();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const OutputInfo& info) { return info.name == field; });
+  return found == all.end() ? "" : found->unit;
+}
+
+// Of all probes but displacements and velocities: those have their own error, and that of the elastic energy.
+std::vector<ProbedError> probed_fields(const Scene& scene, const FemModel& model) {
+  std::vector<ProbedError> out;
+  for (const auto& [name, probe] : scene.output.probes)
+    for (const std::string& field : probe.fields)
+      if (field != "displacement" && field != "velocity")
+        out.push_back({name, field, unit_of(field, model)});
+  return out;
+}
+
+std::vector<NodeField> places_of(const Scene& scene, const FemModel& model, const std::vector<ProbedError>& probed) {
+  std::vector<NodeField> out;
+  for (const ProbedError& each : probed)
+    for (const auto& [name, probe] : scene.output.probes)
+      if (name == each.probe) out.push_back({each.field, nearest_node(model.parts().mesh, probe.at)});
+  return out;
+}
+
 }  // namespace
 
 FoundByFiner look_closer(const Scene& scene, const FemModel& model, const State& state, bool in_motion,
@@ -90,12 +115,17 @@ FoundByFiner look_closer(const Scene& scene, const FemModel& model, const State&
   FoundByFiner out{recovered};
   MeshError& error = out.error;
   error.by_finer_elements = tried(model, error.cpu_seconds, [&] {
-    const StateError found = state_error(FinerModel(scene, model), state, in_motion, nodes);
+    std::vector<ProbedError> probed = probed_fields(scene, model);
+    const StateError found =
+        state_error(FinerModel(scene, model), state, in_motion, nodes, places_of(scene, model, probed));
     const double elastic = model.evaluate("energy.mesh_error", state)[1];
     if (!std::isfinite(found.energy) || !(found.energy + elastic > 0)) throw RunError("it is not finite");
     error.relative = found.energy / (found.energy + elastic);
     error.samples = 1;
     out.displacements = found.displacements;
+    for (std::size_t k = 0; k < probed.size(); ++k)
+      probed[k].size = found.fields[k].size, probed[k].error = found.fields[k].error;
+    error.probed = std::move(probed);
   });
   error.blind = blind_spot(model, state, error.by_finer_elements);
   return out;
@@ -120,6 +150,17 @@ std::string blindness_warning(const std::string& blind) {
 }
 
 std::string finer_mesh(int order) { return order == 1 ? "Take mesh.order: 2 or finer cells" : "Take finer cells"; }
+
+std::string stress_warning(const MeshError& error, int order) {
+  const auto is_coarse = [](const ProbedError& e) { return !(e.share() <= kCoarseStress); };
+  const auto count = std::count_if(error.probed.begin(), error.probed.end(), is_coarse);
+  if (count == 0) return "";
+  const auto worst = std::max_element(error.probed.begin(), error.probed.end(),
+                                      [](const auto& a, const auto& b) { return a.share() < b.share(); });
+  return fmt::format("the mesh is coarse for {} of {} probed stresses or strains: {} of {} is off by about {:.2g} % of "
+                     "its size there. {} there, and compare",
+                     count, error.probed.size(), worst->field, worst->probe, 100 * worst->share(), finer_mesh(order));
+}
 
 std::string frequency_warning(const FrequencyErrors& errors, int order) {
   const auto is_coarse = [](double share) { return std::abs(share) > kCoarseMesh; };

@@ -35,6 +35,9 @@ FrequencyErrors frequency_errors_of(const Scene& scene, const FemModel& model, c
 // "the mesh makes mode 1 about 33 % too high, ...", or "" where all are below kCoarseMesh.
 std::string frequency_warning(const FrequencyErrors& errors, int order);
 
+// "the mesh is coarse for 1 of 2 probed stresses ...", or "" where all are below kCoarseStress.
+std::string stress_warning(const MeshError& error, int order);
+
 // "the mesh's error may be larger than estimated: ...", of MeshError::blind; "" where that is.
 std::string blindness_warning(const std::string& blind);
 

@@ -1,5 +1,6 @@
 #include "lib/simulation/errors/finer_solution.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -99,9 +100,30 @@ Vector mass_times(const FemModel& model, const Vector& x) {
   return y;
 }
 
+// One column for each node; the first nodes are those of the coarse mesh, with the same numbers.
+Eigen::MatrixXd nodal_values(const FemModel& model, const std::string& field, const State& state) {
+  const auto values = model.evaluate(field, state);
+  const auto nodes = static_cast<Eigen::Index>(model.parts().mesh.nodes.size());
+  return Eigen::Map<const Eigen::MatrixXd>(values.data(), std::ssize(values) / nodes, nodes);
+}
+
+// Between the coarse elements and finer ones. Zero at nodes without a value.
+FieldError field_error(const FinerModel& finer, const State& coarse, const State& fine, const NodeField& at) {
+  constexpr double kOfLargest = 0.1;
+  const Eigen::MatrixXd before = nodal_values(finer.coarse(), at.field, coarse);
+  const Eigen::MatrixXd after = nodal_values(finer.model(), at.field, fine);
+  double largest = 0;
+  for (Eigen::Index k = 0; k < before.cols(); ++k)
+    if (before.col(k).allFinite()) largest = std::max(largest, before.col(k).norm());
+  const double error = (after.col(at.node) - before.col(at.node)).norm();
+  return {std::max(before.col(at.node).norm(), kOfLargest * largest),
+          beyond(finer.coarse().parts().mesh.order()) * error};
+}
+
 }  // namespace
 
-StateError state_error(const FinerModel& finer, const State& coarse, bool in_motion, const std::vector<int>& nodes) {
+StateError state_error(const FinerModel& finer, const State& coarse, bool in_motion, const std::vector<int>& nodes,
+                       const std::vector<NodeField>& fields) {
   const FemModel& fine = finer.model();
   const bool is_free = count_rigid_freedom(finer.coarse(), coarse.t) > 0;
   const double fastest = finer.coarse().frequency_bound();
@@ -113,8 +135,10 @@ StateError state_error(const FinerModel& finer, const State& coarse, bool in_mot
   const int order = finer.coarse().parts().mesh.order();
   NodalVector correction = NodalVector::Zero(3, static_cast<Eigen::Index>(fine.parts().mesh.nodes.size()));
   fine.parts().dofs->add_to(found.x, correction);
-  StateError out{beyond(order) * 0.5 * found.energy, {}};
+  StateError out{beyond(order) * 0.5 * found.energy, {}, {}};
   for (const int node : nodes) out.displacements.emplace_back(beyond(order) * correction.col(node));
+  const State closer{coarse.t, system.q() + found.x, Vector::Zero(force.size()), coarse.load_factor};
+  for (const NodeField& field : fields) out.fields.push_back(field_error(finer, coarse, closer, field));
   return out;
 }
 

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lib/simulation/observers/observer.h"
 
@@ -14,12 +15,24 @@ namespace orthodyn {
 // From this share of the elastic energy on a mesh is called coarse.
 inline constexpr double kCoarseMesh = 0.05;
 
+// Of what a probe records beside displacements and velocities: how large it is, and how far the mesh puts it off, in
+// its unit (FieldError).
+struct ProbedError {
+  std::string probe, field, unit;
+  double size = 0, error = 0;
+  double share() const { return size > 0 ? error / size : 0; }
+};
+
+// From this share of a stress on a mesh is called coarse for it.
+inline constexpr double kCoarseStress = 0.1;
+
 struct MeshError {
   double relative = 0;  // of the elastic energy
   int samples = 0;      // states that were looked at
   bool by_finer_elements = false;  // else by recovered stresses
   std::string blind = {};          // what the estimate may not see, and what to do, in a sentence; "" if nothing
   double cpu_seconds = 0;          // that the finer elements took
+  std::vector<ProbedError> probed = {};  // by finer elements; empty where these were not taken
 };
 
 class MeshErrorRecorder : public Observer {
