@@ -47,6 +47,36 @@ Said said_of(const std::string& scene) {
   }
 }
 
+// All masses of a cube of one linear cell lie in its corners: its moments are m a^2/2 in place of m a^2/6.
+TEST(Slips, AMomentOfInertiaOfLumpedMassesIsToldWhereTheBodyTurns) {
+  const auto cube = [](const std::string& rest) {
+    return said_of("mesh: {type: box, size: [1, 1, 1], cells: [1, 1, 1], order: 1}\n"
+                   "materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}\ntime: {end: 1}\n" + rest)
+        .words;
+  };
+  const auto told = HasSubstr("moment of inertia +2e+02 % off");
+  EXPECT_THAT(cube("initial: {spin: [0, 0, 1]}"), told);
+  EXPECT_THAT(cube("terms: [{type: point_load, nearest: [1, 1, 1], force: [100, 0, 0]}]"), told);
+  EXPECT_THAT(cube("initial: {velocity: [0, 0, 1]}"), testing::Not(told));
+  EXPECT_THAT(cube("initial: {spin: [0, 0, 1]}\nmass: consistent"), testing::Not(told));
+  EXPECT_THAT(cube("initial: {spin: [0, 0, 1]}\nclamps: [{surface: x0}]"), testing::Not(told));
+}
+
+// A steady push on a body that nothing holds, as a load or as a term; with a spring it may be held.
+TEST(Slips, ASteadyPushOfAFreeBodyIsNamedWhateverSectionItStandsIn) {
+  const auto pushed = [](const std::string& rest) {
+    return said_of("mesh: {type: box, size: [1, 0.1, 0.1], cells: [4, 1, 1], order: 2}\n"
+                   "materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0.3}}\nmass: consistent\n"
+                   "time: {end: 1}\n" + rest).words;
+  };
+  const auto told = HasSubstr("nothing holds the body");
+  EXPECT_THAT(pushed("loads: [{surface: x1, force: [0, 0, 10]}]"), told);
+  EXPECT_THAT(pushed("terms: [{type: pressure, surface: z0, pressure: 100}]"), told);
+  EXPECT_THAT(pushed("terms: [{type: point_load, nearest: [1, 0, 0], force: [0, 0, 10]}]"), told);
+  EXPECT_THAT(pushed("terms: [{type: point_load, nearest: [1, 0, 0], force: [0, 0, 10]},"
+                     " {type: spring, nearest: [0, 0, 0], stiffness: 100}]"), testing::Not(told));
+}
+
 struct Slip {
   std::string name, from, to;
   bool refused;

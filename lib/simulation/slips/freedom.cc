@@ -78,19 +78,33 @@ bool is_steady(const Subject& subject, const Vec3& last, double until) {
   return after_start > 0 && last.norm() > held_by_each_other && smallest_along > largest / 2;
 }
 
+// Of the input: `loads` and the terms that push, whatever the body does; "" if there are none. None where another term
+// may hold the body.
+std::optional<std::string> places_of_loads(const Subject& subject) {
+  std::string places = subject.scene.loads.empty() ? "" : subject.config.at("loads").where();
+  if (!subject.config.has("terms")) return places;
+  const Config terms = subject.config.at("terms");
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const std::string type = terms.at(i).at("type").text();
+    if (type != "point_load" && type != "nodal_forces" && type != "pressure") return std::nullopt;
+    places += (places.empty() ? "" : ", ") + terms.at(i).where();
+  }
+  return places;
+}
+
 void add_drift_slip(const Subject& subject, Warnings& out) {
-  const Scene& scene = subject.scene;
-  if (!subject.moves() || subject.held() || scene.loads.empty() || !scene.terms.empty() || !scene.motions.empty())
-    return;
+  if (!subject.moves() || subject.held() || !subject.scene.motions.empty()) return;
+  const auto places = places_of_loads(subject);
+  if (!places || places->empty()) return;
   const auto [way, until] = carried_away(subject);
   const Vec3 last = total_load(subject, until);
   if (way <= kFarAway * subject.extent && is_steady(subject, last, until))
     out.push_back(fmt::format("{}: nothing holds the body, and they push it to the end, with {:.3g} N in all: it is "
                               "carried away ({:.2g} m until {:.4g} s) rather than bent. Is a clamp missing?",
-                              subject.config.at("loads").where(), last.norm(), way, until));
+                              *places, last.norm(), way, until));
   if (way > kFarAway * subject.extent)
     out.push_back(fmt::format("{}: nothing holds the body, and they carry it {:.3g} m away until {:.4g} s, {:.0f} "
-                              "times its length: is a clamp missing?", subject.config.at("loads").where(), way,
+                              "times its length: is a clamp missing?", *places, way,
                               until, way / subject.extent));
 }
 

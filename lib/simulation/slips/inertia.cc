@@ -1,0 +1,110 @@
+// Bodies that are free to turn, whose lumped masses have other moments of inertia than the body itself.
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lib/scene/region.h"
+#include "lib/simulation/slips/subject.h"
+
+namespace orthodyn::slip {
+
+namespace {
+
+constexpr double kFarOff = 0.02;  // of a principal moment of inertia
+constexpr double kTurns = 0.05;   // rad, in the run: less turning shows in nothing
+
+// Second moments of a mass about its centre, integral of rho x x^T, kg m^2.
+struct Moments {
+  double mass = 0;
+  Vec3 first = Vec3::Zero();
+  Mat3 second = Mat3::Zero();
+
+  void add(double m, const Vec3& x) {
+    mass += m;
+    first += m * x;
+    second += m * x * x.transpose();
+  }
+  Mat3 inertia() const {
+    const Mat3 about_centre = second - first * first.transpose() / mass;
+    return about_centre.trace() * Mat3::Identity() - about_centre;
+  }
+};
+
+// Of tetrahedra with straight edges: the integral of x x^T over one is V/20 (sum x_i x_i^T + s s^T), s = sum x_i.
+Moments of_the_body(const Subject& subject) {
+  const TetMesh& mesh = subject.built.model->parts().mesh;
+  Moments out;
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
+    std::array<Vec3, 4> x;
+    for (std::size_t i = 0; i < 4; ++i) x[i] = mesh.nodes[static_cast<std::size_t>(mesh.tets[e][i])];
+    const double volume = (x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) / 6;
+    const auto region = static_cast<std::size_t>(mesh.region_of[e]);
+    const double mass = volume * material_in(subject.scene, mesh.region_names[region]).density();
+    for (const Vec3& corner : x) out.add(mass / 20, corner);
+    const Vec3 sum = x[0] + x[1] + x[2] + x[3];
+    out.mass += mass * 0.8;
+    out.first += mass / 5 * sum;
+    out.second += mass / 20 * sum * sum.transpose();
+  }
+  return out;
+}
+
+Moments of_lumped_masses(const FemModel::Parts& parts) {
+  Moments out;
+  for (std::size_t node = 0; node < parts.mesh.nodes.size(); ++node)
+    out.add(parts.mass->nodal()[static_cast<Eigen::Index>(node)], parts.mesh.nodes[node]);
+  return out;
+}
+
+// rad, about the centre of mass by spin at the start and by loads, as of a rigid body whose axes stay: whether it turns.
+Vec3 angle_turned(const Subject& subject, const Moments& body) {
+  const FemModel& model = *subject.built.model;
+  const State& start = subject.built.initial;
+  const NodalExpansion nodal(model.parts(), start.t, start.q, start.v);
+  const NodalVector arms = nodal.x.colwise() - Vec3(body.first / body.mass);
+  const auto moment = [&](const NodalVector& f) {
+    Vec3 sum = Vec3::Zero();
+    for (Eigen::Index k = 0; k < f.cols(); ++k) sum += arms.col(k).cross(f.col(k));
+    return sum;
+  };
+  const NodalVector momenta = nodal.u_rate * model.parts().mass->nodal().asDiagonal();
+  Vec3 momentum = moment(momenta), before = Vec3::Zero(), sum = before;
+  double last = subject.start();
+  visit_times(subject, [&](double t) {
+    const NodalExpansion then(model.parts(), t, start.q, start.v);
+    NodalVector f = NodalVector::Zero(3, arms.cols());
+    for (const auto& load : model.parts().loads)
+      if (load->energy_kind() != EnergyKind::gravitational) load->add_force(then.state(), f);
+    const Vec3 now = moment(f);
+    sum += (t - last) * momentum;
+    momentum += (t - last) / 2 * (before + now);
+    before = now;
+    last = t;
+  });
+  return body.inertia().ldlt().solve(sum);
+}
+
+}  // namespace
+
+void add_inertia_slips(const Subject& subject, Warnings& out) {
+  const auto& parts = subject.built.model->parts();
+  if (!subject.moves() || subject.held() || !subject.scene.motions.empty() || !parts.mass->lumped()) return;
+  const Moments body = of_the_body(subject);
+  const Eigen::SelfAdjointEigenSolver<Mat3> exact(body.inertia());
+  const Mat3 axes = exact.eigenvectors(), lumped = axes.transpose() * of_lumped_masses(parts).inertia() * axes;
+  const Vec3 off = lumped.diagonal().cwiseQuotient(exact.eigenvalues()) - Vec3::Ones();
+  if (off.cwiseAbs().maxCoeff() <= kFarOff) return;
+  const Vec3 angle = axes.transpose() * angle_turned(subject, body);
+  Eigen::Index axis = 0;
+  const double most = (angle.array().abs() > kTurns).select(off.array().abs(), 0).matrix().maxCoeff(&axis);
+  if (most <= kFarOff) return;
+  out.push_back(fmt::format("{}: nothing holds the body, and lumped masses on so few elements have a moment of inertia "
+                            "{:+.2g} % off about the axis {}: it turns too {} about that. Use mass: consistent, or more "
+                            "cells",
+                            subject.config.at("mesh").where(), 100 * off[axis],
+                            Value<Vec3>::yaml((Vec3(axes.col(axis)) * 100).array().round() / 100),
+                            off[axis] > 0 ? "slowly" : "fast"));
+}
+
+}  // namespace orthodyn::slip
