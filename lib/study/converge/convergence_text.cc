@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "lib/core/digits.h"
 #include "lib/study/jobs/json_values.h"
 
 namespace orthodyn::study::converge {
@@ -10,6 +11,13 @@ namespace {
 
 std::string number(const Json& value, const char* format) {
   return value.is_number() ? fmt::format(fmt::runtime(format), value.get<double>()) : "-";
+}
+
+// With the digits that its error leaves, which is known by the limit, or estimated.
+std::string value_text(const Json& row) {
+  if (!row.at("value").is_number()) return "-";
+  const Json& known = row.at("error").is_number() ? row.at("error") : row.at("mesh_error");
+  return known_digits(row.at("value"), known.is_number() ? known.get<double>() : 0);
 }
 
 std::string heading(const Json& figure) {
@@ -63,7 +71,7 @@ std::string convergence_text(const Json& table) {
       const Json& f = row.at("figures").at(name);
       out +=
           fmt::format("  {:>5} {:>5} {:>9} {:>13} {:>9} {:>6} {:>10} {:>9}{}\n", row.at("order").get<int>(),
-                      row.at("level").get<int>(), number(row.at("unknowns"), "{:.0f}"), number(f.at("value"), "{:.7g}"),
+                      row.at("level").get<int>(), number(row.at("unknowns"), "{:.0f}"), value_text(f),
                       number(f.at("error"), "{:.1e}"), number(f.at("order"), "{:.2f}"),
                       number(f.at("mesh_error"), "{:.1e}"), number(f.at("cpu_seconds"), "{:.3g}"),
                       row.at("status") == "completed"

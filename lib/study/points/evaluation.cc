@@ -1,5 +1,7 @@
 #include "lib/study/points/evaluation.h"
 
+#include <limits>
+
 #include "lib/study/jobs/json_values.h"
 
 namespace orthodyn::study {
@@ -87,6 +89,12 @@ Json to_json(const EvaluationCost& cost) {
   }
   json["peak_memory"] = cost.peak_memory;
   return json;
+}
+
+double mesh_error_of(const EvaluationResult& result, const std::string& figure) {
+  for (const auto& [name, share] : result.figure_errors)
+    if (name == figure) return share;
+  return result.mesh_error.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 Json to_json(const EvaluationResult& r) {

@@ -49,6 +49,9 @@ struct EvaluationResult {
   std::vector<std::string> warnings;              // of the scene's set-up: slips, strain limits
 };
 
+// The mesh's error of a figure, as a share of it: its own, or that of the motion; NaN where none is known.
+double mesh_error_of(const EvaluationResult& result, const std::string& figure);
+
 Json to_json(const EvaluationResult& result);
 EvaluationResult evaluation_from(const Json& json);
 
