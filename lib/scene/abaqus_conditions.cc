@@ -11,8 +11,10 @@
 #include <utility>
 
 #include "lib/config/values.h"
-#include "lib/core/parse_number.h"
 #include "lib/core/words.h"
+#include "lib/mesh/io/abaqus_sets.h"
+#include "lib/scene/abaqus_factors.h"
+#include "lib/scene/abaqus_turned_nodes.h"
 
 namespace orthodyn {
 namespace {
@@ -35,8 +37,8 @@ std::string components_yaml(const std::vector<std::size_t>& components) {
 
 class ConditionWriter {
  public:
-  ConditionWriter(const AbaqusFile& deck, const LoadedMesh& loaded, FileUnits units, std::string factor)
-      : deck_(deck), loaded_(loaded), factors_(factors_of(units)), factor_(std::move(factor)) {}
+  ConditionWriter(const AbaqusFile& deck, const LoadedMesh& loaded, const AbaqusSceneOptions& options)
+      : deck_(deck), loaded_(loaded), units_(factors_of(options.units)), is_static_(options.is_static) {}
 
   SceneConditions write() {
     for (const AbaqusCondition& c : deck_.conditions)
@@ -45,11 +47,13 @@ class ConditionWriter {
       if (const std::string why = add(c); !why.empty()) leave_out(c, why);
     add_supports();
     add_forces();
-    if (gravity_ != Vec3::Zero()) out_.gravity = Value<Vec3>::yaml(factors_.length * gravity_);
+    if (gravity_ != Vec3::Zero()) out_.gravity = Value<Vec3>::yaml(units_.length * gravity_);
     out_.is_linear = !deck_.steps.empty() && is_linear();
+    if (factors_.any_taken()) out_.end = deck_.first_period;
     for (const auto& [what, lines] : left_out_)
       out_.left_out.push_back(fmt::format("{} ({} {}): {}", what.first, lines.size() == 1 ? "line" : "lines",
                                           shortened(lines), what.second));
+    for (std::string& amplitude : factors_.not_taken()) out_.left_out.push_back(std::move(amplitude));
     return std::move(out_);
   }
 
@@ -66,13 +70,13 @@ class ConditionWriter {
     if (c.step > 1) return "of a later step; the first is taken";
     if (c.step == 0 && replaced_.contains(c.keyword.name)) return "the first step removes it (OP=NEW)";
     for (const auto& [name, value] : c.keyword.parameters) {
-      const bool is_plain = name == "OP" || (name == "TYPE" && abaqus_word(value) == "DISPLACEMENT") ||
+      const bool is_plain = name == "OP" || name == "AMPLITUDE" ||
+                            (name == "TYPE" && abaqus_word(value) == "DISPLACEMENT") ||
                             (name == "FOLLOWER" && abaqus_word(value) == "NO");
       if (!is_plain) return fmt::format("{} is not read", name);
     }
     if (c.fields.empty()) return "nothing behind the set";
-    const bool has_directions = c.keyword.name == "BOUNDARY" || c.keyword.name == "CLOAD";
-    if (has_directions && deck_.skipped.contains("*TRANSFORM")) return "*TRANSFORM may turn its directions";
+    if (std::string why = factors_.problem(c); !why.empty()) return why;
     if (c.keyword.name == "BOUNDARY") return add_support(c);
     if (c.keyword.name == "CLOAD") return add_force(c);
     if (c.keyword.name == "DSLOAD") return add_surface_load(c);
@@ -97,12 +101,7 @@ class ConditionWriter {
   // Empty fields are zero; none where it is no number.
   static std::optional<double> number(const AbaqusCondition& c, std::size_t field, double absent = 0) {
     if (field >= c.fields.size() || c.fields[field].empty()) return absent;
-    std::string text = c.fields[field];
-    std::replace_if(
-        text.begin(), text.end(), [](char x) { return x == 'D' || x == 'd'; }, 'e');
-    double value = 0;
-    if (!parse_number(std::string_view(text), value)) return std::nullopt;
-    return value;
+    return abaqus_number(c.fields[field]);
   }
 
   // Components first to last of displacements, and their value; or a name for those that are held.
@@ -110,7 +109,7 @@ class ConditionWriter {
     const auto set = node_set(c);
     if (!set) return "no such nodes in the mesh";
     if (const auto named = named_supports().find(abaqus_word(c.fields[0])); named != named_supports().end()) {
-      for (const std::size_t k : named->second) support(*set)[k] = 0;
+      for (const std::size_t k : named->second) support(*set, c).displacement[k] = Move{0, &c};
       return "";
     }
     const auto first = number(c, 0), last = number(c, 1, first.value_or(0)), value = number(c, 2);
@@ -118,30 +117,62 @@ class ConditionWriter {
     if (*first < 1 || *last < *first || *last > 6) return "it is of no displacement";
     if (*first > 3) return "it is of rotations, which nodes of solids have not";
     for (std::size_t k = static_cast<std::size_t>(*first); k <= std::min<std::size_t>(3, static_cast<std::size_t>(*last)); ++k)
-      support(*set)[k - 1] = *value * factors_.length;
+      support(*set, c).displacement[k - 1] = Move{*value * units_.length, &c};
     return "";
   }
 
-  using Displacement = std::array<std::optional<double>, 3>;
-  Displacement& support(const std::string& set) {
-    const auto found = std::find_if(supports_.begin(), supports_.end(), [&](const auto& s) { return s.first == set; });
-    return found != supports_.end() ? found->second : supports_.emplace_back(set, Displacement{}).second;
+  struct Move {
+    double value;  // m
+    const AbaqusCondition* line;
+  };
+  struct Support {
+    std::string set;
+    std::array<std::optional<Move>, 3> displacement = {};
+    std::vector<const AbaqusCondition*> lines = {};
+
+    bool holds_all() const {
+      return std::all_of(displacement.begin(), displacement.end(), [](const auto& d) { return d && d->value == 0; });
+    }
+  };
+
+  // That of a set, to which a line belongs.
+  Support& support(const std::string& set, const AbaqusCondition& line) {
+    auto found = std::find_if(supports_.begin(), supports_.end(), [&](const Support& s) { return s.set == set; });
+    if (found == supports_.end()) found = supports_.emplace(found, Support{.set = set});
+    if (found->lines.empty() || found->lines.back() != &line) found->lines.push_back(&line);
+    return *found;
   }
 
+  // Why the directions at the nodes of a set are not those of space, or "".
+  std::string turned(const std::string& set) const { return turned_.reason(loaded_.mesh.node_sets.at(set)); }
+
   void add_supports() {
-    for (const auto& [set, values] : supports_) {
-      std::vector<std::size_t> held, moved;
-      Vec3 translation = Vec3::Zero();
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (!values[k]) continue;
-        (*values[k] == 0 ? held : moved).push_back(k);
-        translation[static_cast<Eigen::Index>(k)] = *values[k];
-      }
-      if (!held.empty()) out_.clamps.push_back(fmt::format("{{nodes: {}{}}}", yaml_name(set), components_yaml(held)));
-      if (!moved.empty())
-        out_.motions.push_back(fmt::format("{{nodes: {}{}, translation: {}, factor: {}}}", yaml_name(set),
-                                           components_yaml(moved), Value<Vec3>::yaml(translation), factor_));
+    for (const Support& s : supports_) {
+      // Where all three are zero, they are so in any directions.
+      if (const std::string why = turned(s.set); !why.empty() && !s.holds_all())
+        for (const AbaqusCondition* line : s.lines) leave_out(*line, why);
+      else add_support(s);
     }
+  }
+
+  void add_support(const Support& s) {
+    std::vector<std::size_t> held;
+    std::map<std::string, std::vector<std::size_t>> moved;  // by factor, "" without amplitude
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const auto& d = s.displacement[k]) (d->value == 0 ? held : moved[factors_.take(*d->line)]).push_back(k);
+    if (!held.empty()) out_.clamps.push_back(fmt::format("{{nodes: {}{}}}", yaml_name(s.set), components_yaml(held)));
+    for (const auto& [factor, components] : moved) add_motion(s, components, factor);
+  }
+
+  void add_motion(const Support& s, const std::vector<std::size_t>& components, const std::string& factor) {
+    Vec3 translation = Vec3::Zero();
+    for (const std::size_t k : components) translation[static_cast<Eigen::Index>(k)] = s.displacement[k]->value;
+    const std::string own = is_static_ ? "{type: constant}" : "{type: smooth_step, end: 1}";
+    const bool has_corners = !factor.empty() && !is_static_;
+    out_.motions.push_back(fmt::format("{{nodes: {}{}, translation: {}, factor: {}}}{}", yaml_name(s.set),
+                                       components_yaml(components), Value<Vec3>::yaml(translation),
+                                       factor.empty() ? own : factor,
+                                       has_corners ? "   # Abaqus/Standard rounds the corners (SMOOTH=0.25)" : ""));
   }
 
   // A force on each node of a set.
@@ -151,28 +182,38 @@ class ConditionWriter {
     const auto component = number(c, 0), value = number(c, 1);
     if (!component || !value || *component < 1) return "component or value are no numbers";
     if (*component > 3) return "a moment; nodes of solids have no rotations";
-    auto found = std::find_if(forces_.begin(), forces_.end(), [&](const auto& f) { return f.first == *set; });
-    if (found == forces_.end()) found = forces_.emplace(forces_.end(), *set, Vec3::Zero());
-    found->second[static_cast<Eigen::Index>(*component) - 1] += *value;
+    if (std::string why = turned(*set); !why.empty()) return why;
+    const std::string factor = factors_.take(c);
+    auto found = std::find_if(forces_.begin(), forces_.end(),
+                              [&](const Force& f) { return f.set == *set && f.factor == factor; });
+    if (found == forces_.end()) found = forces_.emplace(found, Force{*set, factor});
+    found->vector[static_cast<Eigen::Index>(*component) - 1] += *value;
     return "";
   }
 
+  struct Force {
+    std::string set, factor;
+    Vec3 vector = Vec3::Zero();  // N, on each node
+  };
+
   void add_forces() {
-    for (const auto& [set, force] : forces_) {
+    for (const auto& [set, factor, force] : forces_) {
       const auto count = loaded_.mesh.node_sets.at(set).size();
-      out_.terms.push_back(fmt::format("{{type: point_load, nodes: {}, force: {}}}{}", yaml_name(set),
-                                       Value<Vec3>::yaml(static_cast<double>(count) * force),
+      out_.terms.push_back(fmt::format("{{type: point_load, nodes: {}, force: {}{}}}{}", yaml_name(set),
+                                       Value<Vec3>::yaml(static_cast<double>(count) * force), entry(factor),
                                        count == 1 ? "" : fmt::format("   # of {} nodes together", count)));
     }
   }
+
+  static std::string entry(const std::string& factor) { return factor.empty() ? "" : ", factor: " + factor; }
 
   std::string add_pressure(const AbaqusCondition& c) {
     const auto name = surface(c);
     const auto value = number(c, 1);
     if (!name) return "no such surface in the mesh";
     if (!value) return "its pressure is no number";
-    out_.terms.push_back(fmt::format("{{type: pressure, surface: {}, pressure: {}}}", yaml_name(*name),
-                                     number_text(*value * factors_.stress)));
+    out_.terms.push_back(fmt::format("{{type: pressure, surface: {}, pressure: {}{}}}", yaml_name(*name),
+                                     number_text(*value * units_.stress), entry(factors_.take(c))));
     return "";
   }
 
@@ -185,8 +226,8 @@ class ConditionWriter {
     if (!name) return "no such surface in the mesh";
     if (!is_linear() && !c.keyword.has("FOLLOWER")) return "it turns with the surface (FOLLOWER=YES is the default)";
     if (!traction) return "its traction is no magnitude with a direction";
-    out_.loads.push_back(fmt::format("{{surface: {}, traction: {}}}", yaml_name(*name),
-                                     Value<Vec3>::yaml(factors_.stress * *traction)));
+    out_.loads.push_back(fmt::format("{{surface: {}, traction: {}{}}}", yaml_name(*name),
+                                     Value<Vec3>::yaml(units_.stress * *traction), entry(factors_.take(c))));
     return "";
   }
 
@@ -197,6 +238,7 @@ class ConditionWriter {
   }
 
   std::string add_gravity(const AbaqusCondition& c) {
+    if (c.keyword.has("AMPLITUDE")) return "gravity has no factor in time";
     if (!covers_body(c)) return "it acts on a part of the body only";
     const auto g = directed(c);
     if (!g) return "its acceleration is no magnitude with a direction";
@@ -213,23 +255,9 @@ class ConditionWriter {
 
   bool covers_body(const AbaqusCondition& c) const {
     if (c.target.empty()) return true;
-    std::set<std::int64_t> found;
-    collect(c.target, found, 0);
+    const std::set<std::int64_t> found = solids_of_set(deck_, c.target);
     return std::all_of(deck_.draft.cells.begin(), deck_.draft.cells.end(),
                        [&](const FileCell& cell) { return found.contains(cell.tag); });
-  }
-
-  void collect(const std::string& key, std::set<std::int64_t>& found, int depth) const {
-    const AbaqusSet* set = find_abaqus(deck_.element_sets, key);
-    if (!set || depth > 20) return;
-    for (const AbaqusMembers& m : set->members) {
-      if (!m.set.empty()) {
-        collect(m.set, found, depth + 1);
-        continue;
-      }
-      for (const FileCell& cell : deck_.draft.cells)
-        if (cell.tag >= m.first && cell.tag <= m.last && (cell.tag - m.first) % m.step == 0) found.insert(cell.tag);
-    }
   }
 
   void leave_out(const AbaqusCondition& c, const std::string& why) {
@@ -245,11 +273,13 @@ class ConditionWriter {
 
   const AbaqusFile& deck_;
   const LoadedMesh& loaded_;
-  UnitFactors factors_;
-  std::string factor_;
+  UnitFactors units_;
+  bool is_static_;
+  AbaqusFactors factors_{deck_.amplitudes};
+  AbaqusTurnedNodes turned_{deck_, loaded_.mesh};
   std::set<std::string> replaced_;
-  std::vector<std::pair<std::string, Displacement>> supports_;
-  std::vector<std::pair<std::string, Vec3>> forces_;
+  std::vector<Support> supports_;
+  std::vector<Force> forces_;
   Vec3 gravity_ = Vec3::Zero();
   std::map<std::pair<std::string, std::string>, std::vector<int>> left_out_;
   SceneConditions out_;
@@ -257,9 +287,8 @@ class ConditionWriter {
 
 }  // namespace
 
-SceneConditions conditions_of(const AbaqusFile& deck, const LoadedMesh& loaded, FileUnits units,
-                              const std::string& factor) {
-  return ConditionWriter(deck, loaded, units, factor).write();
+SceneConditions conditions_of(const AbaqusFile& deck, const LoadedMesh& loaded, const AbaqusSceneOptions& options) {
+  return ConditionWriter(deck, loaded, options).write();
 }
 
 std::string yaml_name(const std::string& name) {

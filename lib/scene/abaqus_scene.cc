@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "lib/config/values.h"
 #include "lib/core/words.h"
 #include "lib/mesh/io/abaqus.h"
 #include "lib/mesh/io/mesh_format.h"
@@ -78,11 +79,20 @@ std::string conditions_text(const SceneConditions& conditions) {
   return text;
 }
 
+// Tables of factors are over the time of the first step.
+std::string time_text(const SceneConditions& conditions, bool is_static) {
+  if (!conditions.end) return "";
+  const std::string end = number_text(*conditions.end);
+  if (!is_static) return fmt::format("\n# The first step of the file ends at {} s.\n", end);
+  return fmt::format("\ntime: {{end: {}}}   # s, the end of the first step, at which statics take all factors\n", end);
+}
+
 // What the scene does not have, beside conditions, which tell their own.
 std::vector<std::string> others_left_out(const AbaqusFile& deck, const LoadedMesh& loaded) {
   std::vector<std::string> names;
   for (const auto& [what, place] : deck.skipped) {
-    static const std::set<std::string> told{"*BOUNDARY", "*CLOAD", "*DLOAD", "*DSLOAD", "*STEP", "*END STEP"};
+    static const std::set<std::string> told{"*AMPLITUDE", "*BOUNDARY", "*CLOAD",   "*DLOAD",
+                                            "*DSLOAD",    "*STEP",     "*END STEP"};
     if (!told.contains(what))
       names.push_back(place.line > 0 ? fmt::format("{} (line {})", what, place.line) : what);
   }
@@ -104,6 +114,29 @@ std::string comment(const char* what, const std::vector<std::string>& names) {
   return names.empty() ? "" : fmt::format("# {}: {}\n", what, join(names));
 }
 
+// Names of the mesh that the file itself has, and those that its reader made of the numbers in a condition.
+struct Names {
+  std::vector<std::string> of_file, made;
+
+  template <class Thing>
+  void add(const std::map<std::string, Thing>& things, const auto& in_mesh) {
+    std::set<std::string> own;
+    for (const auto& [key, thing] : things)
+      if (thing.of_condition) own.insert(thing.name);
+    of_file.clear();
+    for (const std::string& name : names_of(in_mesh)) (own.contains(name) ? made : of_file).push_back(name);
+  }
+};
+
+std::string names_in_comments(const AbaqusFile& deck, const LoadedMesh& loaded) {
+  Names names;
+  names.add(deck.surfaces, loaded.mesh.surfaces);
+  std::string text = "\n# What the file has, for clamps, loads and probes.\n" + comment("surfaces", names.of_file);
+  names.add(deck.node_sets, loaded.mesh.node_sets);
+  text += comment("node sets", names.of_file);
+  return text + comment("not in the file, but made of the nodes and faces that its conditions list", names.made);
+}
+
 }  // namespace
 
 AbaqusScene scene_of_abaqus(const std::string& path, const std::string& file, const AbaqusSceneOptions& options) {
@@ -111,18 +144,15 @@ AbaqusScene scene_of_abaqus(const std::string& path, const std::string& file, co
   const AbaqusFile deck = read_abaqus_keywords(path, content);
   LoadedMesh loaded = read_abaqus_text(path, content);
   convert_to_si(loaded, options.units, path);
-  const SceneConditions conditions =
-      conditions_of(deck, loaded, options.units,
-                    options.is_static ? "{type: constant}" : "{type: smooth_step, end: 1}");
+  const SceneConditions conditions = conditions_of(deck, loaded, options);
   AbaqusScene scene;
   scene.text = options.units == FileUnits::si
                    ? fmt::format("mesh: {{type: file, file: {}}}   # units: mm_t_s if it is in mm, N and MPa\n\n",
                                  yaml_name(file))
                    : fmt::format("mesh: {{type: file, file: {}, units: mm_t_s}}\n\n", yaml_name(file));
   scene.text += can_be_taken(loaded) ? materials_in_comments(loaded) : typed_materials(loaded, file);
-  scene.text += conditions_text(conditions);
-  scene.text += "\n# What the file has, for clamps, loads and probes.\n";
-  scene.text += comment("surfaces", names_of(loaded.mesh.surfaces)) + comment("node sets", names_of(loaded.mesh.node_sets));
+  scene.text += conditions_text(conditions) + time_text(conditions, options.is_static);
+  scene.text += names_in_comments(deck, loaded);
   scene.left_out = others_left_out(deck, loaded);
   scene.left_out.insert(scene.left_out.end(), conditions.left_out.begin(), conditions.left_out.end());
   if (!scene.left_out.empty()) scene.text += "\n# Left out of the file:\n";

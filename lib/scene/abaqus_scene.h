@@ -21,8 +21,9 @@ struct AbaqusSceneOptions {
 };
 
 // The scene leaves out `materials` and `regions` where the file's can be used, which the program then does; else it has
-// those that can be read, and comments name the others and why. `path` is read, `file` is what the scene calls it.
-// Throws ConfigError as read_abaqus() does.
+// those that can be read, and comments name the others and why. Where an *AMPLITUDE became a factor, a
+// static scene has `time`, the end of the first step. `path` is read, `file` is what the scene calls it. Throws
+// ConfigError as read_abaqus() does.
 AbaqusScene scene_of_abaqus(const std::string& path, const std::string& file, const AbaqusSceneOptions& options = {});
 
 }  // namespace orthodyn

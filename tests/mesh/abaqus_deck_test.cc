@@ -1,5 +1,6 @@
 // What Abaqus input files say in other ways than by nodes and elements in their place: other coordinates, other files,
 // sets of sets, shells, instances, axes by element.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -108,6 +109,29 @@ TEST(AbaqusDeck, EveryNodeThatASetListsMustExist) {
   const Warnings warnings = load(kDeck + "*ELSET, ELSET=E\n1, 2, 3\n").warnings;
   ASSERT_FALSE(warnings.empty());
   EXPECT_CONTAINS(join(warnings), "element set \"E\" lists 1 element that no *ELEMENT defines");
+}
+
+// Also where nothing uses the set, and whatever the order of the names is.
+TEST(AbaqusDeck, ASetThatContainsItselfIsRefusedByNameAndLine) {
+  const auto circle = [](const std::string& sets) { return refusal(kDeck + "*SOLID SECTION, ELSET=ALL\n" + sets); };
+  EXPECT_CONTAINS(circle("*ELSET, ELSET=_A\n1, _B\n*ELSET, ELSET=_B\n2, _A\n"),
+                  "body.inp:21: *ELSET: set \"_A\" contains itself (_A has _B has _A)");
+  EXPECT_CONTAINS(circle("*ELSET, ELSET=C\nD\n*ELSET, ELSET=D\nE\n*ELSET, ELSET=E\nD\n"),
+                  "body.inp:23: *ELSET: set \"D\" contains itself (D has E has D)");
+  EXPECT_CONTAINS(circle("*ELSET, ELSET=A\na\n"), "body.inp:19: *ELSET: set \"A\" contains itself (A has A)");
+  EXPECT_CONTAINS(circle("*NSET, NSET=M\n1, N\n*NSET, NSET=N\nM\n"),
+                  "body.inp:21: *NSET: set \"M\" contains itself (M has N has M)");
+}
+
+// Thirty within each other; and a node set and an element set of the same name are two sets.
+TEST(AbaqusDeck, SetsThatDoNotContainThemselvesMayNameEachOther) {
+  std::string sets = "*NSET, NSET=S0\n1\n";
+  for (int k = 1; k <= 30; ++k) sets += fmt::format("*NSET, NSET=S{}\nS{}, S{}\n", k, k - 1, 0);
+  EXPECT_EQ(load(kDeck + sets).mesh.node_sets.at("S30"), std::vector<int>{0});
+  EXPECT_EQ(load(kDeck + "*ELSET, ELSET=TOP\n2\n*NSET, NSET=TOP, ELSET=TOP\n").mesh.node_sets.at("TOP").size(), 8u);
+  std::string chain = "*ELSET, ELSET=S0\n1\n";
+  for (int k = 1; k <= 1100; ++k) chain += fmt::format("*ELSET, ELSET=S{}\nS{}\n", k, k - 1);
+  EXPECT_CONTAINS(refusal(kDeck + chain), "more than 1000 sets within each other");
 }
 
 TEST(AbaqusDeck, SetsMayNameElementsThatAreLeftOut) {

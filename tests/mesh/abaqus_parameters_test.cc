@@ -1,5 +1,5 @@
 // Every parameter of every keyword that the reader of Abaqus files knows: it changes what is read, changes nothing, or
-// is refused by name.
+// is refused by name; of a material it may be named as the reason why the material is not read.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,15 +42,37 @@ COORD3D, COORD3D
 2, 0, 1, 0, 0, 0, 1
 *Orientation, name=Wood
 Grain
+*Include, input=head.inc
 *Solid section, elset=Both, material=Steel, orientation=Wood
 *End part
 *Assembly, name=A
 *Instance, name=P-1, part=P
 *End instance
 *End assembly
+*Material, name=Steel
+*Elastic
+2e11, 0.3
+*Density
+7800
 )";
 
-LoadedMesh load(const std::string& text) { return read_abaqus_text("body.inp", text); }
+// Beside the file that the deck includes.
+LoadedMesh load(const std::string& text) {
+  const TemporaryFolder folder;
+  folder.write("head.inc", "*Nset, nset=Head\n9, 10, 11, 12\n");
+  LoadedMesh loaded = read_abaqus_text(folder.path("body.inp"), text);
+  const std::string own = folder.path("");
+  for (std::string& warning : loaded.warnings)
+    if (warning.starts_with(own)) warning.erase(0, own.size());
+  return loaded;
+}
+
+const MeshMaterial& material_of(const LoadedMesh& loaded) { return loaded.materials.begin()->second; }
+
+bool same(const MeshMaterial& a, const MeshMaterial& b) {
+  return a.kind == b.kind && a.young == b.young && a.nu12 == b.nu12 && a.g12 == b.g12 && a.stiffness == b.stiffness &&
+         a.density == b.density && a.problem == b.problem;
+}
 
 bool same(const LoadedMesh& a, const LoadedMesh& b) {
   const TetMesh &m = a.mesh, &n = b.mesh;
@@ -58,10 +80,11 @@ bool same(const LoadedMesh& a, const LoadedMesh& b) {
   for (const CellData& data : a.cell_data) data_a.push_back(data.values);
   for (const CellData& data : b.cell_data) data_b.push_back(data.values);
   return m.nodes == n.nodes && m.tets == n.tets && m.region_names == n.region_names && m.region_of == n.region_of &&
-         m.surfaces == n.surfaces && m.node_sets == n.node_sets && data_a == data_b && a.warnings == b.warnings;
+         m.surfaces == n.surfaces && m.node_sets == n.node_sets && data_a == data_b && a.warnings == b.warnings &&
+         same(material_of(a), material_of(b));
 }
 
-enum Effect { kChanges, kNothing, kRefused };
+enum Effect { kChanges, kNothing, kRefused, kNamed };
 
 struct Parameter {
   const char *keyword, *parameter;  // as in the deck, and what is added behind it
@@ -71,7 +94,9 @@ void PrintTo(const Parameter& p, std::ostream* os) { *os << p.keyword << ", " <<
 
 // The deck with this parameter of the first such keyword, instead of one of the same name.
 std::string deck_with(const std::string& keyword, const std::string& parameter) {
-  const std::size_t begin = kDeck.find(keyword + ","), end = kDeck.find('\n', begin);
+  const std::size_t with = kDeck.find(keyword + ",");
+  const std::size_t begin = with != std::string::npos ? with : kDeck.find(keyword + "\n");
+  const std::size_t end = kDeck.find('\n', begin);
   std::string line = kDeck.substr(begin, end - begin);
   const std::string name = parameter.substr(0, parameter.find('='));
   const std::size_t own = in_capitals(line).find(", " + name + "=");
@@ -84,10 +109,13 @@ class EveryParameter : public testing::TestWithParam<Parameter> {};
 TEST_P(EveryParameter, IsUsedOrMeansNothingOrIsRefusedByName) {
   const auto& [keyword, parameter, effect] = GetParam();
   const std::string deck = deck_with(keyword, parameter), message = refusal_of([&] { load(deck); });
+  const std::string name = abaqus_word(std::string(parameter).substr(0, std::string(parameter).find('=')));
   if (effect == kRefused) {
     EXPECT_CONTAINS(message, "body.inp:");
-    const std::string name(parameter);
-    EXPECT_CONTAINS(abaqus_word(message), abaqus_word(name.substr(0, name.find('='))));
+    EXPECT_CONTAINS(abaqus_word(message), name);
+  } else if (effect == kNamed) {
+    EXPECT_EQ(message, "accepted");
+    EXPECT_CONTAINS(abaqus_word(material_of(load(deck)).problem), name);
   } else if (message != "accepted") {
     EXPECT_EQ(effect, kChanges) << message;  // it is used, and asks for what it needs
   } else {
@@ -140,7 +168,23 @@ INSTANTIATE_TEST_SUITE_P(
         Parameter{"*Instance", "INSTANCE=old", kRefused}, Parameter{"*Instance", "PART=None", kChanges},
         Parameter{"*Part", "NAME=Q", kChanges}, Parameter{"*Assembly", "NAME=B", kNothing},
         Parameter{"*Instance", "NAME=P-2", kNothing}, Parameter{"*Orientation", "NAME=Q", kChanges},
-        Parameter{"*Distribution", "NAME=Q", kChanges}));
+        Parameter{"*Distribution", "NAME=Q", kChanges}, Parameter{"*Distribution table", "NAME=Q", kChanges},
+        Parameter{"*Distribution table", "LENGTH=6", kRefused},  // there is none
+        Parameter{"*Distribution", "TYPE=ELEMENT", kRefused},    // there is none
+        Parameter{"*Orientation", "ANGLE=30", kRefused},         // there is none
+        Parameter{"*Solid section", "MATERIAL=Brass", kChanges}, Parameter{"*Solid section", "ORDER=1", kRefused},
+        Parameter{"*Include", "INPUT=none.inc", kRefused}, Parameter{"*Include", "PASSWORD=p", kRefused},
+        Parameter{"*Include", "FORMAT=free", kRefused},  // there is none
+        Parameter{"*Material", "NAME=Brass", kChanges}, Parameter{"*Material", "RTOL=0.1", kNothing},
+        Parameter{"*Material", "SRATE FACTOR=2", kNothing},
+        Parameter{"*Material", "STRAIN RATE REGULARIZATION=LINEAR", kNothing},
+        Parameter{"*Material", "SCALE=2", kNamed},  // there is none
+        Parameter{"*Elastic", "TYPE=ISOTROPIC", kNothing}, Parameter{"*Elastic", "TYPE=ENGINEERING CONSTANTS", kChanges},
+        Parameter{"*Elastic", "TYPE=ORTHOTROPIC", kChanges}, Parameter{"*Elastic", "TYPE=ANISOTROPIC", kChanges},
+        Parameter{"*Elastic", "TYPE=LAMINA", kNamed}, Parameter{"*Elastic", "TYPE=SHORT FIBER", kNamed},
+        Parameter{"*Elastic", "MODULI=LONG TERM", kNothing},  // of viscoelastic materials, which are named
+        Parameter{"*Elastic", "DEPENDENCIES=1", kNamed}, Parameter{"*Elastic", "COMPRESSION FACTOR=0.5", kNamed},
+        Parameter{"*Density", "DEPENDENCIES=1", kNamed}, Parameter{"*Density", "PORE FLUID", kNamed}));
 
 }  // namespace
 }  // namespace orthodyn::abaqus_parameters_test

@@ -1,6 +1,7 @@
 // From an Abaqus file to a displacement: `orthodyn init --from`, `check`, `run`.
 #include <sstream>
 
+#include "tests/mesh/refusal.h"
 #include "tests/simulation/result_reader.h"
 #include "tests/simulation/run_program.h"
 
@@ -64,6 +65,37 @@ TEST_F(WrittenScene, ABarUnderEndPressureShortensByPressureTimesLengthOverYoungs
   ASSERT_EQ(run.exit_code, 0) << run.output;
   const double moved = last_value(folder_ / "result/probes.csv", "end.displacement.x [m]");
   EXPECT_NEAR(moved, -5e-8, 1e-6 * 5e-8);
+}
+
+// Linear in between and constant behind the last point, as Abaqus': (0, 0), (2, 1) is 1/2 at the end of a step of 1 s,
+// and the value at 0.5 s still holds there.
+TEST_F(WrittenScene, StaticsTakeAnAmplitudeAtTheEndOfTheStep) {
+  for (const char* points : {"0, 0, 2, 1", "0, 0, 0.25, 7, 0.5, 0.5"}) {
+    write("bar.inp", replaced(replaced(kBar, "*STEP", std::string("*AMPLITUDE, NAME=A\n") + points + "\n*STEP"),
+                              "*DLOAD", "*DLOAD, AMPLITUDE=A"));
+    fs::remove(folder_ / "bar.yaml");
+    const CommandResult init = orthodyn("init static bar.yaml --from bar.inp --units mm_t_s");
+    ASSERT_EQ(init.exit_code, 0) << init.output;
+    const std::string scene = read_text(folder_ / "bar.yaml");
+    write("bar.yaml", scene + "\noutput: {probes: {end: {at: [0.01, 0, 0]}}}\n");
+    const CommandResult run = orthodyn("run bar.yaml --force --out result");
+    ASSERT_EQ(run.exit_code, 0) << run.output << scene;
+    EXPECT_NEAR(last_value(folder_ / "result/probes.csv", "end.displacement.x [m]"), -2.5e-8, 1e-6 * 5e-8);
+  }
+}
+
+// A table of several lines, whose velocity jumps.
+TEST_F(WrittenScene, MotionsByAnAmplitudePassTheCheck) {
+  write("deck.inp", replaced(replaced(kBar, "*STEP", "*NSET, NSET=End\n2, 3, 6, 7\n*AMPLITUDE, NAME=A\n"
+                                                     "0, 0, 1, 1, 2, 0, 3, 1\n4, 0, 5, 1, 6, 0, 7, 1\n*STEP"),
+                             "*DLOAD\nBar, P4, 1", "*BOUNDARY, AMPLITUDE=A\nEnd, 1, 1, 0.1"));
+  for (const std::string kind : {"scene", "static"}) {
+    const CommandResult init = orthodyn("init " + kind + " " + kind + ".yaml --from deck.inp --units mm_t_s");
+    ASSERT_EQ(init.exit_code, 0) << init.output;
+    EXPECT_EQ(init.output.find("*BOUNDARY"), std::string::npos) << init.output;
+    const CommandResult check = orthodyn("check " + kind + ".yaml");
+    EXPECT_EQ(check.exit_code, 0) << check.output << read_text(folder_ / (kind + ".yaml"));
+  }
 }
 
 }  // namespace

@@ -181,30 +181,28 @@ class AbaqusMesh {
     return *found;
   }
 
-  // Sets may name sets; `depth` bounds circles.
+  // Sets may name sets, but not themselves (abaqus_sets.h).
   template <class Use>
-  std::size_t each_element(const AbaqusMembers& m, const Numbers& numbers, Use&& use, int depth = 0) {
+  std::size_t each_element(const AbaqusMembers& m, const Numbers& numbers, Use&& use) {
     if (m.set.empty()) return each(m, numbers, use);
-    if (depth > 20) draft_.fail(m.place, fmt::format("set {} contains itself", TextTokens::quoted(m.set)));
     std::size_t found = 0;
     for (const AbaqusMembers& inner : find(file_.element_sets, m, "ELSET").members) {
       spend(m.place);
-      found += each_element(inner, numbers, use, depth + 1);
+      found += each_element(inner, numbers, use);
     }
     return found;
   }
 
-  void append_node_uses(const AbaqusMembers& m, std::vector<FileNodeUse>& uses, int depth = 0) {
+  void append_node_uses(const AbaqusMembers& m, std::vector<FileNodeUse>& uses) {
     if (m.of_elements) return append_nodes_of_elements(m, uses);
     if (m.set.empty()) {
       const std::size_t found = each(m, nodes_, [&](std::size_t n) { uses.push_back({draft_.nodes[n].tag, m.place}); });
       if (found == 0 || (m.listed && found < count_of(m))) fail_node(m);
       return;
     }
-    if (depth > 20) draft_.fail(m.place, fmt::format("set {} contains itself", TextTokens::quoted(m.set)));
     for (const AbaqusMembers& inner : find(file_.node_sets, m, "NSET").members) {
       spend(m.place);
-      append_node_uses(inner, uses, depth + 1);
+      append_node_uses(inner, uses);
     }
   }
 

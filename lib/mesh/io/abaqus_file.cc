@@ -10,6 +10,7 @@
 
 #include "lib/core/words.h"
 #include "lib/mesh/io/abaqus_lines.h"
+#include "lib/mesh/io/abaqus_sets.h"
 #include "lib/mesh/io/abaqus_types.h"
 #include "lib/mesh/split_cells.h"
 
@@ -41,6 +42,7 @@ class AbaqusReader {
     read_until("");
     place_single_part();
     name_sets();
+    refuse_circles_of_sets(file_);
     warn();
     return std::move(file_);
   }
@@ -81,9 +83,29 @@ class AbaqusReader {
       return lines_.skip_data();
     refuse_what_makes_nodes(keyword);
     skip(keyword.spelled);
-    if (name == "STEP") file_.steps.push_back(keyword);
-    if (name == "BOUNDARY" || name == "CLOAD" || name == "DLOAD" || name == "DSLOAD") read_conditions(keyword);
+    read_history(keyword);
     lines_.skip_data();
+  }
+
+  // What only the conditions of a scene need.
+  void read_history(const AbaqusKeyword& keyword) {
+    const std::string& name = keyword.name;
+    if (name == "STEP") file_.steps.push_back(keyword);
+    if (name == "STATIC" || name == "DYNAMIC") read_period();
+    if (name == "AMPLITUDE")
+      file_.amplitudes[in_capitals(keyword.parameter("NAME"))] = read_abaqus_amplitude(keyword, lines_);
+    if (name == "TRANSFORM")
+      file_.transforms.push_back(
+          read_abaqus_transform(keyword, scope_.key(keyword.parameter("NSET")), scope_.placement.R, lines_));
+    if (name == "BOUNDARY" || name == "CLOAD" || name == "DLOAD" || name == "DSLOAD") read_conditions(keyword);
+  }
+
+  // The second number of a procedure; without one, or with zero, a step lasts 1 s.
+  void read_period() {
+    if (file_.steps.size() != 1 || lines_.at_keyword()) return;
+    const auto& fields = lines_.data();
+    const double period = fields.size() > 1 ? abaqus_number(fields[1]).value_or(0) : 0;
+    if (period > 0) file_.first_period = period;
   }
 
   void skip(const std::string& what) { file_.skipped.try_emplace(what, lines_.place()); }

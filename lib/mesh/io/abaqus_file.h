@@ -9,7 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "lib/mesh/io/abaqus_amplitude.h"
 #include "lib/mesh/io/abaqus_material.h"
+#include "lib/mesh/io/abaqus_transform.h"
 #include "lib/mesh/mesh_draft.h"
 
 namespace orthodyn {
@@ -113,6 +115,9 @@ struct AbaqusFile {
   AbaqusMaterials materials;
   std::vector<AbaqusCondition> conditions;
   std::vector<AbaqusKeyword> steps;
+  double first_period = 1;  // s, of the first step: that of its *STATIC or *DYNAMIC, or Abaqus' default
+  AbaqusAmplitudes amplitudes;
+  std::vector<AbaqusTransform> transforms;
   std::map<std::string, FilePlace> skipped;  // "*OUTPUT", ... with the first place
 };
 

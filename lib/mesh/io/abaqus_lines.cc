@@ -55,6 +55,18 @@ std::string abaqus_word(std::string_view text) {
   return word;
 }
 
+std::optional<double> abaqus_number(std::string_view field) {
+  double value = 0;
+  if (field.empty()) return value;
+  if (!parse_number(field, value)) {
+    std::string with_e(field);
+    std::replace_if(
+        with_e.begin(), with_e.end(), [](char c) { return c == 'D' || c == 'd'; }, 'e');
+    if (!parse_number(std::string_view(with_e), value)) return std::nullopt;
+  }
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
 AbaqusLines::AbaqusLines(MeshDraft& draft, std::string_view text)
     : draft_(draft), folder_(std::filesystem::path(draft.files.front()).parent_path().string()) {
   sources_.push_back({{draft.files.front(), text, {.comment = "**"}}, 0, false});
@@ -169,19 +181,11 @@ std::int64_t AbaqusLines::integer(std::string_view field, const char* what) cons
   return value;
 }
 
-// Fortran's writers have D for the exponent.
 double AbaqusLines::real(std::size_t field, const char* what) const {
-  if (field >= fields_.size() || fields_[field].empty()) return 0;
-  double value = 0;
-  if (!parse_number(fields_[field], value)) {
-    std::string with_e(fields_[field]);
-    std::replace_if(
-        with_e.begin(), with_e.end(), [](char c) { return c == 'D' || c == 'd'; }, 'e');
-    if (!parse_number(std::string_view(with_e), value)) value = std::nan("");
-  }
-  if (!std::isfinite(value))
-    fail(fmt::format("expected {} (a finite number), found {}", what, TextTokens::quoted(fields_[field])));
-  return value;
+  if (field >= fields_.size()) return 0;
+  const std::optional<double> value = abaqus_number(fields_[field]);
+  if (!value) fail(fmt::format("expected {} (a finite number), found {}", what, TextTokens::quoted(fields_[field])));
+  return *value;
 }
 
 void AbaqusLines::enter(const Mark& mark) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <list>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -35,6 +36,9 @@ struct AbaqusKeyword {
 
 // In capitals and without blanks.
 std::string abaqus_word(std::string_view text);
+
+// A field as a finite number, which may have Fortran's D for the exponent; zero where it is empty, none if it is none.
+std::optional<double> abaqus_number(std::string_view field);
 
 class AbaqusLines {
  public:

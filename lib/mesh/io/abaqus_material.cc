@@ -108,6 +108,8 @@ bool AbaqusMaterialReader::read(const AbaqusKeyword& keyword) {
     if (name.empty()) lines_.fail("*MATERIAL without NAME=name");
     current_ = &materials_[in_capitals(name)];
     *current_ = {.name = name, .place = keyword.place, .elastic_place = keyword.place, .density_place = keyword.place};
+    // The others are of tables by the rate of strain, which are named by themselves.
+    name_others(keyword, {"NAME", "RTOL", "SRATEFACTOR", "STRAINRATEREGULARIZATION"});
     lines_.skip_data();
     return true;
   }
@@ -131,18 +133,25 @@ bool AbaqusMaterialReader::read(const AbaqusKeyword& keyword) {
   return true;
 }
 
-AbaqusMaterial::Rows AbaqusMaterialReader::constants(const AbaqusKeyword& keyword,
-                                                     const std::vector<std::string>& known) {
-  const auto problem = [&](std::string what) { current_->problems.push_back({std::move(what), lines_.place()}); };
+void AbaqusMaterialReader::add_problem(std::string what) {
+  current_->problems.push_back({std::move(what), lines_.place()});
+}
+
+void AbaqusMaterialReader::name_others(const AbaqusKeyword& keyword, const std::vector<std::string>& known) {
   for (const auto& [name, value] : keyword.parameters)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      problem(fmt::format("{}, {} is not read", keyword.spelled, name));
+      add_problem(fmt::format("{}, {} is not read", keyword.spelled, name));
+}
+
+AbaqusMaterial::Rows AbaqusMaterialReader::constants(const AbaqusKeyword& keyword,
+                                                     const std::vector<std::string>& known) {
+  name_others(keyword, known);
   AbaqusMaterial::Rows rows;
   while (!lines_.at_keyword()) {
     const auto& fields = lines_.data();
     if (!fields.empty() && !fields[0].empty() &&
         (std::isalpha(static_cast<unsigned char>(fields[0][0])) || fields[0][0] == '_')) {
-      problem(fmt::format("{} by a distribution is not read", keyword.spelled));
+      add_problem(fmt::format("{} by a distribution is not read", keyword.spelled));
       continue;
     }
     auto& row = rows.emplace_back();

@@ -43,6 +43,9 @@ class AbaqusMaterialReader {
   bool read(const AbaqusKeyword& keyword);
 
  private:
+  void add_problem(std::string what);  // at the line that was last taken
+  // Parameters that are not known are problems.
+  void name_others(const AbaqusKeyword& keyword, const std::vector<std::string>& known);
   AbaqusMaterial::Rows constants(const AbaqusKeyword& keyword, const std::vector<std::string>& known);
 
   AbaqusLines& lines_;
