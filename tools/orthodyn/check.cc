@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "lib/analysis/strain_limits.h"
 #include "lib/axes/axes_source.h"
@@ -102,8 +103,7 @@ void print_dynamics(Setup& setup) {
   print_memory(model, "integrator", setup.integrator->bytes(), setup.integrator->factor_bytes());
 }
 
-void print_statics(const Setup& setup) {
-  const StaticProblem problem = static_problem(setup.scene, setup.built);
+void print_statics(const Setup& setup, const StaticProblem& problem) {
   fmt::print("statics\n  all rigid motions are held\n  solver {}\n", problem.solver->description());
   fmt::print("  loads at t = {:.6g} s, the largest {:.4g} N on a coordinate\n", problem.path->times().end,
              problem.path->largest_load());
@@ -220,6 +220,8 @@ int check(const CheckArguments& arguments) {
   auto [setup, has_time] = set_up_without_time(arguments.scene, arguments.changes);
   const FemModel& model = *setup.built.model;
   const auto& parts = model.parts();
+  std::optional<StaticProblem> statics;  // refuses bodies that nothing holds
+  if (!setup.integrator) statics.emplace(static_problem(setup.scene, setup.built));
   fmt::print("{}: valid{}\n", arguments.scene, has_time ? "" : ", except for the missing 'time'");
   fmt::print("mesh\n  {} nodes, {} elements, regions {}\n", parts.mesh.nodes.size(), parts.mesh.tets.size(),
              join(parts.mesh.region_names));
@@ -237,7 +239,7 @@ int check(const CheckArguments& arguments) {
   if (parts.mass_damping > 0) fmt::print("  mass-proportional damping of {:.6g} 1/s\n", parts.mass_damping);
   fmt::print("system\n  {} unknowns, {} non-zeros ({})\n", model.num_dofs(), model.pattern().non_zeros(),
              model.pattern().symmetric ? "symmetric, lower triangle" : "general");
-  setup.integrator ? print_dynamics(setup) : print_statics(setup);
+  statics ? print_statics(setup, *statics) : print_dynamics(setup);
   warn_of_memory(setup);
   if (has_time || !setup.integrator) {
     const auto costs = term_costs(model, setup.built.initial, kSecondsOfCosts);

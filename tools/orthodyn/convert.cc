@@ -20,7 +20,7 @@ struct ConvertArguments {
 
 int convert(const ConvertArguments& arguments) {
   if (!(arguments.scale > 0)) throw ConfigError(fmt::format("--scale {}: must be positive", arguments.scale));
-  mesh_format_of(arguments.out);
+  mesh_format_to_write(arguments.out);
   LoadedMesh loaded = read_mesh(arguments.in);
   if (arguments.scale != 1) scale_mesh(loaded.mesh, arguments.scale, arguments.in);
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "warning: {}\n", warning);

@@ -100,7 +100,7 @@ LoadedMesh read_mesh(const std::string& path) {
 
 Warnings write_mesh(const LoadedMesh& loaded, const std::string& path, bool replace) {
   namespace fs = std::filesystem;
-  const MeshFormat& format = mesh_format_of(path);
+  const MeshFormat& format = mesh_format_to_write(path);
   if (!format.write)
     throw ConfigError(path, fmt::format("{} files are only read; write .vtu instead", format.name));
   WrittenMesh written = format.write(loaded);

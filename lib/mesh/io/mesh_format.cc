@@ -43,16 +43,31 @@ std::string known_mesh_endings() {
   return join(known);
 }
 
+namespace {
+
+const MeshFormat* find_format(const std::string& path) {
+  for (const MeshFormat& format : mesh_formats())
+    if (std::count(format.endings.begin(), format.endings.end(), ending_of(path)) > 0) return &format;
+  return nullptr;
+}
+
+std::string unknown_ending(const std::string& path) {
+  return fmt::format("no mesh format has the ending \"{}\"; known: {}", ending_of(path), known_mesh_endings());
+}
+
+}  // namespace
+
 const MeshFormat& mesh_format_of(const std::string& path) {
-  const std::string ending = ending_of(path);
-  for (const MeshFormat& format : mesh_formats()) {
-    if (std::count(format.endings.begin(), format.endings.end(), ending) > 0) return format;
-  }
-  throw ConfigError(path, fmt::format("no mesh format has the ending \"{}\"; known: {}. meshio (apt install "
-                                      "python3-meshio) converts some others, without the names of sets: python3 -c "
-                                      "\"import meshio; meshio.write('{}', meshio.read('{}'))\"",
-                                      ending, known_mesh_endings(),
+  if (const MeshFormat* format = find_format(path)) return *format;
+  throw ConfigError(path, fmt::format("{}. meshio (apt install python3-meshio) converts some others, without the names of "
+                                      "sets: python3 -c \"import meshio; meshio.write('{}', meshio.read('{}'))\"",
+                                      unknown_ending(path),
                                       std::filesystem::path(path).replace_extension(".vtu").string(), path));
+}
+
+const MeshFormat& mesh_format_to_write(const std::string& path) {
+  if (const MeshFormat* format = find_format(path)) return *format;
+  throw ConfigError(path, unknown_ending(path));
 }
 
 Warnings losses_in(const MeshFormat& format, const LoadedMesh& loaded) {

@@ -50,6 +50,7 @@ std::string known_mesh_endings();
 
 // Throws ConfigError, listing the endings, if no format has the one of `path` (capitals do not matter).
 const MeshFormat& mesh_format_of(const std::string& path);
+const MeshFormat& mesh_format_to_write(const std::string& path);
 
 // A sentence for each kind of content of the mesh that the format cannot hold.
 Warnings losses_in(const MeshFormat& format, const LoadedMesh& loaded);
