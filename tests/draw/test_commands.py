@@ -19,7 +19,7 @@ from draw import animation  # noqa: E402
 from draw.compare import _difference  # noqa: E402
 from draw.curves import relative_drift  # noqa: E402
 from draw.scene import PictureSpec, Scene  # noqa: E402
-from draw.series import Series  # noqa: E402
+from draw.series import SMALL, Series  # noqa: E402
 from draw.table import Table  # noqa: E402
 
 
@@ -231,3 +231,8 @@ class Failures(InAFolder):
         helped = subprocess.run([program, "--help"], capture_output=True, text=True)
         self.assertEqual(helped.returncode, 0)
         self.assertIn("draw strip out/beam", helped.stdout)
+
+    def test_the_help_of_view_says_that_small_deflections_are_enlarged(self):
+        helped = subprocess.run([TOOLS / "draw/draw", "view", "--help"], capture_output=True, text=True, check=True)
+        self.assertIn(f"where the largest deflection is below {100 * SMALL:g} % of the body as much as shows it",
+                      " ".join(helped.stdout.split()))

@@ -3,6 +3,7 @@
 Run with  /usr/bin/python3 -m unittest tests/draw/test_converge_report.py
 """
 import json
+import re
 import sys
 from pathlib import Path
 
@@ -50,7 +51,7 @@ class OfAConvergence(OfAComparison):
     def test_the_answer_names_the_cheaper_elements(self):
         text, page = self.page_of(study(ROWS))
         self.assertIn("quadratic elements by 80 ×", text)
-        self.assertEqual(page.tables[0][1][:2], ["f [m]", "2 ± 0.0001"])
+        self.assertEqual(page.tables[0][1][:2], ["f [m]", "2.00000 ± 0.0001"])
 
     def test_a_sentence_comes_first_and_each_figure_has_one_plot(self):
         text, _ = self.page_of(study(ROWS))
@@ -80,6 +81,32 @@ class OfAConvergence(OfAComparison):
         for k in range(6):
             self.assertIn(f'data-p="{k}"', text)
         self.assertTrue((self.folder / "pictures" / "f_over_cpu.png").is_file())
+
+    def test_values_have_the_digits_that_their_errors_let_be_known(self):
+        """Errors of 0.3, 0.02 and 0.003 of the limit."""
+        rows = [row(1, level, error) for level, error in ((1, 0.3), (2, 0.02), (3, 0.003))]
+        for found, value in zip(rows, (1.412345, 1.961234, 1.994123)):
+            found["figures"]["f"]["value"] = value
+        text, page = self.page_of(study(rows))
+        self.assertEqual([r[4] for r in page.tables[1][1:]], ["1.4", "1.96", "1.994"])
+        tips = json.loads(re.search(r'id="run-data">(.*?)</script>', text).group(1))["runs"]
+        self.assertEqual([tip["rows"][0] for tip in tips], [["f [m]", v] for v in ("1.4", "1.96", "1.994")])
+
+    def test_without_a_limit_the_estimate_of_the_mesh_tells_the_digits(self):
+        rows = [row(1, 1, 0.0, figures={"f": {"value": 146.5551, "error": None, "order": None, "mesh_error": 0.25,
+                                              "cpu_seconds": 1.0}})]
+        figure = dict(study([])["figures"][0], limit=None, uncertainty=None, cost_of_target=costs(None, None))
+        _, page = self.page_of(study(rows, figures=[figure]))
+        self.assertEqual(page.tables[1][1][4], "150")
+
+    def test_the_limit_has_the_digits_that_its_uncertainty_lets_be_known(self):
+        figure = dict(study([])["figures"][0], limit=2.0123456, uncertainty=0.03)
+        self.assertEqual(self.page_of(study(ROWS, figures=[figure]))[1].tables[0][1][1], "2.01 ± 0.03")
+
+    def test_no_value_has_more_digits_than_the_limit(self):
+        figure = dict(study([])["figures"][0], uncertainty=0.2)
+        rows = [row(1, 3, 1e-7)]
+        self.assertEqual(self.page_of(study(rows, figures=[figure]))[1].tables[1][1][4], "2.0")
 
     def test_meshes_that_failed_are_named_with_their_reason(self):
         failed = row(2, 3, 0.0, status="failed", reason="time limit", message="after 600 s", figures=NONE)

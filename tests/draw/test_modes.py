@@ -4,6 +4,7 @@ import io
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -14,7 +15,7 @@ import numpy as np  # noqa: E402
 from PIL import Image  # noqa: E402
 
 from draw.cli import main  # noqa: E402
-from draw.modes import Picture, Shapes, factor_label, frequency_label, read_modes  # noqa: E402
+from draw.modes import Picture, Shapes, factor_label, faint_nodes, frequency_label, read_modes  # noqa: E402
 from draw.scene import PictureSpec  # noqa: E402
 from tiny_result import POINTS, Vtu  # noqa: E402
 
@@ -81,10 +82,52 @@ class Modes(unittest.TestCase):
             share = np.linalg.lstsq((height[1:] - height[0]).T, (ends - height[0]).T, rcond=None)[0]
             np.testing.assert_allclose(height[0] + (share.T @ (height[1:] - height[0])), ends, atol=1e-9)
 
+    def lines_of(self, values):
+        """How many faces of a plate have a nodal line; `values` at the nodes of its grid, rows along y."""
+        faces, n = [], values.shape[1]
+        for j in range(values.shape[0] - 1):
+            for i in range(n - 1):
+                a = j * n + i
+                faces += [[a, a + 1, a + n], [a + 1, a + n + 1, a + n]]
+        faces, flat = np.array(faces), values.ravel()
+        crossed = (flat[faces].min(axis=1) < 0) & (flat[faces].max(axis=1) > 0)
+        return int(crossed.sum()), int((crossed & ~faint_nodes(faces, flat)[faces].any(axis=1)).sum())
+
+    def test_a_corner_that_hardly_moves_has_no_nodal_line(self):
+        x, y = np.meshgrid(np.linspace(0, 1, 11), np.linspace(0, 1, 9))
+        plate = (np.sin(np.pi * x) * np.sin(np.pi * y)) ** 2  # clamped all around
+        plate[1, 1] = plate[-2, -2] = -0.002
+        plate[1, 2] *= -0.01
+        every, drawn = self.lines_of(plate)
+        self.assertGreater(every, 5)
+        self.assertEqual(drawn, 0)
+
+    def test_a_nodal_line_reaches_to_where_the_body_is_held_also_on_a_fine_mesh(self):
+        """All values beside it are below two per cent of the largest, on both sides."""
+        x, y = np.meshgrid(np.linspace(0, 1, 202), np.linspace(0, 1, 9))
+        plate = np.sin(2 * np.pi * x) * np.sin(np.pi * y) ** 2
+        self.assertLess(abs(plate[:, 100:102]).max(), 0.02)
+        plate[:, [0, -1]] = plate[[0, -1]] = 0  # exactly
+        every, drawn = self.lines_of(plate)
+        self.assertEqual(every, 14)  # of the eight rows of two faces, those with corners of both signs
+        self.assertEqual(drawn, every)
+
+    def test_the_picture_has_no_line_around_a_part_that_hardly_moves(self):
+        folder = write_modes(self.folder, [1.0])
+        for least, expected in ((-0.5, True), (-0.01, False)):
+            shape = np.zeros_like(POINTS)
+            shape[:, 0] = [1, 1, 1, least, 1]
+            (folder / "modes/mode_001.vtu").write_bytes(Vtu().content({"shape": shape}, {}))
+            series, drawn = Shapes(folder), []
+            picture = Picture(series, [0], PictureSpec(color="swing"))
+            lines = unittest.mock.Mock(add_segments=lambda start, *_: drawn.extend(start))
+            picture.add_lines(lines, POINTS, picture.corner_values(series.frame(0)))
+            self.assertEqual(bool(drawn), expected)
+
     def test_labels_are_short(self):
         self.assertEqual([frequency_label(f) for f in (12.5, 1299.0381, -3.0)], ["12.5 Hz", "1.299 kHz", "-3 Hz"])
         self.assertEqual([frequency_label(1299.0381, e) for e in (0.3, 0.01, 1e-4, 0.0)],
-                         ["1.3 kHz", "1.3 kHz", "1.299 kHz", "1.299 kHz"])
+                         ["1.3 kHz", "1.30 kHz", "1.299 kHz", "1.299 kHz"])
 
     def test_what_is_missing_is_said_in_one_line(self):
         write_modes(self.folder, [0, 0])

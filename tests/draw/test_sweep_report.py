@@ -17,6 +17,7 @@ from matplotlib.image import imread  # noqa: E402
 
 from draw.report.layout import WIDE  # noqa: E402
 from draw.sweep.curves import draw_curves  # noqa: E402
+from draw.sweep.dot_plot import draw_dot_plot  # noqa: E402
 from draw.sweep.plan import has_map, plans  # noqa: E402
 from draw.sweep.reading import read_sweep  # noqa: E402
 
@@ -98,6 +99,63 @@ class ThePage(OfASweep):
         content["points"][3]["figures"]["f"] = 0.2
         self.assertIn("Deflection ranges from 1 mm (mesh coarse, angle 0) to 200 mm (mesh coarse, angle 90)",
                       self.page_of(content)[1].text)
+
+    def with_errors(self, values, errors, title="f1"):
+        """A sweep of a frequency over the angle, which the mesh makes too high by these shares."""
+        content = sweep({"angle": ANGLES[:len(values)]}, closed_form="")
+        content["figures"][0].update(title=title, unit="Hz", factor=1, has_own_error=True)
+        for point, value, error in zip(content["points"], values, errors):
+            point["figures"]["f"], point["figure_errors"] = value, {"f": error}
+        return content
+
+    def test_it_tells_how_far_the_mesh_puts_a_frequency_off_wherever_that_stands(self):
+        text, page = self.page_of(self.with_errors([146.56, 183.01], [0.2515, 0.1803]))
+        self.assertIn("F1 rises from 150 Hz (angle 0) to 180 Hz (angle 30), by about 25 %; the mesh makes it 18 to 25 % too "
+                      "high.", page.text)
+        self.assertIn("The mesh is coarse for f1 at 2 of 2 points: up to 25 % too high (f1, angle 0)", page.text)
+        self.assertIn("150angle 0; by the mesh 25\u202f% too high", "".join(page.tables[0][1]))
+        self.assertIn("The mesh makes f1 18 to 25 % too high. Thin strokes", page.text)  # below the figure
+        points = next(t for t in page.tables if "f1, by the mesh [%]" in t[0])
+        self.assertEqual([row[:3] for row in points[1:]], [["0", "150", "+25"], ["30", "180", "+18"]])
+        tips = json.loads(re.search(r'id="run-data">(.*?)</script>', text).group(1))["runs"]
+        self.assertIn(["f1 [Hz]", "150"], tips[0]["rows"])
+        self.assertIn(["f1, by the mesh", "25\u202f% too high"], tips[0]["rows"])
+        self.assertNotIn("146.5", text)
+
+    def test_a_small_error_of_the_mesh_is_told_and_leaves_its_digits(self):
+        _, page = self.page_of(self.with_errors([146.5612, 183.0134], [0.0012, -0.0034]))
+        self.assertIn("F1 rises from 146.6 Hz (angle 0) to 183.0 Hz (angle 30), by 25 %; the mesh makes it 0.34 % too low to "
+                      "0.12 % too high.", page.text)
+        self.assertNotIn("is coarse", page.text)
+
+    def test_values_that_the_mesh_does_not_let_be_told_apart_are_not_called_the_same(self):
+        _, page = self.page_of(self.with_errors([146.0, 149.0], [0.25, 0.25]))
+        self.assertIn("F1 is 150 Hz at all points as far as the mesh lets it be known; it rises from angle 0 to angle 30, by "
+                      "about 2.1 %; the mesh makes it 25 % too high.", page.text)
+        self.assertNotIn("The same at all points: f1 [Hz]", page.text)
+
+    def test_strokes_lead_to_values_without_the_error_of_the_mesh(self):
+        for levels in ({"angle": ANGLES}, {"wood": ["oak", "ash"]}):
+            content = sweep(levels, closed_form="")
+            for point in content["points"]:
+                point["figure_errors"] = {"f": 0.25}
+            read, found = self.planned(content)
+            draw = draw_curves if "angle" in levels else draw_dot_plot
+            axes = draw(found[0], read, WIDE).figure.axes[0]
+            along = [line.get_ydata() if "angle" in levels else line.get_xdata() for line in axes.get_lines()]
+            for point in read.points:  # 1.25 of a value is what the mesh gives
+                value = read.figures[0].value(point)
+                self.assertTrue(any(len(d) == 2 and abs(d[0] - value) + abs(d[1] - value / 1.25) < 1e-9 * value
+                                    for d in along), value)
+
+    def test_the_share_of_the_elastic_energy_is_told_for_each_point(self):
+        content = sweep({"angle": ANGLES})
+        for k, point in enumerate(content["points"]):
+            point["mesh_error"] = 0.1 * k
+        _, page = self.page_of(content)
+        points = next(t for t in page.tables if "elastic energy that is the mesh's error [%]" in t[0])
+        self.assertIn("20", points[3])
+        self.assertIn("up to 30 % is its error", page.text)
 
     def exposures(self, values, **changes):
         """A sweep over the angle with these exposures."""

@@ -147,6 +147,33 @@ class InABrowser(OfAResult):
         self.assertEqual(len(set(prints.values())), len(prints), prints)
         self.assertEqual((out["theme"], out["grain"]), (True, ["none", "material axis 1"]))
 
+    def test_a_page_and_a_still_say_how_far_deflections_are_enlarged(self):
+        said = """const said = () => query(".label").textContent, same = () => view.picture() === query("canvas").toDataURL();"""
+        for start in ({"scale": 200.0}, {"scale": 200.0, "still": True}):
+            out = self.probed(page([self.result], Extent(), start), said + "return [said(), same()];")
+            self.assertEqual(out, ["deflections enlarged 200 times", False])
+        out = self.probed(page([self.result], Extent(), {"scale": 1.0}), said + """
+            const scale = [...document.querySelectorAll("select")].find(s => s.options[0].text.startsWith("×")), out = [[said(), same()]];
+            for (const value of ["5", "0.1"]) {
+              scale.value = value; scale.dispatchEvent(new Event("change")); await wait(50); out.push([said(), same()]); }
+            return out;""")
+        self.assertEqual(out, [["", True], ["deflections enlarged 5 times", False], ["deflections × 0.1", False]])
+
+    def test_shapes_have_nodal_lines_only_between_parts_that_move(self):
+        folder = self.folder / "m"
+        write_result(folder, [1.0])
+        (folder / "frames.pvd").rename(folder / "modes.pvd")
+        (folder / "modes.csv").write_text("mode,frequency [Hz]\n1,2.5\n")
+        for least, lined in ((-0.5, True), (-0.01, False)):
+            shape = np.zeros_like(POINTS)
+            shape[:, 0] = [1, 1, 1, least, 1]
+            (folder / "frames/frame_00000.vtu").write_bytes(Vtu().content({"shape": shape}, {}))
+            out = self.probed(page([folder], Extent(), {"still": True}), """
+                view.stage.drawNow(); const before = print();
+                view.bodies[0].paint.uniforms.nodal.value = false;
+                view.stage.drawNow(); return [before !== print(), query(".label").textContent];""")
+            self.assertEqual(out, [lined, "1: 2.5 Hz"])
+
     def test_plays_in_the_time_that_it_says(self):
         out = self.probed(self.page(), """
             const speed = query('[aria-label="speed"]'), began = performance.now();

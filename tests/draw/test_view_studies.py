@@ -146,10 +146,12 @@ class OfAStudy(InAFolder):
         self.assertEqual(about["results"][0]["labels"], ["1: 2.5 Hz", "2: 2.5 kHz"])
         self.assertEqual((about["start"]["color"], about["start"]["range"], about["start"]["scale"]), ("swing", [-1, 1], 0.12))
         self.assertTrue(about["start"]["swing"])
+        self.assertTrue(about["results"][0]["shape"])
 
     def test_of_a_run_begins_at_its_largest_motion(self):
         about, _ = self.described(write_result(self.folder / "r", [0.0, 0.5, 0.25]))
         self.assertEqual((about["start"]["time"], about["start"]["scale"]), (0.5, 1.0))
+        self.assertFalse(about["results"][0]["shape"])
         self.assertEqual(self.described(self.folder / "r", {"time": 0.25, "scale": 3.0})[0]["start"]["time"], 0.25)
 
     def test_of_a_run_enlarges_what_could_not_be_seen(self):

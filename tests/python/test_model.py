@@ -51,6 +51,13 @@ class AModel(unittest.TestCase):
         x = self.random.normal(size=self.model.n)
         np.testing.assert_allclose(self.model.mass @ self.model.solve_mass(x), x, rtol=1e-13)
 
+    def test_shows_frequencies_with_the_digits_that_the_mesh_lets_be_known(self):
+        """Errors of 25 %, 2 % and 0; a rigid mode."""
+        modes = orthodyn.Modes(np.array([0.0, 146.5551, 287.063, 1234.56]), np.zeros((4, 1)), np.array([0, 0.2515, 0.02, 0.0]))
+        self.assertEqual(repr(modes), "Modes([0 150 287 1234.6] Hz, by the mesh too high by [0 25 2.0 0] %)")
+        many = orthodyn.Modes(np.arange(100.0), np.zeros((100, 1)), np.zeros(100))
+        self.assertEqual(repr(many), "Modes([0 1 2 ... 97 98 99] Hz, by the mesh too high by [0 0 0 ... 0 0 0] %)")
+
     def test_has_the_modes_that_scipy_finds(self):
         K, _ = self.model.tangent(0, np.zeros(self.model.n))
         found = self.model.modes(6)

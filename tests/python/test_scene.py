@@ -160,8 +160,27 @@ class AResult(InAFolder):
         result = orthodyn.Scene(beam()).run(self.folder / "r")
         with self.assertRaisesRegex(KeyError, "no column 'tip'; there are t, tip.displacement.x"):
             result.probes["tip"]
-        with self.assertRaisesRegex(FileNotFoundError, "bogus.*tables that are there: energy, probes"):
-            result.table("bogus")
+        for found in (result, orthodyn.Scene(beam()).run()):
+            with self.assertRaisesRegex(FileNotFoundError, "^no table 'bogus'; there are energy, probes") as caught:
+                found.table("bogus")
+            self.assertNotIn("/", str(caught.exception))
+
+    def test_tells_nothing_of_temporary_folders(self):
+        result = orthodyn.Scene(beam()).run()
+        (result.folder / "probes.csv").write_text("t [s]\n")
+        with self.assertRaisesRegex(FileNotFoundError, "^probes.csv: no rows below the header$"):
+            result.probes
+        (result.folder / "frames.pvd").unlink()
+        with self.assertRaisesRegex(FileNotFoundError, "^frames.pvd: missing"):
+            orthodyn.Result(result.folder).times
+
+    def test_names_the_error_of_the_mesh(self):
+        for record, words in (({"errors": {"mesh": 0.0374, "mesh_by": "finer elements"}},
+                               ", error of the mesh 3.7 % of the elastic energy"), ({"errors": {}}, ""), ({}, ""),
+                              ({"errors": None, "modes": [{"load_factor": 10.3, "mesh_error": 0.0782}]},
+                               ", by the mesh the lowest load factor +7.8 %")):
+            (self.folder / "run.json").write_text(json.dumps({"status": "completed", **record}))
+            self.assertEqual(repr(orthodyn.Result.load(self.folder)), f"Result({self.folder}, completed{words})")
 
     def test_from_a_dict_goes_by_its_name_in_messages(self):
         scene = beam()

@@ -164,7 +164,9 @@ def _parser():
     view.add_argument("--time", type=lambda s: _numbers(s, 1)[0], metavar="T", help="begins at the frame nearest to T seconds")
     view.add_argument("--color", metavar="FIELD[.COMPONENT]", help="begins with this colour, see below")
     view.add_argument("--scale", type=lambda s: _numbers(s, 1)[0], metavar="S",
-                      help="enlarges the deformation (default 1: true shape)")
+                      help="enlarges deflections S times, which the picture says; 1 is the true shape (default: 1, but where the "
+                           "largest deflection is below 2 %% of the body as much as shows it; of a sweep what its `enlarged` "
+                           "says; of modes as much as shows them)")
     view.add_argument("--png", type=Path, metavar="FILE", help="a still instead, taken by Chromium")
     view.add_argument("--size", type=_size, default=(1600, 1000), metavar="WxH", help="pixels of the still (default 1600x1000)")
     every = body("all", "Strip, animation and all curves into RESULT/pictures.")

@@ -7,12 +7,15 @@ from pathlib import Path
 import numpy as np
 
 from .body import INK, front_faces
+from .digits import known_digits
 from .errors import DrawError
 from .picture import draw_strip
 from .scene import Scene, PictureSpec
 from .series import Series
 
+FAINT = 0.02  # of the largest displacement: a part of one sign that nowhere moves so far has no nodal line around it
 LARGEST = 0.12  # displacement in the picture, of the body's largest extent
+MOST_DIGITS = 4  # of a label
 
 
 class Shapes(Series):
@@ -37,14 +40,35 @@ def _along_largest(shape):
     return along / (along[np.argmax(abs(along))] or 1)
 
 
+def faint_nodes(faces, value):
+    """(n,): of a part of the surface that has one sign and nowhere FAINT of the largest value, as arises from round-off and
+    from the mesh where a body is held. A nodal line between two parts that move is there to its end."""
+    a, b = faces.ravel(), np.roll(faces, 1, axis=1).ravel()
+    same = value[a] * value[b] > 0
+    a, b = a[same], b[same]
+    part, before = np.arange(len(value)), None
+    while before is None or (part != before).any():  # each part gets the least number of its nodes
+        before, least = part, np.minimum(part[a], part[b])
+        part = part.copy()
+        np.minimum.at(part, before[a], least)
+        np.minimum.at(part, before[b], least)
+        part = part[part]
+    largest = np.zeros(len(value))
+    np.maximum.at(largest, part, abs(value))
+    return (value != 0) & (largest[part] < FAINT * abs(value).max())
+
+
 class Picture(Scene):
     note = ""  # how far a shape is enlarged means nothing
 
     def add_lines(self, paint, points, values):
         """Nodal lines: where the corners of faces that are seen have values of both signs."""
         flat = self.camera.flat(points)
-        seen = front_faces(self.surface, flat) & (values.min(axis=1) < 0) & (values.max(axis=1) > 0)
-        corners, own = points[self.surface.faces[seen]], values[seen]
+        faces, swing = self.surface.faces, np.zeros(len(points))
+        swing[faces] = values
+        faint = faint_nodes(faces, swing)[faces].any(axis=1)
+        seen = front_faces(self.surface, flat) & (values.min(axis=1) < 0) & (values.max(axis=1) > 0) & ~faint
+        corners, own = points[faces[seen]], values[seen]
         ends = [[] for _ in own]
         for k in range(3):
             a, b = own[:, k], own[:, (k + 1) % 3]
@@ -59,19 +83,13 @@ class Picture(Scene):
                            INK, 1.1)
 
 
-def digits(error):
-    """Those that an error of this share does not touch, and one more; 4 where it is not known."""
-    known = math.isfinite(error) and error != 0
-    return min(max(math.ceil(-math.log10(abs(error))) + 1, 2), 4) if known else 4
-
-
 def frequency_label(hertz, error=math.nan):
     value, unit = (hertz / 1000, "kHz") if abs(hertz) >= 1000 else (hertz, "Hz")
-    return f"{float(f'{value:.{digits(error) - 1}e}'):.4g} {unit}"
+    return f"{known_digits(value, error, MOST_DIGITS)} {unit}"
 
 
 def factor_label(factor, error=math.nan):
-    return f"load factor {float(f'{factor:.{digits(error) - 1}e}'):.4g}"
+    return f"load factor {known_digits(factor, error, MOST_DIGITS)}"
 
 
 # What tells a mode from others, its column, its label, and the command that writes it.

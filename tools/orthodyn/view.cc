@@ -66,7 +66,7 @@ void declare(ViewArguments& arguments, CommandOptions& options) {
   options.value("--time", arguments.time, "Begins at the frame nearest to T seconds.").type("T");
   options.value("--color", arguments.color, "Begins with this colour, as `draw frame --help` has them.")
       .type("FIELD[.COMPONENT]");
-  options.value("--scale", arguments.scale, "Enlarges the deformation; default 1, the true shape.").type("S");
+  options.value("--scale", arguments.scale, "Enlarges deflections S times; default 1, or as much as shows one below 2 % of the body.").type("S");
   options.value("--png", arguments.png, "A still in place of the page; needs Chromium.").type("FILE");
   options.value("--size", arguments.size, "Pixels of the still; default 1600x1000.").type("WxH").needs("--png");
 }

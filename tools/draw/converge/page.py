@@ -43,9 +43,18 @@ def _cost(figure, order):
     return f"{'≤ ' if order in figure.at_most else ''}{_seconds(cost)}"
 
 
+def _limit_of(figure):
+    return formatting.general(figure.limit, 7, figure.resolution)
+
+
+def _value(study, figure, mesh):
+    """With the digits that its error lets be known."""
+    return formatting.general(mesh.values.get(figure.name, math.nan), 7, study.known_error(figure, mesh))
+
+
 def _answer_row(study, figure):
     known = math.isfinite(figure.limit)
-    limit = f"{formatting.general(figure.limit, 6)} ± {figure.uncertainty:.1g}" if known else formatting.UNKNOWN
+    limit = f"{_limit_of(figure)} ± {figure.uncertainty:.1g}" if known else formatting.UNKNOWN
     cells = [tag("th", figure.heading, scope="row"), tag("td", limit, class_="word")]
     for order in study.orders:
         cells.append(number(_cost(figure, order)))
@@ -78,7 +87,7 @@ def _row(study, mesh):
              number(formatting.count(mesh.unknowns))]
     for figure in study.figures:
         order = mesh.orders.get(figure.name, math.nan)
-        cells += [number(formatting.general(mesh.values.get(figure.name, math.nan), 7)),
+        cells += [number(_value(study, figure, mesh)),
                   number(formatting.exponent(mesh.errors.get(figure.name, math.nan))),
                   number(f"{order:.2f}" if math.isfinite(order) else formatting.UNKNOWN),
                   number(formatting.exponent(mesh.mesh_errors.get(figure.name, math.nan))),
@@ -117,9 +126,11 @@ def _details(study, folder):
 
 
 def _tip(study, mesh):
-    rows = [[f.heading, formatting.general(mesh.values.get(f.name, math.nan), 6)] for f in study.figures]
-    known = [e for e in mesh.mesh_errors.values() if math.isfinite(e)]
-    rows += [["mesh error, estimated", formatting.exponent(e)] for e in known[:1]]
+    rows = []
+    for f in study.figures:
+        error = mesh.mesh_errors.get(f.name, math.nan)
+        rows += [[f.heading, _value(study, f, mesh)]]
+        rows += [[f"{f.name}, mesh error estimated", formatting.exponent(error)]] if math.isfinite(error) else []
     return {"title": f"{words(mesh.order)} elements, level {mesh.level}", "rows": rows, "e": {}}
 
 

@@ -65,6 +65,14 @@ class Study:
     def of_order(self, order):
         return [m for m in self.meshes if m.order == order]
 
+    def known_error(self, figure, mesh):
+        """The share by which a mesh's value is off its limit, and the limit itself; where there is none, as the mesh estimates
+        it; nan where nothing is known."""
+        error = abs(mesh.errors.get(figure.name, math.nan))
+        if not math.isfinite(error):
+            return mesh.mesh_errors.get(figure.name, math.nan)
+        return max(error, figure.resolution) if math.isfinite(figure.resolution) else error
+
     @property
     def failed(self):
         return [m for m in self.meshes if m.status == "failed"]

@@ -1,6 +1,8 @@
 """Numbers and times for people; '–' stands for what is not known."""
 import math
 
+from ..digits import known_digits
+
 UNKNOWN = "–"
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 THIN = "\u202f"  # narrow no-break space
@@ -79,8 +81,9 @@ def megabytes(x):
     return f"{x / 1e6:,.0f}".replace(",", THIN) if known(x) else UNKNOWN
 
 
-def general(x, digits=4):
-    return f"{x:.{digits}g}" if known(x) else UNKNOWN
+def general(x, digits=4, error=math.nan):
+    """With no more digits than its error, a share of it, lets be known."""
+    return known_digits(x, error, digits) if known(x) else UNKNOWN
 
 
 def control(control):

@@ -3,6 +3,7 @@ import math
 
 from ..report import formatting
 from ..report.markup import joined, tag
+from . import mesh
 
 SAME = 1e-6   # relative changes below it are none
 AGREES = 0.1  # integrators agree if they differ by less than this share of their distance from the closed form
@@ -10,8 +11,17 @@ FAR = 0.01    # and that distance is a matter of the formula from here on
 COARSE = 0.05  # share of the elastic energy that is the error of the mesh
 
 
+def _with_unit(figure, number):
+    return number.replace("-", "−") + (f" {figure.unit}" if figure.unit else "")
+
+
 def words(figure, value):
-    return formatting.general(value).replace("-", "−") + (f" {figure.unit}" if figure.unit else "")
+    return _with_unit(figure, formatting.general(value))
+
+
+def _said(figure, point):
+    """The value there, with the digits that the mesh lets be known."""
+    return _with_unit(figure, figure.shown(point))
 
 
 def where(sweep, point):
@@ -36,12 +46,14 @@ def _monotonic(sweep, values):
     return "rises" if all(s >= 0 for s in steps) else "falls" if all(s <= 0 for s in steps) else ""
 
 
-def _by_how_much(low, high):
-    """'a factor of 12', 'by 4.2 %'; '' where the sign changes."""
+def _by_how_much(low, high, about):
+    """', a factor of 12', ', by 4.2 %', or `about` so much; '' where the sign changes."""
     small, large = sorted((abs(low), abs(high)))
     if low * high <= 0:
         return ""
-    return f", a factor of {large / small:.3g}" if large >= 2 * small else f", by {100 * (large / small - 1):.2g} %"
+    if large >= 2 * small:
+        return f", a factor of {about}{large / small:.{2 if about else 3}g}"
+    return f", by {about}{100 * (large / small - 1):.2g} %"
 
 
 def _change(sweep, figure):
@@ -51,11 +63,15 @@ def _change(sweep, figure):
         return None
     low, high = (choose(found, key=lambda entry: entry[0]) for choose in (min, max))
     if high[0] - low[0] <= SAME * max(abs(low[0]), abs(high[0])):
-        return f"is {words(figure, low[0])} at {'the only point' if len(found) == 1 else 'all points'}"
-    much, verb = _by_how_much(low[0], high[0]), _monotonic(sweep, [value for value, _ in found])
-    first, last = (found[0], found[-1]) if verb else (low, high)
-    return (f"{verb or 'ranges'} from {words(figure, first[0])} ({where(sweep, first[1])}) "
-            f"to {words(figure, last[0])} ({where(sweep, last[1])}){much}")
+        return f"is {_said(figure, low[1])} at {'the only point' if len(found) == 1 else 'all points'}"
+    about = "about " if any(abs(figure.mesh_error(p)) > FAR for _, p in (low, high)) else ""
+    much, verb = _by_how_much(low[0], high[0], about), _monotonic(sweep, [value for value, _ in found])
+    first, last = (p for _, p in ((found[0], found[-1]) if verb else (low, high)))
+    if about and _said(figure, first) == _said(figure, last):
+        return (f"is {_said(figure, first)} at all points as far as the mesh lets it be known; it {verb or 'ranges'} from "
+                f"{where(sweep, first)} to {where(sweep, last)}{much}")
+    return (f"{verb or 'ranges'} from {_said(figure, first)} ({where(sweep, first)}) "
+            f"to {_said(figure, last)} ({where(sweep, last)}){much}")
 
 
 def _crossings(variable, found, limit):
@@ -93,6 +109,11 @@ def _closed_form(sweep, figure):
     return f"; at most {formatting.general(100 * gap, 2)} % from the closed form{at}"
 
 
+def _by_the_mesh(sweep, figure):
+    off = mesh.off_at(figure, sweep.done)
+    return f"; the mesh makes it {off}" if off else ""
+
+
 def _groups(sweep, figure):
     """Differences from the closed form by the values of all variables but the integrator."""
     chooser = next((v for v in sweep.variables if v.path == "integrator.type"), None)
@@ -123,7 +144,8 @@ def _sentence(sweep, figure):
     if change is None:
         return None
     return joined([tag("strong", _capitalised(figure)),
-                   f" {change}{_failure(sweep, figure)}{_closed_form(sweep, figure)}{_suspected(sweep, figure)}."])
+                   f" {change}{_failure(sweep, figure)}{_closed_form(sweep, figure)}{_by_the_mesh(sweep, figure)}"
+                   f"{_suspected(sweep, figure)}."])
 
 
 def _warnings(sweep):
@@ -137,20 +159,34 @@ def _warnings(sweep):
                f"{first['title']}: {first['warnings'][0]}")
 
 
+def _coarse(sweep):
+    """Where the mesh puts figures with errors of their own far off, and where the elastic energy tells that it is coarse."""
+    parts, count = [], formatting.plural(len(sweep.points), "point")
+    figures = [f for f in sweep.figures if any(abs(f.mesh_error(p)) > COARSE for p in sweep.done)]
+    if figures:
+        error, figure, point = mesh.worst(figures, sweep.done)
+        points = [p for p in sweep.done if any(abs(f.mesh_error(p)) > COARSE for f in figures)]
+        parts.append(tag("p", tag("strong", "The mesh is coarse"), f" for {formatting.joined(f.title for f in figures)} at "
+                         f"{len(points)} of {count}: up to {mesh.off(error)} ({figure.title}, {where(sweep, point)}). "
+                         "Numbers have no more digits than that lets be known; sweep.csv has all. Finer cells would reduce it."))
+    points = [p for p in sweep.done if (p.get("mesh_error") or 0) > COARSE]
+    if points:
+        worst = max(p["mesh_error"] for p in points)
+        parts.append(tag("p", tag("strong", "The mesh is coarse"), f" for {len(points)} of {count}: of the elastic energy up to "
+                         f"{mesh.percent(worst)}{formatting.THIN}% is its error. Deflections are too small and "
+                         "frequencies too high; `orthodyn converge` tells by how much."))
+    return joined(parts) or None
+
+
 def answer(sweep):
     """The first figure as the headline, the others as a list."""
     sentences = [s for s in (_sentence(sweep, f) for f in sweep.figures) if s]
     if not sentences:
         return tag("p", "No point has finished with a figure yet.", class_="headline")
     failed = len(sweep.failed)
-    coarse = [p for p in sweep.done if (p.get("mesh_error") or 0) > COARSE]
-    worst = max((p["mesh_error"] for p in coarse), default=0)
     return joined([
         tag("p", sentences[0], class_="headline"),
         tag("ul", *(tag("li", s) for s in sentences[1:])) if sentences[1:] else None,
         tag("p", f"{failed} of {formatting.plural(len(sweep.points), 'point')} failed.") if failed else None,
-        tag("p", tag("strong", "The mesh is coarse"), f" for {len(coarse)} of "
-            f"{formatting.plural(len(sweep.points), 'point')}: of the elastic energy up to "
-            f"{formatting.general(100 * worst, 2)}{formatting.THIN}% is its error. Deflections are too small and "
-            "frequencies too high; `orthodyn converge` tells by how much.") if coarse else None,
+        _coarse(sweep),
         _warnings(sweep)])

@@ -4,7 +4,7 @@ import math
 import numpy as np
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from ..report import theme, formatting
+from ..report import theme
 from ..report.runs import label_right
 from ..report.scale import error_tick, limits, positive, set_log
 from ..report.layout import (WIDE, PixelLayout, legend_columns, legend_height, shortened, side_margin, styled)
@@ -124,7 +124,15 @@ def _failure_line(axes, limit):
                       textcoords="offset points", ha="right", va="bottom", fontsize=10, color=LIGHT["muted"])
 
 
-def _drawn(plan, sweep, width, height, title, value, log, closed=None):
+def _strokes(axes, index, rows, end):
+    """From each mark to where it would be without the error of the mesh."""
+    for x, y, point in rows:
+        if math.isfinite(y) and math.isfinite(end(point)):
+            axes.plot([x, x], [y, end(point)], color=theme.colour(index), lw=1.0, alpha=0.6, zorder=3,
+                      gid=f"me-{index}")
+
+
+def _drawn(plan, sweep, width, height, title, value, log, closed=None, without=None):
     entries = _entries(plan, sweep)
     layout, box, columns = _layout(width, entries, height)
     axes = layout.axes(*box)
@@ -132,11 +140,15 @@ def _drawn(plan, sweep, width, height, title, value, log, closed=None):
              for k, level in enumerate(plan.line_levels(sweep))}
     curves = {k: [(x, closed(p)) for x, _, p in rows] for k, rows in lines.items()} if closed else {}
     values = [y for rows in lines.values() for _, y, _ in rows] + [y for c in curves.values() for _, y in c]
+    if without:
+        values += [without(p) for rows in lines.values() for _, _, p in rows]
     scaled(axes, "y", values, log, 5 if height < 200 else 7)
     if closed:
         _closed_forms(axes, curves)
     scattered = sweep.combine == "latin_hypercube"
     for k, rows in lines.items():
+        if without:
+            _strokes(axes, k, rows, without)
         _marks(axes, k, rows, not closed and not scattered)
     _annotate(layout, axes, box, plan, sweep, title, entries, columns)
     return layout, axes, lines
@@ -148,7 +160,7 @@ def draw_curves(plan, sweep, width):
     title = figure.heading + (f"   ({plan.title})" if plan.title else "")
     closed = figure.closed if figure.closed_form else None
     layout, axes, lines = _drawn(plan, sweep, width, 240 if width < WIDE else 320, title, figure.value, figure.log,
-                                 closed)
+                                 closed, figure.without_mesh_error)
     _failure_line(axes, figure.failure)
     layout.description = _description(plan, sweep, lines)
     return layout
@@ -170,8 +182,9 @@ def draw_differences(plan, sweep, width):
 def _description(plan, sweep, lines):
     parts = []
     for (_, rows), level in zip(lines.items(), plan.line_levels(sweep)):
-        values = [y for _, y, _ in rows if math.isfinite(y)]
-        if values:
+        ends = [(y, k) for k, (_, y, _) in enumerate(rows) if math.isfinite(y)]
+        if ends:
             name = f"{plan.line_words(level)}: " if plan.lines else ""
-            parts.append(f"{name}{formatting.general(min(values))} to {formatting.general(max(values))}")
+            low, high = (plan.figure.shown(rows[end[1]][2]) for end in (min(ends), max(ends)))
+            parts.append(f"{name}{low} to {high}")
     return f"{plan.figure.heading} over {plan.x.heading}. {'; '.join(parts) or 'No point has it'}."

@@ -25,7 +25,8 @@ def draw_dot_plot(plan, sweep, width):
     layout.legend(30, entries, columns)
     axes = layout.axes(left, top, width - left - 24, height)
     rows = [(k, p) for k, level in enumerate(plan.line_levels(sweep)) for p in plan.of_line(sweep, level)]
-    values = [v for _, p in rows for v in (plan.figure.value(p), plan.figure.closed(p)) if math.isfinite(v)]
+    ends = (plan.figure.value, plan.figure.closed, plan.figure.without_mesh_error)
+    values = [v for _, p in rows for end in ends if math.isfinite(v := end(p))]
     most = 4 if narrow else 7
     if values and len(positive(values)) == len(values) and max(values) > 8 * min(values):
         set_log(axes, "x", *limits(values, least=0.5), power_tick, most)
@@ -44,6 +45,9 @@ def _row(axes, plan, k, y, point):
     value, closed, colour = plan.figure.value(point), plan.figure.closed(point), theme.colour(k)
     if math.isfinite(closed):
         axes.plot([closed, closed], [y - 0.36, y + 0.36], color=LIGHT["muted"], lw=1.6, zorder=2)
+    without = plan.figure.without_mesh_error(point)
+    if math.isfinite(value) and math.isfinite(without):
+        axes.plot([value, without], [y, y], color=colour, lw=1.0, alpha=0.6, zorder=3)
     if math.isfinite(value):
         axes.plot([value], [y], marker=theme.marker(k), ms=theme.marker_size(k, 8.5), ls="none", mfc=colour,
                   mec=LIGHT["paper"], mew=0.8, gid=f"pt-{point['index']}-{k}", zorder=4, clip_on=False)

@@ -5,7 +5,6 @@ import matplotlib
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.patches import Rectangle
 
-from ..report import formatting
 from ..report.layout import WIDE, PixelLayout, styled
 
 MAP = matplotlib.colormaps["viridis"]
@@ -43,7 +42,8 @@ def draw_heat_map(plan, sweep, width):
     layout.text(left + across / 2, top + height + 38, plan.x.heading, ha="center")
     layout.text(10, top + height / 2, plan.lines.heading, ha="center", rotation=90)
     lying, standing = (left, top + height + 66, across, 12), (left + across + 22, top, 14, height)
-    _bar(layout, norm, lying if narrow else standing, narrow)
+    ends = [figure.shown(end(found, key=lambda entry: entry[1])[0]) for end in (min, max)]
+    _bar(layout, norm, ends, lying if narrow else standing, narrow)
     return layout
 
 
@@ -53,8 +53,8 @@ def _ticks(axes, which, values, most):
     getattr(axes, f"set_{which}ticks")(chosen, [f"{values[k]:.4g}".replace("-", "−") for k in chosen])
 
 
-def _bar(layout, norm, box, lying):
-    """From the smallest to the largest value."""
+def _bar(layout, norm, ends, box, lying):
+    """From the smallest to the largest value; `ends` in words."""
     axes = layout.axes(*box, xlim=(0, 1), ylim=(0, 1))
     axes.grid(False)
     axes.set_xticks([]), axes.set_yticks([])
@@ -63,7 +63,7 @@ def _bar(layout, norm, box, lying):
         place = ((k / count, 0), 1.02 / count, 1) if lying else ((0, k / count), 1, 1.02 / count)
         axes.add_patch(Rectangle(place[0], place[1], place[2], color=MAP((k + 0.5) / count), lw=0.5))
     left, top, width, height = box
-    low, high = (formatting.general(float(v)) for v in (norm.vmin, norm.vmax))
+    low, high = ends
     if lying:
         layout.text(left, top + height + 12, low)
         layout.text(left + width, top + height + 12, high, ha="right")

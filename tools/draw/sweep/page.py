@@ -8,12 +8,14 @@ from ..report.details import command, drawing, facts, pairs
 from ..report.markup import Html, data_script, joined, scrolling, tag, void
 from ..report.page import SCRIPT, head
 from ..report.tables import caption
+from . import mesh
 from .answer import answer, where
 from .figures import Figures
 from .plan import MOST_PANELS, left_out, plans
 from .point_table import point_table
 
 READ = "Marks are points of the sweep. Lines without marks, and strokes, are closed forms."
+WITHOUT = "Thin strokes lead from a mark to where it would be without that error."
 
 
 def _counted(sweep):
@@ -41,12 +43,18 @@ def _table(title, heads, rows, label, kind=None):
                      label=label)
 
 
+def _place(sweep, figure, point):
+    """'length 30 mm', and what the mesh does to the figure there."""
+    off = mesh.off(figure.mesh_error(point))
+    return where(sweep, point) + (f"; by the mesh {off}" if off else "")
+
+
 def _range_row(sweep, figure, closed_forms):
     values = [(figure.value(p), p) for p in sweep.done if math.isfinite(figure.value(p))]
     if not values:
         return tag("tr", tag("th", figure.heading, scope="row"), tag("td", "no point has it", colspan=3, class_="word"))
     ends = (min(values, key=lambda v: v[0]), max(values, key=lambda v: v[0]))
-    cells = [(formatting.general(value), where(sweep, point)) for value, point in ends]
+    cells = [(figure.shown(point), _place(sweep, figure, point)) for _, point in ends]
     gaps = [(abs(figure.difference(p)), p) for _, p in values if math.isfinite(figure.difference(p))]
     if gaps:
         gap, point = max(gaps, key=lambda g: g[0])
@@ -69,7 +77,9 @@ def _figures(sweep, figures):
     parts = []
     for k, plan in enumerate(plans(sweep)):
         pictures = [tag("div", picture, class_="stage") for picture in figures.of(plan)]
-        explained = tag("figcaption", READ) if k == 0 else None
+        off = mesh.off_at(plan.figure, plan.points(sweep))
+        said = [READ] * (k == 0) + ([f"The mesh makes {plan.figure.title} {off}. {WITHOUT}"] if off else [])
+        explained = tag("figcaption", " ".join(said)) if said else None
         parts.append(tag("figure", *pictures, explained, aria_label=plan.figure.title))
     for figure, count, others in left_out(sweep):
         names = " and ".join(v.name for v in others)
@@ -114,7 +124,9 @@ def _details(sweep, folder):
 
 def _tip(sweep, point):
     rows = [[v.heading, v.words(point["values"][v.name])] for v in sweep.variables]
-    rows += [[f.heading, formatting.general(f.value(point), 6)] for f in sweep.figures]
+    for f in sweep.figures:
+        off = mesh.off(f.mesh_error(point))
+        rows += [[f.heading, f.shown(point, 6)]] + ([[f"{f.title}, by the mesh", off]] if off else [])
     rows += [[f"{f.title}, closed form", formatting.general(f.closed(point), 6)]
              for f in sweep.figures if f.closed_form]
     return {"title": f"Point {point['index'] + 1}", "rows": rows, "e": {}}

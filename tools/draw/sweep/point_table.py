@@ -1,10 +1,11 @@
 """All points of a sweep as a table; columns that say nothing are named once below it."""
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ..report import formatting
 from ..report.markup import joined, scrolling, tag
 from ..report.tables import caption
+from . import mesh
 
 
 @dataclass(frozen=True)
@@ -12,6 +13,7 @@ class Column:
     heading: str
     numeric: bool
     cells: list  # words, one a point
+    values: list = field(default=None)  # of which the cells show the known digits
 
     @property
     def empty(self):
@@ -19,11 +21,18 @@ class Column:
 
     @property
     def constant(self):
-        return len(self.cells) > 1 and len(set(self.cells)) == 1
+        return len(self.cells) > 1 and len(set(self.values or self.cells)) == 1
 
 
 def _percent(gap):
     return f"{100 * gap:+.3f}".replace("-", "−") if math.isfinite(gap) else formatting.UNKNOWN
+
+
+def _off(share):
+    """'+25', '−0.31'."""
+    if not math.isfinite(share):
+        return formatting.UNKNOWN
+    return ("+" if share > 0 else "−" if share < 0 else "") + mesh.percent(abs(share))
 
 
 def _columns(sweep):
@@ -31,9 +40,15 @@ def _columns(sweep):
     for v in sweep.variables:
         yield Column(v.heading, v.numeric, [v.plain(p["values"][v.name]) for p in points])
     for f in sweep.figures:
-        yield Column(f.heading, True, [formatting.general(f.value(p), 6) for p in points])
+        yield Column(f.heading, True, [f.shown(p, 6) for p in points], [f.value(p) for p in points])
+        if any(math.isfinite(f.mesh_error(p)) for p in points):
+            yield Column(f"{f.title}, by the mesh [%]", True, [_off(f.mesh_error(p)) for p in points])
         if f.closed_form:
             yield Column("from closed form [%]", True, [_percent(f.difference(p)) for p in points])
+    if any(p.get("mesh_error") is not None for p in points):
+        shares = [p.get("mesh_error") for p in points]
+        yield Column("elastic energy that is the mesh's error [%]", True,
+                     [formatting.UNKNOWN if share is None else mesh.percent(share) for share in shares])
     seconds = [(p["cost"] or {}).get("wall_seconds", math.nan) for p in points]
     yield Column("wall time [s]", True, [formatting.plain_seconds(s) for s in seconds])
     yield Column("status", False, ["" if p["status"] == "completed" else p["reason"] or p["status"] for p in points])

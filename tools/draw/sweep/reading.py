@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 
 from ..errors import DrawError
+from ..report import formatting
 from ..series import result_folder
 from . import FILE
 
@@ -54,6 +55,20 @@ class Figure:
 
     def value(self, point):
         return _scaled(point["figures"].get(self.name), self.factor)
+
+    def mesh_error(self, point):
+        """The share by which the mesh makes it too high, estimated; nan where it has no error of its own."""
+        error = (point.get("figure_errors") or {}).get(self.name)
+        return math.nan if error is None else error
+
+    def without_mesh_error(self, point):
+        """The value as it would be with a fine mesh, by that estimate; nan where there is none."""
+        error = self.mesh_error(point)
+        return self.value(point) / (1 + error) if error > -1 else math.nan
+
+    def shown(self, point, digits=4):
+        """The value with as many digits as its error lets be known, at most `digits`."""
+        return formatting.general(self.value(point), digits, self.mesh_error(point))
 
     def closed(self, point):
         return _scaled(point["closed_forms"].get(self.name), self.factor)

@@ -71,7 +71,7 @@ def add_result(blocks, key, item, extent):
     survey = _Survey(series, frames, shown, fields, centre)
     _add_mesh(blocks, key, first, skin, shown, centre, extent.volume)
     return {
-        "name": item.name, "group": item.group, "static": item.is_static, "facts": list(item.facts),
+        "name": item.name, "group": item.group, "shape": item.is_shape, "static": item.is_static, "facts": list(item.facts),
         "labels": [item.labels[k] for k in frames] if item.labels else None,
         "centre": centre.tolist(), "reach": survey.reach(), "times": [float(series.times[k]) for k in frames],
         "cells": len(first.tets) // first.parts, "volume": extent.volume,

@@ -14,6 +14,7 @@ class Item:
     group: str = ""  # under which it is offered
     labels: list = None  # of the frames, in place of times
     is_static: bool = False  # times are load factors
+    is_shape: bool = False  # displacements are shapes of modes, whose size means nothing
     facts: tuple = ()  # lines about it
 
 

@@ -43,7 +43,7 @@ def _of_shapes(folder):
     """Enlarged to be seen: the size of a shape means nothing."""
     shapes = Shapes(folder)
     scale = LARGEST * float(np.ptp(shapes.frame(0).points, axis=0).max())
-    return Source("shapes", [Item(name_of(folder), shapes, labels=labelled_modes(folder, shapes))],
+    return Source("shapes", [Item(name_of(folder), shapes, labels=labelled_modes(folder, shapes), is_shape=True)],
                   {"color": "swing", "range": [-1, 1], "scale": scale, "swing": is_of_modes(folder)})
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from . import _core
+from .draw.digits import known_digits
 
 if TYPE_CHECKING:
     import scipy.sparse
@@ -22,9 +23,16 @@ class Modes:
     mesh_errors: np.ndarray
 
     def __repr__(self) -> str:
-        frequencies = np.array2string(self.frequencies, precision=5, threshold=20)
-        errors = np.array2string(100 * self.mesh_errors, precision=2, threshold=20)
+        """Frequencies with the digits that the mesh lets be known."""
+        frequencies = _listed([known_digits(f, e, 5) for f, e in zip(self.frequencies, self.mesh_errors)])
+        errors = _listed([known_digits(100 * e, 1.0) if e else "0" for e in self.mesh_errors])
         return f"Modes({frequencies} Hz, by the mesh too high by {errors} %)"
+
+
+def _listed(words: list[str]) -> str:
+    """Of many the first and the last three."""
+    shown = words if len(words) <= MOST_LISTED else [*words[:3], "...", *words[-3:]]
+    return f"[{' '.join(shown)}]"
 
 
 class Model:
@@ -140,3 +148,4 @@ class Model:
 
 
 GLOBAL = 2  # as lib/ode/output.h has it
+MOST_LISTED = 20

@@ -77,7 +77,7 @@ class Result:
         try:
             return Series(str(self.folder))
         except DrawError as error:
-            raise FileNotFoundError(f"{error} (tables that are there: {self._tables()})") from None
+            raise FileNotFoundError(f"{self._by_name(error)} (tables that are there: {self._tables()})") from None
 
     @cached_property
     def times(self) -> np.ndarray:
@@ -141,10 +141,21 @@ class Result:
         return Columns((column.name, column.values) for column in self._table(name).columns.values())
 
     def _table(self, name: str) -> Table:
+        path = self.folder / f"{name}.csv"
+        if not path.is_file():
+            raise FileNotFoundError(f"no table '{name}'; there are {self._tables()} (output of the scene)")
         try:
-            return Table(self.folder / f"{name}.csv")
+            return Table(path)
         except DrawError as error:
-            raise FileNotFoundError(f"{error} (tables that are there: {self._tables()})") from None
+            raise FileNotFoundError(self._by_name(error)) from None
+
+    def _by_name(self, error: DrawError) -> str:
+        """A message without the temporary folder, which is none of the user's."""
+        return str(error).replace(f"{self.folder}/", "") if self._is_temporary else str(error)
+
+    @property
+    def _is_temporary(self) -> bool:
+        return self.folder.parent.name.startswith(TEMPORARY)
 
     def _tables(self) -> str:
         return ", ".join(sorted(path.stem for path in self.folder.glob("*.csv"))) or "none"
@@ -178,7 +189,8 @@ class Result:
              time: float | None = None, color: str | None = None, scale: float | None = None) -> Page:
         """A page with a 3D view, which a notebook shows. `others`: a result beside it or its folder, or
         several to choose from; `volume`: also what is inside, for the clip
-        plane; `time`, `color` ("nodal_stress.von_mises") and `scale` of the deformation: with what it begins."""
+        plane; `time`, `color` ("nodal_stress.von_mises") and `scale` of the deformation: with what it begins.
+        Without `scale` a deflection that is too small to be seen is enlarged, which the page says."""
         from .draw.view.collect import Extent
         from .draw.view.page import write_view
         folders = [str(getattr(result, "folder", result)) for result in (self, *others)]
@@ -196,8 +208,16 @@ class Result:
         return plot_table(self._table(table), columns, ax)
 
     def __repr__(self) -> str:
-        name = self.folder.name if self.folder.parent.name.startswith(TEMPORARY) else self.folder
-        return f"Result({name}, {self.status or 'no record'})"
+        name = self.folder.name if self._is_temporary else self.folder
+        return f"Result({name}, {self.status or 'no record'}{self._by_the_mesh()})"
+
+    def _by_the_mesh(self) -> str:
+        """Its error, if the record has one."""
+        share = (self.record.get("errors") or {}).get("mesh")
+        if share is not None:
+            return f", error of the mesh {100 * share:.2g} % of the elastic energy"
+        modes = [mode["mesh_error"] for mode in self.record.get("modes") or () if mode.get("mesh_error") is not None]
+        return f", by the mesh the lowest load factor {100 * modes[0]:+.2g} %" if modes else ""
 
     def _is_of_cells(self, name: str) -> bool:
         if name in self._kept.get("cell_fields", ()):

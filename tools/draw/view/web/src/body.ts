@@ -3,6 +3,7 @@ import * as THREE from "three";
 import { lines, paint, type Paint } from "./material";
 import type { Quantity } from "./description";
 import type { Mesh, Result, Strokes } from "./result";
+import { plainCorners } from "./nodal";
 import { Section, type Cut, type Plane } from "./section";
 
 export interface Look {
@@ -33,7 +34,7 @@ export class Body {
   readonly paint: Paint = paint();
   private readonly capPaint: Paint = paint();
   private readonly positions: Float32Array; // of nodes
-  private readonly corner: { position: Float32Array; normal: Float32Array; value: Float32Array };
+  private readonly corner: { position: Float32Array; normal: Float32Array; value: Float32Array; plain: Float32Array };
   private readonly normals: Float32Array;
   private readonly surface = new THREE.BufferGeometry();
   readonly cap = new THREE.Mesh(new THREE.BufferGeometry(), this.capPaint);
@@ -51,16 +52,19 @@ export class Body {
   private plane: Plane | null = null;
   private values: Float32Array = new Float32Array(0);
   private onNodes = true;
+  private lined: Float32Array | null = null; // the values whose nodal lines are drawn
 
   constructor(readonly result: Result) {
     const { mesh } = result, corners = mesh.faces.length;
     this.positions = mesh.rest.slice();
     this.corner = {
       position: new Float32Array(3 * corners), normal: new Float32Array(3 * corners), value: new Float32Array(corners),
+      plain: new Float32Array(corners),
     };
     this.normals = new Float32Array(3 * (mesh.normals.reduce((a, b) => Math.max(a, b), 0) + 1));
     for (const [name, array, size] of [
       ["position", this.corner.position, 3], ["normal", this.corner.normal, 3], ["value", this.corner.value, 1],
+      ["plain", this.corner.plain, 1],
     ] as const)
       this.surface.setAttribute(name, new THREE.BufferAttribute(array, size).setUsage(THREE.DynamicDrawUsage));
     this.edges = segments(mesh.edges.length, lines(0x111418, 0.35));
@@ -103,6 +107,7 @@ export class Body {
     this.onNodes = quantity === null || this.result.isOnNodes(quantity);
     for (const material of [this.paint, this.capPaint]) setUniform(material, "painted", values !== null);
     this.fillSurface();
+    if (quantity?.field === SWING) this.findNodalLines();
     this.setPlane(plane);
     this.edges.visible = look.edges === "mesh";
     this.creases.visible = look.edges !== "none";
@@ -191,6 +196,13 @@ export class Body {
     for (let corner = 0; corner < faces.length; ++corner)
       for (let i = 0; i < 3; ++i) normal[3 * corner + i] = this.normals[3 * (normals[corner] as number) + i] as number;
     for (const name of ["position", "normal", "value"]) this.surface.getAttribute(name).needsUpdate = true;
+  }
+
+  private findNodalLines(): void {
+    if (this.lined === this.values) return;
+    this.lined = this.values;
+    this.corner.plain.set(plainCorners(this.result.mesh.faces, this.values));
+    this.surface.getAttribute("plain").needsUpdate = true;
   }
 
   private addNormal(face: number, normals: Uint32Array): void {

@@ -34,6 +34,7 @@ export interface ResultDescription {
   name: string;
   group: string; // under which it is offered; "" for none
   facts: string[]; // lines about it
+  shape: boolean; // displacements are shapes of modes, whose size means nothing
   static: boolean; // times are load factors
   labels: string[] | null; // of frames that are points of a study or shapes, in place of times
   centre: [number, number, number]; // m, that positions are relative to

@@ -8,11 +8,12 @@ export interface ColourMap {
 
 const vertexShader = `
 #include <clipping_planes_pars_vertex>
-attribute float value;
-varying float vValue;
+attribute float value, plain; // plain: 1 where there is no nodal line
+varying float vValue, vPlain;
 varying vec3 vNormal;
 void main() {
   vValue = value;
+  vPlain = plain;
   vNormal = normalMatrix * normal;
   vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
   gl_Position = projectionMatrix * mvPosition;
@@ -25,14 +26,14 @@ uniform sampler2D map;
 uniform float low, high, size;
 uniform vec3 nan, back;
 uniform bool categories, painted, nodal;
-varying float vValue;
+varying float vValue, vPlain;
 varying vec3 vNormal;
 void main() {
   #include <clipping_planes_fragment>
   float place = categories ? (mod(floor(vValue + 0.5), size) + 0.5) / size : clamp((vValue - low) / (high - low), 0.0, 1.0);
   vec3 colour = texture2D(map, vec2(categories ? place : (place * (size - 1.0) + 0.5) / size, 0.5)).rgb;
   if (!(vValue == vValue)) colour = nan;
-  if (nodal && abs(vValue) < 1.2 * fwidth(vValue)) colour *= 0.2;
+  if (nodal && vPlain < 0.5 && abs(vValue) < 1.2 * fwidth(vValue)) colour *= 0.2;
   if (!painted) colour = back;
   vec3 n = normalize(vNormal);
   if (!gl_FrontFacing) { n = -n; colour = back * 0.8; }

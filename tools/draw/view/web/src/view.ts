@@ -9,7 +9,7 @@ import { colourTexture, type ColourMap } from "./material";
 import { Player } from "./player";
 import { Result } from "./result";
 import { Stage } from "./stage";
-import { figure, scaled, withUnit } from "./units";
+import { figure, round, scaled, withUnit } from "./units";
 import type { Description, Quantity } from "./description";
 import type { Plane } from "./section";
 
@@ -211,12 +211,19 @@ export class View {
     return least.length ? [Math.min(...least), Math.max(...most)] : null;
   }
 
-  // Of the frames that have some, and what a result has not.
+  // "deflections enlarged 200 times"; "" where they are not, and of shapes, whose size means nothing.
+  private enlarged(result: Result): string {
+    const { scale } = this.look;
+    if (scale === 1 || result.about.shape) return "";
+    return scale > 1 ? `deflections enlarged ${round(scale)} times` : `deflections × ${round(scale)}`;
+  }
+
+  // Of the frames that have some, how far deflections are enlarged, and what a result has not.
   private showLabels(): void {
     this.results.forEach((r, k) => {
       const lacks = r.quantity(this.quantity.key) ? "" : `has no ${this.quantity.label}`;
       const own = r.about.labels?.[r.frameAt(this.player.time)] ?? "";
-      (this.labels[k] as HTMLElement).textContent = [own, lacks].filter((text) => text).join("; ");
+      (this.labels[k] as HTMLElement).textContent = [own, this.enlarged(r), lacks].filter((text) => text).join("; ");
     });
   }
 
@@ -265,6 +272,7 @@ export class View {
     const scales = [...new Set([...SCALES, this.look.scale])].sort((a, b) => a - b);
     const scale = select(scales.map((s) => [String(s), `× ${s}`]), (value) => {
       this.look.scale = Number(value);
+      this.showLabels();
       void this.refresh().then(() => this.stage.fit(this.look.scale));
     });
     scale.value = String(this.look.scale);
@@ -354,9 +362,22 @@ export class View {
     chosen.dispatchEvent(new Event("change"));
   }
 
-  private savePicture(): void {
+  // The canvas as PNG, with a word below where deflections are enlarged.
+  picture(): string {
     this.stage.drawNow();
-    const link = element("a", { download: `${this.results[0]?.about.name ?? "view"}.png`, href: this.stage.canvas.toDataURL("image/png") });
+    const { canvas } = this.stage, said = this.results.map((r) => this.enlarged(r)).find((text) => text) ?? "";
+    const made = element("canvas", { width: canvas.width, height: canvas.height }), pen = made.getContext("2d");
+    if (!said || !pen) return canvas.toDataURL("image/png");
+    const height = 14 * (canvas.width / Math.max(canvas.clientWidth, 1));
+    pen.drawImage(canvas, 0, 0);
+    pen.font = `${height}px sans-serif`;
+    pen.fillStyle = getComputedStyle(document.body).color;
+    pen.fillText(said, height, canvas.height - height);
+    return made.toDataURL("image/png");
+  }
+
+  private savePicture(): void {
+    const link = element("a", { download: `${this.results[0]?.about.name ?? "view"}.png`, href: this.picture() });
     link.click();
   }
 }
