@@ -1,7 +1,8 @@
 // `auto`: looks at the model and the task, takes one of the other integrators and says why.
 //
 // It knows what comparisons have taught (docs/speed-against-error.md); a comparison of all methods on the scene
-// itself is better founded: `orthodyn compare`. Linear models whose lowest modes say all take `modal`.
+// itself is better founded: `orthodyn compare`. For a linear model it takes `modal` if a trial run
+// shows that few modes suffice.
 #include <algorithm>
 
 #include "integrators/automatic/modal_plan.h"
@@ -76,17 +77,15 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public Automatic
     return method_facts("that of the chosen method", "that of the chosen method", "what the chosen method conserves",
                         "docs/speed-against-error.md");
   }
-  // As all do that it chooses from.
+  // As all do that it chooses from there.
   bool runs_on_ranks() const override {
-    return !method || Registry<IntegratorChoice>::entries().at(*method).make()->runs_on_ranks();
+    return !method || *method == "modal" || Registry<IntegratorChoice>::entries().at(*method).make()->runs_on_ranks();
   }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     Scales own = scales(task);
     if (!method && own.omega == 0) own.omega = task.scales().omega;  // also where the scales themselves are given
-    // central_differences has no error control whose steps could be limited.
-    const bool limits_steps = h0 || h_max || h_min > 0;
-    const MethodChoice choice = method ? MethodChoice{*method, rationale, safety, modes}
-                                       : choose(model, task, own, limits_steps ? 0 : static_cast<double>(max_steps));
+    const MethodChoice choice = is_settled(model) ? MethodChoice{*method, rationale, safety, modes}
+                                                  : choose(model, task, own);
     IntegratorSettings wanted = settings();
     wanted.position_scale = own.position;
     wanted.velocity_scale = own.velocity;
@@ -97,14 +96,21 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public Automatic
   }
 
  private:
-  MethodChoice choose(const Model& model, const Task& task, const Scales& own, double most_explicit_steps) const {
+  // A recorded choice of modes is of no use where the model has become another one, or is on several ranks.
+  bool is_settled(const Model& model) const { return method && (*method != "modal" || allows_modes(model)); }
+
+  MethodChoice choose(const Model& model, const Task& task, const Scales& own) const {
+    // central_differences has no error control whose steps could be limited.
+    const bool limits_steps = h0 || h_max || h_min > 0;
     const CostEstimate cost = estimate_cost(model, task, own, linear_solver);
-    MethodChoice stepping = choose_method(cost, rtol, most_explicit_steps);
-    if (auto modal = plan_modal(model, task, cost, rtol, stepping)) return *std::move(modal);
+    MethodChoice stepping = choose_method(cost, rtol, limits_steps ? 0 : static_cast<double>(max_steps));
+    if (auto modal = plan_modal(model, task, cost, *this, stepping)) return *std::move(modal);
     return stepping;
   }
 
   void check_method(const Config& config) const {
+    if (modes && method != "modal")
+      config.at("modes").fail("has a meaning only with `method: modal`; remove it, or take integrator.type: modal");
     if (!method) return;
     auto names = Registry<IntegratorChoice>::names();
     std::erase(names, "auto");

@@ -25,13 +25,28 @@ constexpr double kForce = 2.2, kTangent = 5;
 // accepted is a multiple of rtol.
 constexpr double kPhaseError = 1.2e-3, kMostPhaseError = 20;
 
-double phase_error_of_order_two(double phase, double rtol) { return kPhaseError * phase * std::pow(rtol / 1e-3, 2.0 / 3); }
+double phase_error_of_order_two(const CostEstimate& cost, double rtol) {
+  if (!cost.smooth) return 0;
+  const double decay = cost.damping_ratio * cost.known_phase;
+  const double phase = decay > 1 ? 1 / cost.damping_ratio : cost.known_phase;  // then the motion is gone
+  return kPhaseError * phase * std::pow(rtol / 1e-3, 2.0 / 3);
+}
 
 // Of an L-stable method of order two, measured at rtol 1e-3: steps for each radian of the motion, iterations for each
 // step, and tangents with their factors for each step.
 constexpr double kSteps = 7, kIterations = 4, kTangents = 0.3;
 
-double steps_of_order_two(double phase, double rtol) { return 10 + kSteps * phase * std::pow(1e-3 / rtol, 1.0 / 3); }
+// By the order of the method's error: the cube root of rtol, or its fifth root.
+double steps_for(double phase, double rtol, double order = 2) {
+  return 10 + kSteps * phase * std::pow(1e-3 / rtol, 1 / (order + 1));
+}
+
+// Until the motion is damped out, unless something drives it.
+double moving_phase(const CostEstimate& cost) {
+  constexpr double kDecays = 5;
+  const double phase = std::max(cost.phase, cost.known_phase);
+  return cost.damping_ratio > 0 && !cost.driven ? std::min(phase, kDecays / cost.damping_ratio) : phase;
+}
 
 double cost_of_implicit_step(const CostEstimate& cost) {
   return kIterations * (1 + cost.solve_cost) + kTangents * (kTangent + cost.factor_cost);
@@ -43,6 +58,8 @@ CostEstimate estimate_here(const Model& model, const Task& task, const Scales& s
   const double span = task.end - task.initial.t, omega = frequency_of_motion(scales);
   cost.phase = span * omega;
   cost.known_phase = span * scales.omega;
+  cost.smooth = model.traits().smooth;
+  cost.driven = model.traits().time_dependent;
   Statistics unused;
   cost.explicit_steps = std::numeric_limits<double>::infinity();
   try {
@@ -89,7 +106,7 @@ double safety_of_central_differences(const CostEstimate& cost, double rtol) {
 }
 
 MethodChoice choose_method(const CostEstimate& cost, double rtol, double most_explicit_steps) {
-  const double implicit_steps = steps_of_order_two(cost.phase, rtol), step_cost = cost_of_implicit_step(cost);
+  const double implicit_steps = steps_for(cost.phase, rtol), step_cost = cost_of_implicit_step(cost);
   const double implicit_cost = implicit_steps * step_cost;
   const double safety = safety_of_central_differences(cost, rtol);
   const double explicit_cost = cost.explicit_steps / safety;  // a force a step
@@ -98,15 +115,15 @@ MethodChoice choose_method(const CostEstimate& cost, double rtol, double most_ex
         "central_differences",
         fmt::format("{:.2g} explicit steps cost less than about {:.2g} implicit ones", explicit_cost, implicit_steps),
         safety, std::nullopt, explicit_cost};
-  const auto implicit = [&](const char* method, std::string why) {
-    const double steps = steps_of_order_two(std::max(cost.phase, cost.known_phase), rtol);
+  const auto implicit = [&](const char* method, std::string why, double order = 2) {
+    const double steps = steps_for(moving_phase(cost), rtol, order);
     return MethodChoice{method, std::move(why), std::nullopt, std::nullopt, steps * step_cost};
   };
   if (suits_high_orders(cost.damping_ratio, rtol))
-    return implicit("cvode_bdf", "well damped, where multistep methods of high order take long steps");
+    return implicit("cvode_bdf", "well damped, where multistep methods of high order take long steps", 4);
   if (rtol <= 1e-4)
     return implicit("arkode_dirk", "hardly damped, where Runge-Kutta methods of high order keep fast oscillations");
-  if (const double error = phase_error_of_order_two(cost.known_phase, rtol); error > kMostPhaseError * rtol)
+  if (const double error = phase_error_of_order_two(cost, rtol); error > kMostPhaseError * rtol)
     return implicit("arkode_dirk", fmt::format("hardly damped and {:.2g} periods long, in which a method of order 2 "
                                                "would be off by {:.1g} of the motion",
                                                cost.known_phase / (2 * std::numbers::pi), error));

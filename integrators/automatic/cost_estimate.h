@@ -1,7 +1,8 @@
 // What integrating a model would cost by an explicit and by an implicit method, and the method that follows from it.
 //
 // Estimated from two eigenvalue bounds, one tangent and one symbolic analysis: counts, not clocks, so that the same
-// scene always gets the same method; of several ranks all take what the first one finds. Costs are in evaluations of
+// scene always gets the same method; of several ranks all take what the first one finds (one process alone may take
+// modes). Costs are in evaluations of
 // the force. No function keeps a state: they may be called by several threads.
 #pragma once
 
@@ -19,6 +20,8 @@ struct CostEstimate {
   double known_phase = 0;                  // the same where the motion's frequency is known; 0 where it is not
   double solve_cost = 0, factor_cost = 0;  // of an implicit step's solve and factorisation, in forces
   bool has_factor = true;                  // false where an iterative method solves
+  bool smooth = true;                      // no contact
+  bool driven = false;                     // by loads or supports that vary in time
 };
 
 // At task.initial, by which the model's stiffness is that of the whole run. `linear_solver` is one of n x n matrices
@@ -30,7 +33,7 @@ struct MethodChoice {
   std::string method, rationale;      // no colon in the latter: it becomes a value of the input
   std::optional<double> safety = {};  // of central_differences
   std::optional<int> modes = {};      // of modal
-  double cost = 0;                    // of the run, in forces, about
+  double cost = 0;                    // of the run, in forces, about; 0 of a method that the user has chosen
 };
 
 // The cheapest method for a local error of rtol. No explicit one that would need more than `most_explicit_steps`.

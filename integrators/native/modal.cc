@@ -14,10 +14,10 @@
 
 #include "integrators/error_control.h"
 #include "integrators/fixed_step.h"
-#include "integrators/native/modal.h"
 #include "integrators/native/modal_basis.h"
 #include "integrators/native/modal_load.h"
 #include "integrators/native/modal_motion.h"
+#include "integrators/native/modal_trial.h"
 #include "integrators/native/modal_truncation.h"
 #include "integrators/scaled_norm.h"
 #include "integrators/native/step_control.h"
@@ -146,7 +146,7 @@ class Modal : public Integrator {
     share_at_start_ = at_start.displacement_share();
   }
 
-  ModalShares left_out() const { return {truncation_.displacement_share(), truncation_.velocity_share()}; }
+  const ModalTruncation& truncation() const { return truncation_; }
 
   const Statistics& statistics() const override { return statistics_; }
   std::size_t factor_bytes() const override { return basis_.factor_bytes(); }
@@ -287,21 +287,31 @@ const bool modal_registered = Registry<IntegratorChoice>::add<ModalChoice>(
 
 }  // namespace
 
-std::optional<ModalShares> try_modal(const Model& model, const Task& task, int modes, double rtol, long most_forces) {
+std::optional<ModalTrial> try_modal(const Model& model, const Task& task, const ErrorControl& control, int modes,
+                                    long most_steps) {
   ModalOptions options;
+  static_cast<ErrorControl&>(options) = control;
   options.modes = modes;
-  options.rtol = rtol;
   Modal modal(model, task, options);
+  try {
+    modal.check_start(task.initial);
+  } catch (const ConfigError&) {  // more modes may do
+    return ModalTrial{1, 1, 0};
+  }
+  const StepLimits limits = model.step_limits(task.initial.t, task.end);
   std::vector<double> ends = model.breakpoints(task.initial.t, task.end);
   ends.push_back(task.end);
   State state = task.initial;
   for (const double end : ends) {
     modal.start(state);
-    while (modal.step(end).t < end)
-      if (modal.statistics().force.count > most_forces) return std::nullopt;
+    for (double t = state.t; t < end;) {
+      if (modal.statistics().steps >= most_steps) return std::nullopt;
+      t = modal.step(std::min(end, limits.latest_end(t))).t;
+    }
     modal.interpolate(end, state);
   }
-  return modal.left_out();
+  const ModalTruncation& left_out = modal.truncation();
+  return ModalTrial{left_out.displacement_share(), left_out.velocity_share(), modal.statistics().steps};
 }
 
 }  // namespace orthodyn

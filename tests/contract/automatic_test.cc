@@ -23,10 +23,11 @@ std::map<std::string, std::string> decisions(const Integrator& integrator) {
 // What the estimate of the model's cost says, of which cost_estimate_test.cc tests the thresholds.
 MethodChoice expected_choice(const SmallModel& model, double rtol) {
   const Task task{[&] { return model.scales(); }, model.initial(), model.end(), model.end() / 50};
-  const long max_steps = ErrorControl{}.max_steps;
+  ErrorControl control;
+  control.rtol = rtol;
   const CostEstimate cost = estimate_cost(model, task, model.scales(), "cholmod");
-  const MethodChoice stepping = choose_method(cost, rtol, static_cast<double>(max_steps));
-  return plan_modal(model, task, cost, rtol, stepping).value_or(stepping);
+  const MethodChoice stepping = choose_method(cost, rtol, static_cast<double>(control.max_steps));
+  return plan_modal(model, task, cost, control, stepping).value_or(stepping);
 }
 
 TEST(Automatic, TakesTheMethodOfItsEstimate) {
@@ -63,16 +64,50 @@ TEST(Automatic, TakesTheStepsThatTheMethodTakesWithItsOptions) {
     }
 }
 
-// A chain of eight has few modes: all are taken where that pays.
-TEST(Automatic, TakesAllModesOfASmallLinearModel) {
-  const auto model = chain(true);
+// Two masses between springs, for many periods.
+LinearModel two_masses(const std::vector<std::array<double, 2>>& factor = {}) {
+  const Matrix K = (Matrix(2, 2) << 6, -2, -2, 4).finished(), M = (Matrix(2, 2) << 2, 0, 0, 1).finished();
+  const Vector load = factor.empty() ? Vector() : Vector::Unit(2, 1);
+  return LinearModel({.mass = M, .stiffness = K, .load = load, .factor = factor, .start = Vector::Unit(2, 0), .end = 500});
+}
+
+TEST(Automatic, TakesTheModesOfALinearModelOverManyPeriods) {
+  const auto model = two_masses();
   const auto integrator = make(model, "type: auto, rtol: 1e-6");
   EXPECT_EQ(decisions(*integrator).at("method"), "modal");
-  EXPECT_EQ(decisions(*integrator).at("modes"), "8");
+  EXPECT_EQ(decisions(*integrator).at("modes"), "2");
   const State last = integrate(model, *integrator);
-  EXPECT_LE(distance(last, model.exact(last.t), model.scales()), 1e-10);
+  EXPECT_LE(distance(last, model.exact(last.t), model.scales()), 1e-9);
   const auto nonlinear = pendulum();
   EXPECT_FALSE(decisions(*make(nonlinear, "type: auto, rtol: 1e-6")).contains("modes"));
+}
+
+// A recorded choice is made anew where the model has no modes any more, and kept where it has.
+TEST(Automatic, ChoosesAnewWhereRecordedModesServeNoLonger) {
+  EXPECT_NE(decisions(*make(pendulum(), "type: auto, method: modal, modes: 2")).at("method"), "modal");
+  EXPECT_EQ(decisions(*make(two_masses(), "type: auto, method: modal, modes: 2")).at("modes"), "2");
+  EXPECT_THROW(make(two_masses(), "type: auto, modes: 2"), ConfigError);
+}
+
+TEST(Automatic, TakesNoModesWithinFewerStepsThanTheyTake) {
+  const auto many_kinks = two_masses({{0, 0}, {1, 1}, {2, 0}, {3, 1}, {4, 0}});
+  EXPECT_NE(decisions(*make(many_kinks, "type: auto, rtol: 1e-6, max_steps: 3")).at("method"), "modal");
+}
+
+// A model that calls itself linear and forgets a damping that its force has.
+class Forgetful : public SmallModel {
+ public:
+  Forgetful() : SmallModel(scalar(1)) { traits_.linear = true; }
+  void force(double, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const override { f = -q - 0.1 * v; }
+  State initial() const override { return {0, Vector::Ones(1), Vector::Zero(1)}; }
+  double end() const override { return 500; }
+
+ private:
+  Matrix stiffness(double, const Vector&, const Vector&, TangentKind) const override { return scalar(1); }
+};
+
+TEST(Automatic, TakesNoModesOfAForceThatIsAnother) {
+  EXPECT_NE(decisions(*make(Forgetful(), "type: auto, rtol: 1e-6")).at("method"), "modal");
 }
 
 TEST(Automatic, GivesUpAfterItsOwnMaximumOfSteps) {

@@ -50,6 +50,19 @@ class AProblem(unittest.TestCase):
             self.assertIn("because", found.decisions)
             self.assertLess(np.abs(found.q[:, 0] - np.cos(10 * found.t)).max(), 20e-4)
 
+    def test_whose_matrices_lack_what_its_force_has_is_solved_by_its_force(self):
+        problem = orthodyn.Problem([1.0], lambda t, q, v: -q - 0.2 * v, [[1.0]], symmetric=True, linear=True)
+        found = problem.solve((0, 200), [1.0], rtol=1e-6)
+        self.assertLess(abs(found.q[-1, 0]), 1e-3)  # exp(-20) of the start
+
+    def test_with_a_force_that_raises_where_auto_looks_raises_it(self):
+        def force(t, q, v):
+            if not q.any():
+                raise KeyError("rest")
+            return -q
+        with self.assertRaises(KeyError):
+            orthodyn.Problem([1.0], force, [[1.0]], symmetric=True, linear=True).solve((0, 1), [1.0])
+
     def test_with_a_fixed_step_has_the_order_of_its_method(self):
         exact = np.cos(2.0)
         problem = orthodyn.Problem([1.0], lambda t, q, v: -q, [[1.0]], symmetric=True, linear=True)

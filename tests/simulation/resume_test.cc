@@ -74,6 +74,29 @@ TEST_F(Resume, ARunWithoutAnIntegratorKeepsTheOneThatWasChosen) {
   EXPECT_EQ(record("out").at("status"), "completed");
 }
 
+// Modes that `auto` has chosen are kept, as every choice is.
+TEST_F(Resume, ARunByModesThatWereChosenGoesOnWithThem) {
+  write("tap.yaml", R"(
+mesh: {type: box, size: [1, 0.1, 0.1], cells: [10, 1, 1]}
+materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0.3}}
+clamps: [{surface: x0}]
+loads: [{surface: x1, force: [0, 0, -1]}]
+elasticity: {kinematics: linear}
+integrator: {type: auto, rtol: 1e-3}
+time: {end: 1}
+checkpoint: {every: 1000}
+output: {probes: {tip: {at: [1, 0.05, 0.05]}}}
+)");
+  ASSERT_EQ(orthodyn("run tap.yaml --out part").exit_code, 0);
+  ASSERT_EQ(record("part").at("integrator").at("method"), "modal");
+  const auto longer = orthodyn("run tap.yaml --out part --resume --set time.end=2");
+  ASSERT_EQ(longer.exit_code, 0) << longer.output;
+  EXPECT_EQ(record("part").at("integrator").at("method"), "modal");
+  ASSERT_EQ(orthodyn("run tap.yaml --out whole --set time.end=2").exit_code, 0);
+  const auto a = read_rows(folder_ / "part/probes.csv").back(), b = read_rows(folder_ / "whole/probes.csv").back();
+  EXPECT_NEAR(a.at(3), b.at(3), 1e-2 * std::abs(b.at(3)));
+}
+
 TEST_F(Resume, ItDoesNotGoTogetherWithForce) {
   write("beam.yaml", kBeam + std::string(kBdf));
   EXPECT_EQ(orthodyn("run beam.yaml --resume --force").exit_code, 2);

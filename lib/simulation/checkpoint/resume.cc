@@ -111,7 +111,7 @@ void keep_choices(const Checkpoint& checkpoint, Config& scene) {
   const Config section = scene.at("integrator"), kept = before.at("integrator");
   if (!section.is_map() || !section.has("type")) return;  // reading it will tell
   std::vector<std::string> choices{"position_scale", "velocity_scale"};
-  if (section.at("type").yaml() == "auto") choices.insert(choices.end(), {"method", "because", "safety"});
+  if (section.at("type").yaml() == "auto") choices.insert(choices.end(), {"method", "because", "safety", "modes"});
   for (const auto& key : choices)
     if (!section.has(key) && kept.has(key)) scene.set("integrator." + key, kept.at(key));
 }

@@ -66,7 +66,9 @@ py::dict statistics_of(const Statistics& s) {
 // What the model's functions raise keeps its kind, also where `auto` looks at them to choose.
 std::unique_ptr<Integrator> made(const IntegratorChoice& choice, const PythonModel& model, const Task& task) {
   try {
-    return choice.make(model, task);
+    auto integrator = choice.make(model, task);
+    model.rethrow();  // of a look at the model that `auto` has given up
+    return integrator;
   } catch (const std::exception&) {
     model.rethrow();
     throw;

@@ -127,7 +127,7 @@ void declare_scene_model(py::module_& m) {
 }
 
 Pattern pattern_of(const std::vector<int>& column_start, const std::vector<int>& row, bool symmetric) {
-  return {static_cast<int>(column_start.size()) - 1, symmetric, column_start, row};
+  return {static_cast<int>(column_start.size()) - 1, symmetric, column_start, row, {}};
 }
 
 void declare_own_models(py::module_& m) {

@@ -38,7 +38,7 @@ class Problem:
                methods that need it, differences of the force, in 2 n + 1 calls
     damping    D = -df/dv likewise; only with `stiffness`
     symmetric  K and D are symmetric: only their lower triangles are read
-    linear     K and D are constant
+    linear     f(t, q, v) = f(t, 0, 0) - K q - D v with constant K and D
 
     A force that raises RecoverableError asks for a smaller step. What a sparse matrix stores at the start, zeros included, is
     all that is read of later ones.
