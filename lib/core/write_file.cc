@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <regex>
 #include <utility>
 
 #include "lib/core/errors.h"
@@ -127,6 +128,18 @@ void write_file(const std::filesystem::path& path, const std::vector<std::string
 
 void write_lasting_file(const std::filesystem::path& path, const std::vector<std::string>& parts) {
   write_whole_file(path, parts, true);
+}
+
+void remove_partial_files(const std::filesystem::path& folder) {
+  if (!writes_files()) return;
+  static const std::regex partial(R"(.+\.\d+-\d+\.part)");
+  std::error_code ec;
+  std::vector<std::filesystem::path> found;
+  for (auto at = std::filesystem::recursive_directory_iterator(folder, ec); !ec && at != end(at); at.increment(ec))
+    if (at->symlink_status(ec).type() == std::filesystem::file_type::regular &&
+        std::regex_match(at->path().filename().string(), partial))
+      found.push_back(at->path());
+  for (const auto& path : found) std::filesystem::remove(path, ec);  // what stays is in nobody's way
 }
 
 void make_lasting(const std::filesystem::path& path) {

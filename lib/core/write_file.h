@@ -25,6 +25,10 @@ void write_lasting_file(const std::filesystem::path& path, const std::vector<std
 // the reason in errno.
 bool write_all(int file, std::string_view text, std::size_t at);
 
+// Removes the NAME.<process>-<number>.part of processes that were killed while they wrote, from a folder and those within.
+// Precondition: no other process writes there.
+void remove_partial_files(const std::filesystem::path& folder);
+
 // Waits until what was written to a file is on the disk.
 void make_lasting(const std::filesystem::path& path);
 

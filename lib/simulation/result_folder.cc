@@ -59,6 +59,7 @@ ResultFolder::ResultFolder(fs::path path, Earlier earlier, std::function<void(co
     throw ConfigError(path_.string(), "holds files that are no result of a run; use --out with another folder");
   lock();
   if (is_unused(path_)) return;
+  if (earlier_ != Earlier::keep) remove_partial_files(path_);
   if (earlier_ == Earlier::resume) consider_resuming();
   if (earlier_ == Earlier::keep) refuse_earlier_result();
 }
@@ -105,6 +106,7 @@ void ResultFolder::prepare() {
     lock();
     if (earlier_ != Earlier::replace && !is_unused(path_)) refuse_earlier_result();  // one that was faster
   }
+  remove_partial_files(path_);
   for (const char* name : kResultFiles)
     if (!ec) fs::remove_all(path_ / name, ec);
   if (ec) throw RunError(fmt::format("cannot prepare the folder {}: {}", path_.string(), ec.message()));

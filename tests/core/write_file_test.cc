@@ -83,6 +83,17 @@ class WithLimitOfSize {
   void (*before_)(int) = nullptr;
 };
 
+TEST_F(WriteFile, OnlyPartsThatAKilledProcessLeftAreRemoved) {
+  fs::create_directories(folder_ / "frames");
+  for (const char* name : {"a.csv.123-4.part", "frames/b.vtu.7-1.part", "mine.part", "c.1-2.part.txt"})
+    write_file(folder_ / name, {"x"});
+  remove_partial_files(folder_);
+  EXPECT_FALSE(fs::exists(folder_ / "a.csv.123-4.part"));
+  EXPECT_FALSE(fs::exists(folder_ / "frames/b.vtu.7-1.part"));
+  EXPECT_TRUE(fs::exists(folder_ / "mine.part"));
+  EXPECT_TRUE(fs::exists(folder_ / "c.1-2.part.txt"));
+}
+
 TEST_F(WriteFile, AFailureLeavesTheOldFileAndTellsTheReasonOfTheSystem) {
   write_file(folder_ / "file", {"old"});
   const WithLimitOfSize limit(4096);
