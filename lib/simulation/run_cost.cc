@@ -85,6 +85,12 @@ CostRange adaptive_steps(const Setup& setup) {
   return {fewest / kSpread, std::sqrt(fewest * about) * kSpreadOfContact};
 }
 
+// Steps of modal end where a load changes: one where there is none, and about 500 of one that varies.
+CostRange steps_of_modes(const FemModel& model) {
+  constexpr double kFewest = 50, kMost = 1000;
+  return model.traits().time_dependent ? CostRange{kFewest, kMost} : CostRange{1, 2};
+}
+
 CostRange steps_of(const Setup& setup, bool is_implicit, RunCost& cost) {
   const double span = setup.scene.time.end - setup.scene.time.start;
   const IntegratorSettings settings = setup.scene.integrator->settings();
@@ -177,6 +183,13 @@ void add_outputs(const Setup& setup, RunCost& cost) {
 
 }  // namespace
 
+bool takes_modes(const Integrator& integrator, const Config& config) {
+  std::string method = config.at("integrator").at("type").text();
+  for (const auto& [key, value] : integrator.decisions())
+    if (key == "method") method = value;  // of auto
+  return method == "modal";
+}
+
 RunCost run_cost(const Setup& setup, const std::vector<TermCost>& costs) {
   RunCost cost;
   for (const TermCost& term : costs) cost.force += term.force, cost.tangent += term.tangent;
@@ -185,6 +198,14 @@ RunCost run_cost(const Setup& setup, const std::vector<TermCost>& costs) {
   if (is_static) {
     setup.scene.buckling ? add_buckling(cost) : add_load_steps(*setup.scene.statics, cost);
     if (!setup.scene.buckling) add_outputs(setup, cost);
+    return cost;
+  }
+  if (takes_modes(*setup.integrator, setup.config)) {
+    constexpr double kForces = 8;  // and solutions in a step
+    cost.step = {cost.force, kForces * (cost.force + cost.solve.value_or(0))};
+    cost.may_end_early = may_end_early(setup.scene);
+    cost.steps = steps_of_modes(*setup.built.model);
+    add_outputs(setup, cost);
     return cost;
   }
   if (is_implicit) {

@@ -38,6 +38,9 @@ struct RunCost {
 // seconds.
 RunCost run_cost(const Setup& setup, const std::vector<TermCost>& costs);
 
+// Whether an integrator of a scene is `modal`, or `auto` that has taken it.
+bool takes_modes(const Integrator& integrator, const Config& config);
+
 // "2 to 40 min"; of ends far apart "0.3 s to 40 min".
 std::string shown_seconds(const CostRange& range);
 

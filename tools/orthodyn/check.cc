@@ -169,7 +169,7 @@ void print_time(const Setup& setup, const std::vector<TermCost>& terms) {
 
 void print_faster(const Setup& setup, const std::vector<TermCost>& terms) {
   const auto way = faster_way(setup, run_cost(setup, terms));
-  if (!way) return;
+  if (!way || !way->pays()) return;
   fmt::print("faster\n  with {} (which takes {}): about {:.2g} s in place of {:.2g} s\n",
              fmt::join(way->changes, " and "), way->method, way->then, way->now);
   if (way->error)
