@@ -69,7 +69,7 @@ Json errors_json(const ErrorBalance& errors) {
   Json out{{"mesh", errors.mesh}, {"mesh_by", errors.mesh_by}};
   if (errors.time) out["time"] = *errors.time;
   for (const ProbedError& e : errors.probed)
-    out["probes"][e.probe][e.field] = {{"error", e.error}, {"size", e.size}, {"unit", e.unit}};
+    out["probes"][e.probe][e.field] = {{"error", e.error}, {"scale", e.scale}, {"unit", e.unit}};
   if (!errors.advice.empty()) out["advice"] = errors.advice;
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "lib/core/errors.h"
 #include "lib/fem/element_mesh.h"
@@ -91,20 +92,26 @@ std::string unit_of(const std::string& field, const FemModel& model) {
 }
 
 // Of all probes but displacements and velocities: those have their own error, and that of the elastic energy.
-std::vector<ProbedError> probed_fields(const Scene& scene, const FemModel& model) {
-  std::vector<ProbedError> out;
+NodesByField probed_fields(const Scene& scene, const FemModel& model) {
+  NodesByField out;
   for (const auto& [name, probe] : scene.output.probes)
     for (const std::string& field : probe.fields)
       if (field != "displacement" && field != "velocity")
-        out.push_back({name, field, unit_of(field, model)});
+        out[field].push_back(nearest_node(model.parts().mesh, probe.at));
   return out;
 }
 
-std::vector<NodeField> places_of(const Scene& scene, const FemModel& model, const std::vector<ProbedError>& probed) {
-  std::vector<NodeField> out;
-  for (const ProbedError& each : probed)
-    for (const auto& [name, probe] : scene.output.probes)
-      if (name == each.probe) out.push_back({each.field, nearest_node(model.parts().mesh, probe.at)});
+// In the order of the probes; without those whose error is no number.
+std::vector<ProbedError> probed_errors(const Scene& scene, const FemModel& model, const StateError& found) {
+  std::vector<ProbedError> out;
+  std::map<std::string, std::size_t> next;
+  for (const auto& [name, probe] : scene.output.probes)
+    for (const std::string& field : probe.fields)
+      if (const auto at = found.fields.find(field); at != found.fields.end()) {
+        const auto [scale, error] = at->second[next[field]++];
+        if (std::isfinite(scale) && std::isfinite(error))
+          out.push_back({name, field, unit_of(field, model), scale, error});
+      }
   return out;
 }
 
@@ -115,17 +122,14 @@ FoundByFiner look_closer(const Scene& scene, const FemModel& model, const State&
   FoundByFiner out{recovered};
   MeshError& error = out.error;
   error.by_finer_elements = tried(model, error.cpu_seconds, [&] {
-    std::vector<ProbedError> probed = probed_fields(scene, model);
     const StateError found =
-        state_error(FinerModel(scene, model), state, in_motion, nodes, places_of(scene, model, probed));
+        state_error(FinerModel(scene, model), state, in_motion, nodes, probed_fields(scene, model));
     const double elastic = model.evaluate("energy.mesh_error", state)[1];
     if (!std::isfinite(found.energy) || !(found.energy + elastic > 0)) throw RunError("it is not finite");
     error.relative = found.energy / (found.energy + elastic);
     error.samples = 1;
     out.displacements = found.displacements;
-    for (std::size_t k = 0; k < probed.size(); ++k)
-      probed[k].size = found.fields[k].size, probed[k].error = found.fields[k].error;
-    error.probed = std::move(probed);
+    error.probed = probed_errors(scene, model, found);
   });
   error.blind = blind_spot(model, state, error.by_finer_elements);
   return out;
@@ -152,7 +156,7 @@ std::string blindness_warning(const std::string& blind) {
 std::string finer_mesh(int order) { return order == 1 ? "Take mesh.order: 2 or finer cells" : "Take finer cells"; }
 
 std::string stress_warning(const MeshError& error, int order) {
-  const auto is_coarse = [](const ProbedError& e) { return !(e.share() <= kCoarseStress); };
+  const auto is_coarse = [](const ProbedError& e) { return e.share() > kCoarseStress; };
   const auto count = std::count_if(error.probed.begin(), error.probed.end(), is_coarse);
   if (count == 0) return "";
   const auto worst = std::max_element(error.probed.begin(), error.probed.end(),

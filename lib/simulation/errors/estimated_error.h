@@ -16,7 +16,8 @@ inline constexpr double kMostFinerUnknowns = 120'000;
 bool is_affordable(const FemModel& model);
 
 // Replaces what recovered stresses have found of a state by what finer elements find, or else says what the former may
-// not see. `displacements`: of each of the nodes, where they are found.
+// not see. `displacements`: of each of the nodes, where they are found. The errors of what probes record are in
+// MeshError::probed.
 struct FoundByFiner {
   MeshError error;
   std::vector<Vec3> displacements = {};  // empty: not found

@@ -107,23 +107,26 @@ Eigen::MatrixXd nodal_values(const FemModel& model, const std::string& field, co
   return Eigen::Map<const Eigen::MatrixXd>(values.data(), std::ssize(values) / nodes, nodes);
 }
 
-// Between the coarse elements and finer ones. Zero at nodes without a value.
-FieldError field_error(const FinerModel& finer, const State& coarse, const State& fine, const NodeField& at) {
+// Of one field at some nodes, between the coarse elements and the finer ones.
+std::vector<FieldError> field_errors(const FinerModel& finer, const State& coarse, const State& fine,
+                                     const std::string& field, const std::vector<int>& nodes) {
   constexpr double kOfLargest = 0.1;
-  const Eigen::MatrixXd before = nodal_values(finer.coarse(), at.field, coarse);
-  const Eigen::MatrixXd after = nodal_values(finer.model(), at.field, fine);
+  const Eigen::MatrixXd before = nodal_values(finer.coarse(), field, coarse);
+  const Eigen::MatrixXd after = nodal_values(finer.model(), field, fine);
   double largest = 0;
   for (Eigen::Index k = 0; k < before.cols(); ++k)
     if (before.col(k).allFinite()) largest = std::max(largest, before.col(k).norm());
-  const double error = (after.col(at.node) - before.col(at.node)).norm();
-  return {std::max(before.col(at.node).norm(), kOfLargest * largest),
-          beyond(finer.coarse().parts().mesh.order()) * error};
+  std::vector<FieldError> out;
+  for (const int node : nodes)
+    out.push_back({std::max(before.col(node).norm(), kOfLargest * largest),
+                   beyond(finer.coarse().parts().mesh.order()) * (after.col(node) - before.col(node)).norm()});
+  return out;
 }
 
 }  // namespace
 
 StateError state_error(const FinerModel& finer, const State& coarse, bool in_motion, const std::vector<int>& nodes,
-                       const std::vector<NodeField>& fields) {
+                       const NodesByField& fields) {
   const FemModel& fine = finer.model();
   const bool is_free = count_rigid_freedom(finer.coarse(), coarse.t) > 0;
   const double fastest = finer.coarse().frequency_bound();
@@ -138,7 +141,12 @@ StateError state_error(const FinerModel& finer, const State& coarse, bool in_mot
   StateError out{beyond(order) * 0.5 * found.energy, {}, {}};
   for (const int node : nodes) out.displacements.emplace_back(beyond(order) * correction.col(node));
   const State closer{coarse.t, system.q() + found.x, Vector::Zero(force.size()), coarse.load_factor};
-  for (const NodeField& field : fields) out.fields.push_back(field_error(finer, coarse, closer, field));
+  for (const auto& [field, at] : fields) {
+    try {
+      out.fields[field] = field_errors(finer, coarse, closer, field, at);
+    } catch (const RecoverableError&) {  // it has no values in the finer elements
+    }
+  }
   return out;
 }
 

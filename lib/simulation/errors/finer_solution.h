@@ -4,6 +4,7 @@
 // Numer. Anal. 30, 921), and what these find is enlarged by what still finer ones would find beyond it.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,22 +13,19 @@
 
 namespace orthodyn {
 
-// An output of the model at one of its nodes, such as nodal_stress.
-struct NodeField {
-  std::string field;
-  int node = 0;
-};
+// Outputs of the model, such as nodal_stress, and nodes at which they are asked for.
+using NodesByField = std::map<std::string, std::vector<int>>;
 
-// In the field's unit, as the root of the sum over its components: its size there, or a tenth of the largest in the
-// body where that is larger, and the error.
+// In the field's unit; a norm over its components. `scale` is the size of the field at the node, or a tenth of the largest
+// in the body where that is larger.
 struct FieldError {
-  double size = 0, error = 0;
+  double scale = 0, error = 0;
 };
 
 struct StateError {
   double energy = 0;                // J, elastic, of the error
   std::vector<Vec3> displacements;  // m, true less computed, of the nodes that are asked for
-  std::vector<FieldError> fields;   // of those that are asked for
+  std::map<std::string, std::vector<FieldError>> fields;  // of each node; without fields that have no values there
 };
 
 // The response of the finer elements to what is out of balance in them: of a linear model in equilibrium the difference
@@ -35,7 +33,7 @@ struct StateError {
 // the acceleration that its forces give it. Throws RunError where the stiffness is not positive definite, or memory
 // does not suffice, RecoverableError where the finer elements have no forces.
 StateError state_error(const FinerModel& finer, const State& coarse, bool in_motion, const std::vector<int>& nodes,
-                       const std::vector<NodeField>& fields = {});
+                       const NodesByField& fields = {});
 
 // Of each mode the share by which its frequency is too high; 0 of those at zero. By the Rayleigh quotients
 // (Rayleigh-Ritz) of the shapes and of the finer body's responses to their inertia. Throws as above.

@@ -15,12 +15,12 @@ namespace orthodyn {
 // From this share of the elastic energy on a mesh is called coarse.
 inline constexpr double kCoarseMesh = 0.05;
 
-// Of what a probe records beside displacements and velocities: how large it is, and how far the mesh puts it off, in
-// its unit (FieldError).
+// Of what a probe records beside displacements and velocities, in its unit: its scale and how far the mesh puts it off,
+// as FieldError has them.
 struct ProbedError {
   std::string probe, field, unit;
-  double size = 0, error = 0;
-  double share() const { return size > 0 ? error / size : 0; }
+  double scale = 0, error = 0;
+  double share() const { return scale > 0 ? error / scale : 0; }
 };
 
 // From this share of a stress on a mesh is called coarse for it.
