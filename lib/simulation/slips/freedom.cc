@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -78,33 +79,28 @@ bool is_steady(const Subject& subject, const Vec3& last, double until) {
   return after_start > 0 && last.norm() > held_by_each_other && smallest_along > largest / 2;
 }
 
-// Of the input: `loads` and the terms that push, whatever the body does; "" if there are none. None where another term
-// may hold the body.
-std::optional<std::string> places_of_loads(const Subject& subject) {
+// Of the input: `loads` and the terms that push, whatever the body does; "" if there are none.
+std::string places_of_loads(const Subject& subject) {
   std::string places = subject.scene.loads.empty() ? "" : subject.config.at("loads").where();
   if (!subject.config.has("terms")) return places;
   const Config terms = subject.config.at("terms");
-  for (std::size_t i = 0; i < terms.size(); ++i) {
-    const std::string type = terms.at(i).at("type").text();
-    if (type != "point_load" && type != "nodal_forces" && type != "pressure") return std::nullopt;
-    places += (places.empty() ? "" : ", ") + terms.at(i).where();
-  }
+  for (std::size_t i = 0; i < terms.size(); ++i) places += (places.empty() ? "" : ", ") + terms.at(i).where();
   return places;
 }
 
 void add_drift_slip(const Subject& subject, Warnings& out) {
-  if (!subject.moves() || subject.held() || !subject.scene.motions.empty()) return;
-  const auto places = places_of_loads(subject);
-  if (!places || places->empty()) return;
+  if (!subject.moves() || !is_free(subject)) return;
+  const std::string places = places_of_loads(subject);
+  if (places.empty()) return;
   const auto [way, until] = carried_away(subject);
   const Vec3 last = total_load(subject, until);
   if (way <= kFarAway * subject.extent && is_steady(subject, last, until))
     out.push_back(fmt::format("{}: nothing holds the body, and they push it to the end, with {:.3g} N in all: it is "
                               "carried away ({:.2g} m until {:.4g} s) rather than bent. Is a clamp missing?",
-                              *places, last.norm(), way, until));
+                              places, last.norm(), way, until));
   if (way > kFarAway * subject.extent)
     out.push_back(fmt::format("{}: nothing holds the body, and they carry it {:.3g} m away until {:.4g} s, {:.0f} "
-                              "times its length: is a clamp missing?", *places, way,
+                              "times its length: is a clamp missing?", places, way,
                               until, way / subject.extent));
 }
 
@@ -141,6 +137,16 @@ void add_ground_slips(const Subject& subject, Warnings& out) {
 }
 
 }  // namespace
+
+bool is_free(const Subject& subject) {
+  if (subject.held() || !subject.scene.motions.empty()) return false;
+  if (!subject.config.has("terms")) return true;
+  static const std::set<std::string> pushing{"point_load", "nodal_forces", "pressure"};
+  const Config terms = subject.config.at("terms");
+  for (std::size_t i = 0; i < terms.size(); ++i)
+    if (!pushing.contains(terms.at(i).at("type").text())) return false;
+  return true;
+}
 
 void add_freedom_slips(const Subject& subject, Warnings& out) {
   add_drift_slip(subject, out);

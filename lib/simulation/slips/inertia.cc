@@ -2,9 +2,9 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
-#include "lib/scene/region.h"
 #include "lib/simulation/slips/subject.h"
 
 namespace orthodyn::slip {
@@ -32,21 +32,21 @@ struct Moments {
 };
 
 // Of tetrahedra with straight edges: the integral of x x^T over one is V/20 (sum x_i x_i^T + s s^T), s = sum x_i.
-Moments of_the_body(const Subject& subject) {
-  const TetMesh& mesh = subject.built.model->parts().mesh;
+Moments of_the_body(const FemModel::Parts& parts) {
+  const TetMesh& mesh = parts.mesh;
   Moments out;
-  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
-    std::array<Vec3, 4> x;
-    for (std::size_t i = 0; i < 4; ++i) x[i] = mesh.nodes[static_cast<std::size_t>(mesh.tets[e][i])];
-    const double volume = (x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) / 6;
-    const auto region = static_cast<std::size_t>(mesh.region_of[e]);
-    const double mass = volume * material_in(subject.scene, mesh.region_names[region]).density();
-    for (const Vec3& corner : x) out.add(mass / 20, corner);
-    const Vec3 sum = x[0] + x[1] + x[2] + x[3];
-    out.mass += mass * 0.8;
-    out.first += mass / 5 * sum;
-    out.second += mass / 20 * sum * sum.transpose();
-  }
+  for (std::size_t r = 0; r < parts.elastic.size(); ++r)
+    for (const int cell : parts.elastic[r]->definition().cells) {
+      std::array<Vec3, 4> x;
+      for (std::size_t i = 0; i < 4; ++i)
+        x[i] = mesh.nodes[static_cast<std::size_t>(mesh.tets[static_cast<std::size_t>(cell)][i])];
+      const double mass = parts.densities[r] * (x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) / 6;
+      for (const Vec3& corner : x) out.add(mass / 20, corner);
+      const Vec3 sum = x[0] + x[1] + x[2] + x[3];
+      out.mass += 0.8 * mass;
+      out.first += mass / 5 * sum;
+      out.second += mass / 20 * sum * sum.transpose();
+    }
   return out;
 }
 
@@ -57,7 +57,7 @@ Moments of_lumped_masses(const FemModel::Parts& parts) {
   return out;
 }
 
-// rad, about the centre of mass by spin at the start and by loads, as of a rigid body whose axes stay: whether it turns.
+// Angle (rad) by which spin at the start and loads turn the body in the run, as if it were rigid and its axes stayed.
 Vec3 angle_turned(const Subject& subject, const Moments& body) {
   const FemModel& model = *subject.built.model;
   const State& start = subject.built.initial;
@@ -89,8 +89,8 @@ Vec3 angle_turned(const Subject& subject, const Moments& body) {
 
 void add_inertia_slips(const Subject& subject, Warnings& out) {
   const auto& parts = subject.built.model->parts();
-  if (!subject.moves() || subject.held() || !subject.scene.motions.empty() || !parts.mass->lumped()) return;
-  const Moments body = of_the_body(subject);
+  if (!subject.moves() || !is_free(subject) || !parts.mass->lumped()) return;
+  const Moments body = of_the_body(parts);
   const Eigen::SelfAdjointEigenSolver<Mat3> exact(body.inertia());
   const Mat3 axes = exact.eigenvectors(), lumped = axes.transpose() * of_lumped_masses(parts).inertia() * axes;
   const Vec3 off = lumped.diagonal().cwiseQuotient(exact.eigenvalues()) - Vec3::Ones();
@@ -100,7 +100,7 @@ void add_inertia_slips(const Subject& subject, Warnings& out) {
   const double most = (angle.array().abs() > kTurns).select(off.array().abs(), 0).matrix().maxCoeff(&axis);
   if (most <= kFarOff) return;
   out.push_back(fmt::format("{}: nothing holds the body, and lumped masses on so few elements have a moment of inertia "
-                            "{:+.2g} % off about the axis {}: it turns too {} about that. Use mass: consistent, or more "
+                            "{:+.0f} % off about the axis {}: it turns too {} about that. Use mass: consistent, or more "
                             "cells",
                             subject.config.at("mesh").where(), 100 * off[axis],
                             Value<Vec3>::yaml((Vec3(axes.col(axis)) * 100).array().round() / 100),

@@ -70,6 +70,9 @@ std::string shown_factor(double x);
 // m/s, of the fastest wave in a material: sqrt(max C_ii / density).
 double fastest_wave(const Material& material);
 
+// Whether nothing holds the body: no clamp, no moved support, and no term but those that push it whatever it does.
+bool is_free(const Subject& subject);
+
 // m, from a point to the box.
 double distance(const Vec3& point, const Box& box);
 
