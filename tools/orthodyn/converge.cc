@@ -5,7 +5,6 @@
 #include <charconv>
 #include <filesystem>
 
-#include "lib/core/digits.h"
 #include "lib/core/words.h"
 #include "lib/simulation/files.h"
 #include "lib/simulation/scene_file.h"
@@ -58,7 +57,7 @@ Convergence wanted_of(const ConvergeArguments& arguments) {
 std::string outcome_of(const EvaluationResult& result) {
   if (result.failure) return "failed: " + result.failure->reason;
   std::vector<std::string> words;
-  for (const auto& [name, value] : result.figures) words.push_back(name + " " + known_digits(value, mesh_error_of(result, name)));
+  for (const auto& [name, value] : result.figures) words.push_back(name + " " + known_value(result, name, value));
   return join(words);
 }
 

@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <optional>
 
-#include "lib/core/digits.h"
 #include "lib/core/units.h"
 #include "lib/simulation/files.h"
 #include "lib/study/jobs/json_values.h"
@@ -64,7 +63,7 @@ std::string outcome_of(const EvaluationResult& result, const Sweep& sweep) {
     const std::string* si = value_of(result.units, name);
     const std::string unit = !figure.unit.empty() ? figure.unit : si ? *si : "";
     const double factor = figure.unit.empty() ? 1 : si_factor(figure.unit);
-    words.push_back(fmt::format("{} {}{}", name, known_digits(*value / factor, mesh_error_of(result, name)),
+    words.push_back(fmt::format("{} {}{}", name, known_value(result, name, *value / factor),
                                 unit.empty() ? "" : " " + unit));
   }
   return join(words);

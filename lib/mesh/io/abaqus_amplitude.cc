@@ -25,7 +25,7 @@ std::string parameter_of_another_curve(const AbaqusKeyword& keyword) {
   return "";
 }
 
-// All numbers behind each other, of each line a whole number of pairs; none if one is no number.
+// All numbers behind each other, a whole number of pairs; none if one is no number, or missing in a line before the last.
 std::optional<std::vector<double>> amplitude_numbers(AbaqusLines& lines) {
   std::vector<double> numbers;
   while (!lines.at_keyword()) {
@@ -34,8 +34,9 @@ std::optional<std::vector<double>> amplitude_numbers(AbaqusLines& lines) {
       if (!number) return std::nullopt;
       numbers.push_back(*number);
     }
-    numbers.resize(numbers.size() + numbers.size() % 2);  // a zero may be left out at the end
+    if (numbers.size() % 2 == 1 && !lines.at_keyword()) return std::nullopt;
   }
+  numbers.resize(numbers.size() + numbers.size() % 2);  // a zero may be left out at the end
   return numbers;
 }
 

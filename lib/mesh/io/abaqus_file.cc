@@ -91,7 +91,8 @@ class AbaqusReader {
   void read_history(const AbaqusKeyword& keyword) {
     const std::string& name = keyword.name;
     if (name == "STEP") file_.steps.push_back(keyword);
-    if (name == "STATIC" || name == "DYNAMIC") read_period();
+    if (name == "STATIC" || name == "DYNAMIC" || name == "VISCO" || name == "COUPLED TEMPERATURE-DISPLACEMENT")
+      read_period();
     if (name == "AMPLITUDE")
       file_.amplitudes[in_capitals(keyword.parameter("NAME"))] = read_abaqus_amplitude(keyword, lines_);
     if (name == "TRANSFORM")

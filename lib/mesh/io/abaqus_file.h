@@ -115,7 +115,7 @@ struct AbaqusFile {
   AbaqusMaterials materials;
   std::vector<AbaqusCondition> conditions;
   std::vector<AbaqusKeyword> steps;
-  double first_period = 1;  // s, of the first step: that of its *STATIC or *DYNAMIC, or Abaqus' default
+  double first_period = 1;  // s, of the first step: that of its procedure, such as *STATIC, or Abaqus' default
   AbaqusAmplitudes amplitudes;
   std::vector<AbaqusTransform> transforms;
   std::map<std::string, FilePlace> skipped;  // "*OUTPUT", ... with the first place

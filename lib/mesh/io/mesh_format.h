@@ -50,6 +50,7 @@ std::string known_mesh_endings();
 
 // Throws ConfigError, listing the endings, if no format has the one of `path` (capitals do not matter).
 const MeshFormat& mesh_format_of(const std::string& path);
+// The same of a file that is to be written, without advice on how to convert it. Its `write` may be null.
 const MeshFormat& mesh_format_to_write(const std::string& path);
 
 // A sentence for each kind of content of the mesh that the format cannot hold.

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "lib/core/digits.h"
 #include "lib/study/jobs/json_values.h"
 
@@ -13,11 +16,15 @@ std::string number(const Json& value, const char* format) {
   return value.is_number() ? fmt::format(fmt::runtime(format), value.get<double>()) : "-";
 }
 
-// With the digits that its error leaves, which is known by the limit, or estimated.
-std::string value_text(const Json& row) {
-  if (!row.at("value").is_number()) return "-";
-  const Json& known = row.at("error").is_number() ? row.at("error") : row.at("mesh_error");
-  return known_digits(row.at("value"), known.is_number() ? known.get<double>() : 0);
+// With the digits that its error leaves: the distance to the limit, which is uncertain itself, or the mesh's estimate.
+std::string value_text(const Json& figure, const Json& at) {
+  if (!at.at("value").is_number()) return "-";
+  const double value = at.at("value");
+  if (at.at("error").is_number()) {
+    const double uncertainty = figure.at("uncertainty").get<double>() / std::abs(figure.at("limit").get<double>());
+    return known_digits(value, std::max(std::abs(at.at("error").get<double>()), uncertainty));
+  }
+  return at.at("mesh_error").is_number() ? known_digits(value, at.at("mesh_error")) : fmt::format("{:.6g}", value);
 }
 
 std::string heading(const Json& figure) {
@@ -71,7 +78,7 @@ std::string convergence_text(const Json& table) {
       const Json& f = row.at("figures").at(name);
       out +=
           fmt::format("  {:>5} {:>5} {:>9} {:>13} {:>9} {:>6} {:>10} {:>9}{}\n", row.at("order").get<int>(),
-                      row.at("level").get<int>(), number(row.at("unknowns"), "{:.0f}"), value_text(f),
+                      row.at("level").get<int>(), number(row.at("unknowns"), "{:.0f}"), value_text(figure, f),
                       number(f.at("error"), "{:.1e}"), number(f.at("order"), "{:.2f}"),
                       number(f.at("mesh_error"), "{:.1e}"), number(f.at("cpu_seconds"), "{:.3g}"),
                       row.at("status") == "completed"

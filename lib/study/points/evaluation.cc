@@ -1,7 +1,8 @@
 #include "lib/study/points/evaluation.h"
 
-#include <limits>
+#include <fmt/format.h>
 
+#include "lib/core/digits.h"
 #include "lib/study/jobs/json_values.h"
 
 namespace orthodyn::study {
@@ -91,10 +92,10 @@ Json to_json(const EvaluationCost& cost) {
   return json;
 }
 
-double mesh_error_of(const EvaluationResult& result, const std::string& figure) {
+std::string known_value(const EvaluationResult& result, const std::string& figure, double value) {
   for (const auto& [name, share] : result.figure_errors)
-    if (name == figure) return share;
-  return result.mesh_error.value_or(std::numeric_limits<double>::quiet_NaN());
+    if (name == figure) return known_digits(value, share);
+  return fmt::format("{:.6g}", value);
 }
 
 Json to_json(const EvaluationResult& r) {

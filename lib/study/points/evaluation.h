@@ -49,8 +49,8 @@ struct EvaluationResult {
   std::vector<std::string> warnings;              // of the scene's set-up: slips, strain limits
 };
 
-// The mesh's error of a figure, as a share of it: its own, or that of the motion; NaN where none is known.
-double mesh_error_of(const EvaluationResult& result, const std::string& figure);
+// The value of a figure, in any unit, with the digits that its own error by the mesh leaves; six where none is known.
+std::string known_value(const EvaluationResult& result, const std::string& figure, double value);
 
 Json to_json(const EvaluationResult& result);
 EvaluationResult evaluation_from(const Json& json);

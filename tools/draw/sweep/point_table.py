@@ -6,6 +6,7 @@ from ..report import formatting
 from ..report.markup import joined, scrolling, tag
 from ..report.tables import caption
 from . import mesh
+from .answer import SAME
 
 
 @dataclass(frozen=True)
@@ -21,7 +22,10 @@ class Column:
 
     @property
     def constant(self):
-        return len(self.cells) > 1 and len(set(self.values or self.cells)) == 1
+        if not self.values:
+            return len(self.cells) > 1 and len(set(self.cells)) == 1
+        size = max(abs(v) for v in self.values)
+        return len(self.values) > 1 and max(self.values) - min(self.values) <= SAME * size  # false with nan
 
 
 def _percent(gap):
