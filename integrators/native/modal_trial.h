@@ -14,7 +14,7 @@ struct ModalTrial {
   long steps = 0;
 };
 
-// Runs `task` with the `modes` lowest modes and takes the steps that a run with these options takes; nothing is written.
+// Runs `task` with the `modes` lowest modes, the options and the step limits of a run; there are no outputs.
 // None if it takes more than `most_steps`. Everything is left out where these modes miss the motion that the initial state
 // starts.
 // Precondition: the model is linear and symmetric, and one process holds it. Throws ConfigError where modes cannot serve

@@ -19,8 +19,8 @@ namespace {
 using View = FemStateView;
 using Values = std::vector<double>;
 
-// What the values of several ranks make together. Of `smallest` and `largest` the second one, where there is one, tells
-// where the first one is; `same`: all ranks have them.
+// How per-rank values are reduced. `smallest` and `largest`: by the first value; a second one is the place of the first.
+// `same`: all ranks have the same values.
 enum class Together { sum, smallest, largest, same };
 
 struct Output {

@@ -28,15 +28,15 @@ class Term {
  public:
   virtual ~Term() = default;
 
-  // What it is, and on what: "gravity", "traction on x1". It names this part of the force (part_model.h).
+  // Kind and place of the term: "gravity", "traction on x1". Names this part of the force (part_model.h).
   virtual std::string name() const = 0;
 
-  // Its name, with how much there is of it, for `orthodyn check`: "springs: 4 of 200 N/m".
+  // Name with number and size, for `orthodyn check`: "springs: 4 of 200 N/m".
   virtual std::string description() const { return name(); }
   virtual std::size_t bytes() const { return 0; }
 
-  // Where several ranks hold the model: of a term of the whole mesh what one rank adds, with its nodes as they are
-  // numbered there. The sum over ranks is this term. Null if it cannot be divided.
+  // The part of this term that one rank adds, in that rank's numbering of nodes. The parts of all ranks add up to this
+  // term. Null if the term cannot be divided.
   virtual std::unique_ptr<Term> part(const Subdomain&) const { return nullptr; }
 
   virtual void add_force(const NodalState& s, NodalVector& f) const = 0;
@@ -48,10 +48,10 @@ class Term {
   // Whether its force depends on time alone, neither on positions nor on velocities; then it adds no tangent.
   virtual bool is_dead() const { return false; }
 
-  // What it exerts at the peak of its factor between s.t and `end` (s), on the body in state s.
+  // Adds the force at the time in [s.t, end] at which the time function is largest, on the body in state s. `end`: s.
   virtual void add_peak_force(const NodalState& s, double /*end*/, NodalVector& f) const { add_force(s, f); }
 
-  // s, in which that has the impulse of all that it exerts until `end`.
+  // Equivalent duration (s): the impulse from `start` to `end` divided by the peak force.
   virtual double seconds_at_peak(double start, double end) const { return end - start; }
 
   // The force between two states (DiscreteGradient in lib/ode/model.h): by default that of the middle, at rest,
@@ -72,7 +72,7 @@ class Term {
   // Adds to each node an upper bound of the row sums of its stiffness, N/m; elasticity has its own bound.
   virtual void add_stiffness_bound(Vector& /*row_sums*/) const {}
 
-  // Of the stiffest node of what touches and parts, N/m.
+  // Contact stiffness of the stiffest node, N/m; 0 for terms without contact.
   virtual double contact_stiffness() const { return 0; }
 
   virtual EnergyKind energy_kind() const { return EnergyKind::none; }

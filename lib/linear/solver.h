@@ -19,14 +19,13 @@ namespace orthodyn {
 
 enum class FactorStatus { ok, not_positive_definite, singular };
 
-// A turned out to be indefinite on the way to a solution.
+// Thrown by iterative solvers that find A indefinite.
 class IndefiniteMatrix : public RecoverableError {
  public:
   using RecoverableError::RecoverableError;
 };
 
-// How good a solution has to be: its error, relative to the solution in the norm of A, at most the larger one of
-// `relative` and the share that `absolute` is of the root mean square of x.
+// Relative error in the energy norm <= max(relative, absolute / rms(x)).
 struct SolveTolerance {
   double relative = 1e-10, absolute = 0;
 };
@@ -39,8 +38,8 @@ class LinearSolver {
   // memory does not suffice.
   virtual void analyze(const Pattern& pattern) = 0;
 
-  // Factors new values, one for each entry of the pattern. Anything but `ok` leaves no factor. Throws RunError when
-  // memory does not suffice.
+  // Factorises new values, one for each entry of the pattern. Without `ok` there is no factor. Throws RunError if memory
+  // does not suffice.
   virtual FactorStatus factor(const double* values) = 0;
 
   // Whether factor() finds every symmetric A that is indefinite. After analyze().
@@ -50,59 +49,58 @@ class LinearSolver {
   // RecoverableError where they do not converge, and IndefiniteMatrix; x is then what it was.
   virtual void solve(const ConstVectorRef& b, VectorRef x) = 0;
 
-  // Whether solutions are as good as their tolerance, and not to round-off. After analyze().
+  // True if solutions are accurate to a tolerance, false if to round-off. After analyze().
   virtual bool is_iterative() const { return false; }
-  // Of the next solutions of an iterative solver. After analyze().
+  // Tolerance of the next solutions of an iterative solver. After analyze().
   virtual void set_tolerance(const SolveTolerance&) {}
 
-  // Whether the next factor() would be better for the motions that A resists least, in the columns of n x 6.
+  // Whether rigid motions (n x 6, one in each column) would improve the next factor().
   virtual bool wants_rigid_motions() const { return false; }
   virtual void set_rigid_motions(const Eigen::MatrixXd&) {}
 
-  // How many eigenvalues of A are negative (Sylvester's law of inertia: of its pivots as many are), of the last factor
-  // of a solver for indefinite matrices; 0 of others.
+  // Number of negative eigenvalues of A at the last factor(), by Sylvester's law of inertia (the number of negative pivots).
+  // 0 for solvers of definite matrices.
   virtual int negative_eigenvalues() const { return 0; }
 
-  // Of the last factor of a solver for unsymmetric matrices; none where it does not tell. As eigenvalues come in conjugate
-  // pairs, an odd number of them is negative where the determinant is.
+  // Sign of the determinant of A at the last factor() of a solver for unsymmetric matrices; none if the solver cannot tell.
+  // Complex eigenvalues come in conjugate pairs, so a negative determinant means an odd number of negative eigenvalues.
   virtual std::optional<bool> has_negative_determinant() const { return std::nullopt; }
 
-  // Bytes taken at the peak of a factorisation: the factor and the solver's workspace. After analyze()
-  // a prediction.
+  // Peak memory of a factorisation in bytes, workspace included. After analyze() a prediction.
   virtual std::size_t factor_bytes() const = 0;
 
-  // What was chosen at analysis and since, e.g. "supernodal, nested dissection".
+  // Choices made since analyze(), such as "supernodal, nested dissection".
   virtual std::string description() const = 0;
 };
 
 struct SolverKind {
   std::string sentence;
-  bool takes_general;  // unsymmetric matrices too
-  // With the options of a SolverChoice. Null for one that SUNDIALS has of its own. Throws ConfigError for options that
-  // the solver does not know.
+  bool takes_general;  // also unsymmetric matrices
+  // Makes the solver with the options of a SolverChoice. Null for solvers that SUNDIALS provides. Throws ConfigError for
+  // unknown options.
   std::function<std::unique_ptr<LinearSolver>(const std::string& options)> make;
-  bool takes_options = false;    // others refuse them
-  std::string unavailable = {};  // why this build cannot make it
-  bool shares_the_work = false;  // takes the parts of matrices that several ranks have
+  bool takes_options = false;    // else options are refused
+  std::string unavailable = {};  // why this build does not have the solver; "" if it has
+  bool shares_the_work = false;  // works on matrices that are distributed over ranks
 };
 
-// For symmetric matrices on this pattern that may be indefinite, analysed: factor() is `ok` for them. L D L^T without
-// pivoting for size, which loses digits where a leading block of A is nearly singular.
+// An analysed L D L^T solver for symmetric matrices that may be indefinite: factor() is `ok` for them. There is no pivoting
+// for size, so digits are lost where a leading block of A is nearly singular.
 std::unique_ptr<LinearSolver> make_indefinite_solver(const Pattern& pattern);
 
-// By name. Written while the program and its plugins are loaded, only read afterwards.
+// Solvers by name. Written while the program and its plugins are loaded, read-only afterwards.
 std::map<std::string, SolverKind>& solver_registry();
 
-// Precondition: a solver of that name is in the registry, and SUNDIALS is not the one that has it. Throws ConfigError
-// if this build cannot make it, or for its options.
+// Precondition: the registry has a solver of that name, and it is not one of SUNDIALS. Throws ConfigError if this build does
+// not have the solver, and for unknown options.
 std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice);
 
-// The same, analysed, for matrices on this pattern, also where several ranks have parts of them; by the first of these
-// alone if the solver cannot share the work. Throws RunError when memory does not suffice.
+// The same, analysed for this pattern, which may be distributed over ranks. A solver that cannot share the work runs on the
+// first rank. Throws RunError if memory does not suffice.
 std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice, const Pattern& pattern);
 
-// A direct solver for matrices on this pattern, analysed: one that finds indefinite ones where it is symmetric. Throws
-// RunError when memory does not suffice.
+// A direct solver, analysed for this pattern; if the pattern is symmetric, the solver detects indefinite matrices. Throws
+// RunError if memory does not suffice.
 std::unique_ptr<LinearSolver> make_solver_for(const Pattern& pattern);
 
 }  // namespace orthodyn

@@ -17,10 +17,10 @@ class Material {
   virtual ~Material() = default;
   virtual double density() const { return density_; }  // kg/m^3
   virtual Stiffness stiffness() const = 0;             // positive definite
-  // None: how near it is to failure cannot be told.
+  // Empty if no strengths are given; failure criteria are then unavailable.
   virtual std::optional<Strength> strength() const { return strength_; }
 
-  // What of the input was changed to make it usable, one sentence each; empty if nothing was.
+  // Changes made to the input to make it usable, a sentence each.
   virtual std::vector<std::string> notes() const { return {}; }
 
  protected:

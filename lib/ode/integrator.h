@@ -38,38 +38,36 @@ class Integrator {
   // The solution at a time within the last step.
   virtual void interpolate(double t, State& out) const = 0;
 
-  // True where error control decides on the lengths of steps. They then are to end in time to see what the model does
-  // in time alone (Model::step_limits()).
+  // True if error control chooses the step sizes. Adaptive steps are also limited by Model::step_limits().
   virtual bool adaptive() const { return true; }
 
-  // False for a method whose steps may be long against the periods of the motion, between whose ends no polynomial has
-  // its accuracy: its steps are to end at the output times.
+  // False if interpolate() is less accurate than the steps, as between steps that span several periods of the motion. The
+  // caller then ends steps at the output times.
   virtual bool has_accurate_interpolation() const { return true; }
 
-  // A time, s, over which interpolate() is smooth where the last step is long against the motion; infinite where it is
-  // so over the whole step. Whoever looks into a step looks as often.
+  // Time (s) over which interpolate() is smooth; infinite if it is smooth over the whole last step. A caller that samples
+  // within a step takes samples no further apart.
   virtual double smooth_time() const { return std::numeric_limits<double>::infinity(); }
 
-  // The last step's middle, (q0 + q1)/2 with the mean velocity (q1 - q0)/h, of a method in whose energy balance powers
-  // are those there: its velocities of stiff modes alternate from step to step and would dissipate what was never lost.
-  // None: powers are to be integrated along interpolate().
+  // Mean state of the last step: (q0 + q1)/2 with velocity (q1 - q0)/h. For methods whose energy balance holds with the
+  // powers at that state: their velocities of stiff modes alternate in sign from step to step. None: powers are
+  // integrated along interpolate().
   virtual std::optional<State> mean_state() const { return std::nullopt; }
 
   virtual const Statistics& statistics() const = 0;
 
-  // Bytes that factorisations take, or will take, workspace included; and all else that the integrator
-  // holds once it has been started.
+  // Bytes of factorisations, workspace included, and of everything else that the integrator holds after start().
   virtual std::size_t factor_bytes() const { return 0; }
   virtual std::size_t bytes() const { return 0; }
 
-  // What was decided that the input left open: (key, value) pairs such as ("max_order", "5").
+  // Values chosen for keys that the input left open: pairs such as ("max_order", "5").
   virtual std::vector<std::pair<std::string, std::string>> decisions() const { return {}; }
 
-  // What of the motion so far should not be taken on trust: a sentence each, with what to do.
+  // Warnings about the motion so far: a sentence each, with a remedy.
   virtual std::vector<std::string> doubts() const { return {}; }
 };
 
-// Into how many equal parts whoever looks into a span h within the last step is to divide it.
+// Number of equal parts into which to divide a span h (s) within the last step for samples.
 inline double smooth_parts(const Integrator& integrator, double h) {
   return std::ceil(h / std::min(h, integrator.smooth_time()));
 }

@@ -6,13 +6,13 @@
 // Units: q in m, v in m/s, f in N, M in kg, D in N s/m, K in N/m, t in s, for a mechanical model. Vectors have n
 // entries; matrices are values on pattern(), as many as its row indices.
 //
-// Several ranks may hold parts of one model. Vectors then are parts of vectors, with the n unknowns of this rank, and
-// pattern() has unknowns of other ranks as well, after these; what functions compute is of the whole model, and they
-// are collective: all ranks call them in the same order. RecoverableErrors come on all ranks. Whoever sums over entries
-// of a vector, or takes the largest, does so by space().
+// A model may be distributed over several MPI ranks. Each vector then holds the n unknowns of this rank; pattern() also has
+// unknowns of other ranks, numbered after these. Functions are collective: all ranks call them in the same order, the
+// result is that of the whole model, and a RecoverableError is thrown on all ranks. Sums and maxima over the entries of a
+// vector go through space().
 //
-// Thread safety: const functions may run at the same time, each on its own outputs. A model does not change while it
-// is integrated: the same arguments give the same results.
+// Thread safety: const functions may run concurrently, each on its own outputs. A model does not change during an
+// integration: the same arguments give the same results.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@
 
 namespace orthodyn {
 
-// What is known of the physics of a model without computing anything.
+// Properties of a model that are known without any computation.
 struct Traits {
   bool linear = false;          // K and D are constant: they depend neither on t nor on q or v
   bool damped = false;          // stiffness-proportional damping everywhere: fast vibrations die out soonest
@@ -39,7 +39,7 @@ struct Traits {
   bool conservative = true;     // total energy is constant when nothing is damped
   bool dissipative = false;     // power.dissipated can differ from zero
   bool loaded = false;          // power.loads can differ from zero
-  bool smooth = true;           // f has no kinks in q: nothing touches and parts
+  bool smooth = true;           // f has no kinks in q: there is no contact
   bool exact_stiffness = true;  // K is -df/dq, or its symmetric part, and no approximation
 };
 
@@ -49,8 +49,8 @@ struct Weights {
 
 // K and D at one state, from Model::linearize(). `damping` is empty when D is a multiple of M.
 //
-// May be handed to linearize() again for another state or model: it records whose constant matrices it holds.
-// Precondition: nobody else changes the values in between.
+// May be passed to linearize() again for another state or model: it records whose constant matrices it holds.
+// Precondition: the values are not changed in between.
 struct Linearization {
   std::vector<double> stiffness, damping;
 
@@ -65,8 +65,8 @@ struct Linearization {
 class DiscreteGradient {
  public:
   virtual ~DiscreteGradient() = default;
-  // f in N. Loads are taken at the middle of the times, forces that depend on velocities in the middle state with v.
-  // Throws RecoverableError where it does not exist.
+  // f in N. Loads are evaluated at the mean time, forces that depend on velocities at the mean state with velocity v.
+  // Throws RecoverableError if the force does not exist.
   virtual void mean_force(double t0, const ConstVectorRef& q0, double t1, const ConstVectorRef& q1,
                           const ConstVectorRef& v, VectorRef f) const = 0;
 };
@@ -76,31 +76,31 @@ class Model : public OutputSource {
   // n.
   virtual int num_dofs() const = 0;
 
-  // The ranks that hold the model, and how many unknowns they have together; null, and n, where it is not in parts.
+  // The ranks that hold the model, and their total number of unknowns; null and n for a model of one process.
   virtual const Ranks* ranks() const { return nullptr; }
   virtual Eigen::Index num_dofs_of_all() const { return num_dofs(); }
   VectorSpace space() const { return {ranks(), num_dofs_of_all()}; }
-  // Of a vector of all unknowns, in the order that they have where one process holds the model, this rank's part.
+  // This rank's part of a vector of all unknowns. `all` has the numbering of a model of one process.
   virtual Vector part_of(const Vector& all) const { return all; }
 
   virtual const Traits& traits() const = 0;
 
-  // f(t, q, v), N. Throws RecoverableError where it cannot be evaluated: a smaller step may help.
+  // f(t, q, v), N. Throws RecoverableError if it cannot be evaluated; a smaller step may help.
   virtual void force(double t, const ConstVectorRef& q, const ConstVectorRef& v, VectorRef f) const = 0;
 
   // The pattern shared by M, D, K and A. It does not change.
   virtual const Pattern& pattern() const = 0;
 
-  // K and D at a state, exact or by the Gauss-Newton part that is positive semidefinite. Where traits().linear holds
-  // and `out` has this model's K and D already, nothing is computed. Throws RecoverableError as force() does; `out` may
-  // be handed in again afterwards.
+  // K and D at a state: exact, or the positive semidefinite Gauss-Newton part. Computes nothing if traits().linear holds
+  // and `out` already has this model's K and D. Throws RecoverableError as force() does; `out` may be passed again
+  // afterwards.
   void linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                  Linearization& out) const;
 
-  // K at q as Newton's method has it for stresses and displacements as unknowns of their own, after a step from
-  // q_before at t_before: with the stresses that K predicts there for q in place of those of q. Where a straight step
-  // stretches a body that bends it keeps definite, and Newton's method contracts, over far longer steps. By default,
-  // and where both states are the same, the exact K. `out` has no damping. Throws as linearize() does.
+  // K at q with the stresses that K at q_before predicts for q, in place of the stresses of q: the matrix of Newton's
+  // method for a mixed formulation, in which stresses are unknowns. A straight step stretches a body that bends; this K
+  // stays definite, and Newton's method converges, over far longer steps. The default, and the result for equal states, is
+  // the exact K. `out` has no damping. Throws as linearize() does.
   void linearize_mixed(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
                        Linearization& out) const;
 
@@ -118,31 +118,30 @@ class Model : public OutputSource {
   // x <- M^-1 x. Throws RunError if M is not positive definite.
   virtual void solve_mass(VectorRef x) const = 0;
 
-  // The motions that K resists least about q: those of a rigid body, n x 6, displacements of any size.
-  // Empty where the model knows none.
+  // Rigid motions about q, which K resists least: n x 6 displacements of any size. Empty if the model has none.
   virtual Eigen::MatrixXd rigid_motions(const ConstVectorRef& /*q*/) const { return {}; }
 
-  // An upper bound of the largest angular frequency about rest, rad/s; 0 if there is none at hand.
+  // Upper bound of the largest angular frequency about rest, rad/s; 0 if unknown.
   virtual double frequency_bound() const { return 0; }
 
-  // Null if the model has none; else it lives as long as the model.
+  // Null if the model has none. Lives as long as the model.
   virtual const DiscreteGradient* discrete_gradient() const { return nullptr; }
 
-  // The parts that the force consists of, by name ("gravity"), and the model that has the same mass and only
-  // some of them; this model must outlive it. Precondition: the names are among force_parts().
+  // Names of the parts of the force ("gravity"), and a model with the same mass and some of the parts, which this model
+  // must outlive. Precondition: the names are among force_parts().
   virtual std::vector<std::string> force_parts() const { return {}; }
   virtual std::unique_ptr<Model> only(const std::vector<std::string>& parts) const;
-  // Those of them that load the model: in statics a load factor multiplies them (lib/ode/load_path.h). None: not known.
+  // The parts that are loads: in statics the load factor multiplies them (lib/ode/load_path.h). None if unknown.
   virtual std::optional<std::vector<std::string>> load_parts() const { return std::nullopt; }
 
-  // Times in (start, end), s, where f is not smooth: multistep methods restart there. Ascending.
+  // Times (s) in (start, end) at which f is not smooth, ascending: integrators restart there.
   virtual std::vector<double> breakpoints(double start, double end) const;
 
-  // Of methods with error control, between two times, s: what f does in time alone may fall between two of their looks.
+  // Limits of adaptive steps between two times (s), so that no step misses a short change of f in time.
   virtual StepLimits step_limits(double /*start*/, double /*end*/) const { return {}; }
 
  private:
-  // A number that no other model has or had: a copy has its own.
+  // A number that is unique to this model; a copy gets its own.
   class Number {
    public:
     Number();
@@ -168,8 +167,7 @@ class Model : public OutputSource {
   Number number_;
 };
 
-// The parts of the model's force that are no loads, with its mass; null where load_parts() are not known. `model` must
-// outlive it.
+// The model without its loads; null if load_parts() is unknown. `model` must outlive the result.
 std::unique_ptr<Model> without_loads(const Model& model);
 
 }  // namespace orthodyn

@@ -26,7 +26,7 @@ class Agenda {
   void skip_until(double last, double tiny) {
     while (next_ < times_.size() && times_[next_] <= last + tiny) ++next_;
   }
-  // A plan that differs by round-off from the earlier one must not ask for what lies behind.
+  // Clamps output times to the resume time.
   void begin_at(double t) {
     for (double& time : times_) time = std::max(time, t);
   }

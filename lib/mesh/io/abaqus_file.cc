@@ -616,8 +616,9 @@ class AbaqusReader {
     std::vector<std::string> skipped;
     for (const auto& [what, place] : file_.skipped) skipped.push_back(what);
     if (!skipped.empty())
-      warnings.push_back(
-          fmt::format("{}: only mesh and materials are read; skipped: {}", path, join(skipped)));
+      warnings.push_back(fmt::format("{}: only mesh and materials are read here; a scene has its own clamps and loads "
+                                     "(`orthodyn init --from` takes over those of the file). Skipped: {}",
+                                     path, join(skipped)));
   }
 
   struct Part {

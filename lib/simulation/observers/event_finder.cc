@@ -71,7 +71,7 @@ std::vector<Crossing> EventFinder::find(double begin, double end, const OutputSo
       const bool passed = side_[k] != 0 && sign(now.excess[k]) != side_[k];
       const bool upward = side_[k] < 0;
       if (passed && (event.direction == Direction::both || upward == (event.direction == Direction::up))) {
-        // What round-off shows at the step's beginning was seen before.
+        // A sign change already present at the start is treated as a crossing there.
         const double at = sign(last.excess[k]) == side_[k] ? root(excess_at, last.t, last.excess[k], t, now.excess[k])
                                                            : last.t;
         interpolate(at, state);

@@ -1,5 +1,5 @@
-// Is told of each state while a model is integrated: writes frames, curves, progress. What is computed of a state is
-// shared by all observers that are told of it.
+// An observer is called with the states of a run; it writes frames, tables or progress. Quantities computed from a state are
+// shared by all observers.
 #pragma once
 
 #include "lib/ode/event.h"
@@ -34,13 +34,12 @@ class Observer {
   // When the run is over, however it ended.
   virtual void on_end() noexcept {}
 
-  // Puts down what is needed to go on from here in another process: sums, extremes, lengths of files.
-  // What has been written so far is on the disk afterwards, as far as it matters then. Asked between
-  // steps only. Throws RunError.
+  // Saves what another process needs to continue from here: sums, extremes, lengths of files. Files written so far are
+  // flushed to the disk. Called between steps only. Throws RunError.
   virtual void save(Archive&) {}
 
-  // Takes that back, and sees that the files are at least as long as then. Changes nothing on the
-  // disk. Throws ConfigError.
+  // Restores what save() has saved, and checks that the files are at least as long as then. Changes no file. Throws
+  // ConfigError.
   virtual void restore(const Archive&) {}
 };
 
