@@ -68,7 +68,8 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public Automatic
                {.range = {0, 1, true, true}})
           .key("modes", &C::modes, "How many modes are kept by modal, if that is the method; written by the program.",
                {.range = {1}})
-          .key("kept", &C::kept, "Of modal: what was kept, and what that leaves out, in words; written by the program.")
+          .key("kept", &C::kept, "Modes kept by modal and the share of the motion that they leave out, if that is the method; written by the "
+               "program.")
           .check([](const C& options, const Config& config) { options.check_method(config); });
     }();
     return s;
@@ -77,7 +78,7 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public Automatic
     return method_facts("that of the chosen method", "that of the chosen method", "what the chosen method conserves",
                         "docs/speed-against-error.md");
   }
-  // As all do that it chooses from there.
+  // On ranks only methods that run there are chosen; a recorded `modal` is replaced.
   bool runs_on_ranks() const override {
     return !method || *method == "modal" || Registry<IntegratorChoice>::entries().at(*method).make()->runs_on_ranks();
   }
@@ -96,7 +97,7 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public Automatic
   }
 
  private:
-  // A recorded choice of modes is of no use where the model has become another one, or is on several ranks.
+  // Whether the recorded method is kept. Modes are not if the model is no longer linear, or is distributed over ranks.
   bool is_settled(const Model& model) const { return method && (*method != "modal" || allows_modes(model)); }
 
   MethodChoice choose(const Model& model, const Task& task, const Scales& own) const {

@@ -20,9 +20,9 @@ namespace {
 // Measured: a force takes about 2.2 ns per entry of the tangent's lower triangle, a tangent five forces.
 constexpr double kForce = 2.2, kTangent = 5;
 
-// Of tr_bdf2 on q'' = -omega^2 q with the amplitude as position scale, measured at rtol 1e-2 ... 1e-5 over 10 ... 100
-// rad: what each radian adds to the error, of the motion, at rtol 1e-3; it goes with rtol^(2/3). The error that is
-// accepted is a multiple of rtol.
+// Error of tr_bdf2 per radian of q'' = -omega^2 q, relative to the amplitude, at rtol 1e-3 with the amplitude as position
+// scale: measured at rtol 1e-2 ... 1e-5 over 10 ... 100 rad, where it goes with rtol^(2/3). The accepted error is
+// kMostPhaseError times rtol.
 constexpr double kPhaseError = 1.2e-3, kMostPhaseError = 20;
 
 double phase_error_of_order_two(const CostEstimate& cost, double rtol) {
@@ -36,12 +36,12 @@ double phase_error_of_order_two(const CostEstimate& cost, double rtol) {
 // step, and tangents with their factors for each step.
 constexpr double kSteps = 7, kIterations = 4, kTangents = 0.3;
 
-// By the order of the method's error: the cube root of rtol, or its fifth root.
+// Number of steps of a method of this order for a phase in rad.
 double steps_for(double phase, double rtol, double order = 2) {
   return 10 + kSteps * phase * std::pow(1e-3 / rtol, 1 / (order + 1));
 }
 
-// Until the motion is damped out, unless something drives it.
+// Phase (rad) until the motion is damped out; that of the whole run if loads drive it.
 double moving_phase(const CostEstimate& cost) {
   constexpr double kDecays = 5;
   const double phase = std::max(cost.phase, cost.known_phase);

@@ -21,7 +21,7 @@ struct CostEstimate {
   double solve_cost = 0, factor_cost = 0;  // of an implicit step's solve and factorisation, in forces
   bool has_factor = true;                  // false where an iterative method solves
   bool smooth = true;                      // no contact
-  bool driven = false;                     // by loads or supports that vary in time
+  bool driven = false;                     // loads or supports vary in time
 };
 
 // At task.initial, by which the model's stiffness is that of the whole run. `linear_solver` is one of n x n matrices

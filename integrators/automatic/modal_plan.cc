@@ -16,7 +16,7 @@ constexpr double kMostShare = 0.2;        // of the unknowns
 constexpr int kSmall = 100;               // unknowns of which all modes are taken if need be
 constexpr double kMostNumbers = 5e7;      // in the vectors of Lanczos' method
 constexpr double kVectors = 2.5;          // of Lanczos' method, for each mode
-constexpr double kOrthogonal = 0.3;       // forces per entry of the matrix, of the product of two vectors: measured
+constexpr double kOrthogonal = 0.3;       // cost of an inner product, in forces, times non-zeros over unknowns: measured
 constexpr double kForces = 8;             // and solutions in a step
 constexpr double kProducts = 2;           // of all modes with a vector, for each force
 constexpr double kWorthIt = 0.5;          // of the other method's cost
@@ -48,8 +48,8 @@ int most_modes(const Model& model) {
   return std::min({kMost, static_cast<int>(kMostShare * n), static_cast<int>(kMostNumbers / kVectors / n)});
 }
 
-// f(t, q, v) = f(t, 0, 0) - K q - D v at a state in no symmetry, K and D those of rest: a model of a user may call itself
-// linear and have only approximate tangents.
+// Checks f(t, q, v) = f(t, 0, 0) - K q - D v at a random state: a user's model may claim to be linear although its tangents are
+// approximate.
 bool is_linear_as_it_says(const Model& model, const Task& task) {
   const Scales scales = task.scales();
   const auto n = static_cast<Eigen::Index>(model.num_dofs());
@@ -81,7 +81,7 @@ std::optional<MethodChoice> search(const Model& model, const Task& task, const C
   const int most = most_modes(model);
   double spent = 0;
   for (int modes = std::min(kFewest, most); modes > 0; modes = std::min(2 * modes, most)) {
-    // What is found is done once more by the run.
+    // The run repeats this search and the steps of the trial.
     const double left = worth - spent - 2 * of.search(modes);
     if (!(left > 0)) return std::nullopt;
     const auto most_steps = static_cast<long>(std::min(left / 2 / of.step(modes), kMostSteps));
@@ -108,7 +108,7 @@ std::optional<MethodChoice> plan_modal(const Model& model, const Task& task, con
   if (!allows_modes(model) || !cost.has_factor) return std::nullopt;
   try {
     if (is_linear_as_it_says(model, task)) return search(model, task, cost, control, kWorthIt * other.cost);
-  } catch (const ConfigError&) {  // its modes cannot serve; the other method does
+  } catch (const ConfigError&) {  // modes cannot be used; `other` can
   } catch (const RunError&) {
   } catch (const RecoverableError&) {
   }

@@ -37,6 +37,11 @@ std::optional<Vector> odd_part(const std::function<std::optional<Vector>(const V
 
 }  // namespace
 
+double VibrationDrift::after(double duration) const {
+  const double x = decay * duration;
+  return rate * duration * (x > 0 ? -std::expm1(-x) / x : 1);
+}
+
 Linearity::Linearity(const FemModel& model, Terms terms, double span)
     : model_(model), terms_(std::move(terms)), exact_(model.parts().elastic.size()),
       mass_(std::isfinite(span) ? 1 / (span * span) : 0) {

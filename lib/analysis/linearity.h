@@ -27,6 +27,9 @@ struct LinearityError {
 // decay of free vibrations of that shape by the model's damping, 1/s.
 struct VibrationDrift {
   double rate = 0, decay = 0;
+
+  // What has accumulated after `duration` (s), sqrt(kg) m: the solution of e' + decay e = rate with e(0) = 0.
+  double after(double duration) const;
 };
 
 class Linearity {

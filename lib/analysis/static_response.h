@@ -20,8 +20,8 @@ struct StaticResponse {
   bool known = false;    // whether there is a displacement; of several ranks some may have no unknowns
 };
 
-// The share of twice the static response that a motion reaches: 1, or less where the loads are blows; then three times
-// the root mean square that they leave.
+// Largest displacement of the motion over twice the static response: min(1, 1.5 struck / max |u|), without dimension. Below 1
+// for short blows, where it may underestimate the motion of a light part.
 double share_reached(const VectorSpace& space, const StaticResponse& statics);
 
 // From the initial state to the time `end`, s.

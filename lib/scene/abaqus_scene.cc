@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "lib/config/values.h"
 #include "lib/core/words.h"
@@ -114,27 +115,25 @@ std::string comment(const char* what, const std::vector<std::string>& names) {
   return names.empty() ? "" : fmt::format("# {}: {}\n", what, join(names));
 }
 
-// Names of the mesh that the file itself has, and those that its reader made of the numbers in a condition.
-struct Names {
-  std::vector<std::string> of_file, made;
-
-  template <class Thing>
-  void add(const std::map<std::string, Thing>& things, const auto& in_mesh) {
-    std::set<std::string> own;
-    for (const auto& [key, thing] : things)
-      if (thing.of_condition) own.insert(thing.name);
-    of_file.clear();
-    for (const std::string& name : names_of(in_mesh)) (own.contains(name) ? made : of_file).push_back(name);
-  }
-};
+// Names in the mesh, by whether they are the file's own or were made for the numbers in a condition.
+template <class Thing>
+std::vector<std::string> names_in(const auto& in_mesh, const std::map<std::string, Thing>& things, bool made) {
+  std::set<std::string> of_conditions;
+  for (const auto& [key, thing] : things)
+    if (thing.of_condition) of_conditions.insert(thing.name);
+  std::vector<std::string> names = names_of(in_mesh);
+  std::erase_if(names, [&](const std::string& name) { return of_conditions.contains(name) != made; });
+  return names;
+}
 
 std::string names_in_comments(const AbaqusFile& deck, const LoadedMesh& loaded) {
-  Names names;
-  names.add(deck.surfaces, loaded.mesh.surfaces);
-  std::string text = "\n# What the file has, for clamps, loads and probes.\n" + comment("surfaces", names.of_file);
-  names.add(deck.node_sets, loaded.mesh.node_sets);
-  text += comment("node sets", names.of_file);
-  return text + comment("not in the file, but made of the nodes and faces that its conditions list", names.made);
+  const auto& [surfaces, node_sets] = std::tie(loaded.mesh.surfaces, loaded.mesh.node_sets);
+  std::vector<std::string> made = names_in(surfaces, deck.surfaces, true);
+  for (auto& name : names_in(node_sets, deck.node_sets, true)) made.push_back(std::move(name));
+  return "\n# What the file has, for clamps, loads and probes.\n" +
+         comment("surfaces", names_in(surfaces, deck.surfaces, false)) +
+         comment("node sets", names_in(node_sets, deck.node_sets, false)) +
+         comment("not in the file, but made of the nodes and faces that its conditions list", made);
 }
 
 }  // namespace

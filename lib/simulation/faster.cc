@@ -29,7 +29,7 @@ std::vector<std::string> changes_for(const Setup& setup) {
   return changes;
 }
 
-// Without the keys that the program or the user has set for the method of now.
+// Replaces the section `integrator`: its keys belong to the present method.
 Config changed(const Setup& setup) {
   Config config = setup.config.copy().resolving();
   if (!setup.built.model->traits().linear) config.set("elasticity.kinematics", std::string("linear"));
@@ -66,7 +66,7 @@ std::optional<FasterWay> faster_way(const Setup& setup, const RunCost& cost) try
       setup.built.model->num_dofs() > kLargestForSlips)
     return std::nullopt;
   return with_changes(setup, cost);
-} catch (const ConfigError&) {  // the scene as it is has its own sentences
+} catch (const ConfigError&) {  // the changed scene is only a proposal
   return std::nullopt;
 } catch (const RunError&) {
   return std::nullopt;
@@ -92,9 +92,7 @@ double error_of_linear_kinematics(const Setup& linear) {
   const double omega = std::sqrt(statics.work / statics.displacement.dot(momentum));
   model.multiply_mass(all, momentum);
   const VibrationDrift drift = linearity.drift(end, half, half, omega);
-  const double decay = drift.decay * (end - start);
-  const double phase = drift.rate * (end - start) * (decay > 0 ? -std::expm1(-decay) / decay : 1);
-  return linearity.error(end, all).displacement + phase / std::sqrt(all.dot(momentum));
+  return linearity.error(end, all).displacement + drift.after(end - start) / std::sqrt(all.dot(momentum));
 }
 
 }  // namespace orthodyn

@@ -1,5 +1,4 @@
-// A faster way to the same motion: linear kinematics where they are accurate enough, and the method that `auto` takes
-// then, modes where they serve.
+// A faster set-up of a scene: linear kinematics if they are accurate enough, and the integrator that `auto` then chooses.
 #pragma once
 
 #include <optional>
@@ -11,24 +10,23 @@
 namespace orthodyn {
 
 struct FasterWay {
-  std::vector<std::string> changes;  // of the scene: "elasticity.kinematics: linear"
-  std::string method;                // which `auto` takes then: "modal, 40 modes"
-  double now = 0, then = 0;          // s, of the run as it is and with the changes, about
-  // Error of the motion by linear kinematics, relative, about; none where the scene has them already.
-  std::optional<double> error = {};
+  std::vector<std::string> changes;  // to the scene: "elasticity.kinematics: linear"
+  std::string method;                // chosen by `auto` after the changes: "modal, 40 modes"
+  double now = 0, then = 0;          // estimated time of the run without and with the changes, s
+  std::optional<double> error = {};  // relative error by linear kinematics; none if the scene has them already
 
-  // Whether it is worth a word: it takes a third of the time at most and costs less than 0.02 of the motion.
+  // True if the run takes at most a third of the time and the error is at most 0.02.
   bool pays() const;
 };
 
-// The changes that `setup`, a dynamic scene, allows, whether they pay or not; `cost` is that of its run. Builds the changed
-// scene, chooses its method and measures its terms. None where there is nothing to change, where the changed scene is not
-// linear or cannot be set up, and for models of more than 30,000 unknowns.
+// Builds the scene of `setup` with these changes, lets `auto` choose a method and measures the cost of the terms. Returns the
+// result whether or not it pays. None for static scenes, if there is nothing to change, if the changed scene is not
+// linear or cannot be set up, and above 30,000 unknowns. `cost`: that of the run of `setup`.
 std::optional<FasterWay> faster_way(const Setup& setup, const RunCost& cost);
 
-// Error of the motion, relative, about, if a scene with linear kinematics had corotational ones: at the largest displacement
-// that its loads reach, and what adds up in vibrations about half of that. Infinite where the motion is not that of loads
-// on a body at rest, or no linear response is known.
+// Estimated relative error of the motion by the linear kinematics of the scene `linear`: the error at the largest displacement
+// under its loads, plus the error that accumulates in a vibration of half that amplitude. Infinite if the body does not
+// start at rest in its rest shape, if supports move, and if no linear response is known.
 double error_of_linear_kinematics(const Setup& linear);
 
 }  // namespace orthodyn

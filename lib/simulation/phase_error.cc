@@ -58,9 +58,7 @@ void PhaseError::take_in(Linearity& linearity) {
   if (frequency() > 0) {
     const VibrationDrift drift =
         linearity.drift(window_.t, window_.mean, window_.farthest - window_.mean, frequency());
-    const double decay = drift.decay * window_.duration;
-    error_ *= std::exp(-decay);
-    error_ += drift.rate * window_.duration * (decay > 0 ? -std::expm1(-decay) / decay : 1);
+    error_ = error_ * std::exp(-drift.decay * window_.duration) + drift.after(window_.duration);
     largest_error_ = std::max(largest_error_, error_);
   }
   skip();

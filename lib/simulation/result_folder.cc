@@ -59,8 +59,10 @@ ResultFolder::ResultFolder(fs::path path, Earlier earlier, std::function<void(co
     throw ConfigError(path_.string(), "holds files that are no result of a run; use --out with another folder");
   lock();
   if (is_unused(path_)) return;
-  if (earlier_ != Earlier::keep) remove_partial_files(path_);
-  if (earlier_ == Earlier::resume) consider_resuming();
+  if (earlier_ == Earlier::resume) {
+    remove_partial_files(path_);
+    consider_resuming();
+  }
   if (earlier_ == Earlier::keep) refuse_earlier_result();
 }
 

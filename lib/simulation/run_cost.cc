@@ -85,7 +85,7 @@ CostRange adaptive_steps(const Setup& setup) {
   return {fewest / kSpread, std::sqrt(fewest * about) * kSpreadOfContact};
 }
 
-// Steps of modal end where a load changes: one where there is none, and about 500 of one that varies.
+// Number of steps of modal: one or two with constant loads, 50 to 1000 with loads that vary in time.
 CostRange steps_of_modes(const FemModel& model) {
   constexpr double kFewest = 50, kMost = 1000;
   return model.traits().time_dependent ? CostRange{kFewest, kMost} : CostRange{1, 2};

@@ -38,7 +38,7 @@ struct RunCost {
 // seconds.
 RunCost run_cost(const Setup& setup, const std::vector<TermCost>& costs);
 
-// Whether an integrator of a scene is `modal`, or `auto` that has taken it.
+// Whether the integrator made from `config`, a scene, is `modal` or `auto` with that choice.
 bool takes_modes(const Integrator& integrator, const Config& config);
 
 // "2 to 40 min"; of ends far apart "0.3 s to 40 min".

@@ -111,7 +111,7 @@ TEST(AbaqusDeck, EveryNodeThatASetListsMustExist) {
   EXPECT_CONTAINS(join(warnings), "element set \"E\" lists 1 element that no *ELEMENT defines");
 }
 
-// Also where nothing uses the set, and whatever the order of the names is.
+// A set that contains itself is refused even if nothing uses the set, whichever of its sets the file has first.
 TEST(AbaqusDeck, ASetThatContainsItselfIsRefusedByNameAndLine) {
   const auto circle = [](const std::string& sets) { return refusal(kDeck + "*SOLID SECTION, ELSET=ALL\n" + sets); };
   EXPECT_CONTAINS(circle("*ELSET, ELSET=_A\n1, _B\n*ELSET, ELSET=_B\n2, _A\n"),

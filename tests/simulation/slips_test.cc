@@ -445,7 +445,7 @@ TEST(ShippedScenes, CauseNoFalseAlarm) {
         for (auto& warning : response_slips(config, scene, built, statics)) warnings.push_back(warning);
       }
       ++count;
-      // Cases of a few elements, which are judged by what they conserve, are not told how fast they turn.
+      // Stability cases have few elements and are judged by conserved quantities: their moments of inertia do not matter.
       if (std::string(folder) == "stability/cases")
         std::erase_if(warnings, [](const std::string& w) { return w.find("moment of inertia") != std::string::npos; });
       const auto found = kMeant.find(entry.path().stem().string());

@@ -100,14 +100,14 @@ Vector mass_times(const FemModel& model, const Vector& x) {
   return y;
 }
 
-// One column for each node; the first nodes are those of the coarse mesh, with the same numbers.
+// Values of an output, one column per node. The finer mesh has the nodes of the coarse mesh first, in the same order.
 Eigen::MatrixXd nodal_values(const FemModel& model, const std::string& field, const State& state) {
   const auto values = model.evaluate(field, state);
   const auto nodes = static_cast<Eigen::Index>(model.parts().mesh.nodes.size());
   return Eigen::Map<const Eigen::MatrixXd>(values.data(), std::ssize(values) / nodes, nodes);
 }
 
-// Of one field at some nodes, between the coarse elements and the finer ones.
+// Errors of one field at some nodes: differences between the coarse and the finer elements, extrapolated.
 std::vector<FieldError> field_errors(const FinerModel& finer, const State& coarse, const State& fine,
                                      const std::string& field, const std::vector<int>& nodes) {
   constexpr double kOfLargest = 0.1;

@@ -13,11 +13,11 @@
 
 namespace orthodyn {
 
-// Outputs of the model, such as nodal_stress, and nodes at which they are asked for.
+// For each output of the model, such as nodal_stress, the nodes at which its error is wanted.
 using NodesByField = std::map<std::string, std::vector<int>>;
 
-// In the field's unit; a norm over its components. `scale` is the size of the field at the node, or a tenth of the largest
-// in the body where that is larger.
+// Norms over the components of a field at a node, in the field's unit. `scale`: the norm of the field there, at least a tenth
+// of its largest norm in the body.
 struct FieldError {
   double scale = 0, error = 0;
 };
@@ -25,7 +25,7 @@ struct FieldError {
 struct StateError {
   double energy = 0;                // J, elastic, of the error
   std::vector<Vec3> displacements;  // m, true less computed, of the nodes that are asked for
-  std::map<std::string, std::vector<FieldError>> fields;  // of each node; without fields that have no values there
+  std::map<std::string, std::vector<FieldError>> fields;  // for each wanted node; fields without values are absent
 };
 
 // The response of the finer elements to what is out of balance in them: of a linear model in equilibrium the difference

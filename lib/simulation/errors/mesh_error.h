@@ -15,15 +15,15 @@ namespace orthodyn {
 // From this share of the elastic energy on a mesh is called coarse.
 inline constexpr double kCoarseMesh = 0.05;
 
-// Of what a probe records beside displacements and velocities, in its unit: its scale and how far the mesh puts it off,
-// as FieldError has them.
+// Error by the mesh of a field that a probe records, other than displacement and velocity; `scale` and `error` as in
+// FieldError.
 struct ProbedError {
   std::string probe, field, unit;
   double scale = 0, error = 0;
   double share() const { return scale > 0 ? error / scale : 0; }
 };
 
-// From this share of a stress on a mesh is called coarse for it.
+// Above this relative error of a probed stress or strain the mesh is reported as coarse.
 inline constexpr double kCoarseStress = 0.1;
 
 struct MeshError {

@@ -79,7 +79,7 @@ bool is_steady(const Subject& subject, const Vec3& last, double until) {
   return after_start > 0 && last.norm() > held_by_each_other && smallest_along > largest / 2;
 }
 
-// Of the input: `loads` and the terms that push, whatever the body does; "" if there are none.
+// File and line of the scene's loads and of each of its terms; "" if there are none.
 std::string places_of_loads(const Subject& subject) {
   std::string places = subject.scene.loads.empty() ? "" : subject.config.at("loads").where();
   if (!subject.config.has("terms")) return places;

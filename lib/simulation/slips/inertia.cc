@@ -1,4 +1,4 @@
-// Bodies that are free to turn, whose lumped masses have other moments of inertia than the body itself.
+// Free bodies that turn, whose lumped masses have wrong moments of inertia.
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@ namespace orthodyn::slip {
 namespace {
 
 constexpr double kFarOff = 0.02;  // of a principal moment of inertia
-constexpr double kTurns = 0.05;   // rad, in the run: less turning shows in nothing
+constexpr double kTurns = 0.05;   // rad, in the run: smaller rotations are not visible
 
 // Second moments of a mass about its centre, integral of rho x x^T, kg m^2.
 struct Moments {

@@ -70,7 +70,8 @@ std::string shown_factor(double x);
 // m/s, of the fastest wave in a material: sqrt(max C_ii / density).
 double fastest_wave(const Material& material);
 
-// Whether nothing holds the body: no clamp, no moved support, and no term but those that push it whatever it does.
+// True if the body can move freely: the scene has no clamps, no moved supports, and no terms but loads (point_load,
+// nodal_forces, pressure).
 bool is_free(const Subject& subject);
 
 // m, from a point to the box.
