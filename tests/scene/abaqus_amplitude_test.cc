@@ -45,6 +45,8 @@ TEST(AbaqusAmplitude, OfALongTableStandsOnSeveralLines) {
 TEST(AbaqusAmplitude, IsOverTheTimeOfTheFirstStep) {
   const std::string load = "*CLOAD, AMPLITUDE=Pulse\n7, 1, 2\n";
   EXPECT_CONTAINS(brick(kPulse + "*STEP\n*STATIC\n0.1, 0.25, 1e-5\n" + load).text, "\ntime: {end: 0.25} ");
+  for (const std::string procedure : {"*VISCO, CETOL=1e-3", "*COUPLED TEMPERATURE-DISPLACEMENT, DELTMX=1."})
+    EXPECT_CONTAINS(brick(kPulse + "*STEP\n" + procedure + "\n0.1, 0.25\n" + load).text, "\ntime: {end: 0.25} ");
   EXPECT_CONTAINS(brick(kPulse + "*STEP\n*STATIC\n" + load).text, "\ntime: {end: 1} ");
   EXPECT_CONTAINS(brick(kPulse + "*STEP\n*STATIC\n0.1, 0.\n" + load).text, "\ntime: {end: 1} ");
   EXPECT_CONTAINS(brick(kPulse + "*STEP\n*STATIC\n0.1, 2\n" + load + "*STEP\n*STATIC\n0.1, 3\n").text, "{end: 2} ");

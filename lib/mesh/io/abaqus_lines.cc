@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "lib/core/words.h"
 #include "lib/core/errors.h"
 #include "lib/core/parse_number.h"
 #include "lib/mesh/io/abaqus_parameters.h"
@@ -196,6 +197,22 @@ void AbaqusLines::enter(const Mark& mark) {
 void AbaqusLines::leave() {
   sources_ = std::move(left_.back());
   left_.pop_back();
+}
+
+std::string AbaqusLines::name_of(const AbaqusKeyword& keyword, const char* parameter) const {
+  const std::string name = keyword.parameter(parameter);
+  if (name.empty()) fail(fmt::format("{} without {}=name", keyword.spelled, parameter));
+  return name;
+}
+
+std::string AbaqusLines::choice(const AbaqusKeyword& keyword, const char* parameter,
+                                const std::vector<std::string>& values) const {
+  const std::string given = abaqus_word(keyword.parameter(parameter));
+  if (given.empty()) return values.front();
+  for (const std::string& value : values)
+    if (abaqus_word(value).starts_with(given)) return value;
+  fail(fmt::format("{}, {}={} is not read; read are {}", keyword.spelled, parameter,
+                          TextTokens::quoted(keyword.parameter(parameter)), join(values)));
 }
 
 }  // namespace orthodyn

@@ -59,6 +59,11 @@ class AbaqusLines {
 
   void skip_data();
 
+  // The value of a parameter that the keyword must have, such as NAME. Throws ConfigError.
+  std::string name_of(const AbaqusKeyword& keyword, const char* parameter = "NAME") const;
+  // One of the values of a parameter, which may be shortened; the first without the parameter. Throws ConfigError.
+  std::string choice(const AbaqusKeyword& keyword, const char* parameter, const std::vector<std::string>& values) const;
+
   // Of the next line.
   std::string_view rest_of_line() const { return sources_.back().tokens.rest_of_line(); }
 
