@@ -134,6 +134,14 @@ class ThePage(OfASweep):
                       "about 2.1 %; the mesh makes it 25 % too high.", page.text)
         self.assertNotIn("The same at all points: f1 [Hz]", page.text)
 
+    def test_a_figure_that_one_point_does_not_have_is_not_called_the_same(self):
+        content = self.with_errors([146.0, 146.0, 146.0 * (1 + 1e-12)], [0.25, 0.25, 0.25])
+        _, page = self.page_of(content)
+        self.assertIn("The same at all points: f1 [Hz] 150", page.text)
+        content["points"][1]["figures"]["f"] = None
+        _, page = self.page_of(content)
+        self.assertNotIn("The same at all points: f1 [Hz]", page.text)
+
     def test_strokes_lead_to_values_without_the_error_of_the_mesh(self):
         for levels in ({"angle": ANGLES}, {"wood": ["oak", "ash"]}):
             content = sweep(levels, closed_form="")

@@ -24,8 +24,9 @@ class Column:
     def constant(self):
         if not self.values:
             return len(self.cells) > 1 and len(set(self.cells)) == 1
-        size = max(abs(v) for v in self.values)
-        return len(self.values) > 1 and max(self.values) - min(self.values) <= SAME * size  # false with nan
+        if len(self.values) < 2 or not all(math.isfinite(v) for v in self.values):
+            return False
+        return max(self.values) - min(self.values) <= SAME * max(abs(v) for v in self.values)
 
 
 def _percent(gap):
