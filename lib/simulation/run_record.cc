@@ -70,6 +70,7 @@ Json errors_json(const ErrorBalance& errors) {
   if (errors.time) out["time"] = *errors.time;
   for (const ProbedError& e : errors.probed)
     out["probes"][e.probe][e.field] = {{"error", e.error}, {"scale", e.scale}, {"unit", e.unit}};
+  if (errors.probed_unknown) out["probes"] = nullptr;
   if (!errors.advice.empty()) out["advice"] = errors.advice;
   return out;
 }

@@ -60,6 +60,18 @@ TEST_P(ProbedStress, HasAnErrorThatIsToldToAFactorOfTwo) {
 
 class CoarseStress : public InFolder {};
 
+// Finer elements would have eight times the unknowns, and 120,000 are allowed.
+TEST_F(CoarseStress, OfALargeModelIsSaidToHaveNoKnownError) {
+  write("tube.yaml", [] {
+    std::string scene = tube(0.3, 4);
+    return scene.replace(scene.find("[16, 4, 1]"), 10, "[48, 8, 2]");
+  }());
+  const auto large = orthodyn("run tube.yaml --out result");
+  ASSERT_EQ(large.exit_code, 0) << large.output;
+  EXPECT_NE(large.output.find("of stresses and strains at probes not known"), std::string::npos) << large.output;
+  EXPECT_TRUE(nlohmann::json::parse(read_text(folder_ / "result/run.json")).at("errors").at("probes").is_null());
+}
+
 TEST_F(CoarseStress, IsWarnedOf) {
   write("tube.yaml", tube(0.3, 4));
   const auto coarse = orthodyn("run tube.yaml --out result");

@@ -1,6 +1,7 @@
 // Slips of unit and magnitude that users make: what they typed, and the words that must point to it.
 #include "lib/simulation/slips/slips.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -62,6 +63,19 @@ TEST(Slips, AMomentOfInertiaOfLumpedMassesIsToldWhereTheBodyTurns) {
   EXPECT_THAT(cube("initial: {spin: [0, 0, 1]}\nterms: [{type: spring, nearest: [0, 0, 0], stiffness: 1}]"),
               testing::Not(told));
   EXPECT_THAT(cube("initial: {spin: [0, 0, 1]}\nclamps: [{surface: x0}]"), testing::Not(told));
+}
+
+// Of linear kinematics a turned body is a larger one: by 1/cos of the angle.
+TEST(Slips, AFreeBodyThatTurnsIsNotForLinearKinematics) {
+  const auto spun = [](double spin, const std::string& kinematics) {
+    return said_of(fmt::format("mesh: {{type: box, size: [1, 1, 1], cells: [2, 2, 2]}}\n"
+                               "materials: {{m: {{type: isotropic, density: 1000, young: 1e6, nu: 0.3}}}}\n"
+                               "mass: consistent\ntime: {{end: 2}}\ninitial: {{spin: [0, 0, {}]}}\n"
+                               "elasticity: {{kinematics: {}}}\n", spin, kinematics)).words;
+  };
+  EXPECT_THAT(spun(0.2, "linear"), HasSubstr("it turns by about 0.4 rad"));
+  EXPECT_THAT(spun(0.2, "corotational"), testing::Not(HasSubstr("turns by")));
+  EXPECT_THAT(spun(0.04, "linear"), testing::Not(HasSubstr("turns by")));
 }
 
 // A steady push on a body that nothing holds, as a load or as a term; with a spring it may be held.

@@ -153,8 +153,7 @@ std::string shown_outputs(const RunCost& cost) {
 }
 
 // Of this machine, as it is used now.
-void print_time(const Setup& setup, const std::vector<TermCost>& terms) {
-  const RunCost cost = run_cost(setup, terms);
+void print_time(const Setup& setup, const RunCost& cost) {
   fmt::print("time, from what was measured here\n");
   if (cost.factor) fmt::print("  factorisation {:.3g} s, solution {:.3g} s\n", *cost.factor, *cost.solve);
   else if (!setup.integrator || setup.integrator->factor_bytes() > 0)
@@ -167,8 +166,8 @@ void print_time(const Setup& setup, const std::vector<TermCost>& terms) {
   fmt::print("  in all {}\n", shown_seconds(cost.seconds()));
 }
 
-void print_faster(const Setup& setup, const std::vector<TermCost>& terms) {
-  const auto way = faster_way(setup, run_cost(setup, terms));
+void print_faster(const Setup& setup, const RunCost& cost) {
+  const auto way = faster_way(setup, cost);
   if (!way || !way->pays()) return;
   fmt::print("faster\n  with {} (which takes {}): about {:.2g} s in place of {:.2g} s\n",
              fmt::join(way->changes, " and "), way->method, way->then, way->now);
@@ -243,8 +242,9 @@ int check(const CheckArguments& arguments) {
   warn_of_memory(setup);
   if (has_time || !setup.integrator) {
     const auto costs = term_costs(model, setup.built.initial, kSecondsOfCosts);
-    print_time(setup, costs);
-    if (has_time) print_faster(setup, costs);
+    const RunCost run = run_cost(setup, costs);
+    print_time(setup, run);
+    if (has_time) print_faster(setup, run);
     print_disk(setup);
     print_cost(setup, costs);
   }

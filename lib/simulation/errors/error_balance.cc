@@ -54,7 +54,7 @@ std::optional<ErrorBalance> error_balance(const RunResult& result) {
   const std::string by = mesh->by_finer_elements
                              ? fmt::format("finer elements, {:.2g} s of CPU", mesh->cpu_seconds)
                              : std::string("recovered stresses");
-  return ErrorBalance{mesh->relative, by, time, mesh->probed, advice(result, mesh->relative, time)};
+  return ErrorBalance{mesh->relative, by, time, mesh->probed, mesh->probed_unknown, advice(result, mesh->relative, time)};
 }
 
 }  // namespace orthodyn

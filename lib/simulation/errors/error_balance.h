@@ -14,6 +14,7 @@ struct ErrorBalance {
   std::string mesh_by;         // "finer elements, 0.2 s of CPU"
   std::optional<double> time;  // of the motion: estimated, or as far as errors of steps have added up; else unknown
   std::vector<ProbedError> probed;  // MeshError::probed
+  bool probed_unknown = false;      // MeshError::probed_unknown
   std::string advice;          // "the mesh dominates: use finer cells; rtol 1e-3 would do"
 };
 

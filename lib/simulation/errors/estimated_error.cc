@@ -132,6 +132,7 @@ FoundByFiner look_closer(const Scene& scene, const FemModel& model, const State&
     error.probed = probed_errors(scene, model, found);
   });
   error.blind = blind_spot(model, state, error.by_finer_elements);
+  error.probed_unknown = error.probed.empty() && !probed_fields(scene, model).empty();
   return out;
 }
 

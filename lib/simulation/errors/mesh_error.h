@@ -32,7 +32,8 @@ struct MeshError {
   bool by_finer_elements = false;  // else by recovered stresses
   std::string blind = {};          // what the estimate may not see, and what to do, in a sentence; "" if nothing
   double cpu_seconds = 0;          // that the finer elements took
-  std::vector<ProbedError> probed = {};  // by finer elements; empty where these were not taken
+  std::vector<ProbedError> probed = {};  // by finer elements; empty without these
+  bool probed_unknown = false;           // probes record such fields, and no error is known of them
 };
 
 class MeshErrorRecorder : public Observer {

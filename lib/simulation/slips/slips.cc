@@ -86,7 +86,7 @@ Warnings slips(const Config& config, const Scene& scene, const BuiltScene& built
   Warnings out;
   for (const auto add :
        {slip::add_material_slips, slip::add_place_slips, slip::add_load_slips, slip::add_time_slips,
-        slip::add_motion_slips, slip::add_freedom_slips, slip::add_inertia_slips, slip::add_damping_slips,
+        slip::add_motion_slips, slip::add_freedom_slips, slip::add_turning_slips, slip::add_damping_slips,
         slip::add_event_slips, slip::add_setting_slips})
     add(subject, out);
   return out;

@@ -47,7 +47,7 @@ void add_time_slips(const Subject& subject, Warnings& out);
 void add_motion_slips(const Subject& subject, Warnings& out);
 void add_damping_slips(const Subject& subject, Warnings& out);
 void add_freedom_slips(const Subject& subject, Warnings& out);
-void add_inertia_slips(const Subject& subject, Warnings& out);
+void add_turning_slips(const Subject& subject, Warnings& out);
 void add_event_slips(const Subject& subject, Warnings& out);
 void add_setting_slips(const Subject& subject, Warnings& out);
 

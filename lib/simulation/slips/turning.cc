@@ -1,4 +1,4 @@
-// Free bodies that turn, whose lumped masses have wrong moments of inertia.
+// Free bodies that turn: with lumped masses of wrong moments of inertia, with linear kinematics.
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
@@ -12,6 +12,7 @@ namespace orthodyn::slip {
 namespace {
 
 constexpr double kFarOff = 0.02;  // of a principal moment of inertia
+constexpr double kLinear = 0.1;   // rad, of linear kinematics
 constexpr double kTurns = 0.05;   // rad, in the run: smaller rotations are not visible
 
 // Second moments of a mass about its centre, integral of rho x x^T, kg m^2.
@@ -58,11 +59,12 @@ Moments of_lumped_masses(const FemModel::Parts& parts) {
 }
 
 // Angle (rad) by which spin at the start and loads turn the body in the run, as if it were rigid and its axes stayed.
-Vec3 angle_turned(const Subject& subject, const Moments& body) {
+Vec3 angle_turned(const Subject& subject) {
   const FemModel& model = *subject.built.model;
+  const Moments masses = of_lumped_masses(model.parts());  // as the momenta below
   const State& start = subject.built.initial;
   const NodalExpansion nodal(model.parts(), start.t, start.q, start.v);
-  const NodalVector arms = nodal.x.colwise() - Vec3(body.first / body.mass);
+  const NodalVector arms = nodal.x.colwise() - Vec3(masses.first / masses.mass);
   const auto moment = [&](const NodalVector& f) {
     Vec3 sum = Vec3::Zero();
     for (Eigen::Index k = 0; k < f.cols(); ++k) sum += arms.col(k).cross(f.col(k));
@@ -82,29 +84,37 @@ Vec3 angle_turned(const Subject& subject, const Moments& body) {
     before = now;
     last = t;
   });
-  return body.inertia().ldlt().solve(sum);
+  return masses.inertia().ldlt().solve(sum);
+}
+
+void add_lumped_moments(const Subject& subject, const Vec3& angle, Warnings& out) {
+  const auto& parts = subject.built.model->parts();
+  const Eigen::SelfAdjointEigenSolver<Mat3> exact(of_the_body(parts).inertia());
+  const Mat3 axes = exact.eigenvectors(), lumped = axes.transpose() * of_lumped_masses(parts).inertia() * axes;
+  const Vec3 off = lumped.diagonal().cwiseQuotient(exact.eigenvalues()) - Vec3::Ones();
+  const Vec3 about = axes.transpose() * angle;
+  Eigen::Index axis = 0;
+  const double most = (about.array().abs() > kTurns).select(off.array().abs(), 0).matrix().maxCoeff(&axis);
+  if (most <= kFarOff) return;
+  out.push_back(fmt::format("{}: nothing holds the body, and lumped masses on so few elements have a moment of inertia "
+                            "{:+.0f} % off about the axis {}: its rotation has a wrong energy there, or a wrong speed. Use "
+                            "mass: consistent, or more cells",
+                            subject.config.at("mesh").where(), 100 * off[axis],
+                            Value<Vec3>::yaml((Vec3(axes.col(axis)) * 100).array().round() / 100 + 0.0)));
 }
 
 }  // namespace
 
-void add_inertia_slips(const Subject& subject, Warnings& out) {
+void add_turning_slips(const Subject& subject, Warnings& out) {
   const auto& parts = subject.built.model->parts();
-  if (!subject.moves() || !is_free(subject) || !parts.mass->lumped()) return;
-  const Moments body = of_the_body(parts);
-  const Eigen::SelfAdjointEigenSolver<Mat3> exact(body.inertia());
-  const Mat3 axes = exact.eigenvectors(), lumped = axes.transpose() * of_lumped_masses(parts).inertia() * axes;
-  const Vec3 off = lumped.diagonal().cwiseQuotient(exact.eigenvalues()) - Vec3::Ones();
-  if (off.cwiseAbs().maxCoeff() <= kFarOff) return;
-  const Vec3 angle = axes.transpose() * angle_turned(subject, body);
-  Eigen::Index axis = 0;
-  const double most = (angle.array().abs() > kTurns).select(off.array().abs(), 0).matrix().maxCoeff(&axis);
-  if (most <= kFarOff) return;
-  out.push_back(fmt::format("{}: nothing holds the body, and lumped masses on so few elements have a moment of inertia "
-                            "{:+.0f} % off about the axis {}: it turns too {} about that. Use mass: consistent, or more "
-                            "cells",
-                            subject.config.at("mesh").where(), 100 * off[axis],
-                            Value<Vec3>::yaml((Vec3(axes.col(axis)) * 100).array().round() / 100),
-                            off[axis] > 0 ? "slowly" : "fast"));
+  if (!subject.moves() || !is_free(subject)) return;
+  const Vec3 angle = angle_turned(subject);
+  if (parts.mass->lumped()) add_lumped_moments(subject, angle, out);
+  const auto kinematics = value_at(subject.config, {"elasticity", "kinematics"});
+  if (kinematics && kinematics->text() == "linear" && angle.norm() > kLinear)
+    out.push_back(fmt::format("{}: nothing holds the body, and it turns by about {:.2g} rad until {:.4g} s, where linear "
+                              "kinematics are for less than {} rad: it would swell. Take corotational",
+                              kinematics->where(), angle.norm(), subject.end(), kLinear));
 }
 
 }  // namespace orthodyn::slip
