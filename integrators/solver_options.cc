@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/linear/solver.h"
 
 namespace orthodyn {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "lib/core/errors.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 
 namespace orthodyn {
 

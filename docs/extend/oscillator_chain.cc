@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "lib/simulation/run.h"
+#include "lib/simulation/run/run.h"
 
 namespace {
 

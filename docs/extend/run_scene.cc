@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "lib/simulation/doubts.h"
+#include "lib/simulation/run/result_warnings.h"
 #include "lib/simulation/simulation.h"
 
 namespace {

@@ -8,7 +8,7 @@
 #include "integrators/automatic/modal_plan.h"
 #include "integrators/error_control.h"
 #include "integrators/solver_options.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 
 namespace orthodyn {
 namespace {

@@ -18,7 +18,7 @@
 #include <string>
 
 #include "lib/core/solver_choice.h"
-#include "lib/ode/equilibrium.h"
+#include "lib/statics/equilibrium.h"
 
 namespace orthodyn::sundials {
 

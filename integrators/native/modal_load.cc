@@ -6,7 +6,7 @@
 
 #include "integrators/finite_force.h"
 #include "lib/core/errors.h"
-#include "lib/core/golden.h"
+#include "lib/core/golden_ratio_sample.h"
 
 namespace orthodyn {
 namespace {

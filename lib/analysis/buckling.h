@@ -8,7 +8,7 @@
 // their own where they follow the body (pressure; of an unsymmetric one the symmetric part).
 // That the shape changes before it buckles is left out, as in the classic analysis (Cook et al., Concepts and
 // Applications of Finite Element Analysis, 2002, 18.5): right where the body moves little until then, else follow the
-// path (lib/ode/load_stepper.h).
+// path (lib/statics/load_stepper.h).
 #pragma once
 
 #include <vector>

@@ -9,7 +9,7 @@
 
 #include "lib/analysis/singular_vectors.h"
 #include "lib/config/values.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/fem/whole_fields.h"
 #include "lib/mesh/quadratic.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "lib/config/values.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 
 namespace orthodyn {
 

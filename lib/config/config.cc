@@ -12,7 +12,7 @@
 #include "lib/config/yaml_document.h"
 #include "lib/config/yaml_write.h"
 #include "lib/core/parse_number.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 
 namespace orthodyn {
 

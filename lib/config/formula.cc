@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "lib/core/versions.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 
 namespace orthodyn {
 

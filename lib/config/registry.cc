@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "lib/config/yaml_slips.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 
 namespace orthodyn {
 

@@ -20,7 +20,7 @@
 
 #include "lib/config/config.h"
 #include "lib/config/values.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 
 namespace orthodyn {
 

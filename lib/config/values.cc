@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "lib/core/apart.h"
+#include "lib/core/ratio_distance.h"
 #include "lib/core/parse_number.h"
 #include "lib/core/units.h"
 

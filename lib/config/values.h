@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "lib/config/config.h"
-#include "lib/config/shape.h"
+#include "lib/config/value_schema.h"
 #include "lib/core/types.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 
 namespace orthodyn {
 

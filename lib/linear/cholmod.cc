@@ -10,7 +10,7 @@
 #include "lib/linear/blas.h"
 #include "lib/linear/gathered_solver.h"
 #include "lib/linear/openmp.h"
-#include "lib/linear/room.h"
+#include "lib/linear/memory_check.h"
 #include "lib/linear/solver.h"
 
 namespace orthodyn {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lib/core/errors.h"
-#include "lib/linear/room.h"
+#include "lib/linear/memory_check.h"
 #include "lib/linear/solver.h"
 
 namespace orthodyn {

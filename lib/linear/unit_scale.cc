@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/core/golden.h"
+#include "lib/core/golden_ratio_sample.h"
 
 namespace orthodyn {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/core/apart.h"
+#include "lib/core/ratio_distance.h"
 #include "lib/core/symmetric_eigen.h"
 
 namespace orthodyn {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "lib/core/errors.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/element/tet10.h"
 #include "lib/mesh/cell_volume.h"
 #include "lib/mesh/node_numbers.h"

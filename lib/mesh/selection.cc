@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/mesh/quadratic.h"
 
 namespace orthodyn {

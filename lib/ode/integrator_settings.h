@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/config/shape.h"
+#include "lib/config/value_schema.h"
 #include "lib/core/solver_choice.h"
 
 namespace orthodyn {

@@ -131,7 +131,7 @@ class Model : public OutputSource {
   // must outlive. Precondition: the names are among force_parts().
   virtual std::vector<std::string> force_parts() const { return {}; }
   virtual std::unique_ptr<Model> only(const std::vector<std::string>& parts) const;
-  // The parts that are loads: in statics the load factor multiplies them (lib/ode/load_path.h). None if unknown.
+  // The parts that are loads: in statics the load factor multiplies them (lib/statics/load_path.h). None if unknown.
   virtual std::optional<std::vector<std::string>> load_parts() const { return std::nullopt; }
 
   // Times (s) in (start, end) at which f is not smooth, ascending: integrators restart there.

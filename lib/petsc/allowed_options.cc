@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lib/core/errors.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 
 namespace orthodyn::petsc {
 

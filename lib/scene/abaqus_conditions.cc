@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "lib/config/values.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/mesh/io/abaqus_sets.h"
 #include "lib/scene/abaqus_factors.h"
 #include "lib/scene/abaqus_turned_nodes.h"

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "lib/config/values.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/mesh/io/abaqus.h"
 #include "lib/mesh/io/mesh_format.h"
 #include "lib/mesh/io/text_tokens.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "lib/axes/axes_source.h"
+#include "lib/material_axes/axes_source.h"
 #include "lib/fem/elastic_region.h"
 #include "lib/fem/element_groups.h"
 #include "lib/fem/pattern_share.h"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 
 namespace orthodyn {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/fem/nodal_fields.h"
 #include "lib/scene/build.h"
 

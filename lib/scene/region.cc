@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "lib/axes/axes_source.h"
-#include "lib/core/words.h"
+#include "lib/material_axes/axes_source.h"
+#include "lib/core/spelling.h"
 #include "lib/scene/scene.h"
 
 namespace orthodyn {

@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "lib/ode/equilibrium.h"
-#include "lib/ode/load_stepper.h"
+#include "lib/statics/equilibrium.h"
+#include "lib/statics/load_stepper.h"
 
 namespace orthodyn {
 

@@ -7,8 +7,8 @@
 
 #include "lib/core/versions.h"
 #include "lib/simulation/checkpoint/resume.h"
-#include "lib/simulation/run_threads.h"
-#include "lib/simulation/volume.h"
+#include "lib/simulation/run/run_threads.h"
+#include "lib/simulation/output/output_size.h"
 
 namespace orthodyn {
 

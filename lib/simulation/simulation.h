@@ -11,10 +11,10 @@
 #include <string>
 #include <utility>
 
-#include "lib/simulation/run_context.h"
-#include "lib/simulation/run_listener.h"
-#include "lib/simulation/run_result.h"
-#include "lib/simulation/scene_file.h"
+#include "lib/simulation/run/run_context.h"
+#include "lib/simulation/run/run_listener.h"
+#include "lib/simulation/run/run_result.h"
+#include "lib/simulation/run/scene_file.h"
 
 namespace orthodyn {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "lib/simulation/setup.h"
+#include "lib/simulation/run/setup.h"
 #include "tests/config/messages.h"
 
 namespace orthodyn::strain_check_test {

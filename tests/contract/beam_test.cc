@@ -1,5 +1,5 @@
 // Every integrator on a small corotational beam: large rotations, damping, oblique fibres.
-#include "lib/simulation/setup.h"
+#include "lib/simulation/run/setup.h"
 #include "tests/contract/integrators.h"
 #include "tests/fem/built_scene.h"
 

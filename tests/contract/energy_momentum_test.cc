@@ -1,6 +1,6 @@
 // The energy-momentum method keeps its invariants where the step is far beyond an explicit method's limit.
 #include "integrators/critical_step.h"
-#include "lib/simulation/setup.h"
+#include "lib/simulation/run/setup.h"
 #include "tests/contract/integrators.h"
 #include "tests/fem/built_scene.h"
 

@@ -1,7 +1,7 @@
 // Events happen where every integrator's own dense output has them.
 #include <numbers>
 
-#include "lib/simulation/run.h"
+#include "lib/simulation/run/run.h"
 #include "tests/contract/integrators.h"
 
 namespace orthodyn::events_test {

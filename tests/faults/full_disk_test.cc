@@ -5,7 +5,7 @@
 #include <fstream>
 #include <map>
 
-#include "lib/simulation/json.h"
+#include "lib/simulation/output/json.h"
 #include "tests/faults/failing_writes.h"
 #include "tests/simulation/resume_fixture.h"
 #include "tests/simulation/run_program.h"

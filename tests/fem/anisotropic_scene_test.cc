@@ -1,7 +1,7 @@
 // A scene whose material has 21 constants is the scene of the orthotropic material that they describe.
 #include <gtest/gtest.h>
 
-#include "lib/axes/frame.h"
+#include "lib/material_axes/frame.h"
 #include "tests/fem/built_scene.h"
 
 namespace orthodyn::anisotropic_scene_test {

@@ -12,7 +12,7 @@
 #include "lib/fem/element_mesh.h"
 #include "lib/mesh/box.h"
 #include "lib/mesh/selection.h"
-#include "lib/axes/axes_source.h"
+#include "lib/material_axes/axes_source.h"
 #include "lib/mesh/quadratic.h"
 #include "tests/fem/built_scene.h"
 

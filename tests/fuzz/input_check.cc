@@ -11,9 +11,9 @@
 #include <typeinfo>
 
 #include "lib/analysis/strain_limits.h"
-#include "lib/simulation/input_kind.h"
-#include "lib/simulation/setup.h"
-#include "lib/simulation/static_problem.h"
+#include "lib/simulation/run/input_kind.h"
+#include "lib/simulation/run/setup.h"
+#include "lib/simulation/statics/static_problem.h"
 #include "lib/study/compare/comparison_design.h"
 #include "lib/study/stability/stability.h"
 #include "lib/study/sweep/sweep_design.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/mesh/io/abaqus.h"
 #include "tests/mesh/refusal.h"
 

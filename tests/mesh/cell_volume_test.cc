@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/mesh/io/gmsh.h"
 #include "lib/mesh/io/vtk.h"
 #include "lib/mesh/split_cells.h"

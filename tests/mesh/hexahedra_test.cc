@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/mesh/io/abaqus.h"
 #include "lib/mesh/io/gmsh.h"
 #include "lib/mesh/io/vega.h"

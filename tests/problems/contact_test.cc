@@ -1,7 +1,7 @@
 // Contact that comes and goes, from soft to far stiffer than the body, makes no energy.
 #include <gtest/gtest.h>
 
-#include "lib/simulation/observers/balance.h"
+#include "lib/simulation/output/balance.h"
 #include "tests/problems/running.h"
 
 namespace orthodyn::contact_test {

@@ -1,7 +1,7 @@
 // What stiffness-proportional damping takes is what loads have given, whichever method integrates.
 #include <gtest/gtest.h>
 
-#include "lib/simulation/observers/balance.h"
+#include "lib/simulation/output/balance.h"
 #include "tests/problems/running.h"
 
 namespace orthodyn::energy_account_test {

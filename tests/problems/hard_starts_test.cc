@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "lib/simulation/observers/balance.h"
+#include "lib/simulation/output/balance.h"
 #include "tests/problems/running.h"
 
 namespace orthodyn::hard_starts_test {

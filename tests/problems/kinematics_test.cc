@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "lib/simulation/errors/error_norms.h"
-#include "lib/simulation/run.h"
-#include "lib/simulation/setup.h"
+#include "lib/simulation/error_estimate/error_norms.h"
+#include "lib/simulation/run/run.h"
+#include "lib/simulation/run/setup.h"
 #include "tests/simulation/result_reader.h"
 #include "tests/simulation/run_program.h"
 

@@ -10,7 +10,7 @@
 #include "lib/analysis/modes.h"
 #include "lib/mesh/box.h"
 #include "lib/mesh/quadratic.h"
-#include "lib/simulation/static_problem.h"
+#include "lib/simulation/statics/static_problem.h"
 #include "tests/fem/built_scene.h"
 
 namespace orthodyn::load_factor_test {

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "lib/mesh/tet_mesh.h"
-#include "lib/simulation/errors/blind_spot.h"
-#include "lib/simulation/errors/estimated_error.h"
+#include "lib/simulation/error_estimate/blind_spot.h"
+#include "lib/simulation/error_estimate/estimated_error.h"
 #include "lib/simulation/modes/modal_analysis.h"
-#include "lib/simulation/setup.h"
-#include "lib/simulation/static_problem.h"
+#include "lib/simulation/run/setup.h"
+#include "lib/simulation/statics/static_problem.h"
 
 namespace orthodyn::locking_test {
 namespace {

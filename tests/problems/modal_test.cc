@@ -13,8 +13,8 @@
 
 #include "lib/config/registry.h"
 #include "lib/linear/solver.h"
-#include "lib/simulation/errors/modal_solution.h"
-#include "lib/simulation/observers/balance.h"
+#include "lib/simulation/error_estimate/modal_solution.h"
+#include "lib/simulation/output/balance.h"
 #include "lib/study/quantities/verify.h"
 #include "tests/problems/running.h"
 

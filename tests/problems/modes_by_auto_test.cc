@@ -6,10 +6,10 @@
 #include <cmath>
 #include <optional>
 
-#include "lib/simulation/errors/error_norms.h"
-#include "lib/simulation/faster.h"
-#include "lib/simulation/run.h"
-#include "lib/simulation/setup.h"
+#include "lib/simulation/error_estimate/error_norms.h"
+#include "lib/simulation/preflight/faster_setup.h"
+#include "lib/simulation/run/run.h"
+#include "lib/simulation/run/setup.h"
 
 namespace orthodyn::modes_by_auto_test {
 namespace {

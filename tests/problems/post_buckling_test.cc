@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "lib/simulation/static_problem.h"
+#include "lib/simulation/statics/static_problem.h"
 #include "tests/fem/built_scene.h"
 
 namespace orthodyn::post_buckling_test {

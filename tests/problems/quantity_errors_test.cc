@@ -5,8 +5,8 @@
 #include "lib/analysis/displacement_error.h"
 #include "lib/mesh/tet_mesh.h"
 #include "lib/simulation/modes/modal_analysis.h"
-#include "lib/simulation/setup.h"
-#include "lib/simulation/static_problem.h"
+#include "lib/simulation/run/setup.h"
+#include "lib/simulation/statics/static_problem.h"
 
 namespace orthodyn::quantity_errors_test {
 namespace {

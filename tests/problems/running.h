@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "lib/simulation/run.h"
-#include "lib/simulation/setup.h"
+#include "lib/simulation/run/run.h"
+#include "lib/simulation/run/setup.h"
 #include "tests/fem/built_scene.h"
 
 namespace orthodyn {

@@ -7,7 +7,7 @@
 
 #include "lib/analysis/buckling.h"
 #include "lib/analysis/modes.h"
-#include "lib/simulation/static_problem.h"
+#include "lib/simulation/statics/static_problem.h"
 #include "tests/contract/methods.h"
 #include "tests/problems/running.h"
 

@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "lib/analysis/modes.h"
-#include "lib/simulation/load_steps.h"
-#include "lib/simulation/static_problem.h"
+#include "lib/simulation/statics/load_steps.h"
+#include "lib/simulation/statics/static_problem.h"
 #include "lib/analysis/rigid_freedom.h"
 #include "tests/problems/running.h"
 

@@ -7,7 +7,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/scene/quantity.h"
-#include "lib/simulation/static_problem.h"
+#include "lib/simulation/statics/static_problem.h"
 #include "tests/fem/built_scene.h"
 
 namespace orthodyn::strength_problem_test {

@@ -6,7 +6,7 @@
 
 #include "lib/mesh/box.h"
 #include "lib/mesh/quadratic.h"
-#include "lib/simulation/errors/error_balance.h"
+#include "lib/simulation/error_estimate/error_balance.h"
 #include "tests/problems/running.h"
 
 namespace orthodyn::stress_recovery_test {

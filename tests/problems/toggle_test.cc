@@ -9,7 +9,7 @@
 
 #include "lib/mesh/box.h"
 #include "lib/mesh/quadratic.h"
-#include "lib/simulation/static_problem.h"
+#include "lib/simulation/statics/static_problem.h"
 #include "tests/fem/built_scene.h"
 
 namespace orthodyn::toggle_test {

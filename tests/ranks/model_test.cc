@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "lib/core/errors.h"
-#include "lib/linear/world.h"
+#include "lib/linear/mpi_world.h"
 #include "lib/scene/build.h"
 #include "tests/material/constants.h"
 #include "tests/ranks/scenes.h"

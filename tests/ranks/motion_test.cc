@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "lib/linear/world.h"
-#include "lib/simulation/setup.h"
+#include "lib/linear/mpi_world.h"
+#include "lib/simulation/run/setup.h"
 #include "tests/ranks/scenes.h"
 
 namespace orthodyn {

@@ -1,6 +1,6 @@
 #include <filesystem>
 
-#include "lib/simulation/setup.h"
+#include "lib/simulation/run/setup.h"
 #include "tests/config/messages.h"
 #include "tests/scene/scenes.h"
 

@@ -1,7 +1,7 @@
 // Materials, regions and axes that an Abaqus file brings to a scene without `materials`.
 #include <gtest/gtest.h>
 
-#include "lib/axes/axes_source.h"
+#include "lib/material_axes/axes_source.h"
 #include "lib/mesh/mesh_source.h"
 #include "tests/mesh/refusal.h"
 #include "tests/scene/scenes.h"

@@ -1,9 +1,9 @@
 // Equilibria of bodies whose supports are on their way: they are those of supports that stand still there.
-#include "lib/simulation/static_problem.h"
+#include "lib/simulation/statics/static_problem.h"
 
 #include <gtest/gtest.h>
 
-#include "lib/simulation/setup.h"
+#include "lib/simulation/run/setup.h"
 #include "tests/scene/scenes.h"
 
 namespace orthodyn::equilibrium_test {

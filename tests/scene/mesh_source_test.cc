@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "lib/axes/axes_source.h"
+#include "lib/material_axes/axes_source.h"
 #include "tests/scene/scenes.h"
 
 namespace orthodyn::mesh_source_test {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lib/core/errors.h"
-#include "lib/simulation/setup.h"
+#include "lib/simulation/run/setup.h"
 #include "tests/scene/scenes.h"
 
 namespace orthodyn::motions_test {

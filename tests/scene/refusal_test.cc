@@ -3,7 +3,7 @@
 
 #include <cctype>
 
-#include "lib/simulation/setup.h"
+#include "lib/simulation/run/setup.h"
 #include "tests/scene/scenes.h"
 
 namespace orthodyn::refusal_test {

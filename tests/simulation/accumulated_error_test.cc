@@ -1,11 +1,11 @@
 // How far errors of a long run have added up, where it is known.
-#include "lib/simulation/errors/accumulated_error.h"
+#include "lib/simulation/error_estimate/accumulated_error.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "lib/simulation/run.h"
+#include "lib/simulation/run/run.h"
 
 namespace orthodyn::accumulated_error_test {
 namespace {

@@ -7,7 +7,7 @@
 #include "lib/core/versions.h"
 #include "lib/mesh/box.h"
 #include "lib/mesh/io/mesh_file.h"
-#include "lib/simulation/json.h"
+#include "lib/simulation/output/json.h"
 #include "tests/simulation/result_reader.h"
 #include "tests/simulation/run_program.h"
 

@@ -10,9 +10,9 @@
 
 #include "lib/simulation/checkpoint/checkpoint.h"
 #include "lib/simulation/checkpoint/checkpointer.h"
-#include "lib/simulation/observers/curves.h"
-#include "lib/simulation/run.h"
-#include "lib/simulation/observers/frames.h"
+#include "lib/simulation/output/curves.h"
+#include "lib/simulation/run/run.h"
+#include "lib/simulation/output/frames.h"
 #include "lib/mesh/io/mesh_file.h"
 #include "lib/scene/build.h"
 #include "tests/scene/scenes.h"

@@ -1,5 +1,5 @@
 // When quantities pass values, on given courses over time.
-#include "lib/simulation/observers/event_finder.h"
+#include "lib/simulation/output/event_finder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // What is told of a whole run does not depend on how many frames it writes, or says so.
 #include <gtest/gtest.h>
 
-#include "lib/simulation/json.h"
-#include "lib/simulation/observers/extremes.h"
-#include "lib/simulation/observers/strain_watch.h"
-#include "lib/simulation/setup.h"
+#include "lib/simulation/output/json.h"
+#include "lib/simulation/output/extremes.h"
+#include "lib/simulation/output/strain_watch.h"
+#include "lib/simulation/run/setup.h"
 #include "tests/simulation/result_reader.h"
 #include "tests/simulation/run_program.h"
 

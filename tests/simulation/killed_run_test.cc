@@ -9,7 +9,7 @@
 #include <random>
 #include <thread>
 
-#include "lib/simulation/json.h"
+#include "lib/simulation/output/json.h"
 #include "tests/simulation/resume_fixture.h"
 
 namespace orthodyn::killed_run_test {

@@ -4,7 +4,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/core/write_file.h"
-#include "lib/simulation/json.h"
+#include "lib/simulation/output/json.h"
 #include "tests/simulation/result_reader.h"
 #include "tests/simulation/run_program.h"
 

@@ -1,7 +1,7 @@
 // Runs by modes: what they cost, kinematics that are left open, and how they go on.
 #include <algorithm>
 
-#include "lib/simulation/json.h"
+#include "lib/simulation/output/json.h"
 #include "tests/simulation/run_program.h"
 
 namespace orthodyn::modal_run_test {

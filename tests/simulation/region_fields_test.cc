@@ -1,7 +1,7 @@
 // Stress and strain of one region, as fields of frames and probes: at a border each region has values of its own.
 #include <gtest/gtest.h>
 
-#include "lib/simulation/json.h"
+#include "lib/simulation/output/json.h"
 #include "tests/simulation/result_reader.h"
 #include "tests/simulation/run_program.h"
 

@@ -1,5 +1,5 @@
 // What a run may do with the folder that it is to write to.
-#include "lib/simulation/result_folder.h"
+#include "lib/simulation/output/result_folder.h"
 
 #include "lib/core/errors.h"
 #include "tests/simulation/run_program.h"

@@ -1,5 +1,5 @@
 // Completed runs that are extended, and who may work in a folder.
-#include "lib/simulation/json.h"
+#include "lib/simulation/output/json.h"
 #include "tests/simulation/resume_fixture.h"
 
 namespace orthodyn::resume_test {

@@ -1,11 +1,11 @@
 // What `orthodyn check` says of the cost of terms, and of those that a scene could do without.
-#include "lib/simulation/scene_cost.h"
+#include "lib/simulation/preflight/scene_cost.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "lib/analysis/static_response.h"
-#include "lib/simulation/run_cost.h"
+#include "lib/simulation/preflight/run_cost.h"
 #include "tests/simulation/run_program.h"
 
 namespace orthodyn::scene_cost_test {

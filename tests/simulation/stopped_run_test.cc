@@ -3,7 +3,7 @@
 #include <map>
 #include <random>
 
-#include "lib/simulation/json.h"
+#include "lib/simulation/output/json.h"
 #include "tests/simulation/resume_fixture.h"
 
 namespace orthodyn::stopped_run_test {

@@ -1,7 +1,7 @@
 // Work of loads and damping along a motion that is known, whose velocities are off as those of stiff methods are.
 #include <gtest/gtest.h>
 
-#include "lib/simulation/observers/balance.h"
+#include "lib/simulation/output/balance.h"
 #include "tests/scene/scenes.h"
 
 namespace orthodyn::work_along_positions_test {

@@ -1,7 +1,7 @@
 // Comparisons in which the reference has a mesh of its own: errors of space and time.
 #include <cmath>
 
-#include "lib/simulation/json.h"
+#include "lib/simulation/output/json.h"
 #include "tests/simulation/run_program.h"
 
 namespace orthodyn::compare_meshes_test {

@@ -4,7 +4,7 @@
 #include <set>
 #include <thread>
 
-#include "lib/simulation/json.h"
+#include "lib/simulation/output/json.h"
 #include "tests/simulation/run_program.h"
 
 namespace orthodyn::compare_test {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "lib/simulation/json.h"
+#include "lib/simulation/output/json.h"
 #include "lib/study/converge/richardson.h"
 #include "tests/simulation/run_program.h"
 

@@ -1,10 +1,10 @@
 // The estimate of a run's error, where the error is known.
-#include "lib/simulation/errors/error_estimate.h"
+#include "lib/simulation/error_estimate/error_estimate.h"
 
 #include <gtest/gtest.h>
 
-#include "lib/simulation/setup.h"
-#include "lib/simulation/errors/modal_solution.h"
+#include "lib/simulation/run/setup.h"
+#include "lib/simulation/error_estimate/modal_solution.h"
 
 namespace orthodyn::error_estimate_test {
 namespace {

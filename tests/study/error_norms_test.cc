@@ -1,12 +1,12 @@
 // Distances between trajectories, where they are known.
-#include "lib/simulation/errors/error_norms.h"
+#include "lib/simulation/error_estimate/error_norms.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "lib/simulation/setup.h"
+#include "lib/simulation/run/setup.h"
 #include "tests/simulation/run_program.h"
 
 namespace orthodyn::error_norms_test {

@@ -1,5 +1,5 @@
 // What figures depend on besides their input.
-#include "lib/simulation/fingerprints.h"
+#include "lib/simulation/run/fingerprints.h"
 
 #include <chrono>
 #include <cstdlib>

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <fstream>
 
-#include "lib/simulation/files.h"
+#include "lib/simulation/output/files.h"
 #include "tests/simulation/run_program.h"
 
 namespace orthodyn::study::job_queue_test {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "lib/simulation/fingerprints.h"
+#include "lib/simulation/run/fingerprints.h"
 
 namespace orthodyn::mesh_fingerprint_test {
 namespace {

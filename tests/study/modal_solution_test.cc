@@ -1,11 +1,11 @@
 // The exact solution of linear models: it satisfies the initial values and the equation of motion.
-#include "lib/simulation/errors/modal_solution.h"
+#include "lib/simulation/error_estimate/modal_solution.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "lib/simulation/setup.h"
+#include "lib/simulation/run/setup.h"
 
 namespace orthodyn::modal_solution_test {
 namespace {

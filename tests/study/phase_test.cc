@@ -1,5 +1,5 @@
 // The dominant oscillation, on signals made of known ones.
-#include "lib/simulation/errors/phase.h"
+#include "lib/simulation/error_estimate/phase.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <csignal>
 #include <thread>
 
-#include "lib/simulation/files.h"
+#include "lib/simulation/output/files.h"
 #include "tests/simulation/run_program.h"
 
 namespace orthodyn::process_test {

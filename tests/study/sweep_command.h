@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "lib/simulation/json.h"
+#include "lib/simulation/output/json.h"
 #include "tests/simulation/run_program.h"
 
 namespace orthodyn {

@@ -7,7 +7,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/linear/blas.h"
-#include "lib/simulation/machine.h"
+#include "lib/simulation/run/machine.h"
 
 namespace orthodyn::bench {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/simulation/json.h"
+#include "lib/simulation/output/json.h"
 
 namespace orthodyn::bench {
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "lib/core/versions.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "tools/orthodyn/command.h"
 
 namespace orthodyn {

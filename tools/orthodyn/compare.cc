@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <set>
 
-#include "lib/core/words.h"
-#include "lib/simulation/files.h"
-#include "lib/simulation/errors/mesh_error.h"
-#include "lib/simulation/several_ranks.h"
+#include "lib/core/spelling.h"
+#include "lib/simulation/output/files.h"
+#include "lib/simulation/error_estimate/mesh_error.h"
+#include "lib/simulation/run/several_ranks.h"
 #include "lib/study/compare/comparison_table.h"
 #include "lib/study/compare/measurement.h"
 #include "lib/study/jobs/json_values.h"

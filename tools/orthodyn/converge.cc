@@ -5,10 +5,10 @@
 #include <charconv>
 #include <filesystem>
 
-#include "lib/core/words.h"
-#include "lib/simulation/files.h"
-#include "lib/simulation/scene_file.h"
-#include "lib/simulation/several_ranks.h"
+#include "lib/core/spelling.h"
+#include "lib/simulation/output/files.h"
+#include "lib/simulation/run/scene_file.h"
+#include "lib/simulation/run/several_ranks.h"
 #include "lib/study/converge/convergence_table.h"
 #include "lib/study/converge/convergence_text.h"
 #include "lib/study/inputs/labels.h"

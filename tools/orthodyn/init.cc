@@ -7,9 +7,9 @@
 
 #include "lib/core/errors.h"
 #include "lib/core/file_kind.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/scene/abaqus_scene.h"
-#include "lib/simulation/files.h"
+#include "lib/simulation/output/files.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/installed_paths.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/config/shape.h"
+#include "lib/config/value_schema.h"
 
 namespace orthodyn {
 

@@ -1,5 +1,5 @@
 // `orthodyn measure`, `evaluate` and `assess`: one job of a study, in a process of its own.
-#include "lib/simulation/fingerprints.h"
+#include "lib/simulation/run/fingerprints.h"
 #include "lib/study/compare/measurement.h"
 #include "lib/study/stability/evaluate_case.h"
 #include "lib/study/points/evaluate_point.h"

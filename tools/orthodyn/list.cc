@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "lib/config/registry.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/linear/solver.h"
 #include "lib/material/presets.h"
 #include "lib/mesh/io/mesh_format.h"

@@ -10,8 +10,8 @@
 
 #include "lib/core/errors.h"
 #include "lib/core/write_file.h"
-#include "lib/linear/world.h"
-#include "lib/simulation/several_ranks.h"
+#include "lib/linear/mpi_world.h"
+#include "lib/simulation/run/several_ranks.h"
 #include "tools/orthodyn/notice.h"
 
 namespace orthodyn {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "lib/core/errors.h"
-#include "lib/linear/world.h"
+#include "lib/linear/mpi_world.h"
 #include "lib/mesh/partition.h"
 #include "lib/scene/mesh_materials.h"
 #include "lib/scene/scene.h"
-#include "lib/simulation/scene_file.h"
+#include "lib/simulation/run/scene_file.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/whole_numbers.h"
 

@@ -8,12 +8,12 @@
 #include <filesystem>
 #include <sstream>
 
-#include "lib/axes/axes_source.h"
+#include "lib/material_axes/axes_source.h"
 #include "lib/config/registry.h"
 #include "lib/core/errors.h"
 #include "lib/core/file_kind.h"
 #include "lib/core/versions.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/fem/term_choice.h"
 #include "lib/fem/time_functions/time_function.h"
 #include "lib/linear/solver.h"

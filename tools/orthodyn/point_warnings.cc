@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-#include "lib/simulation/errors/mesh_error.h"
+#include "lib/simulation/error_estimate/mesh_error.h"
 
 namespace orthodyn::study::sweep {
 

@@ -1,7 +1,7 @@
 // What a finished sweep warns of: coarse meshes, and what its points told of their scenes.
 #pragma once
 
-#include "lib/simulation/json.h"
+#include "lib/simulation/output/json.h"
 
 namespace orthodyn::study::sweep {
 

@@ -6,9 +6,9 @@
 #include <system_error>
 
 #include "lib/core/file_kind.h"
-#include "lib/linear/world.h"
-#include "lib/simulation/scene_file.h"
-#include "lib/simulation/several_ranks.h"
+#include "lib/linear/mpi_world.h"
+#include "lib/simulation/run/scene_file.h"
+#include "lib/simulation/run/several_ranks.h"
 #include "lib/simulation/simulation.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/interrupt.h"

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "lib/core/digits.h"
-#include "lib/core/words.h"
-#include "lib/simulation/doubts.h"
-#include "lib/simulation/errors/error_balance.h"
+#include "lib/core/spelling.h"
+#include "lib/simulation/run/result_warnings.h"
+#include "lib/simulation/error_estimate/error_balance.h"
 #include "tools/orthodyn/shortened.h"
 
 namespace orthodyn {

@@ -1,7 +1,7 @@
 // What a run did, for the terminal: a table on stdout, what went wrong and what remains to be done on stderr.
 #pragma once
 
-#include "lib/simulation/run_result.h"
+#include "lib/simulation/run/run_result.h"
 
 namespace orthodyn {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "lib/simulation/scene_file.h"
-#include "lib/simulation/setup.h"
+#include "lib/simulation/run/scene_file.h"
+#include "lib/simulation/run/setup.h"
 #include "tools/orthodyn/command_options.h"
 
 namespace orthodyn {

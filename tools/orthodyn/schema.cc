@@ -6,7 +6,7 @@
 #include <set>
 
 #include "lib/config/config.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/input_tree.h"
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "lib/core/errors.h"
-#include "lib/simulation/files.h"
+#include "lib/simulation/output/files.h"
 #include "tools/orthodyn/plugins.h"
 
 namespace orthodyn {

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <map>
 
-#include "lib/simulation/files.h"
+#include "lib/simulation/output/files.h"
 #include "lib/study/jobs/json_values.h"
 #include "lib/study/stability/stability_matrix.h"
 #include "tools/orthodyn/command.h"

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <thread>
 
-#include "lib/simulation/slips/slips.h"
-#include "lib/simulation/volume.h"
+#include "lib/simulation/preflight/input_checks/input_checks.h"
+#include "lib/simulation/output/output_size.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/mpirun.h"

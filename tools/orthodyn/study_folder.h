@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "lib/simulation/folder_lock.h"
+#include "lib/simulation/output/folder_lock.h"
 
 namespace orthodyn {
 

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "lib/core/units.h"
-#include "lib/simulation/files.h"
+#include "lib/simulation/output/files.h"
 #include "lib/study/jobs/json_values.h"
 #include "lib/study/sweep/sweep_table.h"
 #include "tools/orthodyn/command.h"

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "lib/simulation/observers/observer.h"
+#include "lib/simulation/output/observer.h"
 
 namespace orthodyn {
 

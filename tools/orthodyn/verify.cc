@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "lib/simulation/files.h"
-#include "lib/simulation/scene_file.h"
-#include "lib/simulation/setup.h"
+#include "lib/simulation/output/files.h"
+#include "lib/simulation/run/scene_file.h"
+#include "lib/simulation/run/setup.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/notice.h"
 

@@ -5,7 +5,7 @@
 
 namespace orthodyn {
 
-// automatic: one of the others, as the simulation finds (lib/simulation/kinematics.h); by itself corotational.
+// automatic: one of the others, as the simulation finds (lib/simulation/run/kinematics.h); by itself corotational.
 enum class Kinematics { corotational, linear, automatic };
 enum class Corotation { exact, warped };
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <map>
 
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/config/csv_table.h"
 #include "lib/fem/term_choice.h"
 #include "lib/fem/terms/dead_load.h"

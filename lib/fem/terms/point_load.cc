@@ -1,7 +1,7 @@
 // The term `point_load`.
 #include <fmt/format.h>
 
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/fem/term_choice.h"
 #include "lib/fem/terms/dead_load.h"
 #include "lib/mesh/selection.h"

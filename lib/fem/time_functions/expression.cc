@@ -4,7 +4,7 @@
 
 #include "lib/config/formula.h"
 #include "lib/core/errors.h"
-#include "lib/core/golden.h"
+#include "lib/core/golden_ratio_sample.h"
 #include "lib/fem/differences.h"
 #include "lib/fem/time_functions/time_function.h"
 

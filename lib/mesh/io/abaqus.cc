@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/mesh/io/abaqus_axes.h"
 #include "lib/mesh/io/abaqus_file.h"
 #include "lib/mesh/io/text_tokens.h"

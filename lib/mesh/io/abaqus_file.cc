@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/mesh/io/abaqus_history.h"
 #include "lib/mesh/io/abaqus_lines.h"
 #include "lib/mesh/io/abaqus_orientations.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/core/errors.h"
 #include "lib/core/parse_number.h"
 #include "lib/mesh/io/abaqus_parameters.h"

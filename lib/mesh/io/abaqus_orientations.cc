@@ -6,7 +6,7 @@
 #include <cctype>
 #include <utility>
 
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 
 namespace orthodyn {
 namespace {

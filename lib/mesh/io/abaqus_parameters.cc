@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 
 namespace orthodyn {
 namespace {

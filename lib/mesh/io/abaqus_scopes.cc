@@ -5,7 +5,7 @@
 #include <cctype>
 #include <numbers>
 
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/mesh/io/abaqus_lines.h"
 
 namespace orthodyn {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/mesh/io/text_tokens.h"
 
 namespace orthodyn {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/mesh/io/gmsh_binary.h"
 #include "lib/mesh/io/gmsh_file.h"
 #include "lib/mesh/io/text_tokens.h"

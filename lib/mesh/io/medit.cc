@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "lib/core/errors.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/mesh/io/middle_order.h"
 #include "lib/mesh/io/text_tokens.h"
 #include "lib/mesh/mesh_draft.h"

@@ -13,7 +13,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/core/utf8.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/core/write_file.h"
 #include "lib/mesh/io/mesh_format.h"
 

@@ -10,7 +10,7 @@
 #include "lib/core/errors.h"
 #include "lib/core/fingerprint.h"
 #include "lib/core/versions.h"
-#include "lib/simulation/files.h"
+#include "lib/simulation/output/files.h"
 
 namespace orthodyn {
 

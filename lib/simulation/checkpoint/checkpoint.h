@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "lib/ode/output.h"
-#include "lib/simulation/observers/archive.h"
+#include "lib/simulation/checkpoint/archive.h"
 #include "lib/simulation/checkpoint/effort.h"
 
 namespace orthodyn {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lib/simulation/run.h"
+#include "lib/simulation/run/run.h"
 
 namespace orthodyn {
 

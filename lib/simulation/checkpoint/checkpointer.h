@@ -11,7 +11,7 @@
 
 #include "lib/fem/fem_model.h"
 #include "lib/simulation/checkpoint/checkpoint.h"
-#include "lib/simulation/observers/observer.h"
+#include "lib/simulation/output/observer.h"
 
 namespace orthodyn {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lib/ode/statistics.h"
-#include "lib/simulation/observers/archive.h"
+#include "lib/simulation/checkpoint/archive.h"
 
 namespace orthodyn {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "lib/simulation/fingerprints.h"
-#include "lib/simulation/machine.h"
+#include "lib/simulation/run/fingerprints.h"
+#include "lib/simulation/run/machine.h"
 #include "lib/simulation/checkpoint/scene_changes.h"
 
 namespace orthodyn {

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "lib/simulation/checkpoint/checkpoint.h"
-#include "lib/simulation/result_folder.h"
-#include "lib/simulation/run.h"
-#include "lib/simulation/setup.h"
+#include "lib/simulation/output/result_folder.h"
+#include "lib/simulation/run/run.h"
+#include "lib/simulation/run/setup.h"
 
 namespace orthodyn {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "lib/analysis/rigid_freedom.h"
-#include "lib/simulation/static_problem.h"
+#include "lib/simulation/statics/static_problem.h"
 
 namespace orthodyn {
 

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "lib/analysis/modes.h"
-#include "lib/simulation/errors/estimated_error.h"
-#include "lib/simulation/setup.h"
+#include "lib/simulation/error_estimate/estimated_error.h"
+#include "lib/simulation/run/setup.h"
 
 namespace orthodyn {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "lib/core/errors.h"
-#include "lib/simulation/files.h"
+#include "lib/simulation/output/files.h"
 #include "lib/simulation/modes/shape_files.h"
 
 namespace orthodyn {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "lib/simulation/files.h"
-#include "lib/simulation/observers/frames.h"
+#include "lib/simulation/output/files.h"
+#include "lib/simulation/output/frames.h"
 
 namespace orthodyn {
 

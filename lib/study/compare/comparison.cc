@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include "lib/config/registry.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/ode/integrator.h"
-#include "lib/simulation/input_kind.h"
+#include "lib/simulation/run/input_kind.h"
 #include "lib/study/inputs/labels.h"
 
 namespace orthodyn {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "lib/simulation/fingerprints.h"
+#include "lib/simulation/run/fingerprints.h"
 #include "lib/study/compare/comparison_design.h"
 #include "lib/study/compare/measurement_result.h"
 #include "lib/study/jobs/job_queue.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/simulation/machine.h"
-#include "lib/study/compare/front_table.h"
+#include "lib/simulation/run/machine.h"
+#include "lib/study/compare/pareto_front_table.h"
 #include "lib/study/compare/reference_error.h"
 #include "lib/study/compare/work_precision.h"
 #include "lib/study/jobs/json_values.h"

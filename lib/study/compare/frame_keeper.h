@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <filesystem>
 
-#include "lib/simulation/observers/frames.h"
-#include "lib/simulation/setup_file.h"
+#include "lib/simulation/output/frames.h"
+#include "lib/simulation/output/setup_file.h"
 
 namespace orthodyn::study::compare {
 

@@ -6,14 +6,14 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "lib/simulation/errors/mesh_error.h"
-#include "lib/simulation/errors/modal_solution.h"
-#include "lib/simulation/errors/probe_recorder.h"
-#include "lib/simulation/errors/whole_states.h"
-#include "lib/simulation/machine.h"
-#include "lib/simulation/observers/balance.h"
-#include "lib/simulation/run.h"
-#include "lib/simulation/several_ranks.h"
+#include "lib/simulation/error_estimate/mesh_error.h"
+#include "lib/simulation/error_estimate/modal_solution.h"
+#include "lib/simulation/error_estimate/probe_recorder.h"
+#include "lib/simulation/error_estimate/whole_states.h"
+#include "lib/simulation/run/machine.h"
+#include "lib/simulation/output/balance.h"
+#include "lib/simulation/run/run.h"
+#include "lib/simulation/run/several_ranks.h"
 #include "lib/study/compare/frame_keeper.h"
 #include "lib/study/jobs/deadline.h"
 #include "lib/study/jobs/json_values.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lib/scene/quantity.h"
-#include "lib/simulation/setup.h"
+#include "lib/simulation/run/setup.h"
 #include "lib/study/compare/measurement_result.h"
 
 namespace orthodyn::study::compare {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lib/simulation/json.h"
+#include "lib/simulation/output/json.h"
 #include "lib/study/jobs/json_values.h"
 
 namespace orthodyn::study::compare {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lib/ode/statistics.h"
-#include "lib/simulation/errors/error_norms.h"
+#include "lib/simulation/error_estimate/error_norms.h"
 #include "lib/study/jobs/job_result.h"
 
 namespace orthodyn::study::compare {

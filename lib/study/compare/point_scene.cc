@@ -4,7 +4,7 @@
 #include <set>
 
 #include "lib/scene/scene.h"
-#include "lib/simulation/kinematics.h"
+#include "lib/simulation/run/kinematics.h"
 #include "lib/study/compare/comparison_design.h"
 
 namespace orthodyn::study::compare {

@@ -6,8 +6,8 @@
 
 #include "lib/scene/build.h"
 #include "lib/scene/quantity.h"
-#include "lib/simulation/fingerprints.h"
-#include "lib/simulation/scene_file.h"
+#include "lib/simulation/run/fingerprints.h"
+#include "lib/simulation/run/scene_file.h"
 
 namespace orthodyn::study::converge {
 

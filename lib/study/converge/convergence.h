@@ -7,7 +7,7 @@
 
 #include "lib/study/inputs/limits.h"
 #include "lib/study/points/point_jobs.h"
-#include "lib/study/quantities/wanted_figure.h"
+#include "lib/study/quantities/wanted_metric.h"
 
 namespace orthodyn::study::converge {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "lib/simulation/json.h"
+#include "lib/simulation/output/json.h"
 
 namespace orthodyn::study::converge {
 

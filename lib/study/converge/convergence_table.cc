@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "lib/simulation/machine.h"
+#include "lib/simulation/run/machine.h"
 #include "lib/study/converge/convergence_answer.h"
 #include "lib/study/converge/richardson.h"
 #include "lib/study/inputs/labels.h"

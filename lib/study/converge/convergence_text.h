@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "lib/simulation/json.h"
+#include "lib/simulation/output/json.h"
 
 namespace orthodyn::study::converge {
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "lib/config/registry.h"
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/ode/integrator.h"
 
 namespace orthodyn {

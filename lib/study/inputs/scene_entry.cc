@@ -4,7 +4,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "lib/simulation/input_kind.h"
+#include "lib/simulation/run/input_kind.h"
 #include "lib/study/inputs/labels.h"
 
 namespace orthodyn {

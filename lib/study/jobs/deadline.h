@@ -4,7 +4,7 @@
 #include <atomic>
 #include <chrono>
 
-#include "lib/simulation/observers/observer.h"
+#include "lib/simulation/output/observer.h"
 
 namespace orthodyn::study {
 

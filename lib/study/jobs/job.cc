@@ -8,10 +8,10 @@
 #include <stdexcept>
 
 #include "lib/core/errors.h"
-#include "lib/simulation/files.h"
-#include "lib/simulation/fingerprints.h"
-#include "lib/simulation/machine.h"
-#include "lib/simulation/several_ranks.h"
+#include "lib/simulation/output/files.h"
+#include "lib/simulation/run/fingerprints.h"
+#include "lib/simulation/run/machine.h"
+#include "lib/simulation/run/several_ranks.h"
 #include "lib/study/jobs/job_result.h"
 #include "lib/study/jobs/json_values.h"
 

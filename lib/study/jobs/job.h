@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lib/core/ranks.h"
-#include "lib/simulation/json.h"
+#include "lib/simulation/output/json.h"
 #include "lib/study/jobs/process.h"
 
 namespace orthodyn::study {

@@ -7,7 +7,7 @@
 
 #include "lib/core/errors.h"
 #include "lib/core/fingerprint.h"
-#include "lib/simulation/files.h"
+#include "lib/simulation/output/files.h"
 #include "lib/study/jobs/json_values.h"
 
 namespace orthodyn::study {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/simulation/outcome.h"
+#include "lib/simulation/run/outcome.h"
 #include "lib/study/jobs/job.h"
 
 namespace orthodyn::study {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lib/config/values.h"
-#include "lib/simulation/json.h"
+#include "lib/simulation/output/json.h"
 
 namespace orthodyn {
 

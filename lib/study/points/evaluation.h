@@ -8,7 +8,7 @@
 
 #include "lib/ode/statistics.h"
 #include "lib/study/jobs/job_result.h"
-#include "lib/study/quantities/wanted_figure.h"
+#include "lib/study/quantities/wanted_metric.h"
 
 namespace orthodyn::study {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/simulation/fingerprints.h"
+#include "lib/simulation/run/fingerprints.h"
 #include "lib/study/inputs/limits.h"
 #include "lib/study/jobs/job.h"
 #include "lib/study/points/evaluation.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lib/analysis/buckling.h"
-#include "lib/simulation/static_problem.h"
+#include "lib/simulation/statics/static_problem.h"
 #include "lib/study/quantities/wanted_modes.h"
 
 namespace orthodyn::study {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "lib/simulation/setup.h"
+#include "lib/simulation/run/setup.h"
 #include "lib/study/quantities/check.h"
 
 namespace orthodyn::study {

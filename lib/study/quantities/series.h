@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lib/scene/quantity.h"
-#include "lib/simulation/observers/balance.h"
+#include "lib/simulation/output/balance.h"
 
 namespace orthodyn {
 

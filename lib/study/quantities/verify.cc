@@ -5,12 +5,12 @@
 #include <filesystem>
 
 #include "lib/core/file_kind.h"
-#include "lib/simulation/static_problem.h"
-#include "lib/simulation/load_steps.h"
-#include "lib/simulation/run.h"
-#include "lib/simulation/setup.h"
+#include "lib/simulation/statics/static_problem.h"
+#include "lib/simulation/statics/load_steps.h"
+#include "lib/simulation/run/run.h"
+#include "lib/simulation/run/setup.h"
 #include "lib/study/quantities/eigenvalue_checks.h"
-#include "lib/study/quantities/figure.h"
+#include "lib/study/quantities/metric.h"
 
 namespace orthodyn::study {
 

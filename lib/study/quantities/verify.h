@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "lib/config/config.h"
-#include "lib/simulation/outcome.h"
-#include "lib/simulation/setup.h"
+#include "lib/simulation/run/outcome.h"
+#include "lib/simulation/run/setup.h"
 #include "lib/study/quantities/check.h"
 
 namespace orthodyn::study {

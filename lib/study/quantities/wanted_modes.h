@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lib/analysis/modes.h"
-#include "lib/study/quantities/wanted_figure.h"
+#include "lib/study/quantities/wanted_metric.h"
 
 namespace orthodyn {
 

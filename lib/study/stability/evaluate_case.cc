@@ -1,6 +1,6 @@
 #include "lib/study/stability/evaluate_case.h"
 
-#include "lib/simulation/observers/frames.h"
+#include "lib/simulation/output/frames.h"
 #include "lib/study/jobs/deadline.h"
 #include "lib/study/stability/case_grade.h"
 #include "lib/study/stability/stability_result.h"

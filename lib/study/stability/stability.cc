@@ -5,7 +5,7 @@
 #include "lib/config/registry.h"
 #include "lib/ode/integrator.h"
 #include "lib/scene/scene.h"
-#include "lib/simulation/input_kind.h"
+#include "lib/simulation/run/input_kind.h"
 #include "lib/study/inputs/labels.h"
 #include "lib/study/inputs/scene_entry.h"
 #include "lib/study/inputs/scene_variant.h"

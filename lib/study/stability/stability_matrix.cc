@@ -6,8 +6,8 @@
 
 #include "lib/scene/build.h"
 #include "lib/scene/mesh_materials.h"
-#include "lib/simulation/fingerprints.h"
-#include "lib/simulation/machine.h"
+#include "lib/simulation/run/fingerprints.h"
+#include "lib/simulation/run/machine.h"
 #include "lib/study/inputs/scene_entry.h"
 #include "lib/study/jobs/json_values.h"
 #include "lib/study/stability/suspected.h"

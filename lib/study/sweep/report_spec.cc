@@ -1,7 +1,7 @@
 // What the report of a sweep shows: the keys `frames` and `plots`.
 #include <algorithm>
 
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/fem/fem_model.h"
 #include "lib/study/sweep/sweep.h"
 

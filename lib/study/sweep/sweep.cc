@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "lib/simulation/input_kind.h"
+#include "lib/simulation/run/input_kind.h"
 #include "lib/study/inputs/labels.h"
 #include "lib/study/sweep/formula_scope.h"
 

@@ -7,7 +7,7 @@
 
 #include "lib/study/inputs/limits.h"
 #include "lib/study/inputs/scene_entry.h"
-#include "lib/study/quantities/wanted_figure.h"
+#include "lib/study/quantities/wanted_metric.h"
 #include "lib/study/sweep/variable.h"
 
 namespace orthodyn {

@@ -5,7 +5,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "lib/core/words.h"
+#include "lib/core/spelling.h"
 #include "lib/core/units.h"
 #include "lib/scene/scene.h"
 #include "lib/study/sweep/formula_scope.h"

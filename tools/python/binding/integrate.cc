@@ -6,7 +6,7 @@
 
 #include "lib/config/config.h"
 #include "lib/ode/integrator.h"
-#include "lib/simulation/run.h"
+#include "lib/simulation/run/run.h"
 #include "tools/python/binding/arrays.h"
 
 namespace orthodyn::python {

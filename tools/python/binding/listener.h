@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/simulation/run_listener.h"
+#include "lib/simulation/run/run_listener.h"
 #include "tools/python/binding/recorder.h"
 
 namespace orthodyn::python {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/simulation/observers/observer.h"
+#include "lib/simulation/output/observer.h"
 
 namespace orthodyn::python {
 

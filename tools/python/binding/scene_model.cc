@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "lib/simulation/modes/modal_analysis.h"
-#include "lib/simulation/static_problem.h"
+#include "lib/simulation/statics/static_problem.h"
 
 namespace orthodyn::python {
 

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "lib/simulation/setup.h"
+#include "lib/simulation/run/setup.h"
 
 namespace orthodyn::python {
 

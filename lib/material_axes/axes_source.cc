@@ -1,0 +1,25 @@
+#include "lib/material_axes/axes_source.h"
+
+namespace orthodyn {
+
+Vec3 centroid(const TetMesh& mesh, int cell) {
+  Vec3 sum = Vec3::Zero();
+  for (const int node : mesh.tets[static_cast<std::size_t>(cell)]) sum += mesh.nodes[static_cast<std::size_t>(node)];
+  return sum / 4;
+}
+
+ElementAxes element_axes(const AxesSource& source, const AxesField& field, const ElementMesh& mesh,
+                         const std::vector<int>& cells) {
+  const auto points_of = [&](int cell) { return mesh.type.points(mesh.positions(static_cast<std::size_t>(cell))); };
+  const ElementType::Nodes first = points_of(cells.front());
+  if (source.uniform()) return field(first.col(0), cells.front());
+  std::vector<Mat3> each;
+  each.reserve(cells.size() * static_cast<std::size_t>(first.cols()));
+  for (const int cell : cells) {
+    const ElementType::Nodes points = points_of(cell);
+    for (Eigen::Index p = 0; p < points.cols(); ++p) each.push_back(field(points.col(p), cell));
+  }
+  return ElementAxes(each, static_cast<int>(first.cols()));
+}
+
+}  // namespace orthodyn

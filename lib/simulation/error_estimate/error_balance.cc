@@ -1,0 +1,60 @@
+#include "lib/simulation/error_estimate/error_balance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace orthodyn {
+
+namespace {
+
+constexpr double kSmall = 5e-3;         // a mesh that is as good as this needs no word
+constexpr double kMuch = 3;             // one error against the other, to be called the larger one
+constexpr double kLoosestRtol = 1e-2;
+constexpr double kMargin = 30;          // how much smaller than the mesh's error that of the integration may as well be
+
+std::optional<double> time_error(const MotionResult& motion) {
+  if (motion.error && motion.error->completed && std::isfinite(motion.error->displacement.l2))
+    return motion.error->displacement.l2;
+  if (motion.accumulated && std::isfinite(motion.accumulated->error)) return motion.accumulated->error;
+  return std::nullopt;
+}
+
+std::string finer(const ModelSummary& model) {
+  return model.order == 1 ? "mesh.order: 2, or finer cells, would reduce it" : "finer cells would reduce it";
+}
+
+// By powers of ten, with the errors in proportion to rtol.
+std::optional<double> sufficient_rtol(double mesh, double time, double rtol) {
+  if (!(kMargin * time < mesh)) return std::nullopt;
+  const double decades = time > 0 ? std::floor(std::log10(mesh / (kMargin / 3 * time))) : 1;
+  const double loose = std::min(rtol * std::pow(10, decades), kLoosestRtol);
+  return loose > 2 * rtol ? std::optional(loose) : std::nullopt;
+}
+
+std::string advice(const RunResult& result, double mesh, const std::optional<double>& time) {
+  if (!time) return mesh > kSmall ? finer(result.model) : "";
+  if (*time > kMuch * mesh) return "the integration dominates: a smaller integrator.rtol or step would reduce it";
+  if (mesh <= kMuch * *time || mesh <= kSmall) return "";
+  std::string out = "the mesh dominates: " + finer(result.model);
+  if (const auto& rtol = result.motion->rtol)
+    if (const auto enough = sufficient_rtol(mesh, *time, *rtol))
+      out += fmt::format("; as it is, rtol {:.0e} would do", *enough);
+  return out;
+}
+
+}  // namespace
+
+std::optional<ErrorBalance> error_balance(const RunResult& result) {
+  if (!result.motion && !result.equilibrium) return std::nullopt;
+  const auto& mesh = result.motion ? result.motion->mesh_error : result.equilibrium->mesh_error;
+  if (!mesh) return std::nullopt;
+  const std::optional<double> time = result.motion ? time_error(*result.motion) : std::nullopt;
+  const std::string by = mesh->by_finer_elements
+                             ? fmt::format("finer elements, {:.2g} s of CPU", mesh->cpu_seconds)
+                             : std::string("recovered stresses");
+  return ErrorBalance{mesh->relative, by, time, mesh->probed, mesh->probed_unknown, advice(result, mesh->relative, time)};
+}
+
+}  // namespace orthodyn

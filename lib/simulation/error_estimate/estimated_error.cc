@@ -1,0 +1,185 @@
+#include "lib/simulation/error_estimate/estimated_error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "lib/core/errors.h"
+#include "lib/fem/element_mesh.h"
+#include "lib/mesh/selection.h"
+#include "lib/simulation/error_estimate/blind_spot.h"
+#include "lib/simulation/run/outcome.h"
+
+namespace orthodyn {
+
+bool is_affordable(const FemModel& model) {
+  return !model.ranks() && FinerModel::unknowns_of(model) <= kMostFinerUnknowns;
+}
+
+namespace {
+
+constexpr double kMostEntries = 5e6;  // of the shapes of modes in finer elements
+
+// Works with finer elements; false where they cannot: an estimate is not to fail what was computed.
+template <class Work>
+bool tried(const FemModel& model, double& cpu_seconds, const Work& work) {
+  if (!is_affordable(model)) return false;
+  const double begin = cpu_seconds_now();
+  bool done = false;
+  try {
+    work();
+    done = true;
+  } catch (const RunError&) {          // an unstable state, or no memory
+  } catch (const RecoverableError&) {  // the finer elements have no forces there
+  } catch (const ConfigError&) {       // a load or a support that the finer mesh does not allow
+  }
+  cpu_seconds = cpu_seconds_now() - begin;
+  return done;
+}
+
+// Of each shape what the body's consistent mass makes of it: 1 less what lumping puts on top.
+std::vector<double> consistent_masses(const FemModel::Parts& parts, const std::vector<NodalVector>& shapes) {
+  const ElementMesh mesh(parts.mesh);
+  std::vector<double> sums(shapes.size(), 0);
+  for (std::size_t r = 0; r < parts.elastic.size(); ++r)
+    for (const int cell : parts.elastic[r]->definition().cells) {
+      const auto c = static_cast<std::size_t>(cell);
+      const Eigen::MatrixXd M = mesh.type.consistent_mass(mesh.positions(c), parts.densities[r]);
+      const auto nodes = mesh.cells[c];
+      ElementType::Nodes at(3, M.cols());
+      for (std::size_t k = 0; k < shapes.size(); ++k) {
+        for (std::size_t a = 0; a < nodes.size(); ++a) at.col(static_cast<Eigen::Index>(a)) = shapes[k].col(nodes[a]);
+        sums[k] += (at * M).cwiseProduct(at).sum();
+      }
+    }
+  return sums;
+}
+
+// A shape of unit modal mass has the elastic energy omega^2/2: what of it is error is the error of omega^2/2. A lumped
+// mass adds to that the difference to the consistent one, whose own error is of higher order.
+std::vector<double> recovered_frequency_errors(const FemModel& model, const State& state, const Modes& modes) {
+  const FemModel::Parts& parts = model.parts();
+  const NodalExpansion about(parts, state.t, state.q, state.v);
+  std::vector<NodalVector> shapes;
+  for (const Mode& mode : modes.modes) {
+    shapes.push_back(NodalVector::Zero(3, about.x.cols()));
+    parts.dofs->add_to(mode.shape, shapes.back());
+  }
+  const auto masses = parts.mass->lumped() ? consistent_masses(parts, shapes) : std::vector<double>(shapes.size(), 1.0);
+  std::vector<double> errors(shapes.size(), 0);
+  for (auto k = static_cast<std::size_t>(modes.zeros); k < errors.size(); ++k) {
+    const StressMisfit misfit = parts.recovery->misfit_along(shapes[k], about.state());
+    const double stiffness = parts.recovery->product(misfit, misfit) / std::abs(modes.modes[k].lambda);
+    errors[k] = (stiffness - (1 - masses[k])) / 2;
+  }
+  return errors;
+}
+
+// The first elastic shape, so small that the law is linear.
+State along_a_shape(const FemModel& model, const State& about, const Modes& modes) {
+  const auto first = std::min(static_cast<std::size_t>(modes.zeros), modes.modes.size() - 1);
+  const Vector& shape = modes.modes[first].shape;
+  const double extent = bounding_box(model.parts().mesh).size().minCoeff();
+  return {about.t, about.q + 1e-6 * extent / std::max(shape.lpNorm<Eigen::Infinity>(), 1e-300) * shape, about.v};
+}
+
+std::string unit_of(const std::string& field, const FemModel& model) {
+  const auto all = model.outputs();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const OutputInfo& info) { return info.name == field; });
+  return found == all.end() ? "" : found->unit;
+}
+
+// Of all probes but displacements and velocities: those have their own error, and that of the elastic energy.
+NodesByField probed_fields(const Scene& scene, const FemModel& model) {
+  NodesByField out;
+  for (const auto& [name, probe] : scene.output.probes)
+    for (const std::string& field : probe.fields)
+      if (field != "displacement" && field != "velocity")
+        out[field].push_back(nearest_node(model.parts().mesh, probe.at));
+  return out;
+}
+
+// In the order of the probes; without those whose error is no number.
+std::vector<ProbedError> probed_errors(const Scene& scene, const FemModel& model, const StateError& found) {
+  std::vector<ProbedError> out;
+  std::map<std::string, std::size_t> next;
+  for (const auto& [name, probe] : scene.output.probes)
+    for (const std::string& field : probe.fields)
+      if (const auto at = found.fields.find(field); at != found.fields.end()) {
+        const auto [scale, error] = at->second[next[field]++];
+        if (std::isfinite(scale) && std::isfinite(error))
+          out.push_back({name, field, unit_of(field, model), scale, error});
+      }
+  return out;
+}
+
+}  // namespace
+
+FoundByFiner look_closer(const Scene& scene, const FemModel& model, const State& state, bool in_motion,
+                         const MeshError& recovered, const std::vector<int>& nodes) {
+  FoundByFiner out{recovered};
+  MeshError& error = out.error;
+  error.by_finer_elements = tried(model, error.cpu_seconds, [&] {
+    const StateError found =
+        state_error(FinerModel(scene, model), state, in_motion, nodes, probed_fields(scene, model));
+    const double elastic = model.evaluate("energy.mesh_error", state)[1];
+    if (!std::isfinite(found.energy) || !(found.energy + elastic > 0)) throw RunError("it is not finite");
+    error.relative = found.energy / (found.energy + elastic);
+    error.samples = 1;
+    out.displacements = found.displacements;
+    error.probed = probed_errors(scene, model, found);
+  });
+  error.blind = blind_spot(model, state, error.by_finer_elements);
+  error.probed_unknown = error.probed.empty() && !probed_fields(scene, model).empty();
+  return out;
+}
+
+FrequencyErrors frequency_errors_of(const Scene& scene, const FemModel& model, const State& about, const Modes& modes) {
+  FrequencyErrors out;
+  out.by_finer_elements = tried(model, out.cpu_seconds, [&] {
+    if (FinerModel::unknowns_of(model) * static_cast<double>(modes.modes.size()) > kMostEntries)
+      throw RunError("the shapes of the finer elements take too much memory");
+    out.shares = frequency_errors(FinerModel(scene, model), about, modes);
+    for (const double share : out.shares)
+      if (!std::isfinite(share)) throw RunError("it is not finite");
+  });
+  if (!out.by_finer_elements) out.shares = recovered_frequency_errors(model, about, modes);
+  if (!modes.modes.empty()) out.blind = blind_spot(model, along_a_shape(model, about, modes), out.by_finer_elements);
+  return out;
+}
+
+std::string blindness_warning(const std::string& blind) {
+  return blind.empty() ? "" : "the mesh's error may be larger than estimated: " + blind;
+}
+
+std::string finer_mesh(int order) { return order == 1 ? "Take mesh.order: 2 or finer cells" : "Take finer cells"; }
+
+std::string stress_warning(const MeshError& error, int order) {
+  const auto is_coarse = [](const ProbedError& e) { return e.share() > kCoarseStress; };
+  const auto count = std::count_if(error.probed.begin(), error.probed.end(), is_coarse);
+  if (count == 0) return "";
+  const auto worst = std::max_element(error.probed.begin(), error.probed.end(),
+                                      [](const auto& a, const auto& b) { return a.share() < b.share(); });
+  return fmt::format("the mesh is coarse for {} of {} probed stresses or strains: {} of {} is off by about {:.2g} % of "
+                     "its size there. {} there, and compare",
+                     count, error.probed.size(), worst->field, worst->probe, 100 * worst->share(), finer_mesh(order));
+}
+
+std::string frequency_warning(const FrequencyErrors& errors, int order) {
+  const auto is_coarse = [](double share) { return std::abs(share) > kCoarseMesh; };
+  const auto count = std::count_if(errors.shares.begin(), errors.shares.end(), is_coarse);
+  if (count == 0) return "";
+  const auto first = std::find_if(errors.shares.begin(), errors.shares.end(), is_coarse);
+  const auto less = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  const auto worst = std::max_element(errors.shares.begin(), errors.shares.end(), less);
+  const auto in_words = [&](auto mode) {
+    return fmt::format("mode {} about {:.2g} % too {}", mode - errors.shares.begin() + 1, 100 * std::abs(*mode),
+                       *mode > 0 ? "high" : "low");
+  };
+  return fmt::format("the mesh is coarse for {} of {} frequencies: {}{}. {}, and compare", count, errors.shares.size(),
+                     in_words(first), worst == first ? "" : ", " + in_words(worst), finer_mesh(order));
+}
+
+}  // namespace orthodyn

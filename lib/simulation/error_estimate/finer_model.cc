@@ -1,0 +1,120 @@
+#include "lib/simulation/error_estimate/finer_model.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "lib/material_axes/axes_source.h"
+#include "lib/element/tet10.h"
+#include "lib/mesh/quadratic.h"
+#include "lib/mesh/refine.h"
+
+namespace orthodyn {
+
+namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+using Barycentric = Eigen::Vector4d;
+
+constexpr int kChildren = 8;
+
+// Elements have the axes of those that they are part of.
+class AxesOfParents : public AxesSource {
+ public:
+  AxesOfParents(std::shared_ptr<const AxesSource> source, std::shared_ptr<const TetMesh> coarse, int children)
+      : source_(std::move(source)), coarse_(std::move(coarse)), children_(children) {}
+  bool uniform() const override { return source_->uniform(); }
+  AxesField field(const TetMesh&, Warnings& notes) const override {
+    return [field = source_->field(*coarse_, notes), n = children_](const Vec3& point, int cell) {
+      return field(point, cell / n);
+    };
+  }
+
+ private:
+  std::shared_ptr<const AxesSource> source_;
+  std::shared_ptr<const TetMesh> coarse_;
+  int children_;
+};
+
+int children_of(const TetMesh& coarse) { return coarse.order() == 1 ? 1 : kChildren; }
+
+Scene finer(const Scene& scene, const TetMesh& mesh) {
+  Scene out = scene;
+  const auto coarse = std::make_shared<const TetMesh>(mesh);
+  auto loaded = std::make_shared<LoadedMesh>();
+  loaded->mesh = mesh;
+  if (mesh.order() == 1) make_quadratic(loaded->mesh);
+  else refine(*loaded);
+  out.loaded = std::move(loaded);
+  out.mass = MassKind::consistent;
+  for (auto& [name, region] : out.regions)
+    region.axes = std::make_shared<AxesOfParents>(region.axes, coarse, children_of(mesh));
+  return out;
+}
+
+// Of a node of a cell, given by its place among the cell's nodes.
+Barycentric place_of(std::size_t node) {
+  if (node < 4) return Barycentric::Unit(static_cast<Eigen::Index>(node));
+  const auto [i, j] = kTetEdges[node - 4];
+  return (Barycentric::Unit(static_cast<Eigen::Index>(i)) + Barycentric::Unit(static_cast<Eigen::Index>(j))) / 2;
+}
+
+Barycentric place_in(std::span<const int> cell, int node) {
+  return place_of(static_cast<std::size_t>(std::find(cell.begin(), cell.end(), node) - cell.begin()));
+}
+
+}  // namespace
+
+FinerModel::FinerModel(const Scene& scene, const FemModel& coarse)
+    : coarse_(coarse), built_(build(finer(scene, coarse.parts().mesh))), nodal_(nodal_lift(model().parts().mesh)) {
+  const DofMap &to = *model().parts().dofs, &from = *coarse.parts().dofs;
+  Triplets entries;
+  entries.reserve(static_cast<std::size_t>(3 * nodal_.nonZeros()));
+  for (int node = 0; node < to.num_nodes(); ++node)
+    for (Rows::InnerIterator at(nodal_, node); at; ++at)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const int row = to.node(node)[c], column = from.node(static_cast<int>(at.col()))[c];
+        if (row >= 0 && column >= 0) entries.emplace_back(row, column, at.value());
+      }
+  lift_.resize(to.num_dofs(), from.num_dofs());
+  lift_.setFromTriplets(entries.begin(), entries.end());
+}
+
+double FinerModel::unknowns_of(const FemModel& coarse) { return 8.0 * coarse.num_dofs(); }
+
+// The corners of fine cells are nodes of the coarse ones, with the same numbers; the others lie between two of these.
+FinerModel::Rows FinerModel::nodal_lift(const TetMesh& fine) const {
+  const TetMesh& mesh = coarse_.parts().mesh;
+  const Cells parents = tet_cells(mesh), cells = tet_cells(fine);
+  const auto children = static_cast<std::size_t>(children_of(mesh));
+  std::vector<char> known(fine.nodes.size(), 0);
+  std::fill_n(known.begin(), mesh.nodes.size(), 1);
+  Triplets entries;
+  for (int node = 0; node < static_cast<int>(mesh.nodes.size()); ++node) entries.emplace_back(node, node, 1.0);
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const auto parent = parents[k / children];
+    for (std::size_t e = 0; e < kTetEdges.size(); ++e) {
+      const int node = cells[k][4 + e];
+      if (std::exchange(known[static_cast<std::size_t>(node)], 1)) continue;
+      const Barycentric L =
+          (place_in(parent, cells[k][kTetEdges[e][0]]) + place_in(parent, cells[k][kTetEdges[e][1]])) / 2;
+      const Vector shape = mesh.order() == 1 ? Vector(L) : Vector(Tet10::shape(L));
+      for (std::size_t a = 0; a < parent.size(); ++a)
+        if (const double value = shape[static_cast<Eigen::Index>(a)]; value != 0)
+          entries.emplace_back(node, parent[a], value);
+    }
+  }
+  Rows out(static_cast<Eigen::Index>(fine.nodes.size()), static_cast<Eigen::Index>(mesh.nodes.size()));
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+Vector FinerModel::state_of(double t, const ConstVectorRef& q) const {
+  const NodalExpansion nodal(coarse_.parts(), t, q, Vector::Zero(q.size()));
+  const NodalVector u = (nodal_ * nodal.u.transpose()).transpose();
+  Vector out(model().num_dofs());
+  model().parts().dofs->restrict_to(u, out);
+  return out;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,219 @@
+#include "lib/simulation/error_estimate/finer_solution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "lib/analysis/rigid_freedom.h"
+#include "lib/core/errors.h"
+#include "lib/core/symmetric_eigen.h"
+#include "lib/fem/element_mesh.h"
+#include "lib/linear/two_level.h"
+
+namespace orthodyn {
+
+namespace {
+
+constexpr double kAccuracy = 0.02;  // of the correction's energy
+constexpr int kMostIterations = 300;
+constexpr double kFreeShift = 1e-10;  // of the largest squared frequency: makes the stiffness of a free body definite
+
+// Energies of errors decline with the size of cells by its power of 1 (edges, corners) to 4 (smooth, quadratic): of
+// quadratic elements divided in two 1/2 to 15/16 is seen. Quadratic elements in the place of linear ones see nearly
+// all.
+double beyond(int order) { return order == 1 ? 1 : 4.0 / 3; }
+
+// On a model's pattern. Without a shift they are the same.
+struct Matrices {
+  std::vector<double> stiffness, shifted;
+};
+
+Matrices matrices(const FemModel& whole, const State& about, double shift) {
+  const auto unloaded = about.load_factor == 0 ? without_loads(whole) : nullptr;
+  const Model& model = unloaded ? *unloaded : static_cast<const Model&>(whole);
+  Linearization at;
+  model.linearize(about.t, about.q, Vector::Zero(about.q.size()), TangentKind::exact, at);
+  Matrices out{std::vector<double>(at.stiffness.size()), std::vector<double>(at.stiffness.size())};
+  model.combine({0, 0, 1}, at, out.stiffness.data());
+  model.combine({shift, 0, 1}, at, out.shifted.data());
+  return out;
+}
+
+// (K + s M) x = b of the finer model about a state of the coarse one.
+class FinerSystem {
+ public:
+  FinerSystem(const FinerModel& finer, const State& coarse, double shift)
+      : finer_(finer), q_(finer.state_of(coarse.t, coarse.q)) {
+    const FemModel& model = finer.coarse();
+    if (!model.pattern().symmetric || !finer.model().pattern().symmetric)
+      throw RunError("the tangent is not symmetric");
+    const Matrices small = matrices(model, coarse, shift);
+    coarse_ = make_solver_for(model.pattern());
+    if (coarse_->factor(small.shifted.data()) != FactorStatus::ok)
+      throw RunError("the tangent cannot be factorised: it is singular or unstable");
+    values_ = matrices(finer.model(), {coarse.t, q_, {}, coarse.load_factor}, shift);
+    solver_ =
+        std::make_unique<TwoLevelSolver>(finer.model().pattern(), values_.shifted, [this](const ConstVectorRef& b) {
+          Vector x = finer_.lower(b);
+          coarse_->solve(x, x);
+          return finer_.lift(x);
+        });
+  }
+
+  TwoLevelSolver::Solution solve(const Vector& b) const { return solver_->solve(b, kAccuracy, kMostIterations); }
+  Vector stiffness_times(const Vector& x) const {
+    Vector y(x.size());
+    finer_.model().pattern().multiply(values_.stiffness.data(), x, y);
+    return y;
+  }
+  const Vector& q() const { return q_; }
+
+ private:
+  const FinerModel& finer_;
+  Vector q_;
+  std::unique_ptr<LinearSolver> coarse_;
+  Matrices values_;
+  std::unique_ptr<TwoLevelSolver> solver_;
+};
+
+// With the consistent mass, with which forces that the coarse elements see are in balance.
+Vector acceleration(const FemModel& model, const State& s) {
+  const FemModel::Parts& parts = model.parts();
+  Vector a(s.q.size());
+  model.force(s.t, s.q, s.v, a);
+  if (!parts.mass->lumped()) {
+    parts.mass->solve(a);
+    return a;
+  }
+  std::vector<double> density(parts.mesh.tets.size());
+  for (std::size_t r = 0; r < parts.elastic.size(); ++r)
+    for (int k = 0; k < parts.elastic[r]->size(); ++k)
+      density[static_cast<std::size_t>(parts.elastic[r]->cell(k))] = parts.densities[r];
+  Mass(MassKind::consistent, ElementMesh(parts.mesh), density, *parts.dofs, *parts.pattern).solve(a);
+  return a;
+}
+
+Vector mass_times(const FemModel& model, const Vector& x) {
+  Vector y(x.size());
+  model.multiply_mass(x, y);
+  return y;
+}
+
+// Values of an output, one column per node. The finer mesh has the nodes of the coarse mesh first, in the same order.
+Eigen::MatrixXd nodal_values(const FemModel& model, const std::string& field, const State& state) {
+  const auto values = model.evaluate(field, state);
+  const auto nodes = static_cast<Eigen::Index>(model.parts().mesh.nodes.size());
+  return Eigen::Map<const Eigen::MatrixXd>(values.data(), std::ssize(values) / nodes, nodes);
+}
+
+// Errors of one field at some nodes: differences between the coarse and the finer elements, extrapolated.
+std::vector<FieldError> field_errors(const FinerModel& finer, const State& coarse, const State& fine,
+                                     const std::string& field, const std::vector<int>& nodes) {
+  constexpr double kOfLargest = 0.1;
+  const Eigen::MatrixXd before = nodal_values(finer.coarse(), field, coarse);
+  const Eigen::MatrixXd after = nodal_values(finer.model(), field, fine);
+  double largest = 0;
+  for (Eigen::Index k = 0; k < before.cols(); ++k)
+    if (before.col(k).allFinite()) largest = std::max(largest, before.col(k).norm());
+  std::vector<FieldError> out;
+  for (const int node : nodes)
+    out.push_back({std::max(before.col(node).norm(), kOfLargest * largest),
+                   beyond(finer.coarse().parts().mesh.order()) * (after.col(node) - before.col(node)).norm()});
+  return out;
+}
+
+}  // namespace
+
+StateError state_error(const FinerModel& finer, const State& coarse, bool in_motion, const std::vector<int>& nodes,
+                       const NodesByField& fields) {
+  const FemModel& fine = finer.model();
+  const bool is_free = count_rigid_freedom(finer.coarse(), coarse.t) > 0;
+  const double fastest = finer.coarse().frequency_bound();
+  const FinerSystem system(finer, coarse, is_free ? kFreeShift * fastest * fastest : 0);
+  Vector force(fine.num_dofs());
+  fine.force(coarse.t, system.q(), in_motion ? finer.lift(coarse.v) : Vector(Vector::Zero(force.size())), force);
+  if (in_motion) force -= mass_times(fine, finer.lift(acceleration(finer.coarse(), coarse)));
+  const auto found = system.solve(force);
+  const int order = finer.coarse().parts().mesh.order();
+  NodalVector correction = NodalVector::Zero(3, static_cast<Eigen::Index>(fine.parts().mesh.nodes.size()));
+  fine.parts().dofs->add_to(found.x, correction);
+  StateError out{beyond(order) * 0.5 * found.energy, {}, {}};
+  for (const int node : nodes) out.displacements.emplace_back(beyond(order) * correction.col(node));
+  const State closer{coarse.t, system.q() + found.x, Vector::Zero(force.size()), coarse.load_factor};
+  for (const auto& [field, at] : fields) {
+    try {
+      out.fields[field] = field_errors(finer, coarse, closer, field, at);
+    } catch (const RecoverableError&) {  // it has no values in the finer elements
+    }
+  }
+  return out;
+}
+
+namespace {
+
+// K + s M is positive definite.
+double shift_for(const Modes& modes) {
+  const double lowest = modes.modes.front().lambda;
+  if (modes.zeros == 0 && lowest > 0) return 0;
+  for (const Mode& mode : modes.modes)
+    if (mode.lambda > 0) return lowest < 0 ? mode.lambda - 2 * lowest : mode.lambda;
+  return -2 * lowest;
+}
+
+// K and M on some vectors, for Rayleigh's quotients.
+class Subspace {
+ public:
+  Subspace(const FinerSystem& system, const FemModel& model, Eigen::Index size)
+      : system_(system), model_(model), V_(model.num_dofs(), size), KV_(V_.rows(), size), MV_(V_.rows(), size) {}
+
+  void add(const Vector& v) {
+    V_.col(count_) = v / v.norm();
+    KV_.col(count_) = system_.stiffness_times(V_.col(count_));
+    MV_.col(count_) = mass_times(model_, V_.col(count_));
+    ++count_;
+  }
+  // Ascending.
+  Vector eigenvalues() const {
+    const auto V = V_.leftCols(count_);
+    const Eigen::MatrixXd M = V.transpose() * MV_.leftCols(count_), K = V.transpose() * KV_.leftCols(count_);
+    const Vector scale = M.diagonal().cwiseSqrt().cwiseInverse();
+    return symmetric_eigenvalues(scale.asDiagonal() * K * scale.asDiagonal(),
+                                 scale.asDiagonal() * M * scale.asDiagonal());
+  }
+
+ private:
+  const FinerSystem& system_;
+  const FemModel& model_;
+  Eigen::MatrixXd V_, KV_, MV_;
+  Eigen::Index count_ = 0;
+};
+
+}  // namespace
+
+std::vector<double> frequency_errors(const FinerModel& finer, const State& about, const Modes& modes) {
+  std::vector<double> errors(modes.modes.size(), 0);
+  const auto zeros = static_cast<std::size_t>(modes.zeros);
+  if (zeros == errors.size()) return errors;
+  const FinerSystem system(finer, about, shift_for(modes));
+  Subspace space(system, finer.model(), static_cast<Eigen::Index>(2 * errors.size() - zeros));
+  for (std::size_t k = 0; k < errors.size(); ++k) {
+    const Mode& mode = modes.modes[k];
+    const Vector shape = finer.lift(mode.shape);
+    space.add(shape);
+    if (k < zeros) continue;
+    const Vector residual = mode.lambda * mass_times(finer.model(), shape) - system.stiffness_times(shape);
+    const auto correction = system.solve(residual);
+    if (correction.energy > 0) space.add(correction.x);
+  }
+  const Vector finer_values = space.eigenvalues();
+  const double more = beyond(finer.coarse().parts().mesh.order());
+  for (std::size_t k = zeros; k < errors.size(); ++k) {
+    // By compliances, 1/lambda, to which errors add as energies do to that of a body under given loads.
+    const double excess = modes.modes[k].lambda / finer_values[static_cast<Eigen::Index>(k)] - 1;
+    errors[k] = std::sqrt(std::max(1 + more * excess, 0.0)) - 1;
+  }
+  return errors;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,40 @@
+#include "lib/simulation/error_estimate/mesh_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace orthodyn {
+
+namespace {
+
+constexpr std::size_t kStates = 8;
+constexpr double kDeformed = 1e-6;  // elastic against kinetic energy: less is of a body that moves as a rigid one
+
+}  // namespace
+
+MeshErrorRecorder::MeshErrorRecorder(std::size_t outputs)
+    : outputs_(outputs), stride_(std::max<std::size_t>((outputs + kStates - 1) / kStates, 1)) {}
+
+void MeshErrorRecorder::on_output(const ObservedState& observed) {
+  ++seen_;
+  if (seen_ % stride_ == 0 || seen_ == outputs_) look_at(observed);
+}
+
+void MeshErrorRecorder::look_at(const ObservedState& observed) {
+  const auto energy = observed.evaluate("energy.mesh_error");
+  if (!std::isfinite(energy[0]) || !std::isfinite(energy[1])) return;  // inverted elements
+  error_ += energy[0];
+  elastic_ += energy[1];
+  kinetic_ += observed.evaluate("energy.kinetic")[0];
+  ++samples_;
+  if (!(energy[1] > largest_)) return;
+  largest_ = energy[1];
+  most_deformed_ = observed.state();
+}
+
+std::optional<MeshError> MeshErrorRecorder::found() const {
+  if (!(elastic_ > kDeformed * kinetic_)) return std::nullopt;
+  return MeshError{.relative = error_ / (error_ + elastic_), .samples = samples_};
+}
+
+}  // namespace orthodyn

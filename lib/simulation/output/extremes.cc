@@ -1,0 +1,74 @@
+#include "lib/simulation/output/extremes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "lib/fem/fem_model.h"
+
+namespace orthodyn {
+
+bool is_exposure(const std::string& quantity) {
+  const std::string parts = "." + quantity + ".";
+  constexpr std::array kExposures{".max_stress.", ".tsai_wu.", ".hashin."};
+  return std::any_of(kExposures.begin(), kExposures.end(),
+                     [&](const char* name) { return parts.find(name) != std::string::npos; });
+}
+
+std::vector<std::string> exceeded_strengths(const std::vector<RecordedExtreme>& extremes, bool is_static) {
+  std::vector<std::string> all;
+  for (const auto& e : extremes)
+    if (e.node >= 0 && e.value > 1 && e.quantity.ends_with(".largest") && is_exposure(e.quantity))
+      all.push_back(fmt::format("{} reaches {:.3g}: the strength is exceeded from 1 on, at ({:.4g}, {:.4g}, {:.4g}) m, "
+                                "{} {:.4g}{}",
+                                e.quantity.substr(0, e.quantity.rfind('.')), e.value, e.place[0], e.place[1],
+                                e.place[2], is_static ? "at load factor" : "at t =", e.time, is_static ? "" : " s"));
+  return all;
+}
+
+ExtremeRecorder::ExtremeRecorder(const std::vector<std::string>& quantities, const FemModel& model,
+                                 const Origin& origin)
+    : model_(model) {
+  for (const auto& name : quantities) {
+    auto find = find_extreme(name, model, origin);
+    if (!find)
+      origin.fail(fmt::format("extremes: '{}' is not an extreme of a field of stress or strain: give one such as "
+                              "von_mises.largest, tsai_wu.largest or REGION.nodal_stress_material.11.smallest",
+                              name));
+    find_.push_back(std::move(*find));
+    found_.push_back({.quantity = name, .unit = unit_of_extreme(name)});
+  }
+}
+
+void ExtremeRecorder::look_at(const ObservedState& observed) {
+  for (std::size_t k = 0; k < find_.size(); ++k) {
+    const Extreme now = find_[k](observed);
+    RecordedExtreme& found = found_[k];
+    ++found.states;
+    const double sign = found.quantity.ends_with(".largest") ? 1 : -1;
+    if (now.node < 0 || !(found.node < 0 || sign * now.value > sign * found.value)) continue;
+    found.value = now.value;
+    found.time = observed.t();
+    found.node = now.node;
+    found.place = model_.parts().mesh.nodes[static_cast<std::size_t>(now.node)];
+  }
+}
+
+void ExtremeRecorder::save(Archive& archive) {
+  for (const auto& f : found_)
+    archive.put(f.quantity, {f.value, f.time, static_cast<double>(f.node), static_cast<double>(f.states)});
+}
+
+void ExtremeRecorder::restore(const Archive& archive) {
+  for (auto& f : found_) {
+    const auto& kept = archive.numbers(f.quantity, 4);
+    f.value = kept[0];
+    f.time = kept[1];
+    f.node = static_cast<int>(kept[2]);
+    f.states = static_cast<long>(kept[3]);
+    if (f.node >= 0) f.place = model_.parts().mesh.nodes.at(static_cast<std::size_t>(f.node));
+  }
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,55 @@
+// Frames for ParaView: one .vtu file per output time (appended raw binary, fields in single precision) and a .pvd with
+// the times.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "lib/mesh/tet_mesh.h"
+#include "lib/simulation/output/files.h"
+#include "lib/simulation/output/observer.h"
+
+namespace orthodyn {
+
+// Values of all nodes or cells, one set of `components` after the other.
+struct VtuField {
+  std::string name;
+  Location location;
+  int components;
+  std::vector<double> values;
+};
+
+// Writes one .vtu file, in double precision, with the names of the regions of `mesh`, if there is one. Throws RunError.
+void write_vtu(const std::filesystem::path& path, const Geometry& geometry, std::vector<VtuField> fields,
+               const TetMesh* mesh = nullptr);
+
+class FrameWriter : public Observer {
+ public:
+  // Writes <folder>/frames.pvd and <folder>/frames/frame_00000.vtu ... `fields` are node or cell
+  // outputs of the model, which must outlive the writer, as must the mesh: its regions stand in each frame by number
+  // (cell data "region") and name (field data "region_names"), unless it has one and the name "body" only.
+  FrameWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields,
+              const TetMesh* mesh = nullptr);
+
+  void on_start(const ObservedState& observed) override;
+  void on_resume(const ObservedState& observed) override;
+  void on_output(const ObservedState& observed) override { write(observed); }
+  void save(Archive& archive) override;
+  void restore(const Archive& archive) override;
+
+ private:
+  void write(const ObservedState& observed);
+  std::filesystem::path frame(std::size_t k) const;
+  void remove_frames_from(std::size_t count) const;
+
+  std::filesystem::path folder_;
+  const Model& model_;
+  const TetMesh* mesh_;  // null: no regions
+  std::vector<OutputInfo> fields_;
+  GrowingFile collection_;
+  std::size_t frames_ = 0, lasting_ = 0;  // written, and known to be on the disk
+  std::vector<double> prints_;            // fingerprints of the frames
+};
+
+}  // namespace orthodyn

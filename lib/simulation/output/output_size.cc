@@ -1,0 +1,108 @@
+#include "lib/simulation/output/output_size.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/simulation/output/run_observers.h"
+
+namespace orthodyn {
+
+namespace {
+
+constexpr double kNumber = 4, kIndex = 4;   // bytes, of frames
+constexpr double kColumn = 20;              // bytes, of tables
+constexpr double kEnergyColumns = 7, kMomentumColumns = 13;
+constexpr int kUsualFrames = 50;
+
+// Its fields, and the mesh: places, nodes of cells, their offsets, types and regions.
+double frame_bytes_of(const FemModel& model, const std::vector<std::string>& fields) {
+  const auto& mesh = model.parts().mesh;
+  const auto nodes = static_cast<double>(mesh.nodes.size()), cells = static_cast<double>(mesh.tets.size());
+  const double nodes_of_cell = mesh.order() == 1 ? 4 : 10;
+  double bytes = kNumber * 3 * nodes + cells * (kIndex * (nodes_of_cell + 2) + 1);
+  for (const auto& info : model.outputs())
+    if (std::find(fields.begin(), fields.end(), info.name) != fields.end())
+      bytes += kNumber * info.components * (info.location == Location::node ? nodes : cells);
+  return bytes;
+}
+
+double row_bytes_of(const Setup& setup) {
+  const auto& output = setup.scene.output;
+  double columns = 1 + 3 * static_cast<double>(probe_columns(setup.scene, *setup.built.model).size());
+  if (output.energy) columns += kEnergyColumns;
+  if (output.momentum) columns += kMomentumColumns;
+  return kColumn * columns;
+}
+
+double frames_of(const Scene& scene) {
+  if (scene.buckling) return scene.buckling->count;
+  if (scene.is_static()) return fewest_load_steps(*scene.statics);
+  const double span = scene.time.end - scene.time.start;
+  return scene.output.interval ? std::ceil(span / *scene.output.interval) : scene.output.frames.value_or(kUsualFrames);
+}
+
+double rows_of(const Scene& scene, double frames) {
+  const auto& history = scene.output.history;
+  if (!history || scene.is_static()) return frames;
+  const auto apart = history->steps ? scene.integrator->settings().step : history->interval;
+  return apart ? std::ceil((scene.time.end - scene.time.start) / *apart) : 0;
+}
+
+[[noreturn]] void refuse(const Setup& setup, const char* section, double count, const char* what, double bytes_each,
+                         const char* remedy) {
+  (setup.config.has(section) && !setup.config.at(section).is_null() ? setup.config.at(section) : setup.config)
+      .fail(fmt::format("makes {:.7g} {} ({} of disk): {}; add --yes if that is meant", count, what,
+                        shown_bytes(count * bytes_each), remedy));
+}
+
+}  // namespace
+
+double fewest_load_steps(const Statics& statics) {
+  const double doubled = std::ceil(std::log2(1 + 1 / statics.first_step));
+  return std::min(std::max(std::ceil(1 / statics.max_step), doubled), static_cast<double>(statics.max_steps));
+}
+
+std::string shown_bytes(double bytes) {
+  for (const auto& [size, unit] : {std::pair{1e12, "TB"}, {1e9, "GB"}, {1e6, "MB"}})
+    if (bytes >= size) return fmt::format("{:.3g} {}", bytes / size, unit);
+  return fmt::format("{:.3g} kB", bytes / 1e3);
+}
+
+Volume volume_of(const Setup& setup) {
+  const Scene& scene = setup.scene;
+  Volume volume;
+  volume.frames = frames_of(scene);
+  volume.rows = rows_of(scene, volume.frames);
+  volume.frame_bytes = scene.output.fields.empty() ? 0 : frame_bytes_of(*setup.built.model, scene.output.fields);
+  volume.row_bytes = row_bytes_of(setup);
+  if (scene.checkpoint) volume.checkpoint_bytes = 2 * sizeof(double) * static_cast<double>(setup.built.model->num_dofs_of_all());
+  return volume;
+}
+
+void require_usual_volume(const Setup& setup) {
+  const Volume volume = volume_of(setup);
+  if (setup.scene.is_static() && volume.frames >= kMostUnasked)
+    refuse(setup, "statics", volume.frames, "load steps", volume.frame_bytes + volume.row_bytes,
+           "take a larger statics.max_step");
+  if (volume.frames >= kMostUnasked)
+    refuse(setup, "output", volume.frames, "frames", volume.frame_bytes,
+           "take fewer output.frames or a longer output.interval");
+  if (volume.rows >= kMostUnasked)
+    refuse(setup, "output", volume.rows, "rows of tables", volume.row_bytes,
+           setup.scene.output.history && setup.scene.output.history->steps
+               ? "take output.history.interval in place of output.history.steps"
+               : "take a longer output.history.interval");
+}
+
+std::string unusual_volume(const Setup& setup) {
+  try {
+    require_usual_volume(setup);
+  } catch (const ConfigError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,71 @@
+#include "lib/simulation/output/run_observers.h"
+
+#include <fmt/format.h>
+
+namespace orthodyn {
+
+std::vector<ProbeColumn> probe_columns(const Scene& scene, const FemModel& model) {
+  std::vector<ProbeColumn> columns;
+  for (const auto& [name, probe] : scene.output.probes)
+    for (const auto& field : probe.fields) columns.push_back({name, nearest_node(model.parts().mesh, probe.at), field});
+  if (scene.output.reactions)
+    for (const auto& support : model.parts().supports)
+      for (const char* what : {"reaction.", "torque."}) columns.push_back({"", 0, what + support.name});
+  return columns;
+}
+
+RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& folder)
+    : linearity_(setup.linearity.get()), finder_(setup.events) {
+  const auto& model = *setup.built.model;
+  const auto& scene = setup.scene;
+  if (!scene.output.fields.empty()) {
+    frames_.emplace(folder, model, scene.output.fields, &model.parts().mesh);
+    setup_.emplace(folder, setup);
+  }
+  if (const auto& output = scene.output; output.energy)  // without outputs there would be no drift
+    energy.emplace(folder / "energy.csv", model, *setup.integrator,
+                   output.frames == 0 && !output.history ? EnergyTimes::steps : output.energy_times);
+  if (scene.output.momentum) momentum.emplace(folder / "momentum.csv");
+  if (scene.output.steps) steps_.emplace(folder / "steps.csv");
+  if (const auto columns = probe_columns(scene, model); !columns.empty())
+    probes_.emplace(folder / "probes.csv", model, columns);
+  if (!scene.output.extremes.empty()) extremes.emplace(scene.output.extremes, model, scene.output.origin);
+  if (has_strain_limits(model)) strains.emplace(StrainWatch::of_motion(model, scene.time.end - scene.time.start));
+  if (!finder_.empty()) events_.emplace(folder / "events.csv", finder_);
+}
+
+NamedObservers RunObservers::kept() {
+  NamedObservers out{{"inversion", &inversion}};
+  const auto add = [&](const char* name, auto& observer) { if (observer) out.emplace_back(name, &*observer); };
+  add("frames", frames_);
+  add("energy", energy);
+  add("momentum", momentum);
+  add("steps", steps_);
+  add("probes", probes_);
+  add("events", events_);
+  add("extremes", extremes);
+  add("strains", strains);
+  add("linearity", linearity_);
+  return out;
+}
+
+std::vector<Observer*> RunObservers::all(Observer* progress, Checkpointer& checkpointer) {
+  std::vector<Observer*> out;
+  if (progress) out.push_back(progress);  // it may share what it keeps with those that write
+  for (const auto& [name, observer] : kept()) out.push_back(observer);
+  if (setup_) out.push_back(&*setup_);
+  out.push_back(&checkpointer);
+  return out;
+}
+
+void RunObservers::restore(const Checkpoint& checkpoint) {
+  for (const auto& [name, observer] : kept()) {
+    const auto found = checkpoint.observers.find(name);
+    if (found == checkpoint.observers.end())
+      throw ConfigError(fmt::format("checkpoint: nothing is kept of '{}'; start anew with --force in place of --resume",
+                                    name));
+    observer->restore(found->second);
+  }
+}
+
+}  // namespace orthodyn

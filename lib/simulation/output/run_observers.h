@@ -1,0 +1,55 @@
+// The observers of a dynamic run that a scene asks for: frames, probes, energies, steps, events.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "lib/simulation/checkpoint/checkpointer.h"
+#include "lib/simulation/output/curves.h"
+#include "lib/simulation/output/event_writer.h"
+#include "lib/simulation/output/extremes.h"
+#include "lib/simulation/output/frames.h"
+#include "lib/simulation/output/strain_watch.h"
+#include "lib/simulation/run/setup.h"
+#include "lib/simulation/output/setup_file.h"
+
+namespace orthodyn {
+
+// The columns of probes.csv that a scene asks for.
+std::vector<ProbeColumn> probe_columns(const Scene& scene, const FemModel& model);
+
+class RunObservers {
+ public:
+  // Touches no file. `setup` must outlive it.
+  RunObservers(const Setup& setup, const std::filesystem::path& folder);
+
+  // The events that the run is to find; null if there are none.
+  EventFinder* events() { return finder_.empty() ? nullptr : &finder_; }
+  std::vector<std::string> silent_events() const { return finder_.silent(); }
+
+  // Those that a checkpoint keeps, by name.
+  NamedObservers kept();
+  // In the order in which they are called; `progress` may be null.
+  std::vector<Observer*> all(Observer* progress, Checkpointer& checkpointer);
+
+  // Throws ConfigError, before anything is changed on the disk.
+  void restore(const Checkpoint& checkpoint);
+
+  InversionWatch inversion;
+  std::optional<EnergyWriter> energy;
+  std::optional<MomentumWriter> momentum;
+  std::optional<ExtremeRecorder> extremes;
+  std::optional<StrainWatch> strains;
+
+ private:
+  LinearityWatch* linearity_;  // null without linear kinematics
+  std::optional<FrameWriter> frames_;
+  std::optional<SetupWriter> setup_;
+  std::optional<StepWriter> steps_;
+  std::optional<ProbeWriter> probes_;
+  EventFinder finder_;
+  std::optional<EventWriter> events_;
+};
+
+}  // namespace orthodyn

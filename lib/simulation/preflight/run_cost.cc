@@ -1,0 +1,241 @@
+#include "lib/simulation/preflight/run_cost.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "lib/linear/solver.h"
+#include "lib/simulation/output/run_observers.h"
+#include "lib/simulation/run/setup.h"
+#include "lib/simulation/output/output_size.h"
+
+namespace orthodyn {
+
+namespace {
+
+constexpr double kLargestFactor = 2e9;  // bytes of one that is tried for the sake of a figure: some ten seconds
+
+// Of an adaptive implicit method, measured on the scenes of configs/: forces and solutions for each step, tangents with
+// their factors for each, and steps for each radian of the motion at rtol 1e-3.
+constexpr double kIterations = 4, kFewestTangents = 0.05, kMostTangents = 1, kSteps = 7;
+constexpr double kSpread = 5;           // of the number of steps, to both sides
+constexpr double kScaleOfMotion = 0.1;  // a position scale is about a tenth of the motion
+constexpr double kUsualSafety = 0.9;
+constexpr double kSpreadOfContact = 15;  // upwards: how often and how long the body touches something is not known
+constexpr double kFewestSteps = 10;      // until an event may end the run
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// A factor of M/h^2 + K with h the time of a wave through an element: it costs the same for any h.
+void measure_factor(const Setup& setup, RunCost& cost) {
+  const FemModel& model = *setup.built.model;
+  const State& initial = setup.built.initial;
+  Linearization at;
+  model.linearize(initial.t, initial.q, initial.v, TangentKind::gauss_newton, at);
+  std::vector<double> values(at.stiffness.size());
+  model.combine({model.frequency_bound() * model.frequency_bound(), 0, 1}, at, values.data());
+  const auto wanted = setup.scene.integrator ? setup.scene.integrator->settings().linear_solver : std::nullopt;
+  const bool has_own = wanted && solver_registry().at(wanted->type).make;  // klu_full is SUNDIALS'
+  const auto solver = has_own ? make_linear_solver(*wanted) : make_solver_for(model.pattern());
+  if (has_own) solver->analyze(model.pattern());
+  if (static_cast<double>(solver->factor_bytes()) > kLargestFactor) return;
+  auto begin = std::chrono::steady_clock::now();
+  if (solver->factor(values.data()) != FactorStatus::ok) return;
+  cost.factor = seconds_since(begin);
+  Vector x = Vector::Ones(model.num_dofs());
+  begin = std::chrono::steady_clock::now();
+  try {
+    solver->solve(Vector(x), x);
+  } catch (const RecoverableError&) {  // no figure, then
+    return;
+  }
+  cost.solve = seconds_since(begin);
+}
+
+bool has_contact(const FemModel& model) {
+  const auto& loads = model.parts().loads;
+  return std::any_of(loads.begin(), loads.end(), [](const auto& term) { return term->contact_stiffness() > 0; });
+}
+
+bool may_end_early(const Scene& scene) {
+  return std::any_of(scene.events.begin(), scene.events.end(),
+                     [](const EventSpec& event) { return event.action == EventAction::stop; });
+}
+
+// Steps of an adaptive implicit method, about, by the cycles of the motion as radians.
+double steps_for(const Setup& setup, const Scales& scales) {
+  const double omega = std::max(scales.omega, kScaleOfMotion * scales.velocity / scales.position);
+  const double phase = omega * (setup.scene.time.end - setup.scene.time.start);
+  return 10 + kSteps * phase * std::cbrt(1e-3 / setup.scene.integrator->settings().rtol.value_or(1e-3));
+}
+
+// Of a body that may touch something the position scale is the depth of contact: as if it touched all the time. Without
+// contact it is a tenth of the extent. What is measured lies between the two, near their geometric mean.
+CostRange adaptive_steps(const Setup& setup) {
+  const Scales scales = task_of(setup.scene, setup.built).scales();
+  const double about = steps_for(setup, scales);
+  if (!has_contact(*setup.built.model)) return {about / kSpread, about * kSpread};
+  Scales apart = scales;
+  apart.position = std::max(scales.position, 0.1 * bounding_box(setup.built.model->parts().mesh).size().maxCoeff());
+  const double fewest = steps_for(setup, apart);
+  return {fewest / kSpread, std::sqrt(fewest * about) * kSpreadOfContact};
+}
+
+// Number of steps of modal: one or two with constant loads, 50 to 1000 with loads that vary in time.
+CostRange steps_of_modes(const FemModel& model) {
+  constexpr double kFewest = 50, kMost = 1000;
+  return model.traits().time_dependent ? CostRange{kFewest, kMost} : CostRange{1, 2};
+}
+
+CostRange steps_of(const Setup& setup, bool is_implicit, RunCost& cost) {
+  const double span = setup.scene.time.end - setup.scene.time.start;
+  const IntegratorSettings settings = setup.scene.integrator->settings();
+  if (settings.step) {
+    cost.fixed_steps = true;
+    return {std::ceil(span / *settings.step), std::ceil(span / *settings.step)};
+  }
+  if (!is_implicit) {  // the bound of the frequency is above it by up to two
+    const double most = span * setup.built.model->frequency_bound() / 2 / settings.safety.value_or(kUsualSafety);
+    return {most / 2, most};
+  }
+  const CostRange about = adaptive_steps(setup);
+  const auto two_digits = [](double x) {
+    const double unit = std::pow(10, std::floor(std::log10(x)) - 1);
+    return std::round(x / unit) * unit;
+  };
+  const double fewest = settings.h_max ? span / *settings.h_max : 1;
+  const double least = cost.may_end_early ? std::min(about.least, kFewestSteps) : std::max(about.least, fewest);
+  return {two_digits(least), two_digits(std::max(about.most, fewest))};
+}
+
+// Load steps that are doubled from the first one on; each takes a few Newton corrections with a factor each.
+void add_load_steps(const Statics& statics, RunCost& cost) {
+  constexpr double kFewestCorrections = 3, kMostCorrections = 8, kMostCuts = 10;
+  const double each = cost.force + cost.tangent + cost.factor.value_or(0) + cost.solve.value_or(0);
+  cost.step = {kFewestCorrections * each, kMostCorrections * each};
+  const double fewest = fewest_load_steps(statics);
+  cost.steps = {fewest, std::min(kMostCuts * fewest, static_cast<double>(statics.max_steps))};
+}
+
+// One computation: the stiffness, what stresses add to it from four tangents more, three factors and Lanczos'
+// solutions.
+void add_buckling(RunCost& cost) {
+  constexpr double kTangents = 6, kFactors = 3, kFewestSolutions = 50, kMostSolutions = 500;
+  const double fixed = kTangents * cost.tangent + kFactors * cost.factor.value_or(0);
+  cost.step = {fixed + kFewestSolutions * cost.solve.value_or(0), fixed + kMostSolutions * cost.solve.value_or(0)};
+  cost.steps = {1, 1};
+}
+
+// Evaluated on a view of its own, as a time of outputs has one; the second time, when what is kept for all views is
+// made.
+template <class Look>
+double seconds_of(const Setup& setup, const Look& look) {
+  double seconds = 0;
+  for (int k = 0; k < 2; ++k) {
+    const auto begin = std::chrono::steady_clock::now();
+    look(ObservedState(*setup.built.model, setup.built.initial));
+    seconds = seconds_since(begin);
+  }
+  return seconds;
+}
+
+// At the two points at which the work of loads and of damping is integrated.
+double seconds_of_powers(const Setup& setup) {
+  const Traits& traits = setup.built.model->traits();
+  return 2 * seconds_of(setup, [&](const ObservedState& at) {
+           if (traits.dissipative) at.evaluate("power.dissipated");
+           if (traits.loaded) at.evaluate("power.loads");
+         });
+}
+
+double seconds_of_row(const Setup& setup) {
+  const FemModel& model = *setup.built.model;
+  const Output& output = setup.scene.output;
+  ExtremeRecorder extremes(output.extremes, model, output.origin);
+  const auto columns = probe_columns(setup.scene, model);
+  const double state = seconds_of(setup, [&](const ObservedState& at) {
+    for (const auto& column : columns) at.evaluate(column.field);
+    extremes.on_history(at);
+    if (!setup.integrator) return;
+    if (output.momentum) MomentumMeter().on_start(at);
+    if (output.energy) EnergyMeter(model, *setup.integrator).on_start(at);
+  });
+  return setup.integrator && output.energy ? state + seconds_of_powers(setup) : state;
+}
+
+double seconds_of_frame(const Setup& setup) {
+  return seconds_of(setup, [&](const ObservedState& at) {
+    for (const auto& field : setup.scene.output.fields) at.evaluate(field);
+  });
+}
+
+void add_outputs(const Setup& setup, RunCost& cost) {
+  const Volume volume = volume_of(setup);
+  cost.row = seconds_of_row(setup);
+  cost.frame = seconds_of_frame(setup);
+  cost.frames = volume.frames;
+  cost.rows = volume.rows > 0 ? CostRange{volume.rows, volume.rows} : cost.steps;
+}
+
+}  // namespace
+
+bool takes_modes(const Integrator& integrator, const Config& config) {
+  std::string method = config.at("integrator").at("type").text();
+  for (const auto& [key, value] : integrator.decisions())
+    if (key == "method") method = value;  // of auto
+  return method == "modal";
+}
+
+RunCost run_cost(const Setup& setup, const std::vector<TermCost>& costs) {
+  RunCost cost;
+  for (const TermCost& term : costs) cost.force += term.force, cost.tangent += term.tangent;
+  const bool is_static = !setup.integrator, is_implicit = is_static || setup.integrator->factor_bytes() > 0;
+  if (is_implicit) measure_factor(setup, cost);
+  if (is_static) {
+    setup.scene.buckling ? add_buckling(cost) : add_load_steps(*setup.scene.statics, cost);
+    if (!setup.scene.buckling) add_outputs(setup, cost);
+    return cost;
+  }
+  if (takes_modes(*setup.integrator, setup.config)) {
+    constexpr double kForces = 8;  // and solutions in a step
+    cost.step = {cost.force, kForces * (cost.force + cost.solve.value_or(0))};
+    cost.may_end_early = may_end_early(setup.scene);
+    cost.steps = steps_of_modes(*setup.built.model);
+    add_outputs(setup, cost);
+    return cost;
+  }
+  if (is_implicit) {
+    const double each = kIterations * (cost.force + cost.solve.value_or(0));
+    const double anew = cost.tangent + cost.factor.value_or(0);
+    const double fewest = setup.built.model->traits().linear ? 0 : kFewestTangents;
+    cost.step = {each + fewest * anew, each + kMostTangents * anew};
+  } else {
+    cost.step = {cost.force, 2 * cost.force};  // with what is written and summed up beside
+  }
+  cost.has_contact = is_implicit && has_contact(*setup.built.model);
+  cost.may_end_early = may_end_early(setup.scene);
+  cost.steps = steps_of(setup, is_implicit, cost);
+  add_outputs(setup, cost);
+  return cost;
+}
+
+std::string shown_seconds(const CostRange& range) {
+  const auto unit_of = [](double seconds) -> std::pair<double, const char*> {
+    if (seconds >= 2 * 86400) return {86400, "days"};
+    if (seconds >= 2 * 3600) return {3600, "h"};
+    if (seconds >= 120) return {60, "min"};
+    return {1, "s"};
+  };
+  constexpr double kOneUnit = 100;  // for both where they are no further apart
+  const auto [size, unit] = unit_of(range.most);
+  if (range.most <= kOneUnit * range.least)
+    return fmt::format("{:.3g} to {:.3g} {}", range.least / size, range.most / size, unit);
+  const auto [small, small_unit] = unit_of(range.least);
+  return fmt::format("{:.3g} {} to {:.3g} {}", range.least / small, small_unit, range.most / size, unit);
+}
+
+}  // namespace orthodyn

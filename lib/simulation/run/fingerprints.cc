@@ -1,0 +1,116 @@
+#include "lib/simulation/run/fingerprints.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+#include "lib/core/versions.h"
+#include "lib/linear/blas.h"
+#include "lib/simulation/run/machine.h"
+
+namespace orthodyn {
+
+namespace {
+
+// Of plain numbers.
+template <class T>
+std::string bytes(const std::vector<T>& list) {
+  return {reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T)};
+}
+
+const char* kind_name(MeshMaterial::Kind kind) {
+  switch (kind) {
+    case MeshMaterial::Kind::isotropic: return "isotropic";
+    case MeshMaterial::Kind::orthotropic: return "orthotropic";
+    case MeshMaterial::Kind::anisotropic: return "anisotropic";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string mesh_fingerprint(const TetMesh& mesh) {
+  Fingerprint print;
+  print.add(bytes(mesh.nodes)).add(bytes(mesh.tets)).add(bytes(mesh.region_of));
+  if (mesh.order() == 2) print.add(bytes(mesh.midsides));
+  print.add(std::to_string(mesh.region_names.size()));
+  for (const auto& name : mesh.region_names) print.add(name);
+  print.add(std::to_string(mesh.surfaces.size()));
+  for (const auto& [name, triangles] : mesh.surfaces) print.add(name).add(bytes(triangles));
+  for (const auto& [name, nodes] : mesh.node_sets) print.add(name).add(bytes(nodes));
+  if (!mesh.cell_of.empty()) print.add("cut from").add(bytes(mesh.cell_of));
+  return print.text();
+}
+
+std::string mesh_fingerprint(const LoadedMesh& loaded) {
+  Fingerprint print;
+  print.add(mesh_fingerprint(loaded.mesh));
+  for (const auto& [region, m] : loaded.materials) {
+    print.add(region).add(m.name).add(kind_name(m.kind)).add(m.problem);
+    std::vector<double> constants{m.density, m.nu12, m.nu23, m.nu31, m.g12, m.g23, m.g31};
+    constants.insert(constants.end(), m.young.begin(), m.young.end());
+    constants.insert(constants.end(), m.axes.data(), m.axes.data() + m.axes.size());
+    if (m.kind == MeshMaterial::Kind::anisotropic)
+      constants.insert(constants.end(), m.stiffness.begin(), m.stiffness.end());
+    print.add(bytes(constants));
+  }
+  for (const auto& data : loaded.cell_data)
+    print.add(data.name).add(std::to_string(data.components)).add(bytes(data.values));
+  return print.text();
+}
+
+const std::string& FileFingerprints::of(const std::filesystem::path& file) {
+  std::error_code ignored;  // what cannot be read says so below
+  const auto changed = std::filesystem::last_write_time(file, ignored);
+  const auto size = std::filesystem::file_size(file, ignored);
+  Known& known = known_[file];
+  if (known.print.empty() || known.changed != changed || known.size != size)
+    known = {changed, size, Fingerprint().add_file(file).text()};
+  return known.print;
+}
+
+namespace {
+
+// As they were when this was called first: others come with what is loaded on demand.
+const std::string& versions_of_libraries() {
+  static const std::string all = [] {
+    std::string text;
+    for (const auto& [library, version] : library_versions()) text += library + " " + version + "\n";
+    return text;
+  }();
+  return all;
+}
+
+}  // namespace
+
+std::string code_fingerprint() {
+  Fingerprint print;
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&code_fingerprint), &info) != 0 && info.dli_fname) {
+    print.add_file(info.dli_fname);
+    const auto beside = std::filesystem::path(info.dli_fname).parent_path() / "liborthodyn_petsc.so";
+    if (std::error_code ec; std::filesystem::is_regular_file(beside, ec)) print.add_file(beside);
+  }
+  const char* plugins = std::getenv("ORTHODYN_PLUGINS");
+  std::istringstream listed(plugins ? plugins : "");
+  for (std::string file; std::getline(listed, file, ':');) {
+    print.add(file);
+    // One that the loader finds by itself is known by its name only.
+    if (std::error_code ec; std::filesystem::is_regular_file(file, ec)) print.add_file(file);
+  }
+  return print.add(orthodyn_version()).add(blas_name()).add(versions_of_libraries()).text();
+}
+
+std::string machine_fingerprint() {
+  Fingerprint print;
+  print.add(machine_json().dump());
+  for (const char* variable : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"}) {
+    const char* value = std::getenv(variable);
+    print.add(value ? value : "");
+  }
+  return print.text();
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,43 @@
+#include "lib/simulation/run/model_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/spelling.h"
+
+namespace orthodyn {
+
+namespace {
+
+std::string laws_of(const FemModel& model) {
+  std::vector<std::string> laws;
+  for (const auto& term : model.parts().elastic)
+    if (std::find(laws.begin(), laws.end(), term->law()) == laws.end()) laws.push_back(term->law());
+  return join(laws, "; ");
+}
+
+}  // namespace
+
+ModelSummary summarize(const Setup& setup) {
+  const FemModel& model = *setup.built.model;
+  const auto& parts = model.parts();
+  ModelSummary out{parts.mesh.nodes.size(), parts.mesh.tets.size(),       static_cast<int>(model.num_dofs_of_all()),
+                   parts.mesh.order(),      laws_of(model), term_descriptions(parts)};
+  if (parts.mass_damping > 0)
+    out.terms.push_back(fmt::format("mass-proportional damping of {:.6g} 1/s", parts.mass_damping));
+  out.kinematics = told_kinematics(setup);
+  if (setup.linearity && !std::isnan(setup.linearity->error())) out.linear_error = setup.linearity->error();
+  out.buckles = setup.linearity && setup.linearity->unstable();
+  return out;
+}
+
+std::string told_kinematics(const Setup& setup) {
+  std::string told = setup.linearity ? outcome_of(*setup.linearity) : "";
+  if (setup.kinematics && !setup.kinematics->reason.empty())
+    told += (told.empty() ? "" : "; ") + setup.kinematics->reason;
+  return told;
+}
+
+}  // namespace orthodyn

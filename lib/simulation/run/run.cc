@@ -1,0 +1,226 @@
+#include "lib/simulation/run/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace orthodyn {
+
+namespace {
+
+// Times at which something is due, ascending.
+class Agenda {
+ public:
+  explicit Agenda(std::vector<double> times) : times_(std::move(times)) {}
+
+  // Times that differ from one of these (ascending) by round-off are meant to be there.
+  void meet(const std::vector<double>& others, double tiny) {
+    for (double& t : times_) {
+      const auto near = std::lower_bound(others.begin(), others.end(), t - tiny);
+      if (near != others.end() && *near <= t + tiny) t = *near;
+    }
+    times_.erase(std::unique(times_.begin(), times_.end()), times_.end());
+  }
+  void skip_until(double last, double tiny) {
+    while (next_ < times_.size() && times_[next_] <= last + tiny) ++next_;
+  }
+  // Clamps output times to the resume time.
+  void begin_at(double t) {
+    for (double& time : times_) time = std::max(time, t);
+  }
+
+  bool empty() const { return times_.empty(); }
+  const std::vector<double>& times() const { return times_; }
+  double next() const { return next_ < times_.size() ? times_[next_] : std::numeric_limits<double>::infinity(); }
+  // True, and done, if it is due at t.
+  bool take(double t) { return next() == t && ++next_; }
+
+ private:
+  std::vector<double> times_;
+  std::size_t next_ = 0;
+};
+
+class Driver {
+ public:
+  Driver(const Model& model, Integrator& integrator, const Plan& plan, const std::vector<Observer*>& observers,
+         const std::atomic<bool>& interrupt, Outcome& outcome)
+      : model_(model),
+        integrator_(integrator),
+        plan_(plan),
+        observers_(observers),
+        interrupt_(interrupt),
+        outcome_(outcome),
+        tiny_(1e-12 * std::max(std::abs(outcome.last.t), std::abs(plan.end))),
+        limits_(model.step_limits(outcome.last.t, plan.end)),
+        outputs_(plan.output_times),
+        history_(plan.history_times) {
+    outcome.unresolved = limits_.unresolved();
+    const double round_off =
+        1000 * std::numeric_limits<double>::epsilon() * std::max(std::abs(outcome.last.t), std::abs(plan.end));
+    for (const double t : model.breakpoints(outcome.last.t, plan.end))
+      if (t - (stops_.empty() ? outcome.last.t : stops_.back()) > round_off && plan.end - t > round_off)
+        stops_.push_back(t);
+    stops_.push_back(plan.end);
+    outputs_.meet(stops_, tiny_);
+    history_.meet(stops_, tiny_);
+    history_.meet(outputs_.times(), tiny_);
+    if (plan.delivered) {
+      outputs_.skip_until(*plan.delivered, tiny_);
+      history_.skip_until(plan.history_delivered, tiny_);
+      outputs_.begin_at(outcome.last.t);
+      history_.begin_at(outcome.last.t);
+    }
+  }
+
+  void advance() {
+    outcome_.between_steps = false;
+    {
+      const Measure measure(outcome_.observation);
+      tell_of_start({model_, outcome_.last});
+    }
+    outcome_.between_steps = true;
+    integrator_.start(outcome_.last);
+    for (const double stop : stops_) {
+      if (!advance_to(stop)) return;
+      if (stop < plan_.end) integrator_.start(outcome_.last);  // no step across a kink
+    }
+  }
+
+ private:
+  void tell_of_start(const ObservedState& start) {
+    for (auto* o : observers_) plan_.delivered ? o->on_resume(start) : o->on_start(start);
+    if (plan_.events && !plan_.delivered) plan_.events->start(start);
+  }
+
+  // False if interrupted or stopped by an event.
+  bool advance_to(double stop) {
+    while (outcome_.last.t < stop) {
+      if (model_.space().any(interrupt_)) {
+        outcome_.status = Outcome::Status::interrupted;
+        return false;
+      }
+      const double begin = outcome_.last.t, seen_until = limits_.latest_end(begin);
+      double limit = stop;
+      if (plan_.exact_times || !integrator_.has_accurate_interpolation()) limit = std::min(limit, outputs_.next());
+      if (!integrator_.has_accurate_interpolation()) limit = std::min(limit, history_.next());
+      if (integrator_.adaptive()) limit = std::min(limit, seen_until);
+      StepInfo info = integrator_.step(limit);
+      if (!outcome_.stepped_over && info.t > seen_until + kMuchLonger * (seen_until - begin))
+        outcome_.stepped_over = begin;
+      outcome_.between_steps = false;
+      const Measure measure(outcome_.observation);
+      const Event* stopper = deliver_events(begin, info);
+      deliver_outputs(info.t);
+      if (stopper) deliver_last_output(info.t);
+      integrator_.interpolate(info.t, outcome_.last);
+      const ObservedState end(model_, outcome_.last);
+      if (plan_.history_at_steps) tell_history(end);
+      for (auto* o : observers_) o->on_step(info, end, integrator_);
+      outcome_.between_steps = true;
+      if (stopper) {
+        outcome_.remark = fmt::format("stopped by the event '{}' at t = {:.9g} s", stopper->name, info.t);
+        return false;
+      }
+    }
+    return true;
+  }
+
+  // The event that stops the run, if any: the step then is taken to end there.
+  const Event* deliver_events(double begin, StepInfo& info) {
+    if (!plan_.events || plan_.events->empty()) return nullptr;
+    const auto interpolate = [&](double t, State& out) { integrator_.interpolate(t, out); };
+    const double end = info.t, h = end - begin, parts = smooth_parts(integrator_, h);
+    for (double part = 0; part < parts; ++part) {
+      const double to = part + 1 < parts ? begin + (part + 1) * h / parts : end;
+      for (const Crossing& crossing : plan_.events->find(begin + part * h / parts, to, model_, interpolate)) {
+        deliver_outputs(crossing.state.t);
+        for (auto* o : observers_) o->on_event(crossing);
+        if (!crossing.event->stops) continue;
+        info.t = crossing.state.t;
+        info.h = info.t - begin;
+        return crossing.event;
+      }
+    }
+    return nullptr;
+  }
+
+  void deliver_outputs(double until) {
+    for (;;) {
+      const double t = std::min(outputs_.next(), history_.next());
+      if (t > until) return;
+      const bool is_output = outputs_.take(t), is_history = history_.take(t);
+      deliver(t, is_output, is_history || (is_output && history_follows_outputs()));
+    }
+  }
+
+  bool history_follows_outputs() const { return history_.empty() && !plan_.history_at_steps; }
+
+  void deliver(double t, bool is_output, bool is_history) {
+    State state;
+    integrator_.interpolate(t, state);
+    const ObservedState observed(model_, state);
+    if (is_history) tell_history(observed);  // first: an output may end the run (LinearityWatch)
+    if (!is_output) return;
+    for (auto* o : observers_) o->on_output(observed);
+    last_output_ = t;
+  }
+
+  void tell_history(const ObservedState& observed) {
+    for (auto* o : observers_) o->on_history(observed);
+    last_history_ = observed.t();
+  }
+
+  // Where outputs are wanted at all, there is one at the end.
+  void deliver_last_output(double t) {
+    const bool is_output = !outputs_.empty() && last_output_ != t;
+    const bool is_history = history_follows_outputs() ? is_output : !history_.empty() && last_history_ != t;
+    if (is_output || is_history) deliver(t, is_output, is_history);
+  }
+
+  const Model& model_;
+  Integrator& integrator_;
+  const Plan& plan_;
+  const std::vector<Observer*>& observers_;
+  const std::atomic<bool>& interrupt_;
+  Outcome& outcome_;
+  static constexpr double kMuchLonger = 3;
+
+  double tiny_;                          // outputs that are closer to a stop than this are meant to be there
+  StepLimits limits_;
+  std::vector<double> stops_;
+  Agenda outputs_, history_;
+  std::optional<double> last_output_, last_history_;
+};
+
+}  // namespace
+
+std::vector<double> evenly_spaced(double start, double end, int frames) {
+  std::vector<double> times;
+  for (int k = 1; k <= frames; ++k) times.push_back((start * (frames - k) + end * k) / frames);
+  return times;
+}
+
+std::vector<double> by_interval(double start, double end, double interval) {
+  std::vector<double> times;
+  // Late times have larger round-off than an interval may allow for.
+  const double round_off = 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(start), std::abs(end));
+  const double same = std::max(1e-9 * interval, round_off);
+  for (long k = 1;; ++k) {
+    const double t = start + static_cast<double>(k) * interval;
+    if (t > end - same) break;
+    times.push_back(t);
+  }
+  times.push_back(end);
+  return times;
+}
+
+Outcome run(const Model& model, Integrator& integrator, const State& initial, const Plan& plan,
+            const std::vector<Observer*>& observers, const std::atomic<bool>& interrupt) {
+  return supervise(initial, observers, [&](Outcome& outcome) {
+    Driver(model, integrator, plan, observers, interrupt, outcome).advance();
+  });
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,39 @@
+#include "lib/simulation/run/several_ranks.h"
+
+#include <stdexcept>
+
+#include "lib/core/spelling.h"
+#include "lib/ode/integrator.h"
+#include "lib/simulation/run/kinematics.h"
+
+namespace orthodyn {
+
+void settle_for_ranks(Config& config, Scene& scene) {
+  if (scene.analysis == Analysis::buckling)
+    config.at("analysis").fail("buckling is analysed by one process, not on several ranks");
+  if (scene.analysis == Analysis::dynamic && !scene.integrator->runs_on_ranks()) {
+    std::vector<std::string> names;
+    for (const auto& [name, entry] : Registry<IntegratorChoice>::entries())
+      if (entry.make()->runs_on_ranks()) names.push_back(name);
+    const Config type = config.at("integrator").at("type");
+    type.fail("'" + type.text() + "' does not run on several ranks; those that do: " + join(names));
+  }
+  if (leaves_kinematics_open(scene)) {
+    make_corotational(config);
+    scene = read_scene(config);
+  }
+  scene.output.accumulated_error = false;  // it repeats parts of the run
+}
+
+int number_of(const Ranks* ranks) { return ranks ? ranks->size() : 1; }
+
+bool failed_alone(const Ranks* ranks) {
+  constexpr double kSecondsToMeet = 10;
+  return ranks && !ranks->meet(kSecondsToMeet);
+}
+
+void require_failure_of_all(const Ranks* ranks, const Outcome& outcome) {
+  if (outcome.status == Outcome::Status::failed && failed_alone(ranks)) throw std::runtime_error(outcome.message);
+}
+
+}  // namespace orthodyn

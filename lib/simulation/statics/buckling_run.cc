@@ -1,0 +1,86 @@
+// A buckling analysis of a scene: buckling.csv, and the shapes as modes.pvd.
+#include "lib/analysis/buckling.h"
+#include "lib/simulation/output/files.h"
+#include "lib/simulation/run/model_keys.h"
+#include "lib/simulation/run/model_summary.h"
+#include "lib/simulation/modes/shape_files.h"
+#include "lib/simulation/run/run_context.h"
+#include "lib/simulation/run/run_record.h"
+#include "lib/simulation/statics/static_problem.h"
+
+namespace orthodyn {
+
+namespace {
+
+void refuse_what_is_for_others(const RunRequest& request) {
+  if (request.resume) throw ConfigError("--resume: a buckling analysis keeps no checkpoint; start anew with --force");
+  if (request.estimate_error)
+    throw ConfigError("--estimate-error: a buckling analysis has no error of integration; remove it");
+}
+
+// The relative error of a shape's elastic energy by the mesh, estimated from recovered stresses: that of its load
+// factor, too. Shapes are scaled to an elastic energy of 1/2, so that nothing is left to divide by.
+double mesh_error(const FemModel& model, const State& rest, const Vector& shape) {
+  const FemModel::Parts& parts = model.parts();
+  const NodalExpansion about(parts, rest.t, rest.q, rest.v);
+  NodalVector nodal = NodalVector::Zero(3, about.x.cols());
+  parts.dofs->add_to(shape, nodal);
+  const StressMisfit misfit = parts.recovery->misfit_along(nodal, about.state());
+  return parts.recovery->product(misfit, misfit);
+}
+
+BucklingResult describe(const FemModel& model, const State& rest, const BucklingModes& found, int wanted) {
+  BucklingResult result{.loads_at_time = rest.t, .wanted = wanted, .limit = found.limit};
+  for (const BucklingMode& mode : found.modes)
+    result.modes.push_back({mode.load_factor, mode.residual, mesh_error(model, rest, mode.shape)});
+  return result;
+}
+
+void write(const std::filesystem::path& folder, const FemModel& model, const State& rest,
+           const std::vector<BucklingMode>& modes, const BucklingResult& result) {
+  CsvFile file(folder / "buckling.csv", {"mode", "load_factor", "mesh_error", "residual"});
+  file.begin();
+  std::vector<Vector> shapes;
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    const auto& mode = result.modes[k];
+    file.row({static_cast<double>(k + 1), mode.load_factor, mode.mesh_error, mode.residual});
+    shapes.push_back(modes[k].shape);
+  }
+  write_shapes(folder, model, rest, shapes);
+}
+
+}  // namespace
+
+RunResult run_buckling_analysis(RunContext context) {
+  refuse_what_is_for_others(context.request);
+  const Setup& setup = context.setup;
+  const FemModel& model = *setup.built.model;
+  const double t = setup.scene.time.end;
+  require_held(setup.scene, model, t);
+  context.folder.prepare();
+  const auto& folder = context.folder.path();
+  const RunRecord record(folder, context.scene, context.set, {}, given_terms(setup.config));
+  write_file(folder / "scene.yaml", {context.resolved});
+  const State rest{t, unloaded_shape(setup.scene, setup.built), Vector::Zero(model.num_dofs())};
+  RunResult result{.scene = context.scene, .folder = folder};
+  result.buckling = BucklingResult{.loads_at_time = t};
+  result.outcome = supervise(rest, {}, [&](Outcome& outcome) {
+    const int count = setup.scene.buckling->count;
+    const BucklingModes found = buckling_modes(model, rest.q, t, count);
+    const auto& modes = found.modes;
+    if (modes.empty())
+      throw RunError(
+          "these loads do not buckle the body: no positive critical load factor was found. Loads that pull do "
+          "not, nor does a body of linear kinematics, which has no stress stiffness");
+    result.buckling = describe(model, rest, found, count);
+    result.buckling->unsymmetric = has_unsymmetric_load(setup.scene, model.parts().mesh);
+    write(folder, model, rest, modes, *result.buckling);
+    outcome.status = Outcome::Status::completed;
+  });
+  result.model = summarize(setup);
+  record.finish(result);
+  context.listener.on_result(result);
+  return result;
+}
+
+}  // namespace orthodyn

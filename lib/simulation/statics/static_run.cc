@@ -1,0 +1,195 @@
+// A static analysis of a scene: load steps to the equilibrium under all its loads, and what it writes.
+#include <fmt/format.h>
+
+#include <limits>
+#include <optional>
+
+#include "lib/analysis/displacement_error.h"
+#include "lib/core/spelling.h"
+#include "lib/simulation/error_estimate/estimated_error.h"
+#include "lib/simulation/statics/static_problem.h"
+#include "lib/simulation/output/files.h"
+#include "lib/simulation/run/model_keys.h"
+#include "lib/simulation/statics/load_steps.h"
+#include "lib/simulation/run/model_summary.h"
+#include "lib/simulation/run/run_context.h"
+#include "lib/simulation/output/run_observers.h"
+#include "lib/simulation/run/run_record.h"
+#include "lib/simulation/output/frames.h"
+#include "lib/simulation/output/setup_file.h"
+#include "lib/simulation/run/several_ranks.h"
+
+namespace orthodyn {
+
+namespace {
+
+// A notice for each load step.
+class LoadProgress : public Observer {
+ public:
+  LoadProgress(const LoadStepper& stepper, RunListener& listener) : stepper_(stepper), listener_(listener) {}
+  void on_output(const ObservedState& observed) override {
+    listener_.on_notice(fmt::format("load factor {:.6g}: {}", observed.t(),
+                                    counted(stepper_.attempt().iterations, "Newton iteration")));
+  }
+
+ private:
+  const LoadStepper& stepper_;
+  RunListener& listener_;
+};
+
+class StaticObservers {
+ public:
+  StaticObservers(const Setup& setup, const StaticProblem& problem, const std::filesystem::path& folder,
+                  RunListener& listener)
+      : progress_(*problem.stepper, listener) {
+    const auto& output = setup.scene.output;
+    if (!output.fields.empty()) {
+      frames_.emplace(folder, *problem.path, output.fields, &setup.built.model->parts().mesh);
+      setup_.emplace(folder, setup);
+    }
+    if (output.steps) steps_.emplace(folder / "load_steps.csv", *problem.path, *problem.stepper);
+    if (const auto columns = probe_columns(setup.scene, *setup.built.model); !columns.empty())
+      probes_.emplace(folder / "probes.csv", *problem.path, columns, "load_factor");
+    const FemModel& model = *setup.built.model;
+    if (!output.extremes.empty()) extremes_.emplace(output.extremes, model, output.origin);
+    if (has_strain_limits(model)) strains_.emplace(StrainWatch::of_equilibria(model, problem.path->times()));
+  }
+  void tell(RunResult& result) const {
+    if (extremes_) result.extremes = extremes_->found();
+    if (strains_) result.passed_strain = strains_->worst();
+  }
+
+  std::vector<Observer*> all() {
+    std::vector<Observer*> out;
+    const auto add = [&](auto& observer) {
+      if (observer) out.push_back(&*observer);
+    };
+    add(frames_);
+    add(setup_);
+    add(steps_);
+    add(probes_);
+    add(extremes_);
+    add(strains_);
+    out.push_back(&progress_);
+    return out;
+  }
+
+ private:
+  std::optional<FrameWriter> frames_;
+  std::optional<SetupWriter> setup_;
+  std::optional<LoadStepWriter> steps_;
+  std::optional<ProbeWriter> probes_;
+  std::optional<ExtremeRecorder> extremes_;
+  std::optional<StrainWatch> strains_;
+  LoadProgress progress_;
+};
+
+void refuse_what_is_for_motion(const RunRequest& request) {
+  if (request.resume) throw ConfigError("--resume: a static analysis keeps no checkpoint; start anew with --force");
+  if (request.estimate_error)
+    throw ConfigError("--estimate-error: a static analysis has no error of integration; remove it");
+}
+
+std::vector<int> probed_nodes(const Setup& setup) {
+  std::vector<int> nodes;
+  for (const auto& [name, probe] : setup.scene.output.probes)
+    nodes.push_back(nearest_node(setup.built.model->parts().mesh, probe.at));
+  return nodes;
+}
+
+// Of the probes' nodes by the dual problem; NaN where the equilibrium is unstable.
+std::vector<Vec3> dual_errors(const FemModel& model, const State& equilibrium, const std::vector<int>& nodes) {
+  try {
+    return displacement_errors(model, equilibrium, nodes);
+  } catch (const RunError&) {  // no stable equilibrium, no error of it
+    return {};
+  }
+}
+
+// At the last equilibrium. `errors`: empty where they are not known.
+std::vector<ProbedDisplacement> probed_displacements(const Setup& setup, const State& equilibrium,
+                                                     std::vector<Vec3> errors) {
+  const FemModel& model = *setup.built.model;
+  const std::vector<int> nodes = probed_nodes(setup);
+  if (errors.empty()) errors.assign(nodes.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+  const auto u = model.evaluate("displacement", equilibrium);
+  std::vector<ProbedDisplacement> out;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    out.push_back({setup.scene.output.probes[i].first, Vec3(&u[3 * static_cast<std::size_t>(nodes[i])]), errors[i]});
+  return out;
+}
+
+// Without what is of the last equilibrium where other ranks do not know of it.
+EquilibriumResult equilibrium_result(const Setup& setup, const StaticProblem& problem, const Outcome& outcome,
+                                     bool with_last) {
+  const LoadStepper& stepper = *problem.stepper;
+  EquilibriumResult out{.loads_at_time = problem.path->times().end,
+                        .load_steps = stepper.steps(),
+                        .rejected_load_steps = stepper.rejected(),
+                        .jumps = stepper.jumps(),
+                        .critical_points = stepper.critical_points(),
+                        .unstable = stepper.unstable(),
+                        .unsymmetric = !problem.path->pattern().symmetric,
+                        .residual = stepper.attempt().residual,
+                        .largest_load = problem.path->largest_load(),
+                        .residual_above_tolerance = stepper.attempt().above_tolerance,
+                        .solver = problem.solver->description(),
+                        .statistics = problem.solver->statistics()};
+  if (!with_last) return out;
+  const State& last = outcome.last;
+  out.largest_displacement = problem.path->space().largest_entry(last.q);
+  const auto det_f = problem.path->evaluate("det_f.smallest", last);
+  out.det_f = {det_f[0], static_cast<long>(det_f[1]), out.loads_at_time};
+  MeshErrorRecorder mesh_error(0);
+  if (setup.scene.output.mesh_error) mesh_error.look_at({*problem.path, last});
+  out.mesh_error = mesh_error.found();
+  const FemModel& model = *setup.built.model;
+  const State equilibrium{out.loads_at_time, last.q, Vector::Zero(last.q.size())};
+  const std::vector<int> nodes = probed_nodes(setup);
+  std::vector<Vec3> errors;
+  // Below all loads the model has no equilibrium to tell an error of.
+  if (setup.scene.output.mesh_error && outcome.status == Outcome::Status::completed) {
+    if (out.mesh_error) {
+      FoundByFiner found = look_closer(setup.scene, model, equilibrium, false, *out.mesh_error, nodes);
+      out.mesh_error = found.error;
+      errors = std::move(found.displacements);
+    }
+    if (errors.empty() && !nodes.empty()) errors = dual_errors(model, equilibrium, nodes);
+  }
+  out.probes = probed_displacements(setup, equilibrium, std::move(errors));
+  return out;
+}
+
+}  // namespace
+
+RunResult run_static_analysis(RunContext context) {
+  refuse_what_is_for_motion(context.request);
+  const Setup& setup = context.setup;
+  const auto& folder = context.folder.path();
+  const StaticProblem problem = static_problem(setup.scene, setup.built);
+  context.folder.prepare();
+  const RunRecord record(folder, context.scene, context.set, {}, given_terms(context.setup.config));
+  write_file(folder / "scene.yaml", {context.resolved});
+  StaticObservers observers(setup, problem, folder, context.listener);
+  auto all = observers.all();
+  const auto own = context.listener.on_begin(setup);
+  if (own) all.insert(all.begin(), own.get());  // it may share what it keeps with those that write
+  RunResult result{.scene = context.scene, .folder = folder};
+  result.ranks = number_of(context.request.ranks);
+  result.outcome = run_static(*problem.path, *problem.stepper, all, context.interrupt);
+  result.failed_alone = result.outcome.status == Outcome::Status::failed && failed_alone(problem.path->ranks());
+  if (!result.failed_alone) result.outcome.cpu_seconds = problem.path->space().sum(result.outcome.cpu_seconds);
+  if (setup.linearity && result.outcome.status != Outcome::Status::interrupted) {
+    setup.linearity->finish_at(problem.path->times().end, result.outcome.last.q);
+    result.outgrown = setup.linearity->why_to_start_again();
+    if (result.outgrown) return result;
+  }
+  result.model = summarize(setup);
+  observers.tell(result);
+  result.equilibrium = equilibrium_result(setup, problem, result.outcome, !result.failed_alone);
+  record.finish(result);
+  context.listener.on_result(result);
+  return result;
+}
+
+}  // namespace orthodyn

@@ -1,0 +1,53 @@
+// The forces of a model while its loads grow, and how fast they grow.
+#include "lib/statics/load_path.h"
+
+#include <cmath>
+
+#include "tests/contract/models.h"
+#include <gtest/gtest.h>
+
+namespace orthodyn::load_path_test {
+namespace {
+
+// f = e^t - q.
+class Growing : public SmallModel {
+ public:
+  Growing() : SmallModel(Matrix::Identity(1, 1)) {}
+  void force(double t, const ConstVectorRef& q, const ConstVectorRef&, VectorRef f) const override {
+    f[0] = std::exp(t) - q[0];
+  }
+  State initial() const override { return {0, Vector::Zero(1), Vector::Zero(1)}; }
+  double end() const override { return 1; }
+
+ private:
+  Matrix stiffness(double, const Vector&, const Vector&, TangentKind) const override { return Matrix::Identity(1, 1); }
+};
+
+double rate(const LoadPath& path, double lambda) { return path.rate(lambda, Vector::Constant(1, 0.3))[0]; }
+
+// With t = 2 lambda: 2 e^t + 1. Differences of second order over 1e-5 are off by a third of the square of that times
+// the third derivative, 8 e^t, at most.
+TEST(LoadPath, HasTheRateOfItsForcesAtItsEndsAsInBetween) {
+  const Growing model;
+  const LoadPath path(model, {0, 2}, Vector::Zero(1));
+  for (const double lambda : {0.0, 3e-6, 0.4, 1 - 3e-6, 1.0})
+    EXPECT_NEAR(rate(path, lambda), 2 * std::exp(2 * lambda) + 1, 8e-10 * std::exp(2 * lambda)) << lambda;
+}
+
+TEST(LoadPath, BeyondItsEndsHasTheRateOfTheNearerOne) {
+  const Growing model;
+  const LoadPath path(model, {0, 2}, Vector::Zero(1));
+  for (const double beyond : {1e-5, 2e-5, 0.1}) {
+    EXPECT_EQ(rate(path, 1 + beyond), rate(path, 1)) << beyond;
+    EXPECT_EQ(rate(path, -beyond), rate(path, 0)) << beyond;
+  }
+}
+
+TEST(LoadPath, OfOneTimeHasTheRateOfItsDeadLoads) {
+  const Growing model;
+  const LoadPath path(model, 1.5, Vector::Zero(1));
+  EXPECT_EQ(rate(path, 0.7), std::exp(1.5));
+}
+
+}  // namespace
+}  // namespace orthodyn::load_path_test
