@@ -26,6 +26,6 @@
 #include <utility>
 #include <vector>
 
+#include "lib/config/registry.h"
 #include "lib/config/spec.h"
 #include "lib/core/types.h"
-#include "lib/config/registry.h"

@@ -41,8 +41,7 @@ double CriticalStep::limit(const State& state, double reserve) {
 double CriticalStep::largest(const Linearization& at, const Weights& weights, SpectralBound& bound) {
   std::vector<double> values(model_.pattern().row.size());
   model_.combine(weights, at, values.data());
-  const bool absent =
-      model_.space().all(std::all_of(values.begin(), values.end(), [](double x) { return x == 0; }));
+  const bool absent = model_.space().all(std::all_of(values.begin(), values.end(), [](double x) { return x == 0; }));
   return absent ? 0 : bound.largest(values.data());
 }
 
@@ -57,9 +56,10 @@ void refuse_a_run_without_end(const std::string& name, const Model& model, const
   }
   const double steps = (task.end - task.initial.t) / longest;
   if (steps > static_cast<double>(max_steps))
-    throw ConfigError(fmt::format("{} would take at least {:.2g} steps, of {:.3g} s at most for the stiffness at the "
-                                  "start, more than max_steps, {}; use an implicit integrator, or raise max_steps",
-                                  name, steps, longest, max_steps));
+    throw ConfigError(
+        fmt::format("{} would take at least {:.2g} steps, of {:.3g} s at most for the stiffness at the "
+                    "start, more than max_steps, {}; use an implicit integrator, or raise max_steps",
+                    name, steps, longest, max_steps));
 }
 
 }  // namespace orthodyn

@@ -12,11 +12,12 @@ namespace {
 struct SolverSection {
   std::string type, options;
   static const Spec<SolverSection>& spec() {
-    static const auto s =
-        Spec<SolverSection>()
-            .key("type", &SolverSection::type, "One of `orthodyn list solvers`.", {.required = true})
-            .key("options", &SolverSection::options, "What the solver is told, as on a command line: -ksp_type cg. Of PETSc what chooses a method and sets its "
-                 "numbers; views and monitors go in the environment's PETSC_OPTIONS.");
+    static const auto s = Spec<SolverSection>()
+                              .key("type", &SolverSection::type, "One of `orthodyn list solvers`.", {.required = true})
+                              .key("options", &SolverSection::options,
+                                   "What the solver is told, as on a command line: -ksp_type cg. Of PETSc what chooses "
+                                   "a method and sets its "
+                                   "numbers; views and monitors go in the environment's PETSC_OPTIONS.");
     return s;
   }
 };

@@ -1,7 +1,6 @@
 #include "integrators/spectral_bound.h"
 
 #include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -14,10 +13,10 @@ namespace orthodyn {
 namespace {
 
 constexpr int kMaxIterations = 60;
-constexpr int kMinIterations = 20;     // a warm start must have seen more than its own mode
-constexpr double kResidual = 0.01;     // of the eigenvalue: half a percent of a frequency
-constexpr double kFreshPart = 0.1;     // of a random vector in a warm start
-constexpr double kBreakdown = 1e-12;   // of the eigenvalue: the space is invariant
+constexpr int kMinIterations = 20;    // a warm start must have seen more than its own mode
+constexpr double kResidual = 0.01;    // of the eigenvalue: half a percent of a frequency
+constexpr double kFreshPart = 0.1;    // of a random vector in a warm start
+constexpr double kBreakdown = 1e-12;  // of the eigenvalue: the space is invariant
 
 }  // namespace
 
@@ -41,8 +40,7 @@ struct SpectralBound::Basis {
   Vector diagonal, beside;
 };
 
-SpectralBound::SpectralBound(const Model& model)
-    : model_(model), random_(random_vector(model)) {}
+SpectralBound::SpectralBound(const Model& model) : model_(model), random_(random_vector(model)) {}
 
 void SpectralBound::multiply(const double* values, const Vector& x, Vector& y) const {
   const Pattern& pattern = model_.pattern();

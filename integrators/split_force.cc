@@ -32,8 +32,10 @@ SplitForce split_force(const Model& model, const std::vector<std::string>& expli
   std::vector<std::string> chosen, others;
   for (const auto& part : parts) (contains(explicit_names, part) ? chosen : others).push_back(part);
   if (chosen.empty())
-    throw ConfigError("explicit: names no part of the force, which makes every part implicit: use arkode_dirk, or give "
-                      "some of " + join(parts));
+    throw ConfigError(
+        "explicit: names no part of the force, which makes every part implicit: use arkode_dirk, or give "
+        "some of " +
+        join(parts));
   if (others.empty())
     throw ConfigError("explicit: names every part of the force (" + join(parts) +
                       "): use arkode_erk, or leave the stiff parts out");

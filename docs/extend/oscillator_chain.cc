@@ -31,8 +31,7 @@ class Chain : public Model {
 
   void force(double, const ConstVectorRef& q, const ConstVectorRef&, VectorRef f) const override {
     const Eigen::Index n = q.size();
-    for (Eigen::Index i = 0; i < n; ++i)
-      f[i] = k_ * ((i > 0 ? q[i - 1] : 0) - 2 * q[i] + (i + 1 < n ? q[i + 1] : 0));
+    for (Eigen::Index i = 0; i < n; ++i) f[i] = k_ * ((i > 0 ? q[i - 1] : 0) - 2 * q[i] + (i + 1 < n ? q[i + 1] : 0));
   }
 
   void assemble(double, const ConstVectorRef&, const ConstVectorRef&, TangentKind, Linearization& out) const override {

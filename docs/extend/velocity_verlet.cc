@@ -57,8 +57,8 @@ class VelocityVerlet : public Integrator {
 class VelocityVerletChoice : public SettableChoice<VelocityVerletChoice> {
  public:
   static const Spec<VelocityVerletChoice>& spec() {
-    static const auto s = Spec<VelocityVerletChoice>().key(
-        "step", &VelocityVerletChoice::step, "Step.", {.required = true, .unit = "s", .range = kPositive});
+    static const auto s = Spec<VelocityVerletChoice>().key("step", &VelocityVerletChoice::step, "Step.",
+                                                           {.required = true, .unit = "s", .range = kPositive});
     return s;
   }
 

@@ -166,18 +166,16 @@ void ArkStep::attach_reduced() {
     return gamma;
   });
   require(ARKStepSetLinearSolver(memory(), solver_.get(), matrix_.get()));
-  require(ARKStepSetLinSysFn(memory(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix, SUNMatrix,
-                                          sunbooleantype jok, sunbooleantype* jcur, sunrealtype, void* user, N_Vector,
-                                          N_Vector, N_Vector) {
-    return ark_step(user).linearize_reduced(t, y, jok, jcur);
-  }));
+  require(ARKStepSetLinSysFn(memory(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix, SUNMatrix, sunbooleantype jok,
+                                          sunbooleantype* jcur, sunrealtype, void* user, N_Vector, N_Vector,
+                                          N_Vector) { return ark_step(user).linearize_reduced(t, y, jok, jcur); }));
 }
 
 void ArkStep::attach_full() {
   make_full_solver();
   require(ARKStepSetLinearSolver(memory(), solver_.get(), matrix_.get()));
-  require(ARKStepSetJacFn(memory(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* user, N_Vector,
-                                       N_Vector, N_Vector) { return ark_step(user).fill_full(t, y, J); }));
+  require(ARKStepSetJacFn(memory(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector,
+                                       N_Vector) { return ark_step(user).fill_full(t, y, J); }));
 }
 
 }  // namespace orthodyn::sundials

@@ -76,7 +76,7 @@ class ArkStep : public FirstOrderIntegrator {
   Parts parts_;
   std::optional<double> step_;
   int order_;
-  long retries_ = 0;  // steps begun anew because a force could not be evaluated, since the last (re-)start
+  long retries_ = 0;     // steps begun anew because a force could not be evaluated, since the last (re-)start
   StepEnd begin_, end_;  // of the last step
   std::optional<NewtonAtKinks> newton_;
   std::unique_ptr<void, FreeMemory> memory_;

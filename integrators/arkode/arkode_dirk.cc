@@ -64,10 +64,9 @@ class ArkodeDirkChoice : public SettableChoice<ArkodeDirkChoice>, public DirkOpt
     return s;
   }
   static MethodFacts facts() {
-    return method_facts("2-5, by `table`",
-                        "L-stable, stiffly accurate; BILLINGTON_3_3_2 L-stable, SDIRK_2_1_2 A-stable, R(inf) = -1/2",
-                        "linear invariants (momentum)",
-                        "Reynolds et al., ACM TOMS 49, 2023; Kennedy & Carpenter, NASA TM-2016-219173");
+    return method_facts(
+        "2-5, by `table`", "L-stable, stiffly accurate; BILLINGTON_3_3_2 L-stable, SDIRK_2_1_2 A-stable, R(inf) = -1/2",
+        "linear invariants (momentum)", "Reynolds et al., ACM TOMS 49, 2023; Kennedy & Carpenter, NASA TM-2016-219173");
   }
   bool runs_on_ranks() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {

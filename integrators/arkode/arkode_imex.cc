@@ -38,8 +38,10 @@ class ArkodeImex : private Split, public ArkStep {
       : Split{std::move(parts)},
         ArkStep("arkode_imex", *split.implicit_part, settings, options.step, {explicit_force, implicit_force},
                 implicit_tableau->q),
-        explicit_tableau_(std::move(explicit_tableau)), implicit_tableau_(std::move(implicit_tableau)),
-        last_(model_.num_dofs()), end_explicit_(model_.num_dofs()) {}
+        explicit_tableau_(std::move(explicit_tableau)),
+        implicit_tableau_(std::move(implicit_tableau)),
+        last_(model_.num_dofs()),
+        end_explicit_(model_.num_dofs()) {}
 
   void choose_method() override {
     require(ARKStepSetTables(memory(), implicit_tableau_->q, implicit_tableau_->p, implicit_tableau_.get(),
@@ -64,21 +66,25 @@ class ArkodeImex : private Split, public ArkStep {
   static int explicit_force(sunrealtype t, N_Vector y, N_Vector y_dot, void* user) {
     auto& me = self(user);
     positions(y_dot).setZero();
-    return me.known_or_evaluated(t, y, [&] { velocities(y_dot) = me.end_explicit_; }, [&] {
-      const int flag = me.evaluate_acceleration(*me.split.explicit_part, t, y, velocities(y_dot));
-      me.last_.explicit_part = velocities(y_dot);
-      return flag;
-    });
+    return me.known_or_evaluated(
+        t, y, [&] { velocities(y_dot) = me.end_explicit_; },
+        [&] {
+          const int flag = me.evaluate_acceleration(*me.split.explicit_part, t, y, velocities(y_dot));
+          me.last_.explicit_part = velocities(y_dot);
+          return flag;
+        });
   }
 
   static int implicit_force(sunrealtype t, N_Vector y, N_Vector y_dot, void* user) {
     auto& me = self(user);
     positions(y_dot) = velocities(y);
-    return me.known_or_evaluated(t, y, [&] { velocities(y_dot) = me.end().a - me.end_explicit_; }, [&] {
-      const int flag = me.evaluate_acceleration(*me.split.implicit_part, t, y, velocities(y_dot));
-      me.last_.implicit_part = velocities(y_dot);
-      return flag;
-    });
+    return me.known_or_evaluated(
+        t, y, [&] { velocities(y_dot) = me.end().a - me.end_explicit_; },
+        [&] {
+          const int flag = me.evaluate_acceleration(*me.split.implicit_part, t, y, velocities(y_dot));
+          me.last_.implicit_part = velocities(y_dot);
+          return flag;
+        });
   }
 
   // M^-1 f of the stage evaluated last, which after a step is its end.
@@ -119,8 +125,9 @@ class ArkodeImexChoice : public SettableChoice<ArkodeImexChoice>, public ImexOpt
 };
 
 const bool arkode_imex_registered = Registry<IntegratorChoice>::add<ArkodeImexChoice>(
-    "arkode_imex", "ARKODE: additive Runge-Kutta methods of order 3-5, explicit in the parts of the force that "
-                   "`explicit` names.");
+    "arkode_imex",
+    "ARKODE: additive Runge-Kutta methods of order 3-5, explicit in the parts of the force that "
+    "`explicit` names.");
 
 }  // namespace
 }  // namespace orthodyn::sundials

@@ -5,9 +5,9 @@
 // evaluated the step is refused while a shorter one can still avoid that.
 #pragma once
 
-#include <cstdio>  // before the next, which names FILE
-
 #include <arkode/arkode_butcher.h>
+
+#include <cstdio>  // before the next, which names FILE
 
 #include "integrators/sundials/handles.h"
 

@@ -68,7 +68,9 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public Automatic
                {.range = {0, 1, true, true}})
           .key("modes", &C::modes, "How many modes are kept by modal, if that is the method; written by the program.",
                {.range = {1}})
-          .key("kept", &C::kept, "Modes kept by modal and the share of the motion that they leave out, if that is the method; written by the "
+          .key("kept", &C::kept,
+               "Modes kept by modal and the share of the motion that they leave out, if that is the method; written by "
+               "the "
                "program.")
           .check([](const C& options, const Config& config) { options.check_method(config); });
     }();
@@ -85,8 +87,8 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public Automatic
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     Scales own = scales(task);
     if (!method && own.omega == 0) own.omega = task.scales().omega;  // also where the scales themselves are given
-    const MethodChoice choice = is_settled(model) ? MethodChoice{*method, rationale, safety, modes}
-                                                  : choose(model, task, own);
+    const MethodChoice choice =
+        is_settled(model) ? MethodChoice{*method, rationale, safety, modes} : choose(model, task, own);
     IntegratorSettings wanted = settings();
     wanted.position_scale = own.position;
     wanted.velocity_scale = own.velocity;
@@ -120,8 +122,8 @@ class AutomaticChoice : public SettableChoice<AutomaticChoice>, public Automatic
   }
 };
 
-const bool automatic_registered = Registry<IntegratorChoice>::add<AutomaticChoice>(
-    "auto", "Chooses one of the others for the scene and says why.");
+const bool automatic_registered =
+    Registry<IntegratorChoice>::add<AutomaticChoice>("auto", "Chooses one of the others for the scene and says why.");
 
 }  // namespace
 }  // namespace orthodyn

@@ -20,9 +20,9 @@ namespace {
 // Measured: a force takes about 2.2 ns per entry of the tangent's lower triangle, a tangent five forces.
 constexpr double kForce = 2.2, kTangent = 5;
 
-// Error of tr_bdf2 per radian of q'' = -omega^2 q, relative to the amplitude, at rtol 1e-3 with the amplitude as position
-// scale: measured at rtol 1e-2 ... 1e-5 over 10 ... 100 rad, where it goes with rtol^(2/3). The accepted error is
-// kMostPhaseError times rtol.
+// Error of tr_bdf2 per radian of q'' = -omega^2 q, relative to the amplitude, at rtol 1e-3 with the amplitude as
+// position scale: measured at rtol 1e-2 ... 1e-5 over 10 ... 100 rad, where it goes with rtol^(2/3). The accepted error
+// is kMostPhaseError times rtol.
 constexpr double kPhaseError = 1.2e-3, kMostPhaseError = 20;
 
 double phase_error_of_order_two(const CostEstimate& cost, double rtol) {

@@ -16,20 +16,19 @@ constexpr double kMostShare = 0.2;        // of the unknowns
 constexpr int kSmall = 100;               // unknowns of which all modes are taken if need be
 constexpr double kMostNumbers = 5e7;      // in the vectors of Lanczos' method
 constexpr double kVectors = 2.5;          // of Lanczos' method, for each mode
-constexpr double kOrthogonal = 0.3;       // cost of an inner product, in forces, times non-zeros over unknowns: measured
-constexpr double kForces = 8;             // and solutions in a step
-constexpr double kProducts = 2;           // of all modes with a vector, for each force
-constexpr double kWorthIt = 0.5;          // of the other method's cost
-constexpr double kVelocity = 10;          // times rtol: of the velocity
-constexpr double kSameForce = 1e-8;       // of the parts of a force
+constexpr double kOrthogonal = 0.3;  // cost of an inner product, in forces, times non-zeros over unknowns: measured
+constexpr double kForces = 8;        // and solutions in a step
+constexpr double kProducts = 2;      // of all modes with a vector, for each force
+constexpr double kWorthIt = 0.5;     // of the other method's cost
+constexpr double kVelocity = 10;     // times rtol: of the velocity
+constexpr double kSameForce = 1e-8;  // of the parts of a force
 constexpr double kMostSteps = 1e9;
 
 // Costs in evaluations of the force.
 class ModalCost {
  public:
   ModalCost(const Model& model, const CostEstimate& cost)
-      : cost_(cost),
-        of_product_(kOrthogonal * model.num_dofs() / static_cast<double>(model.pattern().non_zeros())) {}
+      : cost_(cost), of_product_(kOrthogonal * model.num_dofs() / static_cast<double>(model.pattern().non_zeros())) {}
 
   double search(int modes) const {
     const double vectors = kVectors * modes;
@@ -48,8 +47,8 @@ int most_modes(const Model& model) {
   return std::min({kMost, static_cast<int>(kMostShare * n), static_cast<int>(kMostNumbers / kVectors / n)});
 }
 
-// Checks f(t, q, v) = f(t, 0, 0) - K q - D v at a random state: a user's model may claim to be linear although its tangents are
-// approximate.
+// Checks f(t, q, v) = f(t, 0, 0) - K q - D v at a random state: a user's model may claim to be linear although its
+// tangents are approximate.
 bool is_linear_as_it_says(const Model& model, const Task& task) {
   const Scales scales = task.scales();
   const auto n = static_cast<Eigen::Index>(model.num_dofs());
@@ -89,8 +88,9 @@ std::optional<MethodChoice> search(const Model& model, const Task& task, const C
     if (!trial) return std::nullopt;
     spent += of.search(modes) + static_cast<double>(trial->steps) * of.step(modes);
     if (trial->displacement_left_out <= control.rtol && trial->velocity_left_out <= kVelocity * control.rtol)
-      return MethodChoice{"modal", fmt::format("the model is linear, and {} modes leave out {:.1g} of the motion", modes,
-                                               trial->displacement_left_out),
+      return MethodChoice{"modal",
+                          fmt::format("the model is linear, and {} modes leave out {:.1g} of the motion", modes,
+                                      trial->displacement_left_out),
                           std::nullopt, modes, 2 * spent};
     if (modes == most) return std::nullopt;
   }
@@ -99,9 +99,7 @@ std::optional<MethodChoice> search(const Model& model, const Task& task, const C
 
 }  // namespace
 
-bool allows_modes(const Model& model) {
-  return model.traits().linear && !model.ranks() && model.pattern().symmetric;
-}
+bool allows_modes(const Model& model) { return model.traits().linear && !model.ranks() && model.pattern().symmetric; }
 
 std::optional<MethodChoice> plan_modal(const Model& model, const Task& task, const CostEstimate& cost,
                                        const ErrorControl& control, const MethodChoice& other) {

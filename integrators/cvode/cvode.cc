@@ -21,9 +21,9 @@ Cvode::Cvode(const std::string& name, const Model& model, const Settings& settin
 void Cvode::initialise(double t) {
   void* m = memory();
   ORTHODYN_CAPTURE_ERRORS(CVodeSetErrHandlerFn, context_, m, &callback_context_.message);
-  require(CVodeInit(m, [](sunrealtype time, N_Vector y, N_Vector y_dot, void* user) {
-    return cvode(user).evaluate(time, y, y_dot);
-  }, t, y()));
+  require(CVodeInit(
+      m, [](sunrealtype time, N_Vector y, N_Vector y_dot, void* user) { return cvode(user).evaluate(time, y, y_dot); },
+      t, y()));
   require(CVodeSetUserData(m, this));
   require(CVodeWFtolerances(m, [](N_Vector, N_Vector weights, void* user) {
     cvode(user).settings_.set_weights(weights);
@@ -127,8 +127,8 @@ void Cvode::attach_reduced() {
 void Cvode::attach_full() {
   make_full_solver();
   require(CVodeSetLinearSolver(memory(), solver_.get(), matrix_.get()));
-  require(CVodeSetJacFn(memory(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* user, N_Vector,
-                                     N_Vector, N_Vector) { return cvode(user).fill_full(t, y, J); }));
+  require(CVodeSetJacFn(memory(), [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector,
+                                     N_Vector) { return cvode(user).fill_full(t, y, J); }));
 }
 
 }  // namespace orthodyn::sundials

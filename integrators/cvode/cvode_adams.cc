@@ -1,9 +1,8 @@
 // CVODE's Adams-Moulton methods (Hindmarsh et al. 2005): variable order 1-12, variable step. For smooth,
 // lightly damped motion at tight tolerances; high orders are stable for short steps only.
 #include <cvode/cvode.h>
-#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
-
 #include <fmt/format.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include "integrators/cvode/cvode.h"
 

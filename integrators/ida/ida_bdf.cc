@@ -18,8 +18,10 @@ struct FreeIda {
 class IdaBdf : public SundialsIntegrator {
  public:
   IdaBdf(const Model& model, const MultistepSettings& settings)
-      : SundialsIntegrator("ida_bdf", model, settings), max_order_(settings.max_order),
-        y_dot_(make_vector(size(), context_, model.ranks())), memory_(IDACreate(context_)) {
+      : SundialsIntegrator("ida_bdf", model, settings),
+        max_order_(settings.max_order),
+        y_dot_(make_vector(size(), context_, model.ranks())),
+        memory_(IDACreate(context_)) {
     if (!memory_) throw RunError("IDA could not be created");
   }
 

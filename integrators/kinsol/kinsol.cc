@@ -93,8 +93,7 @@ class Kinsol : public EquilibriumSolver {
     x.head(n_) = point.q;
     x[n_] = point.lambda;
     require(KINSetMaxNewtonStep(memory_.get(), longest));
-    const int flag =
-        KINSol(memory_.get(), unknowns_.get(), KIN_NONE, position_weights_.get(), force_weights_.get());
+    const int flag = KINSol(memory_.get(), unknowns_.get(), KIN_NONE, position_weights_.get(), force_weights_.get());
     if (callback_context_.failure) std::rethrow_exception(callback_context_.failure);
     Attempt attempt;
     KINGetNumNonlinSolvIters(memory_.get(), &attempt.iterations);
@@ -107,8 +106,7 @@ class Kinsol : public EquilibriumSolver {
       attempt.residual = space_.largest_entry(force(point));
       attempt.above_tolerance = !within_tolerance;
     } else {
-      attempt.failure_reason =
-          failure_sentence(flag, options_, path_.traits().exact_stiffness, callback_context_);
+      attempt.failure_reason = failure_sentence(flag, options_, path_.traits().exact_stiffness, callback_context_);
     }
     return attempt;
   }
@@ -116,7 +114,8 @@ class Kinsol : public EquilibriumSolver {
   void initialise() {
     void* m = memory_.get();
     ORTHODYN_CAPTURE_ERRORS(KINSetErrHandlerFn, context_, m, &callback_context_.message);
-    require(KINInit(m, [](N_Vector x, N_Vector r, void* user) { return self(user).evaluate(x, r); }, unknowns_.get()));
+    require(KINInit(
+        m, [](N_Vector x, N_Vector r, void* user) { return self(user).evaluate(x, r); }, unknowns_.get()));
     require(KINSetUserData(m, this));
     functions_.setup = [this] { return factor(); };
     functions_.solve = [this](N_Vector dx, N_Vector b, double) {
@@ -127,9 +126,8 @@ class Kinsol : public EquilibriumSolver {
     plug_ = make_placeholder_matrix(context_);
     solver_ = make_solver_adapter(functions_, context_);
     require(KINSetLinearSolver(m, solver_.get(), plug_.get()));
-    require(KINSetJacFn(m, [](N_Vector x, N_Vector, SUNMatrix, void* user, N_Vector, N_Vector) {
-      return self(user).linearize(x);
-    }));
+    require(KINSetJacFn(
+        m, [](N_Vector x, N_Vector, SUNMatrix, void* user, N_Vector, N_Vector) { return self(user).linearize(x); }));
     require(KINSetMaxSetupCalls(m, 1));
     require(KINSetNumMaxIters(m, options_.max_iterations));
     require(KINSetFuncNormTol(m, options_.rtol));

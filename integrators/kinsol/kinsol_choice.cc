@@ -23,8 +23,9 @@ class KinsolChoice : public EquilibriumChoice, public KinsolOptions {
     return s;
   }
   static MethodFacts facts() {
-    return {{"source", "Hindmarsh et al., ACM TOMS 31, 2005; Riks, Int. J. Solids Struct. 15, 1979; "
-                       "Magisano, Leonetti & Garcea, CMAME 313, 2017"}};
+    return {{"source",
+             "Hindmarsh et al., ACM TOMS 31, 2005; Riks, Int. J. Solids Struct. 15, 1979; "
+             "Magisano, Leonetti & Garcea, CMAME 313, 2017"}};
   }
   bool takes_unsymmetric() const override { return solver_registry().at(linear_solver.type).takes_general; }
   std::unique_ptr<EquilibriumSolver> make(const LoadPath& path, const EquilibriumTask& task) const override {

@@ -46,7 +46,7 @@ bool PathStiffness::factor() {
   const Measure measure(statistics_.factorization);
   model_.combine({0, 0, 1}, linearization_, values_.data());
   // Where the last K was indefinite this one is likely to be.
-  const bool done = !model_.pattern().symmetric                       ? factor_general()
+  const bool done = !model_.pattern().symmetric                        ? factor_general()
                     : negative_.value_or(0) > 0 || resists_iterations_ ? factor_indefinite()
                                                                        : factor_definite();
   constant_is_factored_ = done && model_.traits().linear;

@@ -50,7 +50,7 @@ class PathStiffness {
   bool resists_iterations_ = false;  // a definite K did: the others are like it
   std::optional<int> negative_;
   LinearSolver* used_ = nullptr;  // holds the last factor
-  Vector q_;  // where K was taken
+  Vector q_;                      // where K was taken
   Linearization linearization_;
   std::vector<double> values_;
 };

@@ -13,7 +13,9 @@ int AlphaParameters::order() const { return std::abs(gamma + theta() - 0.5) < 1e
 
 AlphaMethod::AlphaMethod(const std::string& name, const Model& model, const NewtonOptions& options,
                          const Scales& scales, const AlphaParameters& parameters)
-    : OneStep(name, model, options, scales), p_(parameters), solver_(model, options, norm_, statistics_),
+    : OneStep(name, model, options, scales),
+      p_(parameters),
+      solver_(model, options, norm_, statistics_),
       past_(model.space()) {}
 
 void AlphaMethod::restarted() {

@@ -44,10 +44,10 @@ class AlphaMethod : public OneStep {
   AlphaParameters p_;
   StageSolver solver_;
   StageSolver::Stage stage_;
-  Accelerations past_;      // x at the ends of steps
-  Vector w_, w0_, w1_;      // at now(), moved to where this step needs it, at the step's end
-  double last_h_ = 0;       // 0 after a restart
-  Vector last_change_;      // w1_ - w0_ of the last step
+  Accelerations past_;  // x at the ends of steps
+  Vector w_, w0_, w1_;  // at now(), moved to where this step needs it, at the step's end
+  double last_h_ = 0;   // 0 after a restart
+  Vector last_change_;  // w1_ - w0_ of the last step
 };
 
 }  // namespace orthodyn

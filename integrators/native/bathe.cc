@@ -14,8 +14,7 @@ class BatheChoice : public SettableChoice<BatheChoice>, public NewtonOptions {
         NewtonOptions::spec_for<C>()
             .key("rho_inf", &C::rho_inf, "What a step leaves of the fastest oscillations: 0 all damped, 1 none.",
                  {.range = {0, 1}})
-            .key("splitting", &C::splitting, "Where in the step the trapezoidal part ends.",
-                 {.range = {0.01, 0.99}});
+            .key("splitting", &C::splitting, "Where in the step the trapezoidal part ends.", {.range = {0.01, 0.99}});
     return s;
   }
   static MethodFacts facts() {

@@ -42,7 +42,9 @@ struct CentralOptions {
 class CentralDifferences : public ExplicitStep {
  public:
   CentralDifferences(const Model& model, const Task& task, const CentralOptions& options)
-      : ExplicitStep(model, words(options), 2, options.max_steps), options_(options), watch_(model, statistics_),
+      : ExplicitStep(model, words(options), 2, options.max_steps),
+        options_(options),
+        watch_(model, statistics_),
         unbounded_(task.output_interval > 0 ? task.output_interval : task.end - task.initial.t),
         extent_(extent(model)) {
     check_start(task);
@@ -76,9 +78,10 @@ class CentralDifferences : public ExplicitStep {
     }
     first_critical_ = watch_.critical();
     if (options_.step.value && *options_.step.value > first_critical_)
-      throw ConfigError(fmt::format("step: {:.6g} s is above the critical step, {:.6g} s; lower it, set `step: auto`, "
-                                    "or use an implicit integrator",
-                                    *options_.step.value, first_critical_));
+      throw ConfigError(
+          fmt::format("step: {:.6g} s is above the critical step, {:.6g} s; lower it, set `step: auto`, "
+                      "or use an implicit integrator",
+                      *options_.step.value, first_critical_));
     if (!options_.step.value) refuse_a_run_without_end(task);
   }
 
@@ -86,9 +89,10 @@ class CentralDifferences : public ExplicitStep {
     const double h = options_.safety * first_critical_;
     const double steps = (task.end - task.initial.t) / h;
     if (steps > static_cast<double>(options_.max_steps))
-      throw ConfigError(fmt::format("central_differences would take {:.2g} steps of {:.3g} s ({}), more than "
-                                    "max_steps, {}; use an implicit integrator, or raise max_steps",
-                                    steps, h, critical_text(first_critical_), options_.max_steps));
+      throw ConfigError(
+          fmt::format("central_differences would take {:.2g} steps of {:.3g} s ({}), more than "
+                      "max_steps, {}; use an implicit integrator, or raise max_steps",
+                      steps, h, critical_text(first_critical_), options_.max_steps));
   }
 
   std::string critical_text(double step) const {

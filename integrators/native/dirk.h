@@ -44,7 +44,7 @@ class Dirk : public OneStep {
   std::vector<std::unique_ptr<StageSolver>> solvers_;  // one per distinct a_ii
   std::vector<StageSolver*> solver_of_;                // of stages 1 to s
   StageSolver::Stage stage_;
-  Eigen::MatrixXd V_, A_;      // a column per stage
+  Eigen::MatrixXd V_, A_;       // a column per stage
   Accelerations past_, tried_;  // until now(), and in the last attempt
 };
 

@@ -33,19 +33,26 @@ struct EnergyMomentumOptions : LinearOptions {
 const DiscreteGradient& gradient_of(const Model& model) {
   const DiscreteGradient* gradient = model.discrete_gradient();
   if (!gradient)
-    throw ConfigError("energy_momentum needs a force that is the gradient of an energy, which neither the warped force "
-                      "is (elasticity.corotation: exact) nor the pull of moved nodes with a consistent mass (mass: "
-                      "lumped); or choose another integrator");
+    throw ConfigError(
+        "energy_momentum needs a force that is the gradient of an energy, which neither the warped force "
+        "is (elasticity.corotation: exact) nor the pull of moved nodes with a consistent mass (mass: "
+        "lumped); or choose another integrator");
   return *gradient;
 }
 
 class EnergyMomentum : public OneStep {
  public:
   EnergyMomentum(const Model& model, const EnergyMomentumOptions& options, const Scales& scales)
-      : OneStep("energy_momentum", model, options, scales), max_iterations_(options.max_newton_iterations),
-        gradient_(gradient_of(model)), matrix_(model, options.linear_solver, options.tangent(), statistics_),
-        anderson_(model.num_dofs(), kAndersonDepth), x_(model.num_dofs()), q_(model.num_dofs()), v_(model.num_dofs()),
-        r_(model.num_dofs()), mx_(model.num_dofs()) {}
+      : OneStep("energy_momentum", model, options, scales),
+        max_iterations_(options.max_newton_iterations),
+        gradient_(gradient_of(model)),
+        matrix_(model, options.linear_solver, options.tangent(), statistics_),
+        anderson_(model.num_dofs(), kAndersonDepth),
+        x_(model.num_dofs()),
+        q_(model.num_dofs()),
+        v_(model.num_dofs()),
+        r_(model.num_dofs()),
+        mx_(model.num_dofs()) {}
   std::size_t factor_bytes() const override { return matrix_.factor_bytes(); }
 
  protected:

@@ -34,10 +34,10 @@ std::optional<State> ExplicitStep::mean_of_step() const {
 
 StepInfo ExplicitStep::step(double t_stop) {
   if (statistics_.steps >= max_steps_)
-    throw RunError(fmt::format("{} gave up at t = {:.6g} s after {} steps (max_steps); raise integrator.max_steps{}",
-                               words_.name, end_.t, statistics_.steps,
-                               words_.fewer.empty() ? "" : " or " + words_.fewer),
-                   Reason::too_many_steps);
+    throw RunError(
+        fmt::format("{} gave up at t = {:.6g} s after {} steps (max_steps); raise integrator.max_steps{}", words_.name,
+                    end_.t, statistics_.steps, words_.fewer.empty() ? "" : " or " + words_.fewer),
+        Reason::too_many_steps);
   try {
     advance(t_stop);
   } catch (const RecoverableError& e) {

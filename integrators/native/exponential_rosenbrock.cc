@@ -37,9 +37,15 @@ struct ExponentialOptions : ErrorControl, FixedStep {
 class ExponentialRosenbrock : public ExplicitStep {
  public:
   ExponentialRosenbrock(const Model& model, const Task& task, const ExponentialOptions& options)
-      : ExplicitStep(model, words(options), 3, options.max_steps), options_(options), scales_(options.scales(task)),
-        control_(3), system_(model, options.rtol, scales_), slope_(model.num_dofs()), stage_(system_.size()),
-        correction_(system_.size()), from_rate_(system_.size(), options.krylov_dimension),
+      : ExplicitStep(model, words(options), 3, options.max_steps),
+        options_(options),
+        scales_(options.scales(task)),
+        control_(3),
+        system_(model, options.rtol, scales_),
+        slope_(model.num_dofs()),
+        stage_(system_.size()),
+        correction_(system_.size()),
+        from_rate_(system_.size(), options.krylov_dimension),
         from_defect_(system_.size(), options.krylov_dimension) {}
 
   std::size_t bytes() const override {
@@ -128,9 +134,10 @@ class ExponentialRosenbrock : public ExplicitStep {
     const double resolution = 4 * std::numeric_limits<double>::epsilon() * std::abs(end().t);
     if (h_ > std::max({options_.h_min, resolution, std::numeric_limits<double>::min()})) return;
     if (by_error)
-      fail("the error test keeps failing; raise integrator.rtol, lower integrator.h_min, or look for a kink in the "
-           "loads",
-           Reason::error_test);
+      fail(
+          "the error test keeps failing; raise integrator.rtol, lower integrator.h_min, or look for a kink in the "
+          "loads",
+          Reason::error_test);
     if (cause_.empty())
       fail(fmt::format("a Krylov space of dimension {} does not converge at the smallest step; raise "
                        "integrator.krylov_dimension or lower integrator.h_min",
@@ -196,11 +203,11 @@ class ExponentialRosenbrock : public ExplicitStep {
   ExponentialOptions options_;
   Scales scales_;
   StepControl control_;
-  double h_ = 0;  // proposed; 0 before the first step
+  double h_ = 0;       // proposed; 0 before the first step
   std::string cause_;  // why the model refused the last attempt, if it did
   ScaledSystem system_;
-  Vector slope_, rate_;                  // dF/dt and F at the beginning
-  Vector stage_, correction_, defect_;   // U - y, y1 - U
+  Vector slope_, rate_;                 // dF/dt and F at the beginning
+  Vector stage_, correction_, defect_;  // U - y, y1 - U
   KrylovPhi from_rate_, from_defect_;
 };
 
@@ -218,8 +225,9 @@ class ExponentialRosenbrockChoice : public SettableChoice<ExponentialRosenbrockC
     return s;
   }
   static MethodFacts facts() {
-    return method_facts("3", "A-stable, exact for linear systems; the Krylov space grows with step times highest "
-                             "frequency",
+    return method_facts("3",
+                        "A-stable, exact for linear systems; the Krylov space grows with step times highest "
+                        "frequency",
                         "linear invariants (momentum), to tolerance",
                         "Hochbruck, Ostermann & Schweitzer, SIAM J. Numer. Anal. 47, 2009; Niesen & Wright 2012");
   }

@@ -1,9 +1,8 @@
 #include "integrators/native/krylov_phi.h"
 
-#include <unsupported/Eigen/MatrixFunctions>
-
 #include <algorithm>
 #include <cmath>
+#include <unsupported/Eigen/MatrixFunctions>
 
 #include "lib/core/errors.h"
 
@@ -21,7 +20,8 @@ int next_look(int dimension) { return std::max(kFirstLook, dimension + std::max(
 
 KrylovPhi::KrylovPhi(Eigen::Index size, int max_dimension)
     : max_dimension_(static_cast<int>(std::min<Eigen::Index>(size, max_dimension))),
-      basis_(size, max_dimension_ + 1), hessenberg_(max_dimension_ + 1, max_dimension_) {}
+      basis_(size, max_dimension_ + 1),
+      hessenberg_(max_dimension_ + 1, max_dimension_) {}
 
 void KrylovPhi::begin(const Operator& J, const Vector& b) {
   J_ = J;

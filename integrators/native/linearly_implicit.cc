@@ -6,8 +6,11 @@ namespace orthodyn {
 
 LinearlyImplicit::LinearlyImplicit(const std::string& name, const Model& model, const LinearOptions& options,
                                    const Scales& scales, int tangent_steps)
-    : OneStep(name, model, options, scales), solve_(model, options.linear_solver, options.tangent(), statistics_),
-      tangent_steps_(tangent_steps), f_now_(model.num_dofs()), f_next_(model.num_dofs()) {}
+    : OneStep(name, model, options, scales),
+      solve_(model, options.linear_solver, options.tangent(), statistics_),
+      tangent_steps_(tangent_steps),
+      f_now_(model.num_dofs()),
+      f_next_(model.num_dofs()) {}
 
 void LinearlyImplicit::restarted() {
   model_.multiply_mass(now().a, f_now_);

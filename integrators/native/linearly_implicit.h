@@ -33,10 +33,10 @@ class LinearlyImplicit : public OneStep {
 
  private:
   int tangent_steps_;
-  int age_ = 0;          // steps that K and D have served; 0: not one
+  int age_ = 0;  // steps that K and D have served; 0: not one
   bool linearized_ = false;
   bool attempted_ = false;  // a step from now() was tried before
-  double gamma_ = 0;     // of the factor; 0 if there is none
+  double gamma_ = 0;        // of the factor; 0 if there is none
   Vector f_now_, f_next_;
 };
 

@@ -19,8 +19,8 @@
 #include "integrators/native/modal_motion.h"
 #include "integrators/native/modal_trial.h"
 #include "integrators/native/modal_truncation.h"
-#include "integrators/scaled_norm.h"
 #include "integrators/native/step_control.h"
+#include "integrators/scaled_norm.h"
 #include "lib/core/errors.h"
 
 namespace orthodyn {
@@ -45,9 +45,14 @@ ModalBasis measured_basis(const Model& model, const ModeLimit& limit, Statistics
 class Modal : public Integrator {
  public:
   Modal(const Model& model, const Task& task, const ModalOptions& options)
-      : model_(model), options_(options), basis_(measured_basis(model, options, statistics_)),
-        loads_(model, basis_, statistics_), scales_(options.scales(task)), norm_(options.rtol, scales_),
-        control_(kLoadTerms + 1), truncation_(basis_) {
+      : model_(model),
+        options_(options),
+        basis_(measured_basis(model, options, statistics_)),
+        loads_(model, basis_, statistics_),
+        scales_(options.scales(task)),
+        norm_(options.rtol, scales_),
+        control_(kLoadTerms + 1),
+        truncation_(basis_) {
     if (model.traits().time_dependent) {
       interval_ = (task.end - task.initial.t) / kLeastSteps;
       if (task.output_interval > 0) interval_ = std::min(interval_, task.output_interval);
@@ -219,8 +224,9 @@ class Modal : public Integrator {
     if (h_ > std::max({options_.h_min, resolution, std::numeric_limits<double>::min()})) return;
     const std::string stopped = fmt::format("modal stopped at t = {:.6g} s: ", time());
     if (by_error)
-      throw RunError(stopped + "the load cannot be followed to the tolerance; raise integrator.rtol, lower "
-                               "integrator.h_min, or look for a kink in the loads",
+      throw RunError(stopped +
+                         "the load cannot be followed to the tolerance; raise integrator.rtol, lower "
+                         "integrator.h_min, or look for a kink in the loads",
                      Reason::error_test);
     throw RunError(stopped + "the force cannot be evaluated (" + cause_ +
                        "); lower integrator.h_max or check the initial state and the loads",
@@ -237,11 +243,11 @@ class Modal : public Integrator {
   StepControl control_;
   ModalTruncation truncation_;
   double interval_ = std::numeric_limits<double>::infinity();  // between looks at a load that may vary, s
-  double h_ = 0;        // proposed; 0 before the first step
-  State from_;          // of the last start
+  double h_ = 0;                                               // proposed; 0 before the first step
+  State from_;                                                 // of the last start
   bool is_starting_ = false;
   double share_at_start_ = 0;  // of the motion that the initial state starts, lost
-  StepLoad load_;       // of the last step; h = 0 before the first one
+  StepLoad load_;              // of the last step; h = 0 before the first one
   double end_time_ = 0;
   ModalState begin_, end_;  // of the last step
   std::string cause_;       // why a force could not be evaluated
@@ -253,8 +259,9 @@ class ModalChoice : public SettableChoice<ModalChoice>, public ModalOptions {
     using C = ModalChoice;
     static const auto s =
         ErrorControl::spec_for<C>()
-            .key("modes", &C::modes, "How many of the lowest modes are kept, rigid motions among them; all if there "
-                                     "are fewer. This or `below` is required.",
+            .key("modes", &C::modes,
+                 "How many of the lowest modes are kept, rigid motions among them; all if there "
+                 "are fewer. This or `below` is required.",
                  {.range = {1}})
             .key("below", &C::below, "Keeps the modes below this frequency.", {.unit = "Hz", .range = kPositive})
             .key("kept", &C::kept, "What was kept, and what that leaves out, in words; written by the program.")
@@ -274,8 +281,9 @@ class ModalChoice : public SettableChoice<ModalChoice>, public ModalOptions {
   bool needs_linear_model() const override { return true; }
   std::unique_ptr<Integrator> make(const Model& model, const Task& task) const override {
     if (!modes && !below)
-      throw ConfigError("modal needs to know which modes to keep: give `modes`, such as 40, or `below`, such as 2 kHz "
-                        "(`orthodyn modes` lists the frequencies of a scene)");
+      throw ConfigError(
+          "modal needs to know which modes to keep: give `modes`, such as 40, or `below`, such as 2 kHz "
+          "(`orthodyn modes` lists the frequencies of a scene)");
     auto modal = std::make_unique<Modal>(model, task, *this);
     modal->check_start(task.initial);
     return modal;

@@ -14,11 +14,11 @@
 namespace orthodyn {
 namespace {
 
-constexpr double kShift = 1e-6;      // of the highest kept eigenvalue
-constexpr double kCoupling = 1e-5;   // of modes by damping: of an amplitude
-constexpr int kFirstCount = 20;      // of modes where their number is to be found
+constexpr double kShift = 1e-6;     // of the highest kept eigenvalue
+constexpr double kCoupling = 1e-5;  // of modes by damping: of an amplitude
+constexpr int kFirstCount = 20;     // of modes where their number is to be found
 constexpr int kMostModes = 2000;
-constexpr double kRayleigh = 1e-6;   // misfit of alpha M + beta K, of the largest entry
+constexpr double kRayleigh = 1e-6;    // misfit of alpha M + beta K, of the largest entry
 constexpr double kNoDamping = 1e-13;  // of the largest damping: none
 
 double hertz(double lambda) { return std::sqrt(lambda) / (2 * std::numbers::pi); }
@@ -104,9 +104,10 @@ void ModalBasis::take_modes(const ModeLimit& limit) {
         "the state of rest is not stable: modal needs a stiffness without negative eigenvalues; use another "
         "integrator");
   if (!complete_ && next_lambda_ == 0)
-    throw ConfigError(fmt::format("{} modes leave out motions without stiffness, such as those of a body that nothing "
-                                  "holds (6); ask for more modes",
-                                  lambda_.size()));
+    throw ConfigError(
+        fmt::format("{} modes leave out motions without stiffness, such as those of a body that nothing "
+                    "holds (6); ask for more modes",
+                    lambda_.size()));
 }
 
 // So many and one more, which tells what is left out.
@@ -128,12 +129,13 @@ void ModalBasis::take_below(double frequency) {
     take_count(count);
     if (complete_ || next_lambda_ >= limit) break;
     if (count >= kMostModes)
-      throw ConfigError(fmt::format("more than {} modes lie below {:.6g} Hz, the last of them at {:.6g} Hz; lower "
-                                    "`below`, or use another integrator",
-                                    count, frequency, hertz(lambda_[lambda_.size() - 1])));
+      throw ConfigError(
+          fmt::format("more than {} modes lie below {:.6g} Hz, the last of them at {:.6g} Hz; lower "
+                      "`below`, or use another integrator",
+                      count, frequency, hertz(lambda_[lambda_.size() - 1])));
   }
-  const auto kept = static_cast<Eigen::Index>(
-      std::lower_bound(lambda_.begin(), lambda_.end(), limit) - lambda_.begin());
+  const auto kept =
+      static_cast<Eigen::Index>(std::lower_bound(lambda_.begin(), lambda_.end(), limit) - lambda_.begin());
   if (kept == 0)
     throw ConfigError(fmt::format("no mode lies below {:.6g} Hz, the first is at {:.6g} Hz; raise `below`", frequency,
                                   hertz(lambda_[0])));
@@ -189,7 +191,7 @@ void ModalBasis::refuse_coupled_damping(double share) const {
     return std::any_of(parts.begin(), parts.end(), [&](const std::string& part) { return part.starts_with(name); });
   };
   const auto [what, remedy] =
-      has("dashpots") ? std::pair{"dashpots", "Remove the dashpots"}
+      has("dashpots")  ? std::pair{"dashpots", "Remove the dashpots"}
       : has("springs") ? std::pair{"stiffness damping, of which springs have none,",
                                    "Take damping.mass in place of damping.stiffness, or softer springs"}
                        : std::pair{"damping that differs among regions", "Give all regions the same stiffness damping"};
@@ -210,8 +212,9 @@ void ModalBasis::factor() {
     for (std::size_t k = 0; k < values.size(); ++k) values[k] = stiffness_[k] + shift * mass_[k];
     if (solver_->factor(values.data()) == FactorStatus::ok) return;
   }
-  throw RunError("the stiffness is not positive definite, and no small shift makes it so: modal has no static response "
-                 "of the modes left out; use another integrator");
+  throw RunError(
+      "the stiffness is not positive definite, and no small shift makes it so: modal has no static response "
+      "of the modes left out; use another integrator");
 }
 
 Vector ModalBasis::coordinates(const Vector& q) const { return shapes_.transpose() * times_mass(q); }
@@ -230,8 +233,8 @@ Vector ModalBasis::times_damping(const Vector& x) const { return product(model_.
 Vector ModalBasis::times_stiffness(const Vector& x) const { return product(model_.pattern(), stiffness_, x); }
 
 std::size_t ModalBasis::bytes() const {
-  return sizeof(double) * (stiffness_.size() + mass_.size() + drag_.size() + at_.stiffness.size() +
-                           at_.damping.size() + static_cast<std::size_t>(shapes_.size()));
+  return sizeof(double) * (stiffness_.size() + mass_.size() + drag_.size() + at_.stiffness.size() + at_.damping.size() +
+                           static_cast<std::size_t>(shapes_.size()));
 }
 
 }  // namespace orthodyn

@@ -45,8 +45,8 @@ StepLoad ModalLoad::at(double t) {
 }
 
 StepLoad ModalLoad::over(double t, double h) {
-  StepLoad out{t, h, false, {}, Eigen::MatrixXd(basis_.size(), kLoadTerms),
-               Eigen::MatrixXd(model_.num_dofs(), kLoadTerms)};
+  StepLoad out{
+      t, h, false, {}, Eigen::MatrixXd(basis_.size(), kLoadTerms), Eigen::MatrixXd(model_.num_dofs(), kLoadTerms)};
   for (Eigen::Index j = 0; j < kLoadTerms; ++j) {
     const Vector f = force(t + load_points()[static_cast<std::size_t>(j)] * h);
     if (j == 0) out.first = f;

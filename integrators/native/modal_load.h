@@ -11,7 +11,7 @@ namespace orthodyn {
 
 // By shares theta of the step, in [0, 1].
 struct StepLoad {
-  double t = 0, h = 0;    // s; h = 0: none
+  double t = 0, h = 0;  // s; h = 0: none
   bool varies = false;
   Vector first;           // f at the first point
   Eigen::MatrixXd modal;  // phi' f, by coefficients

@@ -16,8 +16,8 @@ struct ModalTrial {
 
 // Runs `task` with the `modes` lowest modes, the options and the step limits of a run; there are no outputs.
 // None if it takes more than `most_steps`. Shares of 1 if the modes miss the motion of the initial state.
-// Precondition: the model is linear and symmetric, and one process holds it. Throws ConfigError where modes cannot serve
-// it, RunError and RecoverableError as a run does.
+// Precondition: the model is linear and symmetric, and one process holds it. Throws ConfigError where modes cannot
+// serve it, RunError and RecoverableError as a run does.
 std::optional<ModalTrial> try_modal(const Model& model, const Task& task, const ErrorControl& control, int modes,
                                     long most_steps);
 

@@ -18,8 +18,14 @@ constexpr double kAfterNewton = 0.5, kRelease = 1.05;
 }  // namespace
 
 OneStep::OneStep(std::string name, const Model& model, const LinearOptions& options, const Scales& scales)
-    : model_(model), norm_(options.rtol, scales, model.space()), name_(std::move(name)), options_(options),
-      scales_(scales), control_(1), e_q_(model.num_dofs()), e_v_(model.num_dofs()) {
+    : model_(model),
+      norm_(options.rtol, scales, model.space()),
+      name_(std::move(name)),
+      options_(options),
+      scales_(scales),
+      control_(1),
+      e_q_(model.num_dofs()),
+      e_v_(model.num_dofs()) {
   const Vector zero = Vector::Zero(model.num_dofs());
   before_ = now_ = next_ = {0, zero, zero, zero};
 }
@@ -199,8 +205,9 @@ void OneStep::give_up(StepResult result, double t, double h) const {
                          shorter + ", set integrator.gauss_newton: true, or check for inverted elements",
                      Reason::newton);
     default:
-      throw RunError(where + "the error test keeps failing; raise integrator.rtol, lower integrator.h_min, or look "
-                             "for a kink in the loads",
+      throw RunError(where +
+                         "the error test keeps failing; raise integrator.rtol, lower integrator.h_min, or look "
+                         "for a kink in the loads",
                      Reason::error_test);
   }
 }

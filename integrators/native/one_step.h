@@ -75,11 +75,11 @@ class OneStep : public Integrator {
   LinearOptions options_;
   Scales scales_;
   DeadbandStepControl control_;
-  double h_ = 0;           // the next step, if error control decides; 0 if it is still to be estimated
+  double h_ = 0;             // the next step, if error control decides; 0 if it is still to be estimated
   double newton_limit_ = 0;  // a bound of the next step, where Newton has failed on a longer one
-  double error_ = 0;       // of the last attempt, in units of what is allowed
-  std::string cause_;      // why the model refused the last attempt, if it did
-  StepEnd before_, now_;   // the ends of the last step
+  double error_ = 0;         // of the last attempt, in units of what is allowed
+  std::string cause_;        // why the model refused the last attempt, if it did
+  StepEnd before_, now_;     // the ends of the last step
   Vector e_q_, e_v_;
 };
 

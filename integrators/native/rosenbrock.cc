@@ -46,8 +46,13 @@ class Rosenbrock : public LinearlyImplicit {
  public:
   Rosenbrock(const Model& model, const LinearOptions& options, const Scales& scales, int tangent_steps)
       : LinearlyImplicit("rosenbrock", model, stricter(options), scales, tangent_steps),
-        u_q_(model.num_dofs(), kStages), u_v_(model.num_dofs(), kStages), f_(model.num_dofs()), p_(model.num_dofs()),
-        f_t_(Vector::Zero(model.num_dofs())), c_q_(model.num_dofs()), c_v_(model.num_dofs()) {}
+        u_q_(model.num_dofs(), kStages),
+        u_v_(model.num_dofs(), kStages),
+        f_(model.num_dofs()),
+        p_(model.num_dofs()),
+        f_t_(Vector::Zero(model.num_dofs())),
+        c_q_(model.num_dofs()),
+        c_v_(model.num_dofs()) {}
 
  protected:
   Orders orders() const override { return {3, 3}; }
@@ -106,7 +111,7 @@ class Rosenbrock : public LinearlyImplicit {
   }
 
   const Transformed table_;
-  Eigen::MatrixXd u_q_, u_v_;  // a column per stage
+  Eigen::MatrixXd u_q_, u_v_;       // a column per stage
   Vector f_, p_, f_t_, c_q_, c_v_;  // c: the correction
 };
 
@@ -116,9 +121,9 @@ class RosenbrockChoice : public SettableChoice<RosenbrockChoice>, public LinearO
 
   static const Spec<RosenbrockChoice>& spec() {
     using C = RosenbrockChoice;
-    static const auto s = LinearOptions::spec_for<C>().key(
-        "tangent_steps", &C::tangent_steps, "Steps for which a tangent is kept, if none of them fails.",
-        {.range = {1}});
+    static const auto s =
+        LinearOptions::spec_for<C>().key("tangent_steps", &C::tangent_steps,
+                                         "Steps for which a tangent is kept, if none of them fails.", {.range = {1}});
     return s;
   }
   static MethodFacts facts() {

@@ -6,10 +6,17 @@
 namespace orthodyn {
 
 ScaledSystem::ScaledSystem(const Model& model, double rtol, const Scales& scales)
-    : model_(model), q_unit_(rtol * scales.position), v_unit_(rtol * scales.velocity),
-      t_unit_(q_unit_ / scales.velocity), n_(model.num_dofs()),
-      size_(2 * n_ + (model.traits().time_dependent ? 1 : 0)), stiffness_(model.pattern().row.size()),
-      damping_(model.pattern().row.size()), slope_(Vector::Zero(n_)), force_(n_), drag_(n_) {}
+    : model_(model),
+      q_unit_(rtol * scales.position),
+      v_unit_(rtol * scales.velocity),
+      t_unit_(q_unit_ / scales.velocity),
+      n_(model.num_dofs()),
+      size_(2 * n_ + (model.traits().time_dependent ? 1 : 0)),
+      stiffness_(model.pattern().row.size()),
+      damping_(model.pattern().row.size()),
+      slope_(Vector::Zero(n_)),
+      force_(n_),
+      drag_(n_) {}
 
 void ScaledSystem::rate(const Vector& v, const Vector& a, Vector& F) const {
   F.resize(size_);

@@ -8,7 +8,8 @@ namespace {
 class SemiImplicitEuler : public LinearlyImplicit {
  public:
   SemiImplicitEuler(const Model& model, const LinearOptions& options, const Scales& scales)
-      : LinearlyImplicit("semi_implicit_euler", model, options, scales, 1), dq_(model.num_dofs()),
+      : LinearlyImplicit("semi_implicit_euler", model, options, scales, 1),
+        dq_(model.num_dofs()),
         dv_(model.num_dofs()) {}
 
  protected:

@@ -9,11 +9,11 @@
 namespace orthodyn {
 
 namespace {
-constexpr double kWeightDrift = 0.25;  // of w_k, up to which the factor is kept and corrections are scaled
-constexpr double kSameWeight = 1e-12;  // two equal steps are equal but for round-off
-constexpr double kLinearShare = 0.05;  // of what Newton's method may leave, what an iterative linear solver may
-constexpr double kSlow = 0.5;          // a rate at which a new tangent pays
-constexpr double kCorrectionRoundOff = 1e-10;    // of the scales: corrections below it that do not shrink are round-off
+constexpr double kWeightDrift = 0.25;          // of w_k, up to which the factor is kept and corrections are scaled
+constexpr double kSameWeight = 1e-12;          // two equal steps are equal but for round-off
+constexpr double kLinearShare = 0.05;          // of what Newton's method may leave, what an iterative linear solver may
+constexpr double kSlow = 0.5;                  // a rate at which a new tangent pays
+constexpr double kCorrectionRoundOff = 1e-10;  // of the scales: corrections below it that do not shrink are round-off
 constexpr double kLeastContractionFactor = 1e-3;  // of a nonlinear model: what is less is round-off
 }  // namespace
 

@@ -9,8 +9,8 @@
 #pragma once
 
 #include "integrators/native/native_options.h"
-#include "integrators/scaled_norm.h"
 #include "integrators/newton_matrix.h"
+#include "integrators/scaled_norm.h"
 
 namespace orthodyn {
 
@@ -59,7 +59,7 @@ class StageSolver {
   ScaledNorm norm_;
   Statistics& statistics_;
   NewtonMatrix matrix_;
-  bool stale_ = true;      // K and D are to be made anew before they are used
+  bool stale_ = true;  // K and D are to be made anew before they are used
   bool linearized_ = false, factored_ = false;
   double contraction_factor_ = 1;  // rate / (1 - rate) of the last iteration with this matrix factor
   Vector r_, dx_, guess_, work_;

@@ -17,8 +17,11 @@ constexpr double kGivenUp = 2;       // growth of a correction at which the solv
 
 SecantNewton::SecantNewton(N_Vector y, SUNContext context, CallbackContext& callbacks, const VectorSpace& space,
                            double least_rate)
-    : newton_(SUNNonlinSol_Newton(y, context)), solver_(SUNNonlinSolNewEmpty(context)), callbacks_(callbacks),
-      least_rate_(least_rate), space_(space) {
+    : newton_(SUNNonlinSol_Newton(y, context)),
+      solver_(SUNNonlinSolNewEmpty(context)),
+      callbacks_(callbacks),
+      least_rate_(least_rate),
+      space_(space) {
   if (!newton_ || !solver_) throw RunError("SUNDIALS could not create Newton's iteration", Reason::out_of_memory);
   solver_->content = this;
   plain_.setZero(view(y).size());
@@ -32,9 +35,7 @@ void SecantNewton::delegate() {
   ops.gettype = [](SUNNonlinearSolver) { return SUNNONLINEARSOLVER_ROOTFIND; };
   ops.initialize = [](SUNNonlinearSolver S) { return SUNNonlinSolInitialize(of(S).newton_.get()); };
   ops.solve = [](SUNNonlinearSolver S, N_Vector y0, N_Vector y, N_Vector w, sunrealtype tolerance,
-                 sunbooleantype set_up, void* memory) {
-    return of(S).solve(y0, y, w, tolerance, set_up, memory);
-  };
+                 sunbooleantype set_up, void* memory) { return of(S).solve(y0, y, w, tolerance, set_up, memory); };
   ops.free = [](SUNNonlinearSolver S) {
     S->content = nullptr;
     SUNNonlinSolFreeEmpty(S);

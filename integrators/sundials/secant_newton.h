@@ -64,7 +64,7 @@ class SecantNewton {
   double first_rate_ = 1;                  // by which the first correction leaves errors, from the last solves
   double least_rate_;
   VectorSpace space_;
-  double rate_ = 1;                        // by which corrections shrink
+  double rate_ = 1;  // by which corrections shrink
 };
 
 }  // namespace orthodyn::sundials

@@ -11,7 +11,10 @@
 namespace orthodyn::sundials {
 
 SundialsIntegrator::SundialsIntegrator(std::string name, const Model& model, const Settings& settings)
-    : model_(model), settings_(settings), y_(make_vector(size(), context_, model.ranks())), momentum_(model.num_dofs()),
+    : model_(model),
+      settings_(settings),
+      y_(make_vector(size(), context_, model.ranks())),
+      momentum_(model.num_dofs()),
       name_(std::move(name)) {
   if (!settings.implicit) return;
   if (!model.traits().smooth && settings.options.max_newton_iterations < 2)
@@ -78,9 +81,7 @@ void SundialsIntegrator::interpolate(double t, State& out) const {
   out.v = velocities(dense.get());
 }
 
-std::size_t SundialsIntegrator::bytes() const {
-  return workspace_bytes() + (reduced_ ? reduced_->bytes() : 0);
-}
+std::size_t SundialsIntegrator::bytes() const { return workspace_bytes() + (reduced_ ? reduced_->bytes() : 0); }
 
 Decisions SundialsIntegrator::decisions() const {
   auto all = settings_.decisions;
@@ -95,7 +96,7 @@ void SundialsIntegrator::require(int flag) const {
 }
 
 void SundialsIntegrator::make_reduced_solver(std::function<double()> gamma,
-                                              std::function<void(N_Vector, N_Vector)> solve) {
+                                             std::function<void(N_Vector, N_Vector)> solve) {
   matrix_ = make_placeholder_matrix(context_);
   functions_.setup = [this, gamma = std::move(gamma)] {
     bool factored = false;
@@ -148,21 +149,19 @@ void SundialsIntegrator::fail(int flag) {
       throw RunError(position() + "the error test keeps failing" + cause() +
                          "; raise integrator.rtol, lower integrator.h_min, or look for a kink in the loads",
                      reason);
-    case Reason::newton:
-      throw RunError(position() + iteration_failure(), reason);
+    case Reason::newton: throw RunError(position() + iteration_failure(), reason);
     case Reason::force:
       throw RunError(position() + "the force cannot be evaluated" + cause() + "; lower integrator." +
                          (adaptive() ? "h_max" : "step") + " or check the loads",
                      reason);
     case Reason::diverged:
-      throw RunError(position() + "the motion has outgrown its tolerance, rtol times the scales, which is below its "
-                                  "round-off; " +
+      throw RunError(position() +
+                         "the motion has outgrown its tolerance, rtol times the scales, which is below its "
+                         "round-off; " +
                          (adaptive() ? "raise integrator.rtol or the scales" : "lower integrator.step"),
                      reason);
-    case Reason::step_too_small:
-      throw RunError(position() + "the time left is below the resolution of time", reason);
-    default:
-      throw RunError(position() + callback_context_.message + fmt::format(" (flag {})", flag), reason);
+    case Reason::step_too_small: throw RunError(position() + "the time left is below the resolution of time", reason);
+    default: throw RunError(position() + callback_context_.message + fmt::format(" (flag {})", flag), reason);
   }
 }
 
@@ -170,8 +169,9 @@ std::string SundialsIntegrator::iteration_failure() const {
   return "Newton's method does not converge" +
          (adaptive() ? " at the smallest step" + cause() +
                            "; set integrator.gauss_newton: true, lower rtol or h_min, or check for inverted elements"
-                     : cause() + "; lower integrator.step, set integrator.gauss_newton: true, or check for inverted "
-                                 "elements");
+                     : cause() +
+                           "; lower integrator.step, set integrator.gauss_newton: true, or check for inverted "
+                           "elements");
 }
 
 void SundialsIntegrator::initial_acceleration(const Model& model, double t, VectorRef a) {

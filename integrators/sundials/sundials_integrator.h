@@ -9,8 +9,8 @@
 #include "integrators/reduced_solve.h"
 #include "integrators/sundials/callbacks.h"
 #include "integrators/sundials/full_jacobian.h"
-#include "integrators/sundials/sundials_options.h"
 #include "integrators/sundials/solver_adapter.h"
+#include "integrators/sundials/sundials_options.h"
 
 namespace orthodyn::sundials {
 

@@ -50,9 +50,8 @@ double sum(Index n, const Term& term) {
 // z may be x or y. A difference of equal numbers is 0 for any weight.
 void linear_sum(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
   if (a == -b)
-    return for_each_part(length(z), [=]<int size>(Index i) {
-      part<size>(z, i) = a * (part<size>(x, i) - part<size>(y, i));
-    });
+    return for_each_part(length(z),
+                         [=]<int size>(Index i) { part<size>(z, i) = a * (part<size>(x, i) - part<size>(y, i)); });
   for_each_part(length(z), [=]<int size>(Index i) { part<size>(z, i) = a * part<size>(x, i) + b * part<size>(y, i); });
 }
 

@@ -34,13 +34,12 @@ inline void keep_message(const char* function, const char* message, void* text) 
 // Sends what a library reports to *text instead of to the terminal. `set_handler` is the library's
 // own setter (CVodeSetErrHandlerFn, IDASetErrHandlerFn), needed by version 6 alone.
 #if SUNDIALS_VERSION_MAJOR >= 7
-inline void keep_error(int, const char* function, const char*, const char* message, SUNErrCode code,
-                       void* text, SUNContext) noexcept {
+inline void keep_error(int, const char* function, const char*, const char* message, SUNErrCode code, void* text,
+                       SUNContext) noexcept {
   keep_message(function, message ? message : SUNGetErrMsg(code), text);
 }
-#define ORTHODYN_CAPTURE_ERRORS(set_handler, context, memory, text)      \
-  (SUNContext_ClearErrHandlers(context),                                 \
-   SUNContext_PushErrHandler(context, orthodyn::sundials::keep_error, text))
+#define ORTHODYN_CAPTURE_ERRORS(set_handler, context, memory, text) \
+  (SUNContext_ClearErrHandlers(context), SUNContext_PushErrHandler(context, orthodyn::sundials::keep_error, text))
 #else
 inline void keep_error(int, const char*, const char* function, char* message, void* text) noexcept {
   keep_message(function, message, text);

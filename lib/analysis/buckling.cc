@@ -38,9 +38,7 @@ struct Divided {
   std::unique_ptr<Model> structure, loads;
 };
 
-Divided divided(const FemModel& model) {
-  return {without_loads(model), model.only(model.load_parts().value())};
-}
+Divided divided(const FemModel& model) { return {without_loads(model), model.only(model.load_parts().value())}; }
 
 // The largest strain of a small displacement, by the norm of its components.
 double largest_strain(const FemModel& model, double t, const Vector& u) {

@@ -3,12 +3,12 @@
 //
 //     K phi = -lambda K' phi,
 //
-// with the stiffness K of the structure (the body, its springs and the ground, under their own forces alone), and K' the
-// stiffness that the loads add: the stress stiffness of the stresses that they cause (static response u = K^-1 f), and
-// their own where they follow the body (pressure; of an unsymmetric one the symmetric part).
-// That the shape changes before it buckles is left out, as in the classic analysis (Cook et al., Concepts and
-// Applications of Finite Element Analysis, 2002, 18.5): right where the body moves little until then, else follow the
-// path (lib/statics/load_stepper.h).
+// with the stiffness K of the structure (the body, its springs and the ground, under their own forces alone), and K'
+// the stiffness that the loads add: the stress stiffness of the stresses that they cause (static response u = K^-1 f),
+// and their own where they follow the body (pressure; of an unsymmetric one the symmetric part). That the shape changes
+// before it buckles is left out, as in the classic analysis (Cook et al., Concepts and Applications of Finite Element
+// Analysis, 2002, 18.5): right where the body moves little until then, else follow the path
+// (lib/statics/load_stepper.h).
 #pragma once
 
 #include <vector>
@@ -29,9 +29,9 @@ struct BucklingModes {
   double limit = 0;
 };
 
-// At most `count`, for the loads at time t, s; for the loads reversed no factor is told. unloaded: the free displacements
-// with which the body rests without loads, m. Throws ConfigError for an unsymmetric tangent, RunError if the model is
-// not held or they cannot be found.
+// At most `count`, for the loads at time t, s; for the loads reversed no factor is told. unloaded: the free
+// displacements with which the body rests without loads, m. Throws ConfigError for an unsymmetric tangent, RunError if
+// the model is not held or they cannot be found.
 BucklingModes buckling_modes(const FemModel& model, const Vector& unloaded, double t, int count);
 
 }  // namespace orthodyn

@@ -43,7 +43,9 @@ double VibrationDrift::after(double duration) const {
 }
 
 Linearity::Linearity(const FemModel& model, Terms terms, double span)
-    : model_(model), terms_(std::move(terms)), exact_(model.parts().elastic.size()),
+    : model_(model),
+      terms_(std::move(terms)),
+      exact_(model.parts().elastic.size()),
       mass_(std::isfinite(span) ? 1 / (span * span) : 0) {
   const FemModel::Parts& parts = model_.parts();
   const ElementMesh elements(parts.mesh);
@@ -116,7 +118,7 @@ LinearityError Linearity::distance(double t, const Vector& q, const Terms& terms
 std::optional<Vector> Linearity::shift(double t, const Vector& q, const Terms& terms) {
   constexpr double kAccuracy = 0.02;  // of the error itself
   constexpr double kSlowest = 0.7;    // contraction of the energy of steps
-  constexpr int kMostTangents = 12;  // of the exact force, one a step, where the linear stiffness does not serve
+  constexpr int kMostTangents = 12;   // of the exact force, one a step, where the linear stiffness does not serve
   const Vector still = Vector::Zero(q.size());
   Vector at_q(q.size()), there(q.size()), step(q.size()), Mx(q.size());
   model_.multiply_mass(q, Mx);

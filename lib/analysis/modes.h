@@ -15,10 +15,10 @@
 namespace orthodyn {
 
 struct Mode {
-  double lambda = 0;      // omega^2, rad^2/s^2; negative where the state is unstable
-  Vector shape;           // M-orthonormal
+  double lambda = 0;                  // omega^2, rad^2/s^2; negative where the state is unstable
+  Vector shape;                       // M-orthonormal
   Vec3 participation = Vec3::Zero();  // sqrt(kg); zero if the model tells no momentum.linear
-  double residual = 0;    // |K phi - lambda M phi| / |lambda_ref M phi|, lambda_ref of this or the lowest elastic mode
+  double residual = 0;  // |K phi - lambda M phi| / |lambda_ref M phi|, lambda_ref of this or the lowest elastic mode
 
   double angular_frequency() const;  // rad/s; of an unstable mode its rate of growth, negative
   double frequency() const;          // Hz

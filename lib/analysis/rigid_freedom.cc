@@ -159,8 +159,8 @@ std::string sentence(const Eigen::MatrixXd& free) {
   if (!along.empty()) words.push_back("be translated along " + join(along));
   if (!about.empty()) words.push_back((along.empty() ? "be rotated about " : "rotated about ") + join(about));
   if (const auto more = free.cols() - static_cast<Eigen::Index>(along.size() + about.size()); more > 0)
-    words.push_back(fmt::format("move in {} {}combined way{}", more, words.empty() ? "" : "further ",
-                                more > 1 ? "s" : ""));
+    words.push_back(
+        fmt::format("move in {} {}combined way{}", more, words.empty() ? "" : "further ", more > 1 ? "s" : ""));
   std::string text = "can " + words[0];
   for (std::size_t k = 1; k < words.size(); ++k) text += " and " + words[k];
   return text;

@@ -68,9 +68,10 @@ Scales estimate_scales(const FemModel& model, const State& initial, double end, 
   const VectorSpace space = model.space();
   const bool at_rest = space.is_zero(initial.q) && space.is_zero(initial.v);
   const double energy = at_rest ? 0 : initial_energy(model, initial);  // not round-off
-  if (!std::isfinite(energy)) throw ConfigError("initial", "the state has no finite energy; check velocities and displacements");
+  if (!std::isfinite(energy))
+    throw ConfigError("initial", "the state has no finite energy; check velocities and displacements");
   const double reached = statics.exists() ? share_reached(space, statics) : 1;
-  const double work = statics.exists()         ? reached * reached * statics.work
+  const double work = statics.exists()              ? reached * reached * statics.work
                       : space.is_zero(statics.load) ? 0
                                                     : extent * space.sum_of_sizes(statics.load);
   const Reach reach = reach_of_supports(model, initial.t, end);

@@ -19,8 +19,7 @@ Vector peak_load(const FemModel& model, const State& initial, double end, std::s
   const Vector still = Vector::Zero(model.num_dofs());
   const NodalExpansion nodal(model.parts(), initial.t, initial.q, still);
   NodalVector sum = NodalVector::Zero(3, nodal.x.cols());
-  for (std::size_t k = first; k < first + count; ++k)
-    model.parts().loads[k]->add_peak_force(nodal.state(), end, sum);
+  for (std::size_t k = first; k < first + count; ++k) model.parts().loads[k]->add_peak_force(nodal.state(), end, sum);
   if (model.parts().subdomain) model.parts().subdomain->add_to_owners(sum);
   Vector free(model.num_dofs());
   model.parts().dofs->restrict_to(sum, free);

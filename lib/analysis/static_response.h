@@ -17,11 +17,11 @@ struct StaticResponse {
                          // within a period leave no more
 
   bool exists() const { return known; }
-  bool known = false;    // whether there is a displacement; of several ranks some may have no unknowns
+  bool known = false;  // whether there is a displacement; of several ranks some may have no unknowns
 };
 
-// Largest displacement of the motion over twice the static response: min(1, 1.5 struck / max |u|), without dimension. Below 1
-// for short blows, where it may underestimate the motion of a light part.
+// Largest displacement of the motion over twice the static response: min(1, 1.5 struck / max |u|), without dimension.
+// Below 1 for short blows, where it may underestimate the motion of a light part.
 double share_reached(const VectorSpace& space, const StaticResponse& statics);
 
 // From the initial state to the time `end`, s.

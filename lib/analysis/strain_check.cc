@@ -13,9 +13,9 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kMargin = 2;           // between Green's strain and that of the law; engineering shear counts twice
-constexpr double kOvershoot = 2;        // of a load applied at once, over its static response
-constexpr int kLargestSystem = 30000;   // unknowns that are factorised for a warning's sake
+constexpr double kMargin = 2;          // between Green's strain and that of the law; engineering shear counts twice
+constexpr double kOvershoot = 2;       // of a load applied at once, over its static response
+constexpr int kLargestSystem = 30000;  // unknowns that are factorised for a warning's sake
 
 // The elements of a region beyond one limit.
 struct Excess {

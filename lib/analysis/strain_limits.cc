@@ -129,14 +129,10 @@ Mat36 stress_over_young(const Stiffness& stiffness) {
 std::string describe(const StrainLimit& limit, int axis) {
   const int low = std::min(axis, limit.plane) + 1, high = std::max(axis, limit.plane) + 1;
   switch (limit.kind) {
-    case LimitKind::kink:
-      return fmt::format("kinks in the plane {}-{}", low, high);
-    case LimitKind::slide:
-      return fmt::format("slides in the plane {}-{}", low, high);
-    case LimitKind::flat:
-      break;
-    case LimitKind::oblique:
-      return "waves of some direction stop travelling";
+    case LimitKind::kink: return fmt::format("kinks in the plane {}-{}", low, high);
+    case LimitKind::slide: return fmt::format("slides in the plane {}-{}", low, high);
+    case LimitKind::flat: break;
+    case LimitKind::oblique: return "waves of some direction stop travelling";
   }
   return fmt::format("is flat along {}", limit.plane + 1);
 }

@@ -57,7 +57,7 @@ struct Config::Document {
   bool records_defaults = false;
   Origins included;                                                 // what does not stand in `file`
   std::map<std::string, std::string> set;                           // by path: places of values set later, or ""
-  MadeEntries made = {};  // of values set later
+  MadeEntries made = {};                                            // of values set later
   std::map<std::string, std::pair<YAML::Node, std::string>> files;  // by path: values that name files
 };
 
@@ -86,9 +86,8 @@ Config Config::resolving() const { return place_->document->records_defaults ? *
 
 Config Config::copy(bool resolving) const {
   const Document& original = *place_->document;
-  auto document = std::make_shared<Document>(
-      Document{original.file, YAML::Clone(place_->node), resolving, original.included, original.set, original.made,
-               {}});
+  auto document = std::make_shared<Document>(Document{
+      original.file, YAML::Clone(place_->node), resolving, original.included, original.set, original.made, {}});
   return Config(std::make_shared<Place>(Place{document, document->root, place_->parsed, place_->path}));
 }
 

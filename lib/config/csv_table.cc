@@ -36,7 +36,7 @@ void check_names(const CsvTable& table, const std::string& where, const std::vec
                  const std::vector<std::string>& optional) {
   const auto fail = [&](const std::string& what) {
     throw ConfigError(where, what + "; the first line names the columns: " + join(required, ",") +
-                      (optional.empty() ? "" : " and, if wanted, " + join(optional, ",")));
+                                 (optional.empty() ? "" : " and, if wanted, " + join(optional, ",")));
   };
   for (std::size_t i = 0; i < table.names.size(); ++i) {
     const auto& name = table.names[i];

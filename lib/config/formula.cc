@@ -8,15 +8,14 @@
 #include <mutex>
 #include <numbers>
 
-#include "lib/core/versions.h"
 #include "lib/core/spelling.h"
+#include "lib/core/versions.h"
 
 namespace orthodyn {
 
 namespace {
 
-const bool version_registered =
-    library_versions().emplace("muParser", mu::Parser().GetVersion(mu::pviBRIEF)).second;
+const bool version_registered = library_versions().emplace("muParser", mu::Parser().GetVersion(mu::pviBRIEF)).second;
 
 // muParser would change the variable.
 void refuse_assignment(const std::string& text) {
@@ -92,8 +91,8 @@ double Formula::evaluate(const double* values) const {
   std::vector<std::string> place;
   for (std::size_t i = 0; i < parsed_->names.size(); ++i)
     place.push_back(fmt::format("{} = {}", parsed_->names[i], values[i]));
-  throw ConfigError(where_, fmt::format("'{}' is {} at {}", text_, std::isnan(value) ? "not a number" : "infinite",
-                                        join(place)));
+  throw ConfigError(
+      where_, fmt::format("'{}' is {} at {}", text_, std::isnan(value) ? "not a number" : "infinite", join(place)));
 }
 
 void fail_formula(const Config& c, const std::string& known, const std::string& complaint) {

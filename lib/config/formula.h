@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "lib/core/types.h"
 #include "lib/config/values.h"
+#include "lib/core/types.h"
 
 namespace orthodyn {
 
@@ -64,7 +64,7 @@ class TimePointFormula : public Formula {
 [[noreturn]] void fail_formula(const Config& c, const std::string& known, const std::string& complaint);
 
 template <class F>
-  requires std::derived_from<F, Formula>
+requires std::derived_from<F, Formula>
 struct Value<F> {
   static Shape shape() {
     return {.kind = Shape::Kind::either,

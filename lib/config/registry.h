@@ -33,11 +33,13 @@ class Registry {
 
   template <class T>
   static bool add(const std::string& name, const std::string& sentence) {
-    Entry entry{{sentence, T::spec().keys()}, [](const Config& config) -> std::shared_ptr<const Base> {
+    Entry entry{{sentence, T::spec().keys()},
+                [](const Config& config) -> std::shared_ptr<const Base> {
                   auto item = std::make_shared<T>();
                   T::spec().read_into(config, *item, {"type"});
                   return item;
-                }, [] { return std::make_shared<const T>(); }};
+                },
+                [] { return std::make_shared<const T>(); }};
     if constexpr (requires { T::facts(); }) entry.facts = T::facts();
     const bool is_new = mutable_entries().emplace(name, std::move(entry)).second;
     if (!is_new) registry_conflicts().push_back(name);
@@ -70,9 +72,7 @@ struct Value<std::shared_ptr<const Base>> {
               return std::map<std::string, Alternative>(entries.begin(), entries.end());
             }};
   }
-  static std::shared_ptr<const Base> read(const Config& c, const Rule&) {
-    return Registry<Base>::read(c);
-  }
+  static std::shared_ptr<const Base> read(const Config& c, const Rule&) { return Registry<Base>::read(c); }
   static std::string yaml(const std::shared_ptr<const Base>&) { return ""; }
 };
 

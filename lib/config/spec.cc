@@ -123,10 +123,10 @@ void Keys::add(std::string_view name, std::string_view sentence, const Rule& rul
   const std::string fallback = rule.required           ? ""
                                : rule.fallback.empty() ? type.yaml(default_value)
                                                        : std::string(rule.fallback);
-  keys_.push_back({std::string(name), type.shape(), std::string(rule.unit), rule.range, fallback,
-                   std::string(sentence), rule.required});
-  fields_.push_back({keys_.back(), std::string(rule.fallback), std::string(rule.with.key),
-                     std::string(rule.with.word), &type, std::move(member)});
+  keys_.push_back({std::string(name), type.shape(), std::string(rule.unit), rule.range, fallback, std::string(sentence),
+                   rule.required});
+  fields_.push_back({keys_.back(), std::string(rule.fallback), std::string(rule.with.key), std::string(rule.with.word),
+                     &type, std::move(member)});
 }
 
 Config Keys::read_fields(const Config& given, void* target, const std::vector<std::string>& also) const {

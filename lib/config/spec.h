@@ -28,9 +28,7 @@ namespace orthodyn {
 // not have). A struct with a member `Origin origin` gets it from its Spec.
 struct Origin {
   std::string where;
-  [[noreturn]] void fail(const std::string& message) const {
-    throw ConfigError(where, message);
-  }
+  [[noreturn]] void fail(const std::string& message) const { throw ConfigError(where, message); }
 };
 
 // What a Spec does with the type of a member.
@@ -47,8 +45,10 @@ inline constexpr ValueType kValueType{
     [](const Config& config, const Rule& rule, void* target) {
       *static_cast<V*>(target) = Value<V>::read(config, rule);
     },
-    [](const void* value) { return std::string(Value<V>::yaml(*static_cast<const V*>(value))); },
-    requires { V::spec(); }};
+    [](const void* value) { return std::string(Value<V>::yaml(*static_cast<const V*>(value))); }, requires {V::spec();
+}  // namespace orthodyn
+}
+;
 
 // The part of a Spec that knows no types: few instructions for each key, wherever keys are declared.
 class Keys {
@@ -84,8 +84,8 @@ class Spec : public Keys {
  public:
   // The member may be one of T's base class.
   template <class V, class Owner>
-    requires std::derived_from<T, Owner>
-  Spec& key(std::string_view name, V Owner::*member, std::string_view sentence, const Rule& rule = {}) {
+  requires std::derived_from<T, Owner> Spec& key(std::string_view name, V Owner::*member, std::string_view sentence,
+                                                 const Rule& rule = {}) {
     add(name, sentence, rule, kValueType<V>, &(defaults().*member),
         [member](void* target) -> void* { return &(static_cast<T*>(target)->*member); });
     return *this;

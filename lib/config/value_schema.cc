@@ -29,8 +29,7 @@ std::string either_text(const Shape& shape) {
 
 std::string range_text(const Range& r) {
   const bool low = std::isfinite(r.low), high = std::isfinite(r.high);
-  if (low && high)
-    return fmt::format("in {}{}, {}{}", r.low_open ? '(' : '[', r.low, r.high, r.high_open ? ')' : ']');
+  if (low && high) return fmt::format("in {}{}, {}{}", r.low_open ? '(' : '[', r.low, r.high, r.high_open ? ')' : ']');
   if (low) return fmt::format("{} {}", r.low_open ? ">" : ">=", r.low);
   if (high) return fmt::format("{} {}", r.high_open ? "<" : "<=", r.high);
   return "";

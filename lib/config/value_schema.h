@@ -17,9 +17,7 @@ struct Range {
   double high = std::numeric_limits<double>::infinity();
   bool low_open = false, high_open = false;
 
-  bool contains(double x) const {
-    return (low_open ? x > low : x >= low) && (high_open ? x < high : x <= high);
-  }
+  bool contains(double x) const { return (low_open ? x > low : x >= low) && (high_open ? x < high : x <= high); }
 };
 
 struct Key;
@@ -27,7 +25,7 @@ struct Key;
 // One of the things that a section with `type` can be.
 struct Alternative {
   std::string sentence;
-  std::vector<Key> keys;  // beside `type`
+  std::vector<Key> keys;                                        // beside `type`
   std::vector<std::pair<std::string, std::string>> facts = {};  // ("source", "Newmark 1959"), for lists
 };
 
@@ -35,13 +33,13 @@ struct Shape {
   enum class Kind { number, integer, boolean, text, file, word, list, named, section, choice, either, anything };
 
   Kind kind = Kind::anything;
-  std::string words = {};             // for people, where the kind does not say it all: "formula of x, y, z"
-  std::vector<std::string> names = {};  // word: the allowed ones
-  bool behind_name = false;             // word: each of them behind any name and a dot
-  std::vector<Shape> items = {};        // list and named: of each; either: the possible ones
-  std::size_t count = 0;           // list: 0 for any
-  std::string title = {};               // section and choice: the C++ type's name, which tells them apart
-  std::function<std::vector<Key>()> keys = {};                             // section
+  std::string words = {};                       // for people, where the kind does not say it all: "formula of x, y, z"
+  std::vector<std::string> names = {};          // word: the allowed ones
+  bool behind_name = false;                     // word: each of them behind any name and a dot
+  std::vector<Shape> items = {};                // list and named: of each; either: the possible ones
+  std::size_t count = 0;                        // list: 0 for any
+  std::string title = {};                       // section and choice: the C++ type's name, which tells them apart
+  std::function<std::vector<Key>()> keys = {};  // section
   std::function<std::map<std::string, Alternative>()> alternatives = {};  // choice
 };
 

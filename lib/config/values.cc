@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "lib/core/ratio_distance.h"
 #include "lib/core/parse_number.h"
+#include "lib/core/ratio_distance.h"
 #include "lib/core/units.h"
 
 namespace orthodyn {
@@ -106,8 +106,8 @@ std::size_t index_of_word(const Config& config, const std::vector<std::string>& 
 double read_number(const Config& config, const Rule& rule) {
   const double x = quantity(config, rule.unit);
   if (!rule.range.contains(x))
-    config.fail(fmt::format("must be {}{}{}, found {}", range_text(rule.range),
-                            rule.unit.empty() ? "" : " ", rule.unit, number_text(x)));
+    config.fail(fmt::format("must be {}{}{}, found {}", range_text(rule.range), rule.unit.empty() ? "" : " ", rule.unit,
+                            number_text(x)));
   if (!rule.unit.empty()) require_computable(config, x, rule.unit);
   return x;
 }
@@ -152,9 +152,7 @@ FilePath Value<FilePath>::read(const Config& c, const Rule&) { return {c.file_pa
 std::string Value<FilePath>::yaml(const FilePath& x) { return x.path; }
 
 Shape Value<Vec3>::shape() { return list_shape(Value<double>::shape(), 3, "[x, y, z]"); }
-Vec3 Value<Vec3>::read(const Config& c, const Rule& r) {
-  return Eigen::Map<const Vec3>(read_numbers(c, r, 3).data());
-}
+Vec3 Value<Vec3>::read(const Config& c, const Rule& r) { return Eigen::Map<const Vec3>(read_numbers(c, r, 3).data()); }
 std::string Value<Vec3>::yaml(const Vec3& x) {
   return fmt::format("[{}, {}, {}]", number_text(x[0]), number_text(x[1]), number_text(x[2]));
 }

@@ -16,8 +16,8 @@
 
 #include "lib/config/config.h"
 #include "lib/config/value_schema.h"
-#include "lib/core/types.h"
 #include "lib/core/spelling.h"
+#include "lib/core/types.h"
 
 namespace orthodyn {
 
@@ -122,7 +122,7 @@ struct Value<Mat3> {
 std::size_t index_of_word(const Config& config, const std::vector<std::string>& words);
 
 template <class E>
-  requires std::is_enum_v<E>
+requires std::is_enum_v<E>
 struct Value<E> {
   static std::vector<std::string> words() {
     std::vector<std::string> out;
@@ -193,7 +193,7 @@ struct Value<Named<V>> {
 
 // A struct that declares its keys.
 template <class V>
-  requires requires { V::spec(); }
+requires requires { V::spec(); }
 struct Value<V> {
   static Shape shape() {
     return {

@@ -85,8 +85,7 @@ class StructureCheck {
   explicit StructureCheck(const std::string& file) : file_(file) {}
 
   void visit(const YAML::Node& node, int depth) {
-    if (++visited_ > 1'000'000 || depth > kMostDepth)
-      fail(node, "nested too deeply (an alias that contains itself?)");
+    if (++visited_ > 1'000'000 || depth > kMostDepth) fail(node, "nested too deeply (an alias that contains itself?)");
     if (const std::string& tag = node.Tag(); tag.size() > 1 && tag[0] == '!')
       fail(node, fmt::format("the tag {} is not supported; to read another file write the key `include: FILE`", tag));
     if (node.IsScalar()) require_utf8(node);
@@ -141,7 +140,8 @@ class Inclusion {
     node.remove(kKey);
     if (named.IsScalar()) join(node, path, file, named, origins);
     else if (!named.IsSequence()) fail(named, file, "expected a file, or a list of files");
-    else for (std::size_t i = named.size(); i-- > 0;) join(node, path, file, named[i], origins);
+    else
+      for (std::size_t i = named.size(); i-- > 0;) join(node, path, file, named[i], origins);
     return origins;
   }
 
@@ -168,8 +168,7 @@ class Inclusion {
     const std::string other = (fs::path(file).parent_path() / named.Scalar()).string();
     if (!is_file(other)) fail(named, file, "no such file: " + other);
     const std::string identity = fs::weakly_canonical(other).string();
-    if (std::find(open_.begin(), open_.end(), identity) != open_.end())
-      fail(named, file, other + " includes itself");
+    if (std::find(open_.begin(), open_.end(), identity) != open_.end()) fail(named, file, other + " includes itself");
     open_.push_back(identity);
     const YAML::Node content = parse_yaml(read_yaml_file(other), other);
     if (!content.IsMap()) fail(named, file, other + " holds no section of keys");

@@ -1,5 +1,5 @@
-// What stands under a name. A name that the system cannot look up (too long, in a folder that may not be entered, links in
-// a circle) has nothing there: whoever opens it is told why.
+// What stands under a name. A name that the system cannot look up (too long, in a folder that may not be entered, links
+// in a circle) has nothing there: whoever opens it is told why.
 #pragma once
 
 #include <filesystem>

@@ -14,11 +14,11 @@ namespace orthodyn {
 // rows in it, those of a coordinate that is no unknown are of the identity.
 struct PatternShare {
   const Ranks* ranks;
-  int owned;                       // the first so many unknowns are this rank's, and vectors have these alone
-  int owned_points;                // the points that they are coordinates of
-  std::int64_t first_point;        // the number of the first of these among all
-  std::vector<std::int64_t> row;   // of each unknown its row in the whole
-  std::int64_t unknowns;           // of the whole
+  int owned;                      // the first so many unknowns are this rank's, and vectors have these alone
+  int owned_points;               // the points that they are coordinates of
+  std::int64_t first_point;       // the number of the first of these among all
+  std::vector<std::int64_t> row;  // of each unknown its row in the whole
+  std::int64_t unknowns;          // of the whole
 };
 
 // Column-compressed, rows ascending in each column, the diagonal always present.

@@ -53,8 +53,9 @@ ut_system* units() {
     ut_set_error_message_handler(ut_ignore);
     ut_system* read = ut_read_xml(nullptr);
     if (!read)
-      throw std::runtime_error("the table of units of UDUNITS-2 cannot be read (Debian: libudunits2-data); give "
-                               "plain numbers in SI units");
+      throw std::runtime_error(
+          "the table of units of UDUNITS-2 cannot be read (Debian: libudunits2-data); give "
+          "plain numbers in SI units");
     Unit degree(ut_get_unit_by_name(read, "degree"));
     ut_map_name_to_unit("deg", UT_ASCII, degree.get());  // keeps a copy
     return read;
@@ -103,8 +104,8 @@ bool is_decimal_comma(const std::string& unit) {
 
 // "; did you mean 'GPa'?" of an unknown unit that is a usual one but for capitals.
 std::string other_capitals(const std::string& unknown) {
-  constexpr std::array<const char*, 18> kUsual{"GPa", "MPa", "kPa", "Pa",  "mm", "cm",  "km",  "m",   "ms",
-                                               "s",   "kg",  "kN",  "MN",  "N",  "kHz", "MHz", "Hz", "kg/m^3"};
+  constexpr std::array<const char*, 18> kUsual{"GPa", "MPa", "kPa", "Pa", "mm", "cm",  "km",  "m",  "ms",
+                                               "s",   "kg",  "kN",  "MN", "N",  "kHz", "MHz", "Hz", "kg/m^3"};
   const auto same = [](char a, char b) {
     return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
   };

@@ -1,8 +1,7 @@
 #include "lib/core/write_file.h"
 
-#include <fmt/format.h>
-
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -29,8 +28,8 @@ bool writes_files() { return !leaves_files_to_others; }
 void leave_files_to_others() { leaves_files_to_others = true; }
 
 void fail_to_write(const std::filesystem::path& path) {
-  throw RunError(fmt::format("cannot write {}: {}; free some space or choose another folder with --out",
-                             path.string(), std::strerror(errno)),
+  throw RunError(fmt::format("cannot write {}: {}; free some space or choose another folder with --out", path.string(),
+                             std::strerror(errno)),
                  Reason::disk);
 }
 

@@ -21,12 +21,12 @@ void write_file(const std::filesystem::path& path, const std::vector<std::string
 // The same; it survives a power cut once this has returned.
 void write_lasting_file(const std::filesystem::path& path, const std::vector<std::string>& parts);
 
-// Writes all of a text into an open file, `at` bytes from its begin, as many calls to the system as it takes. False with
-// the reason in errno.
+// Writes all of a text into an open file, `at` bytes from its begin, as many calls to the system as it takes. False
+// with the reason in errno.
 bool write_all(int file, std::string_view text, std::size_t at);
 
-// Removes the NAME.<process>-<number>.part of processes that were killed while they wrote, from a folder and those within.
-// Precondition: no other process writes there.
+// Removes the NAME.<process>-<number>.part of processes that were killed while they wrote, from a folder and those
+// within. Precondition: no other process writes there.
 void remove_partial_files(const std::filesystem::path& folder);
 
 // Waits until what was written to a file is on the disk.

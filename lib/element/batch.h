@@ -12,8 +12,8 @@
 namespace orthodyn {
 
 // The number of lanes is part of the name: an element or a law that is compiled for another kind of processor than the
-// library does not load with it, for its polar decomposition (polar.h) is missing. ElementAxes and ElementBatches, whose
-// layout depends on it, have it in their names, too.
+// library does not load with it, for its polar decomposition (polar.h) is missing. ElementAxes and ElementBatches,
+// whose layout depends on it, have it in their names, too.
 #if defined(__AVX512F__)
 inline constexpr int kBatchLanes = 8;
 #define ORTHODYN_LANES lanes_8
@@ -78,9 +78,7 @@ inline Batch sqrt(const Batch& x) {
   for (int i = 0; i < Batch::kLanes; ++i) root[i] = std::sqrt(x[i]);
   return Batch(root);
 }
-inline Batch select(const Batch::Mask& m, const Batch& a, const Batch& b) {
-  return Batch(m ? a.pack() : b.pack());
-}
+inline Batch select(const Batch::Mask& m, const Batch& a, const Batch& b) { return Batch(m ? a.pack() : b.pack()); }
 inline bool all(const Batch::Mask& m) {
   std::int64_t every = -1;
   for (int i = 0; i < Batch::kLanes; ++i) every &= m[i];

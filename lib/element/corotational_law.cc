@@ -42,11 +42,11 @@ template <class T>
 [[gnu::always_inline]] inline Mat63T<T> stretch_rate_matrix(const Mat3T<T>& S) {
   const T zero(0);
   Mat63T<T> N;
-  N << zero, S(0, 2), -S(0, 1),                    //
-      -S(1, 2), zero, S(0, 1),                     //
-      S(1, 2), -S(0, 2), zero,                     //
-      -S(0, 2), S(1, 2), S(0, 0) - S(1, 1),        //
-      S(1, 1) - S(2, 2), -S(0, 1), S(0, 2),        //
+  N << zero, S(0, 2), -S(0, 1),              //
+      -S(1, 2), zero, S(0, 1),               //
+      S(1, 2), -S(0, 2), zero,               //
+      -S(0, 2), S(1, 2), S(0, 0) - S(1, 1),  //
+      S(1, 1) - S(2, 2), -S(0, 1), S(0, 2),  //
       S(0, 1), S(2, 2) - S(0, 0), -S(1, 2);
   return N;
 }

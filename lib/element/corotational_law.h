@@ -57,8 +57,7 @@ class CorotationalLaw : public RotatingLaw<CorotationalLaw<C>, C> {
 
   // First Piola-Kirchhoff stress times Q; with F_rate the viscous stress of weight beta is added.
   template <class T>
-  Mat3T<T> stress(const Mat3T<T>& H, const Mat3& Q, const Mat3T<T>* F_rate = nullptr,
-                  double beta = 0) const {
+  Mat3T<T> stress(const Mat3T<T>& H, const Mat3& Q, const Mat3T<T>* F_rate = nullptr, double beta = 0) const {
     const auto p = polar(deformation_gradient<T>(H, Q), Q);
     T chi(1);
     Mat3T<T> P = p.R * rotated_stress<T>(p, stretch_strain<T>(H, Q, p.S), chi);

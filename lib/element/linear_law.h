@@ -24,17 +24,14 @@ class LinearLaw {
   }
 
   template <class T, class Axes>
-  Mat3T<T> stress(const Mat3T<T>& H, const Axes& Q, const Mat3T<T>* F_rate = nullptr,
-                  double beta = 0) const {
+  Mat3T<T> stress(const Mat3T<T>& H, const Axes& Q, const Mat3T<T>* F_rate = nullptr, double beta = 0) const {
     Mat3T<T> s = C_.stress(small_strain<T>(H, Q));
     if (F_rate) s += T(beta) * C_.stress(small_strain<T>(*F_rate, Q));
     return Q.template cast<T>() * s;
   }
 
   // With P : (H1 - H0) = Psi(H1) - Psi(H0): Psi is quadratic.
-  Mat3 mean_stress(const Mat3& H0, const Mat3& H1, const Mat3& Q) const {
-    return stress<double>(0.5 * (H0 + H1), Q);
-  }
+  Mat3 mean_stress(const Mat3& H0, const Mat3& H1, const Mat3& Q) const { return stress<double>(0.5 * (H0 + H1), Q); }
   template <class Axes>
   Mat3T<Batch> batch_mean_stress(const Mat3T<Batch>& H0, const Mat3T<Batch>& H1, const Axes& Q,
                                  Batch::Mask& good) const {

@@ -1,8 +1,7 @@
 #include "lib/element/polar.h"
 
-#include <cmath>
-
 #include <Eigen/Eigenvalues>
+#include <cmath>
 
 #include "lib/core/errors.h"
 #include "lib/element/polar_steps.h"

@@ -11,7 +11,7 @@ namespace polar_detail {
 
 inline constexpr double kRotationTolerance = 1e-15;  // on |a(R^T F)| / |F|, aimed at
 inline constexpr double kAcceptTolerance = 1e-13;    // and accepted
-inline constexpr double kSingularG = 1e-9;  // det G / |F|^3 below which R is not unique to round-off
+inline constexpr double kSingularG = 1e-9;           // det G / |F|^3 below which R is not unique to round-off
 inline constexpr int kPolishSteps = 3;
 
 template <class T>
@@ -136,8 +136,7 @@ auto polish(const Mat3T<T>& F, Polar<T>& p) {
     const Vec3T<T> a = axial<T>(A);
     const Mat3T<T> G = set_stretch<T>(A, p);
     const T residual = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
-    const auto definite = (G(0, 0) > T(0)) & (G(0, 0) * G(1, 1) - G(0, 1) * G(0, 1) > T(0)) &
-                          (p.det_G > T(kSingularG));
+    const auto definite = (G(0, 0) > T(0)) & (G(0, 0) * G(1, 1) - G(0, 1) * G(0, 1) > T(0)) & (p.det_G > T(kSingularG));
     if (i == kPolishSteps || all(residual <= T(kRotationTolerance * kRotationTolerance)))
       return definite & (residual <= T(kAcceptTolerance * kAcceptTolerance));
     turn<T>(p.R, p.G_inverse * a);

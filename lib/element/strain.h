@@ -31,7 +31,7 @@ Mat3T<T> stretch_strain(const Mat3T<T>& H, const Axes& Q, const Mat3T<T>& S) {
   const Mat3T<T> M = (Q.template cast<T>() + T(0.5) * H).transpose() * H, rough = S - Mat3T<T>::Identity();
   const auto size = real(rough.cwiseProduct(rough).sum());
   const auto is_tiny = size < 1e-16, is_small = size < 1;  // of large strains S - I loses nothing
-  Mat3T<T> E, e, strain;  // of E the upper triangle
+  Mat3T<T> E, e, strain;                                   // of E the upper triangle
   for (int i = 0; i < 3; ++i)
     for (int j = i; j < 3; ++j) {
       E(i, j) = T(0.5) * (M(i, j) + M(j, i));

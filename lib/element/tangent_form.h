@@ -63,7 +63,7 @@ template <class C, class T>
   for (const auto& r : kShears)
     for (const auto& c : kShears) {
       const T e(C6(r.gamma, c.gamma)), ea = form.Hea(r.gamma, c.a - 6), ae = form.Hae(r.a - 6, c.gamma),
-              aa = form.Haa(r.a - 6, c.a - 6);
+                                       aa = form.Haa(r.a - 6, c.a - 6);
       const T even = e + aa, odd = e - aa, up = ea + ae, down = ea - ae;
       out(r.plus, c.plus) = even + up;
       out(r.minus, c.minus) = even - up;

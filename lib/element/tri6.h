@@ -19,11 +19,11 @@ struct Tri6 {
   }
   static Eigen::Matrix<double, kNodes, 2> slopes(const Vec3& L) {
     Eigen::Matrix<double, kNodes, 3> by_L;
-    by_L << 4 * L[0] - 1, 0, 0,         //
-        0, 4 * L[1] - 1, 0,             //
-        0, 0, 4 * L[2] - 1,             //
-        4 * L[1], 4 * L[0], 0,          //
-        0, 4 * L[2], 4 * L[1],          //
+    by_L << 4 * L[0] - 1, 0, 0,  //
+        0, 4 * L[1] - 1, 0,      //
+        0, 0, 4 * L[2] - 1,      //
+        4 * L[1], 4 * L[0], 0,   //
+        0, 4 * L[2], 4 * L[1],   //
         4 * L[2], 0, 4 * L[0];
     return by_L.rightCols<2>().colwise() - by_L.col(0);
   }

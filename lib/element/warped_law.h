@@ -28,12 +28,10 @@ class WarpedLaw : public RotatingLaw<WarpedLaw<C>, C> {
   }
 
   template <class T>
-  Mat3T<T> stress(const Mat3T<T>& H, const Mat3& Q, const Mat3T<T>* F_rate = nullptr,
-                  double beta = 0) const {
+  Mat3T<T> stress(const Mat3T<T>& H, const Mat3& Q, const Mat3T<T>* F_rate = nullptr, double beta = 0) const {
     const auto p = polar(deformation_gradient<T>(H, Q), Q);
     Mat3T<T> P = p.R * C_.stress(stretch_strain<T>(H, Q, p.S));
-    if (F_rate)
-      P += viscous_stress<T>(p, C_, T(beta) * blend<T>(p.S, p.det_G).chi, *F_rate);
+    if (F_rate) P += viscous_stress<T>(p, C_, T(beta) * blend<T>(p.S, p.det_G).chi, *F_rate);
     return P;
   }
 

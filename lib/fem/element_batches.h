@@ -125,7 +125,7 @@ auto ElementBatches<E>::differences_of(const Nodes& nodes, const NodalVector& u)
 // The two below are compiled apart from the laws' kernels, with which they would compete for registers.
 template <Element E>
 [[gnu::noipa]] ORTHODYN_FLATTEN Mat3T<Batch> ElementBatches<E>::gradients(int batch, int p,
-                                                                         const NodalVector& u) const {
+                                                                          const NodalVector& u) const {
   const One& one = batches_[static_cast<std::size_t>(batch)];
   alignas(64) double corner[kCoordinates][kLanes];
   for (std::size_t l = 0; l < kLanes; ++l)
@@ -146,7 +146,7 @@ template <Element E>
 
 template <Element E>
 [[gnu::noipa]] ORTHODYN_FLATTEN void ElementBatches<E>::add_forces(int batch, int p, const Mat3T<Batch>& P,
-                                                                  NodalVector& f) const {
+                                                                   NodalVector& f) const {
   const One& one = batches_[static_cast<std::size_t>(batch)];
   const Point& point = at_point(batch, p);
   const Batch volume = Batch::load(point.volume);

@@ -27,8 +27,7 @@ template <class T, class Gradient>
   for (int m = 0; m < 3; ++m)
     for (int j = 0; j < 3; ++j)
       for (int i = 0; i < 3; ++i)
-        out[idx(m)](i, j) =
-            g[0] * A(3 * m + i, j) + g[1] * A(3 * m + i, 3 + j) + g[2] * A(3 * m + i, 6 + j);
+        out[idx(m)](i, j) = g[0] * A(3 * m + i, j) + g[1] * A(3 * m + i, 3 + j) + g[2] * A(3 * m + i, 6 + j);
   return out;
 }
 
@@ -98,7 +97,7 @@ class ElementOffsets {
 // values += the blocks, at the places of these nodes.
 template <int kNodes>
 [[gnu::noipa]] void scatter(const ElementBlocks<kNodes>& blocks, const typename ElementOffsets<kNodes>::Nodes& nodes,
-                               const ElementOffsets<kNodes>& offsets, const BlockPattern& pattern, double* values) {
+                            const ElementOffsets<kNodes>& offsets, const BlockPattern& pattern, double* values) {
   for (std::size_t a = 0; a < kNodes; ++a)
     pattern.add(nodes[a], nodes[a], pattern.symmetric() ? 0 : pattern.offset(nodes[a], nodes[a]), blocks[a][a], values);
   int pair = 0;

@@ -14,8 +14,11 @@ namespace orthodyn {
 
 NodalExpansion::NodalExpansion(const FemModel::Parts& parts, double at_time, const ConstVectorRef& q,
                                const ConstVectorRef& v, double factor)
-    : time(at_time), t(parts.loads_at.value_or(at_time)), load_factor(factor),
-      u(NodalVector::Zero(3, parts.rest->cols())), u_rate(u) {
+    : time(at_time),
+      t(parts.loads_at.value_or(at_time)),
+      load_factor(factor),
+      u(NodalVector::Zero(3, parts.rest->cols())),
+      u_rate(u) {
   parts.dofs->add_to(q, u);
   parts.dofs->add_to(v, u_rate);
   if (parts.subdomain) {
@@ -121,7 +124,7 @@ void FemModel::force(double t, const ConstVectorRef& q, const ConstVectorRef& v,
 }
 
 void FemModel::assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
-                         Linearization& out) const {
+                        Linearization& out) const {
   const auto size = parts_.pattern->pattern().row.size();
   const NodalExpansion nodal(parts_, t, q, v);
   out.stiffness.assign(size, 0);
@@ -140,9 +143,8 @@ void FemModel::assemble_mixed(double t_before, const ConstVectorRef& q_before, d
   const NodalExpansion before(parts_, t_before, q_before, still), nodal(parts_, t, q, still);
   out.stiffness.assign(parts_.pattern->pattern().row.size(), 0);
   on_all_ranks(parts_.subdomain.get(), [&] {
-    for_each_term(parts_, [&](const Term& term) {
-      term.add_mixed_tangent(before.state(), nodal.state(), out.stiffness.data());
-    });
+    for_each_term(
+        parts_, [&](const Term& term) { term.add_mixed_tangent(before.state(), nodal.state(), out.stiffness.data()); });
   });
 }
 

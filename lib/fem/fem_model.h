@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "lib/fem/terms/elastic_term.h"
 #include "lib/fem/mass.h"
 #include "lib/fem/motion/moved_nodes.h"
 #include "lib/fem/stress_recovery.h"
 #include "lib/fem/subdomain.h"
 #include "lib/fem/support_mass.h"
 #include "lib/fem/term.h"
+#include "lib/fem/terms/elastic_term.h"
 #include "lib/mesh/tet_mesh.h"
 #include "lib/ode/model.h"
 
@@ -37,8 +37,8 @@ class FemModel : public Model {
   // those of terms and supports, are numbered as there.
   struct Parts {
     TetMesh mesh;
-    std::unique_ptr<Subdomain> subdomain = {};          // null where the model is not in parts
-    std::vector<int> unknowns = {};                     // of each of this rank's its number among all
+    std::unique_ptr<Subdomain> subdomain = {};  // null where the model is not in parts
+    std::vector<int> unknowns = {};             // of each of this rank's its number among all
     std::unique_ptr<DofMap> dofs;
     std::unique_ptr<BlockPattern> pattern;
     std::unique_ptr<Mass> mass;
@@ -55,7 +55,7 @@ class FemModel : public Model {
     std::unique_ptr<MovedNodes> moved_everywhere = {};  // those of all ranks
     std::vector<Support> supports;                      // those whose reactions are wanted
     std::unique_ptr<SupportMass> support_mass;          // null without either
-    std::unique_ptr<StressRecovery> recovery;            // made by FemModel, with the first nodal stress
+    std::unique_ptr<StressRecovery> recovery;           // made by FemModel, with the first nodal stress
     Traits traits;
   };
 
@@ -121,8 +121,8 @@ struct NodalExpansion {
   NodalVector u, u_rate, x;
 };
 
-// The forces of all terms on all nodes, N, those of loads times the load factor; of copies of other ranks' nodes they are
-// zero. Collective.
+// The forces of all terms on all nodes, N, those of loads times the load factor; of copies of other ranks' nodes they
+// are zero. Collective.
 NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& nodal);
 // The same of some of them.
 NodalVector term_forces(const FemModel::Parts& parts, const NodalExpansion& nodal,

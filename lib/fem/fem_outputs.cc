@@ -7,9 +7,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include "lib/fem/fem_state_view.h"
 #include "lib/fem/nodal_fields.h"
 #include "lib/fem/reactions.h"
-#include "lib/fem/fem_state_view.h"
 #include "lib/fem/whole_fields.h"
 
 namespace orthodyn {
@@ -19,8 +19,8 @@ namespace {
 using View = FemStateView;
 using Values = std::vector<double>;
 
-// How per-rank values are reduced. `smallest` and `largest`: by the first value; a second one is the place of the first.
-// `same`: all ranks have the same values.
+// How per-rank values are reduced. `smallest` and `largest`: by the first value; a second one is the place of the
+// first. `same`: all ranks have the same values.
 enum class Together { sum, smallest, largest, same };
 
 struct Output {
@@ -60,9 +60,7 @@ constexpr int kAllRegions = -1;
 Output at_nodes(const TensorField& tensor, int region = kAllRegions) {
   return {{fmt::format("nodal_{}", tensor.name), Location::node, 6, tensor.unit,
            fmt::format("{}. Recovered at the nodes.", tensor.sentence), tensor.components},
-          [&tensor, region](const View& view) {
-            return tensor_at_nodes(view.recovered(), tensor, region);
-          },
+          [&tensor, region](const View& view) { return tensor_at_nodes(view.recovered(), tensor, region); },
           Together::same};
 }
 
@@ -192,9 +190,8 @@ std::vector<Output> make_outputs() {
        }},
       {{"det_f", Location::cell, 1, "1", "Volume ratio det F; not positive where inverted."},
        [](const View& view) {
-         return per_cell(view, 1, [&](const ElasticTerm& term, int k, double* out) {
-           *out = term.det_F(k, view.state());
-         });
+         return per_cell(view, 1,
+                         [&](const ElasticTerm& term, int k, double* out) { *out = term.det_F(k, view.state()); });
        }},
       material_axis(0),
       material_axis(1),
@@ -214,8 +211,10 @@ std::vector<Output> make_outputs() {
       scalar("imbalance", "N", "The largest force on a node, were the body at rest in this shape; 0 in equilibrium.",
              imbalance, Together::largest),
       {{"det_f.smallest", Location::global, 2, "1", "The smallest det F, and the element that has it."},
-       smallest_det_f, Together::smallest},
-      {{"speed.largest", Location::global, 2, "m/s", "The largest speed, and the node that has it."}, largest_speed,
+       smallest_det_f,
+       Together::smallest},
+      {{"speed.largest", Location::global, 2, "m/s", "The largest speed, and the node that has it."},
+       largest_speed,
        Together::largest},
       {{"momentum.linear", Location::global, 3, "kg m/s",
         "Linear momentum of the free coordinates, and of moved ones."},
@@ -247,8 +246,8 @@ std::vector<Output> reaction_outputs(const std::vector<Support>& supports) {
     out.push_back({{"torque." + support.name, Location::global, 3, "N m", "Its torque about the middle of the nodes.",
                     axis_names()},
                    [&support](const View& view) {
-                     return flat(reaction_torque(support, view.support_forces(), view.nodal().x,
-                                                 view.parts().subdomain.get()));
+                     return flat(
+                         reaction_torque(support, view.support_forces(), view.nodal().x, view.parts().subdomain.get()));
                    }});
   }
   return out;

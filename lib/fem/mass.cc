@@ -6,7 +6,9 @@ namespace orthodyn {
 
 Mass::Mass(MassKind kind, const ElementMesh& mesh, const std::vector<double>& density, const DofMap& dofs,
            const BlockPattern& pattern, const Subdomain* subdomain)
-    : kind_(kind), pattern_(pattern.pattern()), nodal_(Vector::Zero(dofs.num_nodes())),
+    : kind_(kind),
+      pattern_(pattern.pattern()),
+      nodal_(Vector::Zero(dofs.num_nodes())),
       frequency_excess_(kind == MassKind::lumped ? 1 : mesh.type.lumped_to_consistent()) {
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
     const Vector masses = mesh.type.lumped_mass(mesh.positions(e), density[e]);
@@ -77,7 +79,8 @@ void Mass::add_to(double factor, double* values) const {
   }
   for (int j = 0; j < static_cast<int>(diagonal_.size()); ++j) {
     auto at = static_cast<std::size_t>(pattern_.column_start[static_cast<std::size_t>(j)]);
-    if (!pattern_.symmetric) while (pattern_.row[at] != j) ++at;
+    if (!pattern_.symmetric)
+      while (pattern_.row[at] != j) ++at;
     values[at] += factor * diagonal_[j];
   }
 }

@@ -17,7 +17,9 @@ using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eige
 class EnergyOfStress {
  public:
   EnergyOfStress(const ElementMesh& mesh, const ElasticTerm& term)
-      : mesh_(mesh), term_(term), compliance_(Mat6(term.stiffness().inverse())),
+      : mesh_(mesh),
+        term_(term),
+        compliance_(Mat6(term.stiffness().inverse())),
         straight_(mesh.type.num_corners() == kCornersOfTet ? shares_of(unit_tetrahedron()) : ElementMatrix()) {
     if (term.definition().axes.uniform()) in_space_ = compliance_in_space(0);
   }
@@ -74,14 +76,16 @@ class EnergyOfStress {
   const ElasticTerm& term_;
   Mat6 compliance_;
   std::optional<Mat6> in_space_;  // where it is the same for all elements
-  ElementMatrix straight_;  // of a tetrahedron with straight edges; empty for other elements
+  ElementMatrix straight_;        // of a tetrahedron with straight edges; empty for other elements
 };
 
 // Of the elements of a region, at their nodes: what was computed at their points, and the recovered less that.
 class NodalStresses {
  public:
   NodalStresses(const ElementMesh& mesh, const RegionRecovery& recovery, const SixColumns& computed)
-      : cells_(recovery.cells()), computed_(computed), recovered_(recovery.at_nodes(mesh, computed)),
+      : cells_(recovery.cells()),
+        computed_(computed),
+        recovered_(recovery.at_nodes(mesh, computed)),
         extrapolation_(mesh.type.points_to_nodes()) {}
 
   Eigen::Index nodes() const { return extrapolation_.rows(); }

@@ -78,12 +78,27 @@ const std::vector<DerivedField>& derived_fields() {
       {"principal_stress", "Pa", "Principal stresses, the largest first.", "stress", three, false, principal},
       {"principal_strain", "1", "Principal strains, the largest first.", "strain", three, false, principal},
       {"nodal_det_f", "1", "Volume ratio det F at the nodes.", "strain", {}, false, volume_ratio},
-      {"max_stress", "1", "Exposure by maximum stress: the largest ratio of a component to its strength; 1 fails.",
-       "stress_material", {}, true, of_strength<max_stress_exposure>},
-      {"tsai_wu", "1", "Exposure by Tsai and Wu: one over the factor by which the stress may grow; 1 fails.",
-       "stress_material", {}, true, of_strength<tsai_wu_exposure>},
-      {"hashin", "1", "Exposure by Hashin, the largest of fibre and matrix in tension and compression; 1 fails.",
-       "stress_material", {}, true, of_strength<hashin_exposure>}};
+      {"max_stress",
+       "1",
+       "Exposure by maximum stress: the largest ratio of a component to its strength; 1 fails.",
+       "stress_material",
+       {},
+       true,
+       of_strength<max_stress_exposure>},
+      {"tsai_wu",
+       "1",
+       "Exposure by Tsai and Wu: one over the factor by which the stress may grow; 1 fails.",
+       "stress_material",
+       {},
+       true,
+       of_strength<tsai_wu_exposure>},
+      {"hashin",
+       "1",
+       "Exposure by Hashin, the largest of fibre and matrix in tension and compression; 1 fails.",
+       "stress_material",
+       {},
+       true,
+       of_strength<hashin_exposure>}};
   return all;
 }
 
@@ -124,7 +139,8 @@ std::vector<double> derived_at_nodes(RecoveredTensors& recovered, const StressRe
     });
   };
   if (region >= 0) add(static_cast<std::size_t>(region));
-  else for (std::size_t r = 0; r < terms.size(); ++r) add(r);
+  else
+    for (std::size_t r = 0; r < terms.size(); ++r) add(r);
   return out;
 }
 

@@ -31,7 +31,7 @@ const std::vector<TensorField>& tensor_fields();
 // What is made of one of them at a node.
 struct DerivedField {
   const char *name, *unit, *sentence;
-  const char* tensor;  // name of a TensorField
+  const char* tensor;                   // name of a TensorField
   std::vector<std::string> components;  // empty for a number
   bool needs_strength;
   // As many values as components, or one; NaN where the region has no strength and needs it.
@@ -41,8 +41,8 @@ struct DerivedField {
 // von_mises, principal_stress, principal_strain, nodal_det_f, max_stress, tsai_wu, hashin.
 const std::vector<DerivedField>& derived_fields();
 
-// The recovered tensors of one state: each is computed when it is first asked for, and kept for all fields that are made
-// of it. Not thread-safe.
+// The recovered tensors of one state: each is computed when it is first asked for, and kept for all fields that are
+// made of it. Not thread-safe.
 class RecoveredTensors {
  public:
   // Both must outlive it, and what the state refers to.

@@ -33,7 +33,8 @@ std::vector<std::string> part_names(const FemModel::Parts& parts) {
   return names;
 }
 
-PartModel::PartModel(const FemModel& whole, const std::vector<std::string>& names) : whole_(whole), traits_(whole.traits()) {
+PartModel::PartModel(const FemModel& whole, const std::vector<std::string>& names)
+    : whole_(whole), traits_(whole.traits()) {
   const auto terms = all_terms(whole.parts());
   const auto known = term_names(terms);
   const auto wanted = [&](const std::string& name) {
@@ -56,7 +57,7 @@ void PartModel::force(double t, const ConstVectorRef& q, const ConstVectorRef& v
 }
 
 void PartModel::assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
-                          Linearization& out) const {
+                         Linearization& out) const {
   const auto size = pattern().row.size();
   const bool damped = traits().damping_matrix;
   const NodalExpansion nodal(whole_.parts(), t, q, v);

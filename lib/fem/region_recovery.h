@@ -51,8 +51,8 @@ class RegionRecovery {
 
   std::vector<int> nodes_;
   Cells cells_;
-  Eigen::Index per_element_;  // number of points
-  Eigen::Matrix3Xd places_;   // of the points, m
+  Eigen::Index per_element_;    // number of points
+  Eigen::Matrix3Xd places_;     // of the points, m
   std::vector<Patch> patches_;  // one for each corner
 };
 

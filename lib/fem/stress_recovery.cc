@@ -65,7 +65,7 @@ SixColumns StressRecovery::of_all_ranks(std::size_t region, SixColumns at_points
 }
 
 StressRecovery::OfRegion StressRecovery::at_nodes_of_region(std::size_t region, const NodalState& s,
-                                                             const Seen& seen) const {
+                                                            const Seen& seen) const {
   const ElasticTerm& term = *terms_[region];
   const RegionRecovery& recovery = regions()[region].recovery;
   const auto value = [&](int k, int p) { return seen(term.observe_point(k, p, s)); };
@@ -106,8 +106,9 @@ StressMisfit StressRecovery::misfit_along(const NodalVector& direction, const No
   const NodalVector more_u = s.u + step * direction, less_u = s.u - step * direction;
   std::vector<SixColumns> derivatives;
   for (std::size_t r = 0; r < terms_.size(); ++r)
-    derivatives.push_back(of_all_ranks(r, (stresses(*terms_[r], {s.t, more_x, more_u, s.v}) -
-                                           stresses(*terms_[r], {s.t, less_x, less_u, s.v})) / (2 * step)));
+    derivatives.push_back(of_all_ranks(
+        r, (stresses(*terms_[r], {s.t, more_x, more_u, s.v}) - stresses(*terms_[r], {s.t, less_x, less_u, s.v})) /
+               (2 * step)));
   return misfit_of(derivatives);
 }
 

@@ -76,7 +76,7 @@ class Term {
   virtual double contact_stiffness() const { return 0; }
 
   virtual EnergyKind energy_kind() const { return EnergyKind::none; }
-  virtual double energy(const NodalState&) const { return 0; }     // J
+  virtual double energy(const NodalState&) const { return 0; }       // J
   virtual double dissipation(const NodalState&) const { return 0; }  // W, >= 0
   virtual double load_power(const NodalState&) const { return 0; }   // W
 

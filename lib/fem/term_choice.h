@@ -20,9 +20,9 @@ namespace orthodyn {
 // are of the whole body; pattern and masses are of this rank's subdomain, as Term::part() wants them.
 struct Discretization {
   const TetMesh& mesh;
-  const NodalVector& rest;      // node positions, m
+  const NodalVector& rest;  // node positions, m
   const BlockPattern& pattern;
-  const Vector& nodal_masses;   // kg, the row sums of the mass matrix
+  const Vector& nodal_masses;        // kg, the row sums of the mass matrix
   double mass = nodal_masses.sum();  // kg, of the whole body
 };
 

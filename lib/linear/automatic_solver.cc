@@ -91,10 +91,11 @@ class AutomaticSolver : public LinearSolver {
 
 const bool automatic_registered =
     solver_registry()
-        .emplace("auto", SolverKind{"cholmod where its factor fits in memory and costs less than iterations, else "
-                                    "petsc; on several ranks petsc from 100,000 unknowns on. klu where the tangent is unsymmetric.",
-                                    true, [](const std::string&) { return std::make_unique<AutomaticSolver>(); },
-                                    false, "", true})
+        .emplace(
+            "auto",
+            SolverKind{"cholmod where its factor fits in memory and costs less than iterations, else "
+                       "petsc; on several ranks petsc from 100,000 unknowns on. klu where the tangent is unsymmetric.",
+                       true, [](const std::string&) { return std::make_unique<AutomaticSolver>(); }, false, "", true})
         .second;
 
 }  // namespace

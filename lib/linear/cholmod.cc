@@ -1,6 +1,5 @@
 // CHOLMOD (Davis et al.): sparse Cholesky, simplicial for small and supernodal for large factors.
 #include <cholmod.h>
-
 #include <fmt/format.h>
 
 #include <optional>
@@ -9,8 +8,8 @@
 #include "lib/core/versions.h"
 #include "lib/linear/blas.h"
 #include "lib/linear/gathered_solver.h"
-#include "lib/linear/openmp.h"
 #include "lib/linear/memory_check.h"
+#include "lib/linear/openmp.h"
 #include "lib/linear/solver.h"
 
 namespace orthodyn {
@@ -70,8 +69,9 @@ class Cholmod : public LinearSolver {
     const BlasThreadLimit threads(most_threads());
     const SerialOpenMp serial;
     if (factor_->xtype == CHOLMOD_PATTERN)  // the first on this pattern
-      require_room_of_factor(factor_bytes(), "the Cholesky factor",
-                   "use a coarser mesh, or an explicit integrator (central_differences), which has no factor");
+      require_room_of_factor(
+          factor_bytes(), "the Cholesky factor",
+          "use a coarser mesh, or an explicit integrator (central_differences), which has no factor");
     cholmod_sparse view = view_of(values);
     cholmod_factorize(&view, factor_, &common_);
     if (common_.status == CHOLMOD_NOT_POSDEF)
@@ -96,8 +96,7 @@ class Cholmod : public LinearSolver {
     view.x = const_cast<double*>(b.data());  // CHOLMOD reads it only
     view.xtype = CHOLMOD_REAL;
     view.dtype = CHOLMOD_DOUBLE;
-    if (!cholmod_solve2(CHOLMOD_A, factor_, &view, nullptr, &x_, nullptr, &y_, &e_, &common_))
-      refuse_failure();
+    if (!cholmod_solve2(CHOLMOD_A, factor_, &view, nullptr, &x_, nullptr, &y_, &e_, &common_)) refuse_failure();
     x = Eigen::Map<const Vector>(static_cast<const double*>(x_->x), b.size());
   }
 
@@ -153,8 +152,7 @@ class Cholmod : public LinearSolver {
       throw RunError("the Cholesky factor does not fit in memory; use a coarser mesh", Reason::out_of_memory);
     if (common_.status == CHOLMOD_TOO_LARGE)
       throw RunError("the Cholesky factor has more than 2^31 entries; use a coarser mesh");
-    if (common_.status < 0)
-      throw RunError(fmt::format("CHOLMOD failed with status {}", common_.status));
+    if (common_.status < 0) throw RunError(fmt::format("CHOLMOD failed with status {}", common_.status));
   }
 
   Definite definite_;
@@ -182,11 +180,10 @@ std::unique_ptr<LinearSolver> make_indefinite_solver(const Pattern& pattern) {
 
 namespace {
 
-const bool version_registered =
-    library_versions()
-        .emplace("SuiteSparse", fmt::format("CHOLMOD {}.{}.{}", CHOLMOD_MAIN_VERSION, CHOLMOD_SUB_VERSION,
-                                            CHOLMOD_SUBSUB_VERSION))
-        .second;
+const bool version_registered = library_versions()
+                                    .emplace("SuiteSparse", fmt::format("CHOLMOD {}.{}.{}", CHOLMOD_MAIN_VERSION,
+                                                                        CHOLMOD_SUB_VERSION, CHOLMOD_SUBSUB_VERSION))
+                                    .second;
 
 }  // namespace
 }  // namespace orthodyn

@@ -31,9 +31,7 @@ class EigenLdlt : public LinearSolver {
 
   void solve(const ConstVectorRef& b, VectorRef x) override { x = ldlt_.solve(Vector(b)); }
 
-  std::size_t factor_bytes() const override {
-    return pattern_ ? ldlt_.entries() * (sizeof(double) + sizeof(int)) : 0;
-  }
+  std::size_t factor_bytes() const override { return pattern_ ? ldlt_.entries() * (sizeof(double) + sizeof(int)) : 0; }
 
   std::string description() const override { return "simplicial, minimum degree"; }
 

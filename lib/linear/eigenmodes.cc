@@ -20,7 +20,7 @@ namespace orthodyn {
 
 namespace {
 
-constexpr int kDense = 300;          // unknowns up to which the dense problem is solved
+constexpr int kDense = 300;  // unknowns up to which the dense problem is solved
 // Of the largest eigenvalue:
 constexpr double kZero = 2.5e-14;
 constexpr double kFirstShift = 1e-10, kMostShift = 10;
@@ -59,7 +59,10 @@ class Problem {
  public:
   Problem(const Pattern& pattern, const std::vector<double>& K, const std::vector<double>& M,
           const SoftestMotions& softest, ShiftedSolver solver)
-      : pattern_(pattern), K_(K), M_(M), shifted_(K.size()),
+      : pattern_(pattern),
+        K_(K),
+        M_(M),
+        shifted_(K.size()),
         solver_(solver == ShiftedSolver::iterative ? make_iterative(pattern) : factor_or_iterations(pattern)) {
     const Vector k = diagonal(pattern, K).cwiseAbs(), m = diagonal(pattern, M);
     mass_unit_ = nearest_power_of_two(m.mean());
@@ -223,9 +226,10 @@ Vector judged_residuals(const Problem& problem, const EigenPairs& pairs) {
     problem.multiply_mass(pairs.shapes.col(k), inert);
     residuals[k] = (stiff - pairs.values[k] * inert).norm() / (reference * inert.norm());
     if (!(residuals[k] <= kMostResidual + kRoundOff / reference))
-      throw RunError(fmt::format("mode {} was not found: K x differs from lambda M x by {:.2g} of it; ask for another "
-                                 "number of modes",
-                                 k + 1, residuals[k]));
+      throw RunError(
+          fmt::format("mode {} was not found: K x differs from lambda M x by {:.2g} of it; ask for another "
+                      "number of modes",
+                      k + 1, residuals[k]));
   }
   return residuals;
 }

@@ -23,7 +23,7 @@ struct EigenPairs {
   Eigen::MatrixXd shapes;  // a column each, M-orthonormal
   Vector residuals = {};   // |K x - lambda M x| / |lambda_ref M x|, lambda_ref of x or the lowest that is not zero
   int zeros = 0;
-  double resolution = 0;   // eigenvalues below it count as zero
+  double resolution = 0;    // eigenvalues below it count as zero
   std::string solver = {};  // what solved the systems with K + s M
 };
 
@@ -33,8 +33,8 @@ enum class ShiftedSolver { whatever_fits, iterative };
 using SoftestMotions = std::function<Eigen::MatrixXd()>;
 
 // K and M by their values on `pattern`. `softest`: may be empty. Throws ConfigError if the pattern is not symmetric or
-// there are fewer unknowns than modes, RunError if the iteration fails, if a residual is above 1e-6 and above round-off,
-// or if K is so indefinite that no shift of a moderate size helps.
+// there are fewer unknowns than modes, RunError if the iteration fails, if a residual is above 1e-6 and above
+// round-off, or if K is so indefinite that no shift of a moderate size helps.
 EigenPairs lowest_eigenpairs(const Pattern& pattern, const std::vector<double>& K, const std::vector<double>& M,
                              int count, const SoftestMotions& softest = {},
                              ShiftedSolver solver = ShiftedSolver::whatever_fits);

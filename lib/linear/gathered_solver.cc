@@ -31,8 +31,7 @@ class WholeMatrix {
     auto all = entries;
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
-    for (const auto& entry : entries)
-      place_.push_back(std::lower_bound(all.begin(), all.end(), entry) - all.begin());
+    for (const auto& entry : entries) place_.push_back(std::lower_bound(all.begin(), all.end(), entry) - all.begin());
 
     pattern_.n = static_cast<int>(row_of_unknown.size());
     pattern_.symmetric = symmetric;
@@ -97,8 +96,9 @@ class GatheredSolver : public LinearSolver {
       solver_->analyze(whole_.pattern());
     });
     if (ranks().as_first_says(ranks().is_first() && solver_->is_iterative()))
-      throw ConfigError("an iterative linear solver that does not share its work does not run on several ranks; use "
-                        "petsc, or a direct one");
+      throw ConfigError(
+          "an iterative linear solver that does not share its work does not run on several ranks; use "
+          "petsc, or a direct one");
     checks_definiteness_ = ranks().as_first_says(ranks().is_first() && solver_->checks_definiteness());
   }
 
@@ -178,7 +178,7 @@ class GatheredSolver : public LinearSolver {
 
   std::shared_ptr<const PatternShare> share_;
   std::size_t num_entries_ = 0;
-  WholeMatrix whole_;                     // whose pattern the solver keeps
+  WholeMatrix whole_;  // whose pattern the solver keeps
   std::unique_ptr<LinearSolver> solver_;
   bool checks_definiteness_ = false;
   int negative_ = 0;

@@ -56,13 +56,13 @@ NegativeEigenPairs lanczos(SymmetricProduct a, DefiniteOperator& b, int count, S
                            double tolerance) {
   const int basis = std::min(a.pattern.n, std::max(4 * count, 40));
   Spectra::SymGEigsSolver<SymmetricProduct, DefiniteOperator, Spectra::GEigsMode::RegularInverse> solver(a, b, count,
-                                                                                                     basis);
+                                                                                                         basis);
   solver.init();
   constexpr int kMostRestarts = 300;
   const auto found = solver.compute(rule, kMostRestarts, tolerance, Spectra::SortRule::SmallestAlge);
   if (solver.info() != Spectra::CompInfo::Successful)
-    throw RunError(fmt::format("{} of {} pairs converged in {} restarts of the Lanczos iteration; ask for fewer",
-                               found, count, kMostRestarts));
+    throw RunError(fmt::format("{} of {} pairs converged in {} restarts of the Lanczos iteration; ask for fewer", found,
+                               count, kMostRestarts));
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
@@ -117,8 +117,8 @@ NegativeEigenPairs negative_eigenpairs(const Pattern& pattern, const std::vector
   const auto A = divided(A_given, unit * unit_of_B);
   count = std::min(count, count_below(pattern, A, B, -bound / unit));
   if (count == 0) return {};
-  NegativeEigenPairs pairs = pattern.n <= kDenseUnknowns ? dense_pairs(pattern, A, B, count)
-                                                         : lanczos_pairs(pattern, A, B, *solver, count);
+  NegativeEigenPairs pairs =
+      pattern.n <= kDenseUnknowns ? dense_pairs(pattern, A, B, count) : lanczos_pairs(pattern, A, B, *solver, count);
   pairs.values *= unit;
   pairs.shapes /= std::sqrt(unit_of_B);
   return pairs;

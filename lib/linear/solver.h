@@ -38,8 +38,8 @@ class LinearSolver {
   // memory does not suffice.
   virtual void analyze(const Pattern& pattern) = 0;
 
-  // Factorises new values, one for each entry of the pattern. Without `ok` there is no factor. Throws RunError if memory
-  // does not suffice.
+  // Factorises new values, one for each entry of the pattern. Without `ok` there is no factor. Throws RunError if
+  // memory does not suffice.
   virtual FactorStatus factor(const double* values) = 0;
 
   // Whether factor() finds every symmetric A that is indefinite. After analyze().
@@ -58,12 +58,13 @@ class LinearSolver {
   virtual bool wants_rigid_motions() const { return false; }
   virtual void set_rigid_motions(const Eigen::MatrixXd&) {}
 
-  // Number of negative eigenvalues of A at the last factor(), by Sylvester's law of inertia (the number of negative pivots).
-  // 0 for solvers of definite matrices.
+  // Number of negative eigenvalues of A at the last factor(), by Sylvester's law of inertia (the number of negative
+  // pivots). 0 for solvers of definite matrices.
   virtual int negative_eigenvalues() const { return 0; }
 
-  // Sign of the determinant of A at the last factor() of a solver for unsymmetric matrices; none if the solver cannot tell.
-  // Complex eigenvalues come in conjugate pairs, so a negative determinant means an odd number of negative eigenvalues.
+  // Sign of the determinant of A at the last factor() of a solver for unsymmetric matrices; none if the solver cannot
+  // tell. Complex eigenvalues come in conjugate pairs, so a negative determinant means an odd number of negative
+  // eigenvalues.
   virtual std::optional<bool> has_negative_determinant() const { return std::nullopt; }
 
   // Peak memory of a factorisation in bytes, workspace included. After analyze() a prediction.
@@ -76,31 +77,31 @@ class LinearSolver {
 struct SolverKind {
   std::string sentence;
   bool takes_general;  // also unsymmetric matrices
-  // Makes the solver with the options of a SolverChoice. Null for solvers that SUNDIALS provides. Throws ConfigError for
-  // unknown options.
+  // Makes the solver with the options of a SolverChoice. Null for solvers that SUNDIALS provides. Throws ConfigError
+  // for unknown options.
   std::function<std::unique_ptr<LinearSolver>(const std::string& options)> make;
   bool takes_options = false;    // else options are refused
   std::string unavailable = {};  // why this build does not have the solver; "" if it has
   bool shares_the_work = false;  // works on matrices that are distributed over ranks
 };
 
-// An analysed L D L^T solver for symmetric matrices that may be indefinite: factor() is `ok` for them. There is no pivoting
-// for size, so digits are lost where a leading block of A is nearly singular.
+// An analysed L D L^T solver for symmetric matrices that may be indefinite: factor() is `ok` for them. There is no
+// pivoting for size, so digits are lost where a leading block of A is nearly singular.
 std::unique_ptr<LinearSolver> make_indefinite_solver(const Pattern& pattern);
 
 // Solvers by name. Written while the program and its plugins are loaded, read-only afterwards.
 std::map<std::string, SolverKind>& solver_registry();
 
-// Precondition: the registry has a solver of that name, and it is not one of SUNDIALS. Throws ConfigError if this build does
-// not have the solver, and for unknown options.
+// Precondition: the registry has a solver of that name, and it is not one of SUNDIALS. Throws ConfigError if this build
+// does not have the solver, and for unknown options.
 std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice);
 
-// The same, analysed for this pattern, which may be distributed over ranks. A solver that cannot share the work runs on the
-// first rank. Throws RunError if memory does not suffice.
+// The same, analysed for this pattern, which may be distributed over ranks. A solver that cannot share the work runs on
+// the first rank. Throws RunError if memory does not suffice.
 std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice, const Pattern& pattern);
 
-// A direct solver, analysed for this pattern; if the pattern is symmetric, the solver detects indefinite matrices. Throws
-// RunError if memory does not suffice.
+// A direct solver, analysed for this pattern; if the pattern is symmetric, the solver detects indefinite matrices.
+// Throws RunError if memory does not suffice.
 std::unique_ptr<LinearSolver> make_solver_for(const Pattern& pattern);
 
 }  // namespace orthodyn

@@ -1,8 +1,8 @@
 // All 21 constants of C by name, as crystals, bone and homogenised composites are tabulated.
 //
 // Tables number the shear strains in three ways: 4, 5, 6 = 23, 13, 12 (most of them) or 12, 23, 31 (this
-// project's, and Li & Barbic's); Abaqus has 12, 13, 23. All readings are positive definite, so nothing could notice a mistake:
-// the order is a key without default.
+// project's, and Li & Barbic's); Abaqus has 12, 13, 23. All readings are positive definite, so nothing could notice a
+// mistake: the order is a key without default.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -19,9 +19,9 @@ enum class VoigtOrder { s23_13_12, s12_23_31, abaqus };
 
 template <>
 struct Words<VoigtOrder> {
-  static constexpr std::array<std::pair<VoigtOrder, const char*>, 3> list{
-      {{VoigtOrder::s23_13_12, "11-22-33-23-13-12"}, {VoigtOrder::s12_23_31, "11-22-33-12-23-31"},
-       {VoigtOrder::abaqus, "abaqus"}}};
+  static constexpr std::array<std::pair<VoigtOrder, const char*>, 3> list{{{VoigtOrder::s23_13_12, "11-22-33-23-13-12"},
+                                                                           {VoigtOrder::s12_23_31, "11-22-33-12-23-31"},
+                                                                           {VoigtOrder::abaqus, "abaqus"}}};
 };
 
 namespace {
@@ -37,9 +37,10 @@ class Anisotropic : public Material {
 
   std::vector<std::string> notes() const override {
     if (is_stable(given())) return {};
-    return {fmt::format("the constants make the stiffness indefinite ({}); those off the diagonal were multiplied by "
-                        "{:.4g}, used are {}",
-                        describe_softest_strain(given()), factor(), couplings(factor(), "{}={:.6g}"))};
+    return {
+        fmt::format("the constants make the stiffness indefinite ({}); those off the diagonal were multiplied by "
+                    "{:.4g}, used are {}",
+                    describe_softest_strain(given()), factor(), couplings(factor(), "{}={:.6g}"))};
   }
 
  private:
@@ -53,12 +54,12 @@ class Anisotropic : public Material {
 
   static const std::array<Entry, 21>& entries() {
     using A = Anisotropic;
-    static const std::array<Entry, 21> all{
-        {{"c11", &A::c11_}, {"c12", &A::c12_}, {"c13", &A::c13_}, {"c14", &A::c14_}, {"c15", &A::c15_},
-         {"c16", &A::c16_}, {"c22", &A::c22_}, {"c23", &A::c23_}, {"c24", &A::c24_}, {"c25", &A::c25_},
-         {"c26", &A::c26_}, {"c33", &A::c33_}, {"c34", &A::c34_}, {"c35", &A::c35_}, {"c36", &A::c36_},
-         {"c44", &A::c44_}, {"c45", &A::c45_}, {"c46", &A::c46_}, {"c55", &A::c55_}, {"c56", &A::c56_},
-         {"c66", &A::c66_}}};
+    static const std::array<Entry, 21> all{{{"c11", &A::c11_}, {"c12", &A::c12_}, {"c13", &A::c13_}, {"c14", &A::c14_},
+                                            {"c15", &A::c15_}, {"c16", &A::c16_}, {"c22", &A::c22_}, {"c23", &A::c23_},
+                                            {"c24", &A::c24_}, {"c25", &A::c25_}, {"c26", &A::c26_}, {"c33", &A::c33_},
+                                            {"c34", &A::c34_}, {"c35", &A::c35_}, {"c36", &A::c36_}, {"c44", &A::c44_},
+                                            {"c45", &A::c45_}, {"c46", &A::c46_}, {"c55", &A::c55_}, {"c56", &A::c56_},
+                                            {"c66", &A::c66_}}};
     return all;
   }
 
@@ -68,7 +69,8 @@ class Anisotropic : public Material {
     s.key("density", &A::density_, "Mass density.", {.required = true, .unit = "kg/m^3", .range = kPositive});
     s.key("voigt_order", &A::order_,
           "What the indices 1 to 6 of the table mean: most tables have 4, 5, 6 = 23, 13, 12, "
-          "Abaqus (abaqus) 12, 13, 23.", {.required = true});
+          "Abaqus (abaqus) 12, 13, 23.",
+          {.required = true});
     s.key("strength", &A::strength_, kStrengthSentence);
     for (const Entry& e : entries()) {
       const bool needed = e.diagonal() || e.column() < 3;
@@ -92,8 +94,7 @@ class Anisotropic : public Material {
 
   // In the order of stiffness.h.
   AnisotropicStiffness given() const {
-    constexpr std::array<int, 6> usual{0, 1, 2, 4, 5, 3}, ours{0, 1, 2, 3, 4, 5},
-        abaqus{0, 1, 2, 3, 5, 4};
+    constexpr std::array<int, 6> usual{0, 1, 2, 4, 5, 3}, ours{0, 1, 2, 3, 4, 5}, abaqus{0, 1, 2, 3, 5, 4};
     const auto& place = order_ == VoigtOrder::s23_13_12 ? usual : order_ == VoigtOrder::abaqus ? abaqus : ours;
     AnisotropicStiffness C;
     for (const Entry& e : entries()) {

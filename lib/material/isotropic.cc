@@ -11,10 +11,8 @@ class Isotropic : public Material {
         Spec<Isotropic>()
             .key("density", &Isotropic::density_, "Mass density.",
                  {.required = true, .unit = "kg/m^3", .range = kPositive})
-            .key("young", &Isotropic::young_, "Young's modulus.",
-                 {.required = true, .unit = "Pa", .range = kPositive})
-            .key("nu", &Isotropic::nu_, "Poisson's ratio.",
-                 {.required = true, .range = {-1, 0.5, true, true}})
+            .key("young", &Isotropic::young_, "Young's modulus.", {.required = true, .unit = "Pa", .range = kPositive})
+            .key("nu", &Isotropic::nu_, "Poisson's ratio.", {.required = true, .range = {-1, 0.5, true, true}})
             .key("strength", &Isotropic::uniform_, "Strengths, for the fields max_stress, tsai_wu and hashin.");
     return s;
   }

@@ -14,14 +14,12 @@ class OrthotropicStable : public Material {
     using O = OrthotropicStable;
     static const auto s =
         Spec<O>()
-            .key("density", &O::density_, "Mass density.",
-                 {.required = true, .unit = "kg/m^3", .range = kPositive})
+            .key("density", &O::density_, "Mass density.", {.required = true, .unit = "kg/m^3", .range = kPositive})
             .key("young", &O::young_, "Young's moduli E1, E2, E3 along the material axes.",
                  {.required = true, .unit = "Pa", .range = kPositive})
             .key("nu", &O::nu_, "The family's parameter; Poisson's ratio where two moduli are equal.",
                  {.required = true, .range = {-1, 0.5, true, true}})
-            .key("shear_factor", &O::shear_factor_,
-                 "Multiplies the family's shear moduli sqrt(Ei Ej)/(2 (1 + nu)).",
+            .key("shear_factor", &O::shear_factor_, "Multiplies the family's shear moduli sqrt(Ei Ej)/(2 (1 + nu)).",
                  {.range = kPositive})
             .key("strength", &O::strength_, kStrengthSentence)
             .check([](const O& o, const Config& config) {
@@ -35,9 +33,7 @@ class OrthotropicStable : public Material {
  private:
   OrthotropicConstants constants() const {
     const auto& E = young_;
-    const auto shear = [&](int i, int j) {
-      return shear_factor_ * std::sqrt(E[i] * E[j]) / (2 * (1 + nu_));
-    };
+    const auto shear = [&](int i, int j) { return shear_factor_ * std::sqrt(E[i] * E[j]) / (2 * (1 + nu_)); };
     OrthotropicConstants c;
     c.young = E;
     c.nu12 = nu_ * std::sqrt(E[0] / E[1]);

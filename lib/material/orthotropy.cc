@@ -64,9 +64,8 @@ std::string violated_inequality(const Ratios& all, const Vec3& r) {
   const Ratio& ratio = all[static_cast<std::size_t>(worst)];
   if (std::abs(r[worst]) >= 1)
     return fmt::format("|{}| < sqrt({}) = {:.4g} is violated", ratio.name, ratio.moduli, 1 / ratio.factor);
-  return fmt::format(
-      "1 - nu12 nu21 - nu23 nu32 - nu31 nu13 - 2 nu12 nu23 nu31 > 0 is violated: it is {:.4g}",
-      rho_determinant(r));
+  return fmt::format("1 - nu12 nu21 - nu23 nu32 - nu31 nu13 - 2 nu12 nu23 nu31 > 0 is violated: it is {:.4g}",
+                     rho_determinant(r));
 }
 
 std::string allowed_range(const Ratios& all, const Vec3& r) {
@@ -110,9 +109,10 @@ std::string likely_unit_slip(const OrthotropicConstants& c, const std::array<boo
       meant[i] *= factor;
       const auto fits = [&](double E) { return apart(c.young[i], E) > kFar && apart(meant[i], E) < kFar; };
       if (fits(neighbour) && fits(other) && is_stable(with_young(c, meant, reversed)))
-        return fmt::format("Is E{} = {:.4g} Pa of the same unit as the other two, {:.4g} and {:.4g} Pa? With {:.4g} Pa "
-                           "the constants are those of a stable material", i + 1, c.young[i],
-                           std::max(neighbour, other), std::min(neighbour, other), meant[i]);
+        return fmt::format(
+            "Is E{} = {:.4g} Pa of the same unit as the other two, {:.4g} and {:.4g} Pa? With {:.4g} Pa "
+            "the constants are those of a stable material",
+            i + 1, c.young[i], std::max(neighbour, other), std::min(neighbour, other), meant[i]);
     }
   }
   return "";
@@ -123,8 +123,10 @@ std::string likely_order_slip(const OrthotropicConstants& c, const std::array<bo
   Vec3 meant = c.young;
   std::sort(meant.begin(), meant.end(), std::greater<>());
   if (meant == c.young || !is_stable(with_young(c, meant, reversed))) return "";
-  return fmt::format("Are the moduli in the order of the axes 1, 2, 3? With {:.4g}, {:.4g}, {:.4g} Pa the constants "
-                     "are those of a stable material", meant[0], meant[1], meant[2]);
+  return fmt::format(
+      "Are the moduli in the order of the axes 1, 2, 3? With {:.4g}, {:.4g}, {:.4g} Pa the constants "
+      "are those of a stable material",
+      meant[0], meant[1], meant[2]);
 }
 
 // What to look at before the ratios, or nothing.
@@ -138,12 +140,10 @@ std::string likely_modulus_slip(const OrthotropicConstants& c, const std::array<
 std::string smallest_eigenvalue(const OrthotropicConstants& c, const Vec3& r) {
   const double lambda = rho_eigenvalues(c)[0];
   if (std::abs(rho_determinant(r)) < 1e-12)
-    return fmt::format("C does not exist (smallest eigenvalue of the unit-diagonal compliance {:.3g})",
-                       lambda);
+    return fmt::format("C does not exist (smallest eigenvalue of the unit-diagonal compliance {:.3g})", lambda);
   const Mat6 C = voigt(stiffness(c));
   const double smallest = symmetric_eigenvalues(C)[0];
-  return fmt::format("smallest eigenvalue of C {:.3g} Pa, of the unit-diagonal compliance {:.3g}",
-                     smallest, lambda);
+  return fmt::format("smallest eigenvalue of C {:.3g} Pa, of the unit-diagonal compliance {:.3g}", smallest, lambda);
 }
 
 }  // namespace

@@ -18,10 +18,10 @@ namespace orthodyn {
 
 struct WoodRow {
   const char* name;
-  double E_L;                             // GPa
-  double E_R, E_T, G_LR, G_LT, G_RT;      // over E_L
+  double E_L;                         // GPa
+  double E_R, E_T, G_LR, G_LT, G_RT;  // over E_L
   double nu_LR, nu_LT, nu_RT;
-  double density;                         // kg/m^3; 0: not in the tables
+  double density;  // kg/m^3; 0: not in the tables
   // MPa; 0: not in the tables
   double rupture = 0, compression_along = 0, compression_across = 0, shear_along = 0, tension_across = 0;
 };

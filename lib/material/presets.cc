@@ -26,7 +26,11 @@ Preset wood(const WoodRow& row) {
   c.g12 = row.G_LR * E;
   c.g23 = row.G_RT * E;
   c.g13 = row.G_LT * E;
-  return {row.name, c, given(row.density), strength_of(row), "1 = L along the grain, 2 = R radial, 3 = T tangential",
+  return {row.name,
+          c,
+          given(row.density),
+          strength_of(row),
+          "1 = L along the grain, 2 = R radial, 3 = T tangential",
           "USDA Wood Handbook FPL-GTR-282, tables 5-1, 5-2, 5-3a, 12 % moisture"};
 }
 

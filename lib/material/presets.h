@@ -14,10 +14,10 @@ namespace orthodyn {
 
 struct Preset {
   std::string name;
-  OrthotropicConstants constants;  // Pa
-  std::optional<double> density;   // kg/m^3; none: the source has none
+  OrthotropicConstants constants;    // Pa
+  std::optional<double> density;     // kg/m^3; none: the source has none
   std::optional<Strength> strength;  // likewise
-  std::string axes;                // what 1, 2, 3 are
+  std::string axes;                  // what 1, 2, 3 are
   std::string source;
 };
 

@@ -11,13 +11,10 @@ OrthotropicStiffness operator+(const OrthotropicStiffness& a, const OrthotropicS
 }
 
 OrthotropicStiffness operator*(double s, const OrthotropicStiffness& c) {
-  return {s * c.c11, s * c.c22, s * c.c33, s * c.c12, s * c.c23,
-          s * c.c31, s * c.g12, s * c.g23, s * c.g31};
+  return {s * c.c11, s * c.c22, s * c.c33, s * c.c12, s * c.c23, s * c.c31, s * c.g12, s * c.g23, s * c.g31};
 }
 
-AnisotropicStiffness operator+(const AnisotropicStiffness& a, const AnisotropicStiffness& b) {
-  return {a.c + b.c};
-}
+AnisotropicStiffness operator+(const AnisotropicStiffness& a, const AnisotropicStiffness& b) { return {a.c + b.c}; }
 
 AnisotropicStiffness operator+(const AnisotropicStiffness& a, const OrthotropicStiffness& b) {
   return {a.c + voigt(b)};

@@ -62,8 +62,8 @@ double hashin_exposure(const Vec6& s, const Strength& strength) {
   if (!s.allFinite()) return std::numeric_limits<double>::quiet_NaN();
   const double along = square(strength.shear[0]), across = square(strength.shear[1]);
   const double axial_shear = (square(s[3]) + square(s[5])) / along;
-  const double fibre = s[0] > 0 ? std::sqrt(square(s[0] / strength.tension[0]) + axial_shear)
-                                : -s[0] / strength.compression[0];
+  const double fibre =
+      s[0] > 0 ? std::sqrt(square(s[0] / strength.tension[0]) + axial_shear) : -s[0] / strength.compression[0];
   const double sum = s[1] + s[2], transverse = (square(s[4]) - s[1] * s[2]) / across;
   const double matrix =
       sum > 0 ? exposure(square(sum / strength.tension[1]) + transverse + axial_shear, 0)

@@ -19,9 +19,7 @@ struct Strength {
 struct UniformStrength {
   double tension = 0, compression = 0, shear = 0;
   static const Spec<UniformStrength>& spec();
-  Strength everywhere() const {
-    return {Vec3::Constant(tension), Vec3::Constant(compression), Vec3::Constant(shear)};
-  }
+  Strength everywhere() const { return {Vec3::Constant(tension), Vec3::Constant(compression), Vec3::Constant(shear)}; }
 };
 
 // The largest ratio of a component to its strength.

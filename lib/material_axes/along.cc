@@ -1,9 +1,9 @@
 // `axes: {type: along}`: L follows a curve through points: a branch, a muscle, a bent tube.
+#include "lib/config/csv_table.h"
 #include "lib/material_axes/axes_source.h"
 #include "lib/material_axes/curve.h"
 #include "lib/material_axes/frame.h"
 #include "lib/material_axes/lrt.h"
-#include "lib/config/csv_table.h"
 
 namespace orthodyn {
 

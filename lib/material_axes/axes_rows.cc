@@ -85,9 +85,8 @@ AxesRows read_axes_rows(const FilePath& file) {
   if (!is_file(file.path)) throw ConfigError(file.where, "no such file: " + file.path);
   if (extension == ".csv") return read_axes_csv(file);
   if (extension == ".vtu" || extension == ".inp") return read_axes_mesh(file);
-  throw ConfigError(
-      file.where,
-      fmt::format("axes cannot be read from a file of type '{}'; known: .csv, .vtu, .inp", extension));
+  throw ConfigError(file.where,
+                    fmt::format("axes cannot be read from a file of type '{}'; known: .csv, .vtu, .inp", extension));
 }
 
 }  // namespace orthodyn

@@ -24,9 +24,7 @@ struct AxesRows {
   std::string path;
   std::optional<TetMesh> mesh;  // of the elements that they belong to, where the file has one
 
-  std::string where(const Row& row) const {
-    return fmt::format("{}{}{}", path, mesh ? ": cell " : ":", row.place);
-  }
+  std::string where(const Row& row) const { return fmt::format("{}{}{}", path, mesh ? ": cell " : ":", row.place); }
 };
 
 // Reads CSV with the columns a1x,a1y,a1z,a2x,a2y,a2z and, if wanted, element and a3x,a3y,a3z; or VTU with

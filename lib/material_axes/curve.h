@@ -37,7 +37,7 @@ class Curve {
   // Piece i over [i, i + 1]: c0 + c1 u + c2 u^2 + c3 u^3, u = s - i.
   struct Piece {
     Vec3 c[4];
-    Vec3 center;    // of a ball that holds the piece
+    Vec3 center;  // of a ball that holds the piece
     double radius;
   };
   struct Start {

@@ -55,8 +55,8 @@ class Directions : public AxesSource {
   AxesRepair repair_ = AxesRepair::refuse;
 };
 
-const bool directions_registered = Registry<AxesSource>::add<Directions>(
-    "directions", "The same directions everywhere.");
+const bool directions_registered =
+    Registry<AxesSource>::add<Directions>("directions", "The same directions everywhere.");
 
 }  // namespace
 }  // namespace orthodyn

@@ -36,10 +36,9 @@ class AxesFile : public AxesSource {
                                                 : static_cast<std::size_t>(cell_of.back()) + 1;
     if (given.every && given.rows.size() != num_elements)
       throw ConfigError(
-          given.path,
-          fmt::format("{} rows for a mesh of {} elements{}; give one for each, or a column 'element'",
-                      given.rows.size(), num_elements,
-                      cell_of.empty() ? "" : fmt::format(" (split into {} tetrahedra)", mesh.tets.size())));
+          given.path, fmt::format("{} rows for a mesh of {} elements{}; give one for each, or a column 'element'",
+                                  given.rows.size(), num_elements,
+                                  cell_of.empty() ? "" : fmt::format(" (split into {} tetrahedra)", mesh.tets.size())));
     const std::size_t children = given.mesh ? children_in(given, mesh) : 1;
     if (given.mesh) check_same_mesh(given, mesh, children);
     auto axes = std::make_shared<std::vector<Mat3>>(num_elements, Mat3::Zero());
@@ -48,30 +47,28 @@ class AxesFile : public AxesSource {
         throw ConfigError(given.where(row), fmt::format("element {} does not exist; the mesh has 0 to {}", row.element,
                                                         num_elements - 1));
       Mat3& Q = (*axes)[static_cast<std::size_t>(row.element)];
-      if (!Q.isZero(0))
-        throw ConfigError(given.where(row), fmt::format("element {} already has a row", row.element));
+      if (!Q.isZero(0)) throw ConfigError(given.where(row), fmt::format("element {} already has a row", row.element));
       Q = rotation(given, row);
     }
     note_repairs(given, notes);
     return [this, axes, cell_of, children](const Vec3&, int tet) {
-      const int element =
-          cell_of.empty() ? tet / static_cast<int>(children) : cell_of[static_cast<std::size_t>(tet)];
+      const int element = cell_of.empty() ? tet / static_cast<int>(children) : cell_of[static_cast<std::size_t>(tet)];
       const Mat3& Q = (*axes)[static_cast<std::size_t>(element)];
-      if (Q.isZero(0))
-        throw ConfigError(file_.where, fmt::format("{} has no row for element {}", file_.path, element));
+      if (Q.isZero(0)) throw ConfigError(file_.where, fmt::format("{} has no row for element {}", file_.path, element));
       return Q;
     };
   }
 
  private:
-  // Into how many each of the file's tets was divided by `refine`: 1, 8, 64, ...; the children of tet k follow each other
-  // (lib/mesh/refine.h).
+  // Into how many each of the file's tets was divided by `refine`: 1, 8, 64, ...; the children of tet k follow each
+  // other (lib/mesh/refine.h).
   static std::size_t children_in(const AxesRows& given, const TetMesh& mesh) {
     const std::size_t there = given.mesh->tets.size(), here = mesh.tets.size();
     std::size_t children = 1;
     while (there * children < here) children *= 8;
     if (there * children != here)
-      throw ConfigError(given.path, fmt::format("{} tetrahedra for a mesh of {}; the axes are of another mesh", there, here));
+      throw ConfigError(given.path,
+                        fmt::format("{} tetrahedra for a mesh of {}; the axes are of another mesh", there, here));
     return children;
   }
 

@@ -17,8 +17,7 @@ struct Words<LrtOrder> {
 
 inline constexpr const char* kLrtSentence =
     "Which directions the material axes 1, 2, 3 have: L along, R radial, T tangential.";
-inline constexpr const char* kSpiralSentence =
-    "Spiral grain: by how much L is turned towards T = L x R, about R.";
+inline constexpr const char* kSpiralSentence = "Spiral grain: by how much L is turned towards T = L x R, about R.";
 inline constexpr Range kSpiralRange{-1.57, 1.57};
 
 // Material axes from the directions along and radial (neither zero nor parallel).

@@ -35,8 +35,8 @@ class MatrixAxes : public AxesSource {
   AxesRepair repair_ = AxesRepair::refuse;
 };
 
-const bool matrix_registered = Registry<AxesSource>::add<MatrixAxes>(
-    "matrix", "The same rotation everywhere, with the axes as columns.");
+const bool matrix_registered =
+    Registry<AxesSource>::add<MatrixAxes>("matrix", "The same rotation everywhere, with the axes as columns.");
 
 }  // namespace
 }  // namespace orthodyn

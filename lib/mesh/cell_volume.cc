@@ -85,8 +85,9 @@ double volume_of(const FileCell& cell, const std::function<const Vec3&(std::int6
       continue;
     }
     const auto own = middles.find(std::minmax(n[0], n[2]));
-    const Vec3 centre = own == middles.end() ? Vec3(-0.25 * (c[0] + c[1] + c[2] + c[3]) + 0.5 * (m[0] + m[1] + m[2] + m[3]))
-                                             : position(own->second);
+    const Vec3 centre = own == middles.end()
+                            ? Vec3(-0.25 * (c[0] + c[1] + c[2] + c[3]) + 0.5 * (m[0] + m[1] + m[2] + m[3]))
+                            : position(own->second);
     sum -= flux_of_quadrilateral({{{c[0], m[3], c[3]}, {m[0], centre, m[2]}, {c[1], m[1], c[2]}}});
   }
   return sum / 3;

@@ -106,9 +106,7 @@ struct Rings {
   }
   // Cells from a to b, the shorter way around.
   double turns(const Place& a, const Place& b) const { return std::remainder(b.turn - a.turn, around); }
-  Point middle(const Place& a, const Place& b) const {
-    return at({a.turn + turns(a, b) / 2, (a.way + b.way) / 2});
-  }
+  Point middle(const Place& a, const Place& b) const { return at({a.turn + turns(a, b) / 2, (a.way + b.way) / 2}); }
 };
 
 // A plane mesh whose outer part are rings.

@@ -7,9 +7,9 @@
 namespace orthodyn {
 
 struct RoundCells {
-  int around = 16;   // of the circumference
-  int through = 2;   // rings of cells: through the wall of a tube, outside of the core of a cylinder
-  int along = 8;     // layers along the axis
+  int around = 16;     // of the circumference
+  int through = 2;     // rings of cells: through the wall of a tube, outside of the core of a cylinder
+  int along = 8;       // layers along the axis
   double grading = 1;  // thickness of the outermost ring over that of the innermost
 };
 

@@ -31,8 +31,8 @@ void sort_by_tag(MeshDraft& draft) {
   const auto same = std::adjacent_find(nodes.begin(), nodes.end(),
                                        [](const FileNode& a, const FileNode& b) { return a.tag == b.tag; });
   if (same == nodes.end()) return;
-  draft.fail((same + 1)->place, fmt::format("node tag {} is defined twice (first in line {})", same->tag,
-                                            same->place.line));
+  draft.fail((same + 1)->place,
+             fmt::format("node tag {} is defined twice (first in line {})", same->tag, same->place.line));
 }
 
 // For each triangle of a surface the face of the file that it was cut from.
@@ -44,8 +44,8 @@ void number_into(std::array<int, N>& numbers, const MeshDraft& draft, const Node
   for (std::size_t i = 0; i < tags.size(); ++i) {
     numbers[i] = number(tags[i]);
     if (numbers[i] >= 0) continue;
-    draft.fail(element.place, fmt::format("element {}: node {} is not defined in {}", element.tag, tags[i],
-                                          draft.nodes_section));
+    draft.fail(element.place,
+               fmt::format("element {}: node {} is not defined in {}", element.tag, tags[i], draft.nodes_section));
   }
 }
 
@@ -173,8 +173,8 @@ TetMesh number_nodes(const MeshDraft& draft, FaceOrigins& face_origins) {
     for (const FileNodeUse& use : uses) {
       set.push_back(number(use.tag));
       if (set.back() < 0) {
-        draft.fail(use.place, fmt::format("node set \"{}\": node {} is not defined in {}", name, use.tag,
-                                          draft.nodes_section));
+        draft.fail(use.place,
+                   fmt::format("node set \"{}\": node {} is not defined in {}", name, use.tag, draft.nodes_section));
       }
     }
   }
@@ -208,9 +208,10 @@ std::string note_of_turned(const MeshDraft& draft, const std::vector<std::size_t
     return fmt::format("{}: all {} elements count their nodes the other way round; they were turned",
                        draft.files.front(), all);
   const FileCell& first = draft.cells[turned.front()];
-  return fmt::format("{}: {} of {} elements count their nodes the other way round, the first is element {}; they were "
-                     "turned",
-                     draft.where(first.place), turned.size(), all, first.tag);
+  return fmt::format(
+      "{}: {} of {} elements count their nodes the other way round, the first is element {}; they were "
+      "turned",
+      draft.where(first.place), turned.size(), all, first.tag);
 }
 
 double volume_of_tets(const TetMesh& mesh) {
@@ -240,10 +241,11 @@ std::string note_of_volume(const MeshDraft& draft, const TetMesh& mesh) {
   for (const FileCell& cell : draft.cells) before += std::abs(volume_of(cell, position));
   const double after = volume_of_tets(mesh);
   if (!(std::abs(after - before) > kTold * before)) return "";
-  return fmt::format("{}: the elements have a volume of {:.6g} by their own shape functions, the tetrahedra that they "
-                     "are split into {:.6g} ({:+.2g} %): faces that are curved across their diagonals are approximated; "
-                     "finer elements, or tetrahedra in the file, make the difference smaller",
-                     draft.files.front(), before, after, 100 * (after / before - 1));
+  return fmt::format(
+      "{}: the elements have a volume of {:.6g} by their own shape functions, the tetrahedra that they "
+      "are split into {:.6g} ({:+.2g} %): faces that are curved across their diagonals are approximated; "
+      "finer elements, or tetrahedra in the file, make the difference smaller",
+      draft.files.front(), before, after, 100 * (after / before - 1));
 }
 
 // "beam.msh: 120 hexahedra and 30 wedges are split into 750 tetrahedra", or "" if all are tetrahedra.
@@ -261,9 +263,8 @@ std::string note_of_split(const MeshDraft& draft, std::size_t tets) {
   const std::string last = kinds.back();
   kinds.pop_back();
   return fmt::format("{}: {}{}{}{} split into {} {}tetrahedra", draft.files.front(), join(kinds),
-                     kinds.empty() ? "" : " and ", last,
-                     draft.cells.size() - others == 1 ? " is" : " are", tets - others,
-                     draft.cells.front().is_quadratic() ? "quadratic " : "");
+                     kinds.empty() ? "" : " and ", last, draft.cells.size() - others == 1 ? " is" : " are",
+                     tets - others, draft.cells.front().is_quadratic() ? "quadratic " : "");
 }
 
 // "element 7", or "element 7, tetrahedron 2 of 6" of one that was split.
@@ -281,13 +282,12 @@ MeshOrigin origin_of(const MeshDraft& draft, const TetMesh& mesh, const FaceOrig
   return {
       .source = draft.files.front(),
       .tet_name = [&](int t) { return tet_name_of(draft, mesh, t); },
-      .node_name =
-          [&draft](int n) -> std::string {
-            if (static_cast<std::size_t>(n) >= draft.nodes.size())
-              return draft.files.front() + ": a node within an element that is split";
-            const FileNode& node = draft.nodes[static_cast<std::size_t>(n)];
-            return fmt::format("{}: node {}", draft.where(node.place), node.tag);
-          },
+      .node_name = [&draft](int n) -> std::string {
+        if (static_cast<std::size_t>(n) >= draft.nodes.size())
+          return draft.files.front() + ": a node within an element that is split";
+        const FileNode& node = draft.nodes[static_cast<std::size_t>(n)];
+        return fmt::format("{}: node {}", draft.where(node.place), node.tag);
+      },
       .triangle_name =
           [&](const std::string& surface, int k) {
             const std::size_t f = face_origins.at(surface)[static_cast<std::size_t>(k)];
@@ -322,9 +322,7 @@ std::string MeshDraft::where(FilePlace place) const {
   return place.line > 0 ? fmt::format("{}:{}", file, place.line) : file;
 }
 
-void MeshDraft::fail(FilePlace place, const std::string& message) const {
-  throw ConfigError(where(place), message);
-}
+void MeshDraft::fail(FilePlace place, const std::string& message) const { throw ConfigError(where(place), message); }
 
 LoadedMesh build_mesh(MeshDraft draft) {
   sort_by_tag(draft);

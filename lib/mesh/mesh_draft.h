@@ -38,8 +38,8 @@ struct FileCell {
   CellKind kind = CellKind::tet;
   std::array<std::int64_t, 8> nodes{};                       // the first corners_of(kind)
   std::optional<std::array<std::int64_t, 6>> midsides = {};  // of a quadratic tet, in the order of kTetEdges
-  // Of another one of second order: with their middle nodes. A node within a face, or within a hexahedron, is the middle
-  // of diagonals.
+  // Of another one of second order: with their middle nodes. A node within a face, or within a hexahedron, is the
+  // middle of diagonals.
   std::vector<FileEdge> edges = {};
   FilePlace place = {};
   int region = 0;  // index into MeshDraft::region_names
@@ -91,10 +91,11 @@ struct MeshDraft {
 
 // Nodes are numbered by ascending tag; elements keep their order. Hexahedra, wedges and pyramids are split into
 // tetrahedra (split_cells.h), which is said; a tet on a quadrilateral must fit its diagonal. Those of second
-// order become quadratic tetrahedra of the same curved shape (split_middles.h); a volume that is another one than by the
-// elements' own shape functions is told. Linear and quadratic elements do not mix. Elements that are inverted as a whole
-// count their nodes the other way round: they are turned, with a warning; what then overlaps is refused. Throws ConfigError for tags that are not defined or defined twice, for a mesh
-// without elements, and for what validate() refuses.
+// order become quadratic tetrahedra of the same curved shape (split_middles.h); a volume that is another one than by
+// the elements' own shape functions is told. Linear and quadratic elements do not mix. Elements that are inverted as a
+// whole count their nodes the other way round: they are turned, with a warning; what then overlaps is refused. Throws
+// ConfigError for tags that are not defined or defined twice, for a mesh without elements, and for what validate()
+// refuses.
 LoadedMesh build_mesh(MeshDraft draft);
 
 }  // namespace orthodyn

@@ -12,10 +12,9 @@
 namespace orthodyn {
 
 const Spec<BoxSelection>& BoxSelection::spec() {
-  static const auto s =
-      Spec<BoxSelection>()
-          .key("min", &BoxSelection::min, "Lowest coordinates.", {.required = true, .unit = "m"})
-          .key("max", &BoxSelection::max, "Highest coordinates.", {.required = true, .unit = "m"});
+  static const auto s = Spec<BoxSelection>()
+                            .key("min", &BoxSelection::min, "Lowest coordinates.", {.required = true, .unit = "m"})
+                            .key("max", &BoxSelection::max, "Highest coordinates.", {.required = true, .unit = "m"});
   return s;
 }
 
@@ -48,8 +47,7 @@ namespace {
                                const char* remedy) {
   std::vector<std::string> names;
   for (const auto& [known, members] : found) names.push_back(known);
-  origin.fail(fmt::format("the mesh has no {} '{}'{} It has {}", kind, name,
-                          did_you_mean(name, names, "."),
+  origin.fail(fmt::format("the mesh has no {} '{}'{} It has {}", kind, name, did_you_mean(name, names, "."),
                           names.empty() ? fmt::format("none ({})", remedy) : join(names)));
 }
 
@@ -80,9 +78,8 @@ std::set<int> select(const Selection& selection, const TetMesh& mesh) {
     });
   const double tolerance = selection.plane->tolerance.value_or(1e-6 * bounding_box(mesh).diagonal());
   const Vec3 normal = selection.plane->normal.normalized();
-  return nodes_where(mesh, [&](const Vec3& x) {
-    return std::abs(normal.dot(x - selection.plane->point)) <= tolerance;
-  });
+  return nodes_where(mesh,
+                     [&](const Vec3& x) { return std::abs(normal.dot(x - selection.plane->point)) <= tolerance; });
 }
 
 std::string extent(const TetMesh& mesh) {

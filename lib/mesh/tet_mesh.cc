@@ -20,9 +20,7 @@ Box bounding_box(const TetMesh& mesh) {
 }
 
 double signed_volume6(const TetMesh& mesh, const Tet& tet) {
-  const auto node = [&](std::size_t i) -> const Vec3& {
-    return mesh.nodes[static_cast<std::size_t>(tet[i])];
-  };
+  const auto node = [&](std::size_t i) -> const Vec3& { return mesh.nodes[static_cast<std::size_t>(tet[i])]; };
   const Vec3 a = node(1) - node(0);
   const Vec3 b = node(2) - node(0);
   const Vec3 c = node(3) - node(0);

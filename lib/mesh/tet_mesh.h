@@ -13,7 +13,7 @@
 
 namespace orthodyn {
 
-using Tet = std::array<int, 4>;  // node indices; positive volume (v1-v0) . ((v2-v0) x (v3-v0)) > 0
+using Tet = std::array<int, 4>;       // node indices; positive volume (v1-v0) . ((v2-v0) x (v3-v0)) > 0
 using Triangle = std::array<int, 3>;  // node indices
 
 // The corners of a tet that its edges connect, in the order of Midsides (and of VTK).

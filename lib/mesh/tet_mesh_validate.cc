@@ -178,7 +178,8 @@ void check_volumes(const TetMesh& mesh, const MeshOrigin& origin) {
     if (shape.ratio < 0) refuse_inverted(mesh, t, origin);
     if (!std::isnormal(signed_volume6(mesh, tet) / 6)) {
       throw ConfigError(tet_name(origin, t), fmt::format("its volume cannot be represented (longest edge {:.3g} m); "
-                      "check the unit of length, metres are expected", shape.longest_edge));
+                                                         "check the unit of length, metres are expected",
+                                                         shape.longest_edge));
     }
   }
 }
@@ -245,7 +246,8 @@ void check_curved(const TetMesh& mesh, const MeshOrigin& origin) {
   std::sort(second.begin(), second.end());
   if (first == second) {
     throw ConfigError(tet_name(origin, b), fmt::format("the same nodes as {}; an element belongs to one region: remove "
-                    "one of the two (Gmsh: a volume in two physical volumes?)", tet_name(origin, a)));
+                                                       "one of the two (Gmsh: a volume in two physical volumes?)",
+                                                       tet_name(origin, a)));
   }
   throw ConfigError(tet_name(origin, b), fmt::format("overlaps {} (both lie on the same side of a common face); remesh",
                                                      tet_name(origin, a)));

@@ -41,12 +41,12 @@ class Integrator {
   // True if error control chooses the step sizes. Adaptive steps are also limited by Model::step_limits().
   virtual bool adaptive() const { return true; }
 
-  // False if interpolate() is less accurate than the steps, as between steps that span several periods of the motion. The
-  // caller then ends steps at the output times.
+  // False if interpolate() is less accurate than the steps, as between steps that span several periods of the motion.
+  // The caller then ends steps at the output times.
   virtual bool has_accurate_interpolation() const { return true; }
 
-  // Time (s) over which interpolate() is smooth; infinite if it is smooth over the whole last step. A caller that samples
-  // within a step takes samples no further apart.
+  // Time (s) over which interpolate() is smooth; infinite if it is smooth over the whole last step. A caller that
+  // samples within a step takes samples no further apart.
   virtual double smooth_time() const { return std::numeric_limits<double>::infinity(); }
 
   // Mean state of the last step: (q0 + q1)/2 with velocity (q1 - q0)/h. For methods whose energy balance holds with the

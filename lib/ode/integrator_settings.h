@@ -12,13 +12,13 @@ namespace orthodyn {
 
 // A setting without a value is one that the method does not have, or that its options leave open.
 struct IntegratorSettings {
-  std::optional<double> rtol = {};  // local error allowed per step, relative to the scales
-  std::optional<double> step = {};  // s: the fixed step
-  std::optional<double> h0 = {}, h_min = {}, h_max = {};           // s: the first, smallest and largest step
+  std::optional<double> rtol = {};                        // local error allowed per step, relative to the scales
+  std::optional<double> step = {};                        // s: the fixed step
+  std::optional<double> h0 = {}, h_min = {}, h_max = {};  // s: the first, smallest and largest step
   std::optional<double> position_scale = {}, velocity_scale = {};  // m, m/s
   std::optional<double> safety = {};                               // share of the critical step of an explicit method
-  std::optional<int> modes = {};     // how many are kept
-  std::optional<double> below = {};  // Hz: the modes that are kept
+  std::optional<int> modes = {};                                   // how many are kept
+  std::optional<double> below = {};                                // Hz: the modes that are kept
   std::optional<long> max_steps = {};
   std::optional<SolverChoice> linear_solver = {};
 };

@@ -6,10 +6,10 @@
 // Units: q in m, v in m/s, f in N, M in kg, D in N s/m, K in N/m, t in s, for a mechanical model. Vectors have n
 // entries; matrices are values on pattern(), as many as its row indices.
 //
-// A model may be distributed over several MPI ranks. Each vector then holds the n unknowns of this rank; pattern() also has
-// unknowns of other ranks, numbered after these. Functions are collective: all ranks call them in the same order, the
-// result is that of the whole model, and a RecoverableError is thrown on all ranks. Sums and maxima over the entries of a
-// vector go through space().
+// A model may be distributed over several MPI ranks. Each vector then holds the n unknowns of this rank; pattern() also
+// has unknowns of other ranks, numbered after these. Functions are collective: all ranks call them in the same order,
+// the result is that of the whole model, and a RecoverableError is thrown on all ranks. Sums and maxima over the
+// entries of a vector go through space().
 //
 // Thread safety: const functions may run concurrently, each on its own outputs. A model does not change during an
 // integration: the same arguments give the same results.
@@ -91,16 +91,16 @@ class Model : public OutputSource {
   // The pattern shared by M, D, K and A. It does not change.
   virtual const Pattern& pattern() const = 0;
 
-  // K and D at a state: exact, or the positive semidefinite Gauss-Newton part. Computes nothing if traits().linear holds
-  // and `out` already has this model's K and D. Throws RecoverableError as force() does; `out` may be passed again
-  // afterwards.
+  // K and D at a state: exact, or the positive semidefinite Gauss-Newton part. Computes nothing if traits().linear
+  // holds and `out` already has this model's K and D. Throws RecoverableError as force() does; `out` may be passed
+  // again afterwards.
   void linearize(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
                  Linearization& out) const;
 
   // K at q with the stresses that K at q_before predicts for q, in place of the stresses of q: the matrix of Newton's
   // method for a mixed formulation, in which stresses are unknowns. A straight step stretches a body that bends; this K
-  // stays definite, and Newton's method converges, over far longer steps. The default, and the result for equal states, is
-  // the exact K. `out` has no damping. Throws as linearize() does.
+  // stays definite, and Newton's method converges, over far longer steps. The default, and the result for equal states,
+  // is the exact K. `out` has no damping. Throws as linearize() does.
   void linearize_mixed(double t_before, const ConstVectorRef& q_before, double t, const ConstVectorRef& q,
                        Linearization& out) const;
 

@@ -14,8 +14,8 @@
 namespace orthodyn {
 
 struct State {
-  double t = 0;  // s
-  Vector q, v;   // generalised positions and velocities
+  double t = 0;            // s
+  Vector q, v;             // generalised positions and velocities
   double load_factor = 1;  // of what loads the model (Model::load_parts())
 };
 

@@ -16,7 +16,7 @@ struct Statistics {
   long newton_iterations = 0;
   long gauss_newton_fallbacks = 0;  // matrices rebuilt because a pivot was not positive
   Cost force, tangent, factorization, solve;
-  Cost modes = {};  // the search for the modes of a reduced model, all that it solves included
+  Cost modes = {};        // the search for the modes of a reduced model, all that it solves included
   Cost observation = {};  // of steps: what is written, events and extremes; counted where a run is driven
 };
 

@@ -11,11 +11,11 @@ namespace orthodyn {
 
 namespace {
 
-constexpr int kLeast = 6;            // intervals between samples in the shortest part
-constexpr double kClose = 0.01;      // to a cubic, relative to the variation within the part,
-constexpr double kNegligible = 1e-4; // or to the whole range, which is more than round-off
-constexpr double kJump = 0.01;       // of the range, within the shortest part
-constexpr double kKink = 1e-3;       // likewise, from one sample to the next beside those around
+constexpr int kLeast = 6;             // intervals between samples in the shortest part
+constexpr double kClose = 0.01;       // to a cubic, relative to the variation within the part,
+constexpr double kNegligible = 1e-4;  // or to the whole range, which is more than round-off
+constexpr double kJump = 0.01;        // of the range, within the shortest part
+constexpr double kKink = 1e-3;        // likewise, from one sample to the next beside those around
 
 class Parts {
  public:

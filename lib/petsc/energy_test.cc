@@ -14,7 +14,7 @@ namespace {
 // Of the solution, in the energy norm: what round-off leaves of differences of energies. Smaller errors are told by the
 // residual.
 constexpr double kResolution = 1e-7;
-constexpr double kSafety = 2;  // of an error
+constexpr double kSafety = 2;        // of an error
 constexpr double kRoundOff = 1e-14;  // of the first residual: beyond it directions are made of round-off
 
 }  // namespace

@@ -7,13 +7,13 @@
 //
 // Multigrid is smoothed by Chebyshev's polynomials and coarsened by aggregates that keep the body's rigid motions. Its
 // prolongations are not smoothed: figures in docs/decisions.md.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <string>
-
-#include <fmt/format.h>
 
 #include "lib/core/errors.h"
 #include "lib/linear/petsc_library.h"
@@ -191,9 +191,10 @@ class PetscSolver : public LinearSolver {
     is_gamg_ = kind && std::string(kind) == PCGAMG;
     is_set_up_ = false;
     if (is_gamg_ && !takes_multigrid_)
-      throw ConfigError(fmt::format("linear solver 'petsc' with options '{}': multigrid does not end where a rank has "
-                                    "less than {} unknowns; use fewer ranks, or no options", given_,
-                                    kFewestForMultigrid));
+      throw ConfigError(
+          fmt::format("linear solver 'petsc' with options '{}': multigrid does not end where a rank has "
+                      "less than {} unknowns; use fewer ranks, or no options",
+                      given_, kFewestForMultigrid));
   }
 
   MPI_Comm ranks() const { return pattern_->share ? PETSC_COMM_WORLD : PETSC_COMM_SELF; }

@@ -1,7 +1,6 @@
 #include "lib/petsc/session.h"
 
 #include <fmt/format.h>
-
 #include <unistd.h>
 
 #include <cstdlib>
@@ -35,7 +34,8 @@ class WithoutOthers {
   ~WithoutOthers() {  // the processes that this one starts may have others
     if (!ours_) return;
     if (environ == ours_) environ = before_;
-    else for (const std::string& name : names_) unsetenv(name.c_str());  // MPI has set something, in a list of its own
+    else
+      for (const std::string& name : names_) unsetenv(name.c_str());  // MPI has set something, in a list of its own
   }
   WithoutOthers(const WithoutOthers&) = delete;
   WithoutOthers& operator=(const WithoutOthers&) = delete;
@@ -64,8 +64,8 @@ struct Process {
     if (const PetscErrorCode code = PetscInitialize(&count, &arguments, nullptr, nullptr); code != 0)
       throw RunError(fmt::format("PETSc could not be started (error {})", static_cast<int>(code)));
     check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
-    library_versions().emplace("PETSc", fmt::format("{}.{}.{}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR,
-                                                    PETSC_VERSION_SUBMINOR));
+    library_versions().emplace(
+        "PETSc", fmt::format("{}.{}.{}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR));
     std::atexit([] {
       PetscBool ended = PETSC_FALSE;
       if (PetscFinalized(&ended) == 0 && !ended) static_cast<void>(PetscFinalize());

@@ -116,7 +116,8 @@ class ConditionWriter {
     if (!first || !last || !value) return "components or value are no numbers";
     if (*first < 1 || *last < *first || *last > 6) return "it is of no displacement";
     if (*first > 3) return "it is of rotations, which nodes of solids have not";
-    for (std::size_t k = static_cast<std::size_t>(*first); k <= std::min<std::size_t>(3, static_cast<std::size_t>(*last)); ++k)
+    for (std::size_t k = static_cast<std::size_t>(*first);
+         k <= std::min<std::size_t>(3, static_cast<std::size_t>(*last)); ++k)
       support(*set, c).displacement[k - 1] = Move{*value * units_.length, &c};
     return "";
   }
@@ -233,7 +234,8 @@ class ConditionWriter {
 
   std::string add_face_load(const AbaqusCondition& c) {
     const std::string label = abaqus_word(c.fields[0]);
-    if (label.size() == 2 && label[0] == 'P' && std::isdigit(static_cast<unsigned char>(label[1]))) return add_pressure(c);
+    if (label.size() == 2 && label[0] == 'P' && std::isdigit(static_cast<unsigned char>(label[1])))
+      return add_pressure(c);
     return fmt::format("loads of type {} are not read", label);
   }
 

@@ -27,7 +27,8 @@ bool can_be_taken(const LoadedMesh& loaded) {
 
 // For readers: the scene takes these from the file.
 std::string materials_in_comments(const LoadedMesh& loaded) {
-  std::string text = "# Materials and axes come from the mesh file. Sections `materials` and `regions` in this scene replace them.\n";
+  std::string text =
+      "# Materials and axes come from the mesh file. Sections `materials` and `regions` in this scene replace them.\n";
   for (const auto& [region, m] : loaded.materials)
     text += fmt::format("#   {}: {} {}{}\n", region, m.name, material_yaml(m),
                         m.axes_file.empty() ? "" : ", axes by its orientation");
@@ -37,7 +38,8 @@ std::string materials_in_comments(const LoadedMesh& loaded) {
 std::string material_entry(const MeshMaterial& m) {
   if (!m.problem.empty()) return fmt::format("  # {}: {}; give it here\n", yaml_name(m.name), m.problem);
   std::string beyond;
-  for (const auto& [where, name] : m.beyond) beyond += fmt::format("{}{}", beyond.empty() ? "   # without " : ", ", name);
+  for (const auto& [where, name] : m.beyond)
+    beyond += fmt::format("{}{}", beyond.empty() ? "   # without " : ", ", name);
   return fmt::format("  {}: {}{}\n", yaml_name(m.name), material_yaml(m), beyond);
 }
 
@@ -94,8 +96,7 @@ std::vector<std::string> others_left_out(const AbaqusFile& deck, const LoadedMes
   for (const auto& [what, place] : deck.skipped) {
     static const std::set<std::string> told{"*AMPLITUDE", "*BOUNDARY", "*CLOAD",   "*DLOAD",
                                             "*DSLOAD",    "*STEP",     "*END STEP"};
-    if (!told.contains(what))
-      names.push_back(place.line > 0 ? fmt::format("{} (line {})", what, place.line) : what);
+    if (!told.contains(what)) names.push_back(place.line > 0 ? fmt::format("{} (line {})", what, place.line) : what);
   }
   std::set<std::string> used;
   for (const auto& [region, m] : loaded.materials) {

@@ -10,7 +10,7 @@
 namespace orthodyn {
 
 struct AbaqusScene {
-  std::string text;                    // YAML
+  std::string text;                   // YAML
   std::vector<std::string> left_out;  // what the file has beside, with its lines; the text has it as comments
 };
 

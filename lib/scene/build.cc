@@ -6,10 +6,10 @@
 #include <cmath>
 #include <map>
 
-#include "lib/material_axes/axes_source.h"
 #include "lib/fem/elastic_region.h"
 #include "lib/fem/element_groups.h"
 #include "lib/fem/pattern_share.h"
+#include "lib/material_axes/axes_source.h"
 #include "lib/scene/mesh_materials.h"
 #include "lib/scene/supports.h"
 
@@ -25,8 +25,7 @@ double stiffness_damping(const Scene& scene, const Region& region) {
 
 std::vector<double> densities(const Scene& scene, const TetMesh& mesh, const std::vector<const Region*>& regions) {
   std::vector<double> out;
-  for (const int r : mesh.region_of)
-    out.push_back(material_of(scene, *regions[static_cast<std::size_t>(r)]).density());
+  for (const int r : mesh.region_of) out.push_back(material_of(scene, *regions[static_cast<std::size_t>(r)]).density());
   return out;
 }
 
@@ -59,14 +58,15 @@ void add_elasticity(const Scene& scene, const std::vector<const Region*>& region
     AxesField& field = fields[&region];
     if (!field) field = region.axes->field(mesh, notes);
     CellsOfRank cells = cells_of_rank(own, parts, static_cast<int>(r));
-    const ElementAxes axes = cells.here.empty()
-                                 ? ElementAxes(Mat3::Identity())
-                                 : element_axes(*region.axes, field, elements,
-                                                parts.subdomain ? cells.numbers : cells.here);
-    parts.elastic.push_back(own.type.elastic_term(
-        own, {mesh.region_names[r], std::move(cells.here), material_of(scene, region).stiffness(), axes,
-              stiffness_damping(scene, region), elasticity_of(scene, region), material_of(scene, region).strength(),
-              std::move(cells.numbers), static_cast<int>(all)}, *parts.pattern));
+    const ElementAxes axes =
+        cells.here.empty() ? ElementAxes(Mat3::Identity())
+                           : element_axes(*region.axes, field, elements, parts.subdomain ? cells.numbers : cells.here);
+    parts.elastic.push_back(
+        own.type.elastic_term(own,
+                              {mesh.region_names[r], std::move(cells.here), material_of(scene, region).stiffness(),
+                               axes, stiffness_damping(scene, region), elasticity_of(scene, region),
+                               material_of(scene, region).strength(), std::move(cells.numbers), static_cast<int>(all)},
+                              *parts.pattern));
     parts.densities.push_back(material_of(scene, region).density());
   }
 }
@@ -160,7 +160,8 @@ void warn_of_unused_axes(const Scene& scene, const std::vector<const Region*>& r
     if (!region->axes->uniform()) return;
   for (const Region* region : regions) {
     if (std::holds_alternative<IsotropicStiffness>(material_of(scene, *region).stiffness())) continue;
-    warnings.push_back(region->origin.where + ": the mesh file has axes of its elements, which the scene does not use; "
+    warnings.push_back(region->origin.where +
+                       ": the mesh file has axes of its elements, which the scene does not use; "
                        "if they are those of the material, give regions axes: {type: file, file: the mesh file}");
     return;
   }
@@ -171,9 +172,10 @@ void add_note_on_means(const Scene& scene, const TetMesh& mesh, Warnings& warnin
   if (mesh.order() == 1) return;
   for (const std::string& field : scene.output.fields)
     if (field == "strain" || field == "stress" || field == "stress_material")
-      warnings.push_back(fmt::format("output.fields: '{0}' of a quadratic element is its mean, which hides how it "
-                                     "varies within; nodal_{0} shows it",
-                                     field));
+      warnings.push_back(
+          fmt::format("output.fields: '{0}' of a quadratic element is its mean, which hides how it "
+                      "varies within; nodal_{0} shows it",
+                      field));
 }
 
 // What the materials had to change of the input.
@@ -256,9 +258,8 @@ BuiltScene build_model(const Scene& scene, const Ranks* ranks, MatrixStorage sto
   const int num_nodes = static_cast<int>(own.nodes.size());
   parts.dofs = std::make_unique<DofMap>(num_nodes, supports.held, subdomain ? subdomain->num_owned() : num_nodes);
   const bool symmetric = storage == MatrixStorage::by_elasticity &&
-                         std::all_of(regions.begin(), regions.end(), [&](const Region* r) {
-                           return elasticity_of(scene, *r).has_symmetric_tangent();
-                         });
+                         std::all_of(regions.begin(), regions.end(),
+                                     [&](const Region* r) { return elasticity_of(scene, *r).has_symmetric_tangent(); });
   const ElementMesh elements(own);
   parts.pattern = std::make_unique<BlockPattern>(elements.cells, *parts.dofs, symmetric, pairs);
   if (subdomain) parts.pattern->set_share(share_of(*parts.dofs, *subdomain));

@@ -15,7 +15,8 @@ struct BuiltScene {
   Warnings warnings;
 };
 
-// How the model's matrices are stored: as the elasticity's tangent allows, symmetric or not, or all entries in any case.
+// How the model's matrices are stored: as the elasticity's tangent allows, symmetric or not, or all entries in any
+// case.
 enum class MatrixStorage { by_elasticity, general };
 
 // Loads the mesh and makes the terms that the scene names. On several ranks each has its part of the model, and all

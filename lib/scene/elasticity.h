@@ -12,9 +12,8 @@ namespace orthodyn {
 
 template <>
 struct Words<Kinematics> {
-  static constexpr std::array<std::pair<Kinematics, const char*>, 3> list{{{Kinematics::corotational, "corotational"},
-                                                                           {Kinematics::linear, "linear"},
-                                                                           {Kinematics::automatic, "auto"}}};
+  static constexpr std::array<std::pair<Kinematics, const char*>, 3> list{
+      {{Kinematics::corotational, "corotational"}, {Kinematics::linear, "linear"}, {Kinematics::automatic, "auto"}}};
 };
 
 struct Elasticity : ElasticityOptions {

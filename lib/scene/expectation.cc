@@ -52,7 +52,8 @@ const Spec<Expectation>& Expectation::spec() {
                "A probe's field and component (tip.displacement.z, or .magnitude) or a scalar of the whole body "
                "(energy.balance, momentum.angular.z, von_mises.largest).")
           .key("mode", &Expectation::mode,
-               "Instead of a quantity: the natural frequency in Hz of this mode about the shape at rest, rigid modes not "
+               "Instead of a quantity: the natural frequency in Hz of this mode about the shape at rest, rigid modes "
+               "not "
                "counted.",
                {.range = {1, 1000}})
           .key("buckling", &Expectation::buckling,

@@ -18,15 +18,15 @@ enum class Take { end, max, min, time_of_max, time_of_min, mean, frequency, drif
 template <>
 struct Words<Take> {
   static constexpr std::array<std::pair<Take, const char*>, 10> list{{{Take::end, "end"},
-                                                                     {Take::max, "max"},
-                                                                     {Take::min, "min"},
-                                                                     {Take::time_of_max, "time_of_max"},
-                                                                     {Take::time_of_min, "time_of_min"},
-                                                                     {Take::mean, "mean"},
-                                                                     {Take::frequency, "frequency"},
-                                                                     {Take::drift, "drift"},
-                                                                     {Take::gain, "gain"},
-                                                                     {Take::onset, "onset"}}};
+                                                                      {Take::max, "max"},
+                                                                      {Take::min, "min"},
+                                                                      {Take::time_of_max, "time_of_max"},
+                                                                      {Take::time_of_min, "time_of_min"},
+                                                                      {Take::mean, "mean"},
+                                                                      {Take::frequency, "frequency"},
+                                                                      {Take::drift, "drift"},
+                                                                      {Take::gain, "gain"},
+                                                                      {Take::onset, "onset"}}};
 };
 
 // Throws ConfigError at `config` for a `take` that does not go with the keys `at` and `of`.
@@ -48,14 +48,14 @@ struct Expectation {
   std::optional<int> mode;      // from 1, rigid modes not counted: its frequency in Hz, about the shape at rest
   std::optional<int> buckling;  // from 1: the critical load factor
   Take take = Take::end;
-  std::optional<double> at;  // s, in place of `take`
-  Measured value;            // in the quantity's unit
-  std::string source;        // where the value is known from
+  std::optional<double> at;          // s, in place of `take`
+  Measured value;                    // in the quantity's unit
+  std::string source;                // where the value is known from
   std::optional<double> relative;    // the tolerance: this
   std::optional<Measured> absolute;  // or this
-  std::optional<Measured> of;  // of a drift or gain: what it is relative to; of an onset: the size that is passed
-  std::string reason;        // why the tolerance is what it is
-  double degraded = 10;      // times the tolerance: up to there `orthodyn stability` calls it degraded, not failed
+  std::optional<Measured> of;        // of a drift or gain: what it is relative to; of an onset: the size that is passed
+  std::string reason;                // why the tolerance is what it is
+  double degraded = 10;  // times the tolerance: up to there `orthodyn stability` calls it degraded, not failed
   Origin origin;
   static const Spec<Expectation>& spec();
 

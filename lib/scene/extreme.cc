@@ -82,9 +82,10 @@ bool has_node(const FemModel& model, const ElementMesh& mesh, const ElasticTerm&
 }
 
 void fail_without_strength(const std::string& field, const std::string& what, const Origin& origin) {
-  origin.fail(fmt::format("'{}' needs the strengths of {}: give its material strength: {{tension: [...], compression: "
-                          "[...], shear: [...]}} in Pa, or take a preset that has them (`orthodyn list presets`)",
-                          field, what));
+  origin.fail(
+      fmt::format("'{}' needs the strengths of {}: give its material strength: {{tension: [...], compression: "
+                  "[...], shear: [...]}} in Pa, or take a preset that has them (`orthodyn list presets`)",
+                  field, what));
 }
 
 }  // namespace
@@ -103,8 +104,10 @@ void require_field_at(const std::string& field, int node, const FemModel& model,
   const ElementMesh mesh(model.parts().mesh);
   const ElasticTerm* const named = region_of(field, model);
   if (named && !has_node(model, mesh, *named, node))
-    origin.fail(fmt::format("'{}': the probe's node is not of region {}; move the probe, or take the field without a "
-                            "region", field, named->region()));
+    origin.fail(
+        fmt::format("'{}': the probe's node is not of region {}; move the probe, or take the field without a "
+                    "region",
+                    field, named->region()));
   if (!needs_strength(field)) return;
   std::string region;
   for (const auto& term : model.parts().elastic) {

@@ -7,11 +7,10 @@
 namespace orthodyn {
 
 const Spec<Noise>& Noise::spec() {
-  static const auto s =
-      Spec<Noise>()
-          .key("amplitude", &Noise::amplitude, "Largest offset of each free coordinate, uniform.",
-               {.required = true, .unit = "m", .range = kNonNegative})
-          .key("seed", &Noise::seed, "Seed of the generator.", {.range = kNonNegative});
+  static const auto s = Spec<Noise>()
+                            .key("amplitude", &Noise::amplitude, "Largest offset of each free coordinate, uniform.",
+                                 {.required = true, .unit = "m", .range = kNonNegative})
+                            .key("seed", &Noise::seed, "Seed of the generator.", {.range = kNonNegative});
   return s;
 }
 
@@ -22,8 +21,7 @@ const Spec<Initial>& Initial::spec() {
           .key("spin", &Initial::spin, "Rigid angular velocity about the centre.", {.unit = "rad/s"})
           .key("velocity_field", &Initial::velocity_field,
                "Velocity added to the rigid one: three formulas of the rest position.", {.unit = "m/s"})
-          .key("center", &Initial::center, "Centre of spin and deformation; default the centre of mass.",
-               {.unit = "m"})
+          .key("center", &Initial::center, "Centre of spin and deformation; default the centre of mass.", {.unit = "m"})
           .key("deformation_gradient", &Initial::deformation_gradient,
                "Uniform F about the centre; a singular one flattens the body, a negative determinant mirrors it.")
           .key("displacement_field", &Initial::displacement_field,
@@ -35,9 +33,7 @@ const Spec<Initial>& Initial::spec() {
 namespace {
 
 // Uniform in [-1, 1), the same on every platform.
-double symmetric_uniform(std::mt19937_64& generator) {
-  return static_cast<double>(generator() >> 11) * 0x1p-52 - 1;
-}
+double symmetric_uniform(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1p-52 - 1; }
 
 Vec3 at(const std::array<PointFormula, 3>& field, const Vec3& x) {
   return {field[0].at(x), field[1].at(x), field[2].at(x)};

@@ -50,9 +50,10 @@ void check_all_regions_have_one(const Config& config, const LoadedMesh& loaded) 
                 join(loaded.mesh.region_names) + ")");
   for (const auto& name : loaded.mesh.region_names)
     if (!loaded.materials.contains(name))
-      config.fail(fmt::format("key 'materials' is missing, and the mesh file says nothing of the material of its "
-                              "region '{}'; give materials and regions ({})",
-                              name, join(loaded.mesh.region_names)));
+      config.fail(
+          fmt::format("key 'materials' is missing, and the mesh file says nothing of the material of its "
+                      "region '{}'; give materials and regions ({})",
+                      name, join(loaded.mesh.region_names)));
 }
 
 }  // namespace
@@ -72,8 +73,7 @@ std::string material_yaml(const MeshMaterial& m) {
 LoadedMesh load_mesh(const Scene& scene) { return scene.loaded ? *scene.loaded : scene.mesh->load(); }
 
 void fill_mesh_materials(const Config& config, Scene& scene) {
-  if (!scene.mesh->may_bring_materials())
-    config.fail("key 'materials' is missing (name: section with type)");
+  if (!scene.mesh->may_bring_materials()) config.fail("key 'materials' is missing (name: section with type)");
   const auto mesh = std::make_shared<LoadedMesh>(scene.mesh->load());
   LoadedMesh& loaded = *mesh;
   scene.loaded = mesh;

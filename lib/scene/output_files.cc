@@ -40,8 +40,8 @@ void refuse_cell_fields(const Config& c, const NodeFields& names) {
   };
   for (std::size_t i = 0; i < names.size(); ++i)
     if (is_known(names[i], Location::cell) && is_known("nodal_" + names[i], Location::node))
-      c.at(i).fail(fmt::format("'{0}' is a field of cells, and a probe is at a node; did you mean 'nodal_{0}'?",
-                               names[i]));
+      c.at(i).fail(
+          fmt::format("'{0}' is a field of cells, and a probe is at a node; did you mean 'nodal_{0}'?", names[i]));
 }
 
 Shape shape_of_names(const std::vector<Location>& locations) {
@@ -74,8 +74,7 @@ FrameFields Value<FrameFields>::read(const Config& c, const Rule& r) {
 const Spec<Probe>& Probe::spec() {
   static const auto s =
       Spec<Probe>()
-          .key("at", &Probe::at, "The node nearest to this point of the rest shape.",
-               {.required = true, .unit = "m"})
+          .key("at", &Probe::at, "The node nearest to this point of the rest shape.", {.required = true, .unit = "m"})
           .key("fields", &Probe::fields,
                "Node fields to record; of stress and strain also REGION.FIELD, at a node of several regions the value "
                "of one.");
@@ -116,7 +115,8 @@ const Spec<Output>& Output::spec() {
                "After runs of about 500 steps or more, estimate how far the errors of the steps have added up by "
                "integrating a few short parts again; costs a few per cent.")
           .key("mesh_error", &Output::mesh_error,
-               "Estimate the error of the mesh: by finer elements in the state that is deformed the most, where these have up "
+               "Estimate the error of the mesh: by finer elements in the state that is deformed the most, where these "
+               "have up "
                "to 120,000 unknowns; else by stresses recovered at the nodes, at some of the outputs.")
           .key("energy_times", &Output::energy_times,
                "outputs: energies are computed for the rows of energy.csv; steps: also after each step, and the drift "

@@ -98,10 +98,11 @@ Quantity find_quantity(const std::string& name, const Scene& scene, const FemMod
     for (const auto& component : components) known.push_back(source_name + "." + component);
   }
   add_extremes(known);
-  origin.fail(fmt::format("unknown quantity '{}'{} The nearest are {}. Take a probe of the scene with a field and a "
-                          "component (tip.displacement.z, see `orthodyn list fields`), or a quantity of the whole body "
-                          "(`orthodyn list quantities`)",
-                          name, did_you_mean(name, known, "."), join(nearest_names(name, known, kNearest))));
+  origin.fail(
+      fmt::format("unknown quantity '{}'{} The nearest are {}. Take a probe of the scene with a field and a "
+                  "component (tip.displacement.z, see `orthodyn list fields`), or a quantity of the whole body "
+                  "(`orthodyn list quantities`)",
+                  name, did_you_mean(name, known, "."), join(nearest_names(name, known, kNearest))));
 }
 
 }  // namespace orthodyn

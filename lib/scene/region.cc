@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "lib/material_axes/axes_source.h"
 #include "lib/core/spelling.h"
+#include "lib/material_axes/axes_source.h"
 #include "lib/scene/scene.h"
 
 namespace orthodyn {
@@ -76,8 +76,9 @@ std::vector<const Region*> assign_regions(const Scene& scene, const TetMesh& mes
     const auto it = std::find(mesh.region_names.begin(), mesh.region_names.end(), name);
     if (it != mesh.region_names.end()) out[static_cast<std::size_t>(it - mesh.region_names.begin())] = &region;
     else if (name == "all") everywhere = &region;
-    else region.origin.fail(fmt::format("the mesh has no region '{}'; it has {} (or use 'all')", name,
-                                        join(mesh.region_names)));
+    else
+      region.origin.fail(
+          fmt::format("the mesh has no region '{}'; it has {} (or use 'all')", name, join(mesh.region_names)));
   }
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (!out[i]) out[i] = everywhere;

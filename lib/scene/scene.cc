@@ -39,7 +39,8 @@ const Spec<Scene>& Scene::spec() {
                "dynamic: the motion over time. static: the equilibrium under all loads, which grow step by step. "
                "buckling: the load factors at which the body at rest would buckle, and how (linear).")
           .key("mesh", &Scene::mesh, "Where the mesh comes from.", {.required = true})
-          .key("materials", &Scene::materials, "Materials by name. Left out, those of the mesh file (.veg, .inp) are used, with the regions' axes.")
+          .key("materials", &Scene::materials,
+               "Materials by name. Left out, those of the mesh file (.veg, .inp) are used, with the regions' axes.")
           .key("regions", &Scene::regions,
                "Material and axes of each region of the mesh by its name, or of `all`; default: the only "
                "material everywhere.")
@@ -141,8 +142,7 @@ void check_buckling(const Config& config, Scene& scene, bool is_timed) {
         "a buckling analysis takes loads that grow in proportion, and no prescribed displacements; "
         "follow the path with analysis: static and find where it becomes unstable");
   for (const Expectation& e : scene.expect)
-    if (!e.buckling)
-      e.origin.fail("a buckling analysis has critical load factors only: {buckling: 1, value: ...}");
+    if (!e.buckling) e.origin.fail("a buckling analysis has critical load factors only: {buckling: 1, value: ...}");
   const Output& output = scene.output;
   const Output usual;
   if (output.fields != usual.fields || !output.probes.empty() || !output.extremes.empty() || output.reactions ||
@@ -158,9 +158,7 @@ void check_expectations(const Scene& scene) {
     if (e.buckling) e.origin.fail("'buckling' goes with analysis: buckling");
 }
 
-bool is_given(const Config& section, const std::string& key) {
-  return section.has(key) && !section.at(key).is_null();
-}
+bool is_given(const Config& section, const std::string& key) { return section.has(key) && !section.at(key).is_null(); }
 
 // Terms whose defaults depend on the kinematics are read again with them.
 void complete_terms(const Config& config, Scene& scene) {
@@ -189,11 +187,15 @@ void require_countable_times(const Config& config, const Scene& scene) {
   const double span = scene.time.end - scene.time.start;
   const auto& [interval, history] = std::pair(scene.output.interval, scene.output.history);
   if (interval && span / *interval > kMost)
-    config.at("output").at("interval").fail(
-        fmt::format("gives {:.2g} frames, the most is {:.0e}; take a longer one", span / *interval, kMost));
+    config.at("output")
+        .at("interval")
+        .fail(fmt::format("gives {:.2g} frames, the most is {:.0e}; take a longer one", span / *interval, kMost));
   if (history && history->interval && span / *history->interval > kMost)
-    config.at("output").at("history").at("interval").fail(
-        fmt::format("gives {:.2g} rows, the most is {:.0e}; take a longer one", span / *history->interval, kMost));
+    config.at("output")
+        .at("history")
+        .at("interval")
+        .fail(
+            fmt::format("gives {:.2g} rows, the most is {:.0e}; take a longer one", span / *history->interval, kMost));
 }
 
 }  // namespace

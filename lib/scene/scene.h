@@ -58,8 +58,8 @@ struct Scene {
   Start start = Start::rest;
   TimeSpan time;
   std::shared_ptr<const IntegratorChoice> integrator;  // null in statics
-  std::optional<Statics> statics;  // of a static analysis and a start from equilibrium
-  std::optional<Buckling> buckling;  // of a buckling analysis
+  std::optional<Statics> statics;                      // of a static analysis and a start from equilibrium
+  std::optional<Buckling> buckling;                    // of a buckling analysis
   std::vector<EventSpec> events;
   Output output;
   std::optional<CheckpointSchedule> checkpoint;

@@ -58,10 +58,11 @@ class CoordinateOwners {
   }
 
   [[noreturn]] void fail_twice(const Origin& origin, int node, std::size_t component, int owner) const {
-    origin.fail(fmt::format("moves {} of the node at {} m, which belongs to {} already; select nodes that do not "
-                            "overlap, or other components",
-                            "xyz"[component], Value<Vec3>::yaml(mesh_.nodes[static_cast<std::size_t>(node)]),
-                            supports_[static_cast<std::size_t>(owner)].name));
+    origin.fail(
+        fmt::format("moves {} of the node at {} m, which belongs to {} already; select nodes that do not "
+                    "overlap, or other components",
+                    "xyz"[component], Value<Vec3>::yaml(mesh_.nodes[static_cast<std::size_t>(node)]),
+                    supports_[static_cast<std::size_t>(owner)].name));
   }
 
   const TetMesh& mesh_;
@@ -75,8 +76,9 @@ std::string named(const std::string& given, const char* kind, std::size_t index)
 
 void check_velocity(const Scene& scene, const SupportMotion& given, const Motion& motion) {
   if (scene.mass == MassKind::lumped || motion.has_continuous_velocity()) return;
-  given.origin.fail("its velocity may jump at a kink, which a consistent mass answers by an infinite force on the "
-                    "neighbours; use a smooth_step, or mass: lumped");
+  given.origin.fail(
+      "its velocity may jump at a kink, which a consistent mass answers by an infinite force on the "
+      "neighbours; use a smooth_step, or mass: lumped");
 }
 
 std::shared_ptr<const Motion> motion_in(const Scene& scene, const SupportMotion& given, const TetMesh& mesh,

@@ -7,8 +7,8 @@
 
 #include "lib/core/versions.h"
 #include "lib/simulation/checkpoint/resume.h"
-#include "lib/simulation/run/run_threads.h"
 #include "lib/simulation/output/output_size.h"
+#include "lib/simulation/run/run_threads.h"
 
 namespace orthodyn {
 
@@ -93,10 +93,10 @@ RunResult Simulation::run_once(Config config, const RunRequest& request, const s
   if (!given_up.empty()) setup.note_given_up(given_up);
   for (const auto& warning : setup.built.warnings) listener.on_warning(warning);
   if (ranks)
-    listener.on_notice(fmt::format("on {} ranks, which do not look for values that are probably not intended, nor for "
-                                   "strains beyond the material's limits (orthodyn check does){}",
-                                   ranks->size(),
-                                   setup.scene.is_static() ? "" : ", and do not tell how far errors add up"));
+    listener.on_notice(
+        fmt::format("on {} ranks, which do not look for values that are probably not intended, nor for "
+                    "strains beyond the material's limits (orthodyn check does){}",
+                    ranks->size(), setup.scene.is_static() ? "" : ", and do not tell how far errors add up"));
   if (!request.any_volume) require_usual_volume(setup);
   const std::string resolved = resolved_scene(setup, file_, folder.path());
   return analysis_of(setup.scene)(

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "lib/config/registry.h"
-#include "lib/statics/load_path.h"
 #include "lib/ode/statistics.h"
+#include "lib/statics/load_path.h"
 
 namespace orthodyn {
 
@@ -30,17 +30,17 @@ class EquilibriumSolver {
   struct Attempt {
     bool found = false;
     long iterations = 0;
-    double contraction = 0;  // |dq_1| / |dq_0| of Newton's corrections; 0 where there was one
-    double residual = 0;     // N, the largest component of f
+    double contraction = 0;        // |dq_1| / |dq_0| of Newton's corrections; 0 where there was one
+    double residual = 0;           // N, the largest component of f
     bool above_tolerance = false;  // found, though round-off keeps the residual above its tolerance
     std::string failure_reason;    // why not found
   };
 
   // What K tells at an equilibrium.
   struct Response {
-    Vector rate;       // dq/dlambda = K^-1 f_lambda', m
-    // Negative eigenvalues of K: directions in which the body leaves; of an unsymmetric K 1 if their number is odd, else
-    // 0. None: not known.
+    Vector rate;  // dq/dlambda = K^-1 f_lambda', m
+    // Negative eigenvalues of K: directions in which the body leaves; of an unsymmetric K 1 if their number is odd,
+    // else 0. None: not known.
     std::optional<int> unstable;
     Vector weakest;  // K^-1 b for a fixed b that is in no body's symmetry: where K is nearly singular, its null vector
     double stiffness = 0;  // 1 / (b . K^-1 b): crosses zero with an eigenvalue of K

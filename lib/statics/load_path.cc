@@ -37,8 +37,7 @@ LoadPath::LoadPath(const Model& model, const PathTimes& times, Vector start, Loa
   } catch (const RecoverableError& e) {
     throw RunError(std::string("the forces cannot be evaluated at the start: ") + e.what(), Reason::force);
   }
-  if (!is_finite)
-    throw RunError("the forces at the start are not finite; check the loads", Reason::force);
+  if (!is_finite) throw RunError("the forces at the start are not finite; check the loads", Reason::force);
 }
 
 void LoadPath::divide(Loaded loaded) {

@@ -2,8 +2,8 @@
 //
 //     f_lambda(q) = f_s(t, q, 0) + lambda f_l(t, q, 0),  t = t_0 + lambda (t_1 - t_0)
 //
-// f_l is the force of what loads the body (Model::load_parts(): loads, pressure, gravity, loading terms of plugins), f_s
-// that of the structure: elasticity, springs, ground, with springs that are stretched at rest. Every state with
+// f_l is the force of what loads the body (Model::load_parts(): loads, pressure, gravity, loading terms of plugins),
+// f_s that of the structure: elasticity, springs, ground, with springs that are stretched at rest. Every state with
 // f_lambda = 0 is an equilibrium under lambda times the loads, whether these follow the body or not. Supports may move
 // from t_0 to t_1.
 //
@@ -90,7 +90,7 @@ class LoadPath : public Model {
   std::unique_ptr<const Model> structure_;  // null where the model does not tell its loads
   std::unique_ptr<const Model> loads_;      // null where there are none, and where they are dead and constant
   bool loads_have_tangent_ = false;
-  Vector dead_;       // force of loads that are dead and constant, N; empty where there are none
+  Vector dead_;        // force of loads that are dead and constant, N; empty where there are none
   Vector unbalanced_;  // force at the start that grows as a dead load, in place of loads, N; empty where there is none
   double largest_load_ = 0;
 };

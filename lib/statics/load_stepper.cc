@@ -12,18 +12,21 @@ namespace orthodyn {
 
 namespace {
 
-constexpr long kEasy = 4, kHard = 8;     // Newton iterations
-constexpr double kBracket = 1e-3;          // of the step in which a critical point was met
-constexpr int kMostCloser = 30;            // steps towards a critical point
-constexpr double kGap = 0.1;               // of that step: what it cannot be closed in to is a gap between two paths
-constexpr double kTurn = 30;               // growth of displacements with the load, against that at the start
-constexpr double kNear = 0.1;              // of load factors: a turn that leads up to a critical point
+constexpr long kEasy = 4, kHard = 8;  // Newton iterations
+constexpr double kBracket = 1e-3;     // of the step in which a critical point was met
+constexpr int kMostCloser = 30;       // steps towards a critical point
+constexpr double kGap = 0.1;          // of that step: what it cannot be closed in to is a gap between two paths
+constexpr double kTurn = 30;          // growth of displacements with the load, against that at the start
+constexpr double kNear = 0.1;         // of load factors: a turn that leads up to a critical point
 constexpr double kLowestFactor = -1;
 
 }  // namespace
 
 LoadStepper::LoadStepper(const LoadPath& path, EquilibriumSolver& solver, const LoadStepping& stepping, double length)
-    : path_(path), solver_(solver), stepping_(stepping), length_(length),
+    : path_(path),
+      solver_(solver),
+      stepping_(stepping),
+      length_(length),
       state_{0, path.start(), Vector::Zero(path.num_dofs())} {}
 
 void LoadStepper::begin() {
@@ -197,9 +200,9 @@ bool LoadStepper::leave() {
 void LoadStepper::require_going_on() const {
   if (stops_) stop_at(critical_.back());
   if (state_.t < kLowestFactor)
-    throw RunError(fmt::format("the path leads down to load factor {:.6g}, away from 1 (statics.at_limit: follow)",
-                               state_.t),
-                   Reason::critical_point);
+    throw RunError(
+        fmt::format("the path leads down to load factor {:.6g}, away from 1 (statics.at_limit: follow)", state_.t),
+        Reason::critical_point);
   if (steps_ >= stepping_.max_steps)
     throw RunError(fmt::format("gave up at load factor {:.6g} after {} steps (statics.max_steps); raise it, or "
                                "statics.max_step",

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "lib/config/spec.h"
-#include "lib/statics/critical_point.h"
 #include "lib/ode/integrator.h"
+#include "lib/statics/critical_point.h"
 #include "lib/statics/path_tracer.h"
 
 namespace orthodyn {
@@ -96,11 +96,11 @@ class LoadStepper {
   State state_;
   double step_ = 0, smallest_step_ = 0;  // along the path
   std::vector<CriticalPoint> critical_;
-  double steepest_ = 0;  // growth at the last turn
+  double steepest_ = 0;      // growth at the last turn
   long iterations_ = 0;      // of the last step
   bool was_halved_ = false;  // after it, as they were many
-  bool stops_ = false;   // the last of them is where it stops
-  bool leaves_ = false;  // there it is to jump next
+  bool stops_ = false;       // the last of them is where it stops
+  bool leaves_ = false;      // there it is to jump next
   long steps_ = 0, rejected_ = 0, jumps_ = 0;
 };
 

@@ -1,9 +1,8 @@
 // What is left free of a block that is clamped at a few of its corners.
 #include "lib/analysis/rigid_freedom.h"
 
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include "tests/scene/scenes.h"
 
@@ -21,7 +20,10 @@ int freedom(const Vec3& size, const std::vector<Vec3>& corners) {
 materials: {{soft: {{type: isotropic, density: 1000, young: 1e6, nu: 0.3}}}}
 clamps:
 {}time: {{end: 0.1}}
-)", Value<Vec3>::yaml(size), clamps)).model, 0);
+)",
+                                                     Value<Vec3>::yaml(size), clamps))
+                                  .model,
+                             0);
 }
 
 TEST(RigidFreedom, OfABlockClampedAtTheEndsOfADiagonalIsItsTurnAboutThat) {

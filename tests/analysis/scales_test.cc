@@ -81,8 +81,9 @@ time: {end: 0.1}
 
 // Evenly spaced samples of the base's motion would all be its zeros.
 TEST(Scales, SeeAMotionOfWholePeriods) {
-  const auto yaml = kValidScene + "motions: [{surface: x1, translation: [1e-9, 0, 0], "
-                                  "factor: {type: sine, frequency: 2000}}]\n";
+  const auto yaml = kValidScene +
+                    "motions: [{surface: x1, translation: [1e-9, 0, 0], "
+                    "factor: {type: sine, frequency: 2000}}]\n";
   EXPECT_NEAR(scales_of(yaml).position, 2e-9, 1e-11);
 }
 
@@ -93,7 +94,8 @@ materials: {{m: {{type: isotropic, density: 1000, young: 1e6, nu: 0}}}}
 terms: [{{type: ground, stiffness: {}}}]
 gravity: [0, 0, -10]
 time: {{end: 0.1}}
-)", stiffness));
+)",
+                                 stiffness));
   };
   // W = m g L; the node in the middle of a face has eight triangles of 1/8 m^2, a third of each is its own.
   const double work = 1000 * 10, area = 1.0 / 3;
@@ -102,8 +104,9 @@ time: {{end: 0.1}}
 }
 
 TEST(Scales, OfABodyThatIsOnlyMovedComeFromItsSupports) {
-  const auto yaml = kValidScene + "motions: [{surface: x1, translation: [3e-3, 4e-3, 0], "
-                                  "factor: {type: smooth_step, end: 0.1}}]\n";
+  const auto yaml = kValidScene +
+                    "motions: [{surface: x1, translation: [3e-3, 4e-3, 0], "
+                    "factor: {type: smooth_step, end: 0.1}}]\n";
   const Scales scales = scales_of(yaml);
   EXPECT_NEAR(scales.position, 2 * 5e-3, 1e-12);
   EXPECT_NEAR(scales.velocity, 3 * 5e-3 / 0.1 * 15 / 8, 1e-4);  // the step's largest rate, in its middle

@@ -1,6 +1,7 @@
+#include "lib/config/auto_or.h"
+
 #include <gtest/gtest.h>
 
-#include "lib/config/auto_or.h"
 #include "lib/config/spec.h"
 #include "tests/config/messages.h"
 

@@ -25,8 +25,8 @@ class Include : public ::testing::Test {
     return Config::from_file(place("scene.yaml"));
   }
 
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) /
-                                  testing::UnitTest::GetInstance()->current_test_info()->name();
+  std::filesystem::path folder_ =
+      std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 TEST_F(Include, BringsTheKeysOfAnotherFile) {

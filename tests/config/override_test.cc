@@ -93,9 +93,7 @@ TEST(Override, ANewEntryThatIsRefusedNamesTheOneWithANearName) {
   Config config = Config::from_text("materials: {spruce: {type: a}, oak: {type: a}}", "a.yaml");
   config.override_with("materials.spuce.young=1e9");
   config.override_with("materials.teflon.young=1e9");
-  const auto said = [&](const char* name) {
-    return refusal([&] { config.at("materials").at(name).fail("no type"); });
-  };
+  const auto said = [&](const char* name) { return refusal([&] { config.at("materials").at(name).fail("no type"); }); };
   EXPECT_TRUE(holds(said("spuce"), "no type; 'spuce' is new here; did you mean 'spruce'?"));
   EXPECT_TRUE(holds(refusal([&] { config.resolving().at("materials").at("spuce").fail("no type"); }), "'spruce'"));
   for (const char* name : {"teflon", "spruce"}) EXPECT_FALSE(holds(said(name), "did you mean")) << name;

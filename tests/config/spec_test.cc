@@ -180,9 +180,8 @@ struct Journey {
   std::string by = "train";
   double fuel = 40;
   static const Spec<Journey>& spec() {
-    static const auto s = Spec<Journey>()
-                              .key("by", &Journey::by, "How.")
-                              .key("fuel", &Journey::fuel, "Litres.", {.with = {"by", "car"}});
+    static const auto s =
+        Spec<Journey>().key("by", &Journey::by, "How.").key("fuel", &Journey::fuel, "Litres.", {.with = {"by", "car"}});
     return s;
   }
 };

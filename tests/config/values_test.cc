@@ -97,7 +97,7 @@ TEST(ReadVec3, AsksForAUnitThatItsNeighbourHas) {
   EXPECT_TRUE(holds(refusal_of<Vec3>("[400 mm, 2 cm, 40]", length), "'40' is next to '400 mm'"));
   EXPECT_TRUE(holds(refusal_of<Vec3>("[10800, 0.84 GPa, 0.46 GPa]", stiffness),
                     "'10800' is next to '0.84 GPa'; write '10800 MPa', or '10800 Pa' if you mean that"));
-  EXPECT_EQ(read<Vec3>("[1 m, 2 cm, 3]", length), Vec3(1, 0.02, 3));  // near one of them
+  EXPECT_EQ(read<Vec3>("[1 m, 2 cm, 3]", length), Vec3(1, 0.02, 3));                           // near one of them
   EXPECT_EQ(read<Vec3>("[12e9, 0.84 GPa, 0.46 GPa]", stiffness), Vec3(12e9, 0.84e9, 0.46e9));  // of --set young.0=12e9
   EXPECT_EQ(read<Vec3>("[0, 0, -9.81 m/s^2]", {.unit = "m/s^2"}), Vec3(0, 0, -9.81));
   EXPECT_EQ(read<Vec3>("[0.02, 2 cm, 1]", length), Vec3(0.02, 0.02, 1));

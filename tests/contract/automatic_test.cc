@@ -68,7 +68,8 @@ TEST(Automatic, TakesTheStepsThatTheMethodTakesWithItsOptions) {
 LinearModel two_masses(const std::vector<std::array<double, 2>>& factor = {}) {
   const Matrix K = (Matrix(2, 2) << 6, -2, -2, 4).finished(), M = (Matrix(2, 2) << 2, 0, 0, 1).finished();
   const Vector load = factor.empty() ? Vector() : Vector::Unit(2, 1);
-  return LinearModel({.mass = M, .stiffness = K, .load = load, .factor = factor, .start = Vector::Unit(2, 0), .end = 500});
+  return LinearModel(
+      {.mass = M, .stiffness = K, .load = load, .factor = factor, .start = Vector::Unit(2, 0), .end = 500});
 }
 
 TEST(Automatic, TakesTheModesOfALinearModelOverManyPeriods) {

@@ -1,10 +1,10 @@
 // What every integrator promises besides accuracy: stops, failures, statistics, refusals.
-#include "tests/contract/integrators.h"
-
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <numbers>
+
+#include "tests/contract/integrators.h"
 
 namespace orthodyn::behaviour_test {
 namespace {
@@ -83,8 +83,13 @@ TEST_P(Contract, ARestartAtABreakpointGoesOnFromTheGivenStateAndKeepsCounting) {
 
 // A model that rests until its load sets in must not have lost the ability to move.
 TEST_P(Contract, ALoadAfterALongRestIsNotMissed) {
-  const LinearModel model({.mass = scalar(1), .stiffness = scalar(9), .beta = 0.05, .load = Vector::Constant(1, 9),
-                           .factor = {{1000, 0}, {1000.5, 1}}, .end = 1002, .velocity_scale = 3});
+  const LinearModel model({.mass = scalar(1),
+                           .stiffness = scalar(9),
+                           .beta = 0.05,
+                           .load = Vector::Constant(1, 9),
+                           .factor = {{1000, 0}, {1000.5, 1}},
+                           .end = 1002,
+                           .velocity_scale = 3});
   const State last = integrate(model, *make(model));
   EXPECT_LE(distance(last, model.exact(1002), model.scales()), 1e-2);
 }
@@ -219,9 +224,8 @@ TEST_P(Contract, TooManyStepsEndInARunErrorThatNamesTheLimit) {
 TEST_P(Contract, StepsStayWithinTheirLimits) {
   if (!controls_its_error(GetParam().integrator)) GTEST_SKIP() << "takes fixed steps only";
   const auto model = damped_oscillator();
-  integrate(model, *make(model, {1e-3, 2, ", h_max: 0.01"}), [](const StepInfo& info, const Integrator&) {
-    EXPECT_LE(info.h, 0.01 * (1 + 1e-12));
-  });
+  integrate(model, *make(model, {1e-3, 2, ", h_max: 0.01"}),
+            [](const StepInfo& info, const Integrator&) { EXPECT_LE(info.h, 0.01 * (1 + 1e-12)); });
 }
 
 TEST_P(Contract, AFailureHasAReason) {

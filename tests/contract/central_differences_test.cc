@@ -1,8 +1,8 @@
 // The leapfrog's own laws: its critical step, what it keeps, what it refuses.
+#include <numbers>
+
 #include "integrators/critical_step.h"
 #include "tests/contract/integrators.h"
-
-#include <numbers>
 
 namespace orthodyn::central_differences_test {
 namespace {
@@ -18,8 +18,12 @@ double critical_step(const SmallModel& model) {
 }
 
 LinearModel oscillator(double omega, double beta, double end) {
-  return LinearModel({.mass = scalar(2), .stiffness = scalar(2 * omega * omega), .beta = beta, .start = Vector::Ones(1),
-                      .end = end, .velocity_scale = omega});
+  return LinearModel({.mass = scalar(2),
+                      .stiffness = scalar(2 * omega * omega),
+                      .beta = beta,
+                      .start = Vector::Ones(1),
+                      .end = end,
+                      .velocity_scale = omega});
 }
 
 // Masses 1 and springs 1 between walls: omega_k = 2 sin(k pi / (2 (n + 1))).
@@ -296,9 +300,7 @@ TEST(CentralDifferences, KeepAStepThatIsStableWhenContactSetsIn) {
 }
 
 // The step of the free flight, ten times too long for the wall.
-TEST(CriticalStep, IsThatOfTheStateWhereNoPartTellsABound) {
-  EXPECT_NEAR(critical_step(Wall(false)), 2, 1e-9);
-}
+TEST(CriticalStep, IsThatOfTheStateWhereNoPartTellsABound) { EXPECT_NEAR(critical_step(Wall(false)), 2, 1e-9); }
 
 TEST(CentralDifferences, ServeAConsistentMass) {
   const auto model = chain(true);

@@ -18,8 +18,8 @@ LinearModel oscillator(double damping_ratio) {
 
 std::string order(const std::string& method, double damping_ratio, const std::string& options) {
   const auto model = oscillator(damping_ratio);
-  const auto choice = Registry<IntegratorChoice>::read(
-      Config::from_text(fmt::format("{{type: {}, {}}}", method, options), "a.yaml"));
+  const auto choice =
+      Registry<IntegratorChoice>::read(Config::from_text(fmt::format("{{type: {}, {}}}", method, options), "a.yaml"));
   const auto integrator =
       choice->make(model, {[&] { return model.scales(); }, model.initial(), model.end(), model.end() / 50});
   for (const auto& [key, value] : integrator->decisions())

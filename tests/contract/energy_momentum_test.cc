@@ -23,8 +23,8 @@ struct Drift {
 };
 
 Drift drift(const BuiltTestScene& s, double step, int steps) {
-  const auto choice = Registry<IntegratorChoice>::read(
-      Config::from_text(fmt::format("{{type: energy_momentum, step: {}}}", step)));
+  const auto choice =
+      Registry<IntegratorChoice>::read(Config::from_text(fmt::format("{{type: energy_momentum, step: {}}}", step)));
   const auto integrator = choice->make(s.model(), task_of(s.scene, s.built));
   const auto vector = [&](const char* name, const State& state) {
     const auto values = s.model().evaluate(name, state);

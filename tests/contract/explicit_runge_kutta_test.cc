@@ -12,8 +12,11 @@ std::unique_ptr<Integrator> make(const SmallModel& model, const std::string& yam
 // The amplitude after two hundred steps of h omega.
 double amplitude(const std::string& table, double h_omega) {
   const double omega = 3, h = h_omega / omega;
-  const LinearModel model({.mass = scalar(2), .stiffness = scalar(2 * omega * omega), .start = Vector::Ones(1),
-                           .end = 200 * h, .velocity_scale = omega});
+  const LinearModel model({.mass = scalar(2),
+                           .stiffness = scalar(2 * omega * omega),
+                           .start = Vector::Ones(1),
+                           .end = 200 * h,
+                           .velocity_scale = omega});
   const auto yaml = fmt::format("{{type: arkode_erk, table: {}, step: {:.17g}}}", table, h);
   const State last = integrate(model, *make(model, yaml));
   return std::hypot(last.q[0], last.v[0] / omega);

@@ -1,7 +1,7 @@
 // What every integrator with a key `step` promises: that step, its order, its dense output.
-#include "tests/contract/integrators.h"
-
 #include <sstream>
+
+#include "tests/contract/integrators.h"
 
 namespace orthodyn::fixed_step_test {
 namespace {

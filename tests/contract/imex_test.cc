@@ -25,8 +25,8 @@ INSTANTIATE_TEST_SUITE_P(ExplicitParts, Imex, testing::Values("spring", "damper"
 
 TEST_P(Imex, ErrorFallsWithTheOrderThatTheTablesNameEndsIn) {
   const std::vector<double> steps = {0.1, 0.075, 0.05, 0.0375};
-  for (const std::string table : {"ARK324L2SA_4_2_3", "ARK436L2SA_6_3_4", "ARK437L2SA_7_3_4", "ARK548L2SA_8_4_5",
-                                  "ARK548L2SAb_8_4_5"}) {
+  for (const std::string table :
+       {"ARK324L2SA_4_2_3", "ARK436L2SA_6_3_4", "ARK437L2SA_7_3_4", "ARK548L2SA_8_4_5", "ARK548L2SAb_8_4_5"}) {
     std::vector<double> errors;
     for (const double step : steps)
       errors.push_back(error_of(parted_oscillator(), fmt::format(", explicit: [{}], table: {}, step: {}, rtol: 1e-12",
@@ -44,8 +44,13 @@ TEST_P(Imex, ErrorFallsWithTheToleranceAtTheEndsOfStepsAndBetween) {
 
 // A load is explicit most often; here with kinks.
 TEST(Imex, TreatsAKinkedLoadExplicitly) {
-  const PartedModel model({.mass = scalar(1), .stiffness = scalar(9), .beta = 0.05, .load = Vector::Constant(1, 9),
-                           .factor = {{1, 0}, {2, 1}}, .end = 4, .velocity_scale = 3});
+  const PartedModel model({.mass = scalar(1),
+                           .stiffness = scalar(9),
+                           .beta = 0.05,
+                           .load = Vector::Constant(1, 9),
+                           .factor = {{1, 0}, {2, 1}},
+                           .end = 4,
+                           .velocity_scale = 3});
   EXPECT_LE(error_of(model, ", explicit: [load], rtol: 1e-6"), 1e-4);
 }
 
@@ -53,8 +58,12 @@ TEST(Imex, TreatsAKinkedLoadExplicitly) {
 TEST(Imex, AStiffImplicitPartDoesNotLimitTheStep) {
   Matrix K(2, 2);
   K << 1 + 1e6, -1e6, -1e6, 1 + 1e6;
-  const PartedModel model({.mass = Matrix::Identity(2, 2), .stiffness = K, .beta = 1e-9, .load = Vector::Ones(2),
-                           .start = Vector::Ones(2), .end = 6});
+  const PartedModel model({.mass = Matrix::Identity(2, 2),
+                           .stiffness = K,
+                           .beta = 1e-9,
+                           .load = Vector::Ones(2),
+                           .start = Vector::Ones(2),
+                           .end = 6});
   const auto integrator = imex(model, ", explicit: [load], rtol: 1e-4");
   const State last = integrate(model, *integrator);
   EXPECT_LE(distance(last, model.exact(last.t), model.scales()), 1e-2);

@@ -7,7 +7,8 @@ namespace orthodyn {
 std::vector<Pair> all_pairs() {
   std::vector<Pair> pairs;
   for (const auto& [name, method] : tested_methods())
-    if (!method.chooses) for (const auto& solver : tried_solvers(name)) pairs.push_back({name, solver});
+    if (!method.chooses)
+      for (const auto& solver : tried_solvers(name)) pairs.push_back({name, solver});
   return pairs;
 }
 
@@ -27,9 +28,7 @@ std::vector<Pair> pairs_with(const std::string& key) {
   return pairs;
 }
 
-bool refuses_consistent_mass(const Pair& pair) {
-  return pair.solver == "klu_full" && pair.integrator != "ida_bdf";
-}
+bool refuses_consistent_mass(const Pair& pair) { return pair.solver == "klu_full" && pair.integrator != "ida_bdf"; }
 
 bool leaves_out_solutions(const Pair& pair) { return pair.solver == "petsc"; }
 

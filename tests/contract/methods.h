@@ -25,9 +25,9 @@ struct TestedMethod {
   bool exact_if_linear = false;   // the error is that of Krylov spaces or of the load's interpolation, and has no order
   std::string needs = "";         // options without which there is no such method
   bool has_one_estimator = false;  // of the local error of its one order
-  bool chooses = false;           // is one of the others, and has tests of its own
-  bool keeps_energy = false;      // to round-off
-  bool linear_only = false;       // refuses all other models
+  bool chooses = false;            // is one of the others, and has tests of its own
+  bool keeps_energy = false;       // to round-off
+  bool linear_only = false;        // refuses all other models
 };
 
 const std::map<std::string, TestedMethod>& tested_methods();

@@ -1,9 +1,8 @@
 // Modal integration: the oscillator in closed form, loads that vary in time, and what is refused.
-#include <unsupported/Eigen/MatrixFunctions>
-
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <unsupported/Eigen/MatrixFunctions>
 
 #include "integrators/native/load_polynomial.h"
 #include "integrators/native/oscillator.h"
@@ -22,9 +21,9 @@ struct Damping {
 };
 
 // Over- and underdamped, critical and nearly so, undamped, without stiffness, without either.
-const std::vector<Damping> kOscillators = {{0, 1},    {0.1, 1},        {2, 1}, {2 * (1 + 1e-9), 1}, {2 * (1 - 1e-9), 1},
-                                           {2.2, 1},  {5, 1},          {50, 1}, {1e4, 1},           {1, 0},
-                                           {0, 0},    {1, 1e-6},       {1e-8, 1}};
+const std::vector<Damping> kOscillators = {
+    {0, 1}, {0.1, 1},  {2, 1},   {2 * (1 + 1e-9), 1}, {2 * (1 - 1e-9), 1}, {2.2, 1}, {5, 1}, {50, 1}, {1e4, 1}, {1, 0},
+    {0, 0}, {1, 1e-6}, {1e-8, 1}};
 
 // At the end of a step h, by the matrix exponential of the system of r, h r' and the load's derivatives in units of h.
 Oscillation by_matrix_exponential(const Damping& o, Oscillation start, const Vector& c, double h) {
@@ -65,7 +64,7 @@ TEST(Oscillator, TakesTwoHalfStepsAsOne) {
       const Oscillation whole = oscillate(o.d, o.lambda, {1, -0.5}, c, h, h);
       const Oscillation half = oscillate(o.d, o.lambda, {1, -0.5}, c, h, h / 2);
       const Oscillation halves = oscillate(o.d, o.lambda, half, Vector{{0.3 - 0.5, -0.5}}, h / 2, h / 2);
-      const double phase = std::sqrt(o.lambda) * h;  // known to eps of it
+      const double phase = std::sqrt(o.lambda) * h;                            // known to eps of it
       const double unbound = o.lambda > 0 ? 1 / o.lambda : h / (o.d + 1 / h);  // of the response to the load
       const double size = 2 + std::min(unbound, h * h);
       const double speed = 2 + std::min({std::sqrt(o.lambda) * size, h, size / h + 1});
@@ -81,8 +80,7 @@ TEST(Oscillator, HasTheKnownFormulas) {
     EXPECT_NEAR(oscillate(6, 9, {1, 2}, none, t, t).r, (1 + 5 * t) * std::exp(-3 * t), 1e-14);
     EXPECT_NEAR(oscillate(10, 9, {1, -1}, none, t, t).r, std::exp(-t), 1e-14);
     EXPECT_NEAR(oscillate(0, 0, {0, 0}, one, t, t).r, t * t / 2, 1e-15 * t * t);
-    EXPECT_NEAR(oscillate(2, 0, {0, 0}, one, t, t).r, (t + std::expm1(-2 * t) / 2) / 2,
-                1e-15 * t + 1e-13 * t * t);
+    EXPECT_NEAR(oscillate(2, 0, {0, 0}, one, t, t).r, (t + std::expm1(-2 * t) / 2) / 2, 1e-15 * t + 1e-13 * t * t);
     EXPECT_NEAR(oscillate(0, 4, {0, 0}, one, t, t).r, std::pow(std::sin(t), 2) / 2, 1e-14 * t * t + 1e-17);
   }
   // Stiff and strongly damped: at rest under its load after any time that is not tiny.
@@ -178,8 +176,8 @@ TEST(Modal, RefusesModelsThatAreNotLinear) {
 }
 
 TEST(Modal, KeepsTheModesBelowAFrequency) {
-  const LinearModel slow({.mass = Matrix::Identity(3, 3), .stiffness = Vector{{1, 4, 9}}.asDiagonal(),
-                          .start = Vector::Unit(3, 0)});
+  const LinearModel slow(
+      {.mass = Matrix::Identity(3, 3), .stiffness = Vector{{1, 4, 9}}.asDiagonal(), .start = Vector::Unit(3, 0)});
   const auto kept = [&](const std::string& keys) {
     for (const auto& [key, value] : modal(slow, keys)->decisions())
       if (key == "kept") return value;

@@ -1,8 +1,9 @@
-#include "lib/core/symmetric_eigen.h"
 #include "tests/contract/models.h"
 
 #include <cmath>
 #include <complex>
+
+#include "lib/core/symmetric_eigen.h"
 
 namespace orthodyn {
 
@@ -19,7 +20,7 @@ SmallModel::SmallModel(const Matrix& mass, bool symmetric) : mass_(mass) {
 }
 
 void SmallModel::assemble(double t, const ConstVectorRef& q, const ConstVectorRef& v, TangentKind kind,
-                           Linearization& out) const {
+                          Linearization& out) const {
   out.stiffness.resize(pattern_.row.size());
   gather(stiffness(t, q, v, kind), out.stiffness.data());
   if (!traits_.damping_matrix) return;
@@ -161,8 +162,13 @@ LinearModel stiff_pair() {
 }
 
 LinearModel kinked_oscillator() {
-  return LinearModel({.mass = scalar(1), .stiffness = scalar(9), .beta = 0.05, .load = Vector::Constant(1, 9),
-                      .factor = {{1, 0}, {2, 1}}, .end = 4, .velocity_scale = 3});
+  return LinearModel({.mass = scalar(1),
+                      .stiffness = scalar(9),
+                      .beta = 0.05,
+                      .load = Vector::Constant(1, 9),
+                      .factor = {{1, 0}, {2, 1}},
+                      .end = 4,
+                      .velocity_scale = 3});
 }
 
 LinearModel bathes_two_masses() {
@@ -173,8 +179,8 @@ LinearModel bathes_two_masses() {
 
 LinearModel fast_ringing() {
   const Matrix K = Vector{{1, 10'100}}.asDiagonal();
-  return LinearModel({.mass = Matrix::Identity(2, 2), .stiffness = K, .beta = 20.0 / 10'100, .start = Vector{{1, 0.01}},
-                      .end = 3});
+  return LinearModel(
+      {.mass = Matrix::Identity(2, 2), .stiffness = K, .beta = 20.0 / 10'100, .start = Vector{{1, 0.01}}, .end = 3});
 }
 
 LinearModel chain(bool consistent) {

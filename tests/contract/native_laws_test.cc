@@ -8,8 +8,8 @@ namespace orthodyn::native_laws_test {
 namespace {
 
 LinearModel undamped(double omega, const Vector& start = Vector::Ones(1)) {
-  return LinearModel({.mass = scalar(1), .stiffness = scalar(omega * omega), .start = start, .end = 1,
-                      .velocity_scale = omega});
+  return LinearModel(
+      {.mass = scalar(1), .stiffness = scalar(omega * omega), .start = start, .end = 1, .velocity_scale = omega});
 }
 
 std::unique_ptr<Integrator> integrator_of(const SmallModel& model, const std::string& options, double h) {
@@ -89,9 +89,8 @@ TEST(Bathe, LeavesOfFastOscillationsWhatItsParameterSays) {
 
 TEST(LStableMethods, LeaveNothingOfFastOscillations) {
   const auto model = undamped(1e6);
-  for (const std::string method :
-       {"backward_euler", "semi_implicit_euler", "tr_bdf2", "bathe", "sdirk, order: 2", "sdirk, order: 3",
-        "sdirk, order: 4", "rosenbrock"}) {
+  for (const std::string method : {"backward_euler", "semi_implicit_euler", "tr_bdf2", "bathe", "sdirk, order: 2",
+                                   "sdirk, order: 3", "sdirk, order: 4", "rosenbrock"}) {
     const State s = after_steps(model, method, 3, 1);
     EXPECT_LE(std::hypot(s.q[0], s.v[0] / 1e6), 1e-4) << method;
   }

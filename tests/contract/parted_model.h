@@ -31,8 +31,11 @@ class PartedModel : public LinearModel {
   class Part : public SmallModel {
    public:
     Part(const PartedModel& whole, bool spring, bool damper, bool load)
-        : SmallModel(whole.given_.mass), spring_(spring ? whole.given_.stiffness : 0 * whole.given_.stiffness),
-          damper_((damper ? whole.given_.beta : 0) * whole.given_.stiffness), whole_(whole), load_(load) {
+        : SmallModel(whole.given_.mass),
+          spring_(spring ? whole.given_.stiffness : 0 * whole.given_.stiffness),
+          damper_((damper ? whole.given_.beta : 0) * whole.given_.stiffness),
+          whole_(whole),
+          load_(load) {
       traits_ = whole.traits();
     }
     // The load is what is left of the whole force at rest.
@@ -60,7 +63,11 @@ class PartedModel : public LinearModel {
 
 // A twentieth of critical damping.
 inline PartedModel parted_oscillator() {
-  return PartedModel({.mass = scalar(2), .stiffness = scalar(18), .beta = 0.1 / 3, .start = Vector::Ones(1), .end = 4,
+  return PartedModel({.mass = scalar(2),
+                      .stiffness = scalar(18),
+                      .beta = 0.1 / 3,
+                      .start = Vector::Ones(1),
+                      .end = 4,
                       .velocity_scale = 3});
 }
 

@@ -26,7 +26,8 @@ class Meeting {
     if (here_ == 2) {
       result_ = sum_, here_ = 0, ++number_;
       met_.notify_all();
-    } else if (const long now = number_; !met_.wait_for(lock, std::chrono::seconds(20), [&] { return number_ > now; })) {
+    } else if (const long now = number_;
+               !met_.wait_for(lock, std::chrono::seconds(20), [&] { return number_ > now; })) {
       throw std::logic_error("the other rank does something else");
     }
     std::copy(result_.begin(), result_.end(), values.begin());
@@ -74,9 +75,10 @@ class ThreadRanks : public Ranks {
 class Half : public LinearModel {
  public:
   Half(const Ranks& ranks, long times)
-      : LinearModel({.mass = scalar(1), .stiffness = scalar(9), .start = Vector::Ones(1), .end = 1,
-                     .velocity_scale = 3}),
-        ranks_(ranks), left_(times) {}
+      : LinearModel(
+            {.mass = scalar(1), .stiffness = scalar(9), .start = Vector::Ones(1), .end = 1, .velocity_scale = 3}),
+        ranks_(ranks),
+        left_(times) {}
 
   const Ranks* ranks() const override { return &ranks_; }
   Eigen::Index num_dofs_of_all() const override { return 2; }
@@ -101,8 +103,7 @@ End integrate_half(Meeting& meeting, int rank, const std::string& method, long t
   const Half model(ranks, times);
   End end;
   try {
-    const auto integrator =
-        make_integrator({method, "klu"}, model, {.rtol = 1e-4, .order = variant(method, 0).order});
+    const auto integrator = make_integrator({method, "klu"}, model, {.rtol = 1e-4, .order = variant(method, 0).order});
     integrate(model, *integrator);
     end.steps = integrator->statistics().steps;
     integrator->interpolate(model.end(), end.state);

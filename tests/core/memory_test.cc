@@ -2,7 +2,6 @@
 #include "lib/core/memory.h"
 
 #include <gtest/gtest.h>
-
 #include <unistd.h>
 
 #include <cmath>
@@ -16,7 +15,9 @@ namespace fs = std::filesystem;
 
 class Groups : public testing::Test {
  protected:
-  Groups() : folder_(fs::path(testing::TempDir()) / ("memory_groups_" + std::to_string(getpid()))) { fs::remove_all(folder_); }
+  Groups() : folder_(fs::path(testing::TempDir()) / ("memory_groups_" + std::to_string(getpid()))) {
+    fs::remove_all(folder_);
+  }
   ~Groups() override { fs::remove_all(folder_); }
 
   void put(const fs::path& file, const std::string& text) const {

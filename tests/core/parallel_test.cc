@@ -26,9 +26,10 @@ TEST_P(Parallel, DoesEachPartOnce) {
 }
 
 TEST_P(Parallel, ThrowsWhatTheFirstPartThrew) {
-  for (int k = 0; k < 20; ++k)
-    try {
-      parallel_for(100, [](int i) { if (i >= 42) throw std::range_error(std::to_string(i)); });
+  for (int k = 0; k < 20; ++k) try {
+      parallel_for(100, [](int i) {
+        if (i >= 42) throw std::range_error(std::to_string(i));
+      });
       FAIL();
     } catch (const std::range_error& e) {
       EXPECT_STREQ(e.what(), "42");

@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 class WriteFile : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / "write_file" / testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ =
+        fs::path(testing::TempDir()) / "write_file" / testing::UnitTest::GetInstance()->current_test_info()->name();
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
@@ -51,8 +52,7 @@ TEST_F(WriteFile, JoinsPartsAndReplacesWhatWasThere) {
 TEST_F(WriteFile, LeavesNeighboursOfAnyKindAlone) {
   std::ofstream(folder_ / "precious") << "kept";
   const auto names = [&](unsigned k) { return std::to_string(::getpid()) + "-" + std::to_string(k); };
-  for (unsigned k = 0; k < 40; ++k)
-    fs::create_symlink(folder_ / "precious", folder_ / ("file." + names(k) + ".part"));
+  for (unsigned k = 0; k < 40; ++k) fs::create_symlink(folder_ / "precious", folder_ / ("file." + names(k) + ".part"));
   fs::create_symlink(folder_ / "precious", folder_ / "file.part");
   const std::size_t before = entries();
   for (const char* text : {"one", "two"}) {

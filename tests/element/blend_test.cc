@@ -1,9 +1,9 @@
 // The passage of an anisotropic energy into the nearest isotropic one across inversion.
-#include "lib/core/symmetric_eigen.h"
 #include "lib/element/blend.h"
 
 #include <gtest/gtest.h>
 
+#include "lib/core/symmetric_eigen.h"
 #include "lib/element/corotational_law.h"
 #include "tests/element/states.h"
 

@@ -1,7 +1,8 @@
 // The equation S X + X S = B: solved as well as S lets.
+#include "lib/element/lyapunov.h"
+
 #include <gtest/gtest.h>
 
-#include "lib/element/lyapunov.h"
 #include "tests/material/constants.h"
 
 namespace orthodyn::lyapunov_test {

@@ -1,5 +1,6 @@
-#include "lib/core/symmetric_eigen.h"
 #include "tests/element/states.h"
+
+#include "lib/core/symmetric_eigen.h"
 
 namespace orthodyn {
 

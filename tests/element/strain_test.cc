@@ -69,8 +69,7 @@ TEST(StretchStrain, OfABatchIsThatOfItsLanes) {
     pack(stretches, S);
     const Mat3T<Batch> strain = stretch_strain<Batch>(H, kQ, S);
     for (std::size_t l = 0; l < values.size(); ++l)
-      for (int i = 0; i < 9; ++i)
-        EXPECT_NEAR(strain(i)[static_cast<int>(l)], expected[l](i), 4 * kEps * size) << size;
+      for (int i = 0; i < 9; ++i) EXPECT_NEAR(strain(i)[static_cast<int>(l)], expected[l](i), 4 * kEps * size) << size;
   }
 }
 

@@ -66,8 +66,7 @@ TEST(TetrahedronPoints, IntegratePolynomialsOfDegreeSevenExactly) {
 
 TEST(Tet10, ShapeFunctionsAreOneAtTheirNodeAndZeroAtTheOthers) {
   const Places at = node_places();
-  for (int a = 0; a < 10; ++a)
-    EXPECT_LE((Tet10::shape(at.row(a)) - Tet10::Values::Unit(a)).norm(), kEps) << a;
+  for (int a = 0; a < 10; ++a) EXPECT_LE((Tet10::shape(at.row(a)) - Tet10::Values::Unit(a)).norm(), kEps) << a;
 }
 
 TEST(Tet10, SlopesAreThoseOfTheShapeFunctions) {

@@ -12,8 +12,8 @@ namespace orthodyn {
 // Shared between processes, by the file that ORTHODYN_FAILING_WRITES names.
 struct WriteFaults {
   enum class Kind : int {
-    none,  // writes are counted
-    full,  // from the k-th on nothing that needs room can be written: ENOSPC. What stands there can be replaced.
+    none,   // writes are counted
+    full,   // from the k-th on nothing that needs room can be written: ENOSPC. What stands there can be replaced.
     broken  // the k-th fails, whatever it writes, and no other: EIO
   };
   Kind kind;

@@ -62,7 +62,8 @@ TEST_F(FlippedBitsOfARun, TheSceneBesideACheckpoint) {
     if (result.exit_code == 0) {
       EXPECT_TRUE(result.output.find("is complete") != std::string::npos ||
                   result.output.find("changed since the checkpoint: ") != std::string::npos)
-          << flipped.text() << "\n" << result.output;
+          << flipped.text() << "\n"
+          << result.output;
       continue;
     }
     ++refused;
@@ -85,7 +86,8 @@ TEST_F(FlippedBitsOfARun, TheSceneAndTheRecordOfACompletedRun) {
       const auto result = orthodyn("run beam.yaml --resume");
       EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 2) << flipped.text() << "\n" << result.output;
       EXPECT_NE(result.output.find(result.exit_code == 0 ? "is complete at t = 0.1 s" : "out/beam"), std::string::npos)
-          << flipped.text() << "\n" << result.output;
+          << flipped.text() << "\n"
+          << result.output;
       EXPECT_EQ(read_text(folder_ / "out/beam/frames/frame_00005.vtu"), frame);
     }
   }

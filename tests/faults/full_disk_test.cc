@@ -49,8 +49,8 @@ class OnFaultyDisk : public testing::WithParamInterface<FaultyDisk>, public InFo
   Result orthodyn_failing(long k, const std::string& arguments) const {
     const SharedFaults faults(folder_ / "faults", k == 0 ? Kind::none : GetParam().kind, k);
     const auto result =
-        shell("cd " + folder_.string() + " && ORTHODYN_FAILING_WRITES=" + (folder_ / "faults").string() +
-              " " + program("orthodyn_failing_writes") + " " + arguments);
+        shell("cd " + folder_.string() + " && ORTHODYN_FAILING_WRITES=" + (folder_ / "faults").string() + " " +
+              program("orthodyn_failing_writes") + " " + arguments);
     return {{result.exit_code, result.output}, faults.counted()};
   }
 

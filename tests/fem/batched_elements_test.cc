@@ -33,8 +33,11 @@ struct Sparse {
 class BatchedElements : public testing::TestWithParam<int> {  // order of the elements
  protected:
   BatchedElements()
-      : mesh_(block(GetParam())), elements_(mesh_), dofs_(num_nodes(), clamps()),
-        pattern_(elements_.cells, dofs_, true), rest_(3, num_nodes()) {
+      : mesh_(block(GetParam())),
+        elements_(mesh_),
+        dofs_(num_nodes(), clamps()),
+        pattern_(elements_.cells, dofs_, true),
+        rest_(3, num_nodes()) {
     for (int i = 0; i < num_nodes(); ++i) rest_.col(i) = mesh_.nodes[static_cast<std::size_t>(i)];
   }
 

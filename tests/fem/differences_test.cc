@@ -1,11 +1,11 @@
 // Derivatives in time of formulas, by differences.
+#include "lib/fem/differences.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <numbers>
-
-#include "lib/fem/differences.h"
 
 namespace orthodyn::differences_test {
 namespace {
@@ -41,8 +41,12 @@ TEST(Differences, OfASineHaveTheErrorThatIsStated) {
 TEST(Differences, DoNotReachAcrossAKinkAndTakeItsRightSide) {
   const std::vector<double> kinks{1.01, 1};
   const auto f = [](double t) { return t < 1 ? t * t : t < 1.01 ? 1 - 3 * (t - 1) : 0.97 + 5 * (t - 1.01); };
-  for (const auto& [t, first, second] : {std::array{0.5, 1.0, 2.0}, {0.999, 1.998, 2.0}, {1.0, -3.0, 0.0},
-                                         {1.004, -3.0, 0.0}, {1.01, 5.0, 0.0}, {1.02, 5.0, 0.0}}) {
+  for (const auto& [t, first, second] : {std::array{0.5, 1.0, 2.0},
+                                         {0.999, 1.998, 2.0},
+                                         {1.0, -3.0, 0.0},
+                                         {1.004, -3.0, 0.0},
+                                         {1.01, 5.0, 0.0},
+                                         {1.02, 5.0, 0.0}}) {
     const SmoothStretch at(t, 0.01, kinks);
     for (const double kink : kinks)
       EXPECT_FALSE(at.point(0) < kink - 1e-12 && at.point(8) > kink + 1e-12) << t << " " << kink;

@@ -19,10 +19,11 @@ namespace {
 
 template <Element E>
 void expect_copies_of_the_last_element(int order) {
-  const BuiltTestScene scene(fmt::format("mesh: {{type: box, size: [30, 1, 1], cells: [31, 1, 1], order: {}}}\n"
-                                         "materials: {{m: {{type: isotropic, density: 1, young: 1, nu: 0.3}}}}\n"
-                                         "clamps: [{{surface: x0}}]\ntime: {{end: 1}}\n",
-                                         order));
+  const BuiltTestScene scene(
+      fmt::format("mesh: {{type: box, size: [30, 1, 1], cells: [31, 1, 1], order: {}}}\n"
+                  "materials: {{m: {{type: isotropic, density: 1, young: 1, nu: 0.3}}}}\n"
+                  "clamps: [{{surface: x0}}]\ntime: {{end: 1}}\n",
+                  order));
   const ElementMesh mesh(scene.mesh());
   std::vector<int> cells(mesh.cells.size());
   std::iota(cells.begin(), cells.end(), 0);
@@ -37,8 +38,7 @@ void expect_copies_of_the_last_element(int order) {
   std::set<int> own;
   for (int l = 0; l < elements.lanes(last); ++l)
     for (const int node : elements.nodes(last * Batch::kLanes + l)) own.insert(node);
-  for (int node = 0; node < f.cols(); ++node)
-    EXPECT_EQ(std::isnan(f(0, node)), own.contains(node)) << node;
+  for (int node = 0; node < f.cols(); ++node) EXPECT_EQ(std::isnan(f(0, node)), own.contains(node)) << node;
 }
 
 TEST(ElementBatches, AreFilledUpWithTheLastElement) {

@@ -1,9 +1,9 @@
 // The stiffness of one element against the complex-step derivative of its node forces.
-#include "lib/core/symmetric_eigen.h"
 #include "lib/fem/element_stiffness.h"
 
 #include <gtest/gtest.h>
 
+#include "lib/core/symmetric_eigen.h"
 #include "lib/element/linear_law.h"
 #include "lib/element/tet4.h"
 #include "lib/element/warped_law.h"

@@ -1,19 +1,17 @@
 // Elements with axes of their own: the same as one rotation where they agree, and the known answer of a
 // tube whose grain runs around it.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/SparseCholesky>
-
-#include <fmt/format.h>
-
 #include <numbers>
 
 #include "lib/fem/elastic_region.h"
 #include "lib/fem/element_mesh.h"
-#include "lib/mesh/box.h"
-#include "lib/mesh/selection.h"
 #include "lib/material_axes/axes_source.h"
+#include "lib/mesh/box.h"
 #include "lib/mesh/quadratic.h"
+#include "lib/mesh/selection.h"
 #include "tests/fem/built_scene.h"
 
 namespace orthodyn::grain_test {
@@ -59,8 +57,7 @@ TEST(ElementAxes, OfQuadraticElementsAreThoseAtTheirPoints) {
   for (int k = 0; k < 5; ++k) {
     const auto points = elements.type.points(elements.positions(static_cast<std::size_t>(k)));
     ASSERT_EQ(points.cols(), 4);
-    for (int p = 0; p < 4; ++p)
-      EXPECT_LE((axes.of(k, p) - field(points.col(p), k)).norm(), 16 * kEps);
+    for (int p = 0; p < 4; ++p) EXPECT_LE((axes.of(k, p) - field(points.col(p), k)).norm(), 16 * kEps);
   }
 }
 
@@ -78,7 +75,8 @@ regions: {{body: {{material: m, axes: {}}}}}
 damping: {{stiffness: 0.1}}
 time: {{end: 1}}
 {}
-)", fibre_material(10), axes, more));
+)",
+                                    fibre_material(10), axes, more));
 }
 
 const TetMesh kBlock = make_box({.size = {2, 1, 1}, .cells = {2, 2, 1}});

@@ -1,9 +1,8 @@
 // A trilinear brick with 2 x 2 x 2 points: a second element, which only tests have. Nodes as in VTK_HEXAHEDRON.
 #pragma once
 
-#include <cmath>
-
 #include <Eigen/LU>
+#include <cmath>
 
 #include "lib/element/element.h"
 
@@ -17,9 +16,7 @@ struct Hex8 {
   static constexpr double kLumpedToConsistent = 27;  // of a parallelepiped: 3 in each direction
 
   // Corner `a` of [-1, 1]^3; Gauss points are the corners of a cube 1/sqrt(3) as large.
-  static Vec3 corner(int a) {
-    return {(a + 1) % 4 < 2 ? -1.0 : 1.0, a % 4 < 2 ? -1.0 : 1.0, a < 4 ? -1.0 : 1.0};
-  }
+  static Vec3 corner(int a) { return {(a + 1) % 4 < 2 ? -1.0 : 1.0, a % 4 < 2 ? -1.0 : 1.0, a < 4 ? -1.0 : 1.0}; }
   static Vec3 gauss_point(int p) { return corner(p) / std::sqrt(3.0); }
 
   static double shape(int a, const Vec3& xi) { return ((Vec3::Ones() + corner(a).cwiseProduct(xi)) / 2).prod(); }

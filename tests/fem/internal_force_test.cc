@@ -1,8 +1,7 @@
 // What internal forces must be whatever the body: null at rest and after rigid
 // motion, in balance, exact for affine motion, free of units and of the observer's frame.
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <numbers>
 
@@ -23,7 +22,8 @@ materials: {{m: {}}}
 regions: {{body: {{material: m, axes: {{first: {}, second: {}}}}}}}
 elasticity: {{corotation: {}}}
 time: {{end: 1}}
-)", material, text(axes.col(0)), text(axes.col(1)), corotation));
+)",
+                                    material, text(axes.col(0)), text(axes.col(1)), corotation));
 }
 
 const TetMesh kBlock = make_box({.size = {2, 1, 1}, .cells = {2, 2, 1}});

@@ -1,7 +1,6 @@
 // The mass matrices against integrals over the box.
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include "lib/core/symmetric_eigen.h"
 #include "tests/fem/built_scene.h"
@@ -21,7 +20,8 @@ mass: {}
 clamps: {}
 elasticity: {}
 time: {{end: 1}}
-)", fibre_material(10, kDensity), GetParam(), clamps, elasticity));
+)",
+                                      fibre_material(10, kDensity), GetParam(), clamps, elasticity));
   }
 };
 INSTANTIATE_TEST_SUITE_P(Kinds, AnyMass, testing::Values("lumped", "consistent"),

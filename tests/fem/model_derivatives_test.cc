@@ -1,8 +1,7 @@
 // The whole model's force against its energy, and K and D against its force, by the observed order
 // of central differences: an error in a derivative does not vanish with the step.
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include "lib/core/symmetric_eigen.h"
 #include "lib/mesh/box.h"
@@ -36,8 +35,8 @@ const Case kCurved{"curved", fibre_material(10), "", kCylinder, true};
 const Case kCurvedLinear{"curved_linear", fibre_material(10), "elasticity: {kinematics: linear}", kTurnedAxes, true};
 const Case kCurvedWarped{"curved_warped", fibre_material(10),
                          "elasticity: {corotation: warped, warped_tangent: unsymmetric}", kTurnedAxes, true};
-const Case kCurvedIsotropic{"curved_isotropic", "{type: isotropic, density: 1, young: 2, nu: 0.3}",
-                            "mass: consistent", kTurnedAxes, true};
+const Case kCurvedIsotropic{"curved_isotropic", "{type: isotropic, density: 1, young: 2, nu: 0.3}", "mass: consistent",
+                            kTurnedAxes, true};
 
 // A clamped block of two by two by one cells, one corner of it free in x only. With `two_regions` the
 // half x > 0.5 is a softer material with more damping.
@@ -70,7 +69,8 @@ clamps: [{{surface: x0}}, {{nearest: [1, 1, 1], components: [y, z]}}]
 time: {{end: 1}}
 {}
 {}
-)", c.material, c.axes, soft, c.extra, more));
+)",
+                                    c.material, c.axes, soft, c.extra, more));
 }
 
 class Derivatives : public testing::TestWithParam<Case> {};

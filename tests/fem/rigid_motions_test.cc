@@ -9,7 +9,8 @@ namespace {
 BuiltTestScene body(const std::string& clamps) {
   return BuiltTestScene(R"(
 mesh: {type: box, size: [2, 1, 0.5], cells: [2, 2, 1]}
-materials: {m: )" + fibre_material(10) + R"(}
+materials: {m: )" + fibre_material(10) +
+                        R"(}
 )" + clamps + R"(
 time: {end: 1}
 )");

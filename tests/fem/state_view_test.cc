@@ -1,7 +1,6 @@
 // A view shares what its outputs have in common and gives what each gives alone.
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

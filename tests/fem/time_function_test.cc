@@ -1,14 +1,14 @@
 // Factors in time: values, rates, kinks.
-#include <gtest/gtest.h>
+#include "lib/fem/time_functions/time_function.h"
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "lib/core/errors.h"
 #include "lib/fem/differences.h"
-#include "lib/fem/time_functions/time_function.h"
 
 namespace orthodyn::time_function_test {
 namespace {

@@ -49,8 +49,8 @@ TEST_P(MutatedInputs, AreAcceptedOrRefusedWithAPlace) {
   const int inputs = number_of_inputs();
   for (int i = 0; i < inputs; ++i) {
     InputFileText input = shipped[random() % shipped.size()];
-    input.text = random() % 4 == 0 ? with_mutated_bytes(input.text, random)
-                                   : with_mutated_tree(input.text, words, random);
+    input.text =
+        random() % 4 == 0 ? with_mutated_bytes(input.text, random) : with_mutated_tree(input.text, words, random);
     std::ofstream(current, std::ios::binary) << input.text;
     alarm(60);
     const auto [verdict, message] = judge(input);

@@ -157,31 +157,21 @@ class TreeMutation {
     if (slots_.empty()) return put(root_, YAML::Node(one_of(edge_values(), random_)));
     Slot& slot = slots_[random_() % slots_.size()];
     switch (random_() % 16) {
-      case 0:
-        return lose(slot);
-      case 1:
-        return double_key(slot);
-      case 2:
-        return rename(slot);
-      case 3:
-        return exchange(slot, slots_[random_() % slots_.size()]);
-      case 4:
-        return put(slot.value, YAML::Clone(slots_[random_() % slots_.size()].value));
-      case 5:
-        return put(slot.value, list_of(slot.value, random_() % 5));
-      case 6:
-        return put(slot.value, nested(YAML::Clone(slot.value), 1 + random_() % 3, random_() % 2 == 0));
+      case 0: return lose(slot);
+      case 1: return double_key(slot);
+      case 2: return rename(slot);
+      case 3: return exchange(slot, slots_[random_() % slots_.size()]);
+      case 4: return put(slot.value, YAML::Clone(slots_[random_() % slots_.size()].value));
+      case 5: return put(slot.value, list_of(slot.value, random_() % 5));
+      case 6: return put(slot.value, nested(YAML::Clone(slot.value), 1 + random_() % 3, random_() % 2 == 0));
       case 7:
-        return random_() % 4 == 0 ? put(slot.value, nested(YAML::Clone(slot.value), 90 + random_() % 20, random_() % 2))
-                                  : put(slot.value, YAML::Node(random_() % 2 ? YAML::NodeType::Map
-                                                                              : YAML::NodeType::Null));
-      case 8:
-        return add_key(slot);
+        return random_() % 4 == 0
+                   ? put(slot.value, nested(YAML::Clone(slot.value), 90 + random_() % 20, random_() % 2))
+                   : put(slot.value, YAML::Node(random_() % 2 ? YAML::NodeType::Map : YAML::NodeType::Null));
+      case 8: return add_key(slot);
       case 9:
-      case 10:
-        return put(scalar_slot().value, YAML::Node(words_.empty() ? "" : one_of(words_, random_)));
-      default:
-        return put(scalar_slot().value, YAML::Node(edge_of(scalar_slot().value)));
+      case 10: return put(scalar_slot().value, YAML::Node(words_.empty() ? "" : one_of(words_, random_)));
+      default: return put(scalar_slot().value, YAML::Node(edge_of(scalar_slot().value)));
     }
   }
 
@@ -205,8 +195,8 @@ class TreeMutation {
   std::string edge_of(const YAML::Node& value) {
     if (!value.IsScalar() || random_() % 3 != 0) return one_of(edge_values(), random_);
     static constexpr std::array<const char*, 14> kBefore{"-", "-", "", "", "", "", "", "", "", "", "", "", "0.", "1"};
-    static constexpr std::array<const char*, 14> kAfter{"",   " m", "e3",  "e-3", "e30", "e-30", "e200",
-                                                        " s", " %", "_",   " Pa", "e-200", "",   ""};
+    static constexpr std::array<const char*, 14> kAfter{"",   " m", "e3", "e-3", "e30",   "e-30", "e200",
+                                                        " s", " %", "_",  " Pa", "e-200", "",     ""};
     const std::size_t k = random_() % kBefore.size();
     return kBefore[k] + value.Scalar() + kAfter[random_() % kAfter.size()];
   }
@@ -275,21 +265,11 @@ std::string with_mutated_bytes(std::string text, std::mt19937& random) {
   for (std::size_t changes = 1 + random() % 4; changes > 0 && !text.empty(); --changes) {
     const std::size_t at = random() % text.size();
     switch (random() % 6) {
-      case 0:
-        text[at] = static_cast<char>(random() % 256);
-        break;
-      case 1:
-        text[at] = meaningful[random() % meaningful.size()];
-        break;
-      case 2:
-        text.insert(at, 1, meaningful[random() % meaningful.size()]);
-        break;
-      case 3:
-        text.erase(at, 1 + random() % 8);
-        break;
-      case 4:
-        text.insert(at, text.substr(random() % text.size(), random() % 40));
-        break;
+      case 0: text[at] = static_cast<char>(random() % 256); break;
+      case 1: text[at] = meaningful[random() % meaningful.size()]; break;
+      case 2: text.insert(at, 1, meaningful[random() % meaningful.size()]); break;
+      case 3: text.erase(at, 1 + random() % 8); break;
+      case 4: text.insert(at, text.substr(random() % text.size(), random() % 40)); break;
       default:
         if (random() % 4 == 0) text.resize(at);
     }

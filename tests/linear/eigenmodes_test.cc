@@ -1,5 +1,4 @@
 // The lowest modes of chains with known spectra, small ones densely and large ones by iteration.
-#include "lib/core/symmetric_eigen.h"
 #include "lib/linear/eigenmodes.h"
 
 #include <gtest/gtest.h>
@@ -7,6 +6,7 @@
 #include <numbers>
 
 #include "lib/core/errors.h"
+#include "lib/core/symmetric_eigen.h"
 #include "lib/linear/solver.h"
 #include "tests/linear/systems.h"
 
@@ -94,8 +94,8 @@ TEST(Eigenmodes, ByIterationsAreThoseByAFactor) {
   for (const int diagonal : s.pattern.column_start)
     if (static_cast<std::size_t>(diagonal) < mass.size()) mass[static_cast<std::size_t>(diagonal)] = 2;
   const EigenPairs direct = lowest_eigenpairs(s.pattern, s.values, mass, 5);
-  const EigenPairs iterated =
-      lowest_eigenpairs(s.pattern, s.values, mass, 5, [&] { return translations(s.pattern); }, ShiftedSolver::iterative);
+  const EigenPairs iterated = lowest_eigenpairs(
+      s.pattern, s.values, mass, 5, [&] { return translations(s.pattern); }, ShiftedSolver::iterative);
   EXPECT_NE(iterated.solver.find("algebraic multigrid"), std::string::npos) << iterated.solver;
   EXPECT_EQ(direct.solver.find("algebraic multigrid"), std::string::npos) << direct.solver;
   for (int k = 0; k < 5; ++k) EXPECT_NEAR(iterated.values[k], direct.values[k], 1e-9 * direct.values[4]);

@@ -241,11 +241,27 @@ TEST_F(Petsc, RefusesOptionsThatNobodyKnows) {
 // Whatever writes, reads or waits: viewers, monitors, files of options, of solvers within solvers as well.
 TEST_F(Petsc, RefusesOptionsThatDoNotTuneAMethod) {
   const auto file = std::filesystem::path(testing::TempDir()) / "petsc_option";
-  for (const std::string name :
-       {"-ksp_view", "-ksp_view_mat", "-ksp_monitor", "-ksp_monitor_solution", "-ksp_converged_reason",
-        "-ksp_converged_rate", "-mg_levels_ksp_view", "-mg_levels_1_ksp_monitor", "-mg_coarse_sub_ksp_view_rhs",
-        "-sub_mg_levels_2_ksp_view", "-pc_hypre_mat_view", "-mat_view", "-mat_factor_view", "-log_view", "-info",
-        "-options_view", "-options_file", "-mat_mumps_icntl_1", "-prefix_push", "-petsc_sleep", "--ksp_view"})
+  for (const std::string name : {"-ksp_view",
+                                 "-ksp_view_mat",
+                                 "-ksp_monitor",
+                                 "-ksp_monitor_solution",
+                                 "-ksp_converged_reason",
+                                 "-ksp_converged_rate",
+                                 "-mg_levels_ksp_view",
+                                 "-mg_levels_1_ksp_monitor",
+                                 "-mg_coarse_sub_ksp_view_rhs",
+                                 "-sub_mg_levels_2_ksp_view",
+                                 "-pc_hypre_mat_view",
+                                 "-mat_view",
+                                 "-mat_factor_view",
+                                 "-log_view",
+                                 "-info",
+                                 "-options_view",
+                                 "-options_file",
+                                 "-mat_mumps_icntl_1",
+                                 "-prefix_push",
+                                 "-petsc_sleep",
+                                 "--ksp_view"})
     for (const std::string& value : {":" + file.string(), "ascii:" + file.string(), file.string(), std::string("1")}) {
       std::ofstream(file) << "kept";
       EXPECT_THROW(make_linear_solver({"petsc", "-ksp_type cg " + name + " " + value}), ConfigError) << name << value;

@@ -122,7 +122,8 @@ TEST_P(AnySolver, SaysWhatItChose) {
   EXPECT_FALSE(factored(s)->description().empty());
 }
 
-// `auto` takes a solver for definite matrices where they are symmetric, and one for general matrices where they are not.
+// `auto` takes a solver for definite matrices where they are symmetric, and one for general matrices where they are
+// not.
 class CholeskySolver : public AnySolver {};
 INSTANTIATE_TEST_SUITE_P(Registry, CholeskySolver, testing::Values("auto", "cholmod", "eigen_ldlt"),
                          [](const auto& tested) { return tested.param; });
@@ -158,8 +159,7 @@ TEST_P(CholeskySolver, TellsASlightlyIndefiniteMatrixFromAPositiveOne) {
       for (int i = 0; i < s.pattern.n; ++i) diagonal(s, i) -= (definite ? 1 - 1e-6 : 1 + 1e-6) * smallest;
       const auto solver = make();
       solver->analyze(s.pattern);
-      EXPECT_EQ(solver->factor(s.values.data()),
-                definite ? FactorStatus::ok : FactorStatus::not_positive_definite);
+      EXPECT_EQ(solver->factor(s.values.data()), definite ? FactorStatus::ok : FactorStatus::not_positive_definite);
     }
   }
 }

@@ -1,5 +1,6 @@
-#include "lib/core/symmetric_eigen.h"
 #include "tests/material/constants.h"
+
+#include "lib/core/symmetric_eigen.h"
 
 namespace orthodyn {
 
@@ -30,9 +31,7 @@ OrthotropicConstants spruce() {
   return c;
 }
 
-Mat3 rho_matrix(const Vec3& r) {
-  return (Mat3() << 1, -r[0], -r[2], -r[0], 1, -r[1], -r[2], -r[1], 1).finished();
-}
+Mat3 rho_matrix(const Vec3& r) { return (Mat3() << 1, -r[0], -r[2], -r[0], 1, -r[1], -r[2], -r[1], 1).finished(); }
 
 OrthotropicConstants random_stable(Random& random, double margin) {
   const auto modulus = [&] { return std::pow(10, random.between(-2, 2)); };

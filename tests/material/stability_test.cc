@@ -61,8 +61,7 @@ TEST(Shrink, LeavesTheSmallestEigenvalueAtTheMargin) {
     const double margin = random.between(0.01, 0.5);
     const auto c = with_scaled_ratios({10.8, 0.84, 0.46}, 2 * random.vector());
     const double s = stabilising_factor(c, margin);
-    const double lambda =
-        symmetric_eigenvalues(rho_matrix(scaled_ratios(shrink_ratios(c, s))))[0];
+    const double lambda = symmetric_eigenvalues(rho_matrix(scaled_ratios(shrink_ratios(c, s))))[0];
     if (s < 1) EXPECT_NEAR(lambda, margin, 1e-14);
     else EXPECT_GE(lambda, margin - 1e-14);
   }

@@ -18,9 +18,7 @@ TEST(Frame, IsARightHandedRotation) {
     EXPECT_LE(improper(frame(random.vector(), 5 * random.vector())), 16 * kEps);
 }
 
-TEST(Frame, PointsAlongItsFirstDirection) {
-  EXPECT_EQ(frame({0, 0, 3}, {0, 1, 0}).col(0), Vec3(0, 0, 1));
-}
+TEST(Frame, PointsAlongItsFirstDirection) { EXPECT_EQ(frame({0, 0, 3}, {0, 1, 0}).col(0), Vec3(0, 0, 1)); }
 
 TEST(Frame, TakesTheSecondWithoutItsPartAlongTheFirst) {
   EXPECT_EQ(frame({2, 0, 0}, {5, 3, 0}), Mat3(Mat3::Identity()));
@@ -47,9 +45,7 @@ TEST(AnyNormal, IsAUnitVectorNormalToTheDirection) {
   EXPECT_EQ(any_normal({1, 0, 0}), Vec3(0, 1, 0));
 }
 
-TEST(Directions, ByDefaultAreThoseOfSpace) {
-  EXPECT_EQ(axes_at("{type: directions}"), Mat3(Mat3::Identity()));
-}
+TEST(Directions, ByDefaultAreThoseOfSpace) { EXPECT_EQ(axes_at("{type: directions}"), Mat3(Mat3::Identity())); }
 
 TEST(Directions, ThatAreParallelOrZeroAreRefused) {
   for (const char* text : {"first: [1, 2, 3], second: [-2, -4, -6]", "first: [0, 0, 0]", "first: [0, 1, 0]"})

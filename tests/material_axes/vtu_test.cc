@@ -17,7 +17,8 @@ class AxesFromVtu : public testing::Test {
                            int components = 3) {
     const auto numbers = [](const auto& values) {
       std::string text;
-      for (const auto& v : values) for (const auto x : v) text += fmt::format("{} ", x);
+      for (const auto& v : values)
+        for (const auto x : v) text += fmt::format("{} ", x);
       return text;
     };
     std::string arrays, offsets, types;
@@ -53,7 +54,9 @@ class AxesFromVtu : public testing::Test {
     const auto source = axes_source("{type: file, file: " + path + "}");
     return source->field(mesh, notes)(Vec3::Zero(), element);
   }
-  std::string refused(const std::string& path) const { return refusal([&] { at(path, mesh_, 0); }); }
+  std::string refused(const std::string& path) const {
+    return refusal([&] { at(path, mesh_, 0); });
+  }
 
   TetMesh mesh_ = make_box({.cells = {2, 1, 1}});
   std::vector<Mat3> rotations_;
@@ -68,7 +71,8 @@ TEST_F(AxesFromVtu, AreItsCellData) {
 
 TEST_F(AxesFromVtu, MayBeOneArrayOfNine) {
   std::vector<Vec3> nine;
-  for (std::size_t e = 0; e < mesh_.tets.size(); ++e) for (const auto& axis : axes_) nine.push_back(axis[e]);
+  for (std::size_t e = 0; e < mesh_.tets.size(); ++e)
+    for (const auto& axis : axes_) nine.push_back(axis[e]);
   const auto path = write(mesh_, {{"axes", nine}}, 9);
   EXPECT_LE((at(path, mesh_, 5) - rotations_[5]).norm(), 1e-14);
 }

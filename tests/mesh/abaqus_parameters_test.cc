@@ -179,7 +179,8 @@ INSTANTIATE_TEST_SUITE_P(
         Parameter{"*Material", "SRATE FACTOR=2", kNothing},
         Parameter{"*Material", "STRAIN RATE REGULARIZATION=LINEAR", kNothing},
         Parameter{"*Material", "SCALE=2", kNamed},  // there is none
-        Parameter{"*Elastic", "TYPE=ISOTROPIC", kNothing}, Parameter{"*Elastic", "TYPE=ENGINEERING CONSTANTS", kChanges},
+        Parameter{"*Elastic", "TYPE=ISOTROPIC", kNothing},
+        Parameter{"*Elastic", "TYPE=ENGINEERING CONSTANTS", kChanges},
         Parameter{"*Elastic", "TYPE=ORTHOTROPIC", kChanges}, Parameter{"*Elastic", "TYPE=ANISOTROPIC", kChanges},
         Parameter{"*Elastic", "TYPE=LAMINA", kNamed}, Parameter{"*Elastic", "TYPE=SHORT FIBER", kNamed},
         Parameter{"*Elastic", "MODULI=LONG TERM", kNothing},  // of viscoelastic materials, which are named

@@ -73,9 +73,7 @@ TEST(Abaqus, FacesOfATetAreNumberedAsInItsManual) {
   }
 }
 
-TEST(Abaqus, ASurfaceOfASetHasTheFaceOfEachElement) {
-  EXPECT_EQ(load(kDeck).mesh.surfaces.at("bottom").size(), 2u);
-}
+TEST(Abaqus, ASurfaceOfASetHasTheFaceOfEachElement) { EXPECT_EQ(load(kDeck).mesh.surfaces.at("bottom").size(), 2u); }
 
 TEST(Abaqus, SetsMayNameSets) {
   EXPECT_EQ(load(replaced(kDeck, "10, 50\n*", "10, 50\n*Nset, nset=both\nENDS, 20\n*")).mesh.node_sets.at("both"),

@@ -31,9 +31,8 @@ Vec3 area_vector(const TetMesh& mesh, const Triangle& t) {
 }
 
 double area(const TetMesh& mesh, const std::vector<Triangle>& triangles) {
-  return std::accumulate(
-      triangles.begin(), triangles.end(), 0.0,
-      [&](double sum, const Triangle& t) { return sum + area_vector(mesh, t).norm(); });
+  return std::accumulate(triangles.begin(), triangles.end(), 0.0,
+                         [&](double sum, const Triangle& t) { return sum + area_vector(mesh, t).norm(); });
 }
 
 // How many tets have the face, counted without the code under test.
@@ -51,9 +50,7 @@ std::map<std::set<int>, int> count_faces(const TetMesh& mesh) {
 
 class MakeBox : public testing::TestWithParam<Split> {};
 INSTANTIATE_TEST_SUITE_P(Splits, MakeBox, testing::Values(Split::five, Split::six),
-                         [](const auto& tested) {
-                           return tested.param == Split::five ? "five" : "six";
-                         });
+                         [](const auto& tested) { return tested.param == Split::five ? "five" : "six"; });
 
 TEST_P(MakeBox, EveryTetOfABoxHasPositiveVolume) {
   const TetMesh mesh = make_box(some_box(GetParam()));
@@ -102,8 +99,7 @@ TEST_P(MakeBox, TheSurfacesAreTheSixSides) {
 
 TEST_P(MakeBox, EverySurfaceLiesInItsSideAndCoversIt) {
   const TetMesh mesh = make_box(some_box(GetParam()));
-  const std::map<std::string, double> place = {{"x0", -1}, {"x1", 2},  {"y0", 2},
-                                               {"y1", 3},  {"z0", 10}, {"z1", 10.5}};
+  const std::map<std::string, double> place = {{"x0", -1}, {"x1", 2}, {"y0", 2}, {"y1", 3}, {"z0", 10}, {"z1", 10.5}};
   const double side_area[] = {1 * 0.5, 3 * 0.5, 3 * 1};
   for (const auto& [name, triangles] : mesh.surfaces) {
     const int axis = name[0] - 'x';
@@ -155,8 +151,7 @@ std::set<std::set<std::array<int, 3>>> grid_tets(const BoxMesh& box, int mirror)
       std::array<int, 3> place{};
       for (int a = 0; a < 3; ++a) {
         const int cells = box.cells[static_cast<std::size_t>(a)];
-        const int i =
-            static_cast<int>(std::lround((node(mesh, n)[a] - box.origin[a]) / box.size[a] * cells));
+        const int i = static_cast<int>(std::lround((node(mesh, n)[a] - box.origin[a]) / box.size[a] * cells));
         place[static_cast<std::size_t>(a)] = a == mirror ? cells - i : i;
       }
       corners.insert(place);
@@ -186,9 +181,7 @@ std::string refusal(const BoxMesh& box) {
   return "accepted";
 }
 
-TEST(MakeBoxRefuses, NoCells) {
-  EXPECT_EQ(refusal({.cells = {1, 0, 1}}), "0 cells along y; there must be at least 1");
-}
+TEST(MakeBoxRefuses, NoCells) { EXPECT_EQ(refusal({.cells = {1, 0, 1}}), "0 cells along y; there must be at least 1"); }
 
 TEST(MakeBoxRefuses, ASizeThatIsNotPositive) {
   EXPECT_EQ(refusal({.size = {1, 1, -2}}), "box size -2 m along z; it must be positive and finite");

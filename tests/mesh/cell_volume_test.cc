@@ -22,13 +22,12 @@ struct Solid {
 };
 void PrintTo(const Solid& solid, std::ostream* os) { *os << name_of(solid.kind); }
 
-const Solid kSolids[] = {
-    {CellKind::tet, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 1. / 6},
-    {CellKind::pyramid, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}}, 1. / 3},
-    {CellKind::wedge, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, 1. / 2},
-    {CellKind::hexahedron,
-     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
-     1}};
+const Solid kSolids[] = {{CellKind::tet, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 1. / 6},
+                         {CellKind::pyramid, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}}, 1. / 3},
+                         {CellKind::wedge, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, 1. / 2},
+                         {CellKind::hexahedron,
+                          {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
+                          1}};
 
 // An element of second order with its nodes where `map` puts those of the solid; `complete`: also within its faces.
 struct Element {
@@ -53,7 +52,8 @@ struct Element {
       cell.edges.push_back({cell.nodes[a], cell.nodes[b], add((solid.corners[a] + solid.corners[b]) / 2)});
     for (const Places& face : faces_of(cell.kind))
       if (complete && face.size() == 4)
-        cell.add_face_middle({face[0], face[1], face[2], face[3]}, add((solid.corners[face[0]] + solid.corners[face[2]]) / 2));
+        cell.add_face_middle({face[0], face[1], face[2], face[3]},
+                             add((solid.corners[face[0]] + solid.corners[face[2]]) / 2));
   }
 
   double volume() const {
@@ -65,8 +65,8 @@ class AnyElement : public testing::TestWithParam<Solid> {};
 INSTANTIATE_TEST_SUITE_P(CellVolume, AnyElement, testing::ValuesIn(kSolids),
                          [](const auto& test) { return std::string(name_of(test.param.kind)); });
 
-// Linear maps change the volume by their determinant; the quadratic one has determinant 1 and lies in all shape functions
-// of second order.
+// Linear maps change the volume by their determinant; the quadratic one has determinant 1 and lies in all shape
+// functions of second order.
 TEST_P(AnyElement, HasTheVolumeOfTheMapOfItsNodes) {
   const Solid& solid = GetParam();
   Mat3 A;
@@ -106,7 +106,8 @@ std::vector<Vec3> bulging(const Solid& solid, const std::vector<std::array<std::
 std::string rows(const std::vector<Vec3>& nodes, bool numbered) {
   std::string text;
   for (std::size_t n = 0; n < nodes.size(); ++n)
-    text += (numbered ? std::to_string(n + 1) + " " : "") + fmt::format("{} {} {}\n", nodes[n][0], nodes[n][1], nodes[n][2]);
+    text += (numbered ? std::to_string(n + 1) + " " : "") +
+            fmt::format("{} {} {}\n", nodes[n][0], nodes[n][1], nodes[n][2]);
   return text;
 }
 
@@ -117,16 +118,18 @@ std::string counted_from(std::size_t first, std::size_t count) {
 }
 
 LoadedMesh from_gmsh(int type, const std::vector<Vec3>& nodes) {
-  return read_gmsh_text("a.msh", fmt::format("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n{}$EndNodes\n$Elements\n1\n1 {} "
-                                             "2 0 1{}\n$EndElements\n",
-                                             nodes.size(), rows(nodes, true), type, counted_from(1, nodes.size())));
+  return read_gmsh_text("a.msh",
+                        fmt::format("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n{}$EndNodes\n$Elements\n1\n1 {} "
+                                    "2 0 1{}\n$EndElements\n",
+                                    nodes.size(), rows(nodes, true), type, counted_from(1, nodes.size())));
 }
 
 LoadedMesh from_vtk(int type, const std::vector<Vec3>& nodes) {
-  return read_vtk_text("a.vtk", fmt::format("# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {} double\n{}"
-                                            "CELLS 1 {}\n{}{}\nCELL_TYPES 1\n{}\n",
-                                            nodes.size(), rows(nodes, false), nodes.size() + 1, nodes.size(),
-                                            counted_from(0, nodes.size()), type));
+  return read_vtk_text(
+      "a.vtk", fmt::format("# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {} double\n{}"
+                           "CELLS 1 {}\n{}{}\nCELL_TYPES 1\n{}\n",
+                           nodes.size(), rows(nodes, false), nodes.size() + 1, nodes.size(),
+                           counted_from(0, nodes.size()), type));
 }
 
 // Every node but a centre is one of the mesh, in its place: what is read in a wrong order folds, or lies within.
@@ -153,8 +156,9 @@ TEST(CellVolume, ABulgingHexahedronKeepsItsNodesWhenItIsSplit) {
   const auto vtk = bulging(kSolids[3], edges_of(CellKind::hexahedron), kVtkHexFaces, true);
   for (const LoadedMesh& loaded : {from_gmsh(12, gmsh), from_vtk(29, vtk)}) {
     expect_kept(loaded, gmsh, true);
-    EXPECT_CONTAINS(join(loaded.warnings), "a volume of 1.26667 by their own shape functions, the tetrahedra that they "
-                                           "are split into 1.2 (-5.3 %)");
+    EXPECT_CONTAINS(join(loaded.warnings),
+                    "a volume of 1.26667 by their own shape functions, the tetrahedra that they "
+                    "are split into 1.2 (-5.3 %)");
     EXPECT_NEAR(volume(loaded.mesh), 1, 1e-14);  // of their corners
   }
 }
@@ -162,8 +166,7 @@ TEST(CellVolume, ABulgingHexahedronKeepsItsNodesWhenItIsSplit) {
 TEST(CellVolume, BulgingWedgesAndPyramidsKeepTheirNodesWhenTheyAreSplit) {
   const auto gmsh = bulging(kSolids[2], kGmshWedge, kGmshWedgeFaces, false);
   expect_kept(from_gmsh(13, gmsh), gmsh, false);
-  const auto vtk =
-      bulging(kSolids[2], edges_of(CellKind::wedge), {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}, false);
+  const auto vtk = bulging(kSolids[2], edges_of(CellKind::wedge), {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}, false);
   expect_kept(from_vtk(32, vtk), vtk, false);
   const auto pyramid = bulging(kSolids[1], kGmshPyramid, {{0, 3, 2, 1}}, false);
   expect_kept(from_gmsh(14, pyramid), pyramid, false);

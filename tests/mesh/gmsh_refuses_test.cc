@@ -27,8 +27,7 @@ std::string refusal_of_path(const std::string& path) {
 std::string refusal(const std::string& content) {
   const TemporaryFile file(content);
   const std::string message = refusal_of_path(file.path());
-  const std::string directory =
-      file.path().substr(0, file.path().size() - std::string("beam.msh").size());
+  const std::string directory = file.path().substr(0, file.path().size() - std::string("beam.msh").size());
   return message.rfind(directory, 0) == 0 ? message.substr(directory.size()) : message;
 }
 
@@ -39,8 +38,8 @@ int line_of(const std::string& text, const std::string& part) {
 
 // Replaces `from` by `to` in the file; the message must start with "beam.msh:<line of `from`
 // + offset>: " and hold `words`.
-void expect_refused(const std::string& file, const std::string& from, const std::string& to,
-                    const std::string& words, int offset = 0) {
+void expect_refused(const std::string& file, const std::string& from, const std::string& to, const std::string& words,
+                    int offset = 0) {
   const std::string message = refusal(replaced(file, from, to));
   const std::string start = "beam.msh:" + std::to_string(line_of(file, from) + offset) + ": ";
   EXPECT_EQ(message.substr(0, start.size()), start) << message;
@@ -48,8 +47,7 @@ void expect_refused(const std::string& file, const std::string& from, const std:
 }
 
 TEST(GmshRefuses, AMissingFile) {
-  EXPECT_EQ(refusal_of_path("no/such.msh"),
-            "no/such.msh: cannot be opened: No such file or directory");
+  EXPECT_EQ(refusal_of_path("no/such.msh"), "no/such.msh: cannot be opened: No such file or directory");
 }
 
 TEST(GmshRefuses, ADirectory) {
@@ -73,8 +71,7 @@ TEST(GmshRefuses, ForeignFiles) {
 
 // Text behind the word for binary.
 TEST(GmshRefuses, BinaryFilesThatAreNone) {
-  for (const std::string& file :
-       {replaced(kFile22, "2.2 0 8", "2.2 1 8"), replaced(kFile41, "4.1 0 8", "4.1 1 8")})
+  for (const std::string& file : {replaced(kFile22, "2.2 0 8", "2.2 1 8"), replaced(kFile41, "4.1 0 8", "4.1 1 8")})
     EXPECT_NE(refusal(file).find("beam.msh: byte 24 of a binary Gmsh file: the numbers are of another byte order"),
               std::string::npos)
         << refusal(file);
@@ -85,8 +82,7 @@ TEST(GmshRefuses, BinaryFilesThatAreNone) {
 
 TEST(GmshRefuses, OtherVersionsWithARemedy) {
   for (const std::string version : {"1.0", "3", "4", "4.0", "4.2", "5"}) {
-    expect_refused(kFile22, "2.2 0 8", version + " 0 8",
-                   "only 2.0 to 2.2 and 4.1 are read; save it as ASCII");
+    expect_refused(kFile22, "2.2 0 8", version + " 0 8", "only 2.0 to 2.2 and 4.1 are read; save it as ASCII");
   }
   EXPECT_NE(refusal("$NOD\n1\n1 0 0 0\n$ENDNOD\n").find("beam.msh:1: Gmsh format 1; only 2.0 to 2.2"),
             std::string::npos);
@@ -94,11 +90,13 @@ TEST(GmshRefuses, OtherVersionsWithARemedy) {
 
 // Gmsh saves only elements of physical groups where there are some.
 TEST(GmshRefuses, SurfacesWithoutVolumeByTheirReason) {
-  const std::string head = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"fixed face\"\n"
-                           "$EndPhysicalNames\n$Entities\n0 0 1 ";
+  const std::string head =
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"fixed face\"\n"
+      "$EndPhysicalNames\n$Entities\n0 0 1 ";
   const std::string face = "1 0 0 0 1 1 1 1 1 0 \n", volume = "1 0 0 0 1 1 1 0 1 1 \n";
-  const std::string rest = "$EndEntities\n$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
-                           "$EndNodes\n$Elements\n1 2 1 2\n2 1 2 2\n1 1 2 3\n2 1 2 4\n$EndElements\n";
+  const std::string rest =
+      "$EndEntities\n$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+      "$EndNodes\n$Elements\n1 2 1 2\n2 1 2 2\n1 1 2 3\n2 1 2 4\n$EndElements\n";
   EXPECT_NE(refusal(head + "1\n" + face + volume + rest)
                 .find("physical groups (\"fixed face\") but no Physical Volume, and Gmsh saves only elements"),
             std::string::npos);
@@ -129,23 +127,18 @@ TEST(GmshRefuses, UnknownElementTypes) {
 }
 
 TEST(GmshRefuses, PartitionedMeshes) {
-  expect_refused(kFile41, "$Nodes", "$PartitionedEntities\n$EndPartitionedEntities\n$Nodes",
-                 "a partitioned mesh");
+  expect_refused(kFile41, "$Nodes", "$PartitionedEntities\n$EndPartitionedEntities\n$Nodes", "a partitioned mesh");
 }
 
-TEST(GmshRefuses, ParametricNodes) {
-  expect_refused(kFile22, "$Nodes", "$ParametricNodes", "Mesh.SaveParametric = 0");
-}
+TEST(GmshRefuses, ParametricNodes) { expect_refused(kFile22, "$Nodes", "$ParametricNodes", "Mesh.SaveParametric = 0"); }
 
 TEST(GmshRefuses, AMeshOfTrianglesOnly) {
   const std::string file = replaced(kFile22, "4 4 2 1 1 1 2 3 4\n5 4 2 2 2 2 3 4 5\n", "");
-  expect_refused(file, "$Elements\n5", "$Elements\n3",
-                 "no solid elements: did you mesh in 3D (gmsh -3)?");
+  expect_refused(file, "$Elements\n5", "$Elements\n3", "no solid elements: did you mesh in 3D (gmsh -3)?");
 }
 
 TEST(GmshRefuses, FilesWithoutNodesOrElements) {
-  EXPECT_NE(refusal("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n")
-                .find("beam.msh:3: the file ends without $Nodes"),
+  EXPECT_NE(refusal("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n").find("beam.msh:3: the file ends without $Nodes"),
             std::string::npos);
 }
 
@@ -173,8 +166,7 @@ TEST(GmshRefuses, CountsThatAreTooLarge) {
   expect_refused(kFile22, "4 4 2 1 1", "4 4 " + huge + " 1 1", "expected an element tag");
   expect_refused(kFile41, "3 1 0 4\n", "3 1 0 " + huge + "\n", "", 5);
   expect_refused(kFile41, "3 1 4 1\n", "3 1 4 " + huge + "\n", "", 2);
-  expect_refused(kFile41, "1 1 1 2\n", huge + " 1 1 2\n", "entity 1 of dimension 0 is listed twice",
-                 2);
+  expect_refused(kFile41, "1 1 1 2\n", huge + " 1 1 2\n", "entity 1 of dimension 0 is listed twice", 2);
   expect_refused(kFile41, "1 0 1 5 1 1", "1 0 " + huge + " 5 1 1", "expected a physical tag");
   expect_refused(kFile41, "2 5 1 5\n", huge + " 5 1 5\n", "$EndNodes", 13);
 }
@@ -182,10 +174,8 @@ TEST(GmshRefuses, CountsThatAreTooLarge) {
 TEST(GmshRefuses, CountsThatAreTooSmall) {
   expect_refused(kFile22, "$Nodes\n5", "$Nodes\n4", "expected $EndNodes, found \"5\"", 6);
   expect_refused(kFile22, "$Elements\n5", "$Elements\n4", "expected $EndElements, found \"5\"", 6);
-  expect_refused(kFile41, "2 5 1 5\n", "2 4 1 5\n",
-                 "$Nodes announces 4 nodes, but its blocks hold 5", -1);
-  expect_refused(kFile41, "5 5 1 5\n", "5 6 1 5\n", "announces 6 elements, but its blocks hold 5",
-                 -1);
+  expect_refused(kFile41, "2 5 1 5\n", "2 4 1 5\n", "$Nodes announces 4 nodes, but its blocks hold 5", -1);
+  expect_refused(kFile41, "5 5 1 5\n", "5 6 1 5\n", "announces 6 elements, but its blocks hold 5", -1);
 }
 
 TEST(GmshRefuses, NegativeCounts) {
@@ -195,17 +185,14 @@ TEST(GmshRefuses, NegativeCounts) {
 }
 
 TEST(GmshRefuses, WordsThatAreNotNumbers) {
-  expect_refused(kFile22, "3 0 1 0", "3 0 one 0",
-                 "expected a coordinate (a finite number), found \"one\"");
+  expect_refused(kFile22, "3 0 1 0", "3 0 one 0", "expected a coordinate (a finite number), found \"one\"");
   expect_refused(kFile22, "3 0 1 0", "3 0 1e 0", "found \"1e\"");
-  expect_refused(kFile22, "3 0 1 0", "3.5 0 1 0",
-                 "expected a node tag (an integer), found \"3.5\"");
+  expect_refused(kFile22, "3 0 1 0", "3.5 0 1 0", "expected a node tag (an integer), found \"3.5\"");
   expect_refused(kFile22, "4 4 2 1 1", "4 tet 2 1 1", "expected an element type");
 }
 
 TEST(GmshRefuses, TagsThatOverflow) {
-  expect_refused(kFile22, "3 0 1 0", "99999999999999999999 0 1 0",
-                 "expected a node tag (an integer)");
+  expect_refused(kFile22, "3 0 1 0", "99999999999999999999 0 1 0", "expected a node tag (an integer)");
   expect_refused(kFile22, "4 4 2 1 1", "4 4 2 3000000000 1", "at most 2147483647");
 }
 
@@ -225,15 +212,12 @@ TEST(GmshRefuses, LinesThatAreTooShortOrTooLong) {
 TEST(GmshRefuses, NodesThatAreNotDefined) {
   expect_refused(kFile22, "1 2 3 4\n", "1 2 3 9\n", "element 4: node 9 is not defined in $Nodes");
   expect_refused(kFile22, "5 1 1 3 2\n", "5 1 1 3 0\n", "element 3: node 0 is not defined");
-  expect_refused(kFile41, "4 1 2 3 4\n", "4 1 2 3 9223372036854775807\n",
-                 "is not defined in $Nodes");
-  expect_refused(kFile41, "4 1 2 3 4\n", "4 1 2 3 -9223372036854775808\n",
-                 "is not defined in $Nodes");
+  expect_refused(kFile41, "4 1 2 3 4\n", "4 1 2 3 9223372036854775807\n", "is not defined in $Nodes");
+  expect_refused(kFile41, "4 1 2 3 4\n", "4 1 2 3 -9223372036854775808\n", "is not defined in $Nodes");
 }
 
 TEST(GmshRefuses, NodesDefinedTwice) {
-  expect_refused(kFile22, "5 1 1 1\n", "3 1 1 1\n",
-                 "node tag 3 is defined twice (first in line 14)");
+  expect_refused(kFile22, "5 1 1 1\n", "3 1 1 1\n", "node tag 3 is defined twice (first in line 14)");
   expect_refused(kFile41, "4\n5\n", "4\n2\n", "node tag 2 is defined twice", 5);
 }
 
@@ -242,9 +226,7 @@ TEST(GmshRefuses, ElementsThatOverlapOnceTheyAreTurned) {
   EXPECT_NE(refusal(replaced(kFile22, "5 1 1 1\n", "5 -1 -1 -1\n")).find("element 5: overlaps"), std::string::npos);
 }
 
-TEST(GmshRefuses, DegenerateElements) {
-  expect_refused(kFile22, "1 2 3 4\n", "1 2 3 3\n", "element 4: degenerate");
-}
+TEST(GmshRefuses, DegenerateElements) { expect_refused(kFile22, "1 2 3 4\n", "1 2 3 3\n", "element 4: degenerate"); }
 
 TEST(GmshRefuses, CoincidentNodes) {
   std::string file = replaced(kFile22, "$Nodes\n5", "$Nodes\n6");
@@ -253,14 +235,12 @@ TEST(GmshRefuses, CoincidentNodes) {
 }
 
 TEST(GmshRefuses, TrianglesOffTheMesh) {
-  expect_refused(kFile22, "5 1 1 3 2\n", "5 1 1 2 5\n",
-                 "element 3: surface \"load\": not a face of any element");
+  expect_refused(kFile22, "5 1 1 3 2\n", "5 1 1 2 5\n", "element 3: surface \"load\": not a face of any element");
 }
 
 TEST(GmshRefuses, TetsInTwoPhysicalVolumes) {
   const std::string file = replaced(kFile41, "1 1 1 1 1 1 1", "1 1 1 2 1 2 1 1");
-  expect_refused(file, "4 1 2 3 4\n", "4 1 2 3 4\n",
-                 "element 4: in two physical volumes, \"left\" and \"right side\"");
+  expect_refused(file, "4 1 2 3 4\n", "4 1 2 3 4\n", "element 4: in two physical volumes, \"left\" and \"right side\"");
   expect_refused(kFile22, "2 3 4 5\n", "1 2 3 4\n", "element 5: the same nodes as ");
 }
 
@@ -274,8 +254,8 @@ TEST(GmshRefuses, EntitiesListedTwice) {
 
 TEST(GmshRefuses, EntitiesBehindTheElements) {
   const std::size_t entities = kFile41.find("$Entities"), nodes = kFile41.find("$Nodes");
-  const std::string file = kFile41.substr(0, entities) + kFile41.substr(nodes) +
-                           kFile41.substr(entities, nodes - entities);
+  const std::string file =
+      kFile41.substr(0, entities) + kFile41.substr(nodes) + kFile41.substr(entities, nodes - entities);
   EXPECT_NE(refusal(file).find("$Entities must come before $Elements"), std::string::npos);
 }
 
@@ -285,22 +265,18 @@ TEST(GmshRefuses, TetsInASurface) {
 }
 
 TEST(GmshRefuses, ASectionGivenTwice) {
-  expect_refused(kFile22, "$Elements", "$Nodes\n0\n$EndNodes\n$Elements",
-                 "a second $Nodes (the first is in line 10)");
+  expect_refused(kFile22, "$Elements", "$Nodes\n0\n$EndNodes\n$Elements", "a second $Nodes (the first is in line 10)");
 }
 
 TEST(GmshRefuses, SectionsThatDoNotEnd) {
   const std::string file = kFile22 + "$Periodic\n1\n";
   const std::string message = refusal(file);
   const std::string line = std::to_string(line_of(file, "$Periodic"));
-  EXPECT_NE(message.find("the file ends inside \"$Periodic\" (line " + line + ")"),
-            std::string::npos)
-      << message;
+  EXPECT_NE(message.find("the file ends inside \"$Periodic\" (line " + line + ")"), std::string::npos) << message;
 }
 
 TEST(GmshRefuses, TextBetweenSections) {
-  expect_refused(kFile22, "$Nodes", "hello\n$Nodes",
-                 "expected the start of a section ($...), found \"hello\"");
+  expect_refused(kFile22, "$Nodes", "hello\n$Nodes", "expected the start of a section ($...), found \"hello\"");
 }
 
 TEST(GmshRefuses, NamesThatAreNotNames) {
@@ -312,8 +288,7 @@ TEST(GmshRefuses, NamesThatAreNotNames) {
 
 TEST(GmshRefuses, WithoutPrintingUnprintableBytes) {
   expect_refused(kFile22, "3 0 1 0", "3 0 \x1b[31m\xff 0", "found \"?[31m?\"");
-  expect_refused(kFile22, "3 0 1 0", "3 0 " + std::string(5000, 'x') + " 0",
-                 std::string(40, 'x') + "...\"");
+  expect_refused(kFile22, "3 0 1 0", "3 0 " + std::string(5000, 'x') + " 0", std::string(40, 'x') + "...\"");
 }
 
 }  // namespace

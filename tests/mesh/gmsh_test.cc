@@ -60,8 +60,7 @@ TEST(Gmsh, NumbersNodesByAscendingTagWhateverTheirOrder) {
 
 TEST(Gmsh, ReadsSparseAndHugeTags) {
   std::string file = replaced(kFile22, "5 1 1 1\n", "9000000000000000000 1 1 1\n");
-  file =
-      replaced(file, "5 4 2 2 2 2 3 4 5", "8000000000000000000 4 2 2 2 2 3 4 9000000000000000000");
+  file = replaced(file, "5 4 2 2 2 2 3 4 5", "8000000000000000000 4 2 2 2 2 3 4 9000000000000000000");
   expect_same(load(file).mesh, load(kFile22).mesh);
 }
 
@@ -116,11 +115,10 @@ TEST(Gmsh, TetsWithoutAnyPhysicalVolumeFormTheBody) {
 }
 
 TEST(Gmsh, WarnsIfOnlySomeTetsHaveAPhysicalVolume) {
-  for (const std::string& file : {replaced(kFile22, "5 4 2 2 2", "5 4 2 0 2"),
-                                  replaced(kFile41, "2 0 0 0 1 1 1 1 2 0", "2 0 0 0 1 1 1 0 0")}) {
+  for (const std::string& file :
+       {replaced(kFile22, "5 4 2 2 2", "5 4 2 0 2"), replaced(kFile41, "2 0 0 0 1 1 1 1 2 0", "2 0 0 0 1 1 1 0 0")}) {
     const auto [mesh, warnings, materials, cell_data] =
-        load(replaced(file, "3\n2 5 \"load\"\n3 1 \"left\"\n3 2 \"right side\"",
-                      "2\n2 5 \"load\"\n3 1 \"left\""));
+        load(replaced(file, "3\n2 5 \"load\"\n3 1 \"left\"\n3 2 \"right side\"", "2\n2 5 \"load\"\n3 1 \"left\""));
     EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"body", "left"}));
     EXPECT_EQ(mesh.region_of, (std::vector<int>{1, 0}));
     ASSERT_EQ(warnings.size(), 1u);
@@ -195,14 +193,12 @@ TEST(Gmsh, ReadsFormat41WithoutEntitiesAsOneBody) {
 
 TEST(Gmsh, IgnoresParametricCoordinates) {
   std::string file = replaced(kFile41, "3 1 0 4\n", "2 1 1 4\n");
-  file = replaced(file, "1 0 0\n0 1 0\n0 0 1\n1 1 1\n",
-                  "1 0 0 7 7\n0 1 0 7 7\n0 0 1 7 7\n1 1 1 7 7\n");
+  file = replaced(file, "1 0 0\n0 1 0\n0 0 1\n1 1 1\n", "1 0 0 7 7\n0 1 0 7 7\n0 0 1 7 7\n1 1 1 7 7\n");
   expect_same(load(file).mesh, load(kFile41).mesh);
 }
 
 TEST(Gmsh, IgnoresUnboundedBoxesOfEntities) {
-  const std::string file =
-      replaced(kFile41, "1 0 0 0 1 0 0 0 2 1 -1", "1 1e999 inf 0 -1e999 0 0 0 0");
+  const std::string file = replaced(kFile41, "1 0 0 0 1 0 0 0 2 1 -1", "1 1e999 inf 0 -1e999 0 0 0 0");
   expect_same(load(file).mesh, load(kFile41).mesh);
 }
 

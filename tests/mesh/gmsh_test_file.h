@@ -25,9 +25,7 @@ class TemporaryFile {
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  void write(const std::string& content) const {
-    std::ofstream(path(), std::ios::binary) << content;
-  }
+  void write(const std::string& content) const { std::ofstream(path(), std::ios::binary) << content; }
   std::string path() const { return (directory_ / "beam.msh").string(); }
 
  private:

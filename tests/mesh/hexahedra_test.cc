@@ -290,8 +290,7 @@ TEST(Hexahedra, CubesOfVegaAreSplit) {
 
 // The normal of a wedge's base is outward in VTK's manual, inward in some files.
 TEST(Hexahedra, WedgesOfVtkMayCountEitherWay) {
-  const std::string inward =
-      replaced(replaced(kVtk, "5 10 11 1 8 9", "1 8 9 5 10 11"), "5 11 6 1 9 2", "1 9 2 5 11 6");
+  const std::string inward = replaced(replaced(kVtk, "5 10 11 1 8 9", "1 8 9 5 10 11"), "5 11 6 1 9 2", "1 9 2 5 11 6");
   EXPECT_EQ(read_vtk_text("cells", inward).mesh.tets, read_vtk_text("cells", kVtk).mesh.tets);
 }
 

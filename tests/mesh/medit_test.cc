@@ -66,15 +66,18 @@ TEST(Medit, SectionsThatAreSkippedAreNamed) {
 }
 
 TEST(Medit, HexahedraAreReadAsAbaqusNumbersThem) {
-  EXPECT_NEAR(volume(load("MeshVersionFormatted 1\nDimension 3\nVertices 8\n0 0 0 0\n2 0 0 0\n2 1 0 0\n0 1 0 0\n0 0 1 0\n"
-                          "2 0 1 0\n2 1 1 0\n0 1 1 0\nHexahedra 1\n1 2 3 4 5 6 7 8 0\nEnd\n").mesh),
-              2, 1e-15);
+  EXPECT_NEAR(
+      volume(load("MeshVersionFormatted 1\nDimension 3\nVertices 8\n0 0 0 0\n2 0 0 0\n2 1 0 0\n0 1 0 0\n0 0 1 0\n"
+                  "2 0 1 0\n2 1 1 0\n0 1 1 0\nHexahedra 1\n1 2 3 4 5 6 7 8 0\nEnd\n")
+                 .mesh),
+      2, 1e-15);
 }
 
 // Whichever order the middle nodes have, each is on the edge that it halves.
 TEST(Medit, QuadraticTetrahedraHaveTheirMiddleNodesOnTheirEdges) {
-  const std::string head = "MeshVersionFormatted 2\nDimension 3\nVertices 10\n0 0 0 0\n2 0 0 0\n0 2 0 0\n0 0 2 0\n1 0 0 0\n"
-                           "1 1 0 0\n0 1 0 0\n0 0 1 0\n1 0 1 0\n0 1 1 0\nTetrahedraP2 1\n1 2 3 4 ";
+  const std::string head =
+      "MeshVersionFormatted 2\nDimension 3\nVertices 10\n0 0 0 0\n2 0 0 0\n0 2 0 0\n0 0 2 0\n1 0 0 0\n"
+      "1 1 0 0\n0 1 0 0\n0 0 1 0\n1 0 1 0\n0 1 1 0\nTetrahedraP2 1\n1 2 3 4 ";
   for (const char* middles : {"5 6 7 8 9 10", "5 6 7 8 10 9"}) {
     const TetMesh mesh = load(head + middles + " 1\nEnd\n").mesh;
     ASSERT_EQ(mesh.order(), 2);

@@ -94,13 +94,16 @@ TEST(OwnerFiles, OlderGmshFilesAreThoseOf22) {
 
 // Colors of pictures stand between the arrays, as bytes in a binary file.
 TEST(OwnerFiles, TablesOfColorsInVtkFilesAreSkipped) {
-  const std::string head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n"
-                           "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\nCELL_DATA 1\n";
+  const std::string head =
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n"
+      "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\nCELL_DATA 1\n";
   const std::string region = "SCALARS region int 1\nLOOKUP_TABLE colors\n3\n";
   const std::string colors = "LOOKUP_TABLE colors 2\n0 0 0 1\n1 1 1 1\nCOLOR_SCALARS rgb 3\n0.5 0.5 1\n";
   for (const std::string& text : {head + region + colors, head + colors + region})
     EXPECT_EQ(read_vtk_text("a.vtk", text).mesh.region_names, std::vector<std::string>{"region3"});
-  const std::string binary = read_text_file(std::string(ORTHODYN_SOURCE_DIR) + "/tests/mesh/data/two_boxes_meshio_binary.vtk") + "LOOKUP_TABLE colors 2\n" + std::string("\0\0\0\1\n\xff\xff$", 8) + "\n";
+  const std::string binary =
+      read_text_file(std::string(ORTHODYN_SOURCE_DIR) + "/tests/mesh/data/two_boxes_meshio_binary.vtk") +
+      "LOOKUP_TABLE colors 2\n" + std::string("\0\0\0\1\n\xff\xff$", 8) + "\n";
   EXPECT_EQ(read_vtk_text("a.vtk", binary).mesh.tets, load("two_boxes_meshio_binary.vtk").mesh.tets);
 }
 
@@ -132,9 +135,9 @@ TEST_P(Bricks, AreTwoCubesSplitIntoTets) {
   EXPECT_EQ(mesh.tets.size(), 8u * 6 + 16u * 3);
   EXPECT_NEAR(volume(mesh), 2, 1e-12);
   EXPECT_EQ(boundary_triangles(mesh).size(), 10u * 8);
-  EXPECT_CONTAINS(loaded.warnings.at(name.ends_with(".vtk") ? 1 : 0),
-                  fmt::format("8 hexahedra and 16 wedges are split into 96 {}tetrahedra",
-                              is_quadratic ? "quadratic " : ""));
+  EXPECT_CONTAINS(
+      loaded.warnings.at(name.ends_with(".vtk") ? 1 : 0),
+      fmt::format("8 hexahedra and 16 wedges are split into 96 {}tetrahedra", is_quadratic ? "quadratic " : ""));
   if (name.ends_with(".vtk")) return;  // Gmsh writes no groups into it
   EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"left", "right"}));
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) {

@@ -39,7 +39,7 @@ TEST(Partition, CellsThatShareAFaceAreNeighbours) {
       EXPECT_EQ(shared, 3);
       across += cube_of(mesh, cell) != cube_of(mesh, neighbour) ? 1 : 0;
     }
-  EXPECT_EQ(across, 4);  // two faces of tetrahedra, seen from both sides
+  EXPECT_EQ(across, 4);                            // two faces of tetrahedra, seen from both sides
   EXPECT_EQ(graph.start.back(), 2 * (2 * 6 + 2));  // six faces within each cube
 }
 

@@ -116,8 +116,8 @@ TEST(QuadraticFiles, WarnOfNodeSetsThatAreEmptyWithOrderOne) {
 // A curved one: nodes on edges are far from half way.
 TEST(QuadraticFiles, OfTetgenKeepACurvedMesh) {
   const TemporaryFolder folder;
-  const TetMesh tube = make_tube({.inner_radius = 0.9, .radius = 1, .length = 0.5,
-                                  .cells = {.around = 8, .through = 1, .along = 1}, .order = 2});
+  const TetMesh tube = make_tube(
+      {.inner_radius = 0.9, .radius = 1, .length = 0.5, .cells = {.around = 8, .through = 1, .along = 1}, .order = 2});
   write_mesh({.mesh = tube}, folder.path("tube.node"), false);
   EXPECT_EQ(read_mesh(folder.path("tube.node")).mesh.midsides, tube.midsides);
 }
@@ -237,8 +237,8 @@ TEST(QuadraticFiles, OfTetgenMayListTheNodesOnEdgesInAnyOrder) {
 // A polygon of 16 corners has 97.4 % of the area of its circle.
 TEST(Quadratic, RoundBodiesHaveTheirTrueSurfaceAtOrderTwo) {
   TetMesh cylinder = make_cylinder({.radius = 1, .length = 2, .cells = {.around = 16, .along = 2}, .order = 2});
-  TetMesh tube = make_tube({.inner_radius = 0.9, .radius = 1, .length = 2,
-                            .cells = {.around = 12, .through = 1, .along = 2}, .order = 2});
+  TetMesh tube = make_tube(
+      {.inner_radius = 0.9, .radius = 1, .length = 2, .cells = {.around = 12, .through = 1, .along = 2}, .order = 2});
   EXPECT_TRUE(validate(cylinder, {"cylinder"}).empty());
   EXPECT_TRUE(validate(tube, {"tube"}).empty());
   EXPECT_NEAR(volume(cylinder), 2 * std::numbers::pi, 1e-3);
@@ -254,8 +254,8 @@ TEST(Quadratic, RoundBodiesHaveTheirTrueSurfaceAtOrderTwo) {
   // The coarsest, whose core is a single cell and whose ring three; nothing folds over.
   const TetMesh four =
       make_cylinder({.radius = 1, .length = 2, .cells = {.around = 4, .through = 1, .along = 1}, .order = 2});
-  const TetMesh three = make_tube({.inner_radius = 0.3, .radius = 1, .length = 2,
-                                   .cells = {.around = 3, .through = 1, .along = 1}, .order = 2});
+  const TetMesh three = make_tube(
+      {.inner_radius = 0.3, .radius = 1, .length = 2, .cells = {.around = 3, .through = 1, .along = 1}, .order = 2});
   lies_on(four, "outer", 1);
   EXPECT_NEAR(volume(four), 2 * std::numbers::pi, 0.2);
   EXPECT_NEAR(volume(three), 2 * std::numbers::pi * 0.91, 0.5);

@@ -1,4 +1,6 @@
 // Uniform refinement.
+#include "lib/mesh/refine.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +9,6 @@
 #include "lib/mesh/box.h"
 #include "lib/mesh/cylinder.h"
 #include "lib/mesh/quadratic.h"
-#include "lib/mesh/refine.h"
 #include "tests/element/states.h"
 
 namespace orthodyn::refine_test {

@@ -12,10 +12,10 @@
 
 #include "lib/core/errors.h"
 
-#define EXPECT_CONTAINS(text, part)                                   \
-  do {                                                                \
-    const std::string text_ = (text);                                 \
-    EXPECT_NE(text_.find(part), std::string::npos) << text_;          \
+#define EXPECT_CONTAINS(text, part)                          \
+  do {                                                       \
+    const std::string text_ = (text);                        \
+    EXPECT_NE(text_.find(part), std::string::npos) << text_; \
   } while (false)
 
 namespace orthodyn {

@@ -27,19 +27,18 @@ struct Solid {
 };
 void PrintTo(const Solid& solid, std::ostream* os) { *os << name_of(solid.kind); }
 
-const Solid kSolids[] = {
-    {CellKind::pyramid,
-     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.4, 0.6, 1}},
-     {{3, 2, 1, 0}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}},
-     {2}},
-    {CellKind::wedge,
-     {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
-     {{2, 1, 0}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}},
-     {3}},
-    {CellKind::hexahedron,
-     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
-     {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}},
-     {5, 6}}};
+const Solid kSolids[] = {{CellKind::pyramid,
+                          {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.4, 0.6, 1}},
+                          {{3, 2, 1, 0}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}},
+                          {2}},
+                         {CellKind::wedge,
+                          {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
+                          {{2, 1, 0}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}},
+                          {3}},
+                         {CellKind::hexahedron,
+                          {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
+                          {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}},
+                          {5, 6}}};
 
 double volume(const std::vector<Tet>& tets, const std::vector<Vec3>& nodes) {
   TetMesh mesh;
@@ -220,7 +219,8 @@ TEST(SplitCells, HexahedraWedgesAndPyramidsMatch) {
     const LoadedMesh loaded = build_mesh(Blocks(3, seed, true).take());
     expect_conforming(loaded.mesh, 3);
     EXPECT_EQ(loaded.warnings[0], fmt::format("blocks.msh: 9 hexahedra, 18 wedges and 54 pyramids are split into {} "
-                                              "tetrahedra", loaded.mesh.tets.size()));
+                                              "tetrahedra",
+                                              loaded.mesh.tets.size()));
   }
 }
 
@@ -237,8 +237,7 @@ MeshDraft three_kinds() {
   draft.files = {"mixed.msh"};
   draft.nodes_section = "$Nodes";
   draft.region_names = {"first", "second"};
-  for (std::size_t k = 0; k < 8; ++k)
-    draft.nodes.push_back({static_cast<std::int64_t>(k), {}, kSolids[2].corners[k]});
+  for (std::size_t k = 0; k < 8; ++k) draft.nodes.push_back({static_cast<std::int64_t>(k), {}, kSolids[2].corners[k]});
   draft.nodes.push_back({8, {}, {0.5, 0.5, 2}});
   draft.nodes.push_back({9, {}, {0.5, -1, 1.5}});
   draft.cells = {{.tag = 70, .kind = CellKind::hexahedron, .nodes = {0, 1, 2, 3, 4, 5, 6, 7}, .place = {12}},
@@ -271,8 +270,9 @@ TEST(SplitCells, AnInvertedElementIsTurnedAndToldWithItsLine) {
   const LoadedMesh loaded = build_mesh(draft);
   EXPECT_EQ(loaded.mesh.tets.size(), tets);
   for (const Tet& tet : loaded.mesh.tets) EXPECT_GT(signed_volume6(loaded.mesh, tet), 0);
-  EXPECT_CONTAINS(loaded.warnings.at(0), "mixed.msh:12: 1 of 3 elements count their nodes the other way round, the first "
-                                         "is element 70; they were turned");
+  EXPECT_CONTAINS(loaded.warnings.at(0),
+                  "mixed.msh:12: 1 of 3 elements count their nodes the other way round, the first "
+                  "is element 70; they were turned");
 }
 
 TEST(SplitCells, AMeshOfInvertedElementsIsTurned) {

@@ -44,8 +44,7 @@ std::string refusal(TetMesh mesh, const MeshOrigin& origin = {"beam"}) {
   return refusal_of([&] { validate(mesh, origin); });
 }
 
-#define EXPECT_STARTS_WITH(text, start) \
-  EXPECT_EQ((text).substr(0, std::string(start).size()), start)
+#define EXPECT_STARTS_WITH(text, start) EXPECT_EQ((text).substr(0, std::string(start).size()), start)
 
 TEST(TetMesh, TheBoundingBoxHoldsExactlyAllNodes) {
   TetMesh mesh = one_tet();
@@ -58,17 +57,13 @@ TEST(TetMesh, TheBoundingBoxHoldsExactlyAllNodes) {
 
 TEST(TetMesh, NoNodesHaveNoBoundingBox) { EXPECT_THROW(bounding_box({}), ConfigError); }
 
-TEST(TetMesh, ACornerOfTheUnitCubeHasSixVolumesOfOne) {
-  EXPECT_DOUBLE_EQ(signed_volume6(one_tet(), {0, 1, 2, 3}), 1);
-}
+TEST(TetMesh, ACornerOfTheUnitCubeHasSixVolumesOfOne) { EXPECT_DOUBLE_EQ(signed_volume6(one_tet(), {0, 1, 2, 3}), 1); }
 
 TEST(TetMesh, SwappingTwoNodesChangesTheSignOfTheVolume) {
   EXPECT_DOUBLE_EQ(signed_volume6(one_tet(), {1, 0, 2, 3}), -1);
 }
 
-TEST(TetMesh, TheBoundaryOfOneTetIsItsFourFaces) {
-  EXPECT_EQ(boundary_triangles(one_tet()).size(), 4u);
-}
+TEST(TetMesh, TheBoundaryOfOneTetIsItsFourFaces) { EXPECT_EQ(boundary_triangles(one_tet()).size(), 4u); }
 
 TEST(TetMesh, TheFaceBetweenTwoTetsIsNotOnTheBoundary) {
   for (Triangle t : boundary_triangles(two_tets())) {
@@ -122,8 +117,7 @@ TEST(Validate, RefusesATetOfOneSingleNode) {
 TEST(Validate, RefusesAnInvertedElementWithItsVolume) {
   TetMesh mesh = one_tet(0.01);
   std::swap(mesh.tets[0][0], mesh.tets[0][1]);
-  EXPECT_EQ(refusal(mesh),
-            "beam: element 0: inverted (volume -1.67e-07 m^3); reorder two of its nodes or remesh");
+  EXPECT_EQ(refusal(mesh), "beam: element 0: inverted (volume -1.67e-07 m^3); reorder two of its nodes or remesh");
 }
 
 TEST(Validate, SaysHowManyElementsAreInverted) {
@@ -134,10 +128,9 @@ TEST(Validate, SaysHowManyElementsAreInverted) {
 
 TEST(Validate, NamesElementsAndNodesByTheirOrigin) {
   TetMesh mesh = one_tet();
-  MeshOrigin origin{
-      .source = "beam.msh",
-      .tet_name = [](int t) { return "beam.msh:120: element " + std::to_string(17 + t); },
-      .node_name = [](int n) { return "beam.msh:7: node " + std::to_string(40 + n); }};
+  MeshOrigin origin{.source = "beam.msh",
+                    .tet_name = [](int t) { return "beam.msh:120: element " + std::to_string(17 + t); },
+                    .node_name = [](int n) { return "beam.msh:7: node " + std::to_string(40 + n); }};
   std::swap(mesh.tets[0][0], mesh.tets[0][1]);
   EXPECT_STARTS_WITH(refusal(mesh, origin), "beam.msh:120: element 17: inverted");
   mesh.nodes[2][1] = std::nan("");
@@ -231,8 +224,7 @@ TEST(Validate, CountsATriangleListedTwiceOnceWithAWarning) {
 TEST(Validate, RefusesATriangleOffTheMesh) {
   TetMesh mesh = two_tets();
   mesh.surfaces["load"] = {{0, 1, 4}};
-  EXPECT_STARTS_WITH(refusal(mesh),
-                     "beam: triangle 0: surface \"load\": not a face of any element");
+  EXPECT_STARTS_WITH(refusal(mesh), "beam: triangle 0: surface \"load\": not a face of any element");
 }
 
 TEST(Validate, RefusesAnEmptyMesh) { EXPECT_EQ(refusal({}), "beam: the mesh has no solid elements"); }

@@ -65,8 +65,9 @@ TEST(Vega, ReadsVerticesAndTets) {
 }
 
 TEST(Vega, CountsFromZeroIfTheFirstNumberIsZero) {
-  std::string zero = "*VERTICES\n5 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 1 1 1\n*ELEMENTS\nTETS\n2 4 0\n"
-                     "0 0 1 2 3\n1 1 2 3 4\n*SET second\n1\n";
+  std::string zero =
+      "*VERTICES\n5 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 1 1 1\n*ELEMENTS\nTETS\n2 4 0\n"
+      "0 0 1 2 3\n1 1 2 3 4\n*SET second\n1\n";
   const LoadedMesh loaded = load(zero);
   EXPECT_EQ(loaded.mesh.tets, load(kTwoTets).mesh.tets);
   EXPECT_EQ(loaded.mesh.region_of[1], 0);  // regions in the order of the file, the rest last
@@ -134,9 +135,9 @@ TEST(Vega, ThreeRatiosAreTakenAsTheyStand) {
 
 // nu_ij / E_i = nu_ji / E_j must hold for all pairs, G_ij = factor sqrt(E_i E_j) / (2 (1 + nu)).
 TEST(Vega, OneRatioGivesTheStableFamily) {
-  for (const std::string line : {"_N1, 400, 8, 4, 2, 0.3", "_N1G1, 400, 8, 4, 2, 0.3, 1.5",
-                                 "_N1R9, 400, 8, 4, 2, 0.3, 1,0,0, 0,1,0, 0,0,1",
-                                 "_N1G1R9, 400, 8, 4, 2, 0.3, 1.5, 1,0,0, 0,1,0, 0,0,1"}) {
+  for (const std::string line :
+       {"_N1, 400, 8, 4, 2, 0.3", "_N1G1, 400, 8, 4, 2, 0.3, 1.5", "_N1R9, 400, 8, 4, 2, 0.3, 1,0,0, 0,1,0, 0,0,1",
+        "_N1G1R9, 400, 8, 4, 2, 0.3, 1.5, 1,0,0, 0,1,0, 0,0,1"}) {
     const MeshMaterial m = material("ORTHOTROPIC" + line);
     const double factor = line.find("G1") == std::string::npos ? 1 : 1.5;
     EXPECT_NEAR(m.nu12, 0.3 * std::sqrt(2), 1e-15);
@@ -250,8 +251,8 @@ TEST(Vega, ReadsTheModelsThatComeWithVega) {
   const char* data = std::getenv("ORTHODYN_DATA");
   const std::string veg = std::string(data ? data : "") + "/veg/";
   if (!data || !std::filesystem::exists(veg)) GTEST_SKIP() << "ORTHODYN_DATA/veg is absent";
-  const LoadedMesh turtle = read_vega(veg + "turtle/turtle-volumetric-heterogeneous.ortho.veg",
-                                      {veg + "turtle/turtle-volumetric.bou"});
+  const LoadedMesh turtle =
+      read_vega(veg + "turtle/turtle-volumetric-heterogeneous.ortho.veg", {veg + "turtle/turtle-volumetric.bou"});
   EXPECT_EQ(turtle.mesh.nodes.size(), 347u);
   EXPECT_EQ(turtle.mesh.tets.size(), 1185u);
   EXPECT_EQ(turtle.materials.at("theRest").young, Vec3(25e9, 25e5, 25e3));

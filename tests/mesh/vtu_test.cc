@@ -128,9 +128,9 @@ TEST(Vtu, AHeaderAndASingleByteMayShareAGroupOfBase64) {
 std::string packed_zeros(std::uint32_t count) {
   std::string bits = "110";  // the last block; fixed codes
   const std::uint32_t literals = 1 + (count - 1) % 258;
-  for (std::uint32_t k = 0; k < literals; ++k) bits += "00110000";               // a zero
+  for (std::uint32_t k = 0; k < literals; ++k) bits += "00110000";                // a zero
   for (std::uint32_t k = literals; k < count; k += 258) bits += "1100010100000";  // 258 bytes as the one before
-  bits += "0000000";                                                             // the end
+  bits += "0000000";                                                              // the end
   std::string bytes = "\x78\x9c";
   for (std::size_t b = 0; b < bits.size(); b += 8) {
     int byte = 0;

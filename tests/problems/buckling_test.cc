@@ -2,13 +2,13 @@
 #include "lib/analysis/buckling.h"
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "lib/simulation/statics/static_problem.h"
 #include "tests/fem/built_scene.h"
-#include <gtest/gtest.h>
 
 namespace orthodyn::buckling_test {
 namespace {
@@ -35,7 +35,8 @@ materials: {{m: {}}}
 clamps: {}
 loads: [{{surface: x1, force: [-1, 0, 0]}}]
 time: {{end: 1}}
-)", 1 + beyond, h, material, clamps);
+)",
+                     1 + beyond, h, material, clamps);
 }
 
 constexpr double kYoung = 1e9;
@@ -74,15 +75,16 @@ TEST(EngessersColumn, SoftInShearBucklesSooner) {
   const double h = 0.05, shear = 5e6;
   const std::string wood = fmt::format(
       "{{type: orthotropic, density: 400, young: [1e9, 1e9, 1e9], nu12: 0, nu23: 0, nu31: 0, g12: 5e8, g23: 5e8, "
-      "g13: {}}}", shear);
+      "g13: {}}}",
+      shear);
   const double euler = kPi * kPi / 4 * bending_stiffness(h),
                expected = 1 / (1 / euler + 1 / (5.0 / 6 * shear * 0.05 * h));
   ASSERT_LT(expected, 0.9 * euler);
   EXPECT_NEAR(first_factor(strip(h, 0, "[{surface: x0}]", wood)), expected, 0.02 * expected);
 }
 
-// 3 E I/R^3 where the pressure stays normal to the ring (Bresse 1866), R the radius of its axis wherever it acts; 4 E I/R^3
-// if it kept its direction.
+// 3 E I/R^3 where the pressure stays normal to the ring (Bresse 1866), R the radius of its axis wherever it acts; 4 E
+// I/R^3 if it kept its direction.
 TEST(Ring, UnderPressureThatFollowsItBucklesAsBresseFound) {
   const double outer = 1.01, inner = 0.99, width = 0.05, h = outer - inner;
   const double found = first_factor(fmt::format(R"(
@@ -95,7 +97,8 @@ clamps:
   - {{nearest: [0, 1, 0], components: [x]}}
 terms: [{{type: pressure, surface: outer, pressure: 1}}]
 time: {{end: 1}}
-)", outer, inner, width, kIsotropicMaterial));
+)",
+                                                outer, inner, width, kIsotropicMaterial));
   const double expected = 3 * kYoung * h * h * h / 12;  // R = 1
   EXPECT_NEAR(found, expected, 0.01 * expected);
 }

@@ -53,7 +53,7 @@ integrator: {{type: {}, rtol: {}}}
   const Outcome outcome =
       run(s.model(), *integrator, s.built.initial, {s.scene.time.end, {}, false}, {&energy}, {false});
   EXPECT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
-  const double fallen = 1 * 9.81 * 0.05;  // J, kg m/s^2 m
+  const double fallen = 1 * 9.81 * 0.05;    // J, kg m/s^2 m
   EXPECT_GT(energy.scale(), 0.9 * fallen);  // it has fallen; soft ground lets it fall further
   const double rtols = std::string(fall.integrator) == "arkode_dirk" ? 50 : 10;
   EXPECT_LE(energy.largest, rtols * fall.rtol * fallen);

@@ -1,8 +1,7 @@
 // Bodies on which nothing acts: energy and momentum of the exact force are constant up to the
 // integrator's error; the warped force gains energy and spins up by itself.
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <numbers>
 
@@ -29,7 +28,9 @@ elasticity: {{corotation: {3}}}
 initial: {{spin: {4}, deformation_gradient: [[{5}, 0, 0], [0, 1, 0], [0, 0, 1]]}}
 integrator: {{type: {6}, rtol: {7}, max_order: {8}}}
 time: {{end: {9}}}
-)", f.cells, f.young, kTurnedAxes, f.corotation, f.spin, f.stretch, f.integrator, f.rtol, f.max_order, f.end));
+)",
+                                    f.cells, f.young, kTurnedAxes, f.corotation, f.spin, f.stretch, f.integrator,
+                                    f.rtol, f.max_order, f.end));
 }
 
 // Largest changes over the run: energy relative to the initial one; angular momentum relative to
@@ -102,7 +103,12 @@ TEST(FreeFlight, OfAnIsotropicBodyTheWarpedForceIsTheExactOne) {
 TEST(SpinningCube, DriftOverFiftyRevolutionsIsLinearAndFallsWithTheTolerance) {
   const double end = 50 * 2 * std::numbers::pi / 2;
   const auto at = [&](double rtol) {
-    return drift({.spin = "[0, 0, 2]", .stretch = 1, .end = end, .rtol = rtol, .max_order = 5, .cells = 1,
+    return drift({.spin = "[0, 0, 2]",
+                  .stretch = 1,
+                  .end = end,
+                  .rtol = rtol,
+                  .max_order = 5,
+                  .cells = 1,
                   .young = "[10, 3, 1]"});
   };
   const Drift loose = at(1e-6), tight = at(1e-8);
@@ -141,9 +147,11 @@ gravity: {}
 initial: {{spin: {}, deformation_gradient: [{}, {}, {}]}}
 integrator: {{type: cvode_bdf, rtol: {}, max_order: 2, position_scale: 0.1, velocity_scale: 1}}
 time: {{end: 1}}
-)", fibre_material(10), text(turn * Vec3(0.6, 0.8, 0)), text(turn * Vec3(-0.8, 0.6, 0)), text(turn * Vec3(0, 0, -1)),
-                                                text(turn * Vec3(0.5, 1, 2)), text(F.row(0)), text(F.row(1)),
-                                                text(F.row(2)), rtol));
+)",
+                                           fibre_material(10), text(turn * Vec3(0.6, 0.8, 0)),
+                                           text(turn * Vec3(-0.8, 0.6, 0)), text(turn * Vec3(0, 0, -1)),
+                                           text(turn * Vec3(0.5, 1, 2)), text(F.row(0)), text(F.row(1)), text(F.row(2)),
+                                           rtol));
     const auto outcome = run_scene(scene, 1, [](const State&) {});
     EXPECT_EQ(outcome.status, Outcome::Status::completed) << outcome.message;
     return scene.nodal(outcome.last.q);

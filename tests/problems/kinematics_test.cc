@@ -31,17 +31,16 @@ std::string across(double force) {
 // Rotations, stretched midlines, strains, loads in time, initial velocities; small and large of each.
 std::vector<Motion> motions() {
   std::vector<Motion> all;
-  for (const double force : {1.0, 100.0, 3e3})
-    all.push_back({fmt::format("across_{}_N", force), kBar + across(force)});
+  for (const double force : {1.0, 100.0, 3e3}) all.push_back({fmt::format("across_{}_N", force), kBar + across(force)});
   for (const double force : {3e3, 3e5})  // held at both ends: its midline is stretched
-    all.push_back({fmt::format("between_{}_N", force),
-                   fmt::format("{}clamps: [{{surface: x0}}, {{surface: x1}}]\n"
-                               "gravity: [0, 0, {}]\ntime: {{end: 0.02}}\n",
-                               kBar, -force / 10)});
+    all.push_back({fmt::format("between_{}_N", force), fmt::format("{}clamps: [{{surface: x0}}, {{surface: x1}}]\n"
+                                                                   "gravity: [0, 0, {}]\ntime: {{end: 0.02}}\n",
+                                                                   kBar, -force / 10)});
   for (const double force : {1e4, 3e6})
     all.push_back({fmt::format("along_{}_N", force),
                    fmt::format("{}clamps: [{{surface: x0}}]\nloads: [{{surface: x1, force: [{}, 0, 0]}}]\n"
-                               "time: {{end: 0.01}}\n", kBar, force)});
+                               "time: {{end: 0.01}}\n",
+                               kBar, force)});
   for (const double spin : {1e-3, 5.0})
     all.push_back({fmt::format("free_{}", spin),
                    fmt::format("{}initial: {{spin: [0, 0, {}]}}\ntime: {{end: 0.1}}\n", kBar, spin)});
@@ -52,9 +51,9 @@ std::vector<Motion> motions() {
 }
 
 Setup set_up(const Motion& motion, const std::string& kinematics) {
-  return orthodyn::set_up(Config::from_text(motion.scene + fmt::format(
-      "integrator: {{type: arkode_dirk, rtol: 1e-5}}\nelasticity: {{kinematics: {}{}}}\n", kinematics,
-      kinematics == "auto" ? fmt::format(", linear_error: {}", kAllowed) : "")));
+  return orthodyn::set_up(Config::from_text(
+      motion.scene + fmt::format("integrator: {{type: arkode_dirk, rtol: 1e-5}}\nelasticity: {{kinematics: {}{}}}\n",
+                                 kinematics, kinematics == "auto" ? fmt::format(", linear_error: {}", kAllowed) : "")));
 }
 
 Outcome run(const Setup& setup, std::vector<Observer*> observers) {
@@ -73,7 +72,8 @@ Trajectory trajectory(const Setup& setup) {
 class Choice : public testing::TestWithParam<Motion> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, Choice, testing::ValuesIn(motions()), [](const auto& motion) {
   std::string name = motion.param.name;
-  std::replace_if(name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
   return name;
 });
 
@@ -155,8 +155,9 @@ TEST_F(Kinematics, AreWatchedWhereARunGoesOn) {
 
 // What it knew before a restart counts: the largest error is kept, and so is the start of the phase.
 TEST_F(Kinematics, AreRememberedOverARestart) {
-  write("scene.yaml", kBar + across(100) + "checkpoint: {}\nintegrator: {type: cvode_bdf}\n"
-                                           "elasticity: {kinematics: auto, linear_error: 0.05}\n");
+  write("scene.yaml", kBar + across(100) +
+                          "checkpoint: {}\nintegrator: {type: cvode_bdf}\n"
+                          "elasticity: {kinematics: auto, linear_error: 0.05}\n");
   const auto error = [&](const std::string& folder) {
     const std::string record = read_text(folder_ / folder / "run.json");
     const auto at = record.find("off by about ");
@@ -170,8 +171,9 @@ TEST_F(Kinematics, AreRememberedOverARestart) {
 }
 
 TEST_F(Kinematics, ThatWereChosenCorotationalStaySoWhereARunGoesOn) {
-  write("scene.yaml", kBar + across(3e3) + "checkpoint: {}\nintegrator: {type: cvode_bdf}\n"
-                                           "elasticity: {kinematics: auto, linear_error: 0.01}\n");
+  write("scene.yaml", kBar + across(3e3) +
+                          "checkpoint: {}\nintegrator: {type: cvode_bdf}\n"
+                          "elasticity: {kinematics: auto, linear_error: 0.01}\n");
   ASSERT_EQ(orthodyn("run scene.yaml --out a --set time.end=0.05").exit_code, 0);
   const auto again = orthodyn("run scene.yaml --out a --resume");
   EXPECT_EQ(again.exit_code, 0) << again.output;
@@ -242,9 +244,13 @@ TEST_F(Kinematics, AreChosenRegionByRegion) {
   EXPECT_NE(mixed.output.find("elasticity      small strain; corotational, exact gradient"), std::string::npos)
       << mixed.output;
   ASSERT_EQ(orthodyn("run scene.yaml --out exact --set elasticity.kinematics=corotational "
-                     "elasticity.linear_error=null").exit_code, 0);
+                     "elasticity.linear_error=null")
+                .exit_code,
+            0);
   ASSERT_EQ(orthodyn("run scene.yaml --out linear --set elasticity.kinematics=linear "
-                     "elasticity.linear_error=null").exit_code, 0);
+                     "elasticity.linear_error=null")
+                .exit_code,
+            0);
   const auto exact = read_rows(folder_ / "exact/probes.csv"), near = read_rows(folder_ / "mixed/probes.csv");
   const auto far = read_rows(folder_ / "linear/probes.csv");
   EXPECT_LT(difference(near, exact), 1e-3);
@@ -257,8 +263,9 @@ TEST_F(Kinematics, AreChosenRegionByRegion) {
 
 // Without a phase, whatever the order in which they are written.
 TEST_F(Kinematics, OfAStaticAnalysisAreChosenRegionByRegion) {
-  const std::string scene = std::string(kFootAndArm) + "gravity: [0, 0, -98.1]\nanalysis: static\n"
-                                                       "elasticity: {kinematics: auto, linear_error: 1e-3}\n";
+  const std::string scene = std::string(kFootAndArm) +
+                            "gravity: [0, 0, -98.1]\nanalysis: static\n"
+                            "elasticity: {kinematics: auto, linear_error: 1e-3}\n";
   const std::string before = "{body: {material: stiff}, arm: {material: soft}}";
   const std::string after = "{arm: {material: soft}, body: {material: stiff}}";
   const auto at = scene.find(before);
@@ -274,9 +281,10 @@ TEST_F(Kinematics, OfAStaticAnalysisAreChosenRegionByRegion) {
 }
 
 TEST_F(Kinematics, OfRegionsWithADotInTheirNameAreKeptWhereARunGoesOn) {
-  std::string text = std::string(kFootAndArm) + "gravity: [0, 0, -9.81]\ntime: {end: 0.1}\ncheckpoint: {}\n"
-                                                "integrator: {type: cvode_bdf}\n"
-                                                "elasticity: {kinematics: auto, linear_error: 1e-3}\n";
+  std::string text = std::string(kFootAndArm) +
+                     "gravity: [0, 0, -9.81]\ntime: {end: 0.1}\ncheckpoint: {}\n"
+                     "integrator: {type: cvode_bdf}\n"
+                     "elasticity: {kinematics: auto, linear_error: 1e-3}\n";
   for (auto at = text.find("arm: {"); at != std::string::npos; at = text.find("arm: {", at + 8))
     text.replace(at, 4, "arm.1:");
   write("scene.yaml", text);
@@ -305,8 +313,9 @@ TEST_F(Kinematics, OutgrownInOneRegionStayLinearInTheOther) {
 }
 
 TEST_F(Kinematics, OfARegionOverrideThoseOfAll) {
-  const std::string scene = std::string(kFootAndArm) + "gravity: [0, 0, -9.81]\ntime: {end: 0.01}\n"
-                                                       "integrator: {type: cvode_bdf}\n";
+  const std::string scene = std::string(kFootAndArm) +
+                            "gravity: [0, 0, -9.81]\ntime: {end: 0.01}\n"
+                            "integrator: {type: cvode_bdf}\n";
   write("scene.yaml", scene);
   const auto by_hand = orthodyn("run scene.yaml --out a --set regions.body.kinematics=linear");
   ASSERT_EQ(by_hand.exit_code, 0) << by_hand.output;
@@ -324,8 +333,9 @@ TEST_F(Kinematics, OfARegionOverrideThoseOfAll) {
 
 // By hand they are taken as they are; the summary says what they cost, and a run that needs others is told so.
 TEST_F(Kinematics, ThatAreLinearByHandTellHowFarOffTheyAre) {
-  write("scene.yaml", kBar + across(100) + "integrator: {type: cvode_bdf, rtol: 1e-5}\noutput: {probes: {tip: {at: "
-                                           "[1, 0.05, 0.05]}}}\n");
+  write("scene.yaml", kBar + across(100) +
+                          "integrator: {type: cvode_bdf, rtol: 1e-5}\noutput: {probes: {tip: {at: "
+                          "[1, 0.05, 0.05]}}}\n");
   ASSERT_EQ(orthodyn("run scene.yaml --out exact").exit_code, 0);
   const auto linear = orthodyn("run scene.yaml --out linear --set elasticity.kinematics=linear");
   ASSERT_EQ(linear.exit_code, 0) << linear.output;

@@ -31,13 +31,15 @@ terms:
   - {{type: point_load, nearest: [0.2, 0.03, 0.004], force: [0, 0, -{}],
       factor: {{type: expression, formula: "t < 2e-3 ? sin(pi*t/2e-3) : 0", kinks: [2 ms], peak: 1}}}}
 time: {{end: 0.25}}
-)", force);
+)",
+                     force);
 }
 
 std::string beam(const std::string& loads, const std::string& rest) {
   return "mesh: {type: box, size: [1, 0.1, 0.1], cells: [8, 1, 1]}\n"
          "materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0.3}}\n"
-         "clamps: [{surface: x0}]\n" + loads + "\n" + rest + "\n";
+         "clamps: [{surface: x0}]\n" +
+         loads + "\n" + rest + "\n";
 }
 
 const char* const kFactor = ", factor: {type: sine, frequency: 20 Hz}";
@@ -71,8 +73,9 @@ time: {end: 0.02}
 }
 
 orthodyn::Setup set_up(const Case& motion, const char* kinematics) {
-  return orthodyn::set_up(Config::from_text(motion.scene + fmt::format(
-      "integrator: {{type: arkode_dirk, rtol: 1e-5}}\nelasticity: {{kinematics: {}}}\n", kinematics)));
+  return orthodyn::set_up(Config::from_text(
+      motion.scene +
+      fmt::format("integrator: {{type: arkode_dirk, rtol: 1e-5}}\nelasticity: {{kinematics: {}}}\n", kinematics)));
 }
 
 Trajectory trajectory(const orthodyn::Setup& setup) {
@@ -111,8 +114,9 @@ TEST_F(LinearErrors, AreToldOfAStaticDeflection) {
 
 // By the same word in the summary and in the warning.
 TEST_F(LinearErrors, OfLargeRotationsAreWarnedOf) {
-  write("far.yaml", beam(across(3000), "time: {end: 0.1}\nintegrator: {type: cvode_bdf}\n"
-                                       "elasticity: {kinematics: linear}"));
+  write("far.yaml", beam(across(3000),
+                         "time: {end: 0.1}\nintegrator: {type: cvode_bdf}\n"
+                         "elasticity: {kinematics: linear}"));
   const auto far = orthodyn("run far.yaml --force --out far");
   ASSERT_EQ(far.exit_code, 0) << far.output;
   EXPECT_NE(far.output.find("warning: linear kinematics are off by about "), std::string::npos) << far.output;
@@ -121,9 +125,8 @@ TEST_F(LinearErrors, OfLargeRotationsAreWarnedOf) {
 }
 
 class LinearError : public testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(Scenes, LinearError, testing::ValuesIn(cases()), [](const auto& one) {
-  return one.param.name;
-});
+INSTANTIATE_TEST_SUITE_P(Scenes, LinearError, testing::ValuesIn(cases()),
+                         [](const auto& one) { return one.param.name; });
 
 TEST_P(LinearError, IsToldWithinAFewTimes) {
   const orthodyn::Setup exact = set_up(GetParam(), "corotational"), linear = set_up(GetParam(), "linear");

@@ -123,10 +123,10 @@ time: {{end: 1}}
                      analysis, pressure, follows);
 }
 
-// Of a ring with the radius 1 of its axis, which keeps its length. Pressure on its outside, r = 1 + h/2, that follows it
-// has the energy p times the area within: that within the axis and constants, so p = 3 E I (Bresse 1866). Where it keeps
-// its direction, the force p r of a unit angle goes inwards by (1/2 + h/4) th^2 where the section turns by th, in place of
-// th^2/2: p r (1 + h/2) = 4 E I (Boresi 1955 for a force on the axis).
+// Of a ring with the radius 1 of its axis, which keeps its length. Pressure on its outside, r = 1 + h/2, that follows
+// it has the energy p times the area within: that within the axis and constants, so p = 3 E I (Bresse 1866). Where it
+// keeps its direction, the force p r of a unit angle goes inwards by (1/2 + h/4) th^2 where the section turns by th, in
+// place of th^2/2: p r (1 + h/2) = 4 E I (Boresi 1955 for a force on the axis).
 double critical_pressure(bool follows) {
   constexpr double kBending = 1e9 * 0.02 * 0.02 * 0.02 / 12, kOuter = 1.01;
   return follows ? 3 * kBending : 4 * kBending / (kOuter * kOuter);

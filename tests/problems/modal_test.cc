@@ -1,11 +1,10 @@
 // Modal integration of bodies: against all modes, against statics, and what it says of the modes it leaves out.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -26,7 +25,8 @@ BuiltTestScene beam(const std::string& rest) {
   return BuiltTestScene(R"(
 mesh: {type: box, size: [1, 0.1, 0.1], cells: [13, 2, 2], order: 1}
 materials: {m: {type: orthotropic_stable, density: 500, young: [1e9, 1e8, 5e7], nu: 0.3}}
-regions: {all: {material: m, axes: )" + kTurnedAxes + "}}\nelasticity: {kinematics: linear}\n" + rest);
+regions: {all: {material: m, axes: )" +
+                        kTurnedAxes + "}}\nelasticity: {kinematics: linear}\n" + rest);
 }
 
 std::unique_ptr<Integrator> made(const BuiltTestScene& s, const std::string& options) {
@@ -242,8 +242,7 @@ TEST(Modal, RefusesDashpotsGroundAndTooFewModesForAStart) {
     EXPECT_NE(message.find(part), std::string::npos) << message;
   };
   const std::string clamp = "clamps: [{surface: x0}]\n";
-  expect(refusal(clamp + "terms: [{type: dashpot, nearest: [1, 0, 0], coefficient: 30}]\n",
-                 "type: modal, modes: 5"),
+  expect(refusal(clamp + "terms: [{type: dashpot, nearest: [1, 0, 0], coefficient: 30}]\n", "type: modal, modes: 5"),
          "dashpots couples them");
   expect(refusal(clamp + "terms: [{type: ground, point: [0, 0, -1], normal: [0, 0, 1], stiffness: 1e6}]\n",
                  "type: modal, modes: 5"),

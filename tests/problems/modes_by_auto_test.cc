@@ -1,5 +1,5 @@
-// Runs of linear scenes with the modes that `auto` takes, against one with all modes, which is exact in time; and the faster way that
-// `orthodyn check` tells of.
+// Runs of linear scenes with the modes that `auto` takes, against one with all modes, which is exact in time; and the
+// faster way that `orthodyn check` tells of.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,12 +17,14 @@ namespace {
 std::string beam(const std::string& rest, const std::string& kinematics = "linear") {
   return "mesh: {type: box, size: [1, 0.1, 0.1], cells: [10, 1, 1]}\n"
          "materials: {m: {type: preset, name: sitka_spruce}}\n"
-         "clamps: [{surface: x0}]\nelasticity: {kinematics: " + kinematics + "}\n" + rest + "\n";
+         "clamps: [{surface: x0}]\nelasticity: {kinematics: " +
+         kinematics + "}\n" + rest + "\n";
 }
 
-const std::string kTapped = "terms: [{type: point_load, nearest: [1, 0, 0.1], force: [0, 0, -2], factor: {type: "
-                            "expression, formula: \"t < 2e-3 ? sin(pi*t/2e-3) : 0\", kinks: [2 ms], peak: 1}}]\n"
-                            "time: {end: 1}";
+const std::string kTapped =
+    "terms: [{type: point_load, nearest: [1, 0, 0.1], force: [0, 0, -2], factor: {type: "
+    "expression, formula: \"t < 2e-3 ? sin(pi*t/2e-3) : 0\", kinks: [2 ms], peak: 1}}]\n"
+    "time: {end: 1}";
 const std::string kStep = "loads: [{surface: x1, force: [0, 0, -10]}]\ntime: {end: 1}";
 Setup set_up_with(const std::string& scene, const std::string& integrator) {
   return set_up(Config::from_text(scene + "\nintegrator: {" + integrator + "}\n"));
@@ -70,9 +72,9 @@ TEST_P(LinearMotion, IsThatOfAllModesWithinTheTolerance) {
 
 // A pulse of a thousandth of the time, long after the start, which no even look at the load sees.
 TEST(ModesByAuto, FollowAShortPulseLate) {
-  const std::string scene =
-      beam("loads: [{surface: x1, force: [0, 0, -10], factor: {type: expression, formula: \"t > 0.6 && t < 0.601 ? "
-           "sin(pi*(t-0.6)/1e-3) : 0\", kinks: [0.6, 0.601]}}]\ntime: {end: 1}");
+  const std::string scene = beam(
+      "loads: [{surface: x1, force: [0, 0, -10], factor: {type: expression, formula: \"t > 0.6 && t < 0.601 ? "
+      "sin(pi*(t-0.6)/1e-3) : 0\", kinks: [0.6, 0.601]}}]\ntime: {end: 1}");
   const orthodyn::Setup exact = set_up_with(scene, "type: modal, modes: 10000");
   const orthodyn::Setup chosen = set_up_with(scene, "type: auto, rtol: 1e-3");
   EXPECT_EQ(decision(chosen, "method"), "modal");
@@ -95,7 +97,8 @@ terms:
       factor: {{type: expression, formula: "t < 2e-3 ? sin(pi*t/2e-3) : 0", kinks: [2 ms], peak: 1}}}}
 time: {{end: 0.25}}
 integrator: {{type: arkode_dirk, rtol: 1e-4}}
-)", kinematics, force);
+)",
+                     kinematics, force);
 }
 
 std::optional<FasterWay> faster_way_of(const std::string& scene) {

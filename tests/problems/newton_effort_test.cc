@@ -18,8 +18,7 @@ class NewtonEffort : public testing::TestWithParam<Shipped> {};
 // before it is given up, and three more with a new one, on both scenes.
 constexpr double kIterationsWithOldFirst = 6;
 
-INSTANTIATE_TEST_SUITE_P(Scenes, NewtonEffort,
-                         testing::Values(Shipped{"cantilever", 0.25}, Shipped{"twist", 0.6}),
+INSTANTIATE_TEST_SUITE_P(Scenes, NewtonEffort, testing::Values(Shipped{"cantilever", 0.25}, Shipped{"twist", 0.6}),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 TEST_P(NewtonEffort, OfBdfIsNotSpentOnOldMatrices) {

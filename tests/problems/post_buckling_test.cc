@@ -46,7 +46,8 @@ mesh: {{type: box, size: [1, 0.05, 0.01], cells: [40, 2, 1]}}
 materials: {{m: {{type: isotropic, density: 1000, young: 1e9, nu: 0}}}}
 clamps: [{{surface: x0}}]
 loads: [{{surface: x1, force: [{}, 0, {}]}}]
-)", statics, -times * kEuler, times * aside * kEuler)),
+)",
+                           statics, -times * kEuler, times * aside * kEuler)),
         problem_(static_problem(scene_.scene, scene_.built)) {}
 
   // The displacement of the middle of its top.
@@ -119,8 +120,8 @@ TEST(PressedColumn, BucklesUnderAnyLoadBeyondEulers) {
 // next to the straight one of unstable equilibria, whatever the steps.
 TEST(PressedColumn, ThatIsNotQuiteStraightTurnsAsideWhateverTheSteps) {
   const std::string wood = "{type: preset, name: sitka_spruce, density: 400 kg/m^3}";
-  for (const std::string statics : {"{}", "{first_step: 0.05, max_step: 0.05}", "{first_step: 1}",
-                                    "{max_step: 0.3}", "{at_limit: follow}", "{at_limit: jump}"}) {
+  for (const std::string statics : {"{}", "{first_step: 0.05, max_step: 0.05}", "{first_step: 1}", "{max_step: 0.3}",
+                                    "{at_limit: follow}", "{at_limit: jump}"}) {
     BuiltTestScene scene(fmt::format(R"(
 analysis: static
 statics: {}
@@ -128,7 +129,8 @@ mesh: {{type: box, size: [1, 0.05, 0.01], cells: [40, 2, 1]}}
 materials: {{m: {}}}
 clamps: [{{surface: x0}}]
 loads: [{{surface: x1, force: [-200, 0, 0]}}]
-)", statics, wood));
+)",
+                                     statics, wood));
     const StaticProblem problem = static_problem(scene.scene, scene.built);
     while (!problem.stepper->done()) problem.stepper->step();
     EXPECT_NEAR(problem.stepper->state().q.lpNorm<Eigen::Infinity>(), 0.81, 0.001) << statics;

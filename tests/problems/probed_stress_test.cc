@@ -23,7 +23,8 @@ clamps:
   - {{surface: end1, components: [z]}}
 terms: [{{type: pressure, surface: inner, pressure: 1e-3}}]
 output: {{probes: {{inside: {{at: [1, 0, 0.1], fields: [nodal_stress]}}, middle: {{at: [1.5, 0, 0.1], fields: [nodal_stress]}}}}}}
-)", 4 * cells, cells, nu);
+)",
+                     4 * cells, cells, nu);
 }
 
 using Stress = Eigen::Matrix<double, 6, 1>;  // xx, yy, zz, xy, yz, zx
@@ -75,8 +76,10 @@ TEST_F(CoarseStress, OfALargeModelIsSaidToHaveNoKnownError) {
 TEST_F(CoarseStress, IsWarnedOf) {
   write("tube.yaml", tube(0.3, 4));
   const auto coarse = orthodyn("run tube.yaml --out result");
-  EXPECT_NE(coarse.output.find("warning: the mesh is coarse for 1 of 2 probed stresses or strains: nodal_stress of inside"),
-            std::string::npos) << coarse.output;
+  EXPECT_NE(
+      coarse.output.find("warning: the mesh is coarse for 1 of 2 probed stresses or strains: nodal_stress of inside"),
+      std::string::npos)
+      << coarse.output;
   EXPECT_NE(coarse.output.find("nodal_stress of middle"), std::string::npos) << coarse.output;
 }
 

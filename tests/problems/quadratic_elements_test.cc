@@ -2,12 +2,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/SparseCholesky>
 #include <numbers>
 
-#include <Eigen/SparseCholesky>
-
-#include "lib/core/symmetric_eigen.h"
 #include "lib/analysis/modes.h"
+#include "lib/core/symmetric_eigen.h"
 #include "lib/element/tet10.h"
 #include "lib/mesh/box.h"
 #include "lib/study/converge/richardson.h"
@@ -38,7 +37,8 @@ regions: {{body: {{material: m, axes: {}}}}}
 elasticity: {{kinematics: linear}}
 mass: consistent
 time: {{end: 1}}
-)", material, kTurnedAxes));
+)",
+                                    material, kTurnedAxes));
 }
 
 bool is_inner(const Vec3& x) { return (x.array() > 1e-9).all() && (x.array() < 1 - 1e-9).all(); }
@@ -70,7 +70,8 @@ materials: {{m: {}}}
 regions: {{body: {{material: m, axes: {}}}}}
 elasticity: {{kinematics: linear}}
 time: {{end: 1}}
-)", material, kTurnedAxes));
+)",
+                                      material, kTurnedAxes));
   }
   BuiltTestScene one_;
 };
@@ -253,7 +254,8 @@ elasticity: {{kinematics: linear}}
 clamps: [{{surface: x0}}]
 loads: [{{surface: x1, force: [0, 0, -1]}}]
 time: {{end: 1}}
-)", order));
+)",
+                                       order));
     Linearization at;
     s.model().linearize(0, s.zero(), s.zero(), TangentKind::exact, at);
     const Eigen::SparseMatrix<double> K = s.model().pattern().matrix(at.stiffness.data());
@@ -297,7 +299,8 @@ mesh: {{type: cylinder, radius: 0.5, length: 1, cells: [8, 1, 2], order: 2}}
 materials: {{m: {{type: isotropic, density: 2, young: 1, nu: 0.3}}}}
 time: {{end: 1}}
 {}
-)", more));
+)",
+                                    more));
 }
 
 // Without gravity and at rest only the loads act.
@@ -341,8 +344,9 @@ TEST(QuadraticFaces, UnderPressureAllAroundHaveTheEnergyPV) {
   const Vector push = s.force(q) - bare.force(q);
   EXPECT_NEAR(push.dot(d), -0.7 * rate, 1e-10);
   // Its stiffness is the derivative of its force, and symmetric.
-  const Vector difference = (s.force(q + 1e-3 * d) - bare.force(q + 1e-3 * d) - s.force(q - 1e-3 * d) +
-                             bare.force(q - 1e-3 * d)) / 2e-3;  // exact: quadratic
+  const Vector difference =
+      (s.force(q + 1e-3 * d) - bare.force(q + 1e-3 * d) - s.force(q - 1e-3 * d) + bare.force(q - 1e-3 * d)) /
+      2e-3;  // exact: quadratic
   const Eigen::MatrixXd K = s.stiffness(q) - bare.stiffness(q);
   EXPECT_LE((difference + K * d).norm(), 1e-10 * difference.norm());
 }
@@ -388,7 +392,8 @@ regions: {{body: {{material: m, axes: {}}}}}
 initial: {{spin: [0.3, 0.2, 1], deformation_gradient: [[1.2, 0, 0], [0, 1, 0], [0, 0, 1]]}}
 integrator: {{type: arkode_dirk, rtol: {}}}
 time: {{end: 1.5}}
-)", kTurnedAxes, rtol));
+)",
+                                       kTurnedAxes, rtol));
     double first = 0, worst = 0;
     Vec3 L = Vec3::Zero(), twist = Vec3::Zero();
     const auto outcome = run_scene(s, 20, [&](const State& state) {

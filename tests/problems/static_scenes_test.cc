@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "lib/analysis/modes.h"
+#include "lib/analysis/rigid_freedom.h"
 #include "lib/simulation/statics/load_steps.h"
 #include "lib/simulation/statics/static_problem.h"
-#include "lib/analysis/rigid_freedom.h"
 #include "tests/problems/running.h"
 
 namespace orthodyn::static_scenes_test {
@@ -207,7 +207,8 @@ mesh: {{type: gmsh, file: {}meshes/strip.v22.msh}}
 materials: {{solid: {{type: isotropic, density: 1000, young: 1e9, nu: 0}}}}
 clamps: [{{surface: fixed}}]
 loads: [{{surface: load, traction: [0, 0, 1e5]}}]
-)", folder_));
+)",
+                                         folder_));
   const NodalVector u = strip.nodal(equilibrium(strip.scene, strip.built));
   for (const auto& [file, tolerance] : {std::pair{"corot", 1e-6}, {"getfem_stvk", 3.741e-4}, {"ccx", 3.741e-4}}) {
     const auto expected = rows(std::string("C06a_bend_iso/") + file + ".csv");
@@ -239,7 +240,8 @@ regions:
 mass: {}
 clamps: [{{surface: fixed}}]
 time: {{end: 1}}
-)", folder_, mass));
+)",
+                                          folder_, mass));
     const auto expected = rows(std::string("C02_ortho_freq/") + mass + ".csv");
     const Modes modes = natural_modes(beam.model(), {0, beam.zero(), beam.zero()}, 10);
     EXPECT_EQ(modes.zeros, 0);

@@ -1,7 +1,6 @@
 // Linear statics by one solve with K, against closed forms and independent programs.
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -46,7 +45,8 @@ clamps:
   - {{nearest: [0, 0.5, 0], components: [z]}}
 loads: [{{surface: x0, traction: [-{2}, 0, 0]}}, {{surface: x1, traction: [{2}, 0, 0]}}]
 time: {{end: 1}}
-)", c, s, pull));
+)",
+                                         c, s, pull));
   const NodalVector u = block.nodal(linear_static(block));
   const double eps_x = u(0, nearest_node(block.mesh(), {1, 0, 0}));
   const double gamma_xy = u(0, nearest_node(block.mesh(), {0, 0.5, 0})) / 0.5;
@@ -67,7 +67,9 @@ TEST(OffAxisTension, HasTheClosedFormModulusAndShearCoupling) {
 }
 
 TEST(OffAxisTension, OfSpruceMatchesTheTable) {
-  struct Row { double degrees, modulus, coupling; };
+  struct Row {
+    double degrees, modulus, coupling;
+  };
   for (const auto& row :
        {Row{15, 5.833211e9, 1.708048}, Row{30, 2.611311e9, 1.289311}, Row{45, 1.508943e9, 0.828322}}) {
     const auto found = measured(row.degrees);
@@ -117,7 +119,8 @@ regions:
 clamps: [{{surface: fixed}}]
 loads: [{{surface: load, traction: [2000, -5000, 12000]}}]
 time: {{end: 1}}
-)", folder_ + "meshes/" + mesh));
+)",
+                                      folder_ + "meshes/" + mesh));
   }
 
   std::string folder_;

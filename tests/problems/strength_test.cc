@@ -33,7 +33,8 @@ clamps:
   - {{nearest: [0, 0.5, 0], components: [z]}}
 loads: [{{surface: x0, traction: [-{3}, 0, 0]}}, {{surface: x1, traction: [{3}, 0, 0]}}]
 output: {{probes: {{middle: {{at: [0.5, 0.25, 0.2]}}}}}}
-)", strength, std::cos(theta), std::sin(theta), kPull);
+)",
+                     strength, std::cos(theta), std::sin(theta), kPull);
 }
 
 const std::string kStrength =
@@ -74,8 +75,8 @@ TEST(UniformStress, IsKnownAtAPointAndOverTheBody) {
     for (const auto& [quantity, expected] : known)
       EXPECT_NEAR(body(quantity), expected, 1e-4 * kPull) << quantity << " at " << degrees;
     // Strain in space: eps_xx = sigma/E_x, the same as along the rotated axes.
-    const double Exx = 1 / (std::pow(c, 4) / 10.8e9 + std::pow(s, 4) / 0.84e9 +
-                            (1 / 0.69e9 - 2 * 0.44 / 10.8e9) * s * s * c * c);
+    const double Exx =
+        1 / (std::pow(c, 4) / 10.8e9 + std::pow(s, 4) / 0.84e9 + (1 / 0.69e9 - 2 * 0.44 / 10.8e9) * s * s * c * c);
     EXPECT_NEAR(body("middle.nodal_strain_space.xx"), kPull / Exx, 1e-4 * kPull / Exx) << degrees;
   }
 }
@@ -130,7 +131,8 @@ materials:
   soft: {{type: isotropic, density: 400, young: {}, nu: 0}}
 regions: {{ply: {{material: stiff}}, all: {{material: soft}}}}
 clamps: [{{surface: x0}}]
-)", kStiff, kSoft));
+)",
+                                         kStiff, kSoft));
   const Vector q = scene.dofs([&](const Vec3& x) { return Vec3(kStretch * x[0], 0, 0); });
   const State state{0, q, Vector::Zero(q.size())};
   const auto value = [&](const std::string& quantity) {

@@ -23,7 +23,7 @@ constexpr double kSlope = kRise / kHalf;
 // One half for a deflection d of the apex: its shape w, with w'' + k^2 w = const + ..., clamped at both ends, so that
 // w' = d s(x), s = A (1 - cos kx) + B sin kx. N is found by bisection.
 struct Half {
-  double k;                                       // 1/in, k^2 = N / (E I)
+  double k;  // 1/in, k^2 = N / (E I)
   double tangent() const { return std::tan(k * kHalf / 2); }
   // of a unit deflection: the force across, over E I, and the integral of s^2
   double across() const { return k * k * k / (2 * (k * kHalf / 2 - tangent())); }
@@ -68,7 +68,8 @@ mesh: {{type: given}}
 materials: {{m: {{type: isotropic, density: 1, young: {}, nu: 0}}}}
 clamps: [{{surface: x0}}, {{surface: x1}}]
 terms: [{{type: point_load, box: {{min: [{}, 0, 0], max: [{}, 1, 1]}}, force: [0, 0, -{}]}}]
-)", kYoungs, kHalf - 1e-3, kHalf + 1e-3, load));
+)",
+                                    kYoungs, kHalf - 1e-3, kHalf + 1e-3, load));
 }
 
 TEST(WilliamsToggle, IsTracedThroughItsSnap) {

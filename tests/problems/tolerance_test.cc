@@ -1,5 +1,5 @@
-// The error of a scene that is shipped falls with the tolerance, whichever method integrates, and is small where a scene
-// says nothing. configs/comparisons/tolerance.yaml measures it at full size.
+// The error of a scene that is shipped falls with the tolerance, whichever method integrates, and is small where a
+// scene says nothing. configs/comparisons/tolerance.yaml measures it at full size.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@ namespace {
 
 struct ScenePart {
   const char* name;
-  const char* cells;  // of a coarser mesh
-  const char* end;    // s
+  const char* cells;              // of a coarser mesh
+  const char* end;                // s
   const char* damping = nullptr;  // in place of the scene's
   const char* factor = nullptr;   // likewise, of its load
 };

@@ -1,7 +1,6 @@
 // Natural frequencies against those of bars and beams.
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <numbers>
 
@@ -42,17 +41,20 @@ mesh: {{type: box, size: {}, cells: {}, split: {}, order: 1}}
 materials:
   spruce: {{type: orthotropic, density: 400, young: [10.8e9, 0.84e9, 0.46e9], nu12: {}, nu23: {}, nu31: {},
            g12: 0.69e9, g23: 0.032e9, g13: 0.66e9}}
-{})", size, cells, split, nu, nu, 0.0225 / 0.44 * nu, rest);
+{})",
+                     size, cells, split, nu, nu, 0.0225 / 0.44 * nu, rest);
 }
 
 // A bar without Poisson's effect that moves along its axis only.
 BuiltTestScene bar(int cells, const std::string& mass) {
-  return BuiltTestScene(spruce_box("[1, 0.05, 0.05]", fmt::format("[{}, 1, 1]", cells), "six", 0, fmt::format(R"(
+  return BuiltTestScene(spruce_box("[1, 0.05, 0.05]", fmt::format("[{}, 1, 1]", cells), "six", 0,
+                                   fmt::format(R"(
 mass: {}
 clamps: [{{surface: x0}}, {{box: {{min: [0, 0, 0], max: [1, 1, 1]}}, components: [y, z]}}]
 integrator: {{type: cvode_bdf, rtol: 1e-7, max_order: 2, position_scale: 1e-3, velocity_scale: 8}}
 time: {{end: {}}}
-)", mass, 1 / 1299.0381)));
+)",
+                                               mass, 1 / 1299.0381)));
 }
 
 const auto kStretch = [](const Vec3& X) { return Vec3(X[0], 0, 0); };
@@ -61,7 +63,11 @@ const auto kStretch = [](const Vec3& X) { return Vec3(X[0], 0, 0); };
 // mesh; in one dimension they are +-(pi h / 4 L)^2 / 6.
 TEST(Bar, FirstFrequencyHasTheKnownErrorOfEachMassMatrix) {
   const double exact = std::sqrt(10.8e9 / 400) / 4;
-  struct Row { int cells; const char* mass; double error; };
+  struct Row {
+    int cells;
+    const char* mass;
+    double error;
+  };
   for (const auto& row : {Row{10, "consistent", 9.1e-4}, Row{10, "lumped", -1.1e-3}, Row{20, "consistent", 2.3e-4},
                           Row{20, "lumped", -2.9e-4}}) {
     const auto scene = bar(row.cells, row.mass);
@@ -110,11 +116,13 @@ TEST(Cantilever, FirstBendingFrequencyExtrapolatesToTimoshenkosBeam) {
 // not show.
 TEST(Cantilever, AReleasedFirstModeSwingsAtItsFrequency) {
   const auto beam = [](double end) {
-    return BuiltTestScene(spruce_box("[1, 0.05, 0.05]", "[20, 2, 2]", "five", 0.44, fmt::format(R"(
+    return BuiltTestScene(spruce_box("[1, 0.05, 0.05]", "[20, 2, 2]", "five", 0.44,
+                                     fmt::format(R"(
 clamps: [{{surface: x0}}]
 integrator: {{type: cvode_bdf, rtol: 1e-6, max_order: 2, position_scale: 1e-4, velocity_scale: 0.03}}
 time: {{end: {}}}
-)", end)));
+)",
+                                                 end)));
   };
   const auto guess = [](const Vec3& X) { return Vec3(0, X[0] * X[0], 0); };
   const auto still = beam(1);

@@ -18,7 +18,8 @@ constexpr double kRoundOff = 1e-11;
 class SharedModel : public testing::TestWithParam<SharedScene> {
  protected:
   SharedModel()
-      : scene_(read_scene(Config::from_text(GetParam().yaml, "scene.yaml"))), one_(build(scene_)),
+      : scene_(read_scene(Config::from_text(GetParam().yaml, "scene.yaml"))),
+        one_(build(scene_)),
         parts_(build(scene_, world_ranks())) {}
 
   const FemModel& one() const { return *one_.model; }

@@ -58,9 +58,9 @@ TEST_P(SharedMotion, OfFixedStepIsTheSameToRoundOff) {
 }
 
 TEST_P(SharedMotion, WithErrorControlIsTheSameWithinTheTolerance) {
-  for (const char* method : {"type: cvode_bdf, rtol: 1.0e-5, linear_solver: petsc",
-                             "type: ida_bdf, rtol: 1.0e-5, linear_solver: petsc",
-                             "type: arkode_dirk, rtol: 1.0e-5, linear_solver: petsc"}) {
+  for (const char* method :
+       {"type: cvode_bdf, rtol: 1.0e-5, linear_solver: petsc", "type: ida_bdf, rtol: 1.0e-5, linear_solver: petsc",
+        "type: arkode_dirk, rtol: 1.0e-5, linear_solver: petsc"}) {
     const std::string yaml = GetParam().yaml + integrator(method);
     const Motion one = integrate(yaml, nullptr), shared = integrate(yaml, world_ranks());
     // The scale of positions is 0.1 m, and errors of some hundred steps add up in either run.
@@ -157,8 +157,7 @@ time: {end: 3.141592653589793}
   const orthodyn::Setup whole = set_up(Config::from_text(yaml, "scene.yaml"));
   const FemModel& model = *whole.built.model;
   const Eigen::Map<const Vector> x(model.parts().rest->data(), model.num_dofs());
-  for (Eigen::Index k = 0; k < x.size(); ++k)
-    EXPECT_NEAR(x[k] + motion.end.q[k], k % 3 == 2 ? x[k] : -x[k], 4e-3) << k;
+  for (Eigen::Index k = 0; k < x.size(); ++k) EXPECT_NEAR(x[k] + motion.end.q[k], k % 3 == 2 ? x[k] : -x[k], 4e-3) << k;
   const double before = model.evaluate("momentum.angular", whole.built.initial)[2];
   EXPECT_NEAR(model.evaluate("momentum.angular", motion.end)[2], before, 1e-3 * before);
 }

@@ -21,30 +21,29 @@ inline std::vector<SharedScene> shared_scenes() {
   const std::string box = "mesh: {type: box, size: [1, 0.2, 0.1], cells: [10, 3, 2], order: 1}\n";
   const std::string fine = "mesh: {type: box, size: [1, 0.2, 0.1], cells: [6, 2, 1], order: 2}\n";
   const std::string head = kSharedHead;
-  return {
-      {"clamped", box + head + R"(
+  return {{"clamped", box + head + R"(
 clamps: [{name: wall, surface: x0}]
 gravity: [0, 0, -9.81]
 damping: {stiffness: 2.0e-3, mass: 0.3}
 loads: [{surface: x1, traction: [0, 200, "100 * y"]}]
 output: {reactions: true}
 )"},
-      {"quadratic", fine + head + R"(
+          {"quadratic", fine + head + R"(
 clamps: [{surface: x0, components: [x, z]}, {nearest: [0, 0, 0]}]
 gravity: [0, 0, -9.81]
 initial: {noise: {amplitude: 1.0e-4, seed: 3}}
 )"},
-      {"moved", box + head + R"(
+          {"moved", box + head + R"(
 motions: [{name: hand, surface: y0, rotation: {axis: [0, 1, 0], angle: 0.3 rad}, factor: {type: sine, frequency: 3}}]
 damping: {stiffness: 1.0e-3}
 output: {reactions: true}
 )"},
-      {"touching", box + head + R"(
+          {"touching", box + head + R"(
 initial: {velocity: [0, 0, -1], spin: [0, 2, 0]}
 gravity: [0, 0, -9.81]
 terms: [{type: ground, point: [0, 0, -0.005], stiffness: 1.0e7}]
 )"},
-      {"tied", box + head + R"(
+          {"tied", box + head + R"(
 clamps: [{surface: z0}]
 terms:
   - {type: spring, between: [[0.1, 0, 0], [1, 0.2, 0.1]], stiffness: 300}
@@ -52,13 +51,13 @@ terms:
   - {type: spring, surface: x1, anchor: [1.5, 0.1, 0.05], stiffness: 500}
   - {type: pressure, surface: z1, pressure: "1000 + 1000 * x"}
 )"},
-      {"turned", box + head + R"(
+          {"turned", box + head + R"(
 regions: {body: {material: wood, axes: {type: cylindrical, point: [0, 0, -0.3], axis: [1, 0, 0]}}}
 clamps: [{box: {min: [-1, -1, -1], max: [0.45, 1, 1]}}]
 gravity: [0, 0, -9.81]
 )"},
-      // Five elements: of seven ranks some have none.
-      {"small", "mesh: {type: box, size: [1, 0.2, 0.1], cells: [1, 1, 1], order: 1}\n" + head + R"(
+          // Five elements: of seven ranks some have none.
+          {"small", "mesh: {type: box, size: [1, 0.2, 0.1], cells: [1, 1, 1], order: 1}\n" + head + R"(
 clamps: [{surface: x0}]
 gravity: [0, 0, -9.81]
 damping: {stiffness: 2.0e-3}

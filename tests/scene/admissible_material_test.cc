@@ -42,8 +42,9 @@ void accept(const std::string& constants) { EXPECT_NO_THROW(build_text(scene_of(
 TEST(MaterialsOfPlugins, MustBePositiveDefinite) {
   accept("density: 1");
   // The eigenvalues of the normal part are c11 - c12 (twice) and c11 + 2 c12.
-  EXPECT_NE(refused("density: 1, c12: 2.5").find("scene.yaml:3:9: materials.soft: cannot be computed with: its "
-                                                 "stiffness is not positive definite: the smallest eigenvalue is -0.5"),
+  EXPECT_NE(refused("density: 1, c12: 2.5")
+                .find("scene.yaml:3:9: materials.soft: cannot be computed with: its "
+                      "stiffness is not positive definite: the smallest eigenvalue is -0.5"),
             std::string::npos)
       << refused("density: 1, c12: 2.5");
   accept("density: 1, c12: -0.99");

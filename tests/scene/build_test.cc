@@ -15,8 +15,7 @@ std::vector<std::string> shipped_scenes() {
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(ORTHODYN_SOURCE_DIR) / "configs")) {
     const auto folder = entry.path().parent_path().filename();
     const bool other = folder == "comparisons" || folder == "sweeps" || folder == "stability" || folder == "vega";
-    if (entry.path().extension() == ".yaml" && !other)
-      files.push_back(entry.path().string());
+    if (entry.path().extension() == ".yaml" && !other) files.push_back(entry.path().string());
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -59,7 +58,8 @@ TEST(ResolvedScene, SaysWhetherPressureFollowsWhichHangsOnTheKinematics) {
       "\nterms: [{type: pressure, pressure: 1}, {type: pressure, pressure: 1, follows: FOLLOWS}]";
   const auto follows = [&](const std::string& kinematics, const std::string& second) {
     const Config config = Config::from_text(kValidScene + "elasticity: {kinematics: " + kinematics + "}" +
-                                            replaced(pressure, "FOLLOWS", second)).resolving();
+                                            replaced(pressure, "FOLLOWS", second))
+                              .resolving();
     read_scene(config);
     return config.at("terms").at(0).at("follows").text() + " " + config.at("terms").at(1).at("follows").text();
   };

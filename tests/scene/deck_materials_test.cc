@@ -9,7 +9,8 @@
 namespace orthodyn::deck_materials_test {
 namespace {
 
-const std::string kMesh = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n*ELEMENT, TYPE=C3D4, ELSET=Body\n1, 1, 2, 3, 4\n";
+const std::string kMesh =
+    "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n*ELEMENT, TYPE=C3D4, ELSET=Body\n1, 1, 2, 3, 4\n";
 const std::string kIsotropic = "*ELASTIC\n2e11, 0.25\n*DENSITY\n7800\n";
 
 // The tet with this material; its keywords begin in line 9.

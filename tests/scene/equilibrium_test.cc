@@ -1,9 +1,8 @@
 // Equilibria of bodies whose supports are on their way: they are those of supports that stand still there.
-#include "lib/simulation/statics/static_problem.h"
-
 #include <gtest/gtest.h>
 
 #include "lib/simulation/run/setup.h"
+#include "lib/simulation/statics/static_problem.h"
 #include "tests/scene/scenes.h"
 
 namespace orthodyn::equilibrium_test {
@@ -49,8 +48,7 @@ TEST(Equilibrium, AtTheStartOfAMotionIsThatOfSupportsAtRest) {
 TEST(Equilibrium, HasReactionsThatCarryTheLoads) {
   for (const char* kind : kKinds) {
     const Scene scene = read_scene(Config::from_text(
-        kStretched + kind +
-        "gravity: [0, 0, -10]\nanalysis: static\ntime: {end: 0.3}\noutput: {reactions: true}\n"));
+        kStretched + kind + "gravity: [0, 0, -10]\nanalysis: static\ntime: {end: 0.3}\noutput: {reactions: true}\n"));
     const BuiltScene built = build(scene);
     const Vector q = equilibrium(scene, built);
     const auto of = [&](const char* name) {

@@ -59,9 +59,7 @@ TEST_F(VegaScene, MaterialsOfTheFileAreThoseTypedInAScene) {
             "0.06, g12: 1e8, g23: 2e8, g13: 3e8}}\nregions: {all: {material: wood, axes: {first: [0, 1, 0], second: "
             "[-1, 0, 0]}}}\n"),
       "scene.yaml"));
-  const auto C = [](const Scene& s) {
-    return voigt(s.materials.at(0).second->stiffness());
-  };
+  const auto C = [](const Scene& s) { return voigt(s.materials.at(0).second->stiffness()); };
   EXPECT_EQ(C(from_file), C(typed));
   EXPECT_EQ(from_file.materials[0].second->density(), 400);
   const auto Q = [](const Scene& s) {

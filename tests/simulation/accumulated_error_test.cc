@@ -25,7 +25,8 @@ mass: consistent
 initial: {{velocity: [1, 0, 0]}}
 clamps: [{{surface: x0}}, {{surface: y0}}, {{surface: z0}}, {{nearest: [0.1, 0.1, 0.1], components: [y, z]}}]
 time: {{end: {}}}
-{})", periods * kPeriod, rest);
+{})",
+                     periods * kPeriod, rest);
 }
 
 std::optional<AccumulatedError> error_of(const std::string& scene) {
@@ -69,7 +70,8 @@ TEST(AccumulatedError, OfADampedMotionIsNoMoreThanThatOfItsLastMoments) {
 TEST(AccumulatedError, FallsWithTheToleranceByGivenScales) {
   const auto by = [](double rtol) {
     return error_of(oscillator(200, fmt::format("integrator: {{type: cvode_bdf, rtol: {}, position_scale: {}, "
-                                                "velocity_scale: 1}}", rtol, 1 / kOmega)))
+                                                "velocity_scale: 1}}",
+                                                rtol, 1 / kOmega)))
         .value()
         .error;
   };

@@ -296,7 +296,8 @@ TEST_F(CommandLine, CtrlCEndsCleanlyWithTheFramesSoFar) {
   const auto result = shell("cd " + folder_.string() + " && " + program() +
                             " run swing.yaml --quiet --set time.end=1e3 --set integrator.h_max=1e-3 --set "
                             "output.interval=0.01 --set output.frames=null & pid=$!; for i in $(seq 100); do [ -e " +
-                            folder_.string() + "/out/swing/frames/frame_00003.vtu ] && break; sleep 0.1; done; "
+                            folder_.string() +
+                            "/out/swing/frames/frame_00003.vtu ] && break; sleep 0.1; done; "
                             "kill -INT $pid; wait $pid");
   EXPECT_EQ(result.exit_code, 130) << result.output;
   EXPECT_NE(result.output.find("interrupted at t ="), std::string::npos) << result.output;
@@ -326,8 +327,8 @@ TEST_F(CommandLine, HelpListsTheCommandsInTheOrderOfTheirUseAndHidesThoseOfProce
   const auto help = orthodyn("--help");
   EXPECT_EQ(help.exit_code, 0);
   std::size_t last = help.output.find("Subcommands:");
-  for (const std::string name : {"run", "check", "modes", "compare", "sweep", "stability", "verify", "convert", "list",
-                                 "schema", "init"}) {
+  for (const std::string name :
+       {"run", "check", "modes", "compare", "sweep", "stability", "verify", "convert", "list", "schema", "init"}) {
     const auto at = help.output.find("\n  " + name + " ", last);
     EXPECT_NE(at, std::string::npos) << name;
     last = at;

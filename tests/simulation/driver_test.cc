@@ -8,13 +8,13 @@
 #include <limits>
 #include <thread>
 
+#include "lib/mesh/io/mesh_file.h"
+#include "lib/scene/build.h"
 #include "lib/simulation/checkpoint/checkpoint.h"
 #include "lib/simulation/checkpoint/checkpointer.h"
 #include "lib/simulation/output/curves.h"
-#include "lib/simulation/run/run.h"
 #include "lib/simulation/output/frames.h"
-#include "lib/mesh/io/mesh_file.h"
-#include "lib/scene/build.h"
+#include "lib/simulation/run/run.h"
 #include "tests/scene/scenes.h"
 #include "tests/simulation/run_program.h"
 
@@ -79,9 +79,9 @@ TEST(Driver, DeliversEveryOutputOnceAtLateTimes) {
     yaml.replace(yaml.find("{end: 0.5}"), 10, fmt::format("{{start: {}, end: {}}}", start, start + 0.1));
     Case swing(yaml);
     Recorder seen;
-    swing.run_with({.output_times = by_interval(start, start + 0.1, 1e-2),
-                    .history_times = by_interval(start, start + 0.1, 1e-2)},
-                   {&seen});
+    swing.run_with(
+        {.output_times = by_interval(start, start + 0.1, 1e-2), .history_times = by_interval(start, start + 0.1, 1e-2)},
+        {&seen});
     EXPECT_EQ(seen.outputs.size(), 11u);  // with the start
     EXPECT_EQ(seen.history.size(), 10u);
     EXPECT_EQ(std::adjacent_find(seen.outputs.begin(), seen.outputs.end()), seen.outputs.end());

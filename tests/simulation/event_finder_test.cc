@@ -81,12 +81,15 @@ TEST(EventFinder, SeesNoEventWhereTheStartHasTheValue) {
   EventFinder exactly({event(1)});
   EXPECT_TRUE(crossings(exactly, wave, 0.5, 6).empty());
   EventFinder nearly({event(1.3)});  // but for round-off
-  EXPECT_TRUE(crossings(nearly, [](double t) { return 1.3 * (1 + 4e-16) - t; }, 0.1, 10).empty());
+  EXPECT_TRUE(crossings(
+                  nearly, [](double t) { return 1.3 * (1 + 4e-16) - t; }, 0.1, 10)
+                  .empty());
 }
 
 TEST(EventFinder, SeesTheValueReachedExactlyAtTheEndOfAStepOnce) {
   EventFinder finder({event(2)});
-  const auto found = crossings(finder, [](double t) { return t; }, 1, 5);
+  const auto found = crossings(
+      finder, [](double t) { return t; }, 1, 5);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].state.t, 2);
   EXPECT_TRUE(found[0].upward);
@@ -108,7 +111,8 @@ TEST(EventFinder, RemembersTheSideAcrossACheckpoint) {
 TEST(EventFinder, SaysWhichQuantityIsNotFinite) {
   EventFinder finder({event(1)});
   try {
-    crossings(finder, [](double t) { return t < 1 ? 0 : std::nan(""); }, 0.5, 5);
+    crossings(
+        finder, [](double t) { return t < 1 ? 0 : std::nan(""); }, 0.5, 5);
     ADD_FAILURE() << "no error";
   } catch (const RunError& e) {
     EXPECT_NE(std::string(e.what()).find("event 'e' at t = 1"), std::string::npos) << e.what();

@@ -1,8 +1,8 @@
 // What is told of a whole run does not depend on how many frames it writes, or says so.
 #include <gtest/gtest.h>
 
-#include "lib/simulation/output/json.h"
 #include "lib/simulation/output/extremes.h"
+#include "lib/simulation/output/json.h"
 #include "lib/simulation/output/strain_watch.h"
 #include "lib/simulation/run/setup.h"
 #include "tests/simulation/result_reader.h"
@@ -109,7 +109,9 @@ TEST(ExceededStrengths, AreThoseOfExposuresAboveOne) {
             std::vector<std::string>{"grip.tsai_wu reaches 2: the strength is exceeded from 1 on, at (0.1, 0.2, 0) m, "
                                      "at load factor 0.3"});
   EXPECT_TRUE(exceeded_strengths({extreme_of("hashin.largest", 1), extreme_of("von_mises.largest", 4e6),
-                                  extreme_of("max_stress.smallest", 2)}, false).empty());
+                                  extreme_of("max_stress.smallest", 2)},
+                                 false)
+                  .empty());
 }
 
 }  // namespace

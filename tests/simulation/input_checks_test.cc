@@ -51,8 +51,10 @@ Said said_of(const std::string& scene) {
 // All masses of a cube of one linear cell lie in its corners: its moments are m a^2/2 in place of m a^2/6.
 TEST(Slips, AMomentOfInertiaOfLumpedMassesIsToldWhereTheBodyTurns) {
   const auto cube = [](const std::string& rest) {
-    return said_of("mesh: {type: box, size: [1, 1, 1], cells: [1, 1, 1], order: 1}\n"
-                   "materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}\ntime: {end: 1}\n" + rest)
+    return said_of(
+               "mesh: {type: box, size: [1, 1, 1], cells: [1, 1, 1], order: 1}\n"
+               "materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}\ntime: {end: 1}\n" +
+               rest)
         .words;
   };
   const auto told = HasSubstr("moment of inertia +200 % off");
@@ -71,7 +73,9 @@ TEST(Slips, AFreeBodyThatTurnsIsNotForLinearKinematics) {
     return said_of(fmt::format("mesh: {{type: box, size: [1, 1, 1], cells: [2, 2, 2]}}\n"
                                "materials: {{m: {{type: isotropic, density: 1000, young: 1e6, nu: 0.3}}}}\n"
                                "mass: consistent\ntime: {{end: 2}}\ninitial: {{spin: [0, 0, {}]}}\n"
-                               "elasticity: {{kinematics: {}}}\n", spin, kinematics)).words;
+                               "elasticity: {{kinematics: {}}}\n",
+                               spin, kinematics))
+        .words;
   };
   EXPECT_THAT(spun(0.2, "linear"), HasSubstr("it turns by about 0.4 rad"));
   EXPECT_THAT(spun(0.2, "corotational"), testing::Not(HasSubstr("turns by")));
@@ -81,16 +85,20 @@ TEST(Slips, AFreeBodyThatTurnsIsNotForLinearKinematics) {
 // A steady push on a body that nothing holds, as a load or as a term; with a spring it may be held.
 TEST(Slips, ASteadyPushOfAFreeBodyIsNamedWhateverSectionItStandsIn) {
   const auto pushed = [](const std::string& rest) {
-    return said_of("mesh: {type: box, size: [1, 0.1, 0.1], cells: [4, 1, 1], order: 2}\n"
-                   "materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0.3}}\nmass: consistent\n"
-                   "time: {end: 1}\n" + rest).words;
+    return said_of(
+               "mesh: {type: box, size: [1, 0.1, 0.1], cells: [4, 1, 1], order: 2}\n"
+               "materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0.3}}\nmass: consistent\n"
+               "time: {end: 1}\n" +
+               rest)
+        .words;
   };
   const auto told = HasSubstr("nothing holds the body");
   EXPECT_THAT(pushed("loads: [{surface: x1, force: [0, 0, 10]}]"), told);
   EXPECT_THAT(pushed("terms: [{type: pressure, surface: z0, pressure: 100}]"), told);
   EXPECT_THAT(pushed("terms: [{type: point_load, nearest: [1, 0, 0], force: [0, 0, 10]}]"), told);
   EXPECT_THAT(pushed("terms: [{type: point_load, nearest: [1, 0, 0], force: [0, 0, 10]},"
-                     " {type: spring, nearest: [0, 0, 0], stiffness: 100}]"), testing::Not(told));
+                     " {type: spring, nearest: [0, 0, 0], stiffness: 100}]"),
+              testing::Not(told));
 }
 
 struct Slip {
@@ -208,8 +216,8 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"a_formula_of_nothing", "force: [0, 0, -100]", "traction: [0, 0, \"0*z\"]", kWarned, "is zero"},
         Slip{"a_load_on_the_clamp", "surface: x1", "surface: x0", kWarned,
              "loads.0: force on x0 acts on held nodes only"},
-        Slip{"a_point_load_on_the_clamp", kLoad,
-             "terms: [{type: point_load, nearest: [0, 0, 0], force: [0, 0, -1]}]", kWarned, "Is it the wrong point?"},
+        Slip{"a_point_load_on_the_clamp", kLoad, "terms: [{type: point_load, nearest: [0, 0, 0], force: [0, 0, -1]}]",
+             kWarned, "Is it the wrong point?"},
         Slip{"a_load_after_the_end", kLoad, load_with("{type: ramp, start: 5, end: 6}"), kWarned, "begins at 5 s"},
         Slip{"a_table_after_the_end", kLoad, load_with("{type: table, points: [[100, 0], [200, 1]]}"), kWarned,
              "it is 0 during the whole run"},
@@ -369,15 +377,14 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"no_clamps", "clamps: [{surface: x0}]\n", "", kWarned, "Is a clamp missing?"},
         Slip{"the_other_ratio_of_a_pair", "nu13: 0.45", "nu13: 0.0225", kWarned,
              "is it nu31 that is 0.0225? Then nu13 is 0.528"},
-        Slip{"grain_through_the_thickness", "first: [1, 0, 0], second: [0, 1, 0]", "first: [0, 0, 1], second: [1, 0, 0]",
-             kWarned, "points through the body, along z"},
+        Slip{"grain_through_the_thickness", "first: [1, 0, 0], second: [0, 1, 0]",
+             "first: [0, 0, 1], second: [1, 0, 0]", kWarned, "points through the body, along z"},
         Slip{"the_other_name_of_a_shear_modulus", "g13: 0.66e9", "g31: 0.66e9", kRefused, "did you mean 'g13'?"},
         Slip{"a_decimal_comma", "density: 400", "density: 400,5", kRefused, "is it meant as 'density: 400.5'?"},
         Slip{"a_damping_ratio_by_name", "time: {end: 0.1}", "time: {end: 0.1}\ndamping: {ratio: 0.02}", kRefused,
              "stiffness: xi/(pi f)"},
         Slip{"a_power_as_in_python", "force: [0, 0, -1]",
-             "force: [0, 0, -1], factor: {type: expression, formula: \"sin(t)**2\"}", kRefused,
-             "A power is written ^"},
+             "force: [0, 0, -1], factor: {type: expression, formula: \"sin(t)**2\"}", kRefused, "A power is written ^"},
         Slip{"an_end_in_ms", "end: 0.1", "end: 200", kWarned, "in ms?"}),
     [](const auto& slip) { return slip.param.name; });
 
@@ -385,10 +392,13 @@ TEST(Slips, AreNoneOfAStripOrOfABlowToAFreeBody) {
   EXPECT_EQ(said_of(kStrip).words, "");
   const std::string free = replaced(kStrip, "clamps: [{surface: x0}]\n", "");
   EXPECT_EQ(said_of(replaced(free, "force: [0, 0, -1]",
-                             "force: [0, 0, -1], factor: {type: table, points: [[0, 0], [0.001, 1], [0.002, 0]]}")).words,
+                             "force: [0, 0, -1], factor: {type: table, points: [[0, 0], [0.001, 1], [0.002, 0]]}"))
+                .words,
             "");
   EXPECT_EQ(said_of(replaced(free, "loads: [{surface: x1, force: [0, 0, -1]}]",
-                             "loads: [{surface: x1, force: [1, 0, 0]}, {surface: x0, force: [-1, 0, 0]}]")).words, "");
+                             "loads: [{surface: x1, force: [1, 0, 0]}, {surface: x0, force: [-1, 0, 0]}]"))
+                .words,
+            "");
 }
 
 TEST(Slips, AreNoneWhereOnlyAnotherSurfaceIsBelowTheGround) {
@@ -397,8 +407,9 @@ TEST(Slips, AreNoneWhereOnlyAnotherSurfaceIsBelowTheGround) {
 }
 
 TEST(Slips, OfALoadWithoutAValueTellOnlyOfTheTimeBefore) {
-  const std::string load = "loads: [{surface: x1, force: [0, 0, -100 kN], factor: {type: expression, formula: "
-                           "\"sqrt(0.25-t)\"}}]";
+  const std::string load =
+      "loads: [{surface: x1, force: [0, 0, -100 kN], factor: {type: expression, formula: "
+      "\"sqrt(0.25-t)\"}}]";
   const std::string free = replaced(kCantilever, "clamps: [{surface: x0}]\n", "");
   EXPECT_THAT(said_of(replaced(free, kLoad, load)).words, HasSubstr("m away until 0.24"));
 }
@@ -428,21 +439,27 @@ TEST(Slips, OfModuliAreNamedWithoutLoads) {
 
 // `check` and `modes` take a second where the scene has no time span.
 TEST(Slips, OfTimesAreNoneWithoutATimeSpan) {
-  const std::string scene = replaced(replaced(kCantilever, kLoad, load_with("{type: ramp, start: 5, end: 6}")), kTime,
-                                     "time: {end: 1}");
+  const std::string scene =
+      replaced(replaced(kCantilever, kLoad, load_with("{type: ramp, start: 5, end: 6}")), kTime, "time: {end: 1}");
   EXPECT_THAT(said_of(scene).words, HasSubstr("begins at 5 s"));
   EXPECT_TRUE(set_up(Config::from_text(scene), false, false).built.warnings.empty());
 }
 
 // Scenes that are meant to be extreme, and the words that they may cause.
-const std::map<std::string, std::string> kMeant{
-    {"block_1e6", "faster than in any solid"},   {"density_1e6", "faster than in any solid"},
-    {"density_1e8", "faster than in any solid"}, {"spin_of_1e4", "faster than in any solid"},
-    {"flying_fast", "faster than a bullet"},     {"huge", "is it meant in mm"},
-    {"kilometre", "is it meant in mm"},          {"nano", "scaled twice"},
-    {"tiny", "scaled twice"},                    {"picometre", "too little to be seen"},
-    {"random_far", "more than the length"},      {"spun_arm", "the ramp ends at 2 s"},
-    {"buckling", "the ramp ends at 400 s"},      {"thousand_revolutions", "'second' is not normal to 'first'"}};
+const std::map<std::string, std::string> kMeant{{"block_1e6", "faster than in any solid"},
+                                                {"density_1e6", "faster than in any solid"},
+                                                {"density_1e8", "faster than in any solid"},
+                                                {"spin_of_1e4", "faster than in any solid"},
+                                                {"flying_fast", "faster than a bullet"},
+                                                {"huge", "is it meant in mm"},
+                                                {"kilometre", "is it meant in mm"},
+                                                {"nano", "scaled twice"},
+                                                {"tiny", "scaled twice"},
+                                                {"picometre", "too little to be seen"},
+                                                {"random_far", "more than the length"},
+                                                {"spun_arm", "the ramp ends at 2 s"},
+                                                {"buckling", "the ramp ends at 400 s"},
+                                                {"thousand_revolutions", "'second' is not normal to 'first'"}};
 
 TEST(ShippedScenes, CauseNoFalseAlarm) {
   const fs::path configs = fs::path(ORTHODYN_SOURCE_DIR) / "configs";
@@ -459,7 +476,8 @@ TEST(ShippedScenes, CauseNoFalseAlarm) {
         for (auto& warning : response_slips(config, scene, built, statics)) warnings.push_back(warning);
       }
       ++count;
-      // Stability cases have few elements and are judged by conserved quantities: their moments of inertia do not matter.
+      // Stability cases have few elements and are judged by conserved quantities: their moments of inertia do not
+      // matter.
       if (std::string(folder) == "stability/cases")
         std::erase_if(warnings, [](const std::string& w) { return w.find("moment of inertia") != std::string::npos; });
       const auto found = kMeant.find(entry.path().stem().string());

@@ -29,9 +29,8 @@ TEST_F(Jobs, NoNameBecomesACommand) {
   for (const std::string break_ : {"\n", "\r", "\t", "\x7f"}) {
     const std::string name = "a" + break_ + "touch made #";
     write(name + ".yaml", kSwing);
-    for (const std::string& arguments :
-         {"run '" + name + ".yaml' --slurm", "run '" + name + ".yaml' --slurm --ranks 2",
-          "run '" + name + ".yaml' --slurm --out 'out" + break_ + "touch made #'"}) {
+    for (const std::string& arguments : {"run '" + name + ".yaml' --slurm", "run '" + name + ".yaml' --slurm --ranks 2",
+                                         "run '" + name + ".yaml' --slurm --out 'out" + break_ + "touch made #'"}) {
       const auto result = orthodyn(arguments);
       EXPECT_EQ(result.exit_code, 2) << result.output;
       EXPECT_NE(result.output.find("line break"), std::string::npos) << result.output;
@@ -45,9 +44,8 @@ TEST_F(Jobs, ARunIsSubmitted) {
   write("s.yaml", kSwing);
   write("sbatch", "#!/bin/sh\necho 4711\n");
   fs::permissions(folder_ / "sbatch", fs::perms::owner_all);
-  const auto result =
-      shell("cd " + folder_.string() + " && PATH=" + folder_.string() + ":$PATH " + program() +
-            " run s.yaml --slurm submit --out out/fine/ --set threads=4 --ranks 3 --estimate-error");
+  const auto result = shell("cd " + folder_.string() + " && PATH=" + folder_.string() + ":$PATH " + program() +
+                            " run s.yaml --slurm submit --out out/fine/ --set threads=4 --ranks 3 --estimate-error");
   EXPECT_EQ(result.exit_code, 2) << result.output;  // it would repeat the run
   const auto submitted = shell("cd " + folder_.string() + " && PATH=" + folder_.string() + ":$PATH " + program() +
                                " run s.yaml --slurm submit --out out/fine/ --set threads=4 --ranks 3");
@@ -82,8 +80,9 @@ TEST_F(Jobs, APartitionIsToldForEachNumberOfParts) {
       row(orthodyn("partition s.yaml --parts 2 --step 1 --exchanges 1 --latency 1e-9").output, "2");
   EXPECT_NE(halves.find(" 10    1.000 "), std::string::npos) << halves;
   EXPECT_NE(halves.find(" 0.5 s      100 %"), std::string::npos) << halves;
-  for (const char* wrong : {"--parts 2,x", "--parts 1", "--parts ''", "--step -1 --exchanges 1", "--step 0 --exchanges 1",
-                            "--step 1", "--step 1 --exchanges 1 --bandwidth 0", "--bandwidth 1e9"}) {
+  for (const char* wrong :
+       {"--parts 2,x", "--parts 1", "--parts ''", "--step -1 --exchanges 1", "--step 0 --exchanges 1", "--step 1",
+        "--step 1 --exchanges 1 --bandwidth 0", "--bandwidth 1e9"}) {
     const auto refused = orthodyn(std::string("partition s.yaml ") + wrong);
     EXPECT_EQ(refused.exit_code, 2) << wrong << refused.output;
   }

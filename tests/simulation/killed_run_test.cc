@@ -68,14 +68,12 @@ TEST_F(Killed, KilledAtRandomMomentsItEndsWithTheSameFrames) {
   };
   // A restart of a multistep method costs some tolerances, as the whole run does. A fixed step repeats the same steps:
   // what remains is where Newton stops.
-  for (const auto& [name, integrator, tolerance] :
-       {Method{"bdf", kBdf, 10 * kRtol}, {"fixed", kFixedStep, 1e-6}}) {
+  for (const auto& [name, integrator, tolerance] : {Method{"bdf", kBdf, 10 * kRtol}, {"fixed", kFixedStep, 1e-6}}) {
     const std::string history = "  history: {interval: 0.013}\n";  // of the section that kBeam ends with
     const std::string scene = write(std::string(name) + ".yaml", kBeam + history + integrator).string();
     const auto begin = std::chrono::steady_clock::now();
     ASSERT_EQ(orthodyn("run " + scene + " --quiet --out whole_" + name).exit_code, 0);
-    const double milliseconds =
-        1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const double milliseconds = 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     std::mt19937 random(7);
     int all_kills = 0;
     for (int r = 0; r < repetitions(); ++r) {

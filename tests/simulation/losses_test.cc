@@ -36,12 +36,15 @@ TEST_F(Losses, ATerminalThatCloses) {
 // METIS orders matrices of this size, in most of the first seconds of the run, and takes the signal for an error of its
 // own. What ends by itself was not ended by the signal.
 TEST_F(Losses, ASignalWhileALargeMatrixIsOrdered) {
-  write("large.yaml", "mesh: {type: box, size: [1, 0.4, 0.4], cells: [70, 28, 28], order: 1}\n"
-                      "materials: {m: {type: preset, name: sitka_spruce}}\nclamps: [{surface: x0}]\n"
-                      "gravity: [0, 0, -9.81]\ntime: {end: 1e-4}\nelasticity: {kinematics: corotational}\n");
+  write("large.yaml",
+        "mesh: {type: box, size: [1, 0.4, 0.4], cells: [70, 28, 28], order: 1}\n"
+        "materials: {m: {type: preset, name: sitka_spruce}}\nclamps: [{surface: x0}]\n"
+        "gravity: [0, 0, -9.81]\ntime: {end: 1e-4}\nelasticity: {kinematics: corotational}\n");
   for (const char* seconds : {"0.3", "0.7", "1", "1.4"}) {
-    const auto result = shell("cd " + folder_.string() + " && " + program() + " run large.yaml --quiet --force & "
-                              "pid=$!; sleep " + seconds + "; kill -TERM $pid; wait $pid");
+    const auto result = shell("cd " + folder_.string() + " && " + program() +
+                              " run large.yaml --quiet --force & "
+                              "pid=$!; sleep " +
+                              seconds + "; kill -TERM $pid; wait $pid");
     EXPECT_EQ(result.exit_code, 130) << seconds << result.output;
   }
 }
@@ -80,9 +83,9 @@ time: {end: 1}
 integrator: {type: cvode_bdf, max_steps: 2}
 output: {fields: []}
 )");
-  const auto result = shell("cd " + folder_.string() +
-                            " && ulimit -v 600000 && OPENBLAS_NUM_THREADS=2 timeout -s KILL 120 " + program() +
-                            " run block.yaml --quiet");
+  const auto result =
+      shell("cd " + folder_.string() + " && ulimit -v 600000 && OPENBLAS_NUM_THREADS=2 timeout -s KILL 120 " +
+            program() + " run block.yaml --quiet");
   EXPECT_EQ(result.exit_code, 3) << result.output;  // max_steps, and not killed
   EXPECT_NE(result.output.find("max_steps"), std::string::npos) << result.output;
 }
@@ -114,8 +117,7 @@ TEST_F(Losses, AFormulaThatLosesItsValueOnTheWay) {
                                            "formula: sqrt(0.3-t)}}]\n"));
   const auto result = orthodyn("run swing.yaml --quiet");
   EXPECT_EQ(result.exit_code, 3) << result.output;
-  EXPECT_NE(result.output.find("loads.0.factor.formula: 'sqrt(0.3-t)' is not a number at t = 0.3"),
-            std::string::npos)
+  EXPECT_NE(result.output.find("loads.0.factor.formula: 'sqrt(0.3-t)' is not a number at t = 0.3"), std::string::npos)
       << result.output;
   EXPECT_EQ(record()["status"], "failed");
   EXPECT_GT(read_rows(folder_ / "out/swing/energy.csv").size(), 2u);

@@ -26,8 +26,9 @@ void expect_said(const CommandResult& result, const std::string& part) {
 
 // A single short step: nearly all that the run takes is for its modes.
 TEST_F(ModalRun, CountsTheTimeOfItsModes) {
-  write("scene.yaml", kBar + "elasticity: {kinematics: linear}\nintegrator: {type: modal, modes: 40}\n"
-                             "output: {frames: 0, mesh_error: false}\n");
+  write("scene.yaml", kBar +
+                          "elasticity: {kinematics: linear}\nintegrator: {type: modal, modes: 40}\n"
+                          "output: {frames: 0, mesh_error: false}\n");
   const auto result = orthodyn("run scene.yaml --out out --set time.end=1e-6");
   ASSERT_EQ(result.exit_code, 0) << result.output;
   expect_said(result, "modes                1 x");
@@ -54,11 +55,12 @@ TEST_F(ModalRun, IsRefusedWhereLinearKinematicsWouldNotServe) {
   const auto result = orthodyn("run scene.yaml --out out --set 'loads.0.force=[0, 0, -1e4]'");
   EXPECT_EQ(result.exit_code, 2) << result.output;
   expect_said(result, "elasticity.kinematics: linear kinematics would be off by");
-  expect_said(result, "modal is for linear kinematics only: use another integrator, such as cvode_bdf, or raise "
-                      "elasticity.linear_error");
+  expect_said(result,
+              "modal is for linear kinematics only: use another integrator, such as cvode_bdf, or raise "
+              "elasticity.linear_error");
   EXPECT_FALSE(fs::exists(folder_ / "out"));
-  const auto follows = orthodyn(
-      "run scene.yaml --out out --set 'terms=[{type: pressure, surface: x1, pressure: 1, follows: true}]'");
+  const auto follows =
+      orthodyn("run scene.yaml --out out --set 'terms=[{type: pressure, surface: x1, pressure: 1, follows: true}]'");
   EXPECT_EQ(follows.exit_code, 2) << follows.output;
   expect_said(follows, "modal integrates linear models only, and this one is not");
 }
@@ -69,8 +71,9 @@ TEST_F(ModalRun, EndsWhereLinearKinematicsAreOutgrownAndKeepsItsOutput) {
   const auto result = orthodyn("run scene.yaml --out out --set elasticity.linear_error=1e-3");
   EXPECT_EQ(result.exit_code, 3) << result.output;
   expect_said(result, "linear kinematics are off by");
-  expect_said(result, "where 0.001 is allowed; modal is for linear kinematics only: use another integrator, such as "
-                      "cvode_bdf, or raise elasticity.linear_error");
+  expect_said(result,
+              "where 0.001 is allowed; modal is for linear kinematics only: use another integrator, such as "
+              "cvode_bdf, or raise elasticity.linear_error");
   EXPECT_EQ(result.output.find("starts again"), std::string::npos) << result.output;
   EXPECT_EQ(record("out").at("status"), "failed");
   const std::string probes = read_text(folder_ / "out/probes.csv");

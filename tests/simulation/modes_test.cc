@@ -13,9 +13,7 @@
 namespace orthodyn::modes_test {
 namespace {
 
-Modes modes_of(const BuiltTestScene& s, int count) {
-  return natural_modes(s.model(), {0, s.zero(), s.zero()}, count);
-}
+Modes modes_of(const BuiltTestScene& s, int count) { return natural_modes(s.model(), {0, s.zero(), s.zero()}, count); }
 
 // Fixed at x = 0, transverse coordinates held, no Poisson's effect: a bar, f1 = sqrt(E/rho)/(4 L).
 double relative_error_of_bar(int cells, const char* mass) {
@@ -30,7 +28,8 @@ clamps:
   - {{surface: x0}}
   - {{box: {{min: [0, 0, 0], max: [1, 0.05, 0.05]}}, components: [y, z]}}
 time: {{end: 1}}
-)", cells, mass));
+)",
+                                       cells, mass));
   const double exact = std::sqrt(10.8e9 / 400) / 4;
   return modes_of(bar, 1).modes[0].frequency() / exact - 1;
 }
@@ -133,9 +132,10 @@ TEST_F(ModesCommand, RefusesMoreModesThanUnknownsAndAFreeBodyAboutEquilibrium) {
 
 // Damped, and its support sets off at 3 m/s.
 TEST_F(ModesCommand, NeedNoTime) {
-  write("bar.yaml", "mesh: {type: box, size: [1, 0.1, 0.1], cells: [4, 1, 1], order: 1}\n"
-                    "materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0}}\n"
-                    "clamps: [{surface: x0}]\n");
+  write("bar.yaml",
+        "mesh: {type: box, size: [1, 0.1, 0.1], cells: [4, 1, 1], order: 1}\n"
+        "materials: {m: {type: isotropic, density: 1000, young: 1e9, nu: 0}}\n"
+        "clamps: [{surface: x0}]\n");
   for (const char* command : {"modes bar.yaml -n 3 --quiet", "check bar.yaml"}) {
     const auto result = orthodyn(command);
     EXPECT_EQ(result.exit_code, 0) << result.output;

@@ -21,9 +21,11 @@ std::string until_it_has_ended() {
 }
 
 TEST_F(SeveralRanks, WriteWhatOneWrites) {
-  write("beam.yaml", kBeam + std::string("  reactions: true\n  history: {steps: true}\n"
-                                         "  extremes: [von_mises.largest]\n"
-                                         "events: [{name: up, quantity: tip.displacement.z, crosses: 0.001}]\n") + kShort);
+  write("beam.yaml", kBeam +
+                         std::string("  reactions: true\n  history: {steps: true}\n"
+                                     "  extremes: [von_mises.largest]\n"
+                                     "events: [{name: up, quantity: tip.displacement.z, crosses: 0.001}]\n") +
+                         kShort);
   ASSERT_EQ(orthodyn("run beam.yaml --quiet --out one").exit_code, 0);
   for (const int ranks : {2, 3}) {
     const std::string out = "on_" + std::to_string(ranks);
@@ -60,8 +62,9 @@ TEST_F(SeveralRanks, KnowWhichRegionsANodeIsOf) {
       "clamps: [{surface: x0}]\ngravity: [0, 0, -1]\ntime: {end: 0.1}\n"
       "integrator: {type: arkode_dirk, step: 0.05, rtol: 1e-9}\nelasticity: {kinematics: corotational}\n";
   const auto probed = [&](const std::string& regions, const std::string& at, const std::string& field) {
-    write("s.yaml", body + "regions: " + regions + "\noutput: {frames: 2, extremes: [von_mises.largest], probes: {p: {at: " +
-                        at + ", fields: [" + field + "]}}}\n");
+    write("s.yaml", body + "regions: " + regions +
+                        "\noutput: {frames: 2, extremes: [von_mises.largest], probes: {p: {at: " + at + ", fields: [" +
+                        field + "]}}}\n");
     const auto one = orthodyn("run s.yaml --quiet --force --out one");
     for (const int ranks : {2, 3}) {
       const auto several = orthodyn_on(ranks, "run s.yaml --quiet --force --out several");
@@ -84,7 +87,9 @@ TEST_F(SeveralRanks, GiveTheSameBitsTwice) {
   for (const std::string solver : {"auto", "petsc"}) {
     for (const char* out : {"first", "second"})
       ASSERT_EQ(orthodyn_on(3, std::string("run beam.yaml --quiet --force --set integrator.linear_solver=") + solver +
-                                   " --out " + out).exit_code, 0);
+                                   " --out " + out)
+                    .exit_code,
+                0);
     for (const char* file : {"energy.csv", "frames/frame_00040.vtu"})
       EXPECT_EQ(read_text(folder_ / "first" / file), read_text(folder_ / "second" / file)) << solver << " " << file;
   }
@@ -179,14 +184,14 @@ TEST_P(InterruptedRanks, EndTogether) {
   write("beam.yaml", kBeam + kEndless);
   const std::string start = std::string(GetParam()) == "mpirun" ? mpirun(2) : for_any_user() + program() + " ";
   const std::string ranks = std::string(GetParam()) == "mpirun" ? "" : " --ranks 2";
-  const auto result = shell(
-      "cd " + folder_.string() + " && { " + start + "run beam.yaml --out stopped" + ranks + " & pid=$!; " +
-      until_it_has_begun("stopped") + "kill -INT $(pgrep -P $pid -x mpirun || echo $pid); " + until_it_has_ended());
+  const auto result = shell("cd " + folder_.string() + " && { " + start + "run beam.yaml --out stopped" + ranks +
+                            " & pid=$!; " + until_it_has_begun("stopped") +
+                            "kill -INT $(pgrep -P $pid -x mpirun || echo $pid); " + until_it_has_ended());
   EXPECT_NE(result.exit_code, 0) << result.output;
   EXPECT_EQ(result.output.find("still there"), std::string::npos) << result.output;
   const double reached = read_rows(folder_ / "stopped/steps.csv").back()[0];
-  const auto resumed = orthodyn_on(2, "run beam.yaml --quiet --out stopped --resume --set time.end=" +
-                                          std::to_string(reached + 0.05));
+  const auto resumed =
+      orthodyn_on(2, "run beam.yaml --quiet --out stopped --resume --set time.end=" + std::to_string(reached + 0.05));
   EXPECT_EQ(resumed.exit_code, 0) << resumed.output;
 }
 
@@ -196,9 +201,10 @@ INSTANTIATE_TEST_SUITE_P(Start, InterruptedRanks, testing::Values("mpirun", "opt
 // The first rank cannot write its frames any more, which the others do not see.
 TEST_F(SeveralRanks, EndTogetherWhenOneFailsAlone) {
   write("beam.yaml", kBeam + kEndless);
-  const auto result = shell("cd " + folder_.string() + " && { " + mpirun(2) + "run beam.yaml --quiet --out full --set " +
-                            "output.frames=100000 & pid=$!; " + until_it_has_begun("full") +
-                            "mv full/frames full/kept; touch full/frames; " + until_it_has_ended());
+  const auto result =
+      shell("cd " + folder_.string() + " && { " + mpirun(2) + "run beam.yaml --quiet --out full --set " +
+            "output.frames=100000 & pid=$!; " + until_it_has_begun("full") +
+            "mv full/frames full/kept; touch full/frames; " + until_it_has_ended());
   EXPECT_EQ(result.exit_code, 3) << result.output;
   EXPECT_EQ(count(result.output, "error: "), 1) << result.output;
   for (const auto& frame : fs::directory_iterator(folder_ / "full/kept"))
@@ -208,17 +214,17 @@ TEST_F(SeveralRanks, EndTogetherWhenOneFailsAlone) {
 // One that is killed ends all; what was written is whole, and the run can go on.
 TEST_F(SeveralRanks, EndTogetherWhenOneIsKilled) {
   write("beam.yaml", kBeam + kEndless);
-  const auto result = shell(
-      "cd " + folder_.string() + " && { " + mpirun(2) + "run beam.yaml --quiet --out killed & pid=$!; " +
-      until_it_has_begun("killed") + "kill -KILL $(pgrep -P $(pgrep -P $pid -x mpirun || echo $pid) | tail -n 1); " +
-      until_it_has_ended());
+  const auto result =
+      shell("cd " + folder_.string() + " && { " + mpirun(2) + "run beam.yaml --quiet --out killed & pid=$!; " +
+            until_it_has_begun("killed") +
+            "kill -KILL $(pgrep -P $(pgrep -P $pid -x mpirun || echo $pid) | tail -n 1); " + until_it_has_ended());
   EXPECT_NE(result.exit_code, 0) << result.output;
   for (const auto& frame : fs::directory_iterator(folder_ / "killed/frames"))
     EXPECT_NE(read_text(frame.path()).find("</VTKFile>"), std::string::npos) << frame.path();
   EXPECT_EQ(result.output.find("still there"), std::string::npos) << result.output;
   const double reached = read_rows(folder_ / "killed/steps.csv").back()[0];
-  const auto resumed = orthodyn_on(3, "run beam.yaml --quiet --out killed --resume --set time.end=" +
-                                          std::to_string(reached + 0.05));
+  const auto resumed =
+      orthodyn_on(3, "run beam.yaml --quiet --out killed --resume --set time.end=" + std::to_string(reached + 0.05));
   EXPECT_EQ(resumed.exit_code, 0) << resumed.output;
 }
 

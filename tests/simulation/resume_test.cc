@@ -28,8 +28,8 @@ TEST_F(Resume, OneRunAtATimeWorksInAFolder) {
   const std::string run = program() + " run swing.yaml --quiet --set time.end=1e3 --set integrator.h_max=1e-5 ";
   const auto tried = shell("cd " + folder_.string() + " && { " + run +
                            "& pid=$!; for i in $(seq 200); do [ -s out/swing/steps.csv ] && break; sleep 0.05; done; "
-                           "for how in --resume --force ''; do timeout 5 " + run +
-                           "$how; echo \"code $?\"; done; kill -TERM $pid; wait $pid; }");
+                           "for how in --resume --force ''; do timeout 5 " +
+                           run + "$how; echo \"code $?\"; done; kill -TERM $pid; wait $pid; }");
   EXPECT_EQ(tried.exit_code, 130);
   std::size_t refused = 0;
   for (std::size_t at = 0; (at = tried.output.find("another run is at work there", at)) != std::string::npos; ++at)

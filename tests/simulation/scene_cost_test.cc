@@ -74,8 +74,9 @@ TEST(Dispensable, AreElementsOfARegionThatIsNotStrained) {
 
 TEST(Dispensable, AreLargeRotationsWhereTheResponseIsSmall) {
   EXPECT_TRUE(sentences({"loads.0.force=[0,0,-5000]"}, "large rotations").empty());
-  EXPECT_EQ(sentences({"loads.0.force=[0,0,-1e-3]", "gravity=[0,0,-1e-6]", "integrator.rtol=1e-2"},
-                      "large rotations").size(), 1u);
+  EXPECT_EQ(
+      sentences({"loads.0.force=[0,0,-1e-3]", "gravity=[0,0,-1e-6]", "integrator.rtol=1e-2"}, "large rotations").size(),
+      1u);
 }
 
 TEST(Dispensable, IsAMeshFinerThanTheToleranceAsks) {
@@ -133,8 +134,8 @@ TEST_F(Check, SaysWhyStepsOfContactAndEventsAreUncertain) {
   const auto said = orthodyn("check block.yaml");
   EXPECT_NE(said.output.find("while the body touches the ground"), std::string::npos) << said.output;
   EXPECT_EQ(said.output.find("an event may end the run"), std::string::npos) << said.output;
-  const auto ended = orthodyn(
-      "check block.yaml --set 'events=[{quantity: corner.displacement.z, crosses: -0.01, action: stop}]'");
+  const auto ended =
+      orthodyn("check block.yaml --set 'events=[{quantity: corner.displacement.z, crosses: -0.01, action: stop}]'");
   EXPECT_NE(ended.output.find("an event may end the run"), std::string::npos) << ended.output;
 }
 

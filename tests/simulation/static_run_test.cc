@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/simulation/run_program.h"
 #include "tests/simulation/result_reader.h"
+#include "tests/simulation/run_program.h"
 
 namespace orthodyn::static_run_test {
 namespace {
@@ -70,8 +70,9 @@ TEST_F(StaticRun, WithAMovedSupportHasTheExtremesOfItsEquilibria) {
 motions: [{surface: x1, translation: [1e-3, 0, 0], factor: {type: ramp, end: 1}}]
 time: {end: 1}
 )");
-  const auto result = orthodyn("run shelf.yaml --out out --set loads=[] --set "
-                               "'output.extremes=[nodal_stress.xx.largest, nodal_stress.xx.smallest]'");
+  const auto result = orthodyn(
+      "run shelf.yaml --out out --set loads=[] --set "
+      "'output.extremes=[nodal_stress.xx.largest, nodal_stress.xx.smallest]'");
   ASSERT_EQ(result.exit_code, 0) << result.output;
   for (const char* which : {"largest", "smallest"})  // E times the strain
     EXPECT_NE(result.output.find(std::string("nodal_stress.xx.") + which + (which[0] == 'l' ? ": 1000 Pa" : ": 0 Pa")),
@@ -118,8 +119,9 @@ output: {probes: {middle: {at: [1, 0, 0], fields: [displacement, nodal_stress]}}
 // Displacements that vanish beside the body's size.
 TEST_F(StaticRun, OfALinearModelMeetsItsToleranceInOneCorrectionAStep) {
   write("shelf.yaml", kShelf);
-  const auto result = orthodyn("run shelf.yaml --out out --set elasticity.kinematics=linear --set "
-                               "'loads.0.traction=[1e-9, 0, 0]'");
+  const auto result = orthodyn(
+      "run shelf.yaml --out out --set elasticity.kinematics=linear --set "
+      "'loads.0.traction=[1e-9, 0, 0]'");
   ASSERT_EQ(result.exit_code, 0) << result.output;
   for (const auto& row : read_rows(folder_ / "out/load_steps.csv"))
     if (row[0] > 0) {
@@ -130,8 +132,9 @@ TEST_F(StaticRun, OfALinearModelMeetsItsToleranceInOneCorrectionAStep) {
 // By the summary's residual: the displacements are right, so that there is nothing to warn of.
 TEST_F(StaticRun, TellsTheResidualThatRoundOffLeavesWithoutAWarning) {
   write("shelf.yaml", kShelf);
-  const auto result = orthodyn("run shelf.yaml --out out --set statics.solver.rtol=1e-15 --set output.mesh_error=false "
-                               "--set 'mesh.cells=[20, 4, 4]' --set 'loads.0.traction=[0, 0, 1]'");
+  const auto result = orthodyn(
+      "run shelf.yaml --out out --set statics.solver.rtol=1e-15 --set output.mesh_error=false "
+      "--set 'mesh.cells=[20, 4, 4]' --set 'loads.0.traction=[0, 0, 1]'");
   EXPECT_EQ(result.exit_code, 0) << result.output;
   EXPECT_EQ(result.output.find("warning: the residual"), std::string::npos) << result.output;
   EXPECT_NE(result.output.find("of the largest load on a coordinate"), std::string::npos) << result.output;
@@ -154,8 +157,9 @@ output: {fields: []}
   for (const char* word : {"limit point", "bifurcation"})
     EXPECT_EQ(rotated.output.find(word), std::string::npos) << rotated.output;
   EXPECT_NE(rotated.output.find("warped_tangent: unsymmetric"), std::string::npos) << rotated.output;
-  const auto exact = orthodyn("run strip.yaml --out exact --quiet --set elasticity.warped_tangent=unsymmetric --set "
-                              "statics.solver.linear_solver=klu");
+  const auto exact = orthodyn(
+      "run strip.yaml --out exact --quiet --set elasticity.warped_tangent=unsymmetric --set "
+      "statics.solver.linear_solver=klu");
   EXPECT_EQ(exact.exit_code, 0) << exact.output;
 }
 

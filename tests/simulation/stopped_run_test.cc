@@ -122,8 +122,8 @@ TEST_F(Stopped, DamagedResultsAreNamedAndNothingElseTouched) {
     std::string digits = whole;  // still a table
     const auto digit = digits.find_first_of("0123456789", digits.size() / 2);
     digits[digit] = digits[digit] == '7' ? '8' : '7';
-    for (const std::string& damaged : {std::string(), whole.substr(0, whole.size() / 2), flipped, digits,
-                                       std::string(whole.size(), '\0')}) {
+    for (const std::string& damaged :
+         {std::string(), whole.substr(0, whole.size() / 2), flipped, digits, std::string(whole.size(), '\0')}) {
       put(damaged);
       expect_refused("beam.yaml", fs::path(name).filename().string() + ": ");
     }

@@ -9,8 +9,8 @@ namespace orthodyn::layers_test {
 namespace {
 
 std::vector<std::string> of_box(const std::string& cells, int order) {
-  const Config config = Config::from_text("mesh: {type: box, size: [1, 0.2, 0.2], cells: " + cells + ", order: " +
-                                          std::to_string(order) + R"(}
+  const Config config = Config::from_text("mesh: {type: box, size: [1, 0.2, 0.2], cells: " + cells +
+                                          ", order: " + std::to_string(order) + R"(}
 materials: {soft: {type: isotropic, density: 1000, young: 1e5, nu: 0.3}}
 clamps: [{surface: x0}]
 time: {end: 1}

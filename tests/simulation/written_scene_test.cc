@@ -86,8 +86,9 @@ TEST_F(WrittenScene, StaticsTakeAnAmplitudeAtTheEndOfTheStep) {
 
 // A table of several lines, whose velocity jumps.
 TEST_F(WrittenScene, MotionsByAnAmplitudePassTheCheck) {
-  write("deck.inp", replaced(replaced(kBar, "*STEP", "*NSET, NSET=End\n2, 3, 6, 7\n*AMPLITUDE, NAME=A\n"
-                                                     "0, 0, 1, 1, 2, 0, 3, 1\n4, 0, 5, 1, 6, 0, 7, 1\n*STEP"),
+  write("deck.inp", replaced(replaced(kBar, "*STEP",
+                                      "*NSET, NSET=End\n2, 3, 6, 7\n*AMPLITUDE, NAME=A\n"
+                                      "0, 0, 1, 1, 2, 0, 3, 1\n4, 0, 5, 1, 6, 0, 7, 1\n*STEP"),
                              "*DLOAD\nBar, P4, 1", "*BOUNDARY, AMPLITUDE=A\nEnd, 1, 1, 0.1"));
   for (const std::string kind : {"scene", "static"}) {
     const CommandResult init = orthodyn("init " + kind + " " + kind + ".yaml --from deck.inp --units mm_t_s");

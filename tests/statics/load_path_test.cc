@@ -1,10 +1,11 @@
 // The forces of a model while its loads grow, and how fast they grow.
 #include "lib/statics/load_path.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "tests/contract/models.h"
-#include <gtest/gtest.h>
 
 namespace orthodyn::load_path_test {
 namespace {

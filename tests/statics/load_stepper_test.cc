@@ -1,10 +1,11 @@
 // Load steps with KINSOL on models whose equilibria are known.
 #include "lib/statics/load_stepper.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "tests/contract/models.h"
-#include <gtest/gtest.h>
 
 namespace orthodyn::load_stepper_test {
 namespace {
@@ -169,7 +170,7 @@ TEST(VonMisesTruss, JumpsToTheOtherBranchWhenItMayAndMust) {
     EXPECT_EQ(analysis.to_the_end(), "") << times;
     EXPECT_EQ(analysis.stepper.jumps(), jumps);
     const double z = Truss::height(analysis.stepper.state().q);
-    EXPECT_EQ(z < 0, jumps > 0);
+    EXPECT_EQ(z<0, jumps> 0);
     EXPECT_NEAR(Truss::resistance(z), times * Truss::limit_load(), 1e-7 * Truss::limit_load());
   }
 }
@@ -246,7 +247,7 @@ TEST(Strut, ThatBucklesShortOfAllLoadsRestsAsideUnderThem) {
     EXPECT_EQ(analysis.to_the_end(), "") << beyond;
     for (const State& s : analysis.states) EXPECT_LE(s.t, 1) << beyond;
     const Vector& q = analysis.stepper.state().q;
-    EXPECT_GT(std::abs(q[1]), 0.5 * std::sqrt(beyond * Strut::kSpring)) << beyond;  // y^2 = beyond k
+    EXPECT_GT(std::abs(q[1]), 0.5 * std::sqrt(beyond * Strut::kSpring)) << beyond;                 // y^2 = beyond k
     EXPECT_NEAR((1 + q[0]) * strut.sideways(q[1]), load, 1e-8 * load / std::abs(q[1])) << beyond;  // f[1] over y
     EXPECT_EQ(analysis.stepper.unstable(), 0) << beyond;
   }

@@ -53,9 +53,10 @@ const std::string kReference = R"(  integrator: {type: cvode_bdf, max_order: 5, 
 )";
 
 TEST_F(CompareMeshes, ScenesThatDifferInTheirMeshesShareOneReference) {
-  const Json t = table(kMeshes + "tolerances: [1e-3]\n"
-                                 "vary: {mesh.order: [1, 2], mesh.cells: [[2, 1, 1], [3, 1, 1]], gravity: [[0, 0, -1], "
-                                 "[0, 1, 0]]}\nreference:\n  set: {mesh.cells: [4, 1, 1], mesh.order: 2}\n" +
+  const Json t = table(kMeshes +
+                       "tolerances: [1e-3]\n"
+                       "vary: {mesh.order: [1, 2], mesh.cells: [[2, 1, 1], [3, 1, 1]], gravity: [[0, 0, -1], "
+                       "[0, 1, 0]]}\nreference:\n  set: {mesh.cells: [4, 1, 1], mesh.order: 2}\n" +
                        kReference);
   ASSERT_EQ(t.at("problems").size(), 8u);
   ASSERT_EQ(t.at("fronts").size(), 2u);  // one for each gravity
@@ -84,11 +85,12 @@ TEST_F(CompareMeshes, OnTheReferencesOwnMeshTheErrorIsThatOfTimeAlone) {
 
 TEST_F(CompareMeshes, TheErrorFallsWithTheMeshByTheOrderOfTheElements) {
   write("shear.yaml", kShear);
-  const Json t = table("scenes: [shear.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-8]\nrepeats: 1\nsamples: 40\n"
-                       "vary: {mesh.order: [1, 2], mesh.cells: [[4, 1, 1], [8, 1, 1]]}\n"
-                       "reference:\n  set: {mesh.cells: [32, 1, 1], mesh.order: 2}\n"
-                       "  integrator: {type: cvode_bdf, max_order: 5, rtol: 1e-9}\n"
-                       "  check: {type: ida_bdf, max_order: 5, rtol: 1e-8}\n");
+  const Json t = table(
+      "scenes: [shear.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-8]\nrepeats: 1\nsamples: 40\n"
+      "vary: {mesh.order: [1, 2], mesh.cells: [[4, 1, 1], [8, 1, 1]]}\n"
+      "reference:\n  set: {mesh.cells: [32, 1, 1], mesh.order: 2}\n"
+      "  integrator: {type: cvode_bdf, max_order: 5, rtol: 1e-9}\n"
+      "  check: {type: ida_bdf, max_order: 5, rtol: 1e-8}\n");
   const double linear = std::log2(error(t, 0) / error(t, 1)), quadratic = std::log2(error(t, 2) / error(t, 3));
   EXPECT_GT(linear, 1.7);
   EXPECT_LT(linear, 2.3);
@@ -96,8 +98,9 @@ TEST_F(CompareMeshes, TheErrorFallsWithTheMeshByTheOrderOfTheElements) {
 }
 
 TEST_F(CompareMeshes, TighterTolerancesDoNotMendTheErrorOfACoarseMesh) {
-  const Json t = table(kMeshes + "tolerances: [1e-1, 1e-4, 1e-6]\nvary: {mesh.cells: [[4, 1, 1]], mesh.order: [1]}\n"
-                                 "reference:\n  set: {mesh.cells: [8, 2, 2], mesh.order: 2}\n" +
+  const Json t = table(kMeshes +
+                       "tolerances: [1e-1, 1e-4, 1e-6]\nvary: {mesh.cells: [[4, 1, 1]], mesh.order: [1]}\n"
+                       "reference:\n  set: {mesh.cells: [8, 2, 2], mesh.order: 2}\n" +
                        kReference);
   EXPECT_NEAR(error(t, 1), error(t, 2), 0.01 * error(t, 2));
   EXPECT_GT(error(t, 2), 0.01);
@@ -107,8 +110,9 @@ TEST_F(CompareMeshes, TighterTolerancesDoNotMendTheErrorOfACoarseMesh) {
 }
 
 TEST_F(CompareMeshes, TheFrontHoldsWhatNoOtherPointBeats) {
-  const Json t = table(kMeshes + "tolerances: [1e-1, 1e-3]\nvary: {mesh.cells: [[2, 1, 1], [4, 1, 1]], mesh.order: [1, "
-                                 "2]}\nreference:\n  set: {mesh.cells: [8, 2, 2], mesh.order: 2}\n" +
+  const Json t = table(kMeshes +
+                       "tolerances: [1e-1, 1e-3]\nvary: {mesh.cells: [[2, 1, 1], [4, 1, 1]], mesh.order: [1, "
+                       "2]}\nreference:\n  set: {mesh.cells: [8, 2, 2], mesh.order: 2}\n" +
                        kReference);
   const Json& front = t.at("fronts")[0];
   const auto seconds = [&](std::size_t k) { return t.at("points")[k].at("cpu").at("median").get<double>(); };
@@ -147,9 +151,9 @@ TEST_F(CompareMeshes, AReferenceOfAnotherMotionIsRefused) {
 }
 
 TEST_F(CompareMeshes, KinematicsThatWouldBeChosenForEachToleranceAreRefused) {
-  const std::string said =
-      refusal("scenes: [{file: swing.yaml, set: {elasticity.kinematics: auto}}]\nintegrators: [cvode_bdf]\n"
-              "tolerances: [1e-2]\n");
+  const std::string said = refusal(
+      "scenes: [{file: swing.yaml, set: {elasticity.kinematics: auto}}]\nintegrators: [cvode_bdf]\n"
+      "tolerances: [1e-2]\n");
   EXPECT_NE(said.find("kinematics: auto would choose a different model for each tolerance"), std::string::npos) << said;
 }
 

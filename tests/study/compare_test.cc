@@ -92,7 +92,8 @@ TEST_F(Compare, MeasuresTheErrorsOfQuantities) {
 }
 
 TEST_F(Compare, RefusesQuantitiesThatASceneDoesNotHaveBeforeItBegins) {
-  for (const auto& [quantity, words] : {std::pair{"tsai_wu.largest", "strength"}, {"tpi.displacement", "did you mean"},
+  for (const auto& [quantity, words] : {std::pair{"tsai_wu.largest", "strength"},
+                                        {"tpi.displacement", "did you mean"},
                                         {"energy.balance", "drift of the energy"}}) {
     write("c.yaml", std::string("quantities: [") + quantity + "]\n" + kSmall);
     const auto refused = compare();
@@ -188,8 +189,7 @@ class InBackground {
     if (child_ != 0) return;
     std::freopen("/dev/null", "w", stdout);
     std::freopen("/dev/null", "w", stderr);
-    if (chdir(folder.c_str()) == 0)
-      execl(program().c_str(), "orthodyn", "compare", "c.yaml", "--no-report", nullptr);
+    if (chdir(folder.c_str()) == 0) execl(program().c_str(), "orthodyn", "compare", "c.yaml", "--no-report", nullptr);
     _exit(127);
   }
   void signal(int number) const { kill(child_, number); }
@@ -248,8 +248,9 @@ TEST_F(Compare, OnlyOneAtATimeWorksInAFolder) {
 }
 
 TEST_F(Compare, APointThatTakesTooLongStaysInTheTable) {
-  write("c.yaml", "scenes: [swing.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-2, 1e-9]\nlimits: {seconds: 1e-3}\n"
-                  "repeats: 1\nreference: {kind: none}\n");
+  write("c.yaml",
+        "scenes: [swing.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-2, 1e-9]\nlimits: {seconds: 1e-3}\n"
+        "repeats: 1\nreference: {kind: none}\n");
   compare();  // the other point may or may not be done in time
   const Json t = table();
   const Json& tight = t.at("points")[1];
@@ -260,9 +261,10 @@ TEST_F(Compare, APointThatTakesTooLongStaysInTheTable) {
 }
 
 TEST_F(Compare, ARunThatFailsAndAModelThatIsRefusedStayInTheTableWithTheirReasons) {
-  write("c.yaml", "scenes: [{file: swing.yaml, set: {mass: consistent}}]\ntolerances: [1e-3]\nintegrators:\n"
-                  "- {type: cvode_bdf, label: short, max_steps: 3}\n- {type: cvode_bdf, label: full, linear_solver: "
-                  "klu_full}\nrepeats: 1\nreference: {kind: none}\n");
+  write("c.yaml",
+        "scenes: [{file: swing.yaml, set: {mass: consistent}}]\ntolerances: [1e-3]\nintegrators:\n"
+        "- {type: cvode_bdf, label: short, max_steps: 3}\n- {type: cvode_bdf, label: full, linear_solver: "
+        "klu_full}\nrepeats: 1\nreference: {kind: none}\n");
   ASSERT_EQ(compare().exit_code, 3);
   const Json t = table();
   EXPECT_EQ(t.at("points")[0].at("reason"), "too many steps");
@@ -293,8 +295,9 @@ TEST_F(Compare, ACutReferenceIsComputedAgain) {
 }
 
 TEST_F(Compare, MemoryIsLimited) {
-  write("c.yaml", "scenes: [swing.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-9]\nlimits: {memory: 1e6}\n"
-                  "repeats: 1\nreference: {kind: none}\n");
+  write("c.yaml",
+        "scenes: [swing.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-9]\nlimits: {memory: 1e6}\n"
+        "repeats: 1\nreference: {kind: none}\n");
   ASSERT_EQ(compare().exit_code, 3);
   EXPECT_EQ(table().at("points")[0].at("reason"), "out of memory");
 }
@@ -327,8 +330,9 @@ TEST_F(Compare, TextThatIsNotUtf8IsNoObstacle) {
 }
 
 TEST_F(Compare, ALinearSceneIsMeasuredAgainstItsExactSolution) {
-  write("c.yaml", "scenes: [{file: swing.yaml, set: {elasticity.kinematics: linear}}]\nintegrators: [cvode_bdf]\n"
-                  "tolerances: [1e-3, 1e-5, 1e-7]\nrepeats: 1\n");
+  write("c.yaml",
+        "scenes: [{file: swing.yaml, set: {elasticity.kinematics: linear}}]\nintegrators: [cvode_bdf]\n"
+        "tolerances: [1e-3, 1e-5, 1e-7]\nrepeats: 1\n");
   ASSERT_EQ(compare().exit_code, 0);
   const Json t = table();
   EXPECT_EQ(t.at("problems")[0].at("reference").at("kind"), "exact");
@@ -357,8 +361,9 @@ TEST_F(Compare, PointsAreMeasuredAgainWhenAFileBesideTheMeshHasChanged) {
   const auto elements = [&](const std::string& first) { write("two.ele", "2 4 1\n" + first + "\n2 1 3 2 5 1\n"); };
   write("two.node", "5 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 0 0 -1\n");
   elements("1 1 2 3 4 1");
-  write("two.yaml", "mesh: {type: file, file: two.node}\nmaterials: {m: {type: isotropic, density: 1, young: 1e3, nu: "
-                    "0.3}}\ninitial: {spin: [1, 0, 0]}\ntime: {end: 0.1}\n");
+  write("two.yaml",
+        "mesh: {type: file, file: two.node}\nmaterials: {m: {type: isotropic, density: 1, young: 1e3, nu: "
+        "0.3}}\ninitial: {spin: [1, 0, 0]}\ntime: {end: 0.1}\n");
   write("c.yaml",
         "scenes: [two.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-3]\nrepeats: 1\nreference: {kind: none}\n");
   ASSERT_EQ(compare().exit_code, 0);
@@ -373,8 +378,9 @@ TEST_F(Compare, AMeshThatCannotBeReadFailsThePointsOfItsSceneOnly) {
   write("bad.msh", "no mesh");
   write("bad.yaml",
         std::string(kSwing).replace(std::string(kSwing).find("{type: box"), 60, "{type: gmsh, file: bad.msh}"));
-  write("c.yaml", "scenes: [bad.yaml, swing.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-3]\nrepeats: 1\n"
-                  "reference: {kind: none}\n");
+  write("c.yaml",
+        "scenes: [bad.yaml, swing.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-3]\nrepeats: 1\n"
+        "reference: {kind: none}\n");
   const auto done = compare();
   ASSERT_EQ(done.exit_code, 0) << done.output;
   EXPECT_EQ(table().at("points")[0].at("reason"), "refused");
@@ -382,8 +388,9 @@ TEST_F(Compare, AMeshThatCannotBeReadFailsThePointsOfItsSceneOnly) {
 }
 
 TEST_F(Compare, SaysSoWhereNothingCouldBeMeasuredAndTriesAgainWhenAsked) {
-  write("c.yaml", "scenes: [swing.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-3]\nreference: {kind: none}\n"
-                  "limits: {seconds: 1e-9}\n");
+  write("c.yaml",
+        "scenes: [swing.yaml]\nintegrators: [cvode_bdf]\ntolerances: [1e-3]\nreference: {kind: none}\n"
+        "limits: {seconds: 1e-9}\n");
   const auto failed = compare();
   EXPECT_EQ(failed.exit_code, 3);
   EXPECT_NE(failed.output.find("1 of 1 points failed; the first, swing, cvode_bdf, rtol 0.001: time limit: "),

@@ -66,11 +66,10 @@ vary: {integrator.linear_solver: [klu, cholmod], mesh.cells: [[4, 1, 1], [8, 1, 
 
 // Also where integrators lack what is varied, or take several controls.
 TEST_F(Expand, AsManyPointsAreMadeAsWereCounted) {
-  for (const char* text :
-       {"scenes: [swing.yaml]\ntolerances: [1e-4, 1e-2]\n",
-        "scenes: [swing.yaml]\nintegrators: [cvode_bdf, central_differences, generalized_alpha]\n"
-        "tolerances: [1e-2, 1e-3]\nsteps: [1e-3]\n"
-        "vary: {integrator.linear_solver: [klu, cholmod], mesh.cells: [[4, 1, 1], [8, 1, 1]]}\n"}) {
+  for (const char* text : {"scenes: [swing.yaml]\ntolerances: [1e-4, 1e-2]\n",
+                           "scenes: [swing.yaml]\nintegrators: [cvode_bdf, central_differences, generalized_alpha]\n"
+                           "tolerances: [1e-2, 1e-3]\nsteps: [1e-3]\n"
+                           "vary: {integrator.linear_solver: [klu, cholmod], mesh.cells: [[4, 1, 1], [8, 1, 1]]}\n"}) {
     const auto comparison = read_comparison(Config::from_file(write("c.yaml", text).string()));
     EXPECT_EQ(number_of_points(comparison), static_cast<double>(expand(comparison).points.size())) << text;
   }

@@ -35,10 +35,10 @@ TEST(Richardson, DoesNotTrustAnOrderThatTheElementsCannotHave) {
 }
 
 TEST(Richardson, FindsNoLimitWhereNoneIsApproached) {
-  EXPECT_FALSE(extrapolate({1, 1.2, 1.1}, 2, 4));       // to and fro
-  EXPECT_FALSE(extrapolate({1, 1.1, 1.3}, 2, 4));       // away
-  EXPECT_FALSE(extrapolate({1, 1.1, 1.19}, 2, 4));      // hardly slower
-  EXPECT_FALSE(extrapolate({5, 1, 1.1, 1.3}, 2, 4));    // the last three count
+  EXPECT_FALSE(extrapolate({1, 1.2, 1.1}, 2, 4));     // to and fro
+  EXPECT_FALSE(extrapolate({1, 1.1, 1.3}, 2, 4));     // away
+  EXPECT_FALSE(extrapolate({1, 1.1, 1.19}, 2, 4));    // hardly slower
+  EXPECT_FALSE(extrapolate({5, 1, 1.1, 1.3}, 2, 4));  // the last three count
   EXPECT_FALSE(extrapolate({1, 1.1}, 2, 4));
   EXPECT_FALSE(extrapolate({1}, 2, 4));
 }
@@ -157,8 +157,9 @@ TEST_F(Converge, NamesTheNearestQuantities) {
 
 TEST_F(Converge, RefinesAMeshOfAFile) {
   ASSERT_EQ(orthodyn("check beam.yaml --set mesh.order=1").exit_code, 0);
-  write("part.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
-                    "$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n");
+  write("part.msh",
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
+        "$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n");
   write("file.yaml", R"(
 mesh: {type: gmsh, file: part.msh}
 materials: {m: {type: isotropic, density: 1, young: 1e9, nu: 0.2}}
@@ -170,8 +171,7 @@ analysis: static
   const auto done = orthodyn("converge file.yaml --order 1 --levels 3 --no-report");
   ASSERT_EQ(done.exit_code, 0) << done.output;
   const Json all = Json::parse(read_text(folder_ / "out/convergence/file/convergence.json"));
-  for (std::size_t level = 0; level < 3; ++level)
-    EXPECT_EQ(all.at("rows")[level].at("elements"), 1 << (3 * level));
+  for (std::size_t level = 0; level < 3; ++level) EXPECT_EQ(all.at("rows")[level].at("elements"), 1 << (3 * level));
 }
 
 TEST_F(Converge, RefusesWhatItCannotDo) {

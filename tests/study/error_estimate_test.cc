@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/simulation/run/setup.h"
 #include "lib/simulation/error_estimate/modal_solution.h"
+#include "lib/simulation/run/setup.h"
 
 namespace orthodyn::error_estimate_test {
 namespace {

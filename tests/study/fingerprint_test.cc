@@ -1,11 +1,10 @@
 // What figures depend on besides their input.
-#include "lib/simulation/run/fingerprints.h"
-
 #include <chrono>
 #include <cstdlib>
 #include <functional>
 
 #include "lib/core/errors.h"
+#include "lib/simulation/run/fingerprints.h"
 #include "tests/simulation/run_program.h"
 
 namespace orthodyn::fingerprint_test {

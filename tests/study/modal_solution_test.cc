@@ -61,9 +61,9 @@ TEST(Modal, AFreeBodyFallsAsItShould) {
     const auto solution = ModalSolution::find(*setup.built.model, setup.built.initial);
     ASSERT_TRUE(solution.has_value());
     const double t = 0.8, v = drag == 0 ? 0.3 - 4 * t : -4 / drag + (0.3 + 4 / drag) * std::exp(-drag * t);
-    EXPECT_NEAR(setup.built.model->evaluate("momentum.linear", solution->at(t))[2] /
-                    setup.built.model->parts().mass->total(),
-                v, 1e-9);
+    EXPECT_NEAR(
+        setup.built.model->evaluate("momentum.linear", solution->at(t))[2] / setup.built.model->parts().mass->total(),
+        v, 1e-9);
   }
 }
 
@@ -72,9 +72,9 @@ TEST(Modal, AFreeBodyWithStiffnessDampingFallsFreely) {
   const auto setup = linear("gravity: [0, 0, -4]\ndamping: {stiffness: 0.05}\n");
   const auto solution = ModalSolution::find(*setup.built.model, setup.built.initial);
   ASSERT_TRUE(solution.has_value());
-  EXPECT_NEAR(setup.built.model->evaluate("momentum.linear", solution->at(0.8))[2] /
-                  setup.built.model->parts().mass->total(),
-              0.3 - 4 * 0.8, 1e-10);
+  EXPECT_NEAR(
+      setup.built.model->evaluate("momentum.linear", solution->at(0.8))[2] / setup.built.model->parts().mass->total(),
+      0.3 - 4 * 0.8, 1e-10);
 }
 
 TEST(Modal, DoesNotPretendForOtherModels) {

@@ -20,8 +20,9 @@ class PointKinematics : public SweepCommand {
   // The figure and the kinematics of the only point.
   std::pair<double, std::string> point(const std::string& rest, const std::string& kinematics) const {
     write("scene.yaml", kBar + rest + "elasticity: {kinematics: " + kinematics + "}\n");
-    write("s.yaml", "scene: scene.yaml\nvary: {materials.m.young: [1e9]}\n"
-                    "quantities: {sag: {quantity: tip.displacement.z}}\n");
+    write("s.yaml",
+          "scene: scene.yaml\nvary: {materials.m.young: [1e9]}\n"
+          "quantities: {sag: {quantity: tip.displacement.z}}\n");
     const auto done = sweep("--out " + kinematics.substr(0, 4));
     EXPECT_EQ(done.exit_code, 0) << done.output;
     for (const auto& entry : fs::recursive_directory_iterator(folder_ / kinematics.substr(0, 4)))

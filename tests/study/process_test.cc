@@ -31,9 +31,7 @@ TEST_F(Process, TellsASignalFromAnExit) {
   EXPECT_EQ(end.code, SIGSEGV);
 }
 
-TEST_F(Process, IsKilledAfterItsTime) {
-  EXPECT_EQ(run("sleep 100", 0.2).kind, ProcessEnd::Kind::timed_out);
-}
+TEST_F(Process, IsKilledAfterItsTime) { EXPECT_EQ(run("sleep 100", 0.2).kind, ProcessEnd::Kind::timed_out); }
 
 TEST_F(Process, IsKilledWhenItTakesTooMuchMemory) {
   const auto end = run_process({"/bin/sh", "-c", "x=$(head -c 100000000 /dev/zero | tr '\\0' x); echo $x; sleep 100"},
@@ -49,7 +47,8 @@ TEST_F(Process, IsKilledWithAllThatItHasStarted) {
     interrupt_ = true;
   });
   EXPECT_EQ(run("setsid sh -c 'echo $$ > " + child.string() + ".new; mv " + child.string() + ".new " + child.string() +
-                "; exec sleep 100' & sleep 100").kind,
+                "; exec sleep 100' & sleep 100")
+                .kind,
             ProcessEnd::Kind::interrupted);
   later.join();
   const fs::path process = fs::path("/proc") / std::to_string(std::stoi(read_text(child)));

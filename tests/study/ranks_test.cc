@@ -67,8 +67,9 @@ TEST_F(StudiesOnRanks, WhatOneProcessComputesIsRefused) {
 TEST_F(StudiesOnRanks, AFailureIsThePointsResult) {
   write("beam.yaml", kBeam + std::string("time: {end: 0.2}\nintegrator: {type: generalized_alpha, step: 0.01}\n"));
   std::string sweep = kSweep;
-  sweep.replace(sweep.find("gravity: {values: [[0, 0, -1], [0, 0, -2]]}"), 43,
-                "kind: {stepping: {integrator: {type: tr_bdf2, rtol: 1e-3}}, modal: {integrator: {type: modal, modes: 3}}}");
+  sweep.replace(
+      sweep.find("gravity: {values: [[0, 0, -1], [0, 0, -2]]}"), 43,
+      "kind: {stepping: {integrator: {type: tr_bdf2, rtol: 1e-3}}, modal: {integrator: {type: modal, modes: 3}}}");
   write("s.yaml", sweep);
   const auto result = study("sweep s.yaml --ranks 2");
   EXPECT_NE(result.output.find("does not run on several ranks"), std::string::npos) << result.output;

@@ -6,8 +6,8 @@
 
 #include "lib/study/compare/measurement_result.h"
 #include "lib/study/jobs/json_values.h"
-#include "lib/study/stability/stability_result.h"
 #include "lib/study/points/evaluation.h"
+#include "lib/study/stability/stability_result.h"
 
 namespace orthodyn::study::result_json_test {
 namespace {

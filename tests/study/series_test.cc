@@ -44,8 +44,7 @@ TEST(Series, MeanIsOverTimeAndNotOverSamples) {
 }
 
 TEST(Series, TheMeanOfAParabolaIsExactOnUnevenSamples) {
-  for (const int n : {2, 3, 9})
-    EXPECT_NEAR(mean(sample([](double t) { return 1 + 3 * t * t; }, 2, n)), 5, 1e-13) << n;
+  for (const int n : {2, 3, 9}) EXPECT_NEAR(mean(sample([](double t) { return 1 + 3 * t * t; }, 2, n)), 5, 1e-13) << n;
   const auto s = sample([](double t) { return t * t; }, 1, 9, 0.2);
   const double a = s.times.front(), b = s.times.back();
   EXPECT_NEAR(mean(s), (b * b * b - a * a * a) / 3 / (b - a), 1e-14);

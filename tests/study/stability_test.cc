@@ -197,8 +197,7 @@ TEST_F(StabilityCommand, AKillCostsTheTrialsInProgress) {
   std::map<std::string, std::string> before;
   for (std::size_t kill = 1; kill <= 5; ++kill) {
     const std::size_t enough = before.size() + 1 + random() % 3;
-    shell("cd " + folder_.string() +
-          "; " + program() +
+    shell("cd " + folder_.string() + "; " + program() +
           " stability m.yaml --no-report --jobs 2 > said & pid=$!; "
           "until [ $(find out -name result.json 2> /dev/null | wc -l) -ge " +
           std::to_string(enough) + " ]; do sleep 0.005; done; kill -9 $pid; wait $pid");

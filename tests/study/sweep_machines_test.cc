@@ -22,10 +22,11 @@ TEST_F(SweepCommand, LosesAtMostThePointsInProgressWhenItIsKilled) {
   std::map<std::string, std::string> finished;
   int kills = 0;  // of sweeps that had finished something, but not all
   for (const char* seconds : {"0", "0.013", "0.029", "0.007", "0.02"}) {
-    shell("cd " + folder_.string() +
-          " && { " + program() + " sweep s.yaml --jobs 2 --quiet --no-report & pid=$!; "
-          "while kill -0 $pid && [ $(find out -name result.json | wc -l) -le " + std::to_string(finished.size()) +
-          " ]; do sleep 0.005; done; sleep " + seconds + "; kill -9 $pid; wait $pid; sleep 0.05; } 2>/dev/null");
+    shell("cd " + folder_.string() + " && { " + program() +
+          " sweep s.yaml --jobs 2 --quiet --no-report & pid=$!; "
+          "while kill -0 $pid && [ $(find out -name result.json | wc -l) -le " +
+          std::to_string(finished.size()) + " ]; do sleep 0.005; done; sleep " + seconds +
+          "; kill -9 $pid; wait $pid; sleep 0.05; } 2>/dev/null");
     ASSERT_TRUE(fs::exists(folder_ / "out/sweeps/s/points"));
     const auto now = results();
     kills += now.size() > finished.size() && now.size() < 24;
@@ -55,8 +56,7 @@ TEST_F(SweepCommand, IsDoneByIndependentTasksAndJoined) {
   EXPECT_NE(part.output.find("8 of 24 points are missing"), std::string::npos) << part.output;
   EXPECT_EQ(table().at("missing"), 8);
   // Two at a time in one folder, as on a cluster.
-  shell("cd " + folder_.string() +
-        " && { " + program() + " sweep s.yaml --task 2/3 --jobs 1 --quiet & " + program() +
+  shell("cd " + folder_.string() + " && { " + program() + " sweep s.yaml --task 2/3 --jobs 1 --quiet & " + program() +
         " sweep s.yaml --task 1/3 --jobs 1 --quiet; wait; }");
   EXPECT_EQ(sweep("--collect").exit_code, 0);
   EXPECT_EQ(figures(), whole);
@@ -108,9 +108,13 @@ TEST_F(SweepCommand, PrintsAnArrayForNamesWithBlanksAndPatterns) {
   write("my 5% \"s\".yaml", std::string(kMany) + "limits: {memory: 1e9}\n");
   const std::string script = orthodyn("sweep 'my 5% \"s\".yaml' --slurm").output;
   EXPECT_NE(script.find(R"(--job-name="my 5% \"s\""
-)"), std::string::npos) << script;
+)"),
+            std::string::npos)
+      << script;
   EXPECT_NE(script.find(R"(out/sweeps/my 5%% \"s\".log"
-)"), std::string::npos) << script;
+)"),
+            std::string::npos)
+      << script;
   EXPECT_NE(script.find("#SBATCH --mem=1512M\n"), std::string::npos) << script;
 }
 

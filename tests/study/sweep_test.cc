@@ -28,8 +28,9 @@ TEST_F(SweepCommand, ReplacesNoTableOfAnotherFile) {
 }
 
 TEST_F(SweepCommand, SaysFiguresInTheirUnit) {
-  write("s.yaml", "scene: scene.yaml\nvary: {time.end: [0.01]}\n"
-                  "quantities: {hertz: {mode: 1}, kilo: {mode: 1, unit: kHz}}\n");
+  write("s.yaml",
+        "scene: scene.yaml\nvary: {time.end: [0.01]}\n"
+        "quantities: {hertz: {mode: 1}, kilo: {mode: 1, unit: kHz}}\n");
   const auto done = sweep();
   double hertz = 0, kilo = 0;
   const auto at = done.output.find("hertz ");
@@ -98,8 +99,8 @@ TEST_F(SweepCommand, KnowsEveryTakeWithItsUnit) {
       "scene: {file: scene.yaml, set: {damping.mass: 10}}\nvary: {materials.soft.nu: [0]}\nquantities:\n";
   for (const auto& [take, word] : Words<Take>::list) {
     const bool compares = take == Take::drift || take == Take::gain || take == Take::onset;
-    text += fmt::format("  {}: {{quantity: node.displacement.x, take: {}{}}}\n", word, word,
-                        compares ? ", of: 5e-6" : "");
+    text +=
+        fmt::format("  {}: {{quantity: node.displacement.x, take: {}{}}}\n", word, word, compares ? ", of: 5e-6" : "");
   }
   write("s.yaml", text);
   const auto done = sweep();
@@ -150,8 +151,9 @@ clamps: [{surface: x0}]
 loads: [{surface: x1, force: [0, 0, -1]}]
 output: {probes: {tip: {at: [1, 0.05, 0.05]}}}
 )");
-  write("s.yaml", "scene: pull.yaml\nvary: {materials.m.density: [1000, 0.5]}\nquantities: {sag: {quantity: "
-                  "tip.displacement.z}}\n");
+  write("s.yaml",
+        "scene: pull.yaml\nvary: {materials.m.density: [1000, 0.5]}\nquantities: {sag: {quantity: "
+        "tip.displacement.z}}\n");
   const auto done = sweep();
   ASSERT_EQ(done.exit_code, 0) << done.output;
   EXPECT_NE(done.output.find("warning: 1 of 2 points have warnings of their own"), std::string::npos) << done.output;
@@ -173,8 +175,9 @@ output: {probes: {tip: {at: [1, 0.05, 0.05]}}}
     scene.replace(scene.find("ORDER"), 5, coarse ? "1" : "2, cells: [10, 2, 2]");
     if (!coarse) scene.replace(scene.find("cells: [4, 1, 1], "), 18, "");
     write("bend.yaml", scene);
-    write("s.yaml", "scene: bend.yaml\nvary: {materials.soft.young: [1e9, 2e9]}\nquantities: {sag: {quantity: "
-                    "tip.displacement.z}}\n");
+    write("s.yaml",
+          "scene: bend.yaml\nvary: {materials.soft.young: [1e9, 2e9]}\nquantities: {sag: {quantity: "
+          "tip.displacement.z}}\n");
     const auto done = sweep();
     ASSERT_EQ(done.exit_code, 0) << done.output;
     EXPECT_EQ(done.output.find("warning: the mesh is coarse") != std::string::npos, coarse) << done.output;
@@ -195,7 +198,8 @@ time: {end: 1}
     const auto done = sweep();
     ASSERT_EQ(done.exit_code, 0) << done.output;
     EXPECT_EQ(done.output.find("the mesh is coarse for frequencies of 2 of 2 points: up to ") != std::string::npos,
-              coarse) << done.output;
+              coarse)
+        << done.output;
     const double error = table().at("points")[0].at("figure_errors").at("hertz");
     EXPECT_EQ(error > 0.05, coarse) << error;
     EXPECT_GT(error, 1e-4);
@@ -262,8 +266,9 @@ gravity: [0, 0, -0.1]
 clamps: [{surface: x0}]
 output: {probes: {tip: {at: [1, 0, 0]}}}
 )");
-  const std::string text = "scene: still.yaml\nvary: {materials.soft.nu: [0]}\n"
-                           "quantities: {sag: {quantity: tip.displacement.z}}\nlimits: {seconds: ";
+  const std::string text =
+      "scene: still.yaml\nvary: {materials.soft.nu: [0]}\n"
+      "quantities: {sag: {quantity: tip.displacement.z}}\nlimits: {seconds: ";
   write("s.yaml", text + "60}\n");
   ASSERT_EQ(sweep().exit_code, 0);
   EXPECT_EQ(table().at("points")[0].at("status"), "completed");
@@ -325,8 +330,8 @@ TEST_F(SweepCommand, AFileOfAnotherKindIsToldFromItsKeys) {
   write("compare.yaml", "scenes: [scene.yaml]\ntolerances: [1e-3]\n");
   write("stability.yaml", "cases: [scene.yaml]\n");
   write("run.yaml", kOscillator);
-  const std::map<std::string, std::string> words{{"run", "a scene"}, {"compare", "a comparison"}, {"sweep", "a sweep"},
-                                                 {"stability", "a file of hard cases"}};
+  const std::map<std::string, std::string> words{
+      {"run", "a scene"}, {"compare", "a comparison"}, {"sweep", "a sweep"}, {"stability", "a file of hard cases"}};
   for (const auto& [command, unused] : words) {
     for (const auto& [kind, what] : words) {
       if (command == kind) continue;
@@ -343,8 +348,8 @@ TEST_F(SweepCommand, AFileOfAnotherKindIsToldFromItsKeys) {
 }
 
 TEST_F(SweepCommand, EveryCommandHasExamplesOfItsOwn) {
-  for (const std::string command : {"run", "check", "modes", "compare", "sweep", "stability", "verify", "convert",
-                                    "list", "schema", "init"}) {
+  for (const std::string command :
+       {"run", "check", "modes", "compare", "sweep", "stability", "verify", "convert", "list", "schema", "init"}) {
     const std::string help = orthodyn(command + " --help").output;
     const auto examples = help.find("Examples:\n");
     ASSERT_NE(examples, std::string::npos) << help;

@@ -106,8 +106,8 @@ TEST_F(Verify, GoesOnAfterAFileThatCannotBeRead) {
   write("b.yaml", good);
   const auto done = orthodyn("verify a.yaml nowhere.yaml b.yaml --junit out.xml");
   EXPECT_EQ(done.exit_code, 2) << done.output;
-  for (const char* words : {"did you mean 'box'", "nowhere.yaml: no such file", "1 of 1 cases pass",
-                            "2 could not be read"})
+  for (const char* words :
+       {"did you mean 'box'", "nowhere.yaml: no such file", "1 of 1 cases pass", "2 could not be read"})
     EXPECT_NE(done.output.find(words), std::string::npos) << words << "\n" << done.output;
   const std::string xml = read_text(folder_ / "out.xml");
   EXPECT_NE(xml.find("tests=\"3\" failures=\"0\" errors=\"2\""), std::string::npos) << xml;

@@ -1,7 +1,6 @@
 // Forces, tangents and what follows from them, in nanoseconds an element. Real time: processor time of one thread would
 // hide what it waits for others.
 #include <benchmark/benchmark.h>
-
 #include <fmt/format.h>
 
 #include "lib/core/parallel.h"
@@ -104,9 +103,9 @@ class Later {
 
 void add(const std::string& what, const std::string& of, const std::shared_ptr<Later>& beam,
          void (*measure)(benchmark::State&, const BentBeam&)) {
-  benchmark::RegisterBenchmark((what + "/" + of).c_str(),
-                               [beam, measure](benchmark::State& state) { measure(state, beam->get()); })
-      ->UseRealTime();
+  benchmark::RegisterBenchmark((what + "/" + of).c_str(), [beam, measure](benchmark::State& state) {
+    measure(state, beam->get());
+  })->UseRealTime();
 }
 
 // With as many threads as the machine has.
@@ -158,7 +157,7 @@ void register_kernels(bool large) {
 }
 
 void register_growth() {
-  const std::vector<Size> sizes{{5, "3,125"},   {7, "8,575"},    {10, "25,000"},  {14, "68,600"},
+  const std::vector<Size> sizes{{5, "3,125"},    {7, "8,575"},    {10, "25,000"}, {14, "68,600"},
                                 {20, "200,000"}, {27, "492,075"}, {34, "982,600"}};
   for (const auto& [across, elements] : sizes) {
     const auto beam = std::make_shared<Later>(Beam{}, across);

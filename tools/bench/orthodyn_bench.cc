@@ -1,8 +1,8 @@
 // Measures the kernels that a run spends its time in, and compares with what was measured before.
-#include <CLI/CLI.hpp>
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 
@@ -44,13 +44,16 @@ std::vector<orthodyn::bench::Result> measure(const Request& request) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Times of forces, tangents, factorisations and solves, in nanoseconds an element: the least of several "
-               "repetitions. Trust ratios of one machine, not seconds.");
+  CLI::App app(
+      "Times of forces, tangents, factorisations and solves, in nanoseconds an element: the least of several "
+      "repetitions. Trust ratios of one machine, not seconds.");
   Request request;
   app.add_option("--filter", request.filter, "Regular expression of what is measured, such as '^tangent'");
   app.add_option("--json", request.json, "Writes the figures to a file");
-  app.add_option("--compare", request.compare, "Ratios to a file of --json; the exit code is 1 where more than 10 % "
-                                               "were lost")->check(CLI::ExistingFile);
+  app.add_option("--compare", request.compare,
+                 "Ratios to a file of --json; the exit code is 1 where more than 10 % "
+                 "were lost")
+      ->check(CLI::ExistingFile);
   app.add_option("--repetitions", request.repetitions, "Of each measurement")->check(CLI::Range(1, 1000));
   app.add_flag("--large", request.large, "With 57,600 unknowns, too");
   app.add_flag("--growth", request.growth,
@@ -63,8 +66,7 @@ int main(int argc, char** argv) {
     const auto results = measure(request);
     if (results.empty()) throw orthodyn::ConfigError(fmt::format("--filter: nothing matches '{}'", request.filter));
     const int lost = orthodyn::bench::print(results, before);
-    if (!request.json.empty())
-      orthodyn::write_file(request.json, {orthodyn::bench::to_json(results).dump(1), "\n"});
+    if (!request.json.empty()) orthodyn::write_file(request.json, {orthodyn::bench::to_json(results).dump(1), "\n"});
     return lost > 0 ? 1 : 0;
   } catch (const std::exception& e) {
     fmt::print(stderr, "error: {}\n", e.what());

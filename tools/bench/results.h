@@ -15,7 +15,7 @@ namespace orthodyn::bench {
 
 struct Result {
   std::string name;
-  double nanoseconds = 0;  // an element: the least of all repetitions
+  double nanoseconds = 0;                        // an element: the least of all repetitions
   double elements = 0, unknowns = 0, bytes = 0;  // 0 where there are none; bytes of a factor
 };
 

@@ -8,16 +8,16 @@
 #include <optional>
 
 #include "lib/analysis/strain_limits.h"
-#include "lib/material_axes/axes_source.h"
-#include "lib/core/symmetric_eigen.h"
 #include "lib/core/memory.h"
+#include "lib/core/symmetric_eigen.h"
+#include "lib/material_axes/axes_source.h"
 #include "lib/simulation/output/axes_file.h"
+#include "lib/simulation/output/output_size.h"
 #include "lib/simulation/preflight/faster_setup.h"
-#include "lib/simulation/preflight/thickness_check.h"
 #include "lib/simulation/preflight/run_cost.h"
 #include "lib/simulation/preflight/scene_cost.h"
+#include "lib/simulation/preflight/thickness_check.h"
 #include "lib/simulation/statics/static_problem.h"
-#include "lib/simulation/output/output_size.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/scene_options.h"
@@ -172,7 +172,8 @@ void print_faster(const Setup& setup, const RunCost& cost) {
   fmt::print("faster\n  with {} (which takes {}): about {:.2g} s in place of {:.2g} s\n",
              fmt::join(way->changes, " and "), way->method, way->then, way->now);
   if (way->error)
-    fmt::print("  linear kinematics would be off by about {:.1g} of the motion; a run tells how far they are\n", *way->error);
+    fmt::print("  linear kinematics would be off by about {:.1g} of the motion; a run tells how far they are\n",
+               *way->error);
 }
 
 void print_disk(const Setup& setup) {
@@ -187,15 +188,16 @@ void print_disk(const Setup& setup) {
   const auto space = fs::space(".", error);
   fmt::print("  in all {}{}\n", shown_bytes(volume.bytes()),
              error ? "" : fmt::format("; {} are free here", shown_bytes(static_cast<double>(space.available))));
-  if (const std::string refusal = unusual_volume(setup); !refusal.empty())
-    fmt::print(stderr, "warning: {}\n", refusal);
+  if (const std::string refusal = unusual_volume(setup); !refusal.empty()) fmt::print(stderr, "warning: {}\n", refusal);
 }
 
 void warn_of_memory(const Setup& setup) {
   const auto needed = setup.integrator ? static_cast<double>(setup.integrator->factor_bytes()) : 0;
   if (const double left = memory_left(); needed > left)
-    fmt::print(stderr, "warning: the factorisation takes {} of memory, and {} are left: the run will be refused; use a "
-               "coarser mesh, or an explicit integrator\n", shown_bytes(needed), shown_bytes(left));
+    fmt::print(stderr,
+               "warning: the factorisation takes {} of memory, and {} are left: the run will be refused; use a "
+               "coarser mesh, or an explicit integrator\n",
+               shown_bytes(needed), shown_bytes(left));
 }
 
 // "cylindrical, by place", for each region of the mesh by its name.
@@ -260,13 +262,11 @@ void declare(CheckArguments& arguments, CommandOptions& options) {
   options.value("--out", arguments.out, "Folder for the axes; default out/axes/<scene>.").type("DIR").needs("--axes");
 }
 
-const CommandRegistration check_command({.order = 20,
-                                         .name = "check",
-                                         .sentence = "Read, check and build a scene, and describe it.",
-                                         .examples = R"(
+const CommandRegistration check_command(
+    {.order = 20, .name = "check", .sentence = "Read, check and build a scene, and describe it.", .examples = R"(
   orthodyn check configs/scenes/laminate.yaml
   orthodyn check configs/scenes/laminate.yaml --axes)"},
-                                        declare, check);
+    declare, check);
 
 }  // namespace
 

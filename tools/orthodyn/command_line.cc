@@ -7,8 +7,8 @@
 #include <map>
 #include <sstream>
 
-#include "lib/core/versions.h"
 #include "lib/core/spelling.h"
+#include "lib/core/versions.h"
 #include "tools/orthodyn/command.h"
 
 namespace orthodyn {
@@ -154,12 +154,11 @@ CommandLine parse_command_line(int argc, char** argv) {
       if (command.text.name == out.name) out.on_ranks = command.text.on_ranks;
   } catch (const CLI::ParseError& e) {
     if (const auto word = unknown_command(program))
-      out.answer = {2, "", fmt::format("error: there is no command '{}'{} Known: {}.\n", *word,
-                                       did_you_mean(*word, command_names(), "."), join(command_names()))};
-    else if (const auto sentence = unknown_option(program))
-      out.answer = {2, "", *sentence};
-    else
-      out.answer = answer_of(program, e);
+      out.answer = {2, "",
+                    fmt::format("error: there is no command '{}'{} Known: {}.\n", *word,
+                                did_you_mean(*word, command_names(), "."), join(command_names()))};
+    else if (const auto sentence = unknown_option(program)) out.answer = {2, "", *sentence};
+    else out.answer = answer_of(program, e);
   }
   return out;
 }

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "lib/core/spelling.h"
-#include "lib/simulation/output/files.h"
 #include "lib/simulation/error_estimate/mesh_error.h"
+#include "lib/simulation/output/files.h"
 #include "lib/simulation/run/several_ranks.h"
 #include "lib/study/compare/comparison_table.h"
 #include "lib/study/compare/measurement.h"
@@ -137,8 +137,7 @@ void warn_of_shared_meshes(const Json& table) {
 int compare(const StudyArguments& arguments) {
   require_ranks(arguments);
   const Config config = Config::from_file(arguments.file);
-  const Comparison comparison =
-      arguments.ranks > 1 ? on_ranks(read_comparison(config)) : read_comparison(config);
+  const Comparison comparison = arguments.ranks > 1 ? on_ranks(read_comparison(config)) : read_comparison(config);
   require_usual_number(arguments, number_of_points(comparison));
   Design design = expand(comparison);
   if (arguments.ranks > 1) require_points_to_run_on_ranks(design);

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "lib/study/jobs/process.h"
-#include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/installed_paths.h"
+#include "tools/orthodyn/interrupt.h"
 
 namespace orthodyn {
 

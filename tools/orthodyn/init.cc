@@ -168,12 +168,11 @@ limits: {seconds: 20}      # of each trial
 
 const std::map<std::string, std::string>& starts() {
   static const std::string head = kSceneHead, body = kBody;
-  static const std::map<std::string, std::string> all = {
-      {"scene", head + body + kMotion},
-      {"static", head + kAnalysis + body + kRest},
-      {"comparison", kComparison},
-      {"sweep", kSweep},
-      {"stability", kStability}};
+  static const std::map<std::string, std::string> all = {{"scene", head + body + kMotion},
+                                                         {"static", head + kAnalysis + body + kRest},
+                                                         {"comparison", kComparison},
+                                                         {"sweep", kSweep},
+                                                         {"stability", kStability}};
   return all;
 }
 
@@ -226,8 +225,11 @@ int init(const InitArguments& arguments) {
 void declare(InitArguments& arguments, CommandOptions& options) {
   options.value("kind", arguments.kind, "scene, static, comparison, sweep or stability.").required();
   options.value("file", arguments.file, "Its name; default KIND.yaml.").type("FILE.yaml");
-  options.value("--from", arguments.from, "Take mesh, materials, sections, orientations, boundary conditions and loads "
-                "from an Abaqus file; what is left out is listed.").type("DECK.inp");
+  options
+      .value("--from", arguments.from,
+             "Take mesh, materials, sections, orientations, boundary conditions and loads "
+             "from an Abaqus file; what is left out is listed.")
+      .type("DECK.inp");
   options.value("--units", arguments.units, "Of that file: SI (default), or mm_t_s for mm, t and s with N and MPa.")
       .type("UNITS");
 }

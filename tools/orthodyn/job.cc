@@ -1,8 +1,8 @@
 // `orthodyn measure`, `evaluate` and `assess`: one job of a study, in a process of its own.
 #include "lib/simulation/run/fingerprints.h"
 #include "lib/study/compare/measurement.h"
-#include "lib/study/stability/evaluate_case.h"
 #include "lib/study/points/evaluate_point.h"
+#include "lib/study/stability/evaluate_case.h"
 #include "tools/orthodyn/command.h"
 #include "tools/orthodyn/on_ranks.h"
 
@@ -42,10 +42,10 @@ CommandText text_on_ranks(int order, const std::string& name, const std::string&
   return out;
 }
 
-const CommandRegistration measure_command(text_on_ranks(41, "measure", "One point of a comparison; called by compare."), declare,
-                                          do_on_ranks<study::compare::measure>);
-const CommandRegistration evaluate_command(text_on_ranks(51, "evaluate", "One point of a sweep; called by sweep."), declare,
-                                           do_on_ranks<study::evaluate_point>);
+const CommandRegistration measure_command(text_on_ranks(41, "measure", "One point of a comparison; called by compare."),
+                                          declare, do_on_ranks<study::compare::measure>);
+const CommandRegistration evaluate_command(text_on_ranks(51, "evaluate", "One point of a sweep; called by sweep."),
+                                           declare, do_on_ranks<study::evaluate_point>);
 const CommandRegistration assess_command(text(61, "assess", "One case of a matrix; called by stability."), declare,
                                          do_in_folder<study::stability::evaluate_case>);
 

@@ -49,11 +49,9 @@ std::string array_script(const ArrayJob& job) {
 #   {} --collect
 {}exec {} --task "$SLURM_ARRAY_TASK_ID/{}" --jobs 1 --quiet{}
 )",
-                     sbatch_quoted(job.name), job.tasks, job.ranks,
-                     memory(job), minutes(job),
-                     sbatch_quoted(log_beside(job.folder)), job.points, job.tasks,
-                     job.retry ? " or has failed" : "", one_line(command(job)), exported_plugins(), command(job), job.tasks,
-                     job.retry ? " --retry" : "");
+                     sbatch_quoted(job.name), job.tasks, job.ranks, memory(job), minutes(job),
+                     sbatch_quoted(log_beside(job.folder)), job.points, job.tasks, job.retry ? " or has failed" : "",
+                     one_line(command(job)), exported_plugins(), command(job), job.tasks, job.retry ? " --retry" : "");
 }
 
 int submit(const ArrayJob& job) {

@@ -13,7 +13,7 @@ struct ArrayJob {
   std::filesystem::path sweep, folder;
   std::string name;
   std::size_t points = 0, tasks = 0;
-  Limits limits;  // of a point
+  Limits limits;       // of a point
   bool retry = false;  // what failed before
   int ranks = 1;       // that compute a point together
 };

@@ -5,11 +5,11 @@
 
 #include "lib/config/registry.h"
 #include "lib/core/spelling.h"
+#include "lib/fem/fem_model.h"
+#include "lib/fem/nodal_fields.h"
 #include "lib/linear/solver.h"
 #include "lib/material/presets.h"
 #include "lib/mesh/io/mesh_format.h"
-#include "lib/fem/fem_model.h"
-#include "lib/fem/nodal_fields.h"
 #include "lib/scene/quantity.h"
 #include "lib/scene/scene.h"
 #include "lib/study/compare/comparison.h"
@@ -172,13 +172,15 @@ void list_quantities() {
                  info.components == 1 ? "" : "s", info.unit);
   fmt::print("  {:<22} Drift of the energy balance (1 component, J)\n", kEnergyBalance);
   fmt::print("  PROBE.FIELD            A field per node (`orthodyn list fields`) at a probe of the scene.\n");
-  fmt::print("  reaction.SUPPORT       Force of a clamp or a moved support on the body, by its name (3 components, "
-             "N).\n");
+  fmt::print(
+      "  reaction.SUPPORT       Force of a clamp or a moved support on the body, by its name (3 components, "
+      "N).\n");
   fmt::print("  torque.SUPPORT         Its torque about the middle of the support's nodes (3 components, N m).\n");
   fmt::print("                         Both with output.reactions: true, or where `expect` names one.\n");
   fmt::print("  [REGION.]FIELD.largest, .smallest\n");
-  fmt::print("                         Over the nodes of the body or of a region, for a tensor with a component "
-             "(nodal_stress.xx.largest):\n");
+  fmt::print(
+      "                         Over the nodes of the body or of a region, for a tensor with a component "
+      "(nodal_stress.xx.largest):\n");
   for (const OutputInfo& info : region_fields())
     fmt::print("                         {}{}\n", info.name,
                info.component_names.empty() ? "" : fmt::format(" .{}", fmt::join(info.component_names, " .")));

@@ -27,8 +27,7 @@ struct ModesArguments {
 };
 
 void print_zeros(const Modes& modes, int rigid) {
-  if (rigid > 0)
-    fmt::print("the first {} {} rigid: 0 Hz, nothing holds them\n", rigid, rigid == 1 ? "is" : "are");
+  if (rigid > 0) fmt::print("the first {} {} rigid: 0 Hz, nothing holds them\n", rigid, rigid == 1 ? "is" : "are");
   if (const int more = modes.zeros - rigid; more > 0)
     fmt::print(
         "{} {} cannot be distinguished from zero: round-off hides frequencies below {:.2g} Hz in a mesh this stiff{}\n",
@@ -56,8 +55,8 @@ void print_table(const ModalAnalysis& analysis, bool equilibrium) {
     const Vec3 share = 100 * modes.modes[k].effective_mass() / mass;
     sum += share;
     fmt::print("  {:4}  {:>14}  {:>11}   {:12.3f} {:12.3f} {:12.3f}   {:18.1e}\n", k + 1,
-               known_digits(modes.modes[k].frequency(), analysis.mesh_errors()[k]), by_the_mesh(analysis, k),
-               share[0], share[1], share[2], modes.modes[k].residual);
+               known_digits(modes.modes[k].frequency(), analysis.mesh_errors()[k]), by_the_mesh(analysis, k), share[0],
+               share[1], share[2], modes.modes[k].residual);
   }
   fmt::print("  {:4}  {:>14}  {:11}   {:12.3f} {:12.3f} {:12.3f}\n", "", "sum", "", sum[0], sum[1], sum[2]);
   if (modes.modes.front().lambda < 0)
@@ -67,9 +66,9 @@ void print_table(const ModalAnalysis& analysis, bool equilibrium) {
 // How the errors by the mesh were found, and what of them to heed.
 void tell_errors(const ModalAnalysis& analysis) {
   const FrequencyErrors& errors = analysis.how_estimated();
-  fmt::print("errors by the mesh from {}\n",
-             errors.by_finer_elements ? fmt::format("finer elements, in {:.2g} s of CPU", errors.cpu_seconds)
-                                      : std::string("recovered stresses"));
+  fmt::print("errors by the mesh from {}\n", errors.by_finer_elements
+                                                 ? fmt::format("finer elements, in {:.2g} s of CPU", errors.cpu_seconds)
+                                                 : std::string("recovered stresses"));
   const int order = analysis.model().parts().mesh.order();
   for (const std::string& warning : {frequency_warning(errors, order), blindness_warning(errors.blind)})
     if (!warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
@@ -92,8 +91,9 @@ int compute_modes(const ModesArguments& arguments) {
                "part; they do not show flutter. A motion shows it (analysis: dynamic)\n");
   fmt::print("results {}\n", folder.string());
   if (modes.zeros < arguments.count) draw_modes(folder);
-  else fmt::print("no picture: all {} modes {}; ask for more with -n\n", modes.zeros,
-                  analysis.rigid() == modes.zeros ? "are rigid" : "are at 0 Hz");
+  else
+    fmt::print("no picture: all {} modes {}; ask for more with -n\n", modes.zeros,
+               analysis.rigid() == modes.zeros ? "are rigid" : "are at 0 Hz");
   return 0;
 }
 

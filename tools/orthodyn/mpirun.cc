@@ -34,13 +34,13 @@ bool is_on_path(const std::string& program) {
 fs::path this_program() { return fs::read_symlink("/proc/self/exe"); }
 
 void require_mpirun() {
-  if (const auto& why = solver_registry().at("petsc").unavailable; !why.empty())
-    throw ConfigError("--ranks: " + why);
+  if (const auto& why = solver_registry().at("petsc").unavailable; !why.empty()) throw ConfigError("--ranks: " + why);
   if (!is_on_path("mpirun")) throw ConfigError("--ranks: there is no mpirun on the PATH (Debian: openmpi-bin)");
   if (geteuid() == 0 && !std::getenv("OMPI_ALLOW_RUN_AS_ROOT") &&
       output_of("mpirun --version 2>&1").find("Open MPI") != std::string::npos)
-    throw ConfigError("--ranks: as root, Open MPI asks for OMPI_ALLOW_RUN_AS_ROOT=1 and "
-                      "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 in the environment");
+    throw ConfigError(
+        "--ranks: as root, Open MPI asks for OMPI_ALLOW_RUN_AS_ROOT=1 and "
+        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 in the environment");
 }
 
 std::vector<std::string> program_on_ranks(int ranks) {
@@ -59,8 +59,10 @@ void let_ranks_share_processors(int ranks, int groups) {
     for (const char* variable : {"OMPI_MCA_hwloc_base_binding_policy", "PRTE_MCA_hwloc_default_binding_policy"})
       setenv(variable, "none", 0);
   if (!are_too_many) return;
-  print_notice(fmt::format("warning: {} processes on {} processors: ranks wait for each other, and take many times as "
-                           "long\n", processes, processors));
+  print_notice(
+      fmt::format("warning: {} processes on {} processors: ranks wait for each other, and take many times as "
+                  "long\n",
+                  processes, processors));
   setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 0);
   setenv("PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe", 0);
   setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);

@@ -31,9 +31,10 @@ int after_failure(const Ranks& ranks, const std::string& message, int exit_code)
 
 void require_one_rank_unless(bool on_ranks, const std::string& command) {
   if (!on_ranks && is_one_of_several_ranks())
-    throw ConfigError(fmt::format("`orthodyn {}` is for one process; mpirun starts several of `orthodyn run` only, and "
-                                  "studies take --ranks",
-                                  command));
+    throw ConfigError(
+        fmt::format("`orthodyn {}` is for one process; mpirun starts several of `orthodyn run` only, and "
+                    "studies take --ranks",
+                    command));
 }
 
 void let_first_rank_tell() {

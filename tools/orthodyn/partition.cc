@@ -1,5 +1,7 @@
 // `orthodyn partition`: what ranks would have of a scene's mesh, and tell each other, for any number of them. What
 // springs between nodes add to it is not counted.
+#include "lib/mesh/partition.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 
 #include "lib/core/errors.h"
 #include "lib/linear/mpi_world.h"
-#include "lib/mesh/partition.h"
 #include "lib/scene/mesh_materials.h"
 #include "lib/scene/scene.h"
 #include "lib/simulation/run/scene_file.h"
@@ -79,8 +80,9 @@ int partition(const PartitionArguments& arguments) {
   require_positive("--exchanges", arguments.exchanges, true);
   require_positive("--reductions", arguments.reductions, true);
   if (arguments.step > 0 && arguments.exchanges == 0 && arguments.reductions == 0)
-    throw ConfigError("--step: give --exchanges or --reductions as well; without them the model knows of no "
-                      "communication");
+    throw ConfigError(
+        "--step: give --exchanges or --reductions as well; without them the model knows of no "
+        "communication");
   require_positive("--latency", arguments.latency, true);
   require_positive("--bandwidth", arguments.bandwidth, false);
   const std::vector<int> numbers = whole_numbers("--parts", arguments.parts, 2, kMostParts);
@@ -91,21 +93,21 @@ int partition(const PartitionArguments& arguments) {
              mesh.order());
   const CellGraph graph = cell_graph(sorted_faces(mesh), mesh.tets.size());
   const bool with_time = arguments.step > 0;
-  fmt::print("of the largest part: elements, also as a multiple of the mean, neighbours (and their mean), copies of others'\n"
-             "nodes, bytes of a vector that it sends and receives; and what all exchange\n"
-             "{:>6} {:>9} {:>8} {:>11} {:>7} {:>8} {:>12} {:>11}{}\n",
-             "parts", "elements", "of mean", "neighbours", "(mean)", "copies", "exchange", "all",
-             with_time ? fmt::format(" {:>12} {:>10}", "step", "efficiency") : "");
+  fmt::print(
+      "of the largest part: elements, also as a multiple of the mean, neighbours (and their mean), copies of others'\n"
+      "nodes, bytes of a vector that it sends and receives; and what all exchange\n"
+      "{:>6} {:>9} {:>8} {:>11} {:>7} {:>8} {:>12} {:>11}{}\n",
+      "parts", "elements", "of mean", "neighbours", "(mean)", "copies", "exchange", "all",
+      with_time ? fmt::format(" {:>12} {:>10}", "step", "efficiency") : "");
   for (const int parts : numbers) {
     if (static_cast<std::size_t>(parts) > mesh.tets.size()) {
       fmt::print("{:6}  more than there are elements\n", parts);
       continue;
     }
     const Division division = division_of(mesh, graph, parts);
-    fmt::print("{:6} {:9.0f} {:8.3f} {:11.0f} {:7.1f} {:8.0f} {:9.4g} kB {:8.4g} MB{}\n", parts,
-               division.most_cells, division.imbalance(), division.most_neighbours, division.mean_neighbours,
-               division.most_copies, 1e-3 * division.most_bytes, 1e-6 * division.all_bytes,
-               with_time ? shown_step(division, arguments) : "");
+    fmt::print("{:6} {:9.0f} {:8.3f} {:11.0f} {:7.1f} {:8.0f} {:9.4g} kB {:8.4g} MB{}\n", parts, division.most_cells,
+               division.imbalance(), division.most_neighbours, division.mean_neighbours, division.most_copies,
+               1e-3 * division.most_bytes, 1e-6 * division.all_bytes, with_time ? shown_step(division, arguments) : "");
     std::fflush(stdout);
   }
   return 0;
@@ -116,8 +118,7 @@ void declare(PartitionArguments& arguments, CommandOptions& options) {
   options.repeated("--set", arguments.set, "Change a value by its path.").type("PATH=VALUE");
   options.value("--parts", arguments.parts, "Numbers of parts, that is of ranks.").type("N,N,...").show_default();
   options.value("--step", arguments.step, "Seconds of a step by one rank, for a model of that by more.");
-  options.value("--exchanges", arguments.exchanges, "Exchanges of a vector with neighbours in a step.")
-      .needs("--step");
+  options.value("--exchanges", arguments.exchanges, "Exchanges of a vector with neighbours in a step.").needs("--step");
   options.value("--reductions", arguments.reductions, "Sums over all ranks in a step.").needs("--step");
   options.value("--latency", arguments.latency, "Seconds that a message takes at least.")
       .show_default()

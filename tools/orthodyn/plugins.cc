@@ -8,16 +8,16 @@
 #include <filesystem>
 #include <sstream>
 
-#include "lib/material_axes/axes_source.h"
 #include "lib/config/registry.h"
 #include "lib/core/errors.h"
 #include "lib/core/file_kind.h"
-#include "lib/core/versions.h"
 #include "lib/core/spelling.h"
+#include "lib/core/versions.h"
 #include "lib/fem/term_choice.h"
 #include "lib/fem/time_functions/time_function.h"
 #include "lib/linear/solver.h"
 #include "lib/material/material.h"
+#include "lib/material_axes/axes_source.h"
 #include "lib/mesh/io/mesh_format.h"
 #include "lib/mesh/mesh_source.h"
 #include "lib/ode/integrator.h"
@@ -25,7 +25,6 @@
 namespace orthodyn {
 
 namespace {
-
 
 std::vector<std::string> from_environment() {
   std::vector<std::string> files;

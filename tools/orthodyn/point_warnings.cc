@@ -48,8 +48,9 @@ void warn_of_coarse_frequencies(const Json& table) {
     count += is_coarse;
   }
   if (count > 0)
-    fmt::print(stderr, "warning: the mesh is coarse for frequencies of {} of {} points: up to {:.2g} % too {} ({}; "
-                       "columns .mesh_error of sweep.csv)\n",
+    fmt::print(stderr,
+               "warning: the mesh is coarse for frequencies of {} of {} points: up to {:.2g} % too {} ({}; "
+               "columns .mesh_error of sweep.csv)\n",
                count, table.at("points").size(), 100 * std::abs(worst), worst > 0 ? "high" : "low", which);
 }
 

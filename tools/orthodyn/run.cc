@@ -91,8 +91,9 @@ void refuse_on_ranks(const RunArguments& arguments, const Ranks* ranks = nullptr
     throw ConfigError(fmt::format("--ranks starts mpirun, which has already started {} ranks here; use one of the two",
                                   ranks->size()));
   if (arguments.estimate_error)
-    throw ConfigError("--estimate-error repeats the run, which it does not on several ranks; run again with a smaller "
-                      "rtol or step, and compare");
+    throw ConfigError(
+        "--estimate-error repeats the run, which it does not on several ranks; run again with a smaller "
+        "rtol or step, and compare");
 }
 
 // `ranks`: of which this process is one; null for one that is alone.
@@ -140,7 +141,7 @@ int write_job(const RunArguments& arguments) {
   }
   fs::path folder = fs::absolute(folder_for(arguments)).lexically_normal();
   if (folder.filename().empty()) folder = folder.parent_path();  // "out/fine/"
-  fs::create_directories(folder.parent_path());  // where the job leaves its log
+  fs::create_directories(folder.parent_path());                  // where the job leaves its log
   const bool goes_on = scene.checkpoint.has_value() && !arguments.force && !arguments.estimate_error;
   const RunJob job{.program = this_program(),
                    .scene = fs::absolute(arguments.scene),
@@ -189,20 +190,21 @@ void declare(RunArguments& arguments, CommandOptions& options) {
       .excludes("--resume");
   options.value("--slurm", arguments.slurm, "The run as a job of SLURM: print its script, or submit it.")
       .choice({"print", "submit"});
-  options.value("--ranks", arguments.ranks, "Processes that compute the scene together, started by mpirun; default one.")
+  options
+      .value("--ranks", arguments.ranks, "Processes that compute the scene together, started by mpirun; default one.")
       .range(1, 1'000'000);
 }
 
 const CommandRegistration run_command({.order = 10,
-                                         .name = "run",
-                                         .sentence = "Run a scene: frames for ParaView, energies, steps, a summary.",
-                                         .examples = R"(
+                                       .name = "run",
+                                       .sentence = "Run a scene: frames for ParaView, energies, steps, a summary.",
+                                       .examples = R"(
   orthodyn run configs/scenes/cantilever.yaml --set integrator.rtol=1e-5 --out out/fine
   orthodyn run configs/scenes/laminate.yaml --set checkpoint={} --resume
   orthodyn run configs/scenes/cantilever.yaml --ranks 2
   orthodyn run mine.yaml --slurm --ranks 64 > job.sh; sbatch job.sh)",
-                                         .on_ranks = true},
-                                        declare, run_scene);
+                                       .on_ranks = true},
+                                      declare, run_scene);
 
 }  // namespace
 

@@ -7,8 +7,8 @@
 
 #include "lib/core/digits.h"
 #include "lib/core/spelling.h"
-#include "lib/simulation/run/result_warnings.h"
 #include "lib/simulation/error_estimate/error_balance.h"
+#include "lib/simulation/run/result_warnings.h"
 #include "tools/orthodyn/shortened.h"
 
 namespace orthodyn {
@@ -63,15 +63,15 @@ void print_errors(const RunResult& result, int width) {
   if (!errors) return;
   fmt::print("  {:<{}} mesh {:.1e} of the elastic energy (by {}){}{}{}\n", "errors, about", width, errors->mesh,
              errors->mesh_by,
-             errors->time     ? fmt::format(", time {:.1e} of the motion", *errors->time)
-             : result.motion  ? ", time not estimated (--estimate-error)"
-                              : "",
+             errors->time    ? fmt::format(", time {:.1e} of the motion", *errors->time)
+             : result.motion ? ", time not estimated (--estimate-error)"
+                             : "",
              errors->advice.empty() ? "" : ": ", errors->advice);
   if (errors->probed_unknown)
     fmt::print("  {:<{}} of stresses and strains at probes not known: finer elements were not used\n", "", width);
   for (const ProbedError& e : errors->probed)
-    fmt::print("  {:<{}} {} of {} {:.1e}{} ({:.2g} % of its size), due to the mesh\n", "", width, e.field, e.probe, e.error,
-               e.unit == "1" ? "" : " " + e.unit, 100 * e.share());
+    fmt::print("  {:<{}} {} of {} {:.1e}{} ({:.2g} % of its size), due to the mesh\n", "", width, e.field, e.probe,
+               e.error, e.unit == "1" ? "" : " " + e.unit, 100 * e.share());
 }
 
 std::string three(const Vec3& v, const char* format) {
@@ -90,8 +90,8 @@ void print_extremes(const RunResult& result, bool is_static) {
     if (e.node < 0) fmt::print("  {}: no node has a value\n", e.quantity);
     else
       fmt::print("  {}: {:.4g}{} at {} m, {} {:.4g}{}, of {}\n", e.quantity, e.value,
-                 e.unit.empty() ? "" : " " + e.unit, three(e.place, "{:.4g}"), is_static ? "at load factor" : "at t =",
-                 e.time, is_static ? "" : " s", counted(e.states, "state"));
+                 e.unit.empty() ? "" : " " + e.unit, three(e.place, "{:.4g}"),
+                 is_static ? "at load factor" : "at t =", e.time, is_static ? "" : " s", counted(e.states, "state"));
   }
 }
 
@@ -116,37 +116,38 @@ void print_motion(const RunResult& result, const MotionResult& motion) {
         "error", e->error, e->since, e->parts, e->parts == 1 ? "" : "s", e->steps, e->against, e->wall_seconds);
   print_errors(result, 15);
   print_extremes(result, false);
-  if (!motion.silent_events.empty())
-    fmt::print("  {:<15} never happened: {}\n", "events", join(motion.silent_events));
+  if (!motion.silent_events.empty()) fmt::print("  {:<15} never happened: {}\n", "events", join(motion.silent_events));
   fmt::print("  {:<15} {:.4g} in element {} at t = {:.4g} s{}\n", "smallest det F", motion.det_f.value,
              motion.det_f.element, motion.det_f.time, motion.det_f.value <= 0 ? ": INVERTED" : "");
   fmt::print("  {:<15} {}\n", "results", result.folder.string());
 }
 
 std::string what_turns(const CriticalPoint& turn) {
-  return fmt::format(": the body buckles there, or loses a support; its equilibria {} followed (statics.at_limit acts "
-                     "at limit points and bifurcations only)",
-                     turn.unstable ? "stay stable and were" : "were");
+  return fmt::format(
+      ": the body buckles there, or loses a support; its equilibria {} followed (statics.at_limit acts "
+      "at limit points and bifurcations only)",
+      turn.unstable ? "stay stable and were" : "were");
 }
 
 void print_equilibrium(const RunResult& result, const EquilibriumResult& equilibrium) {
   const auto& outcome = result.outcome;
   fmt::print("{}, static: {} unknowns, {} at load factor {:.6g} after {:.2f} s\n", result.scene, result.model.unknowns,
              status_word(outcome.status), outcome.last.t, outcome.wall_seconds);
-  fmt::print("  {:<20} {} ({} cut back), {}\n", "load steps", equilibrium.load_steps,
-             equilibrium.rejected_load_steps, counted(equilibrium.statistics.newton_iterations, "Newton iteration"));
+  fmt::print("  {:<20} {} ({} cut back), {}\n", "load steps", equilibrium.load_steps, equilibrium.rejected_load_steps,
+             counted(equilibrium.statistics.newton_iterations, "Newton iteration"));
   for (const CriticalPoint& point : equilibrium.critical_points)
     fmt::print("  {:<20} at load factor {:.6g} +- {:.1g}{}\n", words_of(point.kind), point.load_factor,
-               point.uncertainty,
-               point.kind == CriticalPoint::Kind::turn ? what_turns(point) : "");
+               point.uncertainty, point.kind == CriticalPoint::Kind::turn ? what_turns(point) : "");
   if (equilibrium.jumps > 0)
     fmt::print("  {:<20} {}, down the energy to a stable equilibrium on another path\n", "jumps", equilibrium.jumps);
   if (equilibrium.unstable.value_or(0) > 0)
     fmt::print("  {:<20} the last equilibrium is unstable in {}\n", "stability",
                equilibrium.unsymmetric ? "an odd number of directions" : counted(*equilibrium.unstable, "direction"));
   else if (equilibrium.unsymmetric)
-    fmt::print("  {:<20} by the sign of the determinant, for the stiffness is unsymmetric; growing vibrations (flutter) "
-               "are not looked for\n", "stability");
+    fmt::print(
+        "  {:<20} by the sign of the determinant, for the stiffness is unsymmetric; growing vibrations (flutter) "
+        "are not looked for\n",
+        "stability");
   fmt::print("  {:<20} {}\n", "solver", equilibrium.solver);
   if (!result.model.kinematics.empty()) fmt::print("  {:<20} {}\n", "kinematics", result.model.kinematics);
   fmt::print("  {:<20} {:.6g} m\n", "largest displacement", equilibrium.largest_displacement);
@@ -155,9 +156,9 @@ void print_equilibrium(const RunResult& result, const EquilibriumResult& equilib
   print_errors(result, 20);
   print_extremes(result, true);
   for (const auto& [probe, value, error] : equilibrium.probes)
-    fmt::print("  {:<20} moved by {} m{}\n", probe, three_known(value, error),
-               error.allFinite() ? fmt::format("; its error due to the mesh is about {} m", three(error, "{:.1e}"))
-                                 : "");
+    fmt::print(
+        "  {:<20} moved by {} m{}\n", probe, three_known(value, error),
+        error.allFinite() ? fmt::format("; its error due to the mesh is about {} m", three(error, "{:.1e}")) : "");
   fmt::print("  {:<20} {}\n", "results", result.folder.string());
 }
 
@@ -171,9 +172,10 @@ void print_buckling(const RunResult& result, const BucklingResult& buckling) {
                fmt::format("{:+.2g} %", 100 * mode.mesh_error), mode.residual);
   }
   if (std::ssize(buckling.modes) < buckling.wanted && !buckling.modes.empty())
-    fmt::print("  {} of the {} modes asked for lie below load factor {:.4g}, at which linear statics reach a strain of "
-               "10 %: beyond it there are no buckling loads\n",
-               buckling.modes.size(), buckling.wanted, buckling.limit);
+    fmt::print(
+        "  {} of the {} modes asked for lie below load factor {:.4g}, at which linear statics reach a strain of "
+        "10 %: beyond it there are no buckling loads\n",
+        buckling.modes.size(), buckling.wanted, buckling.limit);
   fmt::print("  {:<20} {}\n", "results", result.folder.string());
 }
 
@@ -182,8 +184,8 @@ void print_what_remains(const RunResult& result) {
     fmt::print(stderr, "interrupted at t = {:.6g} s; what was computed is in {}\n", result.outcome.last.t,
                result.folder.string());
   if (result.outcome.status != Outcome::Status::completed && result.resumable)
-    fmt::print(stderr, "to continue: orthodyn run {} --resume{}\n",
-               result.folder.string(), result.ranks > 1 ? fmt::format(" --ranks {}", result.ranks) : "");
+    fmt::print(stderr, "to continue: orthodyn run {} --resume{}\n", result.folder.string(),
+               result.ranks > 1 ? fmt::format(" --ranks {}", result.ranks) : "");
 }
 
 }  // namespace

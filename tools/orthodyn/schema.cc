@@ -57,8 +57,7 @@ class SchemaWriter {
     Schema out = {{"description", description(key)}};
     if (const Schema fallback = Schema::parse(key.fallback, nullptr, false); !fallback.is_discarded())
       out["default"] = fallback;
-    else if (key.shape.kind == Shape::Kind::word && !key.fallback.empty())
-      out["default"] = key.fallback;
+    else if (key.shape.kind == Shape::Kind::word && !key.fallback.empty()) out["default"] = key.fallback;
     const Schema shape = key.required ? of(key.shape, key) : or_null(of(key.shape, key));
     if (shape.contains("$ref")) out["allOf"] = {shape};  // draft 7 ignores what stands beside $ref
     else out.update(shape);
@@ -95,8 +94,7 @@ class SchemaWriter {
       case Shape::Kind::word: return word(shape);
       case Shape::Kind::list: return list(shape, key);
       case Shape::Kind::named: return named(shape, key);
-      case Shape::Kind::section:
-        return define(shape.title, [&] { return section(shape.keys()); });
+      case Shape::Kind::section: return define(shape.title, [&] { return section(shape.keys()); });
       case Shape::Kind::choice: return choice(shape, key);
       case Shape::Kind::either: return either(shape, key);
       case Shape::Kind::anything: break;
@@ -130,7 +128,8 @@ class SchemaWriter {
   }
 
   Schema named(const Shape& shape, const Key& key) {
-    return {{"type", "object"}, {"properties", {{"include", include()}}},
+    return {{"type", "object"},
+            {"properties", {{"include", include()}}},
             {"additionalProperties", of(shape.items.front(), key)}};
   }
 

@@ -10,7 +10,9 @@ SlowSetUp::SlowSetUp()
     : waiting_([this] {
         std::unique_lock lock(mutex_);
         if (!ended_.wait_for(lock, std::chrono::seconds(3), [this] { return is_over_; }))
-          print_notice("setting up: mesh, matrix, the response to the loads for scales and warnings, and the choice of a method ...\n");
+          print_notice(
+              "setting up: mesh, matrix, the response to the loads for scales and warnings, and the choice of a method "
+              "...\n");
       }) {}
 
 SlowSetUp::~SlowSetUp() {

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <thread>
 
-#include "lib/simulation/preflight/input_checks/input_checks.h"
 #include "lib/simulation/output/output_size.h"
+#include "lib/simulation/preflight/input_checks/input_checks.h"
 #include "tools/orthodyn/draw.h"
 #include "tools/orthodyn/interrupt.h"
 #include "tools/orthodyn/mpirun.h"
@@ -44,7 +44,8 @@ void require_usual_number(const StudyArguments& arguments, double points) {
   if (arguments.yes || points < kMostUnasked) return;
   throw ConfigError(arguments.file,
                     fmt::format("makes {:.7g} points (about {} of disk); take fewer values, or add --yes if that is "
-                                "meant", points, shown_bytes(points * kBytesOfPoint)));
+                                "meant",
+                                points, shown_bytes(points * kBytesOfPoint)));
 }
 
 void SlipTeller::tell(const Config& scene) {

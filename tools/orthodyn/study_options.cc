@@ -25,9 +25,9 @@ void declare_jobs(StudyArguments& arguments, CommandOptions& options, const char
 
 void declare_ranks(StudyArguments& arguments, CommandOptions& options, const char* piece) {
   options
-      .value("--ranks", arguments.ranks,
-             fmt::format("Processes that compute a {} together, as `mpirun -n N orthodyn run` does; default one.",
-                         piece))
+      .value(
+          "--ranks", arguments.ranks,
+          fmt::format("Processes that compute a {} together, as `mpirun -n N orthodyn run` does; default one.", piece))
       .range(1, 1'000'000);
 }
 

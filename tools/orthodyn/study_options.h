@@ -11,7 +11,7 @@ namespace orthodyn {
 struct StudyArguments {
   std::string file;
   std::optional<std::string> out;
-  int jobs = 0;  // 0: as many as there are processors, by ranks
+  int jobs = 0;   // 0: as many as there are processors, by ranks
   int ranks = 1;  // that compute a piece together
   bool retry = false, quiet = false, no_report = false;
   bool yes = false;  // also for a million points and more

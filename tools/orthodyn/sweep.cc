@@ -63,8 +63,8 @@ std::string outcome_of(const EvaluationResult& result, const Sweep& sweep) {
     const std::string* si = value_of(result.units, name);
     const std::string unit = !figure.unit.empty() ? figure.unit : si ? *si : "";
     const double factor = figure.unit.empty() ? 1 : si_factor(figure.unit);
-    words.push_back(fmt::format("{} {}{}", name, known_value(result, name, *value / factor),
-                                unit.empty() ? "" : " " + unit));
+    words.push_back(
+        fmt::format("{} {}{}", name, known_value(result, name, *value / factor), unit.empty() ? "" : " " + unit));
   }
   return join(words);
 }

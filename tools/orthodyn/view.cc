@@ -56,7 +56,8 @@ int view(const ViewArguments& arguments) {
 void declare(ViewArguments& arguments, CommandOptions& options) {
   options
       .list("result", arguments.results,
-            "Folders that run, modes, sweep, compare or stability wrote. Two are side by side; of more the page offers all.")
+            "Folders that run, modes, sweep, compare or stability wrote. Two are side by side; of more the page offers "
+            "all.")
       .type("RESULT")
       .required();
   options.value("--out", arguments.out, "The page; default RESULT/view.html.").type("FILE");
@@ -66,7 +67,10 @@ void declare(ViewArguments& arguments, CommandOptions& options) {
   options.value("--time", arguments.time, "Begins at the frame nearest to T seconds.").type("T");
   options.value("--color", arguments.color, "Begins with this colour, as `draw frame --help` has them.")
       .type("FIELD[.COMPONENT]");
-  options.value("--scale", arguments.scale, "Enlarges deflections S times; default 1, or as much as shows one below 2 % of the body.").type("S");
+  options
+      .value("--scale", arguments.scale,
+             "Enlarges deflections S times; default 1, or as much as shows one below 2 % of the body.")
+      .type("S");
   options.value("--png", arguments.png, "A still in place of the page; needs Chromium.").type("FILE");
   options.value("--size", arguments.size, "Pixels of the still; default 1600x1000.").type("WxH").needs("--png");
 }

@@ -16,8 +16,8 @@ std::vector<int> whole_numbers(const std::string& option, const std::string& tex
     int number = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
     if (error != std::errc() || end != word.data() + word.size() || number < least || number > most)
-      throw ConfigError(fmt::format("{}: expected whole numbers from {} to {} as in 2,4,8, found '{}'", option, least,
-                                    most, text));
+      throw ConfigError(
+          fmt::format("{}: expected whole numbers from {} to {} as in 2,4,8, found '{}'", option, least, most, text));
     numbers.push_back(number);
   }
   return numbers;

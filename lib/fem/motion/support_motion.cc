@@ -27,8 +27,10 @@ void check_translation(const SupportMotion& m, const Config& config) {
   if (!m.translation || m.translation->isZero(0)) return;
   for (const Component c : m.components)
     if ((*m.translation)[static_cast<int>(c)] != 0) return;
-  config.at("translation").fail("moves nothing: its parts along the chosen components are zero; add those that it "
-                                "is to move to 'components'");
+  config.at("translation")
+      .fail(
+          "moves nothing: its parts along the chosen components are zero; add those that it "
+          "is to move to 'components'");
 }
 
 void check_motion(const SupportMotion& m, const Config& config) {

@@ -4,11 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
 #include <utility>
-
-#include <Eigen/Cholesky>
 
 #include "lib/core/symmetric_eigen.h"
 #include "lib/fem/batch_loops.h"
@@ -94,8 +93,7 @@ class ElasticTermOf final : public ElasticTerm {
           return law_.mixed_tangent(elements_.gradient(k, p, before.u), elements_.gradient(k, p, s.u), axes().of(k, p));
         });
       });
-    else
-      add_tangent(s, TangentKind::exact, K, nullptr);
+    else add_tangent(s, TangentKind::exact, K, nullptr);
   }
 
   double energy(const NodalState& s) const override {
@@ -134,13 +132,14 @@ class ElasticTermOf final : public ElasticTerm {
     Eigen::Matrix<double, 6, Eigen::Dynamic> out(6, size() * E::kPoints);
     for_each_batch_point([&](int b, int p) {
       Batch::Mask good;
-      const auto all_lanes = voigt_strain<Batch>(
-          law_.batch_strain(elements_.gradients(b, p, s.u), axes().batch(b, p), good));
+      const auto all_lanes =
+          voigt_strain<Batch>(law_.batch_strain(elements_.gradients(b, p, s.u), axes().batch(b, p), good));
       for (int l = 0; l < elements_.lanes(b); ++l) {
         const int k = b * Batch::kLanes + l;
         auto own = out.col(k * E::kPoints + p);
         if (!good[l]) own = voigt_strain<double>(observe_point(k, p, s).strain);
-        else for (int i = 0; i < 6; ++i) own[i] = all_lanes[i][l];
+        else
+          for (int i = 0; i < 6; ++i) own[i] = all_lanes[i][l];
       }
     });
     return out;
@@ -251,7 +250,8 @@ class ElasticTermOf final : public ElasticTerm {
       for (int p = 0; p < E::kPoints; ++p) {
         Batch::Mask good;
         const Batch product = elements_.volumes(b, p) * of_batch(b, p, good);
-        if (all(good)) for (int l = 0; l < Batch::kLanes; ++l) sum += product[l];
+        if (all(good))
+          for (int l = 0; l < Batch::kLanes; ++l) sum += product[l];
         else loops_.for_each_of(b, [&](int k) { sum += elements_.volume(k, p) * of_element(k, p); });
       }
       return sum;

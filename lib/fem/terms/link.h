@@ -11,8 +11,8 @@ namespace orthodyn {
 
 struct Link {
   int a = 0;
-  int b = -1;                    // -1: the ground
-  Vec3 anchor = Vec3::Zero();    // m; of the ground
+  int b = -1;                  // -1: the ground
+  Vec3 anchor = Vec3::Zero();  // m; of the ground
 
   // From the other end to node a, m; and how it changes by displacements u, m, or velocities, m/s.
   Vec3 span(const NodalVector& x) const { return x.col(a) - (b < 0 ? anchor : Vec3(x.col(b))); }

@@ -10,7 +10,7 @@ const Spec<Load>& Load::spec() {
   static const auto s =
       Spec<Load>()
           .key("surface", &Load::surface, "A named surface of the mesh.", {.required = true})
-          .key("traction", &Load::traction, 
+          .key("traction", &Load::traction,
                "Dead traction per undeformed area: three numbers, or formulas of the rest position.", {.unit = "Pa"})
           .key("force", &Load::force, "Total dead force, spread evenly over the surface.", {.unit = "N"})
           .key("factor", &Load::factor, "Factor in time.", {.fallback = "{type: constant}"})

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <map>
 
-#include "lib/core/spelling.h"
 #include "lib/config/csv_table.h"
+#include "lib/core/spelling.h"
 #include "lib/fem/term_choice.h"
 #include "lib/fem/terms/dead_load.h"
 #include "lib/mesh/near_nodes.h"
@@ -65,8 +65,8 @@ class NodalForcesChoice : public TermChoice {
                                 : node_numbered(table, row, mesh);
       const auto [first, is_new] = row_of.emplace(node, row);
       if (!is_new)
-        throw ConfigError(table.where(row), fmt::format("node {} already has a row, in line {}", node,
-                                                        table.lines[first->second]));
+        throw ConfigError(table.where(row),
+                          fmt::format("node {} already has a row, in line {}", node, table.lines[first->second]));
       forces.emplace_back(node, vector_at(table, row, kForce));
     }
     return forces;
@@ -75,8 +75,8 @@ class NodalForcesChoice : public TermChoice {
   bool is_by_place(const CsvTable& table) const {
     const auto count = std::count_if(kPlace.begin(), kPlace.end(), [&](const auto& name) { return table.has(name); });
     if (count != (table.has("node") ? 0 : 3))
-      throw ConfigError(table.path, "found the columns " + join(table.names, ",") +
-                                        "; give node,fx,fy,fz or x,y,z,fx,fy,fz");
+      throw ConfigError(table.path,
+                        "found the columns " + join(table.names, ",") + "; give node,fx,fy,fz or x,y,z,fx,fy,fz");
     if (count == 0 && tolerance_)
       origin.fail("tolerance goes with the columns x,y,z, and " + table.path + " has node; remove it");
     return count > 0;
@@ -85,8 +85,8 @@ class NodalForcesChoice : public TermChoice {
   static int node_numbered(const CsvTable& table, std::size_t row, const TetMesh& mesh) {
     const int node = table.index(row, "node");
     if (static_cast<std::size_t>(node) >= mesh.nodes.size())
-      throw ConfigError(table.where(row), fmt::format("node {} does not exist; the mesh has 0 to {}", node,
-                                                      mesh.nodes.size() - 1));
+      throw ConfigError(table.where(row),
+                        fmt::format("node {} does not exist; the mesh has 0 to {}", node, mesh.nodes.size() - 1));
     return node;
   }
 

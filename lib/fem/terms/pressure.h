@@ -5,9 +5,9 @@
 // with the tangents x_,1 and x_,2 of a face and p at rest. Exact for a uniform pressure; see PressedFace.
 //
 // A surface without boundary under uniform pressure has the energy p V; the force of others has none, so its work
-// counts as that of a load. The derivative -df_a/dx_b is symmetric where the pressure is uniform on a closed surface, or
-// on one whose edge is held (Hibbitt 1979, Some follower forces and load stiffness). Elsewhere a symmetric pattern takes
-// its symmetric part: an approximate Newton matrix, an exact force.
+// counts as that of a load. The derivative -df_a/dx_b is symmetric where the pressure is uniform on a closed surface,
+// or on one whose edge is held (Hibbitt 1979, Some follower forces and load stiffness). Elsewhere a symmetric pattern
+// takes its symmetric part: an approximate Newton matrix, an exact force.
 #pragma once
 
 #include <memory>

@@ -94,9 +94,10 @@ class PressureChoice : public TermChoice {
   std::shared_ptr<const TimeFunction> factor_;
 };
 
-const bool pressure_registered = Registry<TermChoice>::add<PressureChoice>(
-    "pressure",
-    "Pressure on a surface, which it follows by default (of an unsymmetric stiffness motions take the symmetric part), or dead.");
+const bool pressure_registered =
+    Registry<TermChoice>::add<PressureChoice>("pressure",
+                                              "Pressure on a surface, which it follows by default (of an unsymmetric "
+                                              "stiffness motions take the symmetric part), or dead.");
 
 }  // namespace
 }  // namespace orthodyn

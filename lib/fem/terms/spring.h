@@ -10,8 +10,8 @@
 
 #include <vector>
 
-#include "lib/fem/terms/link.h"
 #include "lib/fem/term.h"
+#include "lib/fem/terms/link.h"
 
 namespace orthodyn {
 

@@ -1,6 +1,6 @@
-#include "lib/fem/time_functions/time_function.h"
-
 #include <cmath>
+
+#include "lib/fem/time_functions/time_function.h"
 
 namespace orthodyn {
 namespace {

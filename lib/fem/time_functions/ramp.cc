@@ -1,7 +1,7 @@
-#include "lib/fem/time_functions/time_function.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "lib/fem/time_functions/time_function.h"
 
 namespace orthodyn {
 namespace {
@@ -10,14 +10,13 @@ namespace {
 class Ramp : public TimeFunction {
  public:
   static const Spec<Ramp>& spec() {
-    static const auto s =
-        Spec<Ramp>()
-            .key("start", &Ramp::start_, "Zero until then.", {.unit = "s"})
-            .key("end", &Ramp::end_, "Constant from then on.", {.required = true, .unit = "s"})
-            .key("value", &Ramp::value_, "The factor reached at the end.")
-            .check([](const Ramp& r, const Config& c) {
-              if (!(r.end_ > r.start_)) c.fail("'end' must be after 'start'");
-            });
+    static const auto s = Spec<Ramp>()
+                              .key("start", &Ramp::start_, "Zero until then.", {.unit = "s"})
+                              .key("end", &Ramp::end_, "Constant from then on.", {.required = true, .unit = "s"})
+                              .key("value", &Ramp::value_, "The factor reached at the end.")
+                              .check([](const Ramp& r, const Config& c) {
+                                if (!(r.end_ > r.start_)) c.fail("'end' must be after 'start'");
+                              });
     return s;
   }
   double value(double t) const override { return value_ * std::clamp((t - start_) / (end_ - start_), 0.0, 1.0); }

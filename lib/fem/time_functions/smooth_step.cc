@@ -1,7 +1,7 @@
-#include "lib/fem/time_functions/time_function.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "lib/fem/time_functions/time_function.h"
 
 namespace orthodyn {
 namespace {
@@ -10,14 +10,13 @@ namespace {
 class SmoothStep : public TimeFunction {
  public:
   static const Spec<SmoothStep>& spec() {
-    static const auto s =
-        Spec<SmoothStep>()
-            .key("start", &SmoothStep::start_, "Zero until then.", {.unit = "s"})
-            .key("end", &SmoothStep::end_, "Constant from then on.", {.required = true, .unit = "s"})
-            .key("value", &SmoothStep::value_, "The factor reached at the end.")
-            .check([](const SmoothStep& f, const Config& c) {
-              if (!(f.end_ > f.start_)) c.fail("'end' must be after 'start'");
-            });
+    static const auto s = Spec<SmoothStep>()
+                              .key("start", &SmoothStep::start_, "Zero until then.", {.unit = "s"})
+                              .key("end", &SmoothStep::end_, "Constant from then on.", {.required = true, .unit = "s"})
+                              .key("value", &SmoothStep::value_, "The factor reached at the end.")
+                              .check([](const SmoothStep& f, const Config& c) {
+                                if (!(f.end_ > f.start_)) c.fail("'end' must be after 'start'");
+                              });
     return s;
   }
   double value(double t) const override {

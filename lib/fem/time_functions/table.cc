@@ -1,7 +1,7 @@
-#include "lib/fem/time_functions/time_function.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "lib/fem/time_functions/time_function.h"
 
 namespace orthodyn {
 namespace {

@@ -16,7 +16,7 @@ class TimeFunction {
   virtual double rate(double t) const = 0;       // 1/s; at a jump, from the right
   virtual double curvature(double t) const = 0;  // 1/s^2, likewise
   virtual bool constant() const { return false; }
-  virtual std::vector<double> kinks() const { return {}; }                 // where it is not smooth
+  virtual std::vector<double> kinks() const { return {}; }  // where it is not smooth
   virtual bool has_continuous_rate() const { return kinks().empty(); }
   // A copy whose rate and curvature are accurate between two times, s; null if those of this function are exact.
   virtual std::shared_ptr<const TimeFunction> over(double /*start*/, double /*end*/) const { return nullptr; }

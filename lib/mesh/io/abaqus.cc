@@ -50,11 +50,12 @@ class AbaqusMesh {
  private:
   void make_draft() {
     if (draft_.cells.empty())
-      draft_.fail({}, fmt::format("no solid elements (C3D4, C3D8, C3D6, ...){}",
-                                  faces_.empty() ? ""
-                                                 : fmt::format(": {} elements of planes or shells alone are a 2D mesh or "
-                                                               "a surface; mesh its inside",
-                                                               faces_.size())));
+      draft_.fail({},
+                  fmt::format("no solid elements (C3D4, C3D8, C3D6, ...){}",
+                              faces_.empty() ? ""
+                                             : fmt::format(": {} elements of planes or shells alone are a 2D mesh or "
+                                                           "a surface; mesh its inside",
+                                                           faces_.size())));
     check_elements_differ();
     add_regions();
     add_surfaces();
@@ -143,8 +144,9 @@ class AbaqusMesh {
     const auto same = std::adjacent_find(cells_.begin(), cells_.end(),
                                          [](const auto& a, const auto& b) { return a.first == b.first; });
     if (same == cells_.end()) return;
-    draft_.fail(draft_.cells[(same + 1)->second].place, fmt::format("element {} is defined twice (first in line {})",
-                                                                   same->first, draft_.cells[same->second].place.line));
+    draft_.fail(draft_.cells[(same + 1)->second].place,
+                fmt::format("element {} is defined twice (first in line {})", same->first,
+                            draft_.cells[same->second].place.line));
   }
 
   // A range of many numbers costs no more than what exists of it.
@@ -312,9 +314,10 @@ class AbaqusMesh {
       const std::string& name = candidates[earlier].name;
       if (in_capitals(name) == in_capitals(candidates[c].name) || (count == sizes[earlier] && count == sizes[c]))
         continue;
-      draft_.warnings.push_back(fmt::format("{}: {} elements of element set \"{}\" are in \"{}\", too, which comes "
-                                            "later: that is their region",
-                                            draft_.files.front(), count, name, candidates[c].name));
+      draft_.warnings.push_back(
+          fmt::format("{}: {} elements of element set \"{}\" are in \"{}\", too, which comes "
+                      "later: that is their region",
+                      draft_.files.front(), count, name, candidates[c].name));
     }
   }
 
@@ -339,9 +342,9 @@ class AbaqusMesh {
   FileFace face_of(const FileCell& cell, const AbaqusFace& face, const std::string& surface) const {
     const std::vector<Places>& faces = faces_of(cell.kind);
     if (face.side >= faces.size())
-      draft_.fail(face.elements.place, fmt::format("surface {}: S{} of element {}; a {} has S1 to S{}",
-                                                   TextTokens::quoted(surface), face.side + 1, cell.tag,
-                                                   name_of(cell.kind), faces.size()));
+      draft_.fail(face.elements.place,
+                  fmt::format("surface {}: S{} of element {}; a {} has S1 to S{}", TextTokens::quoted(surface),
+                              face.side + 1, cell.tag, name_of(cell.kind), faces.size()));
     const Places& places = faces[face.side];
     FileFace out{.tag = cell.tag, .sides = places.size(), .place = face.elements.place};
     for (std::size_t k = 0; k < places.size(); ++k) out.nodes[k] = cell.nodes[places[k]];
@@ -393,8 +396,8 @@ class AbaqusMesh {
           faces.push_back(face_of(draft_.cells[c], face, name));
         });
         if (found == 0)
-          draft_.fail(face.elements.place, fmt::format("surface {}: no such solid element",
-                                                       TextTokens::quoted(surface.name)));
+          draft_.fail(face.elements.place,
+                      fmt::format("surface {}: no such solid element", TextTokens::quoted(surface.name)));
       }
     }
     if (file_.faces.empty()) return;
@@ -414,11 +417,7 @@ class AbaqusMesh {
 };
 
 const bool abaqus_registered = register_mesh_format(
-    {.name = "Abaqus",
-     .endings = {".inp"},
-     .read = read_abaqus,
-     .write = write_abaqus,
-     .brings_materials = true});
+    {.name = "Abaqus", .endings = {".inp"}, .read = read_abaqus, .write = write_abaqus, .brings_materials = true});
 
 }  // namespace
 

@@ -22,9 +22,9 @@ namespace orthodyn {
 // Each *INSTANCE is its part where it is placed. Where there are several, names within them begin with theirs
 // ("Part-1-1.Side"), and what is added to their numbers is told.
 //
-// Parameters that change what is read are used or refused (abaqus_parameters.h). Sets that contain themselves, other solid
-// elements, and keywords that generate nodes are refused; elements of other kinds are left out, and all other keywords
-// are skipped, both with a warning. Throws ConfigError "file:line: found, remedy", as read_gmsh() does.
+// Parameters that change what is read are used or refused (abaqus_parameters.h). Sets that contain themselves, other
+// solid elements, and keywords that generate nodes are refused; elements of other kinds are left out, and all other
+// keywords are skipped, both with a warning. Throws ConfigError "file:line: found, remedy", as read_gmsh() does.
 LoadedMesh read_abaqus(const std::string& path);
 
 // The same from a text; `path` is for messages.

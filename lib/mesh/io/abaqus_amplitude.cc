@@ -25,7 +25,8 @@ std::string parameter_of_another_curve(const AbaqusKeyword& keyword) {
   return "";
 }
 
-// All numbers behind each other, a whole number of pairs; none if one is no number, or missing in a line before the last.
+// All numbers behind each other, a whole number of pairs; none if one is no number, or missing in a line before the
+// last.
 std::optional<std::vector<double>> amplitude_numbers(AbaqusLines& lines) {
   std::vector<double> numbers;
   while (!lines.at_keyword()) {

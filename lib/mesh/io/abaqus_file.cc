@@ -361,9 +361,10 @@ class AbaqusReader {
     std::vector<std::string> skipped;
     for (const auto& [what, place] : file_.skipped) skipped.push_back(what);
     if (!skipped.empty())
-      warnings.push_back(fmt::format("{}: only mesh and materials are read here; a scene has its own clamps and loads "
-                                     "(`orthodyn init --from` takes over those of the file). Skipped: {}",
-                                     path, join(skipped)));
+      warnings.push_back(
+          fmt::format("{}: only mesh and materials are read here; a scene has its own clamps and loads "
+                      "(`orthodyn init --from` takes over those of the file). Skipped: {}",
+                      path, join(skipped)));
   }
 
   struct Part {
@@ -380,7 +381,7 @@ class AbaqusReader {
   AbaqusHistoryReader history_{lines_, scopes_, file_};
   std::map<std::string, Part> parts_;
   std::map<std::string, std::size_t> left_out_;  // by type
-  std::vector<std::int64_t> nodes_;  // of the element that is read
+  std::vector<std::int64_t> nodes_;              // of the element that is read
   int order_ = 0;
 };
 

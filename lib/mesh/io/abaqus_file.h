@@ -87,12 +87,12 @@ struct AbaqusDistribution {
   FilePlace place = {};
 };
 
-// A line of *BOUNDARY, *CLOAD, *DLOAD or *DSLOAD. Numbers that share what stands behind them are one line with a set, or
-// a surface, of their own ("boundary_1").
+// A line of *BOUNDARY, *CLOAD, *DLOAD or *DSLOAD. Numbers that share what stands behind them are one line with a set,
+// or a surface, of their own ("boundary_1").
 struct AbaqusCondition {
   AbaqusKeyword keyword;
-  std::size_t step = 0;      // 0 of the model, 1 of the first step
-  std::string target = {};   // a key of node_sets, element_sets or surfaces, or "" for all
+  std::size_t step = 0;                  // 0 of the model, 1 of the first step
+  std::string target = {};               // a key of node_sets, element_sets or surfaces, or "" for all
   std::vector<std::string> fields = {};  // behind that
   FilePlace place = {};
 };
@@ -103,8 +103,8 @@ using AbaqusSets = std::map<std::string, AbaqusSet>;
 inline constexpr std::int64_t kAbaqusAssembly = 1'000'000'000'000'000;
 
 struct AbaqusFile {
-  MeshDraft draft;              // nodes and solid elements
-  std::vector<FileFace> faces;  // elements of three or four corners, of shells and the like
+  MeshDraft draft;                                      // nodes and solid elements
+  std::vector<FileFace> faces;                          // elements of three or four corners, of shells and the like
   std::vector<std::vector<std::int64_t>> face_middles;  // of each the other nodes
   std::vector<FileNodeUse> left_out;                    // numbers of elements of other types
   AbaqusSets node_sets, element_sets;

@@ -22,8 +22,8 @@ class AbaqusHistoryReader {
  private:
   void read_period();
   void read_conditions(const AbaqusKeyword& keyword);
-  // Gives the condition its target. False if an earlier condition with the same fields takes these numbers, too. `made`:
-  // by fields, the keys of sets made for this keyword.
+  // Gives the condition its target. False if an earlier condition with the same fields takes these numbers, too.
+  // `made`: by fields, the keys of sets made for this keyword.
   bool gather(AbaqusCondition& condition, const AbaqusMembers& members, std::map<std::string, std::string>& made);
 
   AbaqusLines& lines_;

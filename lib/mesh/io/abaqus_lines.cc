@@ -6,9 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "lib/core/spelling.h"
 #include "lib/core/errors.h"
 #include "lib/core/parse_number.h"
+#include "lib/core/spelling.h"
 #include "lib/mesh/io/abaqus_parameters.h"
 
 namespace orthodyn {
@@ -212,7 +212,7 @@ std::string AbaqusLines::choice(const AbaqusKeyword& keyword, const char* parame
   for (const std::string& value : values)
     if (abaqus_word(value).starts_with(given)) return value;
   fail(fmt::format("{}, {}={} is not read; read are {}", keyword.spelled, parameter,
-                          TextTokens::quoted(keyword.parameter(parameter)), join(values)));
+                   TextTokens::quoted(keyword.parameter(parameter)), join(values)));
 }
 
 }  // namespace orthodyn

@@ -24,8 +24,8 @@ struct AbaqusMaterial {
   std::string type = {};  // of *ELASTIC: "ISOTROPIC", or another word in capitals without blanks
   Rows elastic = {}, density = {};
   std::vector<Problem> problems = {};
-  std::vector<Problem> beyond = {};      // what is more than linear elasticity: "*PLASTIC", which changes the motion
-  std::vector<std::string> inert = {};   // what changes nothing without temperatures and fields: "*EXPANSION"
+  std::vector<Problem> beyond = {};     // what is more than linear elasticity: "*PLASTIC", which changes the motion
+  std::vector<std::string> inert = {};  // what changes nothing without temperatures and fields: "*EXPANSION"
   FilePlace place = {}, elastic_place = {}, density_place = {};
 };
 

@@ -23,14 +23,13 @@ const std::vector<SolidFamily>& solid_families() {
       {{10, 4, CellKind::tet},
        {"C3D10", "C3D10H", "C3D10HS", "C3D10I", "C3D10M", "C3D10MH", "C3D10T", "C3D10HT", "C3D10MT", "C3D10MHT",
         "C3D10P", "C3D10PH", "C3D10MP", "C3D10MPH", "C3D10PT", "C3D10PHT", "C3D10MPT", "C3D10E"}},
-      {{8, 8, CellKind::hexahedron},
-       {"C3D8", "C3D8H", "C3D8I", "C3D8IH", "C3D8R", "C3D8RH", "C3D8S", "C3D8HS", "C3D8T", "C3D8HT", "C3D8RT",
-        "C3D8RHT", "C3D8P", "C3D8PH", "C3D8RP", "C3D8RPH", "C3D8PT", "C3D8PHT", "C3D8RPT", "C3D8RPHT", "C3D8E"}},
+      {{8, 8, CellKind::hexahedron}, {"C3D8",   "C3D8H",   "C3D8I",  "C3D8IH",  "C3D8R",   "C3D8RH",   "C3D8S",
+                                      "C3D8HS", "C3D8T",   "C3D8HT", "C3D8RT",  "C3D8RHT", "C3D8P",    "C3D8PH",
+                                      "C3D8RP", "C3D8RPH", "C3D8PT", "C3D8PHT", "C3D8RPT", "C3D8RPHT", "C3D8E"}},
       {{20, 8, CellKind::hexahedron},
        {"C3D20", "C3D20H", "C3D20R", "C3D20RH", "C3D20T", "C3D20HT", "C3D20RT", "C3D20RHT", "C3D20P", "C3D20PH",
         "C3D20RP", "C3D20RPH", "C3D20E", "C3D20RE"}},
-      {{6, 6, CellKind::wedge},
-       {"C3D6", "C3D6H", "C3D6T", "C3D6HT", "C3D6P", "C3D6PH", "C3D6PT", "C3D6E"}},
+      {{6, 6, CellKind::wedge}, {"C3D6", "C3D6H", "C3D6T", "C3D6HT", "C3D6P", "C3D6PH", "C3D6PT", "C3D6E"}},
       {{15, 6, CellKind::wedge}, {"C3D15", "C3D15H", "C3D15E"}},
       {{5, 5, CellKind::pyramid}, {"C3D5", "C3D5H"}}};
   return families;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cstdlib>
 #include <map>
@@ -48,7 +47,8 @@ class MeshBuilder {
         tokens_.fail(fmt::format("the file ends without ${}; is it truncated?", name));
       }
     }
-    if (file_.cells.empty()) tokens_.fail_at(file_.section_lines.at("Elements"), "no solid elements: " + why_no_cells());
+    if (file_.cells.empty())
+      tokens_.fail_at(file_.section_lines.at("Elements"), "no solid elements: " + why_no_cells());
   }
 
   // Gmsh saves elements of physical groups only, if there are some.
@@ -61,15 +61,17 @@ class MeshBuilder {
     }
     for (const auto& [dim_tag, set] : file_.entity_groups)
       if (groups.empty() && set > 0) groups.push_back("of surfaces, curves or points");
-    if (is_flat()) return "this is a 2D mesh, whose nodes lie in one plane; extrude the surface, and mesh in 3D (gmsh -3)";
+    if (is_flat())
+      return "this is a 2D mesh, whose nodes lie in one plane; extrude the surface, and mesh in 3D (gmsh -3)";
     const auto is_volume = [](const auto& entity) { return entity.first.first == 3; };
     const bool lists_entities = file_.section_lines.contains("Entities");
     const bool has_volume = std::any_of(file_.entity_groups.begin(), file_.entity_groups.end(), is_volume);
     if (!names_volume && !groups.empty() && (has_volume || !lists_entities))
-      return fmt::format("there are physical groups ({}) but no Physical Volume, and Gmsh saves only elements that are in "
-                         "a physical group; add one, for example Physical Volume(\"body\") = {{1}}; (or set Mesh.SaveAll "
-                         "= 1), and mesh in 3D (gmsh -3)",
-                         join(groups));
+      return fmt::format(
+          "there are physical groups ({}) but no Physical Volume, and Gmsh saves only elements that are in "
+          "a physical group; add one, for example Physical Volume(\"body\") = {{1}}; (or set Mesh.SaveAll "
+          "= 1), and mesh in 3D (gmsh -3)",
+          join(groups));
     return "did you mesh in 3D (gmsh -3)?";
   }
 
@@ -150,8 +152,7 @@ class MeshBuilder {
   void add_node_sets() {
     const auto add = [&](const std::vector<Grouped<FileNodeUse>>& uses, int dim) {
       for (const Grouped<FileNodeUse>& node : uses)
-        for (const int tag : groups_of(node))
-          draft_.node_sets[group_name(dim, std::abs(tag))].push_back(node.element);
+        for (const int tag : groups_of(node)) draft_.node_sets[group_name(dim, std::abs(tag))].push_back(node.element);
     };
     add(file_.points, 0);
     add(file_.curves, 1);
@@ -167,8 +168,8 @@ class MeshBuilder {
                          (dim == 2 && !draft_.surfaces.contains(used)) ||
                          (dim == 3 && std::count(regions.begin(), regions.end(), used) == 0);
       if (!empty) continue;
-      draft_.warnings.push_back(fmt::format("{}: physical {} \"{}\" has no {}", tokens_.path(), kKinds[dim], used,
-                                            kParts[dim]));
+      draft_.warnings.push_back(
+          fmt::format("{}: physical {} \"{}\" has no {}", tokens_.path(), kKinds[dim], used, kParts[dim]));
     }
   }
 

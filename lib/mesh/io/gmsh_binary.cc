@@ -69,7 +69,8 @@ class BinaryGmsh {
   // Of records of so many bytes each: no more than there is room for.
   std::uint64_t take_count(std::size_t bytes_of_each) { return checked(take<std::uint64_t>(), bytes_of_each); }
   std::uint64_t checked(std::uint64_t count, std::size_t bytes_of_each) const {
-    if (count > (bytes_.size() - at_) / bytes_of_each) fail(fmt::format("{} records announced; is it truncated?", count));
+    if (count > (bytes_.size() - at_) / bytes_of_each)
+      fail(fmt::format("{} records announced; is it truncated?", count));
     return count;
   }
 

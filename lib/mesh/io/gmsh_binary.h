@@ -9,9 +9,9 @@ namespace orthodyn {
 // Whether the line behind $MeshFormat says that the file is binary.
 bool is_binary_gmsh(std::string_view text);
 
-// The same file in ASCII. Sections that are not read are left out. Of this machine's byte order only. Throws ConfigError
-// "file: byte N of ...: found, remedy" for one that ends early or announces more than it holds. Precondition:
-// is_binary_gmsh().
+// The same file in ASCII. Sections that are not read are left out. Of this machine's byte order only. Throws
+// ConfigError "file: byte N of ...: found, remedy" for one that ends early or announces more than it holds.
+// Precondition: is_binary_gmsh().
 std::string ascii_of_binary_gmsh(const std::string& path, std::string_view bytes);
 
 }  // namespace orthodyn

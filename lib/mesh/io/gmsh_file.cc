@@ -52,8 +52,7 @@ void read_names(TextTokens& tokens, const GmshSection& section, GmshFile& file, 
   tokens.finish_line();
   for (std::int64_t i = 0; i < announced; ++i) {
     expect_record(tokens, section, i, announced, "names");
-    const std::int64_t dim =
-        with_dimension ? tokens.integer("the dimension of a physical group") : kAnyDimension;
+    const std::int64_t dim = with_dimension ? tokens.integer("the dimension of a physical group") : kAnyDimension;
     if (with_dimension && (dim < 0 || dim > 3)) tokens.fail(fmt::format("dimension {}; expected 0 to 3", dim));
     const int tag = read_tag(tokens, "the tag of a physical group");
     if (!file.names.emplace(GmshFile::DimTag(static_cast<int>(dim), tag), read_name(tokens)).second) {
@@ -171,7 +170,9 @@ GmshType check_element_type(const TextTokens& tokens, std::int64_t type) {
   static const std::map<std::int64_t, GmshType> types{
       {1, {line, 2, 2}},
       {8, {line, 3, 2}},
-      {26, {ignored, 4}}, {27, {ignored, 5}}, {28, {ignored, 6}},  // lines of higher order
+      {26, {ignored, 4}},
+      {27, {ignored, 5}},
+      {28, {ignored, 6}},  // lines of higher order
       {15, {point, 1, 1}},
       {2, {face, 3, 3}},
       {9, {face, 6, 3}},
@@ -248,8 +249,7 @@ void read_element_nodes(TextTokens& tokens, const GmshType& type, std::int64_t t
     file.faces.push_back({face, groups});
     if (type.nodes > type.corners) return tokens.skip_line();  // its other nodes are those of the element behind it
   } else if (type.role == line && grouped) {
-    for (std::size_t k = 0; k < type.nodes; ++k)
-      file.curves.push_back({{tokens.integer("a node tag"), place}, groups});
+    for (std::size_t k = 0; k < type.nodes; ++k) file.curves.push_back({{tokens.integer("a node tag"), place}, groups});
   } else if (type.role == point && grouped) {
     file.points.push_back({{tokens.integer("a node tag"), place}, groups});
   } else {

@@ -32,7 +32,6 @@ struct Grouped {
   int groups;
 };
 
-
 // Of the names of physical groups in format 2.0, which do not say.
 inline constexpr int kAnyDimension = -1;
 

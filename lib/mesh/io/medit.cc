@@ -127,7 +127,8 @@ class MeditReader {
 
   // Elements of both orders are refused when the mesh is built.
   bool is_quadratic() const {
-    return std::all_of(draft_.cells.begin(), draft_.cells.end(), [](const FileCell& c) { return c.midsides.has_value(); });
+    return std::all_of(draft_.cells.begin(), draft_.cells.end(),
+                       [](const FileCell& c) { return c.midsides.has_value(); });
   }
 
   TextTokens tokens_;

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "lib/core/errors.h"
-#include "lib/core/utf8.h"
 #include "lib/core/spelling.h"
+#include "lib/core/utf8.h"
 #include "lib/core/write_file.h"
 #include "lib/mesh/io/mesh_format.h"
 
@@ -65,7 +65,8 @@ class Names {
       convert(key);
       if (!out.emplace(key, std::move(value)).second)
         throw ConfigError(path_, fmt::format("two names are '{}' once those that are not UTF-8 are read as Latin-1; "
-                                             "rename one, or save the file as UTF-8", key));
+                                             "rename one, or save the file as UTF-8",
+                                             key));
     }
     map = std::move(out);
   }
@@ -101,8 +102,7 @@ LoadedMesh read_mesh(const std::string& path) {
 Warnings write_mesh(const LoadedMesh& loaded, const std::string& path, bool replace) {
   namespace fs = std::filesystem;
   const MeshFormat& format = mesh_format_to_write(path);
-  if (!format.write)
-    throw ConfigError(path, fmt::format("{} files are only read; write .vtu instead", format.name));
+  if (!format.write) throw ConfigError(path, fmt::format("{} files are only read; write .vtu instead", format.name));
   WrittenMesh written = format.write(loaded);
   // The user's spelling for a single file, that of the format for several beside each other.
   const auto place = [&](const MeshText& file) {

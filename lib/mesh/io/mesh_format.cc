@@ -59,10 +59,10 @@ std::string unknown_ending(const std::string& path) {
 
 const MeshFormat& mesh_format_of(const std::string& path) {
   if (const MeshFormat* format = find_format(path)) return *format;
-  throw ConfigError(path, fmt::format("{}. meshio (apt install python3-meshio) converts some others, without the names of "
-                                      "sets: python3 -c \"import meshio; meshio.write('{}', meshio.read('{}'))\"",
-                                      unknown_ending(path),
-                                      std::filesystem::path(path).replace_extension(".vtu").string(), path));
+  throw ConfigError(
+      path, fmt::format("{}. meshio (apt install python3-meshio) converts some others, without the names of "
+                        "sets: python3 -c \"import meshio; meshio.write('{}', meshio.read('{}'))\"",
+                        unknown_ending(path), std::filesystem::path(path).replace_extension(".vtu").string(), path));
 }
 
 const MeshFormat& mesh_format_to_write(const std::string& path) {

@@ -16,7 +16,7 @@ std::string in_capitals(std::string text);
 
 // What else than blanks and ends of lines has a meaning.
 struct Punctuation {
-  bool commas = false;           // separate words, as blanks do
+  bool commas = false;            // separate words, as blanks do
   std::string_view comment = {};  // where a word begins with it, the rest of the line is a comment
 };
 

@@ -154,12 +154,12 @@ void add_fixed(const FixedVertices& fixed, VegaFile& file) {
 }
 
 const bool vega_registered = register_mesh_format({.name = "Vega",
-                                              .endings = {".veg"},
-                                              .read = read_vega,
-                                              .write = write_vega,
-                                              .brings_materials = true,
-                                              .holds_materials = true,
-                                              .holds_surfaces = false});
+                                                   .endings = {".veg"},
+                                                   .read = read_vega,
+                                                   .write = write_vega,
+                                                   .brings_materials = true,
+                                                   .holds_materials = true,
+                                                   .holds_surfaces = false});
 
 }  // namespace
 

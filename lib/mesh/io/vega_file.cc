@@ -43,8 +43,8 @@ class VegaReader {
     read_lines(path, text);
     finish_section(last_);
     if (!has_vertices_ || !has_elements_) {
-      file_.draft.fail(last_, fmt::format("the file ends without *{}; is it truncated?",
-                                          has_vertices_ ? "ELEMENTS" : "VERTICES"));
+      file_.draft.fail(
+          last_, fmt::format("the file ends without *{}; is it truncated?", has_vertices_ ? "ELEMENTS" : "VERTICES"));
     }
     return std::move(file_);
   }
@@ -104,8 +104,7 @@ class VegaReader {
       file_.sets.push_back({name, {}, place});
     } else {
       file_.draft.warnings.push_back(fmt::format("{}: a second *SET {}: its elements are added to those of line {}",
-                                                 file_.draft.where(place), TextTokens::quoted(name),
-                                                 same->place.line));
+                                                 file_.draft.where(place), TextTokens::quoted(name), same->place.line));
     }
   }
 
@@ -134,9 +133,10 @@ class VegaReader {
     const std::string text = read_text_file(path);
     included_bytes_ += text.size();
     if (included_bytes_ > kFreeIncludedBytes + kMostReadings * (known_bytes_ + text.size())) {
-      tokens.fail(fmt::format("*INCLUDE {}: what is included so far is more than {} times the size of the files; "
-                              "include each once",
-                              TextTokens::quoted(name), kMostReadings));
+      tokens.fail(
+          fmt::format("*INCLUDE {}: what is included so far is more than {} times the size of the files; "
+                      "include each once",
+                      TextTokens::quoted(name), kMostReadings));
     }
     read_lines(path, text);
   }
@@ -262,7 +262,7 @@ class VegaReader {
   Section section_ = Section::none;
   FilePlace section_place_, last_;
   bool has_vertices_ = false, has_elements_ = false;
-  std::int64_t announced_ = -1;  // -1: its line is still to come
+  std::int64_t announced_ = -1;    // -1: its line is still to come
   CellKind kind_ = CellKind::tet;  // of all elements
   std::int64_t first_vertex_ = 1;
   std::string material_name_;

@@ -100,8 +100,8 @@ MeshMaterial read_vega_material(TextTokens& tokens, const std::string& name, War
                             TextTokens::quoted(type)));
   }
   const std::string form = type.size() == prefix.size() ? "_N3G3R9" : type.substr(prefix.size());
-  const bool known = form == "_N3G3R9" || form == "_N3G3" || form == "_N1G1R9" || form == "_N1G1" ||
-                     form == "_N1R9" || form == "_N1";
+  const bool known =
+      form == "_N3G3R9" || form == "_N3G3" || form == "_N1G1R9" || form == "_N1G1" || form == "_N1R9" || form == "_N1";
   if (!known) {
     tokens.fail(
         fmt::format("material {}: kind {}; the forms of ORTHOTROPIC are _N3G3R9, _N3G3, _N1G1R9, _N1G1, _N1R9, _N1",

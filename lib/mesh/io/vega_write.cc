@@ -35,7 +35,8 @@ std::string material_line(const MeshMaterial& m) {
 bool can_hold(const MeshMaterial& m, Warnings& losses) {
   const bool holds = m.problem.empty() && m.kind != MeshMaterial::Kind::anisotropic;
   if (!m.problem.empty()) losses.push_back(fmt::format("material \"{}\" is lost: {}", m.name, m.problem));
-  else if (!holds) losses.push_back(fmt::format("the format cannot hold \"{}\", a stiffness by its entries: lost", m.name));
+  else if (!holds)
+    losses.push_back(fmt::format("the format cannot hold \"{}\", a stiffness by its entries: lost", m.name));
   for (const auto& [where, name] : m.beyond)
     losses.push_back(fmt::format("the format cannot hold {} of material \"{}\": lost", name, m.name));
   if (holds && !m.axes_file.empty())
@@ -98,8 +99,7 @@ void add_regions(TextLines& lines, const LoadedMesh& loaded, Warnings& losses) {
 }  // namespace
 
 WrittenMesh write_vega(const LoadedMesh& loaded) {
-  if (loaded.mesh.order() == 2)
-    throw ConfigError("Vega files hold linear tetrahedra only; write .vtu, .msh or .inp");
+  if (loaded.mesh.order() == 2) throw ConfigError("Vega files hold linear tetrahedra only; write .vtu, .msh or .inp");
   WrittenMesh written;
   TextLines lines;
   add_vega_mesh(lines, loaded.mesh);

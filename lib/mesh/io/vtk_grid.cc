@@ -20,9 +20,7 @@
 namespace orthodyn {
 namespace {
 
-[[noreturn]] void fail(const VtkGrid& grid, const std::string& message) {
-  throw ConfigError(grid.path, message);
-}
+[[noreturn]] void fail(const VtkGrid& grid, const std::string& message) { throw ConfigError(grid.path, message); }
 
 std::string name_of_type(int type) {
   static const std::map<int, const char*> names{
@@ -58,7 +56,7 @@ void check_sizes(const VtkGrid& grid) {
 struct VtkSolid {
   CellKind kind;
   std::size_t points;
-  Places corners;  // in the order of cell_kind.h
+  Places corners;                                      // in the order of cell_kind.h
   std::vector<std::array<std::size_t, 4>> faces = {};  // those that have a node within
 };
 
@@ -74,8 +72,11 @@ const VtkSolid* solid_of(double type) {
       {25, {CellKind::hexahedron, 20, eight}},
       {26, {CellKind::wedge, 15, six}},
       {27, {CellKind::pyramid, 13, five}},
-      {29, {CellKind::hexahedron, 27, eight,
-            {{0, 3, 7, 4}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 2, 6, 7}, {0, 1, 2, 3}, {4, 5, 6, 7}}}},
+      {29,
+       {CellKind::hexahedron,
+        27,
+        eight,
+        {{0, 3, 7, 4}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 2, 6, 7}, {0, 1, 2, 3}, {4, 5, 6, 7}}}},
       {32, {CellKind::wedge, 18, six, {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}}}};
   const auto found = solids.find(type);
   return found == solids.end() ? nullptr : &found->second;
@@ -115,9 +116,10 @@ std::vector<std::size_t> select_solids(const VtkGrid& grid, MeshDraft& draft) {
   if (solids.empty()) {
     const bool has_faces = std::any_of(grid.types.begin(), grid.types.end(),
                                        [](double type) { return type == 5 || type == 9 || type == 22 || type == 23; });
-    fail(grid, fmt::format("no solid cells (tetrahedra are cell type 10 or 24, hexahedra 12, wedges 13){}",
-                           has_faces ? ": triangles and quadrilaterals alone are a 2D mesh or a surface; mesh its inside"
-                                     : ""));
+    fail(grid,
+         fmt::format(
+             "no solid cells (tetrahedra are cell type 10 or 24, hexahedra 12, wedges 13){}",
+             has_faces ? ": triangles and quadrilaterals alone are a 2D mesh or a surface; mesh its inside" : ""));
   }
   if (solids.size() < grid.types.size()) {
     draft.warnings.push_back(fmt::format("{}: {} vertices, lines, triangles and quadrilaterals are ignored", grid.path,
@@ -239,12 +241,12 @@ std::vector<double> numbers(std::string_view bytes) {
 
 std::optional<VtkType> vtk_type(std::string_view name) {
   static const std::map<std::string_view, VtkType> types{
-      {"Int8", {'i', 1}},    {"UInt8", {'u', 1}},          {"Int16", {'i', 2}},         {"UInt16", {'u', 2}},
-      {"Int32", {'i', 4}},   {"UInt32", {'u', 4}},         {"Int64", {'i', 8}},         {"UInt64", {'u', 8}},
-      {"Float32", {'f', 4}}, {"Float64", {'f', 8}},        {"String", {'i', 1}},        {"char", {'i', 1}},
-      {"unsigned_char", {'u', 1}}, {"short", {'i', 2}},    {"unsigned_short", {'u', 2}}, {"int", {'i', 4}},
-      {"unsigned_int", {'u', 4}},  {"long", {'i', 8}},     {"unsigned_long", {'u', 8}}, {"float", {'f', 4}},
-      {"double", {'f', 8}},  {"vtktypeint64", {'i', 8}},   {"vtktypeint32", {'i', 4}},  {"vtkIdType", {'i', 4}},
+      {"Int8", {'i', 1}},          {"UInt8", {'u', 1}},        {"Int16", {'i', 2}},          {"UInt16", {'u', 2}},
+      {"Int32", {'i', 4}},         {"UInt32", {'u', 4}},       {"Int64", {'i', 8}},          {"UInt64", {'u', 8}},
+      {"Float32", {'f', 4}},       {"Float64", {'f', 8}},      {"String", {'i', 1}},         {"char", {'i', 1}},
+      {"unsigned_char", {'u', 1}}, {"short", {'i', 2}},        {"unsigned_short", {'u', 2}}, {"int", {'i', 4}},
+      {"unsigned_int", {'u', 4}},  {"long", {'i', 8}},         {"unsigned_long", {'u', 8}},  {"float", {'f', 4}},
+      {"double", {'f', 8}},        {"vtktypeint64", {'i', 8}}, {"vtktypeint32", {'i', 4}},   {"vtkIdType", {'i', 4}},
       {"vtktypeuint8", {'u', 1}}};
   const auto found = types.find(name);
   return found == types.end() ? std::nullopt : std::optional(found->second);

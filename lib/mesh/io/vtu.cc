@@ -145,9 +145,10 @@ class VtuReader {
       throw std::runtime_error(fmt::format("{} values; expected {} with {} components", values, *tuples, components));
     }
     if (values > budget_ / sizeof(double)) {
-      throw std::runtime_error(fmt::format("the arrays unpack to more than {} times the size of the file; "
-                                           "do several stand at one offset? Write each by itself",
-                                           kHighestRatio));
+      throw std::runtime_error(
+          fmt::format("the arrays unpack to more than {} times the size of the file; "
+                      "do several stand at one offset? Write each by itself",
+                      kHighestRatio));
     }
     budget_ -= values * sizeof(double);
   }
@@ -217,9 +218,12 @@ VtuArray membership(const std::string& name, const std::vector<int>& nodes, std:
   return inside;
 }
 
-const bool vtu_registered = register_mesh_format(
-    {.name = "VTK XML", .endings = {".vtu"}, .read = read_vtu, .write = write_vtu, .holds_surfaces = false,
-     .holds_cell_data = true});
+const bool vtu_registered = register_mesh_format({.name = "VTK XML",
+                                                  .endings = {".vtu"},
+                                                  .read = read_vtu,
+                                                  .write = write_vtu,
+                                                  .holds_surfaces = false,
+                                                  .holds_cell_data = true});
 
 }  // namespace
 

@@ -12,7 +12,7 @@ namespace orthodyn {
 struct VtuEncoding {
   bool base64 = false;
   bool zlib = false;
-  bool swap = false;           // numbers have the other byte order than this machine
+  bool swap = false;             // numbers have the other byte order than this machine
   std::size_t header_width = 4;  // bytes of each length: 4 or 8
 };
 

@@ -44,14 +44,10 @@ std::string block_of(const std::vector<double>& values) {
 
 std::string block_of(const VtuArray& data) {
   switch (data.type) {
-    case VtuNumber::uint8:
-      return block_of<std::uint8_t>(data.values);
-    case VtuNumber::int32:
-      return block_of<std::int32_t>(data.values);
-    case VtuNumber::float32:
-      return block_of<float>(data.values);
-    case VtuNumber::float64:
-      break;
+    case VtuNumber::uint8: return block_of<std::uint8_t>(data.values);
+    case VtuNumber::int32: return block_of<std::int32_t>(data.values);
+    case VtuNumber::float32: return block_of<float>(data.values);
+    case VtuNumber::float64: break;
   }
   return block_of<double>(data.values);
 }
@@ -104,9 +100,10 @@ class VtuFile {
 // As codes of characters, each name ended by a zero: not every reader takes arrays of strings.
 void add_region_names(VtuFile& file, const std::vector<std::string>& names) {
   if (names.empty()) return;
-  file.text(fmt::format("<FieldData>\n<Array type=\"String\" Name=\"region_names\" NumberOfTuples=\"{}\" "
-                        "format=\"ascii\">\n",
-                        names.size()));
+  file.text(
+      fmt::format("<FieldData>\n<Array type=\"String\" Name=\"region_names\" NumberOfTuples=\"{}\" "
+                  "format=\"ascii\">\n",
+                  names.size()));
   for (const std::string& name : names) {
     for (const char c : name) file.text(std::to_string(static_cast<unsigned char>(c)) + " ");
     file.text("0\n");

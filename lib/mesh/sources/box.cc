@@ -1,9 +1,10 @@
 // The mesh source `box`.
+#include "lib/mesh/box.h"
+
 #include <algorithm>
 #include <array>
 #include <optional>
 
-#include "lib/mesh/box.h"
 #include "lib/mesh/mesh_source.h"
 #include "lib/mesh/sources/element_order.h"
 #include "lib/mesh/sources/number_of_elements.h"
@@ -59,10 +60,11 @@ class BoxSource : public MeshSource, public BoxMesh {
             .key("size", &BoxMesh::size, "Edge lengths.", {.required = true, .unit = "m", .range = kPositive})
             .key("cells", &BoxMesh::cells, "Cells along x, y, z.", {.required = true, .range = {1, 1e6}})
             .key("origin", &BoxMesh::origin, "The corner with the lowest coordinates.", {.unit = "m"})
-            .key("split", &BoxSource::split_,
-                 "Tets per cell: five (mirror symmetric for even cells) or six (all cells alike). Default: six for "
-                 "quadratic tetrahedra in cells that are more than three times wider than thick, where five are far too "
-                 "stiff; else five.")
+            .key(
+                "split", &BoxSource::split_,
+                "Tets per cell: five (mirror symmetric for even cells) or six (all cells alike). Default: six for "
+                "quadratic tetrahedra in cells that are more than three times wider than thick, where five are far too "
+                "stiff; else five.")
             .key("order", &BoxSource::order, kOrderSentence, kOrderRule)
             .key("parts", &BoxSource::parts_,
                  "Further regions by name: the elements whose centroid lies between `min` and `max`.")
@@ -85,9 +87,7 @@ class BoxSource : public MeshSource, public BoxMesh {
   int order = kDefaultOrder;
 
  private:
-  Split chosen_split() const {
-    return split_.value_or(order == 2 && has_flat_cells() ? Split::six : Split::five);
-  }
+  Split chosen_split() const { return split_.value_or(order == 2 && has_flat_cells() ? Split::six : Split::five); }
   bool has_flat_cells() const {
     std::array<double, 3> edges;
     for (std::size_t i = 0; i < 3; ++i) edges[i] = size[static_cast<Eigen::Index>(i)] / cells[i];

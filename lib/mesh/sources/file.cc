@@ -60,14 +60,16 @@ class FileSource : public MeshSource, public FileOptions {
         Spec<FileSource>()
             .key("file", &FileSource::file, "A mesh file; relative to the scene.", {.required = true})
             .key("scale", &FileSource::scale, kScale, {.range = kPositive})
-            .key("units", &FileSource::units_,
-                 "Of the file's coordinates, and of its materials where the scene has no `materials`: SI, or mm_t_s for "
-                 "mm, t and s, with which moduli are in MPa and densities in t/mm^3.")
+            .key(
+                "units", &FileSource::units_,
+                "Of the file's coordinates, and of its materials where the scene has no `materials`: SI, or mm_t_s for "
+                "mm, t and s, with which moduli are in MPa and densities in t/mm^3.")
             .key("order", &FileSource::order, kFileOrderSentence, kOrderRule)
             .key("refine", &FileSource::refinements, kRefineSentence, kRefineRule)
             .check([](const FileSource& source, const Config& config) {
               if (source.units_ != FileUnits::si && source.scale != 1)
-                config.at("scale").fail("has no meaning beside `units: mm_t_s`, which makes m of mm; remove one of them");
+                config.at("scale").fail(
+                    "has no meaning beside `units: mm_t_s`, which makes m of mm; remove one of them");
             });
     return s;
   }
@@ -86,13 +88,12 @@ class FileSource : public MeshSource, public FileOptions {
 class GmshSource : public MeshSource, public FileOptions {
  public:
   static const Spec<GmshSource>& spec() {
-    static const auto s =
-        Spec<GmshSource>()
-            .key("file", &GmshSource::file, "A .msh file, version 2.2 or 4.1; relative to the scene.",
-                 {.required = true})
-            .key("scale", &GmshSource::scale, kScale, {.range = kPositive})
-            .key("order", &GmshSource::order, kFileOrderSentence, kOrderRule)
-            .key("refine", &GmshSource::refinements, kRefineSentence, kRefineRule);
+    static const auto s = Spec<GmshSource>()
+                              .key("file", &GmshSource::file, "A .msh file, version 2.2 or 4.1; relative to the scene.",
+                                   {.required = true})
+                              .key("scale", &GmshSource::scale, kScale, {.range = kPositive})
+                              .key("order", &GmshSource::order, kFileOrderSentence, kOrderRule)
+                              .key("refine", &GmshSource::refinements, kRefineSentence, kRefineRule);
     return s;
   }
   LoadedMesh load() const override {
@@ -130,11 +131,14 @@ class VegaSource : public MeshSource, public FileOptions {
 };
 
 const bool file_registered[] = {
-    Registry<MeshSource>::add<FileSource>("file", "A mesh file of any known format, chosen by its ending. Of .veg and .inp a scene "
-                                          "may leave out `materials`."),
+    Registry<MeshSource>::add<FileSource>(
+        "file",
+        "A mesh file of any known format, chosen by its ending. Of .veg and .inp a scene "
+        "may leave out `materials`."),
     Registry<MeshSource>::add<GmshSource>(
-        "gmsh", "A Gmsh file. Physical volumes become regions, physical surfaces surfaces, physical curves and points "
-                "node sets."),
+        "gmsh",
+        "A Gmsh file. Physical volumes become regions, physical surfaces surfaces, physical curves and points "
+        "node sets."),
     Registry<MeshSource>::add<VegaSource>(
         "vega", "A Vega file. Its regions bring their materials and axes: a scene may leave out `materials`."),
 };

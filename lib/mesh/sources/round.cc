@@ -58,14 +58,14 @@ class TubeSource : public MeshSource, public TubeMesh {
  public:
   TubeSource() { order = kDefaultOrder; }
   static const Spec<TubeSource>& spec() {
-    static const auto s =
-        round_spec<TubeSource, TubeMesh>()
-            .key("inner_radius", &TubeMesh::inner_radius, "Inner radius.",
-                 {.required = true, .unit = "m", .range = kPositive})
-            .check([](const TubeSource& t, const Config& config) {
-              if (t.counts[0] < 3) config.at("cells").at(0).fail("must be at least 3 around");
-              if (t.inner_radius >= t.radius) config.at("inner_radius").fail("must be smaller than the radius");
-            });
+    static const auto s = round_spec<TubeSource, TubeMesh>()
+                              .key("inner_radius", &TubeMesh::inner_radius, "Inner radius.",
+                                   {.required = true, .unit = "m", .range = kPositive})
+                              .check([](const TubeSource& t, const Config& config) {
+                                if (t.counts[0] < 3) config.at("cells").at(0).fail("must be at least 3 around");
+                                if (t.inner_radius >= t.radius)
+                                  config.at("inner_radius").fail("must be smaller than the radius");
+                              });
     return s;
   }
   LoadedMesh load() const override {

@@ -132,8 +132,8 @@ Checkpoint Checkpoint::load(const fs::path& path) {
   const int version = version_of(file);
   if (version < 0) refuse(path, "is no checkpoint of orthodyn");
   if (version != kVersion)
-    refuse(path, fmt::format("has version {} of the format, orthodyn {} reads version {}", version,
-                             orthodyn_version(), kVersion));
+    refuse(path, fmt::format("has version {} of the format, orthodyn {} reads version {}", version, orthodyn_version(),
+                             kVersion));
   const std::string content = file.substr(kHeadSize);
   if (file.compare(0, kHeadSize, head(content)) != 0) refuse(path, "is damaged or cut short");
   try {

@@ -31,11 +31,11 @@ struct OutputSchedule {
 };
 
 struct Checkpoint {
-  std::string scene;     // resolved, as YAML
-  std::string mesh;      // its fingerprint
+  std::string scene;                         // resolved, as YAML
+  std::string mesh;                          // its fingerprint
   std::map<std::string, std::string> files;  // fingerprints of those that the scene names, by their paths in it
-  bool begun = false;    // false: nothing has been computed or written yet
-  State state;           // at the end of a step
+  bool begun = false;                        // false: nothing has been computed or written yet
+  State state;                               // at the end of a step
   double last_output = 0, last_history = 0;  // s
   OutputSchedule schedule;
   Effort effort;

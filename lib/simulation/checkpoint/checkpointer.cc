@@ -21,8 +21,13 @@ double seconds_between(std::chrono::steady_clock::time_point a, std::chrono::ste
 
 Checkpointer::Checkpointer(std::filesystem::path path, Checkpoint begin, CheckpointTimes times, NamedObservers others,
                            const FemModel& model, const Integrator& integrator)
-    : path_(std::move(path)), checkpoint_(std::move(begin)), before_(checkpoint_.effort), times_(times),
-      others_(std::move(others)), model_(model), integrator_(integrator) {
+    : path_(std::move(path)),
+      checkpoint_(std::move(begin)),
+      before_(checkpoint_.effort),
+      times_(times),
+      others_(std::move(others)),
+      model_(model),
+      integrator_(integrator) {
   start_clock();
 }
 

@@ -19,8 +19,8 @@ namespace orthodyn {
 using NamedObservers = std::vector<std::pair<std::string, Observer*>>;
 
 struct CheckpointTimes {
-  double every = 60;  // s of wall time
-  int frames = 0;     // and after so many outputs; 0: not by outputs
+  double every = 60;   // s of wall time
+  int frames = 0;      // and after so many outputs; 0: not by outputs
   bool never = false;  // only when told to
 };
 
@@ -64,7 +64,7 @@ class Checkpointer : public Observer {
   Clock::time_point begin_, written_;
   double begin_cpu_ = 0;
   double last_took_ = 0;  // s, to write
-  int outputs_ = 0;  // since the last one
+  int outputs_ = 0;       // since the last one
 };
 
 }  // namespace orthodyn

@@ -14,12 +14,9 @@ constexpr std::pair<const char*, long Statistics::*> kCounts[] = {
     {"convergence_failures", &Statistics::convergence_failures},
     {"newton_iterations", &Statistics::newton_iterations},
     {"gauss_newton_fallbacks", &Statistics::gauss_newton_fallbacks}};
-constexpr std::pair<const char*, Cost Statistics::*> kCosts[] = {{"force", &Statistics::force},
-                                                                 {"tangent", &Statistics::tangent},
-                                                                 {"factorization", &Statistics::factorization},
-                                                                 {"solve", &Statistics::solve},
-                                                                 {"modes", &Statistics::modes},
-                                                                 {"observation", &Statistics::observation}};
+constexpr std::pair<const char*, Cost Statistics::*> kCosts[] = {
+    {"force", &Statistics::force}, {"tangent", &Statistics::tangent}, {"factorization", &Statistics::factorization},
+    {"solve", &Statistics::solve}, {"modes", &Statistics::modes},     {"observation", &Statistics::observation}};
 
 }  // namespace
 

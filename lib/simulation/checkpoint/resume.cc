@@ -6,9 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "lib/simulation/checkpoint/scene_changes.h"
 #include "lib/simulation/run/fingerprints.h"
 #include "lib/simulation/run/machine.h"
-#include "lib/simulation/checkpoint/scene_changes.h"
 
 namespace orthodyn {
 
@@ -18,7 +18,9 @@ OutputSchedule schedule_of(const Scene& scene) {
   const double span = scene.time.end - scene.time.start;
   const int frames = scene.output.frames.value_or(50);
   return {scene.time.start, scene.time.end,
-          scene.output.interval ? *scene.output.interval : frames > 0 ? span / frames : 0};
+          scene.output.interval ? *scene.output.interval
+          : frames > 0          ? span / frames
+                                : 0};
 }
 
 // By paths from the result's folder, as in the scene that is kept there: the same for a run that is named
@@ -97,9 +99,8 @@ bool was_linear_so_far(const Checkpoint& checkpoint) {
   const Config before = Config::from_text(checkpoint.scene, "checkpoint.cbor");
   if (kinematics_of(before, "elasticity") == "auto") return true;
   const auto regions = regions_of(before);
-  return std::any_of(regions.begin(), regions.end(), [&](const std::string& name) {
-    return kinematics_of(before.at("regions"), name) == "auto";
-  });
+  return std::any_of(regions.begin(), regions.end(),
+                     [&](const std::string& name) { return kinematics_of(before.at("regions"), name) == "auto"; });
 }
 
 void keep_choices(const Checkpoint& checkpoint, Config& scene) {

@@ -10,15 +10,21 @@ namespace orthodyn {
 
 namespace {
 
-constexpr const char* kAllowed[] = {"time.end", "checkpoint", "expect", "integrator.max_steps", "integrator.h_min",
-                                    "integrator.max_newton_iterations", "output.accumulated_error", "threads"};
+constexpr const char* kAllowed[] = {"time.end",
+                                    "checkpoint",
+                                    "expect",
+                                    "integrator.max_steps",
+                                    "integrator.h_min",
+                                    "integrator.max_newton_iterations",
+                                    "output.accumulated_error",
+                                    "threads"};
 
 // What the program says of its own choices, in words: figures in it may differ in their last digits.
 constexpr const char* kWords[] = {"integrator.kept", "integrator.because"};
 
 // The units of keys, one for each dimension.
-constexpr const char* kUnits[] = {"m", "s", "Pa", "kg/m^3", "m/s", "m/s^2", "rad", "rad/s", "N", "Hz",
-                                  "1/s", "N/m", "N s/m", "Pa/m", "bytes"};
+constexpr const char* kUnits[] = {"m", "s",  "Pa",  "kg/m^3", "m/s",   "m/s^2", "rad",  "rad/s",
+                                  "N", "Hz", "1/s", "N/m",    "N s/m", "Pa/m",  "bytes"};
 
 std::optional<double> number(const Config& value, const char* unit) {
   try {
@@ -39,9 +45,7 @@ bool same_scalar(const Config& a, const Config& b) {
   return false;
 }
 
-bool is_given(const Config& section, const std::string& key) {
-  return section.has(key) && !section.at(key).is_null();
-}
+bool is_given(const Config& section, const std::string& key) { return section.has(key) && !section.at(key).is_null(); }
 
 std::string below(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
 

@@ -41,8 +41,8 @@ class PartRecorder : public Observer {
   void on_step(const StepInfo& info, const ObservedState& observed, const Integrator&) override;
 
   const std::deque<Part>& parts() const { return parts_; }
-  double since() const { return since_; }  // s
-  long steps() const { return step_; }     // since then
+  double since() const { return since_; }                // s
+  long steps() const { return step_; }                   // since then
   double displacement() const { return displacement_; }  // the largest |u|_M that was seen, sqrt(kg) m
   double decay() const;  // 1/s, of the amplitude of vibrations by what damping takes, on average over the parts
 

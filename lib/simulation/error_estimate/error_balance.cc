@@ -9,10 +9,10 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kSmall = 5e-3;         // a mesh that is as good as this needs no word
-constexpr double kMuch = 3;             // one error against the other, to be called the larger one
+constexpr double kSmall = 5e-3;  // a mesh that is as good as this needs no word
+constexpr double kMuch = 3;      // one error against the other, to be called the larger one
 constexpr double kLoosestRtol = 1e-2;
-constexpr double kMargin = 30;          // how much smaller than the mesh's error that of the integration may as well be
+constexpr double kMargin = 30;  // how much smaller than the mesh's error that of the integration may as well be
 
 std::optional<double> time_error(const MotionResult& motion) {
   if (motion.error && motion.error->completed && std::isfinite(motion.error->displacement.l2))
@@ -51,10 +51,10 @@ std::optional<ErrorBalance> error_balance(const RunResult& result) {
   const auto& mesh = result.motion ? result.motion->mesh_error : result.equilibrium->mesh_error;
   if (!mesh) return std::nullopt;
   const std::optional<double> time = result.motion ? time_error(*result.motion) : std::nullopt;
-  const std::string by = mesh->by_finer_elements
-                             ? fmt::format("finer elements, {:.2g} s of CPU", mesh->cpu_seconds)
-                             : std::string("recovered stresses");
-  return ErrorBalance{mesh->relative, by, time, mesh->probed, mesh->probed_unknown, advice(result, mesh->relative, time)};
+  const std::string by = mesh->by_finer_elements ? fmt::format("finer elements, {:.2g} s of CPU", mesh->cpu_seconds)
+                                                 : std::string("recovered stresses");
+  return ErrorBalance{
+      mesh->relative, by, time, mesh->probed, mesh->probed_unknown, advice(result, mesh->relative, time)};
 }
 
 }  // namespace orthodyn

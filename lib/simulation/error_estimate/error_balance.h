@@ -15,7 +15,7 @@ struct ErrorBalance {
   std::optional<double> time;  // of the motion: estimated, or as far as errors of steps have added up; else unknown
   std::vector<ProbedError> probed;  // MeshError::probed
   bool probed_unknown = false;      // MeshError::probed_unknown
-  std::string advice;          // "the mesh dominates: use finer cells; rtol 1e-3 would do"
+  std::string advice;               // "the mesh dominates: use finer cells; rtol 1e-3 would do"
 };
 
 // None where the mesh's error is not known.

@@ -58,7 +58,8 @@ std::size_t samples_within(double bytes, std::size_t unknowns) {
 }
 
 ErrorEstimator::SampleRecorder::SampleRecorder(std::size_t outputs, std::size_t samples)
-    : outputs_(outputs), stride_(std::max<std::size_t>(stride_for(outputs, samples), 1)),
+    : outputs_(outputs),
+      stride_(std::max<std::size_t>(stride_for(outputs, samples), 1)),
       samples_((outputs + stride_ - 1) / stride_) {}
 
 void ErrorEstimator::SampleRecorder::on_output(const ObservedState& observed) {

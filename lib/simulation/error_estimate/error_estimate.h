@@ -20,10 +20,10 @@ namespace orthodyn {
 
 struct ErrorEstimate {
   bool completed = false;
-  std::string failure_reason;  // why not completed
-  std::string against;   // what the second run had: "integrator.rtol=1e-05"
+  std::string failure_reason;         // why not completed
+  std::string against;                // what the second run had: "integrator.rtol=1e-05"
   ErrorNorms displacement, velocity;  // mass norm relative to the largest; NaN where nothing moves
-  int samples = 0;       // times that were compared, the initial one included
+  int samples = 0;                    // times that were compared, the initial one included
   double wall_seconds = 0;
 };
 

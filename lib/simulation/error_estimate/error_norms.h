@@ -41,10 +41,10 @@ struct TrajectoryErrors {
 };
 
 struct TrajectoryScales {
-  double displacement = 0, velocity = 0;  // sqrt(kg) m, sqrt(kg) m/s
+  double displacement = 0, velocity = 0;                   // sqrt(kg) m, sqrt(kg) m/s
   std::vector<std::pair<std::string, double>> probes;      // m
   std::vector<std::pair<std::string, double>> quantities;  // in their SI units
-  double dominant_frequency = 0;  // Hz; NaN where there is none
+  double dominant_frequency = 0;                           // Hz; NaN where there is none
 };
 
 // A reference, prepared for comparison with trajectories at the same times.

@@ -162,9 +162,10 @@ std::string stress_warning(const MeshError& error, int order) {
   if (count == 0) return "";
   const auto worst = std::max_element(error.probed.begin(), error.probed.end(),
                                       [](const auto& a, const auto& b) { return a.share() < b.share(); });
-  return fmt::format("the mesh is coarse for {} of {} probed stresses or strains: {} of {} is off by about {:.2g} % of "
-                     "its size there. {} there, and compare",
-                     count, error.probed.size(), worst->field, worst->probe, 100 * worst->share(), finer_mesh(order));
+  return fmt::format(
+      "the mesh is coarse for {} of {} probed stresses or strains: {} of {} is off by about {:.2g} % of "
+      "its size there. {} there, and compare",
+      count, error.probed.size(), worst->field, worst->probe, 100 * worst->share(), finer_mesh(order));
 }
 
 std::string frequency_warning(const FrequencyErrors& errors, int order) {

@@ -15,9 +15,9 @@ namespace orthodyn {
 inline constexpr double kMostFinerUnknowns = 120'000;
 bool is_affordable(const FemModel& model);
 
-// Estimates the mesh's error of a state by finer elements, those of probed fields included (MeshError::probed). If finer
-// elements cannot be used, returns `recovered`, the estimate by recovered stresses, with a sentence on the errors that it
-// may miss (MeshError::blind). `displacements`: errors at `nodes`, m; empty without finer elements.
+// Estimates the mesh's error of a state by finer elements, those of probed fields included (MeshError::probed). If
+// finer elements cannot be used, returns `recovered`, the estimate by recovered stresses, with a sentence on the errors
+// that it may miss (MeshError::blind). `displacements`: errors at `nodes`, m; empty without finer elements.
 struct FoundByFiner {
   MeshError error;
   std::vector<Vec3> displacements = {};  // empty: not found

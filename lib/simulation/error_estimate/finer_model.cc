@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "lib/material_axes/axes_source.h"
 #include "lib/element/tet10.h"
+#include "lib/material_axes/axes_source.h"
 #include "lib/mesh/quadratic.h"
 #include "lib/mesh/refine.h"
 

@@ -16,15 +16,15 @@ namespace orthodyn {
 // For each output of the model, such as nodal_stress, the nodes at which its error is wanted.
 using NodesByField = std::map<std::string, std::vector<int>>;
 
-// Norms over the components of a field at a node, in the field's unit. `scale`: the norm of the field there, at least a tenth
-// of its largest norm in the body.
+// Norms over the components of a field at a node, in the field's unit. `scale`: the norm of the field there, at least a
+// tenth of its largest norm in the body.
 struct FieldError {
   double scale = 0, error = 0;
 };
 
 struct StateError {
-  double energy = 0;                // J, elastic, of the error
-  std::vector<Vec3> displacements;  // m, true less computed, of the nodes that are asked for
+  double energy = 0;                                      // J, elastic, of the error
+  std::vector<Vec3> displacements;                        // m, true less computed, of the nodes that are asked for
   std::map<std::string, std::vector<FieldError>> fields;  // for each wanted node; fields without values are absent
 };
 

@@ -44,9 +44,7 @@ void PhaseError::look_at(const State& state) {
   window_.farthest = state.q;
 }
 
-double PhaseError::frequency() const {
-  return window_.swings > 0 ? std::sqrt(window_.velocities / window_.swings) : 0;
-}
+double PhaseError::frequency() const { return window_.swings > 0 ? std::sqrt(window_.velocities / window_.swings) : 0; }
 
 bool PhaseError::is_full() const {
   const double before = time_ - window_.duration - start_;
@@ -56,8 +54,7 @@ bool PhaseError::is_full() const {
 
 void PhaseError::take_in(Linearity& linearity) {
   if (frequency() > 0) {
-    const VibrationDrift drift =
-        linearity.drift(window_.t, window_.mean, window_.farthest - window_.mean, frequency());
+    const VibrationDrift drift = linearity.drift(window_.t, window_.mean, window_.farthest - window_.mean, frequency());
     error_ = error_ * std::exp(-drift.decay * window_.duration) + drift.after(window_.duration);
     largest_error_ = std::max(largest_error_, error_);
   }
@@ -73,8 +70,8 @@ double PhaseError::error_now(Linearity& linearity) const {
 }
 
 void PhaseError::save(Archive& archive) const {
-  archive.put("phase", {time_, window_.duration, window_.swings, window_.velocities, window_.t, window_.square,
-                        error_, largest_error_});
+  archive.put("phase", {time_, window_.duration, window_.swings, window_.velocities, window_.t, window_.square, error_,
+                        largest_error_});
   archive.put("mean", numbers_of(window_.mean));
   archive.put("farthest", numbers_of(window_.farthest));
 }

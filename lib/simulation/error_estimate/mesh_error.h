@@ -27,11 +27,11 @@ struct ProbedError {
 inline constexpr double kCoarseStress = 0.1;
 
 struct MeshError {
-  double relative = 0;  // of the elastic energy
-  int samples = 0;      // states that were looked at
-  bool by_finer_elements = false;  // else by recovered stresses
-  std::string blind = {};          // what the estimate may not see, and what to do, in a sentence; "" if nothing
-  double cpu_seconds = 0;          // that the finer elements took
+  double relative = 0;                   // of the elastic energy
+  int samples = 0;                       // states that were looked at
+  bool by_finer_elements = false;        // else by recovered stresses
+  std::string blind = {};                // what the estimate may not see, and what to do, in a sentence; "" if nothing
+  double cpu_seconds = 0;                // that the finer elements took
   std::vector<ProbedError> probed = {};  // by finer elements; empty without these
   bool probed_unknown = false;           // probes record such fields, and no error is known of them
 };

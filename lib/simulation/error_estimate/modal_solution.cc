@@ -39,9 +39,9 @@ Coordinate oscillate(double lambda, double d, double f, Coordinate start, double
   }
   // Two decays; written so that equal ones are no division by zero.
   const double r = std::sqrt(-discriminant), b = start.v + s * a;
-  const double sinh_over_r = r * t < 1e-9  ? t * std::exp(-s * t)
-                             : r * t < 1 ? std::exp(-s * t) * std::sinh(r * t) / r
-                                         : (std::exp((r - s) * t) - std::exp((-r - s) * t)) / (2 * r);
+  const double sinh_over_r = r * t < 1e-9 ? t * std::exp(-s * t)
+                             : r * t < 1  ? std::exp(-s * t) * std::sinh(r * t) / r
+                                          : (std::exp((r - s) * t) - std::exp((-r - s) * t)) / (2 * r);
   const double cosh = (std::exp((r - s) * t) + std::exp((-r - s) * t)) / 2;
   return {rest + a * cosh + b * sinh_over_r, b * cosh - s * a * cosh + (r * r * a - s * b) * sinh_over_r};
 }

@@ -23,8 +23,7 @@ Vector ProbeRecorder::at_probes(const std::vector<double>& nodal) const {
   return all;
 }
 
-ReferenceNorms probe_norms(Trajectory reference, const Named<Probe>& probes,
-                           std::vector<FollowedQuantity> quantities) {
+ReferenceNorms probe_norms(Trajectory reference, const Named<Probe>& probes, std::vector<FollowedQuantity> quantities) {
   std::vector<ProbePoint> points;
   for (const auto& [name, probe] : probes) {
     const int first = 3 * static_cast<int>(points.size());

@@ -15,8 +15,7 @@ namespace orthodyn {
 // Records displacements as q and velocities as v: three rows a probe, in the order of the scene.
 class ProbeRecorder : public TrajectoryRecorder {
  public:
-  ProbeRecorder(const Named<Probe>& probes, const TetMesh& mesh, std::size_t outputs,
-                std::vector<Quantity> quantities);
+  ProbeRecorder(const Named<Probe>& probes, const TetMesh& mesh, std::size_t outputs, std::vector<Quantity> quantities);
 
  private:
   State state_of(const ObservedState& observed) const override;
@@ -27,7 +26,6 @@ class ProbeRecorder : public TrajectoryRecorder {
 
 // Distances from what was recorded of these probes: the root mean square over the probes takes the place of the mass
 // norm.
-ReferenceNorms probe_norms(Trajectory reference, const Named<Probe>& probes,
-                           std::vector<FollowedQuantity> quantities);
+ReferenceNorms probe_norms(Trajectory reference, const Named<Probe>& probes, std::vector<FollowedQuantity> quantities);
 
 }  // namespace orthodyn

@@ -66,8 +66,7 @@ bool Trajectory::is_whole(const std::filesystem::path& path) {
 Trajectory Trajectory::load(const std::filesystem::path& path) {
   Head head{};
   const std::vector<double> numbers = numbers_in(path, head);
-  if (numbers.empty())
-    throw RunError(path.string() + ": is no trajectory, or damaged; start the comparison again");
+  if (numbers.empty()) throw RunError(path.string() + ": is no trajectory, or damaged; start the comparison again");
   const auto size = static_cast<std::ptrdiff_t>(head.unknowns * head.times);
   const double* at = numbers.data() + head.times;
   return {{numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(head.times)},

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "lib/core/errors.h"
-#include "lib/simulation/output/files.h"
 #include "lib/simulation/modes/shape_files.h"
+#include "lib/simulation/output/files.h"
 
 namespace orthodyn {
 

@@ -27,8 +27,7 @@ std::vector<double> nodal_shape(const Model& model, const State& about, const Ve
 
 }  // namespace
 
-void write_shapes(const fs::path& folder, const Model& model, const State& about,
-                  const std::vector<Vector>& shapes) {
+void write_shapes(const fs::path& folder, const Model& model, const State& about, const std::vector<Vector>& shapes) {
   GrowingFile collection(folder / "modes.pvd",
                          "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n",
                          "</Collection>\n</VTKFile>\n");

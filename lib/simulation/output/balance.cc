@@ -50,8 +50,7 @@ void EnergyMeter::take_energies(const ObservedState& observed) {
   const auto energy = [&](const char* name) { return observed.evaluate(name)[0]; };
   ++states_;
   time_ = observed.t();
-  last_ = {energy("energy.kinetic"), energy("energy.elastic"), energy("energy.gravitational"),
-           dissipated_, load_work_};
+  last_ = {energy("energy.kinetic"), energy("energy.elastic"), energy("energy.gravitational"), dissipated_, load_work_};
   raise(drift_, std::abs(change()));
   scale_ = std::max({scale_, last_.kinetic, last_.elastic});
 }

@@ -40,8 +40,8 @@ void EnergyWriter::write(double t) {
 }
 
 MomentumWriter::MomentumWriter(const std::filesystem::path& path)
-    : file_(path, {"t [s]", "linear.x [kg m/s]", "linear.y [kg m/s]", "linear.z [kg m/s]",
-                   "angular.x [kg m^2/s]", "angular.y [kg m^2/s]", "angular.z [kg m^2/s]"}) {}
+    : file_(path, {"t [s]", "linear.x [kg m/s]", "linear.y [kg m/s]", "linear.z [kg m/s]", "angular.x [kg m^2/s]",
+                   "angular.y [kg m^2/s]", "angular.z [kg m^2/s]"}) {}
 
 void MomentumWriter::on_start(const ObservedState& observed) {
   MomentumMeter::on_start(observed);
@@ -109,8 +109,7 @@ std::vector<std::string> probe_header(const Model& model, const std::vector<Prob
 
 ProbeWriter::ProbeWriter(const std::filesystem::path& path, const Model& model, std::vector<ProbeColumn> columns,
                          const std::string& axis)
-    : columns_(with_components(model, std::move(columns))),
-      file_(path, probe_header(model, columns_, axis)) {}
+    : columns_(with_components(model, std::move(columns))), file_(path, probe_header(model, columns_, axis)) {}
 
 void ProbeWriter::on_start(const ObservedState& observed) {
   file_.begin();

@@ -60,7 +60,7 @@ class StepWriter : public Observer {
 
 // probes.csv: fields at named nodes.
 struct ProbeColumn {
-  std::string name;   // "tip"; empty for an output of the whole body
+  std::string name;    // "tip"; empty for an output of the whole body
   int node;            // then 0
   std::string field;   // a node output: "displacement"; or "reaction.clamp_1"
   int components = 0;  // of the field; filled in

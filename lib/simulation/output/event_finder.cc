@@ -72,8 +72,8 @@ std::vector<Crossing> EventFinder::find(double begin, double end, const OutputSo
       const bool upward = side_[k] < 0;
       if (passed && (event.direction == Direction::both || upward == (event.direction == Direction::up))) {
         // A sign change already present at the start is treated as a crossing there.
-        const double at = sign(last.excess[k]) == side_[k] ? root(excess_at, last.t, last.excess[k], t, now.excess[k])
-                                                           : last.t;
+        const double at =
+            sign(last.excess[k]) == side_[k] ? root(excess_at, last.t, last.excess[k], t, now.excess[k]) : last.t;
         interpolate(at, state);
         found.push_back({&event, state, upward});
       }

@@ -20,10 +20,11 @@ std::vector<std::string> exceeded_strengths(const std::vector<RecordedExtreme>& 
   std::vector<std::string> all;
   for (const auto& e : extremes)
     if (e.node >= 0 && e.value > 1 && e.quantity.ends_with(".largest") && is_exposure(e.quantity))
-      all.push_back(fmt::format("{} reaches {:.3g}: the strength is exceeded from 1 on, at ({:.4g}, {:.4g}, {:.4g}) m, "
-                                "{} {:.4g}{}",
-                                e.quantity.substr(0, e.quantity.rfind('.')), e.value, e.place[0], e.place[1],
-                                e.place[2], is_static ? "at load factor" : "at t =", e.time, is_static ? "" : " s"));
+      all.push_back(
+          fmt::format("{} reaches {:.3g}: the strength is exceeded from 1 on, at ({:.4g}, {:.4g}, {:.4g}) m, "
+                      "{} {:.4g}{}",
+                      e.quantity.substr(0, e.quantity.rfind('.')), e.value, e.place[0], e.place[1], e.place[2],
+                      is_static ? "at load factor" : "at t =", e.time, is_static ? "" : " s"));
   return all;
 }
 
@@ -33,9 +34,10 @@ ExtremeRecorder::ExtremeRecorder(const std::vector<std::string>& quantities, con
   for (const auto& name : quantities) {
     auto find = find_extreme(name, model, origin);
     if (!find)
-      origin.fail(fmt::format("extremes: '{}' is not an extreme of a field of stress or strain: give one such as "
-                              "von_mises.largest, tsai_wu.largest or REGION.nodal_stress_material.11.smallest",
-                              name));
+      origin.fail(
+          fmt::format("extremes: '{}' is not an extreme of a field of stress or strain: give one such as "
+                      "von_mises.largest, tsai_wu.largest or REGION.nodal_stress_material.11.smallest",
+                      name));
     find_.push_back(std::move(*find));
     found_.push_back({.quantity = name, .unit = unit_of_extreme(name)});
   }

@@ -13,8 +13,8 @@ namespace orthodyn {
 struct RecordedExtreme {
   std::string quantity, unit;
   double value = 0;
-  double time = 0;           // s; of a static analysis the load factor
-  int node = -1;             // of the mesh
+  double time = 0;            // s; of a static analysis the load factor
+  int node = -1;              // of the mesh
   Vec3 place = Vec3::Zero();  // its rest position, m
   long states = 0;            // that were looked at
 };

@@ -1,9 +1,8 @@
 #include "lib/simulation/output/files.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>

@@ -57,7 +57,6 @@ class GrowingFile {
 // What to do where results are not as a checkpoint knows them.
 inline constexpr const char* kPutBack = "put it back, or start anew with --force in place of --resume";
 
-
 // A CSV file whose rows are in the file as soon as they are written.
 class CsvFile {
  public:

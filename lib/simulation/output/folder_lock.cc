@@ -17,8 +17,7 @@ namespace {
 // A disk that is full or broken is no fault of whoever named the folder.
 [[noreturn]] void refuse(const std::filesystem::path& folder, int error) {
   const std::string what = fmt::format("cannot write there: {}", std::strerror(error));
-  if (error == ENOSPC || error == EDQUOT || error == EIO)
-    throw RunError(fmt::format("{}: {}", folder.string(), what));
+  if (error == ENOSPC || error == EDQUOT || error == EIO) throw RunError(fmt::format("{}: {}", folder.string(), what));
   throw ConfigError(folder.string(), what + "; use --out with another folder");
 }
 

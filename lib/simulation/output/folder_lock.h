@@ -13,7 +13,8 @@ class FolderLock {
  public:
   // Makes the folder, and in it the file that is locked (flock), which stays: it must never be renamed or
   // replaced. Throws ConfigError if another process holds it ("another <work> is at work there") or the folder
-  // cannot be written to, RunError if the disk is full or broken. Where the file system has no locks, it holds nothing, and warning() says so.
+  // cannot be written to, RunError if the disk is full or broken. Where the file system has no locks, it holds nothing,
+  // and warning() says so.
   FolderLock(const std::filesystem::path& folder, const std::string& file, const std::string& work,
              Sharing sharing = Sharing::alone);
   ~FolderLock();

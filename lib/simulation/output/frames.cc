@@ -69,7 +69,9 @@ void write_vtu(const std::filesystem::path& path, const Geometry& geometry, std:
 
 FrameWriter::FrameWriter(std::filesystem::path folder, const Model& model, const std::vector<std::string>& fields,
                          const TetMesh* mesh)
-    : folder_(std::move(folder)), model_(model), mesh_(mesh),
+    : folder_(std::move(folder)),
+      model_(model),
+      mesh_(mesh),
       collection_(folder_ / "frames.pvd",
                   "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n",
                   "</Collection>\n</VTKFile>\n") {
@@ -151,8 +153,7 @@ void FrameWriter::remove_frames_from(std::size_t count) const {
     if ((name == whole && k >= count) || is_part) surplus.push_back(entry.path());
   }
   for (const auto& path : surplus)
-    if (!fs::remove(path, ec) && ec)
-      throw RunError(fmt::format("cannot remove {}: {}", path.string(), ec.message()));
+    if (!fs::remove(path, ec) && ec) throw RunError(fmt::format("cannot remove {}: {}", path.string(), ec.message()));
 }
 
 }  // namespace orthodyn

@@ -1,5 +1,5 @@
-// An observer is called with the states of a run; it writes frames, tables or progress. Quantities computed from a state are
-// shared by all observers.
+// An observer is called with the states of a run; it writes frames, tables or progress. Quantities computed from a
+// state are shared by all observers.
 #pragma once
 
 #include "lib/ode/event.h"

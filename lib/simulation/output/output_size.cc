@@ -11,8 +11,8 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kNumber = 4, kIndex = 4;   // bytes, of frames
-constexpr double kColumn = 20;              // bytes, of tables
+constexpr double kNumber = 4, kIndex = 4;  // bytes, of frames
+constexpr double kColumn = 20;             // bytes, of tables
 constexpr double kEnergyColumns = 7, kMomentumColumns = 13;
 constexpr int kUsualFrames = 50;
 
@@ -77,7 +77,8 @@ Volume volume_of(const Setup& setup) {
   volume.rows = rows_of(scene, volume.frames);
   volume.frame_bytes = scene.output.fields.empty() ? 0 : frame_bytes_of(*setup.built.model, scene.output.fields);
   volume.row_bytes = row_bytes_of(setup);
-  if (scene.checkpoint) volume.checkpoint_bytes = 2 * sizeof(double) * static_cast<double>(setup.built.model->num_dofs_of_all());
+  if (scene.checkpoint)
+    volume.checkpoint_bytes = 2 * sizeof(double) * static_cast<double>(setup.built.model->num_dofs_of_all());
   return volume;
 }
 

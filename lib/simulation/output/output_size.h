@@ -13,10 +13,10 @@ namespace orthodyn {
 constexpr double kMostUnasked = 1e6;
 
 struct Volume {
-  double frames = 0;      // in statics the fewest load steps
+  double frames = 0;       // in statics the fewest load steps
   double frame_bytes = 0;  // of one
-  double rows = 0;  // of energy.csv, momentum.csv and probes.csv each; 0: one each step, their number is not known
-  double row_bytes = 0;   // of the three together
+  double rows = 0;       // of energy.csv, momentum.csv and probes.csv each; 0: one each step, their number is not known
+  double row_bytes = 0;  // of the three together
   double checkpoint_bytes = 0;
   double bytes() const { return frames * frame_bytes + rows * row_bytes + checkpoint_bytes; }
 };

@@ -7,9 +7,9 @@
 #include "lib/core/errors.h"
 #include "lib/core/write_file.h"
 #include "lib/simulation/output/json.h"
+#include "lib/simulation/output/setup_file.h"
 #include "lib/simulation/run/outcome.h"
 #include "lib/simulation/run/run_record.h"
-#include "lib/simulation/output/setup_file.h"
 
 namespace orthodyn {
 
@@ -17,10 +17,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kResultFiles[] = {"frames",       "frames.pvd", "probes.csv", "energy.csv",
-                                        "momentum.csv", "steps.csv",  "events.csv", "load_steps.csv",
-                                        "pictures",     "scene.yaml", "checkpoint.cbor", kSetupFile,
-                                        kRunRecordFile};
+constexpr const char* kResultFiles[] = {"frames",          "frames.pvd", "probes.csv",     "energy.csv", "momentum.csv",
+                                        "steps.csv",       "events.csv", "load_steps.csv", "pictures",   "scene.yaml",
+                                        "checkpoint.cbor", kSetupFile,   kRunRecordFile};
 
 constexpr const char* kCheckpoint = "checkpoint.cbor";
 constexpr const char* kLock = ".orthodyn-run";  // not run.json, which is renamed over
@@ -73,8 +72,9 @@ void ResultFolder::lock() {
 }
 
 void ResultFolder::refuse_earlier_result() const {
-  throw ConfigError(path_.string(), "holds an earlier result; use --force to replace it, --resume to go on "
-                  "from its checkpoint, or --out with another folder");
+  throw ConfigError(path_.string(),
+                    "holds an earlier result; use --force to replace it, --resume to go on "
+                    "from its checkpoint, or --out with another folder");
 }
 
 void ResultFolder::consider_resuming() {

@@ -36,7 +36,9 @@ RunObservers::RunObservers(const Setup& setup, const std::filesystem::path& fold
 
 NamedObservers RunObservers::kept() {
   NamedObservers out{{"inversion", &inversion}};
-  const auto add = [&](const char* name, auto& observer) { if (observer) out.emplace_back(name, &*observer); };
+  const auto add = [&](const char* name, auto& observer) {
+    if (observer) out.emplace_back(name, &*observer);
+  };
   add("frames", frames_);
   add("energy", energy);
   add("momentum", momentum);
@@ -62,8 +64,8 @@ void RunObservers::restore(const Checkpoint& checkpoint) {
   for (const auto& [name, observer] : kept()) {
     const auto found = checkpoint.observers.find(name);
     if (found == checkpoint.observers.end())
-      throw ConfigError(fmt::format("checkpoint: nothing is kept of '{}'; start anew with --force in place of --resume",
-                                    name));
+      throw ConfigError(
+          fmt::format("checkpoint: nothing is kept of '{}'; start anew with --force in place of --resume", name));
     observer->restore(found->second);
   }
 }

@@ -10,9 +10,9 @@
 #include "lib/simulation/output/event_writer.h"
 #include "lib/simulation/output/extremes.h"
 #include "lib/simulation/output/frames.h"
+#include "lib/simulation/output/setup_file.h"
 #include "lib/simulation/output/strain_watch.h"
 #include "lib/simulation/run/setup.h"
-#include "lib/simulation/output/setup_file.h"
 
 namespace orthodyn {
 

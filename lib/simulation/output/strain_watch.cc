@@ -37,7 +37,8 @@ void StrainWatch::restore(const Archive& archive) {
   if (worst[0] > 0)
     worst_ = {worst[0], worst[1],
               fmt::format("before the run was resumed, its body was strained to {:.3g} times the limit of the "
-                          "corotational law", worst[0])};
+                          "corotational law",
+                          worst[0])};
 }
 
 }  // namespace orthodyn

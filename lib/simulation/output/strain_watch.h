@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "lib/analysis/strain_check.h"
-#include "lib/statics/load_path.h"
 #include "lib/simulation/output/observer.h"
+#include "lib/statics/load_path.h"
 
 namespace orthodyn {
 
@@ -48,7 +48,7 @@ class StrainWatch : public Observer {
   const FemModel& model_;
   std::optional<PathTimes> times_;
   double interval_, last_look_ = -std::numeric_limits<double>::infinity();  // s
-  double largest_energy_ = 0;  // J
+  double largest_energy_ = 0;                                               // J
   std::optional<PassedStrain> worst_;
 };
 

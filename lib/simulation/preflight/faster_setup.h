@@ -1,4 +1,5 @@
-// A faster set-up of a scene: linear kinematics if they are accurate enough, and the integrator that `auto` then chooses.
+// A faster set-up of a scene: linear kinematics if they are accurate enough, and the integrator that `auto` then
+// chooses.
 #pragma once
 
 #include <optional>
@@ -19,14 +20,14 @@ struct FasterWay {
   bool pays() const;
 };
 
-// Builds the scene of `setup` with these changes, lets `auto` choose a method and measures the cost of the terms. Returns the
-// result whether or not it pays. None for static scenes, if there is nothing to change, if the changed scene is not
-// linear or cannot be set up, and above 30,000 unknowns. `cost`: that of the run of `setup`.
+// Builds the scene of `setup` with these changes, lets `auto` choose a method and measures the cost of the terms.
+// Returns the result whether or not it pays. None for static scenes, if there is nothing to change, if the changed
+// scene is not linear or cannot be set up, and above 30,000 unknowns. `cost`: that of the run of `setup`.
 std::optional<FasterWay> faster_way(const Setup& setup, const RunCost& cost);
 
-// Estimated relative error of the motion by the linear kinematics of the scene `linear`: the error at the largest displacement
-// under its loads, plus the error that accumulates in a vibration of half that amplitude. Infinite if the body does not
-// start at rest in its rest shape, if supports move, and if no linear response is known.
+// Estimated relative error of the motion by the linear kinematics of the scene `linear`: the error at the largest
+// displacement under its loads, plus the error that accumulates in a vibration of half that amplitude. Infinite if the
+// body does not start at rest in its rest shape, if supports move, and if no linear response is known.
 double error_of_linear_kinematics(const Setup& linear);
 
 }  // namespace orthodyn

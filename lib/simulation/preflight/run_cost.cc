@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "lib/linear/solver.h"
+#include "lib/simulation/output/output_size.h"
 #include "lib/simulation/output/run_observers.h"
 #include "lib/simulation/run/setup.h"
-#include "lib/simulation/output/output_size.h"
 
 namespace orthodyn {
 

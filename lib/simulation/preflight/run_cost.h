@@ -19,11 +19,11 @@ struct CostRange {
 };
 
 struct RunCost {
-  double force = 0, tangent = 0;            // s, of one evaluation
-  std::optional<double> factor = {}, solve = {};  // s; none for methods without a factor, and where it is too large
-  CostRange step;                           // s
-  CostRange steps;                          // equal where they are known
-  bool fixed_steps = false;                 // by the input
+  double force = 0, tangent = 0;                    // s, of one evaluation
+  std::optional<double> factor = {}, solve = {};    // s; none for methods without a factor, and where it is too large
+  CostRange step;                                   // s
+  CostRange steps;                                  // equal where they are known
+  bool fixed_steps = false;                         // by the input
   bool has_contact = false, may_end_early = false;  // error control meets a ground; an event may end the run
   double row = 0, frame = 0;                        // s, of one: what is computed of a state for it
   CostRange rows;                                   // each step where their number is not known

@@ -16,12 +16,12 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kUsualAccuracy = 1e-3;  // without an rtol
-constexpr double kOfAccuracy = 0.1;      // what is smaller than this part of it does not matter
-constexpr double kSmall = 1e-6;        // of the smallest extent
-constexpr int kLargestSystem = 30'000;  // unknowns of which two more models and a factor are made
+constexpr double kUsualAccuracy = 1e-3;    // without an rtol
+constexpr double kOfAccuracy = 0.1;        // what is smaller than this part of it does not matter
+constexpr double kSmall = 1e-6;            // of the smallest extent
+constexpr int kLargestSystem = 30'000;     // unknowns of which two more models and a factor are made
 constexpr double kSecondsOfVariant = 0.2;  // in which the cost of another model is measured
-constexpr double kMuchData = 1e9;        // bytes of frames
+constexpr double kMuchData = 1e9;          // bytes of frames
 
 double seconds_of(double budget, const std::function<void()>& work) {
   using Clock = std::chrono::steady_clock;
@@ -37,7 +37,10 @@ double seconds_of(double budget, const std::function<void()>& work) {
 class Judge {
  public:
   Judge(const Setup& setup, const std::vector<TermCost>& costs)
-      : setup_(setup), model_(*setup.built.model), costs_(costs), accuracy_(accuracy_asked_for(setup.scene)),
+      : setup_(setup),
+        model_(*setup.built.model),
+        costs_(costs),
+        accuracy_(accuracy_asked_for(setup.scene)),
         response_(static_response(model_, setup.built.initial, setup.scene.time.end)) {}
 
   std::vector<std::string> sentences() {
@@ -98,7 +101,8 @@ class Judge {
       const std::string& name = names[parts().elastic.size() + k];
       found_.push_back(
           fmt::format("{}: alone it moves the body by {:.1e} of what all loads do; leaving it out saves {:.1g} % of a "
-                      "force", name, share, 100 * share_of_force(name)));
+                      "force",
+                      name, share, 100 * share_of_force(name)));
     }
   }
 
@@ -116,10 +120,10 @@ class Judge {
     without.damping.reset();
     for (auto& [name, region] : without.regions) region.stiffness_damping.reset();
     const BuiltScene built = build(without);
-    found_.push_back(fmt::format("damping: it takes {:.1e} of a slow vibration ({:.3g} Hz) in the time simulated, but "
-                                 "does take fast ones; leaving it out {}",
-                                 taken, std::sqrt(omega2) / (2 * std::numbers::pi),
-                                 saving(*built.model, built.initial)));
+    found_.push_back(
+        fmt::format("damping: it takes {:.1e} of a slow vibration ({:.3g} Hz) in the time simulated, but "
+                    "does take fast ones; leaving it out {}",
+                    taken, std::sqrt(omega2) / (2 * std::numbers::pi), saving(*built.model, built.initial)));
   }
 
   // In the response, in which a region may move and hardly be strained.
@@ -132,10 +136,11 @@ class Judge {
     for (const auto& term : parts().elastic) all += energies.emplace_back(term->energy(nodal.state()));
     for (std::size_t k = 0; k < energies.size(); ++k)
       if (energies[k] < threshold() * all)
-        found_.push_back(fmt::format("region {}: it bears {:.1e} of the elastic energy and moves as a rigid body: {} "
-                                     "elements of it, {:.0f} % of a force, could be fewer",
-                                     parts().elastic[k]->region(), energies[k] / all, parts().elastic[k]->size(),
-                                     100 * share_of_force(parts().elastic[k]->name())));
+        found_.push_back(
+            fmt::format("region {}: it bears {:.1e} of the elastic energy and moves as a rigid body: {} "
+                        "elements of it, {:.0f} % of a force, could be fewer",
+                        parts().elastic[k]->region(), energies[k] / all, parts().elastic[k]->size(),
+                        100 * share_of_force(parts().elastic[k]->name())));
   }
 
   void look_at_mesh() {
@@ -163,9 +168,10 @@ class Judge {
     Scene scene = read_scene(config);
     if (!leaves_kinematics_open(scene)) return;
     if (const ChosenKinematics chosen = choose_kinematics(config, scene); chosen.choice.linear)
-      found_.push_back(fmt::format("large rotations: by the linear response linear kinematics are off by less than "
-                                   "{:.1g} of the motion; elasticity.kinematics: auto takes them, and watches; this {}",
-                                   3 * chosen.watch->allowed(), saving(*chosen.built.model, chosen.built.initial)));
+      found_.push_back(
+          fmt::format("large rotations: by the linear response linear kinematics are off by less than "
+                      "{:.1g} of the motion; elasticity.kinematics: auto takes them, and watches; this {}",
+                      3 * chosen.watch->allowed(), saving(*chosen.built.model, chosen.built.initial)));
   }
 
   void look_at_frames() {

@@ -61,10 +61,10 @@ std::vector<std::string> thin_regions(const TetMesh& mesh) {
     if (cells[r].empty()) continue;
     const int deepest = depth(mesh, cells[r]);
     if (deepest > 1) continue;
-    out.push_back(fmt::format("region {} is {} through its thickness: where it bends or twists its deflection may be "
-                              "less than half of the true one; take mesh.order: 2",
-                              mesh.region_names[r],
-                              deepest == 0 ? "one linear element" : "two or three linear elements"));
+    out.push_back(
+        fmt::format("region {} is {} through its thickness: where it bends or twists its deflection may be "
+                    "less than half of the true one; take mesh.order: 2",
+                    mesh.region_names[r], deepest == 0 ? "one linear element" : "two or three linear elements"));
   }
   return out;
 }

@@ -7,12 +7,12 @@
 #include "lib/config/values.h"
 #include "lib/simulation/checkpoint/resume.h"
 #include "lib/simulation/checkpoint/scene_changes.h"
+#include "lib/simulation/error_estimate/estimated_error.h"
 #include "lib/simulation/output/disk_reserve.h"
+#include "lib/simulation/output/run_observers.h"
 #include "lib/simulation/run/model_keys.h"
 #include "lib/simulation/run/model_summary.h"
-#include "lib/simulation/output/run_observers.h"
 #include "lib/simulation/run/run_context.h"
-#include "lib/simulation/error_estimate/estimated_error.h"
 #include "lib/simulation/run/run_record.h"
 #include "lib/simulation/run/several_ranks.h"
 
@@ -71,8 +71,7 @@ class DynamicAnalysis {
     }
     RunObservers observers(setup_, folder_.path());
     resumes ? resume(begin, observers) : prepare_anew();
-    const RunRecord record(folder_.path(), context_.scene, context_.set, begin.restarts,
-                           given_terms(setup_.config));
+    const RunRecord record(folder_.path(), context_.scene, context_.set, begin.restarts, given_terms(setup_.config));
     write_file(folder_.path() / "scene.yaml", {begin.scene});
     // Killed from here on, it can be resumed.
     if (!resumes && setup_.scene.checkpoint) begin.save(folder_.checkpoint());
@@ -133,8 +132,7 @@ class DynamicAnalysis {
     if (setup_.scene.output.accumulated_error) all.push_back(&parts_.emplace(*setup_.built.model));
     if (setup_.scene.output.mesh_error) all.push_back(&mesh_error_.emplace(outputs_left(plan)));
     DiskReserve reserve(folder_.path(), bytes_of_checkpoint());
-    Outcome outcome =
-        orthodyn::run(*setup_.built.model, *setup_.integrator, state, plan, all, context_.interrupt);
+    Outcome outcome = orthodyn::run(*setup_.built.model, *setup_.integrator, state, plan, all, context_.interrupt);
     reserve.release();
     failed_alone_ = outcome.status == Outcome::Status::failed && failed_alone(setup_.built.model->ranks());
     if (!failed_alone_) outcome.cpu_seconds = setup_.built.model->space().sum(outcome.cpu_seconds);
@@ -176,14 +174,13 @@ class DynamicAnalysis {
                      .factor_bytes = integrator.factor_bytes(),
                      .det_f = {inversion.smallest(), inversion.element(), inversion.time()}};
     if (const auto& e = observers.energy)
-      out.energy = {e->last(), e->time(), e->drift(), e->scale(), e->relative_drift(), e->times(),
-                    e->states()};
+      out.energy = {e->last(), e->time(), e->drift(), e->scale(), e->relative_drift(), e->times(), e->states()};
     if (const auto& m = observers.momentum) out.momentum = {m->angular_drift(), m->angular_scale()};
     out.silent_events = observers.silent_events();
     if (mesh_error_) out.mesh_error = mesh_error_->found();
     if (out.mesh_error && outcome.status == Outcome::Status::completed)
-      out.mesh_error = look_closer(setup_.scene, *setup_.built.model, *mesh_error_->most_deformed(), true,
-                                   *out.mesh_error).error;
+      out.mesh_error =
+          look_closer(setup_.scene, *setup_.built.model, *mesh_error_->most_deformed(), true, *out.mesh_error).error;
     out.rtol = Registry<IntegratorChoice>::read(setup_.config.at("integrator"))->settings().rtol;
     if (outcome.status == Outcome::Status::failed && !failed_alone_)
       out.failure = failure_place(*setup_.built.model, outcome.last);

@@ -14,16 +14,16 @@ namespace orthodyn {
 
 namespace {
 
-constexpr double kOfRtol = 10;           // allowed: what errors of steps add up to, roughly
-constexpr double kUsual = 1e-3;          // allowed where there is no rtol
-constexpr double kShareOfAllowed = 0.5;  // up to which the error may grow before it is computed again
+constexpr double kOfRtol = 10;                             // allowed: what errors of steps add up to, roughly
+constexpr double kUsual = 1e-3;                            // allowed where there is no rtol
+constexpr double kShareOfAllowed = 0.5;                    // up to which the error may grow before it is computed again
 constexpr double kLeastGrowth = 1.05, kLargestGrowth = 2;  // of the displacement in between
-constexpr double kTiny = 1e-300;         // in place of zero
-constexpr int kLargestToldOf = 200000;   // unknowns: a factorisation of more is not done unasked
-constexpr double kOvershoot = 2;         // of a load applied at once, over its static response
-constexpr double kParted = 2;            // relative error of two motions that are fully out of phase
-constexpr double kHopeless = 1;          // relative error above which no better estimate is needed
-constexpr double kClearly = 3;           // times what is allowed: then linear kinematics are not tried
+constexpr double kTiny = 1e-300;                           // in place of zero
+constexpr int kLargestToldOf = 200000;                     // unknowns: a factorisation of more is not done unasked
+constexpr double kOvershoot = 2;                           // of a load applied at once, over its static response
+constexpr double kParted = 2;                              // relative error of two motions that are fully out of phase
+constexpr double kHopeless = 1;                            // relative error above which no better estimate is needed
+constexpr double kClearly = 3;  // times what is allowed: then linear kinematics are not tried
 
 double allowed_error(const Scene& scene) {
   if (scene.elasticity.linear_error) return *scene.elasticity.linear_error;
@@ -124,8 +124,14 @@ void make_corotational(Config& config) {
 
 LinearityWatch::LinearityWatch(const FemModel& model, std::vector<LinearRegion> regions, double start, double end,
                                double allowed, std::string only_linear)
-    : model_(model), regions_(std::move(regions)), allowed_(allowed), start_(start), span_(end - start), time_(start),
-      largest_{start, 0, Vector::Zero(model.num_dofs())}, only_linear_(std::move(only_linear)) {
+    : model_(model),
+      regions_(std::move(regions)),
+      allowed_(allowed),
+      start_(start),
+      span_(end - start),
+      time_(start),
+      largest_{start, 0, Vector::Zero(model.num_dofs())},
+      only_linear_(std::move(only_linear)) {
   if (std::isfinite(span_)) phase_.emplace(model, start);
 }
 

@@ -10,8 +10,8 @@
 
 #include "lib/analysis/linearity.h"
 #include "lib/scene/build.h"
-#include "lib/simulation/output/observer.h"
 #include "lib/simulation/error_estimate/linear_phase_error.h"
+#include "lib/simulation/output/observer.h"
 
 namespace orthodyn {
 
@@ -60,7 +60,7 @@ class LinearityWatch : public Observer {
   const std::vector<LinearRegion>& regions() const { return regions_; }
   std::size_t num_regions() const { return model_.parts().elastic.size(); }  // of the mesh, linear or not
   double allowed() const { return allowed_; }
-  double error() const { return error_; }  // the largest so far, phase included
+  double error() const { return error_; }      // the largest so far, phase included
   bool unstable() const { return unstable_; }  // in statics: as LinearityError has it
   bool outgrown() const { return error_ > allowed_; }
   double time() const { return time_; }  // s: of the last state that was looked at
@@ -80,8 +80,8 @@ class LinearityWatch : public Observer {
   void look_at(const State& state);
   void refuse_outgrown() const;
   void note(double t, const Vector& q);  // the error there
-  double next_look() const;            // the displacement from which on the error has to be computed anew
-  double norm(const Vector& x) const;  // in the mass norm
+  double next_look() const;              // the displacement from which on the error has to be computed anew
+  double norm(const Vector& x) const;    // in the mass norm
   void take_in_phase();
   double share(double phase) const;         // of the motion, what has added up in a vibration
   double phase_of(double stiffness) const;  // of that, by terms that are off so far
@@ -92,7 +92,7 @@ class LinearityWatch : public Observer {
   std::optional<Linearity> linearity_;  // made when it is needed first
   double allowed_, start_, span_, time_;
   Largest largest_;
-  double checked_ = 0;  // the displacement at which the error was computed last
+  double checked_ = 0;               // the displacement at which the error was computed last
   std::optional<PhaseError> phase_;  // none in statics
   double local_ = 0, stiffness_ = 0, error_ = 0;
   bool unstable_ = false;

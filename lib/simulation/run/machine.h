@@ -7,9 +7,9 @@
 
 namespace orthodyn {
 
-Json machine_json();   // processor, cores, memory, vector instructions in use
-Json versions_json();  // orthodyn and every library
-double peak_memory();  // of this program so far, bytes
+Json machine_json();    // processor, cores, memory, vector instructions in use
+Json versions_json();   // orthodyn and every library
+double peak_memory();   // of this program so far, bytes
 std::string utc_now();  // 2026-01-31T12:00:00Z
 
 }  // namespace orthodyn

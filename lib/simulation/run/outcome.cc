@@ -17,8 +17,8 @@ const char* status_word(Outcome::Status status) {
   return "";
 }
 
-// With one thread for loops BLAS has one as well (RunThreads): all that is done is done by this one, and what other runs
-// of the process do at the same time is not counted.
+// With one thread for loops BLAS has one as well (RunThreads): all that is done is done by this one, and what other
+// runs of the process do at the same time is not counted.
 double cpu_seconds_now() {
   timespec now{};
   clock_gettime(loop_threads() == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID, &now);

@@ -1,11 +1,11 @@
 #include "lib/simulation/run/result_warnings.h"
 
-#include "lib/simulation/error_estimate/estimated_error.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "lib/simulation/error_estimate/estimated_error.h"
 
 namespace orthodyn {
 
@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kMuchDrift = 0.01;  // of the largest energy
 constexpr double kMuchError = 0.05;  // of the largest displacement
-// Of the largest load: what is less is round-off of the internal forces of slender bodies, whose displacements are right.
+// Of the largest load: what is less is round-off of the internal forces of slender bodies, whose displacements are
+// right.
 constexpr double kLargeResidual = 1e-6;
 
 // From two states alone the elastic energy between them is not known: the largest energy may be larger.
@@ -60,16 +61,21 @@ constexpr const char* kBuckles =
 
 constexpr const char* kUnsymmetricLoads =
     "the stiffness of a pressure that follows a surface with a free edge is unsymmetric; buckling takes its symmetric "
-    "part, so that load factors may be off and instability by growing vibrations (flutter) is not found. analysis: static "
+    "part, so that load factors may be off and instability by growing vibrations (flutter) is not found. analysis: "
+    "static "
     "follows the path with all of it";
 
 std::string linearity_sentence(double error) {
   constexpr const char* kRemedy = "Take elasticity.kinematics: auto, or corotational";
   if (!std::isfinite(error))
-    return fmt::format("how far linear kinematics are off could not be estimated, for rotations or stretches are too "
-                       "large for them. {}", kRemedy);
-  return fmt::format("linear kinematics are off by about {:.2g} of the motion: rotations or stretches are too large "
-                     "for them. {}", error, kRemedy);
+    return fmt::format(
+        "how far linear kinematics are off could not be estimated, for rotations or stretches are too "
+        "large for them. {}",
+        kRemedy);
+  return fmt::format(
+      "linear kinematics are off by about {:.2g} of the motion: rotations or stretches are too large "
+      "for them. {}",
+      error, kRemedy);
 }
 
 // What steps may have missed of loads and of the motion of supports.
@@ -91,9 +97,10 @@ void add_few_states(const std::vector<RecordedExtreme>& extremes, std::vector<st
   const auto few = std::find_if(extremes.begin(), extremes.end(),
                                 [](const RecordedExtreme& extreme) { return extreme.states < kFewStates; });
   if (few != extremes.end())
-    all.push_back(fmt::format("extremes are those of {}: peaks between them are missed; output.history: {{steps: "
-                              "true}} looks at every step",
-                              counted(few->states, "state")));
+    all.push_back(
+        fmt::format("extremes are those of {}: peaks between them are missed; output.history: {{steps: "
+                    "true}} looks at every step",
+                    counted(few->states, "state")));
 }
 
 void add_doubts(const EquilibriumResult& equilibrium, std::vector<std::string>& all) {
@@ -121,11 +128,13 @@ std::vector<std::string> doubts(const RunResult& result) {
                               result.equilibrium ? "" : " s"));
   for (auto& sentence : exceeded_strengths(result.extremes, !result.motion)) all.push_back(std::move(sentence));
   if (result.motion) add_few_states(result.extremes, all);
-  const auto& mesh = result.motion ? result.motion->mesh_error
-                                   : result.equilibrium ? result.equilibrium->mesh_error : std::nullopt;
+  const auto& mesh = result.motion        ? result.motion->mesh_error
+                     : result.equilibrium ? result.equilibrium->mesh_error
+                                          : std::nullopt;
   if (mesh && mesh->relative > kCoarseMesh) all.push_back(mesh_sentence(result.model, mesh->relative));
   if (mesh)
-    if (auto sentence = stress_warning(*mesh, result.model.order); !sentence.empty()) all.push_back(std::move(sentence));
+    if (auto sentence = stress_warning(*mesh, result.model.order); !sentence.empty())
+      all.push_back(std::move(sentence));
   if (mesh && !mesh->blind.empty()) all.push_back(blindness_warning(mesh->blind));
   if (const auto& error = result.model.linear_error; error && *error > kMuchError)
     all.push_back(result.model.buckles ? kBuckles : linearity_sentence(*error));

@@ -187,7 +187,7 @@ class Driver {
   Outcome& outcome_;
   static constexpr double kMuchLonger = 3;
 
-  double tiny_;                          // outputs that are closer to a stop than this are meant to be there
+  double tiny_;  // outputs that are closer to a stop than this are meant to be there
   StepLimits limits_;
   std::vector<double> stops_;
   Agenda outputs_, history_;
@@ -218,9 +218,8 @@ std::vector<double> by_interval(double start, double end, double interval) {
 
 Outcome run(const Model& model, Integrator& integrator, const State& initial, const Plan& plan,
             const std::vector<Observer*>& observers, const std::atomic<bool>& interrupt) {
-  return supervise(initial, observers, [&](Outcome& outcome) {
-    Driver(model, integrator, plan, observers, interrupt, outcome).advance();
-  });
+  return supervise(initial, observers,
+                   [&](Outcome& outcome) { Driver(model, integrator, plan, observers, interrupt, outcome).advance(); });
 }
 
 }  // namespace orthodyn

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "lib/core/parallel.h"
-#include "lib/simulation/run/result_warnings.h"
 #include "lib/simulation/error_estimate/error_balance.h"
 #include "lib/simulation/run/machine.h"
+#include "lib/simulation/run/result_warnings.h"
 
 namespace orthodyn {
 
@@ -31,7 +31,10 @@ Json begin_json(const std::string& scene, const std::vector<std::string>& set, c
 Json model_json(const ModelSummary& model, const Json& given) {
   Json terms = Json::array();
   for (const auto& term : model.terms) terms.push_back(term);
-  Json out{{"nodes", model.nodes}, {"elements", model.elements}, {"unknowns", model.unknowns}, {"terms", terms},
+  Json out{{"nodes", model.nodes},
+           {"elements", model.elements},
+           {"unknowns", model.unknowns},
+           {"terms", terms},
            {"given", given}};
   if (!model.kinematics.empty()) out["kinematics"] = model.kinematics;
   if (model.linear_error && std::isfinite(*model.linear_error)) out["linear_error"] = *model.linear_error;
@@ -103,8 +106,8 @@ void add_motion(Json& out, const MotionResult& motion, const Outcome& outcome) {
     out["momentum"] = {{"angular_drift", motion.momentum->angular_drift},
                        {"angular_scale", motion.momentum->angular_scale}};
   if (const auto& e = motion.accumulated)
-    out["accumulated_error"] = {{"error", e->error}, {"parts", e->parts}, {"steps_each", e->steps}, {"since", e->since},
-                                {"against", e->against}, {"wall_seconds", e->wall_seconds}};
+    out["accumulated_error"] = {{"error", e->error}, {"parts", e->parts},     {"steps_each", e->steps},
+                                {"since", e->since}, {"against", e->against}, {"wall_seconds", e->wall_seconds}};
   if (motion.error) out["estimated_error"] = error_json(*motion.error);
   if (motion.rtol) out["rtol"] = *motion.rtol;
   if (!outcome.remark.empty()) out["remark"] = outcome.remark;

@@ -7,29 +7,29 @@
 #include <utility>
 #include <vector>
 
-#include "lib/statics/critical_point.h"
 #include "lib/ode/statistics.h"
-#include "lib/simulation/output/balance.h"
-#include "lib/simulation/output/extremes.h"
-#include "lib/simulation/output/strain_watch.h"
 #include "lib/simulation/checkpoint/effort.h"
 #include "lib/simulation/error_estimate/accumulated_error.h"
 #include "lib/simulation/error_estimate/error_estimate.h"
 #include "lib/simulation/error_estimate/mesh_error.h"
+#include "lib/simulation/output/balance.h"
+#include "lib/simulation/output/extremes.h"
+#include "lib/simulation/output/strain_watch.h"
 #include "lib/simulation/run/kinematics.h"
 #include "lib/simulation/run/outcome.h"
+#include "lib/statics/critical_point.h"
 
 namespace orthodyn {
 
 struct ModelSummary {
   std::size_t nodes = 0, elements = 0;
   int unknowns = 0;
-  int order = 1;  // of its elements
+  int order = 1;                   // of its elements
   std::string elasticity;          // the laws of its regions
   std::vector<std::string> terms;  // in words
   std::string kinematics = {};     // what was taken for `auto`, and why, and how far linear kinematics are off; or ""
   std::optional<double> linear_error = {};  // of these, of the motion; infinite where it is a good part
-  bool buckles = false;  // below loads that linear kinematics carry
+  bool buckles = false;                     // below loads that linear kinematics carry
 };
 
 struct EnergySummary {
@@ -66,9 +66,9 @@ struct MotionResult {
   Effort effort = {};                                               // over all restarts
   std::size_t factor_bytes = 0;
   SmallestDetF det_f = {};
-  std::optional<EnergySummary> energy = {};      // where the scene asks for energy.csv
-  std::optional<MomentumSummary> momentum = {};  // likewise momentum.csv
-  std::optional<FailurePlace> failure = {};      // of a run that failed
+  std::optional<EnergySummary> energy = {};          // where the scene asks for energy.csv
+  std::optional<MomentumSummary> momentum = {};      // likewise momentum.csv
+  std::optional<FailurePlace> failure = {};          // of a run that failed
   std::optional<AccumulatedError> accumulated = {};  // of a long run
   std::optional<ErrorEstimate> error = {};           // if it was asked for
   std::optional<MeshError> mesh_error = {};          // of a body that is deformed
@@ -86,14 +86,14 @@ struct ProbedDisplacement {
 struct EquilibriumResult {
   double loads_at_time = 0;  // s
   long load_steps = 0, rejected_load_steps = 0;
-  long jumps = 0;                         // down the energy to another path
+  long jumps = 0;  // down the energy to another path
   std::vector<CriticalPoint> critical_points = {};
   std::optional<int> unstable = {};       // directions in which it is unstable; none: not known
   bool unsymmetric = false;               // K is: critical points are where its determinant changes its sign
   double largest_displacement = 0;        // m, of a coordinate
   double residual = 0, largest_load = 0;  // N, of a coordinate
   bool residual_above_tolerance = false;
-  std::string solver = {};                // its linear solver
+  std::string solver = {};  // its linear solver
   Statistics statistics = {};
   SmallestDetF det_f = {};
   std::optional<MeshError> mesh_error = {};
@@ -118,16 +118,16 @@ struct RunResult {
   std::filesystem::path folder;
   Outcome outcome = {};
   ModelSummary model = {};
-  std::optional<MotionResult> motion = {};            // one of these,
+  std::optional<MotionResult> motion = {};  // one of these,
   std::optional<EquilibriumResult> equilibrium = {};
-  std::optional<BucklingResult> buckling = {};        // or none where nothing was to be done
+  std::optional<BucklingResult> buckling = {};  // or none where nothing was to be done
   std::vector<RecordedExtreme> extremes = {};
-  std::optional<PassedStrain> passed_strain = {};     // where the law's limit was passed
-  bool was_complete = false;                          // it was to be resumed, and had reached its end before
-  std::optional<Outgrown> outgrown = {};              // why it ended, and is to start again
-  int ranks = 1;                                      // that have computed it together
-  bool resumable = false;                             // the folder holds a checkpoint of a late state
-  bool failed_alone = false;                          // one of several ranks: the others do not know, and wait for it
+  std::optional<PassedStrain> passed_strain = {};  // where the law's limit was passed
+  bool was_complete = false;                       // it was to be resumed, and had reached its end before
+  std::optional<Outgrown> outgrown = {};           // why it ended, and is to start again
+  int ranks = 1;                                   // that have computed it together
+  bool resumable = false;                          // the folder holds a checkpoint of a late state
+  bool failed_alone = false;                       // one of several ranks: the others do not know, and wait for it
 };
 
 }  // namespace orthodyn

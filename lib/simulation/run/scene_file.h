@@ -10,7 +10,7 @@
 namespace orthodyn {
 
 struct SceneChanges {
-  std::vector<std::string> set = {};                     // "path=value", the value in YAML
+  std::vector<std::string> set = {};  // "path=value", the value in YAML
   // Another integrator: of the scene's keys those that it has, too, are kept. `set` goes after it.
   std::optional<std::string> integrator = std::nullopt;
 };

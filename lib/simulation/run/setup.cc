@@ -10,13 +10,13 @@
 #include "lib/analysis/strain_check.h"
 #include "lib/core/spelling.h"
 #include "lib/linear/blas.h"
-#include "lib/simulation/output/extremes.h"
-#include "lib/simulation/run/outcome.h"
-#include "lib/simulation/run/several_ranks.h"
-#include "lib/simulation/preflight/input_checks/input_checks.h"
-#include "lib/simulation/statics/static_problem.h"
 #include "lib/scene/events.h"
 #include "lib/scene/quantity.h"
+#include "lib/simulation/output/extremes.h"
+#include "lib/simulation/preflight/input_checks/input_checks.h"
+#include "lib/simulation/run/outcome.h"
+#include "lib/simulation/run/several_ranks.h"
+#include "lib/simulation/statics/static_problem.h"
 
 namespace orthodyn {
 
@@ -114,7 +114,8 @@ void require_force_at_start(const Config& config, const BuiltScene& built) {
   }
   config.at(config.has("initial") ? "initial" : "mesh")
       .fail(fmt::format("the force at the start cannot be evaluated: {}; check the initial state, the loads and the "
-                        "unit of length", reason));
+                        "unit of length",
+                        reason));
 }
 
 }  // namespace
@@ -185,10 +186,18 @@ Setup set_up(Config config, Scene scene, bool linear_so_far, bool is_timed, cons
   if (ranks && is_linear_anywhere(scene))
     built.warnings.push_back("on several ranks it is not told how far linear kinematics are off; one process tells");
   if (!blas_is_openblas())
-    built.warnings.push_back("the BLAS in use is not OpenBLAS; large factorisations will be several times slower "
-                             "(Debian: libopenblas0-pthread)");
-  return {std::move(config), std::move(scene), std::move(built), std::move(integrator), std::move(events),
-          std::move(kinematics), std::move(linearity), wall, cpu};
+    built.warnings.push_back(
+        "the BLAS in use is not OpenBLAS; large factorisations will be several times slower "
+        "(Debian: libopenblas0-pthread)");
+  return {std::move(config),
+          std::move(scene),
+          std::move(built),
+          std::move(integrator),
+          std::move(events),
+          std::move(kinematics),
+          std::move(linearity),
+          wall,
+          cpu};
 }
 
 }  // namespace

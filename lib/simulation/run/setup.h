@@ -16,9 +16,9 @@ namespace orthodyn {
 struct Setup {
   Config config;  // resolved: every default filled in, the integrator's decisions too
   Scene scene;
-  BuiltScene built;  // with warnings for the user
-  std::unique_ptr<Integrator> integrator;  // null in statics
-  std::vector<Event> events;               // of the model
+  BuiltScene built;                            // with warnings for the user
+  std::unique_ptr<Integrator> integrator;      // null in statics
+  std::vector<Event> events;                   // of the model
   std::optional<KinematicsChoice> kinematics;  // where the scene leaves them open
   std::unique_ptr<LinearityWatch> linearity;   // to look on at its run; null without linear kinematics
   double wall_seconds = 0, cpu_seconds = 0;    // that the integrator took to be made: its modes, scales and the like

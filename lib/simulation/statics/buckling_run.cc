@@ -1,9 +1,9 @@
 // A buckling analysis of a scene: buckling.csv, and the shapes as modes.pvd.
 #include "lib/analysis/buckling.h"
+#include "lib/simulation/modes/shape_files.h"
 #include "lib/simulation/output/files.h"
 #include "lib/simulation/run/model_keys.h"
 #include "lib/simulation/run/model_summary.h"
-#include "lib/simulation/modes/shape_files.h"
 #include "lib/simulation/run/run_context.h"
 #include "lib/simulation/run/run_record.h"
 #include "lib/simulation/statics/static_problem.h"

@@ -5,9 +5,9 @@
 #include <atomic>
 #include <filesystem>
 
-#include "lib/statics/load_stepper.h"
 #include "lib/simulation/output/files.h"
 #include "lib/simulation/run/outcome.h"
+#include "lib/statics/load_stepper.h"
 
 namespace orthodyn {
 

@@ -34,8 +34,11 @@ Following follow(const Scene& scene, const LoadPath& path, double length) {
   const Statics statics = statics_of(scene);
   const double force = path.largest_load();
   Following out;
-  out.solver =
-      scene.places.with([&] { return statics.solver->make(path, {force > 0 ? force : 1, length}); }, "statics");
+  out.solver = scene.places.with(
+      [&] {
+        return statics.solver->make(path, {force > 0 ? force : 1, length});
+      },
+      "statics");
   out.stepper = std::make_unique<LoadStepper>(path, *out.solver, statics, length);
   return out;
 }
@@ -48,9 +51,9 @@ Vector settled(const Scene& scene, const FemModel& model, const PathTimes& times
   try {
     while (!settling.stepper->done()) settling.stepper->step();
   } catch (const RunError& e) {
-    throw RunError(fmt::format("without loads, under the forces of springs and ground on the rest shape alone: {}",
-                               e.what()),
-                   e.reason());
+    throw RunError(
+        fmt::format("without loads, under the forces of springs and ground on the rest shape alone: {}", e.what()),
+        e.reason());
   }
   return settling.stepper->state().q;
 }

@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "lib/statics/load_path.h"
 #include "lib/scene/build.h"
+#include "lib/statics/load_path.h"
 
 namespace orthodyn {
 

@@ -7,17 +7,17 @@
 #include "lib/analysis/displacement_error.h"
 #include "lib/core/spelling.h"
 #include "lib/simulation/error_estimate/estimated_error.h"
-#include "lib/simulation/statics/static_problem.h"
 #include "lib/simulation/output/files.h"
+#include "lib/simulation/output/frames.h"
+#include "lib/simulation/output/run_observers.h"
+#include "lib/simulation/output/setup_file.h"
 #include "lib/simulation/run/model_keys.h"
-#include "lib/simulation/statics/load_steps.h"
 #include "lib/simulation/run/model_summary.h"
 #include "lib/simulation/run/run_context.h"
-#include "lib/simulation/output/run_observers.h"
 #include "lib/simulation/run/run_record.h"
-#include "lib/simulation/output/frames.h"
-#include "lib/simulation/output/setup_file.h"
 #include "lib/simulation/run/several_ranks.h"
+#include "lib/simulation/statics/load_steps.h"
+#include "lib/simulation/statics/static_problem.h"
 
 namespace orthodyn {
 

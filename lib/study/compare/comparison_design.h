@@ -44,11 +44,11 @@ struct Point {
 struct Design {
   std::vector<Group> groups;
   std::vector<Problem> problems;
-  bool across_meshes = false;     // errors are those of space and time, measured at probes
+  bool across_meshes = false;  // errors are those of space and time, measured at probes
   std::vector<Method> methods;
   std::vector<Point> points;  // by problem, then method, from loose to tight
   std::optional<KeptFrames> frames = {};
-  Method reference, check;    // with all that controls their errors among `set`
+  Method reference, check;  // with all that controls their errors among `set`
 };
 
 // How many points a comparison has, counted without making them.
@@ -60,8 +60,8 @@ Design expand(const Comparison& comparison);
 // "damped_beam, cvode_bdf, rtol 0.001"
 std::string title(const Design& design, const Point& point);
 
-// The scene that a point runs: defaults are filled in, nothing is written but what probes need and frames that are kept.
-// Options of the scene's own integrator are kept where the method has such keys and says nothing else.
+// The scene that a point runs: defaults are filled in, nothing is written but what probes need and frames that are
+// kept. Options of the scene's own integrator are kept where the method has such keys and says nothing else.
 Config point_scene(const Design& design, const Point& point);
 
 // The same for the reference or its check: of the scene's own options, scales and linear solver are kept.

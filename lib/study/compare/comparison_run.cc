@@ -103,8 +103,7 @@ Job ComparisonRun::job_for(const std::string& title, const std::string& kind, co
 }
 
 // Of what a measurement depends on.
-std::string ComparisonRun::fingerprint(const Config& scene, const std::string& mesh,
-                                       const MeasurementInput& input) {
+std::string ComparisonRun::fingerprint(const Config& scene, const std::string& mesh, const MeasurementInput& input) {
   Json job = to_json(input);
   job["reference"] = fs::path(input.reference).filename().string();  // a fingerprint itself
   Fingerprint hash;

@@ -131,8 +131,8 @@ Json point_json(const ComparisonRun& run, std::size_t index, const MeasurementRe
        {"reason", "message", "time_reached", "repeats", "wall", "cpu", "statistics", "peak_memory_bytes",
         "factor_bytes", "errors", "drift", "drift_over_time", "smallest_det_f", "decisions"})
     out[key] = member(measured, key);
-  out["near_reference"] = near_reference(
-      result.errors, time_errors_of(reference), Reach(reference, run.design().across_meshes));
+  out["near_reference"] =
+      near_reference(result.errors, time_errors_of(reference), Reach(reference, run.design().across_meshes));
   out["scene"] = run.point_folder(index) + "/scene.yaml";
   return out;
 }
@@ -157,8 +157,8 @@ std::vector<WorkPoint> work_points(const ComparisonRun& run, std::size_t problem
     if (point.problem != problem || point.method != method || result.failure) continue;
     if (!result.errors || !result.timing || !std::isfinite(result.errors->displacement.l2)) continue;
     const double error = result.errors->displacement.l2;
-    out.push_back({point.control, error, result.timing->wall.median,
-                   !reach.contains(error, reference_error(run, problem))});
+    out.push_back(
+        {point.control, error, result.timing->wall.median, !reach.contains(error, reference_error(run, problem))});
   }
   return out;
 }

@@ -10,8 +10,8 @@
 #include "lib/simulation/error_estimate/modal_solution.h"
 #include "lib/simulation/error_estimate/probe_recorder.h"
 #include "lib/simulation/error_estimate/whole_states.h"
-#include "lib/simulation/run/machine.h"
 #include "lib/simulation/output/balance.h"
+#include "lib/simulation/run/machine.h"
 #include "lib/simulation/run/run.h"
 #include "lib/simulation/run/several_ranks.h"
 #include "lib/study/compare/frame_keeper.h"
@@ -106,8 +106,12 @@ class Measurement {
     const auto& model = *setup_.built.model;
     const auto& mesh = model.parts().mesh;
     const auto& time = setup_.scene.time;
-    result_.model = ModelSize{static_cast<std::size_t>(model.num_dofs_of_all()), mesh.tets.size(), mesh.nodes.size(),
-                              time.start, time.end, mesh.order()};
+    result_.model = ModelSize{static_cast<std::size_t>(model.num_dofs_of_all()),
+                              mesh.tets.size(),
+                              mesh.nodes.size(),
+                              time.start,
+                              time.end,
+                              mesh.order()};
     result_.decisions = setup_.integrator->decisions();
   }
 
@@ -135,8 +139,7 @@ class Measurement {
   }
 
   std::unique_ptr<TrajectoryRecorder> new_recorder() const {
-    if (!input_.at_probes)
-      return std::make_unique<WholeRecorder>(*setup_.built.model, times_.size(), quantities_);
+    if (!input_.at_probes) return std::make_unique<WholeRecorder>(*setup_.built.model, times_.size(), quantities_);
     return std::make_unique<ProbeRecorder>(setup_.scene.output.probes, setup_.built.model->parts().mesh, times_.size(),
                                            quantities_);
   }
@@ -282,10 +285,13 @@ MeasurementResult measure(Setup setup, const MeasurementInput& input, const fs::
 }
 
 void measure(const fs::path& folder, const Ranks* ranks) {
-  serve_job(folder, [&](const Json& input) {
-    const Config scene = Config::from_file((folder / kSceneFile).string());
-    return to_json(measure(set_up(scene, false, true, ranks), measurement_input_from(input), folder));
-  }, ranks);
+  serve_job(
+      folder,
+      [&](const Json& input) {
+        const Config scene = Config::from_file((folder / kSceneFile).string());
+        return to_json(measure(set_up(scene, false, true, ranks), measurement_input_from(input), folder));
+      },
+      ranks);
 }
 
 }  // namespace orthodyn::study::compare

@@ -18,13 +18,13 @@ ErrorNorms norms_from(const Json& json) {
 }
 
 Json to_json(const ModelSize& m) {
-  return {{"unknowns", m.unknowns}, {"elements", m.elements}, {"nodes", m.nodes}, {"start", m.start}, {"end", m.end},
-          {"order", m.order}};
+  return {{"unknowns", m.unknowns}, {"elements", m.elements}, {"nodes", m.nodes},
+          {"start", m.start},       {"end", m.end},           {"order", m.order}};
 }
 
 ModelSize model_from(const Json& json) {
-  return {json.at("unknowns"), json.at("elements"), json.at("nodes"), json.at("start"), json.at("end"),
-          json.at("order")};
+  return {json.at("unknowns"), json.at("elements"), json.at("nodes"),
+          json.at("start"),    json.at("end"),      json.at("order")};
 }
 
 Json to_json(const Spread& s) { return {{"median", s.median}, {"min", s.min}, {"max", s.max}}; }

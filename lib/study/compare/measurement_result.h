@@ -24,13 +24,13 @@ TrajectoryScales scales_from(const Json& json);
 // What is to be done.
 struct MeasurementInput {
   int repeats = 1, samples = 100;
-  double seconds = 60;             // limit of one integration
-  std::string reference;           // folder of a reference's result; "" for none
-  bool keep_trajectory = false;    // for others to be measured against
-  bool exact_if_possible = false;  // the exact solution in place of an integration, where there is one
-  bool at_probes = false;          // errors of the probes alone: the reference has another mesh
+  double seconds = 60;                       // limit of one integration
+  std::string reference;                     // folder of a reference's result; "" for none
+  bool keep_trajectory = false;              // for others to be measured against
+  bool exact_if_possible = false;            // the exact solution in place of an integration, where there is one
+  bool at_probes = false;                    // errors of the probes alone: the reference has another mesh
   std::vector<std::string> quantities = {};  // whose errors are measured too
-  std::string code;                // fingerprint of the program that is to do it
+  std::string code;                          // fingerprint of the program that is to do it
 };
 
 Json to_json(const MeasurementInput& input);

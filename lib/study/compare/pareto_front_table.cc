@@ -73,8 +73,8 @@ class GroupFront {
   std::string words_of_point(const CostPoint& cost) const {
     const Json& point = document_.at("points")[cost.index];
     const auto& methods = document_.at("methods");
-    const auto method = std::find_if(methods.begin(), methods.end(),
-                                     [&](const Json& m) { return m.at("id") == point.at("method"); });
+    const auto method =
+        std::find_if(methods.begin(), methods.end(), [&](const Json& m) { return m.at("id") == point.at("method"); });
     const Json& control = point.at("control");
     return fmt::format("{}, {}, {} {:g}, {:.2g} s", problem_of(cost).at("mesh").get<std::string>(),
                        method->at("label").get<std::string>(), control.at("kind").get<std::string>(),
@@ -85,8 +85,8 @@ class GroupFront {
     const std::string name = order == 1 ? "linear elements" : "quadratic elements";
     if (const auto best = fastest(points, target))
       return fmt::format("{} need {:.2g} s ({})", name, best->seconds, problem_of(*best).at("mesh").get<std::string>());
-    const auto nearest = std::min_element(points.begin(), points.end(),
-                                          [](const auto& a, const auto& b) { return a.error < b.error; });
+    const auto nearest =
+        std::min_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.error < b.error; });
     return fmt::format("{} do not reach it (best {:.2g} % in {:.2g} s)", name, 100 * nearest->error, nearest->seconds);
   }
 

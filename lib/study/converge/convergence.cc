@@ -85,8 +85,7 @@ Design design_of(const Convergence& wanted) {
     if (scene.is_static() && figure.take != Take::end)
       figure.origin.fail("a static analysis knows only values in equilibrium: leave out 'max of' and the like");
     const Quantity q = find_quantity(figure.quantity, scene, *built.model, figure.origin);
-    if (q.components() > 1 && !(q.is_vector() && figure.take == Take::drift))
-      figure.origin.fail(q.ask_for_component());
+    if (q.components() > 1 && !(q.is_vector() && figure.take == Take::drift)) figure.origin.fail(q.ask_for_component());
   }
   for (const int order : wanted.orders)
     for (int level = 0; level < wanted.levels; ++level) design.levels.push_back(level_of(wanted, order, level));

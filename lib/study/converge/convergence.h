@@ -14,13 +14,13 @@ namespace orthodyn::study::converge {
 inline constexpr int kRatio = 2;  // of the sizes of cells on neighbouring levels
 
 struct Convergence {
-  std::string file;                     // the scene's
-  std::vector<std::string> set;         // PATH=VALUE
-  int levels = 3;                       // the first is the scene's own mesh
+  std::string file;              // the scene's
+  std::vector<std::string> set;  // PATH=VALUE
+  int levels = 3;                // the first is the scene's own mesh
   std::vector<int> orders{1, 2};
   std::vector<std::string>
       quantities;  // "tip.displacement.z" or "max of tip.displacement.z"; none: chosen by the scene
-  int modes = 0;                        // the lowest natural frequencies as well
+  int modes = 0;   // the lowest natural frequencies as well
   Limits limits{.seconds = 600};
   int ranks = 1;  // that compute a mesh
 };

@@ -155,8 +155,10 @@ class Table {
     if (last.size() < 3 && wanted_.levels < 3) return "it takes three levels to see one (--levels 3)";
     if (last.size() < 3) return fmt::format("only {} of its meshes came to an end", last.size());
     const auto* at = last.data() + last.size() - 3;
-    return fmt::format("{:.4g}, {:.4g}, {:.4g} on the last three meshes do not approach one: refine further, or look "
-                       "for what has none, such as the stress at a corner", at[0], at[1], at[2]);
+    return fmt::format(
+        "{:.4g}, {:.4g}, {:.4g} on the last three meshes do not approach one: refine further, or look "
+        "for what has none, such as the stress at a corner",
+        at[0], at[1], at[2]);
   }
 
   // Of the highest order: the value of its finest mesh, and the estimate of that mesh's error.
@@ -182,7 +184,9 @@ class Table {
              {"level", level.level + 1},
              {"title", level.scene.title},
              {"folder", fmt::format("points/{}", jobs_[i].folder.filename().string())},
-             {"status", !r ? "missing" : r->failure ? "failed" : "completed"},
+             {"status", !r           ? "missing"
+                        : r->failure ? "failed"
+                                     : "completed"},
              {"reason", r && r->failure ? r->failure->reason : ""},
              {"message", r && r->failure ? r->failure->message : ""}};
     out["unknowns"] = r && r->unknowns ? Json(*r->unknowns) : Json();

@@ -49,8 +49,8 @@ std::string convergence_csv(const Json& table) {
   std::string out = "order,level,elements,unknowns,status,reason";
   for (const auto& figure : table.at("figures")) {
     const std::string name = figure.at("name");
-    for (const std::string& head : {heading(figure), name + ".error", name + ".observed_order", name + ".mesh_error",
-                                    name + ".cpu_seconds [s]"})
+    for (const std::string& head :
+         {heading(figure), name + ".error", name + ".observed_order", name + ".mesh_error", name + ".cpu_seconds [s]"})
       out += "," + csv_cell(head);
   }
   out += "\n";
@@ -76,14 +76,13 @@ std::string convergence_text(const Json& table) {
                        "error", "order", "mesh error", "CPU [s]");
     for (const auto& row : table.at("rows")) {
       const Json& f = row.at("figures").at(name);
-      out +=
-          fmt::format("  {:>5} {:>5} {:>9} {:>13} {:>9} {:>6} {:>10} {:>9}{}\n", row.at("order").get<int>(),
-                      row.at("level").get<int>(), number(row.at("unknowns"), "{:.0f}"), value_text(figure, f),
-                      number(f.at("error"), "{:.1e}"), number(f.at("order"), "{:.2f}"),
-                      number(f.at("mesh_error"), "{:.1e}"), number(f.at("cpu_seconds"), "{:.3g}"),
-                      row.at("status") == "completed"
-                          ? ""
-                          : "  " + row.at("status").get<std::string>() + ": " + row.at("reason").get<std::string>());
+      out += fmt::format("  {:>5} {:>5} {:>9} {:>13} {:>9} {:>6} {:>10} {:>9}{}\n", row.at("order").get<int>(),
+                         row.at("level").get<int>(), number(row.at("unknowns"), "{:.0f}"), value_text(figure, f),
+                         number(f.at("error"), "{:.1e}"), number(f.at("order"), "{:.2f}"),
+                         number(f.at("mesh_error"), "{:.1e}"), number(f.at("cpu_seconds"), "{:.3g}"),
+                         row.at("status") == "completed"
+                             ? ""
+                             : "  " + row.at("status").get<std::string>() + ": " + row.at("reason").get<std::string>());
     }
     if (figure.at("limit").is_number()) out += "  " + costs(table, figure) + "\n";
   }

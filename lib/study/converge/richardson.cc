@@ -7,7 +7,7 @@ namespace orthodyn::study::converge {
 
 namespace {
 
-constexpr double kSafe = 1.25;  // Roache's factor with an observed order
+constexpr double kSafe = 1.25;   // Roache's factor with an observed order
 constexpr double kLowest = 0.5;  // order
 constexpr double kSame = 1e-9;   // relative: values of solvers' round-off
 

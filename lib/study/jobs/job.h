@@ -33,8 +33,8 @@ struct Job {
 };
 
 // Has PROGRAM... COMMAND FOLDER do a job, whatever an earlier run has left. A process that died or reached a limit is a
-// result, too (see job_result.h). Null if `stop` said so. Throws RunError if files cannot be written or no process can be
-// started. Thread-safe for jobs of different folders; the thread must outlive its process, which dies with it.
+// result, too (see job_result.h). Null if `stop` said so. Throws RunError if files cannot be written or no process can
+// be started. Thread-safe for jobs of different folders; the thread must outlive its process, which dies with it.
 Json run_job(const std::vector<std::string>& program, const Job& job, const Stop& stop);
 
 // The other end, called by the process of COMMAND: reads job.json, does `work` and leaves its result in result.json

@@ -22,7 +22,7 @@ class JobQueue {
  public:
   struct Options {
     std::vector<std::string> program;  // started as `PROGRAM... COMMAND FOLDER`
-    int workers = 1;      // processes at a time
+    int workers = 1;                   // processes at a time
     OldFailures failures = OldFailures::keep;
     // Told of what an earlier run has left and is damaged, which is done again.
     std::function<void(const std::string& text)> warn = [](const std::string&) {};

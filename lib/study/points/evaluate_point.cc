@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <chrono>
 
-#include "lib/scene/quantity.h"
 #include "lib/analysis/buckling.h"
-#include "lib/simulation/statics/static_problem.h"
+#include "lib/scene/quantity.h"
 #include "lib/simulation/error_estimate/estimated_error.h"
 #include "lib/simulation/error_estimate/snapshot.h"
-#include "lib/simulation/statics/load_steps.h"
+#include "lib/simulation/output/frames.h"
 #include "lib/simulation/run/machine.h"
 #include "lib/simulation/run/model_summary.h"
 #include "lib/simulation/run/run.h"
 #include "lib/simulation/run/setup.h"
 #include "lib/simulation/run/several_ranks.h"
-#include "lib/simulation/output/frames.h"
+#include "lib/simulation/statics/load_steps.h"
+#include "lib/simulation/statics/static_problem.h"
 #include "lib/study/jobs/deadline.h"
 #include "lib/study/quantities/metric.h"
 #include "lib/study/quantities/wanted_modes.h"
@@ -219,8 +219,8 @@ class Evaluation {
     if (setup.kinematics && setup.linearity) observers.push_back(setup.linearity.get());
     EventFinder events(setup.events);
     if (!events.empty()) plan.events = &events;
-    const Outcome outcome = run(*setup.built.model, *setup.integrator, setup.built.initial, plan,
-                                observers, deadline.over);
+    const Outcome outcome =
+        run(*setup.built.model, *setup.integrator, setup.built.initial, plan, observers, deadline.over);
     const bool completed = conclude(outcome, setup.integrator->statistics());
     result_.cost->wall_seconds += setup.wall_seconds - mesh_error.wall_seconds;
     result_.cost->cpu_seconds += setup.cpu_seconds - mesh_error.cpu_seconds;
@@ -270,7 +270,7 @@ class Evaluation {
   const Ranks* ranks_;
   EvaluationResult result_;
   double diagnostics_cpu_ = 0, diagnostics_wall_ = 0;  // s, of estimates of errors: no cost of what is computed
-  EvaluationCost given_up_;  // of earlier attempts, with linear kinematics that were outgrown
+  EvaluationCost given_up_;                            // of earlier attempts, with linear kinematics that were outgrown
 };
 
 }  // namespace
@@ -281,10 +281,13 @@ EvaluationResult evaluate_point(const Config& scene, const EvaluationInput& inpu
 }
 
 void evaluate_point(const fs::path& folder, const Ranks* ranks) {
-  serve_job(folder, [&](const Json& input) {
-    return to_json(
-        evaluate_point(Config::from_file((folder / kSceneFile).string()), evaluation_input_from(input), folder, ranks));
-  }, ranks);
+  serve_job(
+      folder,
+      [&](const Json& input) {
+        return to_json(evaluate_point(Config::from_file((folder / kSceneFile).string()), evaluation_input_from(input),
+                                      folder, ranks));
+      },
+      ranks);
 }
 
 }  // namespace orthodyn::study

@@ -17,9 +17,9 @@ struct EvaluationInput {
   Named<WantedFigure> figures;
   std::optional<std::string> frame = {};  // the field that its picture shows
   std::optional<double> frame_at = {};    // s; default the end
-  double seconds = 60;               // limit of the integration
-  std::string code;                  // fingerprint of the program that is to do it
-  bool mesh_error = false;           // whether to estimate it
+  double seconds = 60;                    // limit of the integration
+  std::string code;                       // fingerprint of the program that is to do it
+  bool mesh_error = false;                // whether to estimate it
 };
 
 // What people read (title, unit, closed form) does not change what is computed, and is left out.
@@ -36,11 +36,11 @@ Json to_json(const EvaluationCost& cost);
 
 // What came out: of a failure all that was known by then.
 struct EvaluationResult {
-  std::optional<Failure> failure;  // else it was completed
-  Named<double> figures;           // SI; NaN for one that the point does not have
-  Named<std::string> units;        // of the figures
-  std::optional<EvaluationCost> cost;        // of the motion or the equilibrium, or else of modes alone
-  std::optional<EvaluationCost> modes_cost;  // of natural frequencies, where some are wanted
+  std::optional<Failure> failure;                 // else it was completed
+  Named<double> figures;                          // SI; NaN for one that the point does not have
+  Named<std::string> units;                       // of the figures
+  std::optional<EvaluationCost> cost;             // of the motion or the equilibrium, or else of modes alone
+  std::optional<EvaluationCost> modes_cost;       // of natural frequencies, where some are wanted
   std::optional<std::size_t> unknowns, elements;  // of the model
   std::string frame;                              // the file of the picture's state; "" for none
   std::optional<double> mesh_error;               // MeshError::relative, of the motion or the equilibrium

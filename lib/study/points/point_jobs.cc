@@ -39,8 +39,8 @@ Job PointJobs::job(const PointScene& point) {
     if (mesh.empty()) mesh = mesh_hash(point);
     hash.add(mesh);
   }
-  return {point.title, "evaluate", folder_ / "points" / hash.text(), point.scene, input_,
-          {limits_.seconds + kSetUpSeconds, limits_.memory}};
+  return {point.title, "evaluate", folder_ / "points" / hash.text(),
+          point.scene, input_,     {limits_.seconds + kSetUpSeconds, limits_.memory}};
 }
 
 }  // namespace orthodyn::study

@@ -29,16 +29,18 @@ std::string test_case(const CaseResult& result, const Check& check) {
   if (!result.completed())
     return out + fmt::format(">\n    <error message=\"{}\"/>\n  </testcase>\n", escaped(result.outcome.message));
   if (check.passed()) return out + "/>\n";
-  return out + fmt::format(">\n    <failure message=\"computed {:.9g}, expected {:.9g}, difference {:.3g}, limit "
-                           "{:.3g}\">{}</failure>\n  </testcase>\n",
-                           check.computed, e.value.si(), check.difference(), e.limit(),
-                           escaped("Expected: " + e.source + ". Tolerance: " + e.reason));
+  return out + fmt::format(
+                   ">\n    <failure message=\"computed {:.9g}, expected {:.9g}, difference {:.3g}, limit "
+                   "{:.3g}\">{}</failure>\n  </testcase>\n",
+                   check.computed, e.value.si(), check.difference(), e.limit(),
+                   escaped("Expected: " + e.source + ". Tolerance: " + e.reason));
 }
 
 std::string unread_case(const CaseResult& result) {
-  return fmt::format("  <testcase classname=\"{}\" name=\"is read\" time=\"0\">\n    <error message=\"{}\"/>\n"
-                     "  </testcase>\n",
-                     escaped(result.file), escaped(result.outcome.message));
+  return fmt::format(
+      "  <testcase classname=\"{}\" name=\"is read\" time=\"0\">\n    <error message=\"{}\"/>\n"
+      "  </testcase>\n",
+      escaped(result.file), escaped(result.outcome.message));
 }
 
 }  // namespace
@@ -60,9 +62,10 @@ std::string junit_xml(const std::vector<CaseResult>& results) {
       body += test_case(result, check);
     }
   }
-  return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"orthodyn verify\" tests=\"{}\" "
-                     "failures=\"{}\" errors=\"{}\" time=\"{:.3f}\">\n{}</testsuite>\n",
-                     tests, failures, errors, seconds, body);
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"orthodyn verify\" tests=\"{}\" "
+      "failures=\"{}\" errors=\"{}\" time=\"{:.3f}\">\n{}</testsuite>\n",
+      tests, failures, errors, seconds, body);
 }
 
 }  // namespace orthodyn::study

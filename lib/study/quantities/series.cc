@@ -19,7 +19,7 @@ struct Vertex {
 // Whether the curve bends beside the sample, too, where there are samples: through a corner, such as that of a ramp,
 // goes no parabola. `a` is half the second derivative of that through the sample and its neighbours.
 bool is_round(const Series& s, std::size_t k, double a) {
-  constexpr double kShare = 0.25;  // of the bend in the middle
+  constexpr double kShare = 0.25;         // of the bend in the middle
   const auto bend = [&](std::size_t i) {  // half the second derivative
     const double h0 = s.times[i] - s.times[i - 1], h1 = s.times[i + 1] - s.times[i];
     return ((s.values[i + 1] - s.values[i]) / h1 - (s.values[i] - s.values[i - 1]) / h0) / (h0 + h1);

@@ -5,10 +5,10 @@
 #include <filesystem>
 
 #include "lib/core/file_kind.h"
-#include "lib/simulation/statics/static_problem.h"
-#include "lib/simulation/statics/load_steps.h"
 #include "lib/simulation/run/run.h"
 #include "lib/simulation/run/setup.h"
+#include "lib/simulation/statics/load_steps.h"
+#include "lib/simulation/statics/static_problem.h"
 #include "lib/study/quantities/eigenvalue_checks.h"
 #include "lib/study/quantities/metric.h"
 

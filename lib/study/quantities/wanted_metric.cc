@@ -11,8 +11,8 @@ namespace orthodyn {
 namespace {
 
 void check_figure(const WantedFigure& f, const Config& config) {
-  const int kinds = !f.quantity.empty() + (f.mode.has_value() || f.along.has_value()) + f.buckling.has_value() +
-                    !f.cost.empty();
+  const int kinds =
+      !f.quantity.empty() + (f.mode.has_value() || f.along.has_value()) + f.buckling.has_value() + !f.cost.empty();
   if (kinds != 1) config.fail("give exactly one of: quantity, mode (or along), buckling, cost");
   if (f.mode && f.along) config.at("along").fail("finds a mode by itself; remove 'mode' or 'along'");
   check_take(f.take, f.at, f.of, config);

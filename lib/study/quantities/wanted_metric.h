@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "lib/scene/expectation.h"
 #include "lib/fem/motion/component.h"
+#include "lib/scene/expectation.h"
 
 namespace orthodyn {
 

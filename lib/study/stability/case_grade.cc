@@ -38,12 +38,9 @@ std::string describe(const Check& check) {
 
 const char* grade_word(Grade grade) {
   switch (grade) {
-    case Grade::pass:
-      return "pass";
-    case Grade::degraded:
-      return "degraded";
-    case Grade::fail:
-      break;
+    case Grade::pass: return "pass";
+    case Grade::degraded: return "degraded";
+    case Grade::fail: break;
   }
   return "fail";
 }

@@ -61,12 +61,9 @@ std::vector<Values> sampled(const Sweep& sweep) {
 
 std::vector<Values> combined(const Sweep& sweep) {
   switch (sweep.combine) {
-    case Combine::cartesian:
-      return cartesian(sweep.vary);
-    case Combine::zip:
-      return side_by_side(sweep.vary);
-    case Combine::latin_hypercube:
-      break;
+    case Combine::cartesian: return cartesian(sweep.vary);
+    case Combine::zip: return side_by_side(sweep.vary);
+    case Combine::latin_hypercube: break;
   }
   return sampled(sweep);
 }
@@ -177,9 +174,10 @@ class Expansion {
     if (!given.is_scalar() || !given.text().starts_with("=") || unit_at(path, config) != "rad") return;
     const double angle = scope.evaluate(given.text().substr(1), origin.where);
     if (std::abs(angle) > 2 * std::numbers::pi && !mentions(given.text(), "pi"))
-      origin.fail(fmt::format("the formula '{}' gives {:.6g} rad, for formulas see and give SI units; if degrees are "
-                              "meant, give its variables the unit deg, or multiply by pi/180",
-                              given.text().substr(1), angle));
+      origin.fail(
+          fmt::format("the formula '{}' gives {:.6g} rad, for formulas see and give SI units; if degrees are "
+                      "meant, give its variables the unit deg, or multiply by pi/180",
+                      given.text().substr(1), angle));
     assign(config, path, {number_text(angle) + " rad", origin});
   }
 

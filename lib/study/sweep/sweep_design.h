@@ -10,8 +10,8 @@
 namespace orthodyn::study::sweep {
 
 struct Point {
-  std::vector<VariedValue> values;   // by variable
-  std::string title;                 // "angle 30 deg, mesh fine"
+  std::vector<VariedValue> values;  // by variable
+  std::string title;                // "angle 30 deg, mesh fine"
   PointScene scene;
   std::string impossible;            // why the scene cannot be; "" if it can
   std::vector<double> closed_forms;  // by quantity; NaN for none

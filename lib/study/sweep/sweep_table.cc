@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "lib/core/units.h"
-#include "lib/simulation/run/machine.h"
 #include "lib/simulation/output/extremes.h"
+#include "lib/simulation/run/machine.h"
 #include "lib/study/jobs/json_values.h"
 #include "lib/study/sweep/key_unit.h"
 

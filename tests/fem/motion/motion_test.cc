@@ -1,7 +1,6 @@
 // Prescribed motion: its kinematics, what the free coordinates feel of it, reactions and energy.
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <numbers>
 
@@ -46,7 +45,8 @@ TEST(FormulaMotion, HasItsRatesAtAnyScaleOfTime) {
   const NodalVector X = some_points();
   for (const double T : {1e-9, 1e-3, 1.0, 1e6}) {
     const double w = 2 * std::numbers::pi / T, width = T / 500;
-    const auto sine = read_motion(fmt::format("{{surface: x1, displacement: [sin({:.17g}*t), 0, 0]}}", w)).motion(0, 3 * T, X);
+    const auto sine =
+        read_motion(fmt::format("{{surface: x1, displacement: [sin({:.17g}*t), 0, 0]}}", w)).motion(0, 3 * T, X);
     const auto pulse =
         read_motion(fmt::format("{{surface: x1, displacement: [\"exp(-((t - {:.17g})/{:.17g})^2)\", 0, 0]}}", T, width))
             .motion(0, 3 * T, X);
@@ -65,8 +65,10 @@ TEST(FormulaMotion, HasItsRatesAtAnyScaleOfTime) {
 }
 
 TEST(RigidMotion, KeepsDistancesAndTurnsByTheWholeAngle) {
-  const auto motion = read_motion("{surface: x1, rotation: {point: [1, 0, 0], axis: [0, 0, 5], angle: 450 deg}, "
-                                  "factor: {type: constant}}").motion(0, 2, some_points());
+  const auto motion = read_motion(
+                          "{surface: x1, rotation: {point: [1, 0, 0], axis: [0, 0, 5], angle: 450 deg}, "
+                          "factor: {type: constant}}")
+                          .motion(0, 2, some_points());
   NodalVector X(3, 2);
   X << 2, 1, 0, 0, 7, -1;
   const Moved moved = motion->at(0, X);
@@ -76,8 +78,10 @@ TEST(RigidMotion, KeepsDistancesAndTurnsByTheWholeAngle) {
 }
 
 TEST(RigidMotion, ByASmallAngleHasAllDigits) {
-  const auto motion = read_motion("{surface: x1, rotation: {point: [0, 0, 0], axis: [0, 0, 1], angle: 1e-9 rad}, "
-                                  "factor: {type: constant}}").motion(0, 2, some_points());
+  const auto motion = read_motion(
+                          "{surface: x1, rotation: {point: [0, 0, 0], axis: [0, 0, 1], angle: 1e-9 rad}, "
+                          "factor: {type: constant}}")
+                          .motion(0, 2, some_points());
   NodalVector X(3, 1);
   X << 3, 4, 0;
   const Vec3 expected(-4e-9 - 1.5e-18, 3e-9 - 2e-18, 0);  // angle x r - angle^2 r/2
@@ -97,7 +101,8 @@ mesh: {{type: box, size: [2, 1, 1], cells: [3, 1, 1], order: 1}}
 materials: {{m: {}}}
 regions: {{body: {{material: m, axes: {}}}}}
 time: {{end: 2}}
-{})", fibre_material(10, 3), kTurnedAxes, rest);
+{})",
+                     fibre_material(10, 3), kTurnedAxes, rest);
 }
 
 struct Setting {
@@ -125,8 +130,10 @@ INSTANTIATE_TEST_SUITE_P(Settings, MovedBody,
 // A state of the moved body and the same of the body whose nodes are all unknowns.
 struct Both {
   Both(const BuiltTestScene& moved, const BuiltTestScene& free, Random& random)
-      : q(random_dofs(random, moved.size(), 0.05)), v(random_dofs(random, moved.size(), 1)),
-        nodal(moved.model().parts(), t, q, v), a(moved.size()) {
+      : q(random_dofs(random, moved.size(), 0.05)),
+        v(random_dofs(random, moved.size(), 1)),
+        nodal(moved.model().parts(), t, q, v),
+        a(moved.size()) {
     all_q = (nodal.x - *moved.model().parts().rest).reshaped();
     all_v = nodal.u_rate.reshaped();
     moved.model().force(t, q, v, a);
@@ -139,9 +146,9 @@ struct Both {
   double t = 0.6;
   Vector q, v;
   NodalExpansion nodal;
-  Vector a;                     // free
+  Vector a;  // free
   Vector all_q, all_v, all_a;
-  Vector needed;                // M a - f of all nodes: what the surroundings must exert
+  Vector needed;  // M a - f of all nodes: what the surroundings must exert
 };
 
 TEST_P(MovedBody, MovesAsIfTheSupportsExertedWhatTheirNodesNeed) {

@@ -1,7 +1,6 @@
 // Loads and damping.
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <tuple>
@@ -18,7 +17,8 @@ mesh: {{type: box, size: [2, 1, 0.5], cells: [3, 2, 2], origin: [1, 2, 3], order
 materials: {{m: {}}}
 regions: {{body: {{material: m, axes: {}}}}}
 time: {{end: 10}}
-{})", fibre_material(10, 3), kTurnedAxes, rest));
+{})",
+                                    fibre_material(10, 3), kTurnedAxes, rest));
 }
 
 Vec3 total(const NodalVector& f) { return f.rowwise().sum(); }
@@ -30,7 +30,11 @@ Vec3 moment(const NodalVector& f, const NodalVector& x) {
 
 TEST(Traction, ExertsTractionTimesAreaAtTheCentreOfTheSurface) {
   const Vec3 t(2, -3, 5);
-  struct Side { const char* name; double area; Vec3 center; };
+  struct Side {
+    const char* name;
+    double area;
+    Vec3 center;
+  };
   for (const auto& side :
        {Side{"x1", 0.5, {3, 2.5, 3.25}}, Side{"y0", 1, {2, 2, 3.25}}, Side{"z1", 2, {2, 2.5, 3.5}}}) {
     const auto s = box(fmt::format("loads: [{{surface: {}, traction: [2, -3, 5]}}]", side.name));

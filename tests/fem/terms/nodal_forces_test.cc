@@ -28,7 +28,8 @@ materials: {{m: {{type: isotropic, density: 1, young: 1, nu: 0.3}}}}
 elasticity: {{kinematics: linear}}
 terms: [{{type: nodal_forces, file: "{}"{}}}]
 time: {{end: 1}}
-)", write(content), keys));
+)",
+                                      write(content), keys));
   }
 
   static NodalVector forces(const std::string& content, const std::string& keys = "") {

@@ -1,8 +1,7 @@
 // Springs, dashpots, point loads, pressure and ground: force against energy, K and D against the force by the
 // observed order of differences, what they dissipate, and what must vanish.
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include "lib/core/symmetric_eigen.h"
 #include "tests/fem/built_scene.h"
@@ -18,20 +17,20 @@ void PrintTo(const Case& c, std::ostream* os) { *os << c.name; }
 const auto name_of = [](const auto& tested) { return tested.param.name; };
 
 const Case kSpring{"spring_between_nodes_of_no_element",
-    "{type: spring, between: [[1, 0, 0], [0, 1, 1]], stiffness: 3, rest_length: 0.7}"};
+                   "{type: spring, between: [[1, 0, 0], [0, 1, 1]], stiffness: 3, rest_length: 0.7}"};
 const Case kToAnchor{"springs_to_an_anchor",
-    "{type: spring, surface: x1, anchor: [2, 0.4, 0.3], stiffness: 3, rest_length: 1.5}"};
+                     "{type: spring, surface: x1, anchor: [2, 0.4, 0.3], stiffness: 3, rest_length: 1.5}"};
 const Case kInPlace{"springs_in_place", "{type: spring, surface: x1, stiffness: 3}"};
 const Case kNoLength{"spring_without_rest_length",
-    "{type: spring, between: [[1, 0, 0], [0, 1, 1]], stiffness: 3, rest_length: 0}"};
+                     "{type: spring, between: [[1, 0, 0], [0, 1, 1]], stiffness: 3, rest_length: 0}"};
 const Case kOnset{"ground_in_its_onset",
-    "{type: ground, point: [0, 0, 0.3], normal: [0.1, 0.2, 1], stiffness: 5, onset: 1.5}"};
+                  "{type: ground, point: [0, 0, 0.3], normal: [0.1, 0.2, 1], stiffness: 5, onset: 1.5}"};
 const Case kDeep{"ground_beyond_its_onset",
-    "{type: ground, point: [0, 0, 0.5], stiffness: 5, onset: 0.01, surface: z0}"};
+                 "{type: ground, point: [0, 0, 0.5], stiffness: 5, onset: 0.01, surface: z0}"};
 const Case kClosed{"pressure_on_a_closed_surface",
-    "{type: pressure, pressure: 0.4, factor: {type: constant, value: 1.5}}"};
+                   "{type: pressure, pressure: 0.4, factor: {type: constant, value: 1.5}}"};
 const Case kBetween{"dashpot_between_nodes_of_no_element",
-    "{type: dashpot, between: [[1, 0, 0], [0, 1, 1]], coefficient: 3}"};
+                    "{type: dashpot, between: [[1, 0, 0], [0, 1, 1]], coefficient: 3}"};
 const Case kDragged{"dashpots_to_an_anchor", "{type: dashpot, surface: x1, anchor: [2, 0.4, 0.3], coefficient: 3}"};
 const Case kDrag{"dashpots_in_place", "{type: dashpot, surface: x1, coefficient: 3}"};
 
@@ -42,13 +41,14 @@ materials: {{m: {}}}
 regions: {{body: {{material: m, axes: {}}}}}
 terms: [{}]
 time: {{end: 1}}
-{})", fibre_material(10), kTurnedAxes, terms, more));
+{})",
+                                    fibre_material(10), kTurnedAxes, terms, more));
 }
 const std::string kClamps = "clamps: [{surface: x0, components: [x, y]}, {nearest: [1, 1, 1], components: [y]}]";
 
 class StoringTerms : public testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(Terms, StoringTerms,
-                         testing::Values(kSpring, kToAnchor, kInPlace, kNoLength, kOnset, kDeep), name_of);
+INSTANTIATE_TEST_SUITE_P(Terms, StoringTerms, testing::Values(kSpring, kToAnchor, kInPlace, kNoLength, kOnset, kDeep),
+                         name_of);
 class StiffTerms : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Terms, StiffTerms,
                          testing::Values(kSpring, kToAnchor, kInPlace, kNoLength, kOnset, kDeep, kClosed), name_of);
@@ -218,8 +218,10 @@ TEST(Pressure, ThatIsDeadKeepsItsDirectionAndIsThatOfRest) {
 
 TEST(Pressure, ByAFormulaIsThatOfThePlaceAtRest) {
   for (const char* follows : {"true", "false"}) {
-    const auto s = block(fmt::format("{{type: pressure, surface: x1, pressure: y^2*z, follows: {}, "
-                                     "factor: {{type: constant, value: 3}}}}", follows));
+    const auto s =
+        block(fmt::format("{{type: pressure, surface: x1, pressure: y^2*z, follows: {}, "
+                          "factor: {{type: constant, value: 3}}}}",
+                          follows));
     const NodalVector f = s.nodal(s.force(s.zero())), x = s.positions(s.zero());
     EXPECT_NEAR(f.row(0).sum(), -3 * (1. / 3) * (1. / 2), 1e-13);
     EXPECT_NEAR(f.row(0).dot(x.row(1)), -3 * (1. / 4) * (1. / 2), 1e-13);
@@ -275,8 +277,8 @@ TEST_P(PressureOnAnOpenSurface, GivesTheSymmetricPartOfItsDerivative) {
 
 TEST(Ground, PushesByStiffnessTimesAreaTimesDepthLessHalfTheOnset) {
   const auto at = [](double depth, double onset) {
-    const auto s = block(
-        fmt::format("{{type: ground, point: [0, 0, {}], stiffness: 5, onset: {}, surface: z0}}", depth, onset));
+    const auto s =
+        block(fmt::format("{{type: ground, point: [0, 0, {}], stiffness: 5, onset: {}, surface: z0}}", depth, onset));
     return Vec3(s.nodal(s.force(s.zero())).rowwise().sum());
   };
   EXPECT_LE((at(0.3, 0.1) - Vec3(0, 0, 5 * (0.3 - 0.05))).norm(), 1e-13);
@@ -286,8 +288,8 @@ TEST(Ground, PushesByStiffnessTimesAreaTimesDepthLessHalfTheOnset) {
 
 TEST(Ground, HasAContinuousTangentWhereContactSetsInAndWhereTheOnsetEnds) {
   const auto stiffness = [](double depth) {
-    const auto s = block(
-        fmt::format("{{type: ground, point: [0, 0, {:.17g}], stiffness: 5, onset: 0.1, surface: z0}}", depth));
+    const auto s =
+        block(fmt::format("{{type: ground, point: [0, 0, {:.17g}], stiffness: 5, onset: 0.1, surface: z0}}", depth));
     return s.stiffness(s.zero());
   };
   for (const double depth : {0.0, 0.1})

@@ -8,10 +8,14 @@ namespace orthodyn::python {
 
 namespace {
 
-constexpr std::pair<const char*, const char*> kWords[] = {
-    {"--estimate-error", "estimate_error=True"}, {"--force", "force=True"}, {"--resume", "resume=True"},
-    {"--retry", "retry=True"}, {"--integrator", "with_integrator"}, {"--jobs", "jobs"},
-    {"--out", "out"}, {"--set", "set"}};
+constexpr std::pair<const char*, const char*> kWords[] = {{"--estimate-error", "estimate_error=True"},
+                                                          {"--force", "force=True"},
+                                                          {"--resume", "resume=True"},
+                                                          {"--retry", "retry=True"},
+                                                          {"--integrator", "with_integrator"},
+                                                          {"--jobs", "jobs"},
+                                                          {"--out", "out"},
+                                                          {"--set", "set"}};
 
 bool is_part_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' || c == '/'; }
 

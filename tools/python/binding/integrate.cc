@@ -78,7 +78,8 @@ std::unique_ptr<Integrator> made(const IntegratorChoice& choice, const PythonMod
 }  // namespace
 
 py::dict integrate(const PythonModel& model, const IntegrateRequest& request) {
-  const double end = request.times.back(), interval = (end - request.initial.t) / static_cast<double>(request.times.size());
+  const double end = request.times.back(),
+               interval = (end - request.initial.t) / static_cast<double>(request.times.size());
   // They are sizes of the motion itself, whose frequency is about their ratio.
   const Scales scales{request.position_scale, request.velocity_scale, request.velocity_scale / request.position_scale};
   const Task task{[=] { return scales; }, request.initial, end, interval};
@@ -87,8 +88,8 @@ py::dict integrate(const PythonModel& model, const IntegrateRequest& request) {
   const auto integrator = made(*choice, model, task);
   std::atomic<bool> interrupt{false};
   Trajectory trajectory(interrupt);
-  const Outcome outcome = run(model, *integrator, request.initial, {.end = end, .output_times = request.times},
-                              {&trajectory}, interrupt);
+  const Outcome outcome =
+      run(model, *integrator, request.initial, {.end = end, .output_times = request.times}, {&trajectory}, interrupt);
   trajectory.rethrow();
   model.rethrow();
   py::dict out;

@@ -11,9 +11,9 @@
 namespace orthodyn::python {
 
 struct IntegrateRequest {
-  std::string integrator;      // its options, YAML: "{type: cvode_bdf, rtol: 1e-6}"
+  std::string integrator;  // its options, YAML: "{type: cvode_bdf, rtol: 1e-6}"
   State initial;
-  std::vector<double> times;   // s, ascending, after the start; the last is the end
+  std::vector<double> times;  // s, ascending, after the start; the last is the end
   double position_scale = 1, velocity_scale = 1;
 };
 

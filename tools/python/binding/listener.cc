@@ -23,7 +23,9 @@ class Watch : public Observer {
   void on_output(const ObservedState& observed) override {
     if (recorder_) recorder_->on_output(observed);
   }
-  void on_step(const StepInfo& step, const ObservedState&, const Integrator&) override { listener_.look_up(step.t, end_); }
+  void on_step(const StepInfo& step, const ObservedState&, const Integrator&) override {
+    listener_.look_up(step.t, end_);
+  }
 
  private:
   std::shared_ptr<Recorder> recorder_;

@@ -114,14 +114,13 @@ void declare_scene_model(py::module_& m) {
            [](const SceneModel& s) {
              return array_of(s.points(), {static_cast<py::ssize_t>(s.model().parts().dofs->num_nodes()), 3});
            })
-      .def("evaluate",
-           [](const SceneModel& s, const std::string& name, double t, const Vector& q, const Vector& v) {
-             return array_of(s.evaluate(name, t, q, v));
-           })
+      .def("evaluate", [](const SceneModel& s, const std::string& name, double t, const Vector& q,
+                          const Vector& v) { return array_of(s.evaluate(name, t, q, v)); })
       .def("outputs", [](const SceneModel& s) {
         py::list out;
         for (const OutputInfo& info : s.model().outputs())
-          out.append(py::make_tuple(info.name, static_cast<int>(info.location), info.components, info.unit, info.sentence));
+          out.append(
+              py::make_tuple(info.name, static_cast<int>(info.location), info.components, info.unit, info.sentence));
         return out;
       });
 }
@@ -138,12 +137,11 @@ void declare_own_models(py::module_& m) {
                                                               pattern_of(column_start, row, symmetric), damped, linear,
                                                               time_dependent});
       }))
-      .def(
-          "integrate",
-          [](const PythonModel& model, const std::string& integrator, double t0, const Vector& q0, const Vector& v0,
-             const std::vector<double>& times, double position_scale, double velocity_scale) {
-            return integrate(model, {integrator, {t0, q0, v0}, times, position_scale, velocity_scale});
-          });
+      .def("integrate",
+           [](const PythonModel& model, const std::string& integrator, double t0, const Vector& q0, const Vector& v0,
+              const std::vector<double>& times, double position_scale, double velocity_scale) {
+             return integrate(model, {integrator, {t0, q0, v0}, times, position_scale, velocity_scale});
+           });
 }
 
 }  // namespace

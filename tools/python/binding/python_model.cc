@@ -23,7 +23,8 @@ Numbers numbers(const py::object& given, py::ssize_t size, const char* what) {
     PyErr_Clear();
     throw py::type_error(fmt::format("{} is no array of numbers", what));
   }
-  if (array.size() != size) throw py::value_error(fmt::format("{} has {} numbers, expected {}", what, array.size(), size));
+  if (array.size() != size)
+    throw py::value_error(fmt::format("{} has {} numbers, expected {}", what, array.size(), size));
   return array;
 }
 
@@ -50,7 +51,8 @@ py::object PythonModel::called(Call&& call) const {
     thrown_ = std::current_exception();
     throw RunError(error.what());
   } catch (const py::error_already_set& error) {
-    if (error.matches(py::module_::import("orthodyn._core").attr("RecoverableError"))) throw RecoverableError(error.what());
+    if (error.matches(py::module_::import("orthodyn._core").attr("RecoverableError")))
+      throw RecoverableError(error.what());
     thrown_ = std::current_exception();
     throw RunError(error.what());
   }

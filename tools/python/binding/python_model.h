@@ -11,16 +11,16 @@
 namespace orthodyn::python {
 
 struct PythonModelParts {
-  Vector mass;                // kg, of each coordinate
-  pybind11::function force;   // f(t, q, v), N
-  pybind11::object tangent;   // (K, D) of (t, q, v) as values on the pattern, D or None
-  Pattern pattern;            // the lower triangle where it is symmetric
-  bool damped = false;        // the tangent has a D
+  Vector mass;               // kg, of each coordinate
+  pybind11::function force;  // f(t, q, v), N
+  pybind11::object tangent;  // (K, D) of (t, q, v) as values on the pattern, D or None
+  Pattern pattern;           // the lower triangle where it is symmetric
+  bool damped = false;       // the tangent has a D
   bool linear = false, time_dependent = true;
 };
 
-// The interpreter's lock must be held where it is used. A function that raises RecoverableError asks for a smaller step;
-// any other exception ends the run.
+// The interpreter's lock must be held where it is used. A function that raises RecoverableError asks for a smaller
+// step; any other exception ends the run.
 class PythonModel : public Model {
  public:
   explicit PythonModel(PythonModelParts parts);

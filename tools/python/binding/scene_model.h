@@ -27,15 +27,16 @@ class SceneModel {
   // Free coordinates only; throw ValueError for vectors of another length.
   Vector force(double t, const ConstVectorRef& q, const ConstVectorRef& v) const;
   // Values of K, and of D or none, on pattern().
-  std::pair<std::vector<double>, std::vector<double>> tangent(double t, const ConstVectorRef& q, const ConstVectorRef& v,
-                                                              bool gauss_newton) const;
+  std::pair<std::vector<double>, std::vector<double>> tangent(double t, const ConstVectorRef& q,
+                                                              const ConstVectorRef& v, bool gauss_newton) const;
   std::vector<double> mass() const;
   Vector solve_mass(const ConstVectorRef& x) const;
 
   // (nodes, 3): the number of each free coordinate, -1 where it is held.
   std::vector<int> unknowns() const;
   std::vector<double> points() const;
-  std::vector<double> evaluate(const std::string& name, double t, const ConstVectorRef& q, const ConstVectorRef& v) const;
+  std::vector<double> evaluate(const std::string& name, double t, const ConstVectorRef& q,
+                               const ConstVectorRef& v) const;
 
   // Hz, and the shapes (count x n), M-orthonormal.
   struct FoundModes {

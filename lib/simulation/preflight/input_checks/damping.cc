@@ -9,7 +9,7 @@ namespace orthodyn::slip {
 
 namespace {
 
-constexpr double kMostRatio = 50;  // of vibrations along the body; those of bending are slower by its slenderness
+constexpr double kMostRatio = 50;     // of vibrations along the body; those of bending are slower by its slenderness
 constexpr double kMostMassRatio = 8;  // of bending, by damping of the mass
 // What people take for damping ratios; a body that is to creep has more.
 constexpr double kLeastUsualRatio = 0.004, kMostUsualRatio = 0.25;
@@ -35,10 +35,11 @@ void add_mass_slip(const Subject& subject, const Config& place, double alpha, Wa
   const double omega = subject.held() ? subject.lowest_bending() : subject.lowest_along();
   const double ratio = alpha / (2 * omega);
   if (ratio <= (subject.held() ? kMostMassRatio : kMostRatio)) return;
-  out.push_back(fmt::format("{}: {:.4g} 1/s stops every motion within {:.2g} s: the damping ratio of the lowest "
-                            "vibration (about {:.2g} Hz) is about {:.2g}. Is it a damping ratio, or of another unit? "
-                            "For a ratio xi at the frequency f take 4 pi f xi",
-                            place.where(), alpha, 1 / alpha, omega / (2 * std::numbers::pi), ratio));
+  out.push_back(
+      fmt::format("{}: {:.4g} 1/s stops every motion within {:.2g} s: the damping ratio of the lowest "
+                  "vibration (about {:.2g} Hz) is about {:.2g}. Is it a damping ratio, or of another unit? "
+                  "For a ratio xi at the frequency f take 4 pi f xi",
+                  place.where(), alpha, 1 / alpha, omega / (2 * std::numbers::pi), ratio));
 }
 
 }  // namespace

@@ -42,8 +42,8 @@ void add_event_slips(const Subject& subject, Warnings& out) {
     const EventSpec& event = subject.scene.events[k];
     const std::string place = subject.config.at("events").at(k).where();
     if (event.crosses < 0 && is_never_negative(event.quantity))
-      out.push_back(fmt::format("{}: {} is never below 0, and cannot cross {:.4g}", place, event.quantity,
-                                event.crosses.si()));
+      out.push_back(
+          fmt::format("{}: {} is never below 0, and cannot cross {:.4g}", place, event.quantity, event.crosses.si()));
     if (subject.held() && event.quantity.find(".displacement") != std::string::npos &&
         std::abs(event.crosses) > kFarthestEvent * subject.extent)
       out.push_back(fmt::format("{}: {:.4g} m is {:.3g} times the length of the body, which is held: is that in mm?",
@@ -51,11 +51,15 @@ void add_event_slips(const Subject& subject, Warnings& out) {
     if (is_stress(event.quantity)) {
       const double stress = std::abs(event.crosses), modulus = stiffest(*subject.built.model);
       if (stress > kLargestStress * modulus)
-        out.push_back(fmt::format("{}: {:.3g} Pa is more than the moduli of the body, of {:.3g} Pa at most: no stress "
-                                  "comes to that. Is its unit one too large?", place, stress, modulus));
+        out.push_back(
+            fmt::format("{}: {:.3g} Pa is more than the moduli of the body, of {:.3g} Pa at most: no stress "
+                        "comes to that. Is its unit one too large?",
+                        place, stress, modulus));
       if (stress > 0 && stress < kSmallestStress * modulus)
-        out.push_back(fmt::format("{}: {:.3g} Pa is a stress of {:.1g} of the moduli, which is reached at once: is the "
-                                  "unit missing, such as MPa?", place, stress, stress / modulus));
+        out.push_back(
+            fmt::format("{}: {:.3g} Pa is a stress of {:.1g} of the moduli, which is reached at once: is the "
+                        "unit missing, such as MPa?",
+                        place, stress, stress / modulus));
     }
     if (event.quantity.find(".velocity") != std::string::npos && std::abs(event.crosses) > 10 * subject.wave)
       out.push_back(fmt::format("{}: {:.4g} m/s is faster than the waves in the body ({:.3g} m/s): is that in mm/s?",

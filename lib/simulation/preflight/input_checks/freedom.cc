@@ -71,8 +71,7 @@ bool is_steady(const Subject& subject, const Vec3& last, double until) {
   });
   const auto& parts = subject.built.model->parts();
   NodalVector f = NodalVector::Zero(3, static_cast<Eigen::Index>(parts.mesh.nodes.size()));
-  const NodalExpansion nodal(parts, until, subject.built.initial.q,
-                             Vector::Zero(subject.built.model->num_dofs()));
+  const NodalExpansion nodal(parts, until, subject.built.initial.q, Vector::Zero(subject.built.model->num_dofs()));
   for (const auto& load : parts.loads)
     if (load->energy_kind() != EnergyKind::gravitational) load->add_force(nodal.state(), f);
   const double held_by_each_other = kNone * f.colwise().norm().sum();
@@ -95,13 +94,15 @@ void add_drift_slip(const Subject& subject, Warnings& out) {
   const auto [way, until] = carried_away(subject);
   const Vec3 last = total_load(subject, until);
   if (way <= kFarAway * subject.extent && is_steady(subject, last, until))
-    out.push_back(fmt::format("{}: nothing holds the body, and they push it to the end, with {:.3g} N in all: it is "
-                              "carried away ({:.2g} m until {:.4g} s) rather than bent. Is a clamp missing?",
-                              places, last.norm(), way, until));
+    out.push_back(
+        fmt::format("{}: nothing holds the body, and they push it to the end, with {:.3g} N in all: it is "
+                    "carried away ({:.2g} m until {:.4g} s) rather than bent. Is a clamp missing?",
+                    places, last.norm(), way, until));
   if (way > kFarAway * subject.extent)
-    out.push_back(fmt::format("{}: nothing holds the body, and they carry it {:.3g} m away until {:.4g} s, {:.0f} "
-                              "times its length: is a clamp missing?", places, way,
-                              until, way / subject.extent));
+    out.push_back(
+        fmt::format("{}: nothing holds the body, and they carry it {:.3g} m away until {:.4g} s, {:.0f} "
+                    "times its length: is a clamp missing?",
+                    places, way, until, way / subject.extent));
 }
 
 // Of the surface that can touch the ground.
@@ -116,8 +117,7 @@ std::vector<int> touching_nodes(const Config& term, const TetMesh& mesh) {
 void add_ground_slips(const Subject& subject, Warnings& out) {
   if (subject.is_static() || !subject.config.has("terms")) return;
   const FemModel& model = *subject.built.model;
-  const NodalExpansion nodal(model.parts(), subject.start(), subject.built.initial.q,
-                             Vector::Zero(model.num_dofs()));
+  const NodalExpansion nodal(model.parts(), subject.start(), subject.built.initial.q, Vector::Zero(model.num_dofs()));
   const Config terms = subject.config.at("terms");
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const Config term = terms.at(i);
@@ -130,9 +130,10 @@ void add_ground_slips(const Subject& subject, Warnings& out) {
     double deepest = 0;
     for (const int node : touching_nodes(term, model.parts().mesh)) deepest = std::max(deepest, depth[node]);
     if (deepest <= kInside * (depth.maxCoeff() - depth.minCoeff())) continue;
-    out.push_back(fmt::format("{}: the body begins {} the ground, {:.3g} m deep, and is thrown out of it: is 'point' "
-                              "in m and on the ground, and does 'normal' point away from the ground?",
-                              term.where(), depth.minCoeff() > 0 ? "below" : "partly in", deepest));
+    out.push_back(
+        fmt::format("{}: the body begins {} the ground, {:.3g} m deep, and is thrown out of it: is 'point' "
+                    "in m and on the ground, and does 'normal' point away from the ground?",
+                    term.where(), depth.minCoeff() > 0 ? "below" : "partly in", deepest));
   }
 }
 

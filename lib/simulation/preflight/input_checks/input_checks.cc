@@ -8,15 +8,19 @@
 #include "lib/core/golden_ratio_sample.h"
 #include "lib/fem/time_functions/time_function.h"
 #include "lib/scene/region.h"
-#include "lib/simulation/run/kinematics.h"
 #include "lib/simulation/preflight/input_checks/subject.h"
+#include "lib/simulation/run/kinematics.h"
 
 namespace orthodyn {
 
 namespace slip {
 
 Subject::Subject(const Config& input, const Scene& given, const BuiltScene& made, bool timed)
-    : config(input), scene(given), built(made), is_timed(timed), box(bounding_box(made.model->parts().mesh)),
+    : config(input),
+      scene(given),
+      built(made),
+      is_timed(timed),
+      box(bounding_box(made.model->parts().mesh)),
       extent(box.size().maxCoeff()) {
   for (const auto& term : built.model->parts().elastic)
     wave = std::max(wave, fastest_wave(material_in(scene, term->region())));
@@ -84,10 +88,9 @@ double distance(const Vec3& point, const Box& box) {
 Warnings slips(const Config& config, const Scene& scene, const BuiltScene& built, bool is_timed) {
   const slip::Subject subject(config, scene, built, is_timed);
   Warnings out;
-  for (const auto add :
-       {slip::add_material_slips, slip::add_place_slips, slip::add_load_slips, slip::add_time_slips,
-        slip::add_motion_slips, slip::add_freedom_slips, slip::add_turning_slips, slip::add_damping_slips,
-        slip::add_event_slips, slip::add_setting_slips})
+  for (const auto add : {slip::add_material_slips, slip::add_place_slips, slip::add_load_slips, slip::add_time_slips,
+                         slip::add_motion_slips, slip::add_freedom_slips, slip::add_turning_slips,
+                         slip::add_damping_slips, slip::add_event_slips, slip::add_setting_slips})
     add(subject, out);
   return out;
 }

@@ -51,12 +51,15 @@ void add_factor_slips(const Subject& subject, const Config& section, Warnings& o
     const auto kinks = factor->kinks();
     const auto later = std::find_if(kinks.begin(), kinks.end(), [&](double t) { return t >= subject.end(); });
     if (subject.is_static()) {
-      out.push_back(fmt::format("{}: it is 0 at the time of the statics, {:.4g} s (time.end): what it multiplies does "
-                                "not act", given.where(), subject.end()));
+      out.push_back(
+          fmt::format("{}: it is 0 at the time of the statics, {:.4g} s (time.end): what it multiplies does "
+                      "not act",
+                      given.where(), subject.end()));
     } else if (later != kinks.end()) {
-      out.push_back(fmt::format("{}: it is 0 during the whole run, from {:.4g} to {:.4g} s, and begins at {:.4g} s: is "
-                                "that in ms, or time.end too early?",
-                                given.where(), subject.start(), subject.end(), *later));
+      out.push_back(
+          fmt::format("{}: it is 0 during the whole run, from {:.4g} to {:.4g} s, and begins at {:.4g} s: is "
+                      "that in ms, or time.end too early?",
+                      given.where(), subject.start(), subject.end(), *later));
     } else {
       out.push_back(fmt::format("{}: it is 0 during the whole run: what it multiplies never acts", given.where()));
     }
@@ -99,8 +102,10 @@ void add_idle_loads(const Subject& subject, Warnings& out) {
     if (f.isZero(0) && never_acts(given, subject)) continue;
     if (f.isZero(0)) out.push_back(fmt::format("{}: {} is zero: it does nothing; give it a value", place, name));
     else if (free.isZero(0))
-      out.push_back(fmt::format("{}: {} acts on held nodes only: the supports take all of it, and nothing moves. Is it "
-                                "the wrong {}?", place, name, given.has("nearest") ? "point" : "surface"));
+      out.push_back(
+          fmt::format("{}: {} acts on held nodes only: the supports take all of it, and nothing moves. Is it "
+                      "the wrong {}?",
+                      place, name, given.has("nearest") ? "point" : "surface"));
   }
 }
 
@@ -110,8 +115,10 @@ void add_idle_scene(const Subject& subject, Warnings& out) {
   if (!subject.moves() || scene.gravity || !scene.loads.empty() || !scene.terms.empty() || !scene.motions.empty() ||
       !subject.built.initial.q.isZero(0) || !subject.built.initial.v.isZero(0))
     return;
-  out.push_back(fmt::format("{}: nothing acts on the body, and it is at rest at the start: it will not move. Give it "
-                            "'loads', 'gravity', 'motions' or 'initial'", subject.config.at("time").where()));
+  out.push_back(
+      fmt::format("{}: nothing acts on the body, and it is at rest at the start: it will not move. Give it "
+                  "'loads', 'gravity', 'motions' or 'initial'",
+                  subject.config.at("time").where()));
 }
 
 void add_gravity_slips(const Subject& subject, Warnings& out) {

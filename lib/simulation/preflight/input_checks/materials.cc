@@ -16,10 +16,10 @@ namespace orthodyn::slip {
 
 namespace {
 
-constexpr double kFastest = 25e3;     // m/s; diamond has 18,000
-constexpr double kSlowest = 0.3;      // m/s; a gel of 100 Pa has as much
-constexpr double kDensest = 30e3;     // kg/m^3; osmium has 22,600
-constexpr double kStiffest = 2e12;    // Pa; diamond has 1.3e12
+constexpr double kFastest = 25e3;   // m/s; diamond has 18,000
+constexpr double kSlowest = 0.3;    // m/s; a gel of 100 Pa has as much
+constexpr double kDensest = 30e3;   // kg/m^3; osmium has 22,600
+constexpr double kStiffest = 2e12;  // Pa; diamond has 1.3e12
 // Between moduli of one material, by which two units are told from two stiffnesses.
 constexpr double kMostApart = 300, kUsuallyApart = 60;
 constexpr double kMostUnlike = 1e-7;  // of the eigenvalues of C
@@ -91,8 +91,10 @@ std::string swapped_ratio(const Config& material) {
       const double ratio = young(i) / young(j), meant = *nu * ratio;
       others_are_usual = others_are_usual || (ratio > 1 && *nu > kLeastUsual);
       if (ratio > kStiffer && *nu > 0 && *nu < kSmall && meant > kLeastUsual && meant < kMostUsual)
-        found = fmt::format("nu{0}{1} = {2:.4g} makes nu{1}{0} {3:.2g}, for nu{0}{1}/E{0} = nu{1}{0}/E{1}: is it nu{1}{0} "
-                            "that is {2:.4g}? Then nu{0}{1} is {4:.3g}", i, j, *nu, *nu / ratio, meant);
+        found = fmt::format(
+            "nu{0}{1} = {2:.4g} makes nu{1}{0} {3:.2g}, for nu{0}{1}/E{0} = nu{1}{0}/E{1}: is it nu{1}{0} "
+            "that is {2:.4g}? Then nu{0}{1} is {4:.3g}",
+            i, j, *nu, *nu / ratio, meant);
     }
   return others_are_usual ? found : "";
 }
@@ -100,7 +102,7 @@ std::string swapped_ratio(const Config& material) {
 // `given`: as the user wrote it, if he did.
 std::string dense_slip(double density, const std::optional<Config>& given) {
   const auto parts = given && given->is_scalar() && !given->reads_as_number() ? split_quantity(given->text())
-                                                                               : std::optional<NumberWithUnit>();
+                                                                              : std::optional<NumberWithUnit>();
   if (!parts || parts->number > kDensest || density > 1000 * kDensest)
     return fmt::format("the density {:.4g} kg/m^3 is beyond that of any metal: is it in g/m^3? Then write {:.4g}",
                        density, density / 1000);
@@ -112,11 +114,14 @@ std::string wave_slip(double wave, double density, double stiffest) {
   const std::string finding =
       fmt::format("waves would travel at {:.3g} m/s, faster than in any solid (diamond: 18000 m/s): ", wave);
   if (stiffest > kStiffest)
-    return finding + fmt::format("moduli of {:.3g} Pa are beyond those of diamond (1.3e+12 Pa). Is their unit GPa or "
-                                 "MPa?", stiffest);
-  return finding + fmt::format("the density {:.4g} kg/m^3 is too small for moduli up to {:.3g} Pa. Is it in {}? Or are "
-                               "the moduli of a wrong unit?", density, stiffest,
-                               density < 1e-3 ? "t/mm^3 (orthodyn computes in m, kg, s)" : "g/cm^3");
+    return finding + fmt::format(
+                         "moduli of {:.3g} Pa are beyond those of diamond (1.3e+12 Pa). Is their unit GPa or "
+                         "MPa?",
+                         stiffest);
+  return finding + fmt::format(
+                       "the density {:.4g} kg/m^3 is too small for moduli up to {:.3g} Pa. Is it in {}? Or are "
+                       "the moduli of a wrong unit?",
+                       density, stiffest, density < 1e-3 ? "t/mm^3 (orthodyn computes in m, kg, s)" : "g/cm^3");
 }
 
 // `given`: the section of the scene, none for a material of the mesh's file.
@@ -131,18 +136,24 @@ std::string slip_of(const Material& material, const std::optional<Config>& given
   if (density > kDensest) return dense_slip(density, given ? value_at(*given, {"density"}) : given);
   if (wave > kFastest) return wave_slip(wave, density, stiffest);
   if (softest < kMostUnlike * stiffest)
-    return fmt::format("its moduli differ by a factor {:.1g} (eigenvalues of C {:.3g} to {:.3g} Pa): does one of them "
-                       "lack its unit, such as GPa?", stiffest / softest, softest, stiffest);
+    return fmt::format(
+        "its moduli differ by a factor {:.1g} (eigenvalues of C {:.3g} to {:.3g} Pa): does one of them "
+        "lack its unit, such as GPa?",
+        stiffest / softest, softest, stiffest);
   if (const auto strength = material.strength()) {
     const double weakest =
         std::min({strength->tension.minCoeff(), strength->compression.minCoeff(), strength->shear.minCoeff()});
     if (weakest > 0 && weakest < kWeakest * softest)
-      return fmt::format("its strength of {:.3g} Pa is {:.1g} of its softest modulus, and is passed at once: is the "
-                         "unit missing, such as MPa?", weakest, weakest / softest);
+      return fmt::format(
+          "its strength of {:.3g} Pa is {:.1g} of its softest modulus, and is passed at once: is the "
+          "unit missing, such as MPa?",
+          weakest, weakest / softest);
   }
   if (wave < kSlowest && stiffest < kSoftest)
-    return fmt::format("its moduli of at most {:.3g} Pa at a density of {:.4g} kg/m^3 are softer than any gel: is "
-                       "their unit missing, such as GPa or MPa?", stiffest, density);
+    return fmt::format(
+        "its moduli of at most {:.3g} Pa at a density of {:.4g} kg/m^3 are softer than any gel: is "
+        "their unit missing, such as GPa or MPa?",
+        stiffest, density);
   return "";
 }
 

@@ -23,8 +23,10 @@ void add_velocity_slips(const Subject& subject, Warnings& out) {
   const double relative = v.colwise().norm().maxCoeff();
   const std::string place = subject.config.at("initial").where();
   if (fastest > kFastestBody)
-    out.push_back(fmt::format("{}: nodes start with {:.4g} m/s, faster than a bullet: is the velocity in m/s, the spin "
-                              "in rad/s?", place, fastest));
+    out.push_back(
+        fmt::format("{}: nodes start with {:.4g} m/s, faster than a bullet: is the velocity in m/s, the spin "
+                    "in rad/s?",
+                    place, fastest));
   else if (relative > subject.wave)
     out.push_back(
         fmt::format("{}: parts of the body start with {:.4g} m/s against each other or their supports, faster "
@@ -48,8 +50,10 @@ void add_support_slips(const Subject& subject, Warnings& out) {
     out.push_back(fmt::format("{}: nodes are moved by {:.4g} m, {:.0f} times the length of the body: is that in mm?",
                               place, farthest, farthest / subject.extent));
   else if (subject.moves() && fastest > subject.wave)
-    out.push_back(fmt::format("{}: nodes are moved at {:.4g} m/s, faster than the waves in the body ({:.3g} m/s): is "
-                              "the time in ms, the distance in mm?", place, fastest, subject.wave));
+    out.push_back(
+        fmt::format("{}: nodes are moved at {:.4g} m/s, faster than the waves in the body ({:.3g} m/s): is "
+                    "the time in ms, the distance in mm?",
+                    place, fastest, subject.wave));
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ constexpr double kFarAnchor = 100;  // of the body's diagonal
 constexpr double kHuge = 80;        // m
 constexpr double kTiny = 1e-6;      // m
 // Together those of nothing but millimetres and MPa taken for m and Pa.
-constexpr double kLong = 15;  // m
-constexpr double kSlow = 30;  // m/s
+constexpr double kLong = 15;       // m
+constexpr double kSlow = 30;       // m/s
 constexpr double kOblique = 0.02;  // cosine; directions are given by two or three digits
 constexpr double kTurn = 2 * std::numbers::pi;
 
@@ -27,9 +27,10 @@ void add_size_slip(const Subject& subject, Warnings& out) {
   const Config mesh = subject.config.at("mesh");
   const bool huge = subject.extent > kHuge;
   if (!huge && subject.extent > kLong && subject.wave < kSlow) {
-    out.push_back(fmt::format("{}: the body is {:.4g} m long and waves in it travel at {:.3g} m/s, as in a gel: are "
-                              "lengths in mm and moduli in MPa? orthodyn computes in m, kg, s and Pa (25 mm, 10.8 GPa)",
-                              mesh.where(), subject.extent, subject.wave));
+    out.push_back(
+        fmt::format("{}: the body is {:.4g} m long and waves in it travel at {:.3g} m/s, as in a gel: are "
+                    "lengths in mm and moduli in MPa? orthodyn computes in m, kg, s and Pa (25 mm, 10.8 GPa)",
+                    mesh.where(), subject.extent, subject.wave));
     return;
   }
   if (!huge && subject.extent > kTiny) return;
@@ -56,8 +57,8 @@ void add_angle_slips(const Subject& subject, Warnings& out) {
       if (!given.is_scalar()) return;  // a plugin's own
       const double turned = read_number(given, {.unit = "rad"});
       if (std::abs(turned) > kTurn * (1 + 1e-9))
-        out.push_back(fmt::format("{}: {} is {:.3g} turns: is it in degrees?", given.where(), given.text(),
-                                  turned / kTurn));
+        out.push_back(
+            fmt::format("{}: {} is {:.3g} turns: is it in degrees?", given.where(), given.text(), turned / kTurn));
     });
   });
 }
@@ -76,9 +77,10 @@ void add_direction_slips(const Subject& subject, Warnings& out) {
     const Vec3 second = Value<Vec3>::read(axes.at("second"), {}).stableNormalized();
     const double overlap = first.dot(second);
     if (std::abs(overlap) <= kOblique) return;
-    out.push_back(fmt::format("{}: 'second' is not normal to 'first', at {:.0f} deg to it: axis 2 is its part normal "
-                              "to axis 1, {}", axes.where(), std::acos(overlap) * 180 / std::numbers::pi,
-                              shown_direction(second - overlap * first)));
+    out.push_back(fmt::format(
+        "{}: 'second' is not normal to 'first', at {:.0f} deg to it: axis 2 is its part normal "
+        "to axis 1, {}",
+        axes.where(), std::acos(overlap) * 180 / std::numbers::pi, shown_direction(second - overlap * first)));
   });
 }
 
@@ -103,10 +105,11 @@ void add_grain_slip(const Subject& subject, Warnings& out) {
   const TetMesh& mesh = subject.built.model->parts().mesh;
   const Vec3 direction = region.axes->field(mesh, notes)(centroid(mesh, 0), 0).col(grain);
   if (std::abs(direction[thin]) < kAlong) return;
-  out.push_back(fmt::format("{}: axis {}, {:.2g} times as stiff as the others, points through the body, along {}, where "
-                            "it is {:.3g} m thin: boards and strips have the grain along them. Are 'first' and 'second' "
-                            "of 'axes' as you mean them?", subject.config.at("regions").where(), grain + 1, stiffer,
-                            "xyz"[thin], size[thin]));
+  out.push_back(
+      fmt::format("{}: axis {}, {:.2g} times as stiff as the others, points through the body, along {}, where "
+                  "it is {:.3g} m thin: boards and strips have the grain along them. Are 'first' and 'second' "
+                  "of 'axes' as you mean them?",
+                  subject.config.at("regions").where(), grain + 1, stiffer, "xyz"[thin], size[thin]));
 }
 
 void add_repeated_clamps(const Subject& subject, Warnings& out) {
@@ -135,11 +138,11 @@ void add_place_slips(const Subject& subject, Warnings& out) {
     const double outside = distance(point, subject.box);
     if (outside <= kFar * subject.box.diagonal()) return;
     const std::string body = fmt::format("the body is {:.3g} m long", subject.extent);
-    out.push_back(fmt::format("{}: {} is {:.3g} m outside of the body, at {}: the nearest node, {}, is taken; {}. Is "
-                              "the point in m, and in the coordinates of the mesh?",
-                              place.where(), what, outside, Value<Vec3>::yaml(point),
-                              Value<Vec3>::yaml(mesh.nodes[static_cast<std::size_t>(nearest_node(mesh, point))]),
-                              body));
+    out.push_back(
+        fmt::format("{}: {} is {:.3g} m outside of the body, at {}: the nearest node, {}, is taken; {}. Is "
+                    "the point in m, and in the coordinates of the mesh?",
+                    place.where(), what, outside, Value<Vec3>::yaml(point),
+                    Value<Vec3>::yaml(mesh.nodes[static_cast<std::size_t>(nearest_node(mesh, point))]), body));
   };
   for (const auto& [name, probe] : subject.scene.output.probes)
     check(subject.config.at("output").at("probes").at(name), fmt::format("the probe '{}'", name), probe.at);

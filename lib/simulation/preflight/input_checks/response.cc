@@ -42,11 +42,15 @@ LikelySlip slip_of_size(const Config& config, double extent, double stiffest) {
     return {place("mesh"), fmt::format("the body is {:.4g} m long: is it scaled twice?", extent)};
   if (extent > kLongBody)
     return {place("mesh"), fmt::format("the body is {:.4g} m long: are its lengths in mm, and the moduli in MPa? Both "
-                                       "are m and Pa here", extent)};
+                                       "are m and Pa here",
+                                       extent)};
   if (stiffest < kSoftModulus)
     return {place("materials"), fmt::format("the stiffness is at most {:.3g} Pa: is the unit of the moduli missing, "
-                                            "such as GPa or MPa?", stiffest)};
-  return {place(config.has("loads") ? "loads" : config.has("terms") ? "terms" : "gravity"),
+                                            "such as GPa or MPa?",
+                                            stiffest)};
+  return {place(config.has("loads")   ? "loads"
+                : config.has("terms") ? "terms"
+                                      : "gravity"),
           "are forces in N, tractions in Pa, moduli in Pa, lengths in m?"};
 }
 
@@ -67,9 +71,10 @@ void add_step_slip(const Config& config, const FemModel& model, const StaticResp
   const double step = read_number(*given, {.unit = "s"});
   const double period = 2 * std::numbers::pi / frequency_of(model, statics);
   if (step > period / kFewestSteps)
-    out.push_back(fmt::format("{}: steps of {:.4g} s cannot follow the vibration that the loads start, whose period is "
-                              "about {:.2g} s: is the step in ms? {:.1g} s is coarse already", given->where(), step,
-                              period, period / 20));
+    out.push_back(
+        fmt::format("{}: steps of {:.4g} s cannot follow the vibration that the loads start, whose period is "
+                    "about {:.2g} s: is the step in ms? {:.1g} s is coarse already",
+                    given->where(), step, period, period / 20));
 }
 
 // The number of N is often given as the traction, of some Pa.
@@ -81,8 +86,10 @@ void add_traction_slip(const Config& config, const Scene& scene, double share, W
   if (!traction || !traction->is_sequence()) return;
   for (std::size_t i = 0; i < traction->size(); ++i)
     if (!traction->at(i).reads_as_number() || std::abs(traction->at(i).number()) > kMostPascals) return;
-  out.push_back(fmt::format("{}: the traction, in Pa, moves the body by {} only: is a force in N meant? That is the "
-                            "key 'force'", load.where(), moved_by(share)));
+  out.push_back(
+      fmt::format("{}: the traction, in Pa, moves the body by {} only: is a force in N meant? That is the "
+                  "key 'force'",
+                  load.where(), moved_by(share)));
 }
 
 }  // namespace
@@ -92,16 +99,17 @@ Warnings response_slips(const Config& config, const Scene& scene, const BuiltSce
   if (statics.load.isZero(0)) return {};
   const double extent = bounding_box(built.model->parts().mesh).size().maxCoeff();
   const LikelySlip slip = slip_of_size(config, extent, stiffest_constant(scene, *built.model));
-  if (!statics.load.allFinite())
-    throw ConfigError(slip.place, "the loads are too large to be numbers; " + slip.words);
+  if (!statics.load.allFinite()) throw ConfigError(slip.place, "the loads are too large to be numbers; " + slip.words);
   if (!statics.exists()) return {};
   const double share = statics.displacement.lpNorm<Eigen::Infinity>() / extent;
   const std::string finding = fmt::format("the loads move the body by {} (by linear statics)", moved_by(share));
   if (share > kImpossible) throw ConfigError(slip.place, fmt::format("{}; {}", finding, slip.words));
   if (share > kTooFar) return {fmt::format("{}: {}; {}", slip.place, finding, slip.words)};
   if (share < kUnseen)
-    return {fmt::format("{}: {}, too little to be seen in the digits of a result: are forces in N, tractions and "
-                        "moduli in Pa?", slip::value_at(config, {"loads"}).value_or(config).where(), finding)};
+    return {
+        fmt::format("{}: {}, too little to be seen in the digits of a result: are forces in N, tractions and "
+                    "moduli in Pa?",
+                    slip::value_at(config, {"loads"}).value_or(config).where(), finding)};
   Warnings out;
   if (!scene.is_static()) add_step_slip(config, *built.model, statics, out);
   add_traction_slip(config, scene, share, out);

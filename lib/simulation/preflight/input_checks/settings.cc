@@ -7,7 +7,7 @@ namespace orthodyn::slip {
 
 namespace {
 
-constexpr double kCoarsest = 0.1, kFinest = 1e-13;  // of rtol
+constexpr double kCoarsest = 0.1, kFinest = 1e-13;            // of rtol
 constexpr double kLargestScale = 30, kSmallestScale = 1e-12;  // of the body's length, of the waves in it
 constexpr double kMostSteps = 1e9;
 constexpr double kLargestLeast = 0.1;  // step, of the run
@@ -16,11 +16,15 @@ void add_tolerance_slip(const Subject& subject, const char* section, Warnings& o
   const auto rtol = value_at(subject.config, {section, "rtol"});
   if (!rtol || !rtol->reads_as_number()) return;
   if (rtol->number() > kCoarsest)
-    out.push_back(fmt::format("{}: {:.3g} lets each step be off by {:.0f} % of the motion: the result means nothing. "
-                              "1e-2 is coarse, 1e-4 usual", rtol->where(), rtol->number(), 100 * rtol->number()));
+    out.push_back(
+        fmt::format("{}: {:.3g} lets each step be off by {:.0f} % of the motion: the result means nothing. "
+                    "1e-2 is coarse, 1e-4 usual",
+                    rtol->where(), rtol->number(), 100 * rtol->number()));
   if (rtol->number() < kFinest)
-    out.push_back(fmt::format("{}: {:.3g} is below what round-off allows (about 1e-13): steps become as short as can "
-                              "be, or none is accepted. 1e-8 is fine already", rtol->where(), rtol->number()));
+    out.push_back(
+        fmt::format("{}: {:.3g} is below what round-off allows (about 1e-13): steps become as short as can "
+                    "be, or none is accepted. 1e-8 is fine already",
+                    rtol->where(), rtol->number()));
 }
 
 // A length or a speed that errors are compared with, and how large it may be.
@@ -29,8 +33,10 @@ void add_scale_slip(const Subject& subject, const char* key, const char* unit, d
   if (!scale || scale->text() == "auto") return;
   const double share = read_number(*scale, {.unit = unit}) / natural;
   if (share > kLargestScale)
-    out.push_back(fmt::format("{}: {} is {} times what the body allows ({:.3g} {}): errors are not seen. Is it in "
-                              "mm?", scale->where(), scale->text(), shown_factor(share), natural, unit));
+    out.push_back(
+        fmt::format("{}: {} is {} times what the body allows ({:.3g} {}): errors are not seen. Is it in "
+                    "mm?",
+                    scale->where(), scale->text(), shown_factor(share), natural, unit));
   if (share < kSmallestScale)
     out.push_back(fmt::format("{}: {} is {:.1g} of what the body allows ({:.3g} {}): round-off is taken for errors",
                               scale->where(), scale->text(), share, natural, unit));
@@ -46,8 +52,10 @@ void add_step_slips(const Subject& subject, Warnings& out) {
       out.push_back(fmt::format("{}: {:.4g} s is longer than the run of {:.4g} s: is it in ms?", value->where(), step,
                                 subject.span()));
     if (std::string(key) == "h_min" && step > kLargestLeast * subject.span() && step <= subject.span())
-      out.push_back(fmt::format("{}: steps of at least {:.4g} s in a run of {:.4g} s cannot follow an error: is it in "
-                                "ms?", value->where(), step, subject.span()));
+      out.push_back(
+          fmt::format("{}: steps of at least {:.4g} s in a run of {:.4g} s cannot follow an error: is it in "
+                      "ms?",
+                      value->where(), step, subject.span()));
     if (shortens && step * kMostSteps < subject.span())
       out.push_back(fmt::format("{}: the run of {:.4g} s needs {:.1g} such steps: is the step in another unit?",
                                 value->where(), subject.span(), subject.span() / step));

@@ -17,7 +17,7 @@ struct Subject {
   const Config& config;
   const Scene& scene;
   const BuiltScene& built;
-  bool is_timed;  // otherwise its time span means nothing
+  bool is_timed;      // otherwise its time span means nothing
   Box box;            // of the body at rest
   double extent = 0;  // m, the longest side of the box
   double wave = 0;    // m/s, of the fastest wave in any of the regions

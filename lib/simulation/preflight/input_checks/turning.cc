@@ -1,7 +1,7 @@
 // Free bodies that turn: with lumped masses of wrong moments of inertia, with linear kinematics.
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 
@@ -96,11 +96,12 @@ void add_lumped_moments(const Subject& subject, const Vec3& angle, Warnings& out
   Eigen::Index axis = 0;
   const double most = (about.array().abs() > kTurns).select(off.array().abs(), 0).matrix().maxCoeff(&axis);
   if (most <= kFarOff) return;
-  out.push_back(fmt::format("{}: nothing holds the body, and lumped masses on so few elements have a moment of inertia "
-                            "{:+.0f} % off about the axis {}: its rotation has a wrong energy there, or a wrong speed. Use "
-                            "mass: consistent, or more cells",
-                            subject.config.at("mesh").where(), 100 * off[axis],
-                            Value<Vec3>::yaml((Vec3(axes.col(axis)) * 100).array().round() / 100 + 0.0)));
+  out.push_back(
+      fmt::format("{}: nothing holds the body, and lumped masses on so few elements have a moment of inertia "
+                  "{:+.0f} % off about the axis {}: its rotation has a wrong energy there, or a wrong speed. Use "
+                  "mass: consistent, or more cells",
+                  subject.config.at("mesh").where(), 100 * off[axis],
+                  Value<Vec3>::yaml((Vec3(axes.col(axis)) * 100).array().round() / 100 + 0.0)));
 }
 
 }  // namespace
@@ -112,9 +113,10 @@ void add_turning_slips(const Subject& subject, Warnings& out) {
   if (parts.mass->lumped()) add_lumped_moments(subject, angle, out);
   const auto kinematics = value_at(subject.config, {"elasticity", "kinematics"});
   if (kinematics && kinematics->text() == "linear" && angle.norm() > kLinear)
-    out.push_back(fmt::format("{}: nothing holds the body, and it turns by about {:.2g} rad until {:.4g} s, where linear "
-                              "kinematics are for less than {} rad: it would swell. Take corotational",
-                              kinematics->where(), angle.norm(), subject.end(), kLinear));
+    out.push_back(
+        fmt::format("{}: nothing holds the body, and it turns by about {:.2g} rad until {:.4g} s, where linear "
+                    "kinematics are for less than {} rad: it would swell. Take corotational",
+                    kinematics->where(), angle.norm(), subject.end(), kLinear));
 }
 
 }  // namespace orthodyn::slip
