@@ -24,8 +24,8 @@ struct SolverSection {
 
 }  // namespace
 
-Shape Value<SolverChoice>::shape() {
-  return {.kind = Shape::Kind::either, .items = {Value<std::string>::shape(), Value<SolverSection>::shape()}};
+ValueSchema Value<SolverChoice>::schema() {
+  return {.kind = ValueSchema::Kind::either, .items = {Value<std::string>::schema(), Value<SolverSection>::schema()}};
 }
 
 SolverChoice Value<SolverChoice>::read(const Config& c, const Rule& r) {

@@ -17,7 +17,7 @@ enum class SolverPaths { reduced, all };
 // A name, or a section with the name as `type`.
 template <>
 struct Value<SolverChoice> {
-  static Shape shape();
+  static ValueSchema schema();
   static SolverChoice read(const Config& c, const Rule& r);
   static std::string yaml(const SolverChoice& x) { return x.options.empty() ? x.type : ""; }
 };

@@ -61,7 +61,7 @@ class GroundSpringsChoice : public TermChoice {
     return std::make_unique<GroundSprings>(stiffness_, std::move(nodes), body);
   }
 
-  Origin origin;  // filled in: where it stands in the input
+  SourceLocation origin;  // filled in: where it stands in the input
 
  private:
   Vec3 center_ = Vec3::Zero();

@@ -15,7 +15,7 @@
 namespace orthodyn {
 
 template <>
-struct Words<ARKODE_DIRKTableID> {
+struct EnumNames<ARKODE_DIRKTableID> {
   static constexpr std::array<std::pair<ARKODE_DIRKTableID, const char*>, 22> list{{
       {ARKODE_SDIRK_2_1_2, "SDIRK_2_1_2"},
       {ARKODE_BILLINGTON_3_3_2, "BILLINGTON_3_3_2"},
@@ -43,7 +43,7 @@ struct Words<ARKODE_DIRKTableID> {
 };
 
 template <>
-struct Words<ARKODE_ERKTableID> {
+struct EnumNames<ARKODE_ERKTableID> {
   static constexpr std::array<std::pair<ARKODE_ERKTableID, const char*>, 15> list{{
       {ARKODE_HEUN_EULER_2_1_2, "HEUN_EULER_2_1_2"},
       {ARKODE_BOGACKI_SHAMPINE_4_2_3, "BOGACKI_SHAMPINE_4_2_3"},
@@ -71,7 +71,7 @@ struct AdditivePair {
 enum class AdditiveTable { ark324, ark436, ark437, ark548, ark548b };
 
 template <>
-struct Words<AdditiveTable> {
+struct EnumNames<AdditiveTable> {
   static constexpr std::array<std::pair<AdditiveTable, const char*>, 5> list{{
       {AdditiveTable::ark324, "ARK324L2SA_4_2_3"},
       {AdditiveTable::ark436, "ARK436L2SA_6_3_4"},

@@ -33,7 +33,7 @@ class Automatic : public Integrator {
   bool adaptive() const override { return integrator_->adaptive(); }
   bool has_accurate_interpolation() const override { return integrator_->has_accurate_interpolation(); }
   double smooth_time() const override { return integrator_->smooth_time(); }
-  std::vector<std::string> doubts() const override { return integrator_->doubts(); }
+  std::vector<std::string> result_warnings() const override { return integrator_->result_warnings(); }
   std::optional<State> mean_state() const override { return integrator_->mean_state(); }
   const Statistics& statistics() const override { return integrator_->statistics(); }
   std::size_t factor_bytes() const override { return integrator_->factor_bytes(); }

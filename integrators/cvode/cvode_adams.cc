@@ -12,7 +12,7 @@ namespace orthodyn {
 enum class StepIteration { fixed_point, newton };
 
 template <>
-struct Words<StepIteration> {
+struct EnumNames<StepIteration> {
   static constexpr std::array<std::pair<StepIteration, const char*>, 2> list{
       {{StepIteration::fixed_point, "fixed_point"}, {StepIteration::newton, "newton"}}};
 };

@@ -166,7 +166,7 @@ class Modal : public Integrator {
     return all;
   }
 
-  std::vector<std::string> doubts() const override {
+  std::vector<std::string> result_warnings() const override {
     const double share = std::max(truncation_.displacement_share(), truncation_.velocity_share());
     if (share <= kMisfit) return {};
     return {fmt::format(

@@ -62,7 +62,8 @@ StepLoad ModalLoad::over(double t, double h) {
 
 double ModalLoad::error(const StepLoad& load, const ScaledNorm& norm) {
   double largest = 0;
-  for (const double theta : {golden_share(2), 1 - golden_share(5)}) {  // 0.236 and 0.910: between the points
+  for (const double theta :
+       {golden_ratio_sample(2), 1 - golden_ratio_sample(5)}) {  // 0.236 and 0.910: between the points
     const Vector f = force(load.t + theta * load.h);
     if (!load.varies && f == load.first) continue;
     const Vector modal = basis_.shapes().transpose() * f;

@@ -14,7 +14,7 @@ namespace orthodyn {
 enum class NewtonKind { lazy, modified, full };
 
 template <>
-struct Words<NewtonKind> {
+struct EnumNames<NewtonKind> {
   static constexpr std::array<std::pair<NewtonKind, const char*>, 3> list{
       {{NewtonKind::lazy, "lazy"}, {NewtonKind::modified, "modified"}, {NewtonKind::full, "full"}}};
 };

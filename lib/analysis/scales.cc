@@ -26,7 +26,7 @@ Reach reach_of_supports(const FemModel& model, double start, double end) {
   const auto& everywhere = parts.subdomain ? parts.moved_everywhere : parts.moved;
   if (!everywhere) return reach;
   std::vector<double> times = everywhere->step_limits(start, end).ends();
-  for (int k = 0; k < kSamples; ++k) times.push_back(start + (end - start) * golden_share(k));
+  for (int k = 0; k < kSamples; ++k) times.push_back(start + (end - start) * golden_ratio_sample(k));
   times.push_back(end);
   for (const double t : times) {
     NodalVector u = NodalVector::Zero(3, parts.rest->cols()), v = u;

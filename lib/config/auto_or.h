@@ -16,13 +16,14 @@ struct AutoOr {
 
 template <class V>
 struct Value<AutoOr<V>> {
-  static Shape shape() {
-    return {.kind = Shape::Kind::either, .items = {Value<V>::shape(), {.kind = Shape::Kind::word, .names = {"auto"}}}};
+  static ValueSchema schema() {
+    return {.kind = ValueSchema::Kind::either,
+            .items = {Value<V>::schema(), {.kind = ValueSchema::Kind::word, .names = {"auto"}}}};
   }
   static AutoOr<V> read(const Config& c, const Rule& r) {
     if (c.is_scalar() && c.text() == "auto") return {};
     if (const auto hint = c.is_scalar() ? did_you_mean(c.text(), {"auto"}) : ""; !hint.empty())
-      c.fail("expected " + type_text(shape()) + ", found " + c.shown() + hint, InputFault::form);
+      c.fail("expected " + type_text(schema()) + ", found " + c.shown() + hint, InputFault::form);
     return {Value<V>::read(c, r)};
   }
   static std::string yaml(const AutoOr<V>& x) { return x.value ? Value<V>::yaml(*x.value) : "auto"; }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <filesystem>
@@ -59,6 +60,7 @@ struct Config::Document {
   std::map<std::string, std::string> set;                           // by path: places of values set later, or ""
   MadeEntries made = {};                                            // of values set later
   std::map<std::string, std::pair<YAML::Node, std::string>> files;  // by path: values that name files
+  std::vector<std::string> warnings = {};
 };
 
 struct Config::Place {
@@ -204,6 +206,13 @@ Config Config::fill_text(const std::string& key, const std::string& text) const 
   return at(key);
 }
 
+void Config::rename(const std::string& former, const std::string& name) const {
+  assert(place_->document->records_defaults);
+  YAML::Node node = place_->node;
+  node[name] = node[former];
+  node.remove(former);
+}
+
 std::string Config::shown() const {
   if (is_map()) return "a section of keys";
   if (is_sequence()) return fmt::format("a list of {}", size());
@@ -248,6 +257,14 @@ std::vector<std::string> Config::file_paths() const {
   for (const auto& [path, file] : place_->document->files) out.push_back(file.second);
   return out;
 }
+
+void Config::warn(const std::string& message) const {
+  auto& all = place_->document->warnings;
+  if (const auto text = where() + ": " + message; std::find(all.begin(), all.end(), text) == all.end())
+    all.push_back(text);
+}
+
+const std::vector<std::string>& Config::warnings() const { return place_->document->warnings; }
 
 void Config::fail(const std::string& message, InputFault fault) const {
   const auto made = place_->document->made.find(place_->path);

@@ -74,6 +74,9 @@ class Config {
   Config fill(const std::string& key, const std::string& yaml) const;
   Config fill_text(const std::string& key, const std::string& text) const;
 
+  // Gives a key of this map another name. Preconditions: this is a resolving() Config that has `former` and not `name`.
+  void rename(const std::string& former, const std::string& name) const;
+
   // What stands here, shortened, for messages.
   std::string shown() const;
 
@@ -88,6 +91,11 @@ class Config {
 
   // The files that have been asked for so far in this document, which is a resolving() one.
   std::vector<std::string> file_paths() const;
+
+  // Records a warning about this place for the user, unless the document has it already.
+  void warn(const std::string& message) const;
+  // The warnings of the whole document, "place: message", in the order in which they were recorded.
+  const std::vector<std::string>& warnings() const;
 
   // Throws a ConfigError with this place.
   [[noreturn]] void fail(const std::string& message, InputFault fault = InputFault::value) const;

@@ -66,10 +66,10 @@ class TimePointFormula : public Formula {
 template <class F>
 requires std::derived_from<F, Formula>
 struct Value<F> {
-  static Shape shape() {
-    return {.kind = Shape::Kind::either,
+  static ValueSchema schema() {
+    return {.kind = ValueSchema::Kind::either,
             .words = std::string("formula of ") + F::kVariables,
-            .items = {Value<double>::shape(), Value<std::string>::shape()}};
+            .items = {Value<double>::schema(), Value<std::string>::schema()}};
   }
   static F read(const Config& c, const Rule&) {
     try {

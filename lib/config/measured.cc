@@ -6,7 +6,7 @@
 
 namespace orthodyn {
 
-void Measured::require(const std::string& si_unit, const Origin& origin) const {
+void Measured::require(const std::string& si_unit, const SourceLocation& origin) const {
   if (unit_.empty()) return;
   try {
     check_dimension(unit_, si_unit.empty() ? "1" : si_unit);

@@ -19,7 +19,7 @@ class Measured {
   operator double() const { return si_; }
 
   // Throws ConfigError at `origin` unless the unit that was given measures what `si_unit` does; "" and "1" are none.
-  void require(const std::string& si_unit, const Origin& origin) const;
+  void require(const std::string& si_unit, const SourceLocation& origin) const;
 
  private:
   double si_;
@@ -28,7 +28,7 @@ class Measured {
 
 template <>
 struct Value<Measured> {
-  static Shape shape() { return Value<double>::shape(); }
+  static ValueSchema schema() { return Value<double>::schema(); }
   static Measured read(const Config& c, const Rule& r);
   static std::string yaml(const Measured& x) { return number_text(x.si()); }
 };

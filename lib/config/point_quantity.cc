@@ -16,10 +16,10 @@ bool has_unit(const std::string& text) {
 
 }  // namespace
 
-Shape Value<PointQuantity>::shape() {
-  return {.kind = Shape::Kind::either,
+ValueSchema Value<PointQuantity>::schema() {
+  return {.kind = ValueSchema::Kind::either,
           .words = std::string("number or formula of ") + PointFormula::kVariables,
-          .items = {Value<double>::shape(), Value<std::string>::shape()}};
+          .items = {Value<double>::schema(), Value<std::string>::schema()}};
 }
 
 PointQuantity Value<PointQuantity>::read(const Config& c, const Rule& r) {

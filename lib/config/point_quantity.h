@@ -30,7 +30,7 @@ class PointQuantity {
 
 template <>
 struct Value<PointQuantity> {
-  static Shape shape();
+  static ValueSchema schema();
   static PointQuantity read(const Config& c, const Rule& r);
   static std::string yaml(const PointQuantity& q) { return q.text(); }
 };

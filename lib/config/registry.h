@@ -19,7 +19,9 @@ namespace orthodyn {
 std::vector<std::string>& registry_conflicts();
 
 // The key `type` of a section, which must be one of the names. Throws ConfigError.
-std::string registered_type(const Config& config, const std::vector<std::string>& names);
+// Of a former name, that which replaces it, with a warning.
+std::string registered_type(const Config& config, const std::vector<std::string>& names,
+                            const std::map<std::string, std::string>& former_names);
 
 template <class Base>
 class Registry {
@@ -46,9 +48,14 @@ class Registry {
     return is_new;
   }
 
+  // `former` is read as `name`, with a warning.
+  static bool rename(const std::string& former, const std::string& name) {
+    return former_names().emplace(former, name).second;
+  }
+
   // Reads a section by its key `type`. Throws ConfigError.
   static std::shared_ptr<const Base> read(const Config& config) {
-    return entries().at(registered_type(config, names())).read(config);
+    return entries().at(registered_type(config, names(), former_names())).read(config);
   }
 
   static std::vector<std::string> names() {
@@ -62,12 +69,16 @@ class Registry {
     static std::map<std::string, Entry> all;
     return all;
   }
+  static std::map<std::string, std::string>& former_names() {
+    static std::map<std::string, std::string> all;
+    return all;
+  }
 };
 
 template <class Base>
 struct Value<std::shared_ptr<const Base>> {
-  static Shape shape() {
-    return {.kind = Shape::Kind::choice, .title = type_title(typeid(Base).name()), .alternatives = [] {
+  static ValueSchema schema() {
+    return {.kind = ValueSchema::Kind::choice, .title = type_title(typeid(Base).name()), .alternatives = [] {
               const auto& entries = Registry<Base>::entries();
               return std::map<std::string, Alternative>(entries.begin(), entries.end());
             }};

@@ -45,18 +45,19 @@ bool has_key(const std::vector<Key>& keys, const std::string& name) {
 }
 
 // Whether a section, or an entry of a list or of named sections, has the key.
-bool takes(const Shape& shape, const std::string& name) {
-  if (shape.kind == Shape::Kind::section) return has_key(shape.keys(), name);
-  if (shape.kind == Shape::Kind::choice) {
-    const auto alternatives = shape.alternatives();
+bool takes(const ValueSchema& schema, const std::string& name) {
+  if (schema.kind == ValueSchema::Kind::section) return has_key(schema.keys(), name);
+  if (schema.kind == ValueSchema::Kind::choice) {
+    const auto alternatives = schema.alternatives();
     return name == "type" || std::any_of(alternatives.begin(), alternatives.end(),
                                          [&](const auto& entry) { return has_key(entry.second.keys, name); });
   }
-  return std::any_of(shape.items.begin(), shape.items.end(), [&](const Shape& item) { return takes(item, name); });
+  return std::any_of(schema.items.begin(), schema.items.end(),
+                     [&](const ValueSchema& item) { return takes(item, name); });
 }
 
 std::string place_below(const Key& key) {
-  const bool has_entries = key.shape.kind == Shape::Kind::named || key.shape.kind == Shape::Kind::list;
+  const bool has_entries = key.schema.kind == ValueSchema::Kind::named || key.schema.kind == ValueSchema::Kind::list;
   return (has_entries ? "an entry of '" : "'") + key.name + "'";
 }
 
@@ -78,7 +79,7 @@ std::string hint_for(const std::string& name, const Config& section, const std::
   constexpr std::size_t kMostHolders = 3;
   std::vector<std::string> holders;
   for (const Key& key : keys) {
-    if (!takes(key.shape, name)) continue;
+    if (!takes(key.schema, name)) continue;
     if (key.name == before && !is_given(section, before)) return belongs_below(place_below(key));
     if (name != "type") holders.push_back(place_below(key));
   }
@@ -96,6 +97,15 @@ void refuse_unknown_keys(const Config& section, const std::vector<Key>& keys, co
     if (std::find(known.begin(), known.end(), given) == known.end())
       throw UnknownKey(section.at(given), given, hint_for(given, section, before, keys, known), known);
     before = given;
+  }
+}
+
+void rename_keys(const Config& section, const std::map<std::string, std::string>& former_names) {
+  for (const auto& [former, name] : former_names) {
+    if (!section.has(former)) continue;
+    if (section.has(name)) section.at(former).fail("is now called '" + name + "', which is given as well");
+    section.at(former).warn("is now called '" + name + "'");
+    section.rename(former, name);
   }
 }
 
@@ -123,8 +133,8 @@ void Keys::add(std::string_view name, std::string_view sentence, const Rule& rul
   const std::string fallback = rule.required           ? ""
                                : rule.fallback.empty() ? type.yaml(default_value)
                                                        : std::string(rule.fallback);
-  keys_.push_back({std::string(name), type.shape(), std::string(rule.unit), rule.range, fallback, std::string(sentence),
-                   rule.required});
+  keys_.push_back({std::string(name), type.schema(), std::string(rule.unit), rule.range, fallback,
+                   std::string(sentence), rule.required});
   fields_.push_back({keys_.back(), std::string(rule.fallback), std::string(rule.with.key), std::string(rule.with.word),
                      &type, std::move(member)});
 }
@@ -135,6 +145,7 @@ Config Keys::read_fields(const Config& given, void* target, const std::vector<st
                    (given.is_scalar() ? missing_space(given.text()) : ""),
                InputFault::form);
   const Config section = given.resolving();
+  rename_keys(section, former_names_);
   refuse_unknown_keys(section, keys_, also);
   for (const Field& field : fields_) {
     const Key& key = field.doc;
@@ -151,7 +162,7 @@ Config Keys::read_fields(const Config& given, void* target, const std::vector<st
         throw;
       }
     } else if (key.required) {
-      section.fail("key '" + key.name + "' is missing (" + type_text(key.shape) +
+      section.fail("key '" + key.name + "' is missing (" + type_text(key.schema) +
                    (key.unit.empty() ? "" : ", " + key.unit) + ")");
     } else if (!field.fallback.empty()) {
       field.type->read(section.fill(key.name, field.fallback), rule, member);

@@ -13,6 +13,7 @@
 
 #include <concepts>
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -25,15 +26,15 @@
 namespace orthodyn {
 
 // Where a part of the input stands, for errors that show only later (an empty selection, a surface that the mesh does
-// not have). A struct with a member `Origin origin` gets it from its Spec.
-struct Origin {
+// not have). A struct with a member `SourceLocation origin` gets it from its Spec.
+struct SourceLocation {
   std::string where;
   [[noreturn]] void fail(const std::string& message) const { throw ConfigError(where, message); }
 };
 
 // What a Spec does with the type of a member.
 struct ValueType {
-  Shape (*shape)();
+  ValueSchema (*schema)();
   void (*read)(const Config& config, const Rule& rule, void* target);
   std::string (*yaml)(const void* value);  // "" where the value means "absent"
   bool section;                            // has keys of its own, with their defaults
@@ -41,7 +42,7 @@ struct ValueType {
 
 template <class V>
 inline constexpr ValueType kValueType{
-    [] { return Value<V>::shape(); },
+    [] { return Value<V>::schema(); },
     [](const Config& config, const Rule& rule, void* target) {
       *static_cast<V*>(target) = Value<V>::read(config, rule);
     },
@@ -74,6 +75,8 @@ class Keys {
   // Returns the section with its defaults, as far as it is a resolving() one.
   Config read_fields(const Config& given, void* target, const std::vector<std::string>& also) const;
 
+  std::map<std::string, std::string> former_names_;
+
  private:
   std::vector<Field> fields_;
   std::vector<Key> keys_;
@@ -88,6 +91,12 @@ class Spec : public Keys {
                                                  const Rule& rule = {}) {
     add(name, sentence, rule, kValueType<V>, &(defaults().*member),
         [member](void* target) -> void* { return &(static_cast<T*>(target)->*member); });
+    return *this;
+  }
+
+  // `former` is read as `name`, with a warning.
+  Spec& rename(std::string_view former, std::string_view name) {
+    former_names_.emplace(former, name);
     return *this;
   }
 

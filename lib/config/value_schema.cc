@@ -12,16 +12,16 @@ namespace orthodyn {
 
 namespace {
 
-std::string list_text(const Shape& shape) {
-  const std::string item = type_text(shape.items.front());
-  if (shape.count == 0) return "list of " + item;
-  return item == "number" || item == "integer" ? fmt::format("list of {} {}s", shape.count, item)
-                                               : fmt::format("list of {}: {}", shape.count, item);
+std::string list_text(const ValueSchema& schema) {
+  const std::string item = type_text(schema.items.front());
+  if (schema.count == 0) return "list of " + item;
+  return item == "number" || item == "integer" ? fmt::format("list of {} {}s", schema.count, item)
+                                               : fmt::format("list of {}: {}", schema.count, item);
 }
 
-std::string either_text(const Shape& shape) {
+std::string either_text(const ValueSchema& schema) {
   std::vector<std::string> all;
-  for (const Shape& one : shape.items) all.push_back(type_text(one));
+  for (const ValueSchema& one : schema.items) all.push_back(type_text(one));
   return join(all, ", or ");
 }
 
@@ -35,21 +35,21 @@ std::string range_text(const Range& r) {
   return "";
 }
 
-std::string type_text(const Shape& shape) {
-  if (!shape.words.empty()) return shape.words;
-  switch (shape.kind) {
-    case Shape::Kind::number: return "number";
-    case Shape::Kind::integer: return "integer";
-    case Shape::Kind::boolean: return "true|false";
-    case Shape::Kind::text: return "text";
-    case Shape::Kind::file: return "file";
-    case Shape::Kind::word: return join(shape.names, "|");
-    case Shape::Kind::list: return list_text(shape);
-    case Shape::Kind::named: return "name: " + type_text(shape.items.front());
-    case Shape::Kind::section: return "section";
-    case Shape::Kind::choice: return "section with type";
-    case Shape::Kind::either: return either_text(shape);
-    case Shape::Kind::anything: break;
+std::string type_text(const ValueSchema& schema) {
+  if (!schema.words.empty()) return schema.words;
+  switch (schema.kind) {
+    case ValueSchema::Kind::number: return "number";
+    case ValueSchema::Kind::integer: return "integer";
+    case ValueSchema::Kind::boolean: return "true|false";
+    case ValueSchema::Kind::text: return "text";
+    case ValueSchema::Kind::file: return "file";
+    case ValueSchema::Kind::word: return join(schema.names, "|");
+    case ValueSchema::Kind::list: return list_text(schema);
+    case ValueSchema::Kind::named: return "name: " + type_text(schema.items.front());
+    case ValueSchema::Kind::section: return "section";
+    case ValueSchema::Kind::choice: return "section with type";
+    case ValueSchema::Kind::either: return either_text(schema);
+    case ValueSchema::Kind::anything: break;
   }
   return "any value";
 }

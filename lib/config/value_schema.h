@@ -1,4 +1,4 @@
-// What may stand at a key, told to other programs: from shapes come the words of `orthodyn list`, the
+// What may stand at a key, told to other programs: from schema come the words of `orthodyn list`, the
 // JSON Schema of the input and the reference page.
 #pragma once
 
@@ -29,14 +29,14 @@ struct Alternative {
   std::vector<std::pair<std::string, std::string>> facts = {};  // ("source", "Newmark 1959"), for lists
 };
 
-struct Shape {
+struct ValueSchema {
   enum class Kind { number, integer, boolean, text, file, word, list, named, section, choice, either, anything };
 
   Kind kind = Kind::anything;
   std::string words = {};                       // for people, where the kind does not say it all: "formula of x, y, z"
   std::vector<std::string> names = {};          // word: the allowed ones
   bool behind_name = false;                     // word: each of them behind any name and a dot
-  std::vector<Shape> items = {};                // list and named: of each; either: the possible ones
+  std::vector<ValueSchema> items = {};          // list and named: of each; either: the possible ones
   std::size_t count = 0;                        // list: 0 for any
   std::string title = {};                       // section and choice: the C++ type's name, which tells them apart
   std::function<std::vector<Key>()> keys = {};  // section
@@ -46,7 +46,7 @@ struct Shape {
 // One key of a section.
 struct Key {
   std::string name;
-  Shape shape;
+  ValueSchema schema;
   std::string unit;  // SI, "" for none
   Range range;       // of a number, and of each number of a list
   std::string fallback, sentence;
@@ -57,7 +57,7 @@ struct Key {
 std::string range_text(const Range& range);
 
 // "list of 3 numbers", "five|six", "section with type"
-std::string type_text(const Shape& shape);
+std::string type_text(const ValueSchema& schema);
 
 // A type's name without namespaces.
 std::string type_title(const char* mangled);

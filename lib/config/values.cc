@@ -61,9 +61,9 @@ std::vector<WithUnit> entries_with_units(const Config& list, const std::vector<d
 std::string likely_unit(double x, const WithUnit& neighbour) {
   constexpr double kFar = 300, kNear = 30;
   constexpr std::array<std::pair<const char*, double>, 3> kOthers{{{"GPa", 1e9}, {"MPa", 1e6}, {"kPa", 1e3}}};
-  if (apart(x, neighbour.number) < kFar || !neighbour.unit.ends_with("Pa")) return neighbour.unit;
+  if (ratio_distance(x, neighbour.number) < kFar || !neighbour.unit.ends_with("Pa")) return neighbour.unit;
   for (const auto& [unit, si] : kOthers)
-    if (apart(x * si, neighbour.si) < kNear) return unit;
+    if (ratio_distance(x * si, neighbour.si) < kNear) return unit;
   return neighbour.unit;
 }
 
@@ -76,7 +76,8 @@ void refuse_missing_units(const Config& list, const std::vector<double>& si, std
   for (std::size_t i = 0; i < si.size(); ++i) {
     if (si[i] == 0 || !list.at(i).reads_as_number()) continue;
     const auto looks_forgotten = [&](const WithUnit& other) {
-      return apart(si[i], other.si) >= kUnlike && apart(si[i], other.number) < apart(si[i], other.si);
+      return ratio_distance(si[i], other.si) >= kUnlike &&
+             ratio_distance(si[i], other.number) < ratio_distance(si[i], other.si);
     };
     if (!std::ranges::all_of(others, looks_forgotten)) continue;
     const WithUnit& other = others.front();
@@ -123,8 +124,8 @@ std::vector<double> read_numbers(const Config& config, const Rule& rule, std::si
   return out;
 }
 
-Shape list_shape(Shape item, std::size_t count, std::string words) {
-  return {.kind = Shape::Kind::list, .words = std::move(words), .items = {std::move(item)}, .count = count};
+ValueSchema list_schema(ValueSchema item, std::size_t count, std::string words) {
+  return {.kind = ValueSchema::Kind::list, .words = std::move(words), .items = {std::move(item)}, .count = count};
 }
 
 long read_integer(const Config& config, const Rule& rule, long low, long high) {
@@ -135,29 +136,29 @@ long read_integer(const Config& config, const Rule& rule, long low, long high) {
   return i;
 }
 
-Shape Value<double>::shape() { return {.kind = Shape::Kind::number}; }
+ValueSchema Value<double>::schema() { return {.kind = ValueSchema::Kind::number}; }
 double Value<double>::read(const Config& c, const Rule& r) { return read_number(c, r); }
 std::string Value<double>::yaml(double x) { return number_text(x); }
 
-Shape Value<bool>::shape() { return {.kind = Shape::Kind::boolean}; }
+ValueSchema Value<bool>::schema() { return {.kind = ValueSchema::Kind::boolean}; }
 bool Value<bool>::read(const Config& c, const Rule&) { return c.boolean(); }
 std::string Value<bool>::yaml(bool x) { return x ? "true" : "false"; }
 
-Shape Value<std::string>::shape() { return {.kind = Shape::Kind::text}; }
+ValueSchema Value<std::string>::schema() { return {.kind = ValueSchema::Kind::text}; }
 std::string Value<std::string>::read(const Config& c, const Rule&) { return c.text(); }
 std::string Value<std::string>::yaml(const std::string& x) { return x; }
 
-Shape Value<FilePath>::shape() { return {.kind = Shape::Kind::file}; }
+ValueSchema Value<FilePath>::schema() { return {.kind = ValueSchema::Kind::file}; }
 FilePath Value<FilePath>::read(const Config& c, const Rule&) { return {c.file_path(), c.where()}; }
 std::string Value<FilePath>::yaml(const FilePath& x) { return x.path; }
 
-Shape Value<Vec3>::shape() { return list_shape(Value<double>::shape(), 3, "[x, y, z]"); }
+ValueSchema Value<Vec3>::schema() { return list_schema(Value<double>::schema(), 3, "[x, y, z]"); }
 Vec3 Value<Vec3>::read(const Config& c, const Rule& r) { return Eigen::Map<const Vec3>(read_numbers(c, r, 3).data()); }
 std::string Value<Vec3>::yaml(const Vec3& x) {
   return fmt::format("[{}, {}, {}]", number_text(x[0]), number_text(x[1]), number_text(x[2]));
 }
 
-Shape Value<Mat3>::shape() { return list_shape(Value<Vec3>::shape(), 3, "[[row], [row], [row]]"); }
+ValueSchema Value<Mat3>::schema() { return list_schema(Value<Vec3>::schema(), 3, "[[row], [row], [row]]"); }
 Mat3 Value<Mat3>::read(const Config& c, const Rule& r) {
   if (!c.is_sequence() || c.size() != 3)
     c.fail("expected three rows of three numbers, found " + c.shown(), InputFault::form);

@@ -1,4 +1,4 @@
-// How each type of value is read from and written to YAML: Value<V>::shape(), read(), yaml().
+// How each type of value is read from and written to YAML: Value<V>::schema(), read(), yaml().
 // yaml() of a default that means "absent" is empty.
 #pragma once
 
@@ -44,7 +44,7 @@ using Named = std::vector<std::pair<std::string, V>>;
 
 // The words of an enum: specialise with `static constexpr std::array<std::pair<E, const char*>, N> list`.
 template <class E>
-struct Words;
+struct EnumNames;
 
 template <class V>
 struct Value;
@@ -55,21 +55,21 @@ double read_number(const Config& config, const Rule& rule);
 std::string number_text(double x);
 std::vector<double> read_numbers(const Config& config, const Rule& rule, std::size_t count);
 
-Shape list_shape(Shape item, std::size_t count = 0, std::string words = "");
+ValueSchema list_schema(ValueSchema item, std::size_t count = 0, std::string words = "");
 
 // An integral number within both bounds and the rule's range. Throws ConfigError.
 long read_integer(const Config& config, const Rule& rule, long low, long high);
 
 template <>
 struct Value<double> {
-  static Shape shape();
+  static ValueSchema schema();
   static double read(const Config& c, const Rule& r);
   static std::string yaml(double x);
 };
 
 template <std::integral V>
 struct Value<V> {
-  static Shape shape() { return {.kind = Shape::Kind::integer}; }
+  static ValueSchema schema() { return {.kind = ValueSchema::Kind::integer}; }
   static V read(const Config& c, const Rule& r) {
     constexpr auto kLargest = std::min<std::uintmax_t>(std::numeric_limits<V>::max(), std::numeric_limits<long>::max());
     return static_cast<V>(read_integer(c, r, std::numeric_limits<V>::min(), static_cast<long>(kLargest)));
@@ -79,14 +79,14 @@ struct Value<V> {
 
 template <>
 struct Value<bool> {
-  static Shape shape();
+  static ValueSchema schema();
   static bool read(const Config& c, const Rule&);
   static std::string yaml(bool x);
 };
 
 template <>
 struct Value<std::string> {
-  static Shape shape();
+  static ValueSchema schema();
   static std::string read(const Config& c, const Rule&);
   static std::string yaml(const std::string& x);
 };
@@ -99,21 +99,21 @@ struct FilePath {
 
 template <>
 struct Value<FilePath> {
-  static Shape shape();
+  static ValueSchema schema();
   static FilePath read(const Config& c, const Rule&);
   static std::string yaml(const FilePath& x);
 };
 
 template <>
 struct Value<Vec3> {
-  static Shape shape();
+  static ValueSchema schema();
   static Vec3 read(const Config& c, const Rule& r);
   static std::string yaml(const Vec3& x);
 };
 
 template <>
 struct Value<Mat3> {
-  static Shape shape();
+  static ValueSchema schema();
   static Mat3 read(const Config& c, const Rule& r);
   static std::string yaml(const Mat3& m);
 };
@@ -126,13 +126,13 @@ requires std::is_enum_v<E>
 struct Value<E> {
   static std::vector<std::string> words() {
     std::vector<std::string> out;
-    for (const auto& [value, word] : Words<E>::list) out.emplace_back(word);
+    for (const auto& [value, word] : EnumNames<E>::list) out.emplace_back(word);
     return out;
   }
-  static Shape shape() { return {.kind = Shape::Kind::word, .names = words()}; }
-  static E read(const Config& c, const Rule&) { return Words<E>::list[index_of_word(c, words())].first; }
+  static ValueSchema schema() { return {.kind = ValueSchema::Kind::word, .names = words()}; }
+  static E read(const Config& c, const Rule&) { return EnumNames<E>::list[index_of_word(c, words())].first; }
   static std::string yaml(E x) {
-    for (const auto& [value, word] : Words<E>::list)
+    for (const auto& [value, word] : EnumNames<E>::list)
       if (value == x) return word;
     return "";
   }
@@ -140,14 +140,14 @@ struct Value<E> {
 
 template <class V>
 struct Value<std::optional<V>> {
-  static Shape shape() { return Value<V>::shape(); }
+  static ValueSchema schema() { return Value<V>::schema(); }
   static std::optional<V> read(const Config& c, const Rule& r) { return Value<V>::read(c, r); }
   static std::string yaml(const std::optional<V>& x) { return x ? Value<V>::yaml(*x) : ""; }
 };
 
 template <class V, std::size_t N>
 struct Value<std::array<V, N>> {
-  static Shape shape() { return list_shape(Value<V>::shape(), N); }
+  static ValueSchema schema() { return list_schema(Value<V>::schema(), N); }
   static std::array<V, N> read(const Config& c, const Rule& r) {
     if (!c.is_sequence() || c.size() != N)
       c.fail("expected a list of " + std::to_string(N) + ", found " + c.shown(), InputFault::form);
@@ -164,7 +164,7 @@ struct Value<std::array<V, N>> {
 
 template <class V>
 struct Value<std::vector<V>> {
-  static Shape shape() { return list_shape(Value<V>::shape()); }
+  static ValueSchema schema() { return list_schema(Value<V>::schema()); }
   static std::vector<V> read(const Config& c, const Rule& r) {
     if (!c.is_sequence()) c.fail("expected a list, found " + c.shown(), InputFault::form);
     std::vector<V> out;
@@ -181,7 +181,7 @@ struct Value<std::vector<V>> {
 
 template <class V>
 struct Value<Named<V>> {
-  static Shape shape() { return {.kind = Shape::Kind::named, .items = {Value<V>::shape()}}; }
+  static ValueSchema schema() { return {.kind = ValueSchema::Kind::named, .items = {Value<V>::schema()}}; }
   static Named<V> read(const Config& c, const Rule& r) {
     if (!c.is_map()) c.fail("expected named sections, found " + c.shown(), InputFault::form);
     Named<V> out;
@@ -195,9 +195,10 @@ struct Value<Named<V>> {
 template <class V>
 requires requires { V::spec(); }
 struct Value<V> {
-  static Shape shape() {
-    return {
-        .kind = Shape::Kind::section, .title = type_title(typeid(V).name()), .keys = [] { return V::spec().keys(); }};
+  static ValueSchema schema() {
+    return {.kind = ValueSchema::Kind::section, .title = type_title(typeid(V).name()), .keys = [] {
+              return V::spec().keys();
+            }};
   }
   static V read(const Config& c, const Rule&) { return V::spec().read(c); }
   static std::string yaml(const V&) { return ""; }

@@ -7,7 +7,7 @@
 namespace orthodyn {
 
 // Number k = 0, 1, ... of a sequence in [0, 1): the fractions of k times the golden ratio.
-inline double golden_share(int k) {
+inline double golden_ratio_sample(int k) {
   const double turns = k * std::numbers::phi;
   return turns - std::floor(turns);
 }

@@ -7,6 +7,6 @@
 namespace orthodyn {
 
 // The larger over the smaller of their magnitudes: at least 1. Neither is zero.
-inline double apart(double a, double b) { return std::max(std::abs(a / b), std::abs(b / a)); }
+inline double ratio_distance(double a, double b) { return std::max(std::abs(a / b), std::abs(b / a)); }
 
 }  // namespace orthodyn

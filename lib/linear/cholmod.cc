@@ -69,7 +69,7 @@ class Cholmod : public LinearSolver {
     const BlasThreadLimit threads(most_threads());
     const SerialOpenMp serial;
     if (factor_->xtype == CHOLMOD_PATTERN)  // the first on this pattern
-      require_room_of_factor(
+      require_memory_for_factor(
           factor_bytes(), "the Cholesky factor",
           "use a coarser mesh, or an explicit integrator (central_differences), which has no factor");
     cholmod_sparse view = view_of(values);

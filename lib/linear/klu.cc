@@ -49,7 +49,7 @@ class Klu : public LinearSolver {
   }
 
   FactorStatus factor(const double* values) override {
-    if (!numeric_) require_room_of_factor(factor_bytes(), "the pair of LU factors", "use cholmod or a coarser mesh");
+    if (!numeric_) require_memory_for_factor(factor_bytes(), "the pair of LU factors", "use cholmod or a coarser mesh");
     full_ = full(values);
     int* p = full_.outerIndexPtr();
     int* i = full_.innerIndexPtr();

@@ -7,7 +7,7 @@
 
 namespace orthodyn {
 
-void require_room_of_factor(std::size_t bytes, const std::string& what, const std::string& remedy) {
+void require_memory_for_factor(std::size_t bytes, const std::string& what, const std::string& remedy) {
   constexpr double kAlways = 64e6;  // not worth a look at the system
   constexpr double kGigabyte = 1e9;
   const auto needed = static_cast<double>(bytes);

@@ -9,6 +9,6 @@ namespace orthodyn {
 
 // `bytes`: what a factorisation is going to take beside what the process has; `what`: "the Cholesky factor". Throws
 // RunError (out_of_memory) with both figures where less is left; `remedy`: "use a coarser mesh".
-void require_room_of_factor(std::size_t bytes, const std::string& what, const std::string& remedy);
+void require_memory_for_factor(std::size_t bytes, const std::string& what, const std::string& remedy);
 
 }  // namespace orthodyn

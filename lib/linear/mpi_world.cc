@@ -25,7 +25,7 @@ bool is_a_later_rank() {
   return false;
 }
 
-const Ranks* world_ranks() {
+const Ranks* mpi_world() {
   if (!is_one_of_several_ranks()) return nullptr;
   return reinterpret_cast<WorldRanks*>(petsc_function("orthodyn_world_ranks"))();
 }

@@ -7,7 +7,7 @@ namespace orthodyn {
 
 // Null where this process is alone: then MPI is not started either. Throws ConfigError where it is one of several, and
 // this build has no MPI.
-const Ranks* world_ranks();
+const Ranks* mpi_world();
 
 // Of each cell the part it is in, as Ranks::partition() has it, for any number of parts, by this process alone. Throws
 // ConfigError where this build has no MPI.

@@ -20,7 +20,7 @@ Vector diagonal(const Pattern& pattern, const std::vector<double>& values) {
 double operator_size(int n, const VectorFunction& first, const VectorFunction& second) {
   constexpr int kSteps = 3;
   Vector x(n), between(n), image(n);
-  for (int i = 0; i < n; ++i) x[i] = golden_share(i) - 0.5;  // in no body's symmetry
+  for (int i = 0; i < n; ++i) x[i] = golden_ratio_sample(i) - 0.5;  // in no body's symmetry
   double size = 0;
   for (int k = 0; k < kSteps && x.norm() > 0; ++k) {
     x.normalize();

@@ -18,7 +18,7 @@ namespace orthodyn {
 enum class VoigtOrder { s23_13_12, s12_23_31, abaqus };
 
 template <>
-struct Words<VoigtOrder> {
+struct EnumNames<VoigtOrder> {
   static constexpr std::array<std::pair<VoigtOrder, const char*>, 3> list{{{VoigtOrder::s23_13_12, "11-22-33-23-13-12"},
                                                                            {VoigtOrder::s12_23_31, "11-22-33-12-23-31"},
                                                                            {VoigtOrder::abaqus, "abaqus"}}};

@@ -107,7 +107,9 @@ std::string likely_unit_slip(const OrthotropicConstants& c, const std::array<boo
     for (const double factor : {1e3, 1e-3}) {
       Vec3 meant = c.young;
       meant[i] *= factor;
-      const auto fits = [&](double E) { return apart(c.young[i], E) > kFar && apart(meant[i], E) < kFar; };
+      const auto fits = [&](double E) {
+        return ratio_distance(c.young[i], E) > kFar && ratio_distance(meant[i], E) < kFar;
+      };
       if (fits(neighbour) && fits(other) && is_stable(with_young(c, meant, reversed)))
         return fmt::format(
             "Is E{} = {:.4g} Pa of the same unit as the other two, {:.4g} and {:.4g} Pa? With {:.4g} Pa "

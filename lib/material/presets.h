@@ -27,7 +27,7 @@ const std::vector<Preset>& presets();
 enum class PresetName : int {};
 
 template <>
-struct Words<PresetName> {
+struct EnumNames<PresetName> {
   static constexpr auto list = [] {
     std::array<std::pair<PresetName, const char*>, kWoodRows.size() + kCompositeRows.size()> words{};
     int i = 0;

@@ -9,7 +9,7 @@ namespace orthodyn {
 enum class RatioRepair { none, shrink };
 
 template <>
-struct Words<RatioRepair> {
+struct EnumNames<RatioRepair> {
   static constexpr std::array<std::pair<RatioRepair, const char*>, 2> list{
       {{RatioRepair::none, "none"}, {RatioRepair::shrink, "shrink"}}};
 };

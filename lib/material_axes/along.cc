@@ -10,7 +10,7 @@ namespace orthodyn {
 enum class Across { radial, carried };
 
 template <>
-struct Words<Across> {
+struct EnumNames<Across> {
   static constexpr std::array<std::pair<Across, const char*>, 2> list{
       {{Across::radial, "radial"}, {Across::carried, "carried"}}};
 };
@@ -58,7 +58,7 @@ class Along : public AxesSource {
     };
   }
 
-  Origin origin;
+  SourceLocation origin;
 
  private:
   template <class Refuse>

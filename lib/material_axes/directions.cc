@@ -31,7 +31,7 @@ class Directions : public AxesSource {
     return [Q = nearest_axes(columns())](const Vec3&, int) { return Q; };
   }
 
-  Origin origin;
+  SourceLocation origin;
 
  private:
   void check(const Config& config) const {

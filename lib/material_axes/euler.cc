@@ -6,7 +6,7 @@ namespace orthodyn {
 enum class EulerConvention { xyz, xzy, yxz, yzx, zxy, zyx, xyx, xzx, yxy, yzy, zxz, zyz };
 
 template <>
-struct Words<EulerConvention> {
+struct EnumNames<EulerConvention> {
   using E = EulerConvention;
   static constexpr std::array<std::pair<E, const char*>, 12> list{{{E::xyz, "xyz"},
                                                                    {E::xzy, "xzy"},

@@ -12,7 +12,7 @@ namespace orthodyn {
 enum class AxesRepair { refuse, orthonormalise };
 
 template <>
-struct Words<AxesRepair> {
+struct EnumNames<AxesRepair> {
   static constexpr std::array<std::pair<AxesRepair, const char*>, 2> list{
       {{AxesRepair::refuse, "refuse"}, {AxesRepair::orthonormalise, "orthonormalise"}}};
 };

@@ -9,7 +9,7 @@ namespace orthodyn {
 enum class LrtOrder { LRT, LTR, RLT, RTL, TLR, TRL };
 
 template <>
-struct Words<LrtOrder> {
+struct EnumNames<LrtOrder> {
   using E = LrtOrder;
   static constexpr std::array<std::pair<E, const char*>, 6> list{
       {{E::LRT, "LRT"}, {E::LTR, "LTR"}, {E::RLT, "RLT"}, {E::RTL, "RTL"}, {E::TLR, "TLR"}, {E::TRL, "TRL"}}};

@@ -28,7 +28,7 @@ class MatrixAxes : public AxesSource {
     return [Q = nearest_axes(matrix_)](const Vec3&, int) { return Q; };
   }
 
-  Origin origin;
+  SourceLocation origin;
 
  private:
   Mat3 matrix_ = Mat3::Identity();

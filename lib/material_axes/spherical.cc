@@ -7,7 +7,7 @@ namespace orthodyn {
 enum class RenOrder { REN, RNE, ERN, ENR, NRE, NER };
 
 template <>
-struct Words<RenOrder> {
+struct EnumNames<RenOrder> {
   using E = RenOrder;
   static constexpr std::array<std::pair<E, const char*>, 6> list{
       {{E::REN, "REN"}, {E::RNE, "RNE"}, {E::ERN, "ERN"}, {E::ENR, "ENR"}, {E::NRE, "NRE"}, {E::NER, "NER"}}};

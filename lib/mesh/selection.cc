@@ -43,8 +43,8 @@ void Selection::check(const Config& config) const {
 namespace {
 
 // `found` is a map by name; `remedy` says where such things come from.
-[[noreturn]] void fail_unknown(const Origin& origin, const char* kind, const std::string& name, const auto& found,
-                               const char* remedy) {
+[[noreturn]] void fail_unknown(const SourceLocation& origin, const char* kind, const std::string& name,
+                               const auto& found, const char* remedy) {
   std::vector<std::string> names;
   for (const auto& [known, members] : found) names.push_back(known);
   origin.fail(fmt::format("the mesh has no {} '{}'{} It has {}", kind, name, did_you_mean(name, names, "."),
@@ -59,7 +59,7 @@ std::set<int> nodes_where(const TetMesh& mesh, Predicate&& inside) {
   return out;
 }
 
-std::set<int> node_set(const TetMesh& mesh, const std::string& name, const Origin& origin) {
+std::set<int> node_set(const TetMesh& mesh, const std::string& name, const SourceLocation& origin) {
   const auto it = mesh.node_sets.find(name);
   if (it != mesh.node_sets.end()) return {it->second.begin(), it->second.end()};
   fail_unknown(origin, "node set", name, mesh.node_sets, "a .bou file, *NSET, physical points");
@@ -89,14 +89,14 @@ std::string extent(const TetMesh& mesh) {
 
 }  // namespace
 
-const std::vector<Triangle>& find_surface(const TetMesh& mesh, const std::string& name, const Origin& origin) {
+const std::vector<Triangle>& find_surface(const TetMesh& mesh, const std::string& name, const SourceLocation& origin) {
   const auto it = mesh.surfaces.find(name);
   if (it != mesh.surfaces.end() && !it->second.empty()) return it->second;
   fail_unknown(origin, "surface", name, mesh.surfaces, "in Gmsh, make a Physical Surface");
 }
 
 std::vector<Triangle> surface_or_all(const TetMesh& mesh, const std::optional<std::string>& name,
-                                     const Origin& origin) {
+                                     const SourceLocation& origin) {
   return name ? find_surface(mesh, *name, origin) : boundary_triangles(mesh);
 }
 

@@ -27,7 +27,7 @@ struct Selection {
   std::optional<PlaneSelection> plane;
   std::optional<Vec3> nearest;
   std::optional<std::string> nodes;  // a node set of the mesh
-  Origin origin;
+  SourceLocation origin;
 
   int count() const;
   // Fails unless exactly one is given.
@@ -52,9 +52,10 @@ std::vector<int> selected_nodes(const Selection& selection, const TetMesh& mesh)
 int nearest_node(const TetMesh& mesh, const Vec3& point);
 
 // Throws ConfigError naming the mesh's surfaces if there is none of this name.
-const std::vector<Triangle>& find_surface(const TetMesh& mesh, const std::string& name, const Origin& origin);
+const std::vector<Triangle>& find_surface(const TetMesh& mesh, const std::string& name, const SourceLocation& origin);
 
 // The same, without a name all outer faces of the body.
-std::vector<Triangle> surface_or_all(const TetMesh& mesh, const std::optional<std::string>& name, const Origin& origin);
+std::vector<Triangle> surface_or_all(const TetMesh& mesh, const std::optional<std::string>& name,
+                                     const SourceLocation& origin);
 
 }  // namespace orthodyn

@@ -64,7 +64,7 @@ class Integrator {
   virtual std::vector<std::pair<std::string, std::string>> decisions() const { return {}; }
 
   // Warnings about the motion so far: a sentence each, with a remedy.
-  virtual std::vector<std::string> doubts() const { return {}; }
+  virtual std::vector<std::string> result_warnings() const { return {}; }
 };
 
 // Number of equal parts into which to divide a span h (s) within the last step for samples.

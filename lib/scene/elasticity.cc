@@ -3,13 +3,13 @@
 namespace orthodyn {
 
 template <>
-struct Words<Corotation> {
+struct EnumNames<Corotation> {
   static constexpr std::array<std::pair<Corotation, const char*>, 2> list{
       {{Corotation::exact, "exact"}, {Corotation::warped, "warped"}}};
 };
 
 template <>
-struct Words<WarpedTangent> {
+struct EnumNames<WarpedTangent> {
   static constexpr std::array<std::pair<WarpedTangent, const char*>, 2> list{
       {{WarpedTangent::rotated, "rotated"}, {WarpedTangent::unsymmetric, "unsymmetric"}}};
 };

@@ -11,7 +11,7 @@
 namespace orthodyn {
 
 template <>
-struct Words<Kinematics> {
+struct EnumNames<Kinematics> {
   static constexpr std::array<std::pair<Kinematics, const char*>, 3> list{
       {{Kinematics::corotational, "corotational"}, {Kinematics::linear, "linear"}, {Kinematics::automatic, "auto"}}};
 };

@@ -8,12 +8,12 @@
 namespace orthodyn {
 
 template <>
-struct Words<Direction> {
+struct EnumNames<Direction> {
   static constexpr std::array<std::pair<Direction, const char*>, 3> list{
       {{Direction::up, "up"}, {Direction::down, "down"}, {Direction::both, "both"}}};
 };
 template <>
-struct Words<EventAction> {
+struct EnumNames<EventAction> {
   static constexpr std::array<std::pair<EventAction, const char*>, 2> list{
       {{EventAction::log, "log"}, {EventAction::stop, "stop"}}};
 };

@@ -22,7 +22,7 @@ struct EventSpec {
   Direction direction = Direction::both;
   EventAction action = EventAction::log;
   std::optional<std::string> name;  // default the quantity
-  Origin origin;
+  SourceLocation origin;
   static const Spec<EventSpec>& spec();
 };
 

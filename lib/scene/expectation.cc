@@ -29,7 +29,7 @@ void check_take(Take take, const std::optional<double>& at, const std::optional<
   if (!of && take == Take::onset) config.fail("take: onset needs 'of', the size that is passed");
 }
 
-std::string figure_unit(Take take, const std::string& quantity_unit) {
+std::string metric_unit(Take take, const std::string& quantity_unit) {
   switch (take) {
     case Take::end:
     case Take::max:
@@ -62,7 +62,7 @@ const Spec<Expectation>& Expectation::spec() {
                {.range = {1, 1000}})
           .key("take", &Expectation::take, kTakeSentence)
           .key("at", &Expectation::at, "The value at this time, instead of `take`.", {.unit = "s"})
-          .key("value", &Expectation::value, "The expected figure, in SI units or with a unit.",
+          .key("value", &Expectation::value, "The expected metric, in SI units or with a unit.",
                {.required = true, .unit = kUnitOfQuantity})
           .key("source", &Expectation::source, "Where the value is known from.", {.required = true})
           .key("relative", &Expectation::relative, "Tolerance relative to the value.", {.range = kPositive})
@@ -78,7 +78,7 @@ const Spec<Expectation>& Expectation::spec() {
 }
 
 void Expectation::require_units(const std::string& quantity_unit) const {
-  const std::string unit = figure_unit(take, quantity_unit);
+  const std::string unit = metric_unit(take, quantity_unit);
   value.require(unit, {origin.where + ".value"});
   if (absolute) absolute->require(unit, {origin.where + ".absolute"});
   if (of) of->require(quantity_unit, {origin.where + ".of"});

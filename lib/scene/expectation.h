@@ -1,4 +1,4 @@
-// A figure that is known from elsewhere: of a quantity over time or in equilibrium, a natural frequency, or a critical
+// A metric that is known from elsewhere: of a quantity over time or in equilibrium, a natural frequency, or a critical
 // load factor. A scene with expectations is a test case for `orthodyn verify`.
 #pragma once
 
@@ -12,11 +12,11 @@
 
 namespace orthodyn {
 
-// How one figure is taken from a quantity's course over time.
+// How one metric is taken from a quantity's course over time.
 enum class Take { end, max, min, time_of_max, time_of_min, mean, frequency, drift, gain, onset };
 
 template <>
-struct Words<Take> {
+struct EnumNames<Take> {
   static constexpr std::array<std::pair<Take, const char*>, 10> list{{{Take::end, "end"},
                                                                       {Take::max, "max"},
                                                                       {Take::min, "min"},
@@ -32,12 +32,12 @@ struct Words<Take> {
 // Throws ConfigError at `config` for a `take` that does not go with the keys `at` and `of`.
 void check_take(Take take, const std::optional<double>& at, const std::optional<double>& of, const Config& config);
 
-// The SI unit of a figure of a quantity that has the given one; "" for a plain number.
-std::string figure_unit(Take take, const std::string& quantity_unit);
+// The SI unit of a metric of a quantity that has the given one; "" for a plain number.
+std::string metric_unit(Take take, const std::string& quantity_unit);
 
 // What the key `take` means, for those who read the input.
 inline constexpr const char* kTakeSentence =
-    "Which figure of its history. drift is the largest change from the start, gain the largest rise above it, "
+    "Which metric of its history. drift is the largest change from the start, gain the largest rise above it, "
     "both relative to `of`; default the initial size, for energy.balance the largest energy. onset is the time at "
     "which its size first passes `of`.";
 inline constexpr const char* kOfSentence = "What a drift or gain is relative to; the size that an onset passes.";
@@ -56,7 +56,7 @@ struct Expectation {
   std::optional<Measured> of;        // of a drift or gain: what it is relative to; of an onset: the size that is passed
   std::string reason;                // why the tolerance is what it is
   double degraded = 10;  // times the tolerance: up to there `orthodyn stability` calls it degraded, not failed
-  Origin origin;
+  SourceLocation origin;
   static const Spec<Expectation>& spec();
 
   // Known without a motion or an equilibrium.

@@ -81,7 +81,7 @@ bool has_node(const FemModel& model, const ElementMesh& mesh, const ElasticTerm&
   }));
 }
 
-void fail_without_strength(const std::string& field, const std::string& what, const Origin& origin) {
+void fail_without_strength(const std::string& field, const std::string& what, const SourceLocation& origin) {
   origin.fail(
       fmt::format("'{}' needs the strengths of {}: give its material strength: {{tension: [...], compression: "
                   "[...], shear: [...]}} in Pa, or take a preset that has them (`orthodyn list presets`)",
@@ -91,7 +91,7 @@ void fail_without_strength(const std::string& field, const std::string& what, co
 }  // namespace
 
 void require_strengths(const std::string& field, const std::string& region, const FemModel& model,
-                       const Origin& origin) {
+                       const SourceLocation& origin) {
   if (!needs_strength(field)) return;
   const ElasticTerm* const named = region_of(field, model);
   const std::string& wanted = named ? named->region() : region;
@@ -100,7 +100,7 @@ void require_strengths(const std::string& field, const std::string& region, cons
   fail_without_strength(field, wanted.empty() ? "a material" : "the material of region " + wanted, origin);
 }
 
-void require_field_at(const std::string& field, int node, const FemModel& model, const Origin& origin) {
+void require_field_at(const std::string& field, int node, const FemModel& model, const SourceLocation& origin) {
   const ElementMesh mesh(model.parts().mesh);
   const ElasticTerm* const named = region_of(field, model);
   if (named && !has_node(model, mesh, *named, node))
@@ -125,7 +125,7 @@ std::string unit_of_extreme(const std::string& name) {
   return "";
 }
 
-std::optional<FindExtreme> find_extreme(const std::string& name, const FemModel& model, const Origin& origin) {
+std::optional<FindExtreme> find_extreme(const std::string& name, const FemModel& model, const SourceLocation& origin) {
   const auto dot = name.rfind('.');
   if (dot == std::string::npos) return std::nullopt;
   const std::string which = name.substr(dot + 1);

@@ -11,13 +11,13 @@
 namespace orthodyn {
 
 template <>
-struct Words<OutputTimes> {
+struct EnumNames<OutputTimes> {
   static constexpr std::array<std::pair<OutputTimes, const char*>, 2> list{
       {{OutputTimes::interpolated, "interpolated"}, {OutputTimes::exact, "exact"}}};
 };
 
 template <>
-struct Words<EnergyTimes> {
+struct EnumNames<EnergyTimes> {
   static constexpr std::array<std::pair<EnergyTimes, const char*>, 2> list{
       {{EnergyTimes::outputs, "outputs"}, {EnergyTimes::steps, "steps"}}};
 };
@@ -44,27 +44,27 @@ void refuse_cell_fields(const Config& c, const NodeFields& names) {
           fmt::format("'{0}' is a field of cells, and a probe is at a node; did you mean 'nodal_{0}'?", names[i]));
 }
 
-Shape shape_of_names(const std::vector<Location>& locations) {
-  Shape name{.kind = Shape::Kind::word};
+ValueSchema schema_of_names(const std::vector<Location>& locations) {
+  ValueSchema name{.kind = ValueSchema::Kind::word};
   for (const auto& info : FemModel(FemModel::Parts{}).outputs())
     if (std::find(locations.begin(), locations.end(), info.location) != locations.end())
       name.names.push_back(info.name);
-  Shape in_region{.kind = Shape::Kind::word, .words = "REGION.FIELD", .behind_name = true};
+  ValueSchema in_region{.kind = ValueSchema::Kind::word, .words = "REGION.FIELD", .behind_name = true};
   for (const auto& info : region_fields()) in_region.names.push_back(info.name);
-  return list_shape({.kind = Shape::Kind::either, .items = {std::move(name), std::move(in_region)}}, 0,
-                    "list of fields");
+  return list_schema({.kind = ValueSchema::Kind::either, .items = {std::move(name), std::move(in_region)}}, 0,
+                     "list of fields");
 }
 
 }  // namespace
 
-Shape Value<NodeFields>::shape() { return shape_of_names({Location::node}); }
+ValueSchema Value<NodeFields>::schema() { return schema_of_names({Location::node}); }
 NodeFields Value<NodeFields>::read(const Config& c, const Rule& r) {
   NodeFields names = read_names<NodeFields>(c, r);
   refuse_cell_fields(c, names);
   return names;
 }
 
-Shape Value<FrameFields>::shape() { return shape_of_names({Location::node, Location::cell}); }
+ValueSchema Value<FrameFields>::schema() { return schema_of_names({Location::node, Location::cell}); }
 FrameFields Value<FrameFields>::read(const Config& c, const Rule& r) {
   FrameFields names = read_names<FrameFields>(c, r);
   names.origin = {c.where()};

@@ -20,18 +20,18 @@ struct NodeFields : std::vector<std::string> {
 };
 struct FrameFields : std::vector<std::string> {
   using vector::vector;
-  Origin origin = {};  // "" of default ones
+  SourceLocation origin = {};  // "" of default ones
 };
 
 template <>
 struct Value<NodeFields> {
-  static Shape shape();
+  static ValueSchema schema();
   static NodeFields read(const Config& c, const Rule& r);
   static std::string yaml(const NodeFields& x) { return Value<std::vector<std::string>>::yaml(x); }
 };
 template <>
 struct Value<FrameFields> {
-  static Shape shape();
+  static ValueSchema schema();
   static FrameFields read(const Config& c, const Rule& r);
   static std::string yaml(const FrameFields& x) { return Value<std::vector<std::string>>::yaml(x); }
 };
@@ -40,7 +40,7 @@ struct Value<FrameFields> {
 struct Probe {
   Vec3 at = Vec3::Zero();  // m, in the rest shape
   NodeFields fields{"displacement"};
-  Origin origin;
+  SourceLocation origin;
   static const Spec<Probe>& spec();
 };
 
@@ -62,7 +62,7 @@ struct Output {
   bool reactions = false, energy = true, steps = true, momentum = false;
   EnergyTimes energy_times = EnergyTimes::outputs;
   bool accumulated_error = true, mesh_error = true;
-  Origin origin;
+  SourceLocation origin;
   static const Spec<Output>& spec();
 };
 

@@ -80,7 +80,8 @@ std::string Quantity::ask_for_component() const {
                      is_vector() && choices[0] == "x" ? std::string(" or .") + kMagnitude : "");
 }
 
-Quantity find_quantity(const std::string& name, const Scene& scene, const FemModel& model, const Origin& origin) {
+Quantity find_quantity(const std::string& name, const Scene& scene, const FemModel& model,
+                       const SourceLocation& origin) {
   if (name == kEnergyBalance) return {name, "J"};
   if (const auto extreme = find_extreme(name, model, origin))
     return {name, unit_of_extreme(name), {}, [find = *extreme](const ObservedState& observed) {

@@ -33,7 +33,8 @@ struct Quantity {
 };
 
 // Throws ConfigError at `origin`.
-Quantity find_quantity(const std::string& name, const Scene& scene, const FemModel& model, const Origin& origin);
+Quantity find_quantity(const std::string& name, const Scene& scene, const FemModel& model,
+                       const SourceLocation& origin);
 
 // Of a quantity that ends on .largest or .smallest its value and the node where it is; NaN and -1 where no node has
 // one.
@@ -44,15 +45,15 @@ struct Extreme {
 using FindExtreme = std::function<Extreme(const ObservedState&)>;
 
 // None for other quantities. Throws what require_strengths() does.
-std::optional<FindExtreme> find_extreme(const std::string& name, const FemModel& model, const Origin& origin);
+std::optional<FindExtreme> find_extreme(const std::string& name, const FemModel& model, const SourceLocation& origin);
 
 // Throws ConfigError at `origin` for a field that needs strengths which no material of the region, or of the body where
 // it is "", has.
 void require_strengths(const std::string& field, const std::string& region, const FemModel& model,
-                       const Origin& origin);
+                       const SourceLocation& origin);
 
 // The same for a node, of which a region with strengths must be; of REGION.FIELD that very region.
-void require_field_at(const std::string& field, int node, const FemModel& model, const Origin& origin);
+void require_field_at(const std::string& field, int node, const FemModel& model, const SourceLocation& origin);
 
 // The SI unit of such a quantity; "" for a plain number.
 std::string unit_of_extreme(const std::string& name);

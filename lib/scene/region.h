@@ -22,7 +22,7 @@ struct Region {
   std::shared_ptr<const AxesSource> axes;
   std::optional<double> stiffness_damping;  // s; overrides damping.stiffness
   std::optional<Kinematics> kinematics;     // overrides elasticity.kinematics
-  Origin origin;
+  SourceLocation origin;
   static const Spec<Region>& spec();
 };
 

@@ -10,17 +10,17 @@
 namespace orthodyn {
 
 template <>
-struct Words<MassKind> {
+struct EnumNames<MassKind> {
   static constexpr std::array<std::pair<MassKind, const char*>, 2> list{
       {{MassKind::lumped, "lumped"}, {MassKind::consistent, "consistent"}}};
 };
 template <>
-struct Words<Analysis> {
+struct EnumNames<Analysis> {
   static constexpr std::array<std::pair<Analysis, const char*>, 3> list{
       {{Analysis::dynamic, "dynamic"}, {Analysis::statical, "static"}, {Analysis::buckling, "buckling"}}};
 };
 template <>
-struct Words<Start> {
+struct EnumNames<Start> {
   static constexpr std::array<std::pair<Start, const char*>, 2> list{
       {{Start::rest, "rest"}, {Start::equilibrium, "equilibrium"}}};
 };

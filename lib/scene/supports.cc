@@ -49,7 +49,7 @@ class CoordinateOwners {
   std::vector<Support> take() { return std::move(supports_); }
 
  private:
-  void check_name(const std::string& name, const Origin& origin) const {
+  void check_name(const std::string& name, const SourceLocation& origin) const {
     const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
     if (name.empty() || !std::all_of(name.begin(), name.end(), plain))
       origin.fail(fmt::format("name: '{}' is no name; use letters, digits, _ and -", name));
@@ -57,7 +57,7 @@ class CoordinateOwners {
       if (other.name == name) origin.fail(fmt::format("name: '{}' is used twice among clamps and motions", name));
   }
 
-  [[noreturn]] void fail_twice(const Origin& origin, int node, std::size_t component, int owner) const {
+  [[noreturn]] void fail_twice(const SourceLocation& origin, int node, std::size_t component, int owner) const {
     origin.fail(
         fmt::format("moves {} of the node at {} m, which belongs to {} already; select nodes that do not "
                     "overlap, or other components",

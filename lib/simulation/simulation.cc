@@ -97,7 +97,7 @@ RunResult Simulation::run_once(Config config, const RunRequest& request, const s
         fmt::format("on {} ranks, which do not look for values that are probably not intended, nor for "
                     "strains beyond the material's limits (orthodyn check does){}",
                     ranks->size(), setup.scene.is_static() ? "" : ", and do not tell how far errors add up"));
-  if (!request.any_volume) require_usual_volume(setup);
+  if (!request.any_output_size) require_usual_output_size(setup);
   const std::string resolved = resolved_scene(setup, file_, folder.path());
   return analysis_of(setup.scene)(
       {file_, changes_.set, request, setup, resolved, folder, std::move(earlier), interrupt, listener});

@@ -26,7 +26,7 @@ namespace orthodyn {
 enum class AtLimit { stop, follow, jump };
 
 template <>
-struct Words<AtLimit> {
+struct EnumNames<AtLimit> {
   static constexpr std::array<std::pair<AtLimit, const char*>, 3> list{
       {{AtLimit::stop, "stop"}, {AtLimit::follow, "follow"}, {AtLimit::jump, "jump"}}};
 };

@@ -91,7 +91,7 @@ TEST(Scales, ShrinkWithTheStiffnessOfWhatTheBodyMayTouch) {
   const auto block = [](const char* stiffness) {
     return scales_of(fmt::format(R"(mesh: {{type: box, size: [1, 1, 1], cells: [2, 2, 2], origin: [0, 0, 1], order: 1}}
 materials: {{m: {{type: isotropic, density: 1000, young: 1e6, nu: 0}}}}
-terms: [{{type: ground, stiffness: {}}}]
+terms: [{{type: ground_contact, stiffness: {}}}]
 gravity: [0, 0, -10]
 time: {{end: 0.1}}
 )",

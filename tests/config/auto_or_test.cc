@@ -41,7 +41,7 @@ TEST(AutoOr, NamesTheWordThatWasMeant) {
 }
 
 TEST(AutoOr, SaysWhatMayStandThere) {
-  EXPECT_EQ(type_text(Stepping::spec().keys().front().shape), "number, or auto");
+  EXPECT_EQ(type_text(Stepping::spec().keys().front().schema), "number, or auto");
   EXPECT_EQ(Stepping::spec().keys().front().fallback, "auto");
 }
 

@@ -20,7 +20,7 @@ TEST(Measured, IsANumberInSiUnitsOrHasAUnit) {
 }
 
 TEST(Measured, TakesTheUnitsOfItsQuantityOnly) {
-  const Origin here{"a.yaml:1:1"};
+  const SourceLocation here{"a.yaml:1:1"};
   EXPECT_NO_THROW(read("1 mJ").require("J", here));
   EXPECT_NO_THROW(read("1").require("J", here));
   EXPECT_NO_THROW(read("1").require("", here));

@@ -27,7 +27,7 @@ struct Solver {
   Step step;
   std::optional<double> limit;
   Vec3 axis{1, 0, 0.1};
-  Origin origin;
+  SourceLocation origin;
 
   static const Spec<Solver>& spec() {
     static const auto s = Spec<Solver>()

@@ -13,7 +13,7 @@ enum class Split { five, six };
 }
 
 template <>
-struct Words<values_test::Split> {
+struct EnumNames<values_test::Split> {
   using Split = values_test::Split;
   static constexpr std::array<std::pair<Split, const char*>, 2> list{{{Split::five, "five"}, {Split::six, "six"}}};
 };
@@ -65,7 +65,7 @@ TEST(ReadInteger, OutsideItsTypeIsRefused) {
 
 TEST(ReadEnum, TakesItsWords) {
   EXPECT_EQ(read<Split>("six"), Split::six);
-  EXPECT_EQ(type_text(Value<Split>::shape()), "five|six");
+  EXPECT_EQ(type_text(Value<Split>::schema()), "five|six");
 }
 
 TEST(ReadEnum, RefusesOtherWordsWithTheNearestOne) {

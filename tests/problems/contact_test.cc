@@ -35,7 +35,7 @@ TEST_P(Contact, MakesNoEnergy) {
   const BuiltTestScene s(fmt::format(R"(
 mesh: {{type: box, size: [0.1, 0.1, 0.1], cells: [2, 2, 2], origin: [0, 0, 0.05], order: 1}}
 materials: {{rubber: {{type: orthotropic_stable, density: 1000, young: [1e6, 5e5, 2e5], nu: 0.3}}}}
-terms: [{{type: ground, stiffness: {}}}]
+terms: [{{type: ground_contact, stiffness: {}}}]
 gravity: [0, 0, -9.81]
 time: {{end: 0.3}}
 integrator: {{type: {}, rtol: {}}}

@@ -244,7 +244,7 @@ TEST(Modal, RefusesDashpotsGroundAndTooFewModesForAStart) {
   const std::string clamp = "clamps: [{surface: x0}]\n";
   expect(refusal(clamp + "terms: [{type: dashpot, nearest: [1, 0, 0], coefficient: 30}]\n", "type: modal, modes: 5"),
          "dashpots couples them");
-  expect(refusal(clamp + "terms: [{type: ground, point: [0, 0, -1], normal: [0, 0, 1], stiffness: 1e6}]\n",
+  expect(refusal(clamp + "terms: [{type: ground_contact, point: [0, 0, -1], normal: [0, 0, 1], stiffness: 1e6}]\n",
                  "type: modal, modes: 5"),
          "use no ground");
   expect(refusal("", "type: modal, modes: 5"), "ask for more modes");

@@ -352,7 +352,8 @@ TEST(QuadraticFaces, UnderPressureAllAroundHaveTheEnergyPV) {
 }
 
 TEST(QuadraticFaces, OfContactShareTheAreaAmongAllTheirNodes) {
-  const auto s = round("terms: [{type: ground, point: [0, 0, 0.1], stiffness: 10, onset: 1e-3, surface: end0}]");
+  const auto s =
+      round("terms: [{type: ground_contact, point: [0, 0, 0.1], stiffness: 10, onset: 1e-3, surface: end0}]");
   const NodalVector f = s.nodal(s.force(s.zero()));
   EXPECT_NEAR(resultant(f)[2], 10 * (0.1 - 0.5e-3) * std::numbers::pi / 4, 2e-3);
   for (Eigen::Index n = 0; n < f.cols(); ++n)

@@ -20,7 +20,7 @@ class SharedModel : public testing::TestWithParam<SharedScene> {
   SharedModel()
       : scene_(read_scene(Config::from_text(GetParam().yaml, "scene.yaml"))),
         one_(build(scene_)),
-        parts_(build(scene_, world_ranks())) {}
+        parts_(build(scene_, mpi_world())) {}
 
   const FemModel& one() const { return *one_.model; }
   const FemModel& parts() const { return *parts_.model; }
@@ -154,8 +154,8 @@ TEST_P(SharedModel, IsToldWhereItsMatrixIsIndefinite) {
 }
 
 TEST_P(SharedModel, MultigridWithRigidMotionsSolvesIt) {
-  if (!world_ranks()) GTEST_SKIP() << "the solver's own tests have it";
-  if (world_ranks()->any(parts().num_dofs() < 100)) {  // it would not end
+  if (!mpi_world()) GTEST_SKIP() << "the solver's own tests have it";
+  if (mpi_world()->any(parts().num_dofs() < 100)) {  // it would not end
     EXPECT_THROW(make_linear_solver({"petsc", "-pc_type gamg"}, parts().pattern()), ConfigError);
     return;
   }
@@ -190,7 +190,7 @@ TEST_P(SharedModel, IsToldWhereItsMatrixIsSingular) {
     if (pattern.coordinate[static_cast<std::size_t>(i) + 1] % 3 != 0 &&
         pattern.coordinate[static_cast<std::size_t>(i) + 1] == pattern.coordinate[static_cast<std::size_t>(i)] + 1)
       first = static_cast<double>(row_of(i));
-  if (world_ranks()) first = -world_ranks()->max(-first);
+  if (mpi_world()) first = -mpi_world()->max(-first);
   const auto is_one = [&](int i) { return row_of(i) == first || row_of(i) == first + 1; };
 
   std::vector<double> A(pattern.row.size());
@@ -224,7 +224,7 @@ TEST_P(SharedModel, TellsTheSameOfAState) {
 }
 
 TEST_P(SharedModel, WhatOneRankCannotEvaluateIsToldToAll) {
-  if (!world_ranks()) GTEST_SKIP() << "there is nobody to tell";
+  if (!mpi_world()) GTEST_SKIP() << "there is nobody to tell";
   State part = parts().part(some_state());
   // Of several ranks the one that has the first unknown.
   const bool has_first = !parts().parts().unknowns.empty() && parts().parts().unknowns[0] == 0;

@@ -50,7 +50,7 @@ TEST_P(SharedMotion, OfFixedStepIsTheSameToRoundOff) {
     Config config = Config::from_text(scene, "scene.yaml");
     config.set("time.end", std::stod(span));
     const std::string yaml = config.dump();
-    const Motion one = integrate(yaml, nullptr), shared = integrate(yaml, world_ranks());
+    const Motion one = integrate(yaml, nullptr), shared = integrate(yaml, mpi_world());
     EXPECT_EQ(shared.steps, one.steps) << method;
     EXPECT_LE(difference(shared.end.q, one.end.q), 1e-10) << method;
     EXPECT_LE(difference(shared.end.v, one.end.v), 1e-9) << method;
@@ -62,7 +62,7 @@ TEST_P(SharedMotion, WithErrorControlIsTheSameWithinTheTolerance) {
        {"type: cvode_bdf, rtol: 1.0e-5, linear_solver: petsc", "type: ida_bdf, rtol: 1.0e-5, linear_solver: petsc",
         "type: arkode_dirk, rtol: 1.0e-5, linear_solver: petsc"}) {
     const std::string yaml = GetParam().yaml + integrator(method);
-    const Motion one = integrate(yaml, nullptr), shared = integrate(yaml, world_ranks());
+    const Motion one = integrate(yaml, nullptr), shared = integrate(yaml, mpi_world());
     // The scale of positions is 0.1 m, and errors of some hundred steps add up in either run.
     EXPECT_LE((shared.end.q - one.end.q).lpNorm<Eigen::Infinity>(), 3e-4) << method;
   }
@@ -82,7 +82,7 @@ TEST_P(SharedMethod, TakesTheStepsThatItTakesOnOneRank) {
     SCOPED_TRACE(scene.name);
     Config config = Config::from_text(scene.yaml + "integrator: " + keys + "}\n", "scene.yaml");
     config.set("time.end", 0.005);
-    const Motion one = integrate(config.dump(), nullptr), shared = integrate(config.dump(), world_ranks());
+    const Motion one = integrate(config.dump(), nullptr), shared = integrate(config.dump(), mpi_world());
     EXPECT_LE(std::abs(shared.steps - one.steps), 1) << "of " << one.steps;
     EXPECT_LE(difference(shared.end.q, one.end.q), 1e-4);
   }
@@ -95,7 +95,7 @@ TEST(SharedTables, KnowTheStepsEndOnAllRanks) {
     const std::string yaml = shared_scenes().back().yaml + "integrator: {type: " + method + ", rtol: 1.0e-5}\n";
     Config config = Config::from_text(yaml, "scene.yaml");
     config.set("time.end", 0.005);
-    const Motion one = integrate(config.dump(), nullptr), shared = integrate(config.dump(), world_ranks());
+    const Motion one = integrate(config.dump(), nullptr), shared = integrate(config.dump(), mpi_world());
     EXPECT_LE(difference(shared.end.q, one.end.q), 1e-4);
   }
 }
@@ -130,7 +130,7 @@ initial: {velocity: [1, 0, 3], spin: [0, 0.5, 0]}
 gravity: [0, 0, -9.81]
 time: {end: 0.3}
 )" + integrator("type: cvode_bdf, rtol: 1.0e-6");
-  orthodyn::Setup setup = set_up(Config::from_text(yaml, "scene.yaml"), false, true, world_ranks());
+  orthodyn::Setup setup = set_up(Config::from_text(yaml, "scene.yaml"), false, true, mpi_world());
   const FemModel& model = *setup.built.model;
   setup.integrator->start(setup.built.initial);
   double t = 0;
@@ -153,7 +153,7 @@ materials: {hard: {type: isotropic, density: 1000, young: 1e9, nu: 0.3}}
 initial: {spin: [0, 0, 1]}
 time: {end: 3.141592653589793}
 )" + integrator("type: cvode_bdf, rtol: 1.0e-6, max_order: 2");
-  const Motion motion = integrate(yaml, world_ranks());
+  const Motion motion = integrate(yaml, mpi_world());
   const orthodyn::Setup whole = set_up(Config::from_text(yaml, "scene.yaml"));
   const FemModel& model = *whole.built.model;
   const Eigen::Map<const Vector> x(model.parts().rest->data(), model.num_dofs());
@@ -174,7 +174,7 @@ initial: {displacement_field: ["sin(pi * x / 2) / 1000", "0", "0"]}
 elasticity: {kinematics: linear}
 time: {end: 0.4}
 )" + integrator("type: generalized_alpha, step: 0.001, rho_inf: 1, rtol: 1.0e-10");
-  const Motion motion = integrate(yaml, world_ranks());
+  const Motion motion = integrate(yaml, mpi_world());
   // At t = T = 4 L / c = 0.4 s it is where it was.
   orthodyn::Setup setup = set_up(Config::from_text(yaml, "scene.yaml"), false, true, nullptr);
   const Vector& start = setup.built.initial.q;

@@ -41,7 +41,7 @@ output: {reactions: true}
           {"touching", box + head + R"(
 initial: {velocity: [0, 0, -1], spin: [0, 2, 0]}
 gravity: [0, 0, -9.81]
-terms: [{type: ground, point: [0, 0, -0.005], stiffness: 1.0e7}]
+terms: [{type: ground_contact, point: [0, 0, -0.005], stiffness: 1.0e7}]
 )"},
           {"tied", box + head + R"(
 clamps: [{surface: z0}]

@@ -87,8 +87,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"pressure_nowhere",
                 "terms: [{type: pressure, surface: x7, pressure: 1}]",
                 {"terms.0", "no surface 'x7'", "x1"}},
-        Refused{
-            "ground_without_normal", "terms: [{type: ground, normal: [0, 0, 0], stiffness: 1}]", {"normal", "is zero"}},
+        Refused{"ground_without_normal",
+                "terms: [{type: ground_contact, normal: [0, 0, 0], stiffness: 1}]",
+                {"normal", "is zero"}},
         Refused{"point_load_nowhere",
                 "terms: [{type: point_load, box: {min: [5, 5, 5], max: [6, 6, 6]}, force: [1, 0, 0]}]",
                 {"terms.0", "selects no node"}}),

@@ -259,10 +259,10 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"a_clamp_forgotten", "clamps: [{surface: x0}]\ngravity: [0, 0, -9.81]\n" + kLoad,
              "loads: [{surface: x1, force: [0, 0, -100 kN]}]", kWarned, "is a clamp missing?"},
         Slip{"a_ground_upside_down", "clamps: [{surface: x0}]\ngravity: [0, 0, -9.81]\n" + kLoad,
-             "terms: [{type: ground, point: [0, 0, -0.1], normal: [0, 0, -1], stiffness: 1e6}]", kWarned,
+             "terms: [{type: ground_contact, point: [0, 0, -0.1], normal: [0, 0, -1], stiffness: 1e6}]", kWarned,
              "the body begins below the ground"},
         Slip{"a_ground_within_the_body", "clamps: [{surface: x0}]\ngravity: [0, 0, -9.81]\n" + kLoad,
-             "terms: [{type: ground, point: [0, 0, 0.005], stiffness: 1e6}]", kWarned,
+             "terms: [{type: ground_contact, point: [0, 0, 0.005], stiffness: 1e6}]", kWarned,
              "the body begins partly in the ground, 0.005 m deep"},
         Slip{"an_angle_with_the_wrong_unit", "{material: wood}",
              "{material: wood, axes: {type: axis_angle, axis: [0, 0, 1], angle: 30 rad}}", kWarned,
@@ -402,7 +402,7 @@ TEST(Slips, AreNoneOfAStripOrOfABlowToAFreeBody) {
 }
 
 TEST(Slips, AreNoneWhereOnlyAnotherSurfaceIsBelowTheGround) {
-  const std::string ground = "terms: [{type: ground, surface: z1, point: [0, 0, 0.05], stiffness: 1e6}]";
+  const std::string ground = "terms: [{type: ground_contact, surface: z1, point: [0, 0, 0.05], stiffness: 1e6}]";
   EXPECT_EQ(said_of(replaced(kCantilever, kLoad, ground)).words, "");
 }
 
@@ -470,10 +470,10 @@ TEST(ShippedScenes, CauseNoFalseAlarm) {
       const Config config = Config::from_file(entry.path().string()).resolving();
       const Scene scene = read_scene(config);
       const BuiltScene built = build(scene);
-      Warnings warnings = slips(config, scene, built);
+      Warnings warnings = check_inputs(config, scene, built);
       if (built.model->num_dofs() < 10'000) {
         const auto statics = static_response(*built.model, built.initial, scene.time.end);
-        for (auto& warning : response_slips(config, scene, built, statics)) warnings.push_back(warning);
+        for (auto& warning : check_response(config, scene, built, statics)) warnings.push_back(warning);
       }
       ++count;
       // Stability cases have few elements and are judged by conserved quantities: their moments of inertia do not

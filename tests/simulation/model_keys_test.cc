@@ -12,7 +12,7 @@ damping: {stiffness: 0.01, mass: 2}
 gravity: [0, 0, -1]
 loads: [{surface: x1, force: [0, 0, 3]}]
 terms:
-  - {type: ground, point: [0, 0, -1], stiffness: 1e6}
+  - {type: ground_contact, point: [0, 0, -1], stiffness: 1e6}
   - {type: spring, surface: x1, stiffness: 7}
 clamps: [{surface: x0, components: [x, y]}]
 motions: [{surface: x0, components: [z], translation: [0, 0, 0.01], factor: {type: ramp, end: 0.1}}]

@@ -3,12 +3,12 @@
 
 #include "tests/simulation/run_program.h"
 
-namespace orthodyn::volume_test {
+namespace orthodyn::output_size_test {
 namespace {
 
-class VolumeOf : public InFolder {
+class OutputSizeOf : public InFolder {
  protected:
-  VolumeOf() { write("swing.yaml", kSwing); }
+  OutputSizeOf() { write("swing.yaml", kSwing); }
 
   void expect_refused(const std::string& arguments, const std::string& words) const {
     const auto result = orthodyn(arguments);
@@ -19,17 +19,17 @@ class VolumeOf : public InFolder {
   }
 };
 
-TEST_F(VolumeOf, AMillionFramesAreRefused) {
+TEST_F(OutputSizeOf, AMillionFramesAreRefused) {
   expect_refused("run swing.yaml --set output.frames=1000000", "1000000 frames");
   expect_refused("run swing.yaml --set output.frames=null --set output.interval=1e-7", "5000000 frames");
 }
 
-TEST_F(VolumeOf, AMillionRowsAreRefused) {
+TEST_F(OutputSizeOf, AMillionRowsAreRefused) {
   expect_refused("run swing.yaml --set output.history.interval=5e-7", "rows of tables");
 }
 
 // Fixed steps are counted; of others nobody knows.
-TEST_F(VolumeOf, ARowForEachOfAMillionFixedStepsIsRefused) {
+TEST_F(OutputSizeOf, ARowForEachOfAMillionFixedStepsIsRefused) {
   const std::string fixed =
       " swing.yaml --set 'integrator={type: generalized_alpha, step: 1e-7}' --set 'output.history={steps: true}'";
   expect_refused("run" + fixed, "5000000 rows of tables");
@@ -39,7 +39,7 @@ TEST_F(VolumeOf, ARowForEachOfAMillionFixedStepsIsRefused) {
   EXPECT_NE(adaptive.output.find("a row of tables of"), std::string::npos) << adaptive.output;
 }
 
-TEST_F(VolumeOf, AMillionLoadStepsAreRefused) {
+TEST_F(OutputSizeOf, AMillionLoadStepsAreRefused) {
   expect_refused(
       "run swing.yaml --set analysis=static --set integrator=null --set output.frames=null --set "
       "statics.max_step=1e-7 --set statics.first_step=1e-7 --set statics.min_step=1e-8 --set "
@@ -48,32 +48,32 @@ TEST_F(VolumeOf, AMillionLoadStepsAreRefused) {
 }
 
 // It is let through, and ends for its max_steps.
-TEST_F(VolumeOf, YesHasThemAllTheSame) {
+TEST_F(OutputSizeOf, YesHasThemAllTheSame) {
   const std::string run =
       "run swing.yaml --quiet --set output.frames=1000000 --set integrator.max_steps=3 --set integrator.h0=1e-10";
   EXPECT_EQ(orthodyn(run).exit_code, 2);
   EXPECT_EQ(orthodyn(run + " --yes").exit_code, 3);
 }
 
-TEST_F(VolumeOf, FewerAreNoQuestion) {
+TEST_F(OutputSizeOf, FewerAreNoQuestion) {
   EXPECT_EQ(orthodyn("run swing.yaml --quiet --set output.frames=null --set output.history.interval=1e-3").exit_code,
             0);
 }
 
-TEST_F(VolumeOf, CheckSaysSoToo) {
+TEST_F(OutputSizeOf, CheckSaysSoToo) {
   const auto said = orthodyn("check swing.yaml --set output.frames=1000000");
   EXPECT_EQ(said.exit_code, 0) << said.output;
   EXPECT_NE(said.output.find("1000000 frames"), std::string::npos) << said.output;
   EXPECT_NE(said.output.find("--yes"), std::string::npos) << said.output;
 }
 
-TEST_F(VolumeOf, CheckTellsTimeAndDisk) {
+TEST_F(OutputSizeOf, CheckTellsTimeAndDisk) {
   const auto said = orthodyn("check swing.yaml");
   for (const char* words : {"time, from what was measured", "factorisation", "steps", "in all", "disk", "5 frames of"})
     EXPECT_NE(said.output.find(words), std::string::npos) << words << "\nin: " << said.output;
 }
 
-TEST_F(VolumeOf, CheckTellsThatOfEveryAnalysis) {
+TEST_F(OutputSizeOf, CheckTellsThatOfEveryAnalysis) {
   for (const char* scene : {"column", "toggle", "pulled_strip"}) {
     const auto said = orthodyn(std::string("check " ORTHODYN_SOURCE_DIR "/configs/scenes/") + scene + ".yaml");
     EXPECT_EQ(said.exit_code, 0) << said.output;
@@ -83,18 +83,18 @@ TEST_F(VolumeOf, CheckTellsThatOfEveryAnalysis) {
 }
 
 // To a factor of two, on a mesh where the text around the numbers does not count.
-TEST_F(VolumeOf, FramesAreAsLargeAsWasSaid) {
+TEST_F(OutputSizeOf, FramesAreAsLargeAsWasSaid) {
   const char* const kFine = "mesh.cells=[16,8,8]";
   Config config = Config::from_file((folder_ / "swing.yaml").string());
   config.override_with(kFine);
-  const Volume volume = volume_of(set_up(config));
+  const OutputSize size = output_size_of(set_up(config));
   ASSERT_EQ(orthodyn(std::string("run swing.yaml --quiet --set time.end=1e-3 --set ") + kFine).exit_code, 0);
   const auto bytes = static_cast<double>(fs::file_size(folder_ / "out/swing/frames/frame_00001.vtu"));
-  EXPECT_GT(volume.frame_bytes, bytes / 2);
-  EXPECT_LT(volume.frame_bytes, bytes * 2);
+  EXPECT_GT(size.frame_bytes, bytes / 2);
+  EXPECT_LT(size.frame_bytes, bytes * 2);
 }
 
-TEST_F(VolumeOf, AMillionPointsAreRefused) {
+TEST_F(OutputSizeOf, AMillionPointsAreRefused) {
   write("s.yaml", R"(scene: swing.yaml
 vary:
   materials.soft.density: {from: 900, to: 1100, count: 1000}
@@ -107,7 +107,7 @@ quantities: {far: {quantity: tip.displacement.z}}
 }
 
 // The first of two points has the slip of the second, too.
-TEST_F(VolumeOf, ASweepTellsOfASlipOnce) {
+TEST_F(OutputSizeOf, ASweepTellsOfASlipOnce) {
   write("s.yaml", R"(scene: {file: swing.yaml, set: {damping.stiffness: 1e4}}
 vary: {materials.soft.density: [1000, 1100]}
 quantities: {far: {quantity: tip.displacement.z}}
@@ -119,4 +119,4 @@ quantities: {far: {quantity: tip.displacement.z}}
 }
 
 }  // namespace
-}  // namespace orthodyn::volume_test
+}  // namespace orthodyn::output_size_test

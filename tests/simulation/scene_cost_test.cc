@@ -91,7 +91,7 @@ const std::string kBouncing = R"(
 mesh: {type: box, size: [0.2, 0.2, 0.2], cells: [1, 1, 1], origin: [0, 0, 0.1], order: 1}
 materials: {rubber: {type: isotropic, density: 1000, young: 1e6, nu: 0.3}}
 gravity: [0, 0, -10]
-terms: [{type: ground, stiffness: 1e7}]
+terms: [{type: ground_contact, stiffness: 1e7}]
 time: {end: 0.5}
 integrator: {type: cvode_bdf, rtol: 1e-4}
 output: {probes: {corner: {at: [0, 0, 0.1]}}}

@@ -59,7 +59,7 @@ TEST_F(CompareMeshes, ScenesThatDifferInTheirMeshesShareOneReference) {
                        "[0, 1, 0]]}\nreference:\n  set: {mesh.cells: [4, 1, 1], mesh.order: 2}\n" +
                        kReference);
   ASSERT_EQ(t.at("problems").size(), 8u);
-  ASSERT_EQ(t.at("fronts").size(), 2u);  // one for each gravity
+  ASSERT_EQ(t.at("pareto_fronts").size(), 2u);  // one for each gravity
   std::size_t trajectories = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out/comparisons/c/references"))
     trajectories += entry.path().filename() == "trajectory.bin";
@@ -104,7 +104,7 @@ TEST_F(CompareMeshes, TighterTolerancesDoNotMendTheErrorOfACoarseMesh) {
                        kReference);
   EXPECT_NEAR(error(t, 1), error(t, 2), 0.01 * error(t, 2));
   EXPECT_GT(error(t, 2), 0.01);
-  for (const auto& index : t.at("fronts")[0].at("points"))  // the tighter ones cost more and gain nothing
+  for (const auto& index : t.at("pareto_fronts")[0].at("points"))  // the tighter ones cost more and gain nothing
     EXPECT_LT(index.get<int>(), 3);
   EXPECT_TRUE(t.at("orders").empty());
 }
@@ -114,7 +114,7 @@ TEST_F(CompareMeshes, TheFrontHoldsWhatNoOtherPointBeats) {
                        "tolerances: [1e-1, 1e-3]\nvary: {mesh.cells: [[2, 1, 1], [4, 1, 1]], mesh.order: [1, "
                        "2]}\nreference:\n  set: {mesh.cells: [8, 2, 2], mesh.order: 2}\n" +
                        kReference);
-  const Json& front = t.at("fronts")[0];
+  const Json& front = t.at("pareto_fronts")[0];
   const auto seconds = [&](std::size_t k) { return t.at("points")[k].at("cpu").at("median").get<double>(); };
   ASSERT_FALSE(front.at("points").empty());
   for (const std::size_t on : front.at("points"))
@@ -126,7 +126,7 @@ TEST_F(CompareMeshes, TheFrontHoldsWhatNoOtherPointBeats) {
     EXPECT_LE(error(t, best), answer.at("target"));
     EXPECT_NE(said_.find(answer.at("words").get<std::string>()), std::string::npos) << said_;
   }
-  EXPECT_NE(read_text(folder_ / "out/comparisons/c/compare.csv").find(",front\n"), std::string::npos);
+  EXPECT_NE(read_text(folder_ / "out/comparisons/c/compare.csv").find(",pareto_front\n"), std::string::npos);
 }
 
 TEST_F(CompareMeshes, AnotherMeshOfTheReferenceMeasuresAllPointsAgain) {

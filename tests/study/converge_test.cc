@@ -72,22 +72,22 @@ class Converge : public InFolder {
 TEST_F(Converge, FindsTheLimitThatBeamTheoryKnows) {
   const auto done = converge();
   ASSERT_EQ(done.exit_code, 0) << done.output;
-  const Json all = table(), figure = all.at("figures")[0];
-  EXPECT_EQ(figure.at("name"), "tip.displacement.magnitude");
+  const Json all = table(), metric = all.at("metrics")[0];
+  EXPECT_EQ(metric.at("name"), "tip.displacement.magnitude");
   const double I = 1e-4 / 12, expected = 1 / (3 * 1e9 * I) + 1 / (5.0 / 6 * 0.5e9 * 0.01);
-  EXPECT_NEAR(figure.at("limit").get<double>(), expected, 2e-3 * expected);
+  EXPECT_NEAR(metric.at("limit").get<double>(), expected, 2e-3 * expected);
   ASSERT_EQ(all.at("rows").size(), 6u);
   double coarse = 1;
   for (const auto& row : all.at("rows")) {
-    const double error = row.at("figures").at("tip.displacement.magnitude").at("error");
-    const double value = row.at("figures").at("tip.displacement.magnitude").at("value");
-    EXPECT_NEAR(error, std::abs(value / figure.at("limit").get<double>() - 1), 1e-12);
+    const double error = row.at("metrics").at("tip.displacement.magnitude").at("error");
+    const double value = row.at("metrics").at("tip.displacement.magnitude").at("value");
+    EXPECT_NEAR(error, std::abs(value / metric.at("limit").get<double>() - 1), 1e-12);
     if (row.at("level") != 1) {
       EXPECT_LT(error, coarse);
     }
     coarse = error;
     // The estimate of each mesh by itself, against the refined limit: deflections are energies here.
-    const double estimate = row.at("figures").at("tip.displacement.magnitude").at("mesh_error");
+    const double estimate = row.at("metrics").at("tip.displacement.magnitude").at("mesh_error");
     EXPECT_GT(estimate, 0.5 * error);
     EXPECT_LT(estimate, 1.5 * error);
   }
@@ -101,9 +101,9 @@ TEST_F(Converge, FindsTheLimitThatBeamTheoryKnows) {
 TEST_F(Converge, LooksAtModesAndAtWhatIsAskedFor) {
   ASSERT_EQ(converge("--levels 2 --order 2 --modes 2 --quantity energy.elastic").exit_code, 0);
   const Json all = table();
-  ASSERT_EQ(all.at("figures").size(), 3u);
-  EXPECT_EQ(all.at("figures")[0].at("name"), "energy.elastic");
-  EXPECT_EQ(all.at("figures")[1].at("unit"), "Hz");
+  ASSERT_EQ(all.at("metrics").size(), 3u);
+  EXPECT_EQ(all.at("metrics")[0].at("name"), "energy.elastic");
+  EXPECT_EQ(all.at("metrics")[1].at("unit"), "Hz");
   EXPECT_EQ(all.at("rows").size(), 2u);
 }
 
@@ -111,8 +111,8 @@ TEST_F(Converge, ModesHaveTheirOwnCostAndTheirOwnEstimate) {
   ASSERT_EQ(converge("--levels 2 --order 2 --modes 1 --quantity energy.elastic").exit_code, 0);
   const Json all = table();
   for (const auto& row : all.at("rows")) {
-    const Json& of_mode = row.at("figures").at("frequency of mode 1");
-    const Json& of_statics = row.at("figures").at("energy.elastic");
+    const Json& of_mode = row.at("metrics").at("frequency of mode 1");
+    const Json& of_statics = row.at("metrics").at("energy.elastic");
     EXPECT_NE(of_mode.at("mesh_error"), 0);  // negative where the lumped mass lowers it by more than the mesh raises it
     EXPECT_LT(std::abs(of_mode.at("mesh_error").get<double>()), 0.05);
     EXPECT_TRUE(of_statics.at("mesh_error").is_number());
@@ -130,8 +130,8 @@ TEST_F(Converge, TellsThatTheCoarsestMeshIsGoodEnough) {
 TEST_F(Converge, TellsNoLimitOfTwoLevels) {
   const auto done = converge("--levels 2 --order 2");
   ASSERT_EQ(done.exit_code, 0) << done.output;
-  const Json figure = table().at("figures")[0];
-  EXPECT_TRUE(figure.at("limit").is_null());
+  const Json metric = table().at("metrics")[0];
+  EXPECT_TRUE(metric.at("limit").is_null());
   EXPECT_EQ(done.output.find("known to"), std::string::npos) << done.output;
   EXPECT_NE(done.output.find("tip.displacement.magnitude has no limit yet: it takes three levels to see one (--levels "
                              "3). The finest mesh gives "),

@@ -17,7 +17,7 @@ const std::string kMotion = "integrator: {type: cvode_bdf}\ntime: {end: 0.02}\n"
 
 class PointKinematics : public SweepCommand {
  protected:
-  // The figure and the kinematics of the only point.
+  // The metric and the kinematics of the only point.
   std::pair<double, std::string> point(const std::string& rest, const std::string& kinematics) const {
     write("scene.yaml", kBar + rest + "elasticity: {kinematics: " + kinematics + "}\n");
     write("s.yaml",
@@ -29,7 +29,7 @@ class PointKinematics : public SweepCommand {
       if (entry.path().filename() == "result.json") {
         const Json json = Json::parse(read_text(entry.path()));
         EXPECT_EQ(json.at("status"), "completed") << json.dump();
-        return {json.at("figures").at("sag").get<double>(), json.value("kinematics", "")};
+        return {json.at("metrics").at("sag").get<double>(), json.value("kinematics", "")};
       }
     return {std::nan(""), ""};
   }

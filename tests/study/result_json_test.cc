@@ -105,7 +105,7 @@ TEST(MeasurementInput, IsReadAsItWasWritten) {
 
 TEST(EvaluationResult, IsReadAsItWasWritten) {
   EvaluationResult r;
-  r.figures = {{"far", 1.0 / 3}, {"hertz", kNaN}};
+  r.metrics = {{"far", 1.0 / 3}, {"hertz", kNaN}};
   r.units = {{"far", "m"}, {"hertz", "Hz"}};
   Statistics s;  // of the work, counts alone are told
   s.steps = 11, s.force.count = 22;
@@ -116,8 +116,8 @@ TEST(EvaluationResult, IsReadAsItWasWritten) {
   const Json json = sent(to_json(r));
   const auto read = evaluation_from(json);
   EXPECT_EQ(sent(to_json(read)), json);
-  EXPECT_EQ(read.figures[0], r.figures[0]);
-  EXPECT_TRUE(std::isnan(read.figures[1].second));
+  EXPECT_EQ(read.metrics[0], r.metrics[0]);
+  EXPECT_TRUE(std::isnan(read.metrics[1].second));
   EXPECT_EQ(read.units, r.units);
   EXPECT_EQ(read.kinematics, r.kinematics);
   EXPECT_EQ(read.cost->statistics->force.count, 22);
@@ -141,15 +141,15 @@ TEST(EvaluationResult, OfAFailureKeepsItsReason) {
 
 TEST(EvaluationInput, IsReadAsItWasWritten) {
   EvaluationInput input;
-  WantedFigure motion, mode;
+  WantedMetric motion, mode;
   motion.quantity = "tip.displacement.z", motion.take = Take::frequency, motion.at = 0.5;
   mode.along = Component::y, mode.about_equilibrium = true;
-  input.figures = {{"a", motion}, {"b", mode}};
+  input.metrics = {{"a", motion}, {"b", mode}};
   input.frame = "stress", input.frame_at = 0.25, input.code = "c0de";
   const auto read = evaluation_input_from(sent(to_json(input)));
   EXPECT_EQ(to_json(read), to_json(input));
-  EXPECT_EQ(read.figures[0].second.take, Take::frequency);
-  EXPECT_EQ(read.figures[1].second.along, Component::y);
+  EXPECT_EQ(read.metrics[0].second.take, Take::frequency);
+  EXPECT_EQ(read.metrics[1].second.along, Component::y);
 }
 
 TEST(StabilityResult, IsReadAsItWasWritten) {
@@ -157,7 +157,7 @@ TEST(StabilityResult, IsReadAsItWasWritten) {
   r.run = stability::GradedRun{true,
                                "degraded",
                                "end of q is 2, expected 1 +- 0.1",
-                               stability::WorstFigure{"end of q", "m", kNaN, 1, 0.1, "a book", "round-off"},
+                               stability::WorstMetric{"end of q", "m", kNaN, 1, 0.1, "a book", "round-off"},
                                2,
                                0.5,
                                0.25,

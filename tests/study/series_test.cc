@@ -1,4 +1,4 @@
-// Figures of a series, on functions whose figures are known.
+// Metrics of a series, on functions whose metrics are known.
 #include "lib/study/quantities/series.h"
 
 #include <gtest/gtest.h>

@@ -101,7 +101,7 @@ TEST_F(StabilityCommand, SaysWhatWasExpectedAndLeavesTheLastState) {
   EXPECT_TRUE(fs::exists(folder_ / "out/stability/m" / trial.at("folder").get<std::string>() / "end.vtu"));
   const std::string csv = read_text(folder_ / "out/stability/m/stability.csv");
   EXPECT_NE(csv.find("fall,default,cvode_bdf,fail,"), std::string::npos) << csv;
-  EXPECT_NE(csv.find(",figure,unit,computed,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",metric,unit,computed,"), std::string::npos) << csv;
   EXPECT_NE(csv.find(",end of corner.displacement.z,m,-4.9"), std::string::npos) << csv;
 }
 
@@ -222,7 +222,7 @@ Check off_by(double tolerances, double degraded = 10) {
   return {e, tolerances};
 }
 
-TEST(CaseGrade, TheWorstFigureDecides) {
+TEST(CaseGrade, TheWorstMetricDecides) {
   const auto grade_of = [](const std::vector<Check>& checks) { return grade({"", {}, checks}).grade; };
   EXPECT_EQ(grade_of({off_by(0.5), off_by(1)}), Grade::pass);
   EXPECT_EQ(grade_of({off_by(0.5), off_by(-1.5)}), Grade::degraded);

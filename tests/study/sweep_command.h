@@ -32,7 +32,7 @@ class SweepCommand : public InFolder {
   Json table() const { return Json::parse(read_text(folder_ / "out/sweeps/s/sweep.json")); }
 
   // The table without what depends on the machine: times and the date.
-  std::string figures() const {
+  std::string metrics() const {
     Json t = table();
     for (auto& point : t.at("points")) point.erase("cost");
     return t.at("points").dump();

@@ -38,32 +38,32 @@ class SweepDesign : public InFolder {
   }
 };
 
-constexpr const char* kFigure = "quantities: {f: {mode: 1}}\n";
+constexpr const char* kMetric = "quantities: {f: {mode: 1}}\n";
 
 TEST_F(SweepDesign, DividesRangesEvenlyByDifferenceOrByRatio) {
-  const auto linear = points(kFigure + std::string("vary: {materials.soft.nu: {from: 0, to: 0.4, count: 5}}"));
+  const auto linear = points(kMetric + std::string("vary: {materials.soft.nu: {from: 0, to: 0.4, count: 5}}"));
   ASSERT_EQ(linear.size(), 5u);
   for (std::size_t i = 0; i < 5; ++i)
     EXPECT_DOUBLE_EQ(value(linear[i], "materials.soft.nu"), 0.1 * static_cast<double>(i));
   const auto log =
-      points(kFigure + std::string("vary: {materials.soft.young: {from: 1e3, to: 1e6, count: 4, scale: log}}"));
+      points(kMetric + std::string("vary: {materials.soft.young: {from: 1e3, to: 1e6, count: 4, scale: log}}"));
   ASSERT_EQ(log.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_NEAR(value(log[i], "materials.soft.young"), std::pow(10, 3 + i), 1e-9 * std::pow(10, 3 + i));
 }
 
 TEST_F(SweepDesign, TellsNumbersApartHoweverClose) {
-  const auto all = points(kFigure + std::string("vary: {materials.soft.density: {from: 999, to: 1001, count: 501}}"));
+  const auto all = points(kMetric + std::string("vary: {materials.soft.density: {from: 999, to: 1001, count: 501}}"));
   ASSERT_EQ(all.size(), 501u);
   EXPECT_EQ(all[249].title, "density 999.996");
   EXPECT_EQ(all[251].title, "density 1000.004");
-  EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.density: [1000, 1e3]}")),
+  EXPECT_THAT(complaint(kMetric + std::string("vary: {materials.soft.density: [1000, 1e3]}")),
               HasSubstr("has the value 1000 twice"));
 }
 
 TEST_F(SweepDesign, CombinesEveryValueWithEveryOther) {
   const auto all =
-      points(kFigure + std::string("vary: {materials.soft.nu: [0, 0.1, 0.2], materials.soft.density: [1, 2]}"));
+      points(kMetric + std::string("vary: {materials.soft.nu: [0, 0.1, 0.2], materials.soft.density: [1, 2]}"));
   std::set<std::pair<double, double>> seen;
   for (const auto& p : all) seen.emplace(value(p, "materials.soft.nu"), value(p, "materials.soft.density"));
   EXPECT_EQ(all.size(), 6u);
@@ -71,13 +71,13 @@ TEST_F(SweepDesign, CombinesEveryValueWithEveryOther) {
 }
 
 TEST_F(SweepDesign, CountsCombinationsBeforeItMakesThem) {
-  EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.nu: {from: 0, to: 0.4, count: 10000}, "
+  EXPECT_THAT(complaint(kMetric + std::string("vary: {materials.soft.nu: {from: 0, to: 0.4, count: 10000}, "
                                               "materials.soft.density: {from: 1, to: 2, count: 10000}}")),
               AllOf(HasSubstr("s.yaml:3:"), HasSubstr("1e+08 points, the most is 1e+07")));
 }
 
 TEST_F(SweepDesign, ZipsValuesSideBySide) {
-  const std::string head = kFigure + std::string("combine: zip\n");
+  const std::string head = kMetric + std::string("combine: zip\n");
   const auto all = points(head + "vary: {materials.soft.nu: [0, 0.1], materials.soft.density: [1, 2]}");
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(value(all[1], "materials.soft.nu"), 0.1);
@@ -87,7 +87,7 @@ TEST_F(SweepDesign, ZipsValuesSideBySide) {
 }
 
 TEST_F(SweepDesign, SpreadsALatinHypercubeOverRangesAndLists) {
-  const std::string text = kFigure + std::string(R"(combine: latin_hypercube
+  const std::string text = kMetric + std::string(R"(combine: latin_hypercube
 samples: 8
 seed: 3
 vary:
@@ -139,14 +139,14 @@ TEST_F(SweepDesign, GivesFormulasOnlyNamesThatTheyCanHave) {
   refused("pi: [3, 4]", "'pi' is a constant");
   refused("kind: {a: {e: 1}, b: {e: 2}}", "'e' is a constant");
   const std::string vary = "vary: {materials.soft.nu: [0, 0.1]}\n";
-  EXPECT_THAT(complaint(vary + kFigure + "definitions:\n  a: 1\n  pi: 3\n"),
+  EXPECT_THAT(complaint(vary + kMetric + "definitions:\n  a: 1\n  pi: 3\n"),
               AllOf(HasSubstr("s.yaml:6:"), HasSubstr("'pi' is a constant")));
-  EXPECT_THAT(complaint(vary + kFigure + "definitions:\n  a: 1\n  b: 2*c\n"),
+  EXPECT_THAT(complaint(vary + kMetric + "definitions:\n  a: 1\n  b: 2*c\n"),
               AllOf(HasSubstr("s.yaml:6:"), HasSubstr("cannot read the formula '2*c'")));
 }
 
 TEST_F(SweepDesign, RefusesTwoVariablesThatSetTheSamePath) {
-  const std::string head = std::string(kFigure) + "vary:\n";
+  const std::string head = std::string(kMetric) + "vary:\n";
   EXPECT_THAT(complaint(head + "  materials.soft.nu: [0.1, 0.2]\n  kind: {a: {materials.soft.nu: 0.3}}\n"),
               AllOf(HasSubstr("s.yaml:5:"), HasSubstr("s.yaml:4:"), HasSubstr("only one of the two can apply")));
   EXPECT_THAT(complaint(head + "  a: {x: {gravity: [0, 0, -1]}}\n  b: {y: {gravity: [0, 0, -2]}}\n"),
@@ -160,11 +160,11 @@ TEST_F(SweepDesign, RefusesTwoVariablesThatSetTheSamePath) {
 }
 
 TEST_F(SweepDesign, RefusesASlipInANamedSet) {
-  EXPECT_THAT(complaint(kFigure + std::string("vary:\n  kind:\n    a: {gravty: [0, 0, -2]}\n    b: {}\n")),
+  EXPECT_THAT(complaint(kMetric + std::string("vary:\n  kind:\n    a: {gravty: [0, 0, -2]}\n    b: {}\n")),
               AllOf(HasSubstr("s.yaml:5:"), HasSubstr("did you mean 'gravity'?")));
-  EXPECT_THAT(complaint(kFigure + std::string("vary:\n  kind:\n    a: {rho: 1}\n    b: {}\n")),
+  EXPECT_THAT(complaint(kMetric + std::string("vary:\n  kind:\n    a: {rho: 1}\n    b: {}\n")),
               AllOf(HasSubstr("s.yaml:5:"), HasSubstr("no formula uses it")));
-  EXPECT_THAT(complaint(kFigure + std::string("vary:\n  kind:\n    \"\": {}\n")),
+  EXPECT_THAT(complaint(kMetric + std::string("vary:\n  kind:\n    \"\": {}\n")),
               AllOf(HasSubstr("s.yaml:5:"), HasSubstr("has no name")));
 }
 
@@ -178,13 +178,13 @@ TEST_F(SweepDesign, RefusesANameForTwoThings) {
 }
 
 TEST_F(SweepDesign, NamesAnEntryOfAListByItsListToo) {
-  const auto all = points(kFigure + std::string("vary: {gravity.2: [-1, -2], output.probes.tip.at.0: [1]}"));
+  const auto all = points(kMetric + std::string("vary: {gravity.2: [-1, -2], output.probes.tip.at.0: [1]}"));
   EXPECT_EQ(all[0].title, "gravity.2 -1, at.0 1");
 }
 
 // A sweep of a scene with grain at an angle.
 std::string with_grain(const std::string& vary, const std::string& angle = "0") {
-  return std::string(kFigure) + "scene: {file: swing.yaml, set: {regions: {body: {material: soft, axes: {type: " +
+  return std::string(kMetric) + "scene: {file: swing.yaml, set: {regions: {body: {material: soft, axes: {type: " +
          "axis_angle, axis: [0, 0, 1], angle: " + angle + "}}}}}\nvary: {" + vary + "}\n";
 }
 
@@ -255,12 +255,12 @@ TEST_F(SweepDesign, RefusesTimesBeyondTheSpanOfAnyPoint) {
   EXPECT_THAT(complaint(vary + "quantities:\n  f: {quantity: tip.displacement.z, at: 0.2}\n"),
               AllOf(HasSubstr("s.yaml:4:"), HasSubstr("f.at: 0.2 s is outside of the time span of 'end 0.1'")));
   EXPECT_EQ(complaint(vary + "quantities:\n  f: {quantity: tip.displacement.z, at: 0.1}\n"), "");
-  EXPECT_THAT(complaint(vary + kFigure + "frames: {at: 0.2}\n"),
+  EXPECT_THAT(complaint(vary + kMetric + "frames: {at: 0.2}\n"),
               AllOf(HasSubstr("s.yaml:4:"), HasSubstr("frames.at: 0.2 s is outside")));
 }
 
 TEST_F(SweepDesign, RefusesColoursThatCannotBeDrawn) {
-  const std::string head = std::string(kFigure) + "vary: {materials.soft.nu: [0.1]}\nframes: {color: ";
+  const std::string head = std::string(kMetric) + "vary: {materials.soft.nu: [0.1]}\nframes: {color: ";
   EXPECT_THAT(complaint(head + "stres}"), AllOf(HasSubstr("s.yaml:4:"), HasSubstr("did you mean 'stress'?")));
   EXPECT_THAT(complaint(head + "stress.11}"), HasSubstr("'stress' has no component '11'; known: xx"));
   EXPECT_THAT(complaint(head + "det_f.x}"), HasSubstr("it is a number"));
@@ -272,8 +272,8 @@ TEST_F(SweepDesign, RefusesColoursThatCannotBeDrawn) {
 
 TEST_F(SweepDesign, RefusesColumnsThatTheTableHasAlready) {
   const std::string head = "vary: {materials.soft.nu: [0.1]}\nquantities:\n  ";
-  const auto refused = [&](const std::string& figures, const std::string& why) {
-    EXPECT_THAT(complaint(head + figures), AllOf(HasSubstr("s.yaml:4:"), HasSubstr(why))) << figures;
+  const auto refused = [&](const std::string& metrics, const std::string& why) {
+    EXPECT_THAT(complaint(head + metrics), AllOf(HasSubstr("s.yaml:4:"), HasSubstr(why))) << metrics;
   };
   refused("status: {mode: 1}", "a column 'status' of its own");
   refused("steps: {mode: 1}", "a column 'steps' of its own");
@@ -282,19 +282,19 @@ TEST_F(SweepDesign, RefusesColumnsThatTheTableHasAlready) {
   refused("nu: {mode: 1}", "already has a column 'nu', of ");
   refused("{f: {mode: 1, closed_form: 1}, f.closed_form: {mode: 2}}", "already has a column 'f.closed_form'");
   EXPECT_EQ(complaint(head + "steps: {cost: steps}"), "");
-  EXPECT_THAT(complaint(kFigure + std::string("vary: {folder: [1, 2]}\ndefinitions: {a: folder}")),
+  EXPECT_THAT(complaint(kMetric + std::string("vary: {folder: [1, 2]}\ndefinitions: {a: folder}")),
               AllOf(HasSubstr("s.yaml:3:"), HasSubstr("a column 'folder' of its own")));
 }
 
 TEST_F(SweepDesign, RefusesSamplesWithoutALatinHypercube) {
-  const std::string rest = std::string(kFigure) + "vary: {materials.soft.nu: [0.1]}\n";
+  const std::string rest = std::string(kMetric) + "vary: {materials.soft.nu: [0.1]}\n";
   EXPECT_THAT(complaint(rest + "samples: 5\n"),
               AllOf(HasSubstr("s.yaml:4:"), HasSubstr("only with combine: latin_hypercube, found combine: cartesian")));
   EXPECT_THAT(complaint(rest + "combine: zip\nseed: 5\n"), AllOf(HasSubstr("s.yaml:5:"), HasSubstr("combine: zip")));
 }
 
 TEST_F(SweepDesign, PointsAtWhatBroughtAMistakeIn) {
-  const auto said = [&](const std::string& vary) { return complaint(kFigure + ("vary:\n  " + vary + "\n")); };
+  const auto said = [&](const std::string& vary) { return complaint(kMetric + ("vary:\n  " + vary + "\n")); };
   EXPECT_THAT(said("materials.soft.mu: [0, 0.1]"),
               AllOf(HasSubstr("s.yaml:4:"), HasSubstr("did you mean 'nu'?"), Not(HasSubstr("impossible"))));
   EXPECT_THAT(said("materials.soft.nu: [soft]"),
@@ -307,7 +307,7 @@ TEST_F(SweepDesign, PointsAtWhatBroughtAMistakeIn) {
   const auto other = [&](const std::string& scene) {
     try {
       expand(read_sweep(Config::from_file(
-          write("t.yaml", kFigure + ("vary: {materials.soft.nu: [0.1]}\nscene: " + scene + "\n")).string())));
+          write("t.yaml", kMetric + ("vary: {materials.soft.nu: [0.1]}\nscene: " + scene + "\n")).string())));
     } catch (const ConfigError& e) {
       return std::string(e.what());
     }
@@ -320,9 +320,9 @@ TEST_F(SweepDesign, PointsAtWhatBroughtAMistakeIn) {
 
 TEST_F(SweepDesign, SaysWhereSomethingIsWrongBeforeAnythingRuns) {
   const std::string vary = "vary: {materials.soft.nu: [0, 0.1]}\n";
-  EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.mu: [0, 0.1]}\n")),
+  EXPECT_THAT(complaint(kMetric + std::string("vary: {materials.soft.mu: [0, 0.1]}\n")),
               HasSubstr("did you mean 'nu'?"));
-  EXPECT_THAT(complaint(kFigure + std::string("vary: {stifer: [0, 0.1]}\n")),
+  EXPECT_THAT(complaint(kMetric + std::string("vary: {stifer: [0, 0.1]}\n")),
               AllOf(HasSubstr("s.yaml:3:"), HasSubstr("no formula uses it")));
   EXPECT_THAT(complaint(vary + "quantities: {f: {quantity: top.displacement.z}}"),
               AllOf(HasSubstr("s.yaml:3:"), HasSubstr("did you mean 'tip.displacement.z'?")));
@@ -334,18 +334,18 @@ TEST_F(SweepDesign, SaysWhereSomethingIsWrongBeforeAnythingRuns) {
               AllOf(HasSubstr("s.yaml:3:"), HasSubstr("onset needs 'of'")));
   EXPECT_THAT(complaint(vary + "quantities: {f: {quantity: tip.displacement.z, take: max, of: 1}}"),
               HasSubstr("goes with take: drift, gain or onset only"));
-  EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.nu: {from: 0, to: 1}}")),
+  EXPECT_THAT(complaint(kMetric + std::string("vary: {materials.soft.nu: {from: 0, to: 1}}")),
               HasSubstr("'count' is missing"));
-  EXPECT_THAT(complaint(kFigure + std::string("vary: {materials.soft.young: {values: [2], unit: GPas}}")),
+  EXPECT_THAT(complaint(kMetric + std::string("vary: {materials.soft.young: {values: [2], unit: GPas}}")),
               HasSubstr("the unit 'GPas' is not known"));
 }
 
-TEST_F(SweepDesign, ShowsAFigureOnlyInAUnitOfItsDimension) {
+TEST_F(SweepDesign, ShowsAMetricOnlyInAUnitOfItsDimension) {
   const std::string head = "vary: {materials.soft.nu: [0, 0.1]}\n";
-  const auto refused = [&](const std::string& figure, const std::string& why) {
-    EXPECT_THAT(complaint(head + "quantities: {f: {" + figure + "}}"),
+  const auto refused = [&](const std::string& metric, const std::string& why) {
+    EXPECT_THAT(complaint(head + "quantities: {f: {" + metric + "}}"),
                 AllOf(HasSubstr("s.yaml:3:"), HasSubstr("unit"), HasSubstr(why)))
-        << figure;
+        << metric;
   };
   refused("quantity: tip.displacement.z, unit: bananas", "'bananas' is not known");
   refused("mode: 1, unit: bananas", "'bananas' is not known");
@@ -364,7 +364,7 @@ TEST_F(SweepDesign, ShowsAFigureOnlyInAUnitOfItsDimension) {
 }
 
 TEST_F(SweepDesign, KeepsImpossiblePointsOnlyWhereThatIsAskedFor) {
-  const std::string text = kFigure + std::string("vary: {materials.soft.nu: [0.3, 0.6]}\n");
+  const std::string text = kMetric + std::string("vary: {materials.soft.nu: [0.3, 0.6]}\n");
   EXPECT_THAT(complaint(text), AllOf(HasSubstr("nu 0.6"), HasSubstr("impossible: keep")));
   const auto all = points(text + "impossible: keep\n");
   EXPECT_EQ(all[0].impossible, "");

@@ -17,7 +17,7 @@ namespace {
 TEST_F(SweepCommand, LosesAtMostThePointsInProgressWhenItIsKilled) {
   write("s.yaml", kMany);
   ASSERT_EQ(sweep("--jobs 2 --quiet").exit_code, 0);
-  const std::string undisturbed = figures();
+  const std::string undisturbed = metrics();
   fs::remove_all(folder_ / "out");
   std::map<std::string, std::string> finished;
   int kills = 0;  // of sweeps that had finished something, but not all
@@ -40,14 +40,14 @@ TEST_F(SweepCommand, LosesAtMostThePointsInProgressWhenItIsKilled) {
   EXPECT_GE(kills, 2);
   const auto last = sweep("--jobs 2");
   ASSERT_EQ(last.exit_code, 0) << last.output;
-  EXPECT_EQ(figures(), undisturbed);
+  EXPECT_EQ(metrics(), undisturbed);
   for (const auto& [file, text] : finished) EXPECT_EQ(read_text(file), text);
 }
 
 TEST_F(SweepCommand, IsDoneByIndependentTasksAndJoined) {
   write("s.yaml", kMany);
   sweep("--quiet");
-  const std::string whole = figures();
+  const std::string whole = metrics();
   fs::remove_all(folder_ / "out");
   EXPECT_EQ(sweep("--task 1/3 --jobs 1").exit_code, 0);
   EXPECT_EQ(sweep("--task 3/3 --jobs 1").exit_code, 0);
@@ -59,7 +59,7 @@ TEST_F(SweepCommand, IsDoneByIndependentTasksAndJoined) {
   shell("cd " + folder_.string() + " && { " + program() + " sweep s.yaml --task 2/3 --jobs 1 --quiet & " + program() +
         " sweep s.yaml --task 1/3 --jobs 1 --quiet; wait; }");
   EXPECT_EQ(sweep("--collect").exit_code, 0);
-  EXPECT_EQ(figures(), whole);
+  EXPECT_EQ(metrics(), whole);
 }
 
 TEST_F(SweepCommand, CollectListsAsManyPointsAsItCounts) {

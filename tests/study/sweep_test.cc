@@ -1,4 +1,4 @@
-// `orthodyn sweep` as a user meets it: figures, units, failures, old results.
+// `orthodyn sweep` as a user meets it: metrics, units, failures, old results.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ TEST_F(SweepCommand, ReplacesNoTableOfAnotherFile) {
   EXPECT_EQ(orthodyn("sweep ./s.yaml --quiet --no-report --out both").exit_code, 0);  // the same file
 }
 
-TEST_F(SweepCommand, SaysFiguresInTheirUnit) {
+TEST_F(SweepCommand, SaysMetricsInTheirUnit) {
   write("s.yaml",
         "scene: scene.yaml\nvary: {time.end: [0.01]}\n"
         "quantities: {hertz: {mode: 1}, kilo: {mode: 1, unit: kHz}}\n");
@@ -39,7 +39,7 @@ TEST_F(SweepCommand, SaysFiguresInTheirUnit) {
   EXPECT_NEAR(hertz, 1000 * kilo, 1e-4 * hertz);
 }
 
-TEST_F(SweepCommand, FindsFiguresOfEveryKind) {
+TEST_F(SweepCommand, FindsMetricsOfEveryKind) {
   write("s.yaml", R"(scene: {file: scene.yaml, set: {damping: {mass: =2*zeta*omega}, time.end: =6/(zeta*omega)}}
 vary: {zeta: [0.05, 0.2]}
 definitions:               # of the one unknown: k = V K/a^2, K = C22 + G12 + G23, m = rho V/4
@@ -59,7 +59,7 @@ quantities:
   const Json told = table();
   for (const auto& point : told.at("points")) {
     const double zeta = point.at("values").at("zeta");
-    const Json& f = point.at("figures");
+    const Json& f = point.at("metrics");
     EXPECT_NEAR(f.at("hertz").get<double>(), omega / (2 * M_PI), 1e-6 * omega);
     EXPECT_EQ(f.at("hertz"), f.at("along"));
     const double rest = f.at("end");
@@ -75,7 +75,7 @@ quantities:
   }
 }
 
-TEST_F(SweepCommand, KnowsWhichFiguresFailAtOne) {
+TEST_F(SweepCommand, KnowsWhichMetricsFailAtOne) {
   write("s.yaml", R"(scene:
   file: scene.yaml
   set: {materials.soft.strength: {tension: 1e4, compression: 1e4, shear: 1e4}}
@@ -88,8 +88,8 @@ quantities:
   const auto done = sweep();
   ASSERT_EQ(done.exit_code, 0) << done.output;
   const Json told = table();
-  for (const auto& figure : told.at("figures"))
-    EXPECT_EQ(figure.at("fails_at_one").get<bool>(), figure.at("name") == "exposure") << figure.dump();
+  for (const auto& metric : told.at("metrics"))
+    EXPECT_EQ(metric.at("fails_at_one").get<bool>(), metric.at("name") == "exposure") << metric.dump();
 }
 
 TEST_F(SweepCommand, KnowsEveryTakeWithItsUnit) {
@@ -97,7 +97,7 @@ TEST_F(SweepCommand, KnowsEveryTakeWithItsUnit) {
                                                   {"frequency", "Hz"},  {"drift", ""},        {"gain", ""}};
   std::string text =
       "scene: {file: scene.yaml, set: {damping.mass: 10}}\nvary: {materials.soft.nu: [0]}\nquantities:\n";
-  for (const auto& [take, word] : Words<Take>::list) {
+  for (const auto& [take, word] : EnumNames<Take>::list) {
     const bool compares = take == Take::drift || take == Take::gain || take == Take::onset;
     text +=
         fmt::format("  {}: {{quantity: node.displacement.x, take: {}{}}}\n", word, word, compares ? ", of: 5e-6" : "");
@@ -106,21 +106,21 @@ TEST_F(SweepCommand, KnowsEveryTakeWithItsUnit) {
   const auto done = sweep();
   ASSERT_EQ(done.exit_code, 0) << done.output;
   const Json told = table();
-  const Json figures = told.at("points")[0].at("figures");
-  ASSERT_EQ(told.at("figures").size(), Words<Take>::list.size());
-  for (const Json& f : told.at("figures")) {
+  const Json metrics = told.at("points")[0].at("metrics");
+  ASSERT_EQ(told.at("metrics").size(), EnumNames<Take>::list.size());
+  for (const Json& f : told.at("metrics")) {
     const std::string name = f.at("name");
-    EXPECT_TRUE(figures.at(name).is_number()) << name;
+    EXPECT_TRUE(metrics.at(name).is_number()) << name;
     EXPECT_EQ(f.at("unit"), others.contains(name) ? others.at(name) : "m") << name;
   }
   // From rest the largest change and the largest rise are the maximum, but for the parabola that has its top between
   // two steps; it is reached after `of` is passed.
-  const double most = figures.at("max");
+  const double most = metrics.at("max");
   ASSERT_GT(most, 5e-6);
-  EXPECT_EQ(figures.at("drift"), figures.at("gain"));
-  EXPECT_NEAR(figures.at("gain").get<double>(), most / 5e-6, 1e-3 * most / 5e-6);
-  EXPECT_GT(figures.at("onset").get<double>(), 0);
-  EXPECT_LT(figures.at("onset").get<double>(), figures.at("time_of_max").get<double>());
+  EXPECT_EQ(metrics.at("drift"), metrics.at("gain"));
+  EXPECT_NEAR(metrics.at("gain").get<double>(), most / 5e-6, 1e-3 * most / 5e-6);
+  EXPECT_GT(metrics.at("onset").get<double>(), 0);
+  EXPECT_LT(metrics.at("onset").get<double>(), metrics.at("time_of_max").get<double>());
 }
 
 TEST_F(SweepCommand, HeadsTheTableWithUnitsAndEachColumnOnce) {
@@ -200,7 +200,7 @@ time: {end: 1}
     EXPECT_EQ(done.output.find("the mesh is coarse for frequencies of 2 of 2 points: up to ") != std::string::npos,
               coarse)
         << done.output;
-    const double error = table().at("points")[0].at("figure_errors").at("hertz");
+    const double error = table().at("points")[0].at("metric_errors").at("hertz");
     EXPECT_EQ(error > 0.05, coarse) << error;
     EXPECT_GT(error, 1e-4);
   }
@@ -221,21 +221,21 @@ time: {end: 0.1}
 integrator: {type: cvode_bdf}
 )");
   const std::string head = "scene: free.yaml\nvary: {materials.soft.nu: [0.3]}\nquantities: ";
-  const auto figures_of = [&](const std::string& quantities) {
+  const auto metrics_of = [&](const std::string& quantities) {
     write("s.yaml", head + quantities + "\n");
     const auto done = sweep();
     EXPECT_EQ(done.exit_code, 0) << done.output;
     EXPECT_EQ(table().at("points")[0].at("status"), "completed") << done.output;
-    return table().at("points")[0].at("figures");
+    return table().at("points")[0].at("metrics");
   };
-  const Json both = figures_of("{first: {mode: 1}, seventh: {mode: 7}, beyond: {mode: 900}, along: {along: x}}");
+  const Json both = metrics_of("{first: {mode: 1}, seventh: {mode: 7}, beyond: {mode: 900}, along: {along: x}}");
   const double first = both.at("first"), seventh = both.at("seventh"), along = both.at("along");
   EXPECT_GT(first, 1);
   EXPECT_GT(seventh, first);
   EXPECT_TRUE(both.at("beyond").is_null());  // of 36 unknowns
-  EXPECT_NEAR(figures_of("{first: {mode: 1}}").at("first").get<double>(), first, 1e-6 * first);
-  EXPECT_NEAR(figures_of("{seventh: {mode: 7}}").at("seventh").get<double>(), seventh, 1e-6 * seventh);
-  EXPECT_NEAR(figures_of("{along: {along: x}}").at("along").get<double>(), along, 1e-6 * along);
+  EXPECT_NEAR(metrics_of("{first: {mode: 1}}").at("first").get<double>(), first, 1e-6 * first);
+  EXPECT_NEAR(metrics_of("{seventh: {mode: 7}}").at("seventh").get<double>(), seventh, 1e-6 * seventh);
+  EXPECT_NEAR(metrics_of("{along: {along: x}}").at("along").get<double>(), along, 1e-6 * along);
 }
 
 TEST_F(SweepCommand, KeepsFailuresWithTheirReasons) {

@@ -23,7 +23,7 @@ std::string expecting(const std::string& entry) {
 
 class Verify : public InFolder {};
 
-TEST_F(Verify, AKnownFigurePasses) {
+TEST_F(Verify, AKnownMetricPasses) {
   write("fall.yaml", expecting("quantity: corner.displacement.z, value: -4.905, relative: 1e-4"));
   const auto done = orthodyn("verify fall.yaml");
   EXPECT_EQ(done.exit_code, 0) << done.output;
@@ -38,7 +38,7 @@ TEST_F(Verify, OneWrongDigitMisses) {
   EXPECT_NE(done.output.find("expected from g t^2 / 2"), std::string::npos) << done.output;
 }
 
-TEST_F(Verify, TakesFiguresAtATimeAndOverTime) {
+TEST_F(Verify, TakesMetricsAtATimeAndOverTime) {
   write("cases/fall.yaml", "");
   fs::create_directories(folder_ / "cases");
   write("cases/fall.yaml", kFall + R"(expect:
@@ -57,7 +57,7 @@ TEST_F(Verify, TakesFiguresAtATimeAndOverTime) {
 
 // A rod of one linear element along x: of all modes along it the first, with the displacement u x/L, has
 // omega^2 = 3 E/(rho L^2), for E/rho = 1000 m^2/s^2 and L = 1 m. At the same time its end is at rest.
-TEST_F(Verify, TakesModesBesideFiguresOfAMotion) {
+TEST_F(Verify, TakesModesBesideMetricsOfAMotion) {
   write("rod.yaml", R"(mesh: {type: box, size: [1, 0.01, 0.01], cells: [1, 1, 1], order: 1}
 materials: {m: {type: isotropic, density: 1000, young: 1e6, nu: 0}}
 mass: consistent

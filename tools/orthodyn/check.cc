@@ -177,18 +177,19 @@ void print_faster(const Setup& setup, const RunCost& cost) {
 }
 
 void print_disk(const Setup& setup) {
-  const Volume volume = volume_of(setup);
+  const OutputSize size = output_size_of(setup);
   fmt::print("disk\n");
-  fmt::print("  {}{:.0f} frames of {}\n", setup.integrator || setup.scene.buckling ? "" : "at least ", volume.frames,
-             shown_bytes(volume.frame_bytes));
-  if (volume.rows > 0) fmt::print("  {:.0f} rows of tables of {}\n", volume.rows, shown_bytes(volume.row_bytes));
-  else fmt::print("  a row of tables of {} each step\n", shown_bytes(volume.row_bytes));
-  if (volume.checkpoint_bytes > 0) fmt::print("  checkpoint {}\n", shown_bytes(volume.checkpoint_bytes));
+  fmt::print("  {}{:.0f} frames of {}\n", setup.integrator || setup.scene.buckling ? "" : "at least ", size.frames,
+             shown_bytes(size.frame_bytes));
+  if (size.rows > 0) fmt::print("  {:.0f} rows of tables of {}\n", size.rows, shown_bytes(size.row_bytes));
+  else fmt::print("  a row of tables of {} each step\n", shown_bytes(size.row_bytes));
+  if (size.checkpoint_bytes > 0) fmt::print("  checkpoint {}\n", shown_bytes(size.checkpoint_bytes));
   std::error_code error;
   const auto space = fs::space(".", error);
-  fmt::print("  in all {}{}\n", shown_bytes(volume.bytes()),
+  fmt::print("  in all {}{}\n", shown_bytes(size.bytes()),
              error ? "" : fmt::format("; {} are free here", shown_bytes(static_cast<double>(space.available))));
-  if (const std::string refusal = unusual_volume(setup); !refusal.empty()) fmt::print(stderr, "warning: {}\n", refusal);
+  if (const std::string refusal = unusual_output_size(setup); !refusal.empty())
+    fmt::print(stderr, "warning: {}\n", refusal);
 }
 
 void warn_of_memory(const Setup& setup) {

@@ -57,7 +57,7 @@ Convergence wanted_of(const ConvergeArguments& arguments) {
 std::string outcome_of(const EvaluationResult& result) {
   if (result.failure) return "failed: " + result.failure->reason;
   std::vector<std::string> words;
-  for (const auto& [name, value] : result.figures) words.push_back(name + " " + known_value(result, name, value));
+  for (const auto& [name, value] : result.metrics) words.push_back(name + " " + known_value(result, name, value));
   return join(words);
 }
 

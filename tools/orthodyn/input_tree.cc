@@ -15,35 +15,35 @@ namespace {
 class Walk {
  public:
   void visit(const std::string& path, const std::vector<Key>& keys) {
-    for (const Key& key : keys) visit(path.empty() ? key.name : path + "." + key.name, key.sentence, key.shape);
+    for (const Key& key : keys) visit(path.empty() ? key.name : path + "." + key.name, key.sentence, key.schema);
   }
 
   std::vector<InputSection> sections;
 
  private:
-  void visit(const std::string& path, const std::string& sentence, const Shape& shape) {
-    switch (shape.kind) {
-      case Shape::Kind::list: return visit(path + ".<n>", sentence, shape.items.front());
-      case Shape::Kind::named: return visit(path + ".<name>", sentence, shape.items.front());
-      case Shape::Kind::either:
-        for (const Shape& item : shape.items) visit(path, sentence, item);
+  void visit(const std::string& path, const std::string& sentence, const ValueSchema& schema) {
+    switch (schema.kind) {
+      case ValueSchema::Kind::list: return visit(path + ".<n>", sentence, schema.items.front());
+      case ValueSchema::Kind::named: return visit(path + ".<name>", sentence, schema.items.front());
+      case ValueSchema::Kind::either:
+        for (const ValueSchema& item : schema.items) visit(path, sentence, item);
         return;
-      case Shape::Kind::section: return visit_section(path, sentence, shape);
-      case Shape::Kind::choice: return visit_choice(path, shape);
+      case ValueSchema::Kind::section: return visit_section(path, sentence, schema);
+      case ValueSchema::Kind::choice: return visit_choice(path, schema);
       default: return;
     }
   }
 
-  void visit_section(const std::string& path, const std::string& sentence, const Shape& shape) {
-    if (!seen_.insert(shape.title).second) return;
-    const auto keys = shape.keys();
+  void visit_section(const std::string& path, const std::string& sentence, const ValueSchema& schema) {
+    if (!seen_.insert(schema.title).second) return;
+    const auto keys = schema.keys();
     sections.push_back({path, "", sentence, keys});
     visit(path, keys);
   }
 
-  void visit_choice(const std::string& path, const Shape& shape) {
-    if (!seen_.insert(shape.title).second) return;
-    for (const auto& [type, alternative] : shape.alternatives()) {
+  void visit_choice(const std::string& path, const ValueSchema& schema) {
+    if (!seen_.insert(schema.title).second) return;
+    for (const auto& [type, alternative] : schema.alternatives()) {
       sections.push_back({path, type, alternative.sentence, alternative.keys, alternative.facts});
       visit(path, alternative.keys);
     }

@@ -28,7 +28,7 @@ struct ListArguments {
 };
 
 void print_key(const Key& key) {
-  std::string facts = type_text(key.shape);
+  std::string facts = type_text(key.schema);
   if (!key.unit.empty()) facts += ", " + key.unit;
   if (const auto range = range_text(key.range); !range.empty()) facts += ", " + range;
   facts += key.required ? ", required" : key.fallback.empty() ? "" : ", default " + key.fallback;
@@ -141,7 +141,7 @@ void list_sweep() {
   print_entry("vary.<name>", "A list with a unit or a name.", ValueList::spec().keys());
   print_entry("quantities.<name>",
               "What is computed for every point: one of quantity, mode (or along), buckling, cost.",
-              WantedFigure::spec().keys());
+              WantedMetric::spec().keys());
   print_entry("plots.<n>", "A figure of the report.", PlotSpec::spec().keys());
   print_entry("frames", "A picture of each point.", FrameSpec::spec().keys());
   print_entry("limits", "Limits of each point of a sweep.", Limits::spec().keys());

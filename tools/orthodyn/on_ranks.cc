@@ -43,7 +43,7 @@ void let_first_rank_tell() {
 }
 
 int on_world_ranks(const std::function<int(const Ranks*)>& work) {
-  const Ranks* ranks = world_ranks();
+  const Ranks* ranks = mpi_world();
   if (!ranks) return work(nullptr);
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // when mpirun is killed
   if (!ranks->is_first()) leave_files_to_others();

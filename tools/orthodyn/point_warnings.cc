@@ -38,12 +38,12 @@ void warn_of_coarse_frequencies(const Json& table) {
   std::string which;
   for (const auto& point : table.at("points")) {
     bool is_coarse = false;
-    for (const auto& [figure, error] : point.at("figure_errors").items()) {
+    for (const auto& [metric, error] : point.at("metric_errors").items()) {
       if (!error.is_number() || !(std::abs(error.get<double>()) > kCoarseMesh)) continue;
       is_coarse = true;
       if (std::abs(error.get<double>()) <= std::abs(worst)) continue;
       worst = error.get<double>();
-      which = fmt::format("{}, {}", figure, point.at("title").get<std::string>());
+      which = fmt::format("{}, {}", metric, point.at("title").get<std::string>());
     }
     count += is_coarse;
   }
@@ -54,7 +54,7 @@ void warn_of_coarse_frequencies(const Json& table) {
                count, table.at("points").size(), 100 * std::abs(worst), worst > 0 ? "high" : "low", which);
 }
 
-// What a warning says, without the point's folder and figures.
+// What a warning says, without the point's folder and metrics.
 std::string kind_of(const std::string& warning) {
   const auto scene = warning.find("scene.yaml");
   std::string kind = scene == std::string::npos ? warning : warning.substr(scene);

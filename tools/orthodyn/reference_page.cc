@@ -26,7 +26,7 @@ std::string cell(std::string text) {
 std::string code(const std::string& text) { return text.empty() ? "" : "`" + cell(text) + "`"; }
 
 std::string facts(const Key& key) {
-  std::string out = cell(type_text(key.shape));
+  std::string out = cell(type_text(key.schema));
   if (!key.unit.empty()) out += ", " + key.unit;
   if (const auto range = range_text(key.range); !range.empty()) out += ", " + range;
   return out;

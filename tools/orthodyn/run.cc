@@ -108,7 +108,7 @@ int run_scene_on(const Ranks* ranks, const RunArguments& arguments) {
                                            .force = arguments.force,
                                            .resume = arguments.resume,
                                            .estimate_error = arguments.estimate_error,
-                                           .any_volume = arguments.yes,
+                                           .any_output_size = arguments.yes,
                                            .ranks = ranks},
                                           interrupted(), terminal ? *terminal : nobody);
   if (result.failed_alone && tells) ranks->abort(exit_code(result));  // the message has been printed

@@ -195,7 +195,7 @@ void print_result(const RunResult& result, bool quiet) {
   if (result.equilibrium && !quiet) print_equilibrium(result, *result.equilibrium);
   if (result.buckling && !quiet) print_buckling(result, *result.buckling);
   if (result.motion && !quiet) print_motion(result, *result.motion);
-  for (const auto& doubt : doubts(result)) fmt::print(stderr, "warning: {}\n", doubt);
+  for (const auto& warning : result_warnings(result)) fmt::print(stderr, "warning: {}\n", warning);
   if (result.motion) print_what_remains(result);
 }
 

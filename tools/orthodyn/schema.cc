@@ -57,24 +57,24 @@ class SchemaWriter {
     Schema out = {{"description", description(key)}};
     if (const Schema fallback = Schema::parse(key.fallback, nullptr, false); !fallback.is_discarded())
       out["default"] = fallback;
-    else if (key.shape.kind == Shape::Kind::word && !key.fallback.empty()) out["default"] = key.fallback;
-    const Schema shape = key.required ? of(key.shape, key) : or_null(of(key.shape, key));
-    if (shape.contains("$ref")) out["allOf"] = {shape};  // draft 7 ignores what stands beside $ref
-    else out.update(shape);
+    else if (key.schema.kind == ValueSchema::Kind::word && !key.fallback.empty()) out["default"] = key.fallback;
+    const Schema schema = key.required ? of(key.schema, key) : or_null(of(key.schema, key));
+    if (schema.contains("$ref")) out["allOf"] = {schema};  // draft 7 ignores what stands beside $ref
+    else out.update(schema);
     return out;
   }
 
   // A null counts as a key that is not given.
-  static Schema or_null(Schema shape) {
+  static Schema or_null(Schema schema) {
     const Schema null = {{"type", "null"}};
-    if (shape.contains("$ref")) return {{"if", {{"not", null}}}, {"then", shape}};
-    if (shape.contains("anyOf")) shape["anyOf"].push_back(null);
-    if (shape.contains("enum")) shape["enum"].push_back(nullptr);
-    if (!shape.contains("type")) return shape;
-    Schema& type = shape["type"];
+    if (schema.contains("$ref")) return {{"if", {{"not", null}}}, {"then", schema}};
+    if (schema.contains("anyOf")) schema["anyOf"].push_back(null);
+    if (schema.contains("enum")) schema["enum"].push_back(nullptr);
+    if (!schema.contains("type")) return schema;
+    Schema& type = schema["type"];
     if (!type.is_array()) type = Schema::array({type});
     type.push_back("null");
-    return shape;
+    return schema;
   }
 
   static std::string description(const Key& key) {
@@ -84,27 +84,27 @@ class SchemaWriter {
     return facts.empty() ? key.sentence : fmt::format("{} [{}]", key.sentence, facts);
   }
 
-  Schema of(const Shape& shape, const Key& key) {
-    switch (shape.kind) {
-      case Shape::Kind::number: return quantity(key);
-      case Shape::Kind::integer: return number("integer", key.range);
-      case Shape::Kind::boolean: return {{"type", "boolean"}};
-      case Shape::Kind::text: return {{"type", {"string", "number", "boolean"}}};
-      case Shape::Kind::file: return {{"type", "string"}};
-      case Shape::Kind::word: return word(shape);
-      case Shape::Kind::list: return list(shape, key);
-      case Shape::Kind::named: return named(shape, key);
-      case Shape::Kind::section: return define(shape.title, [&] { return section(shape.keys()); });
-      case Shape::Kind::choice: return choice(shape, key);
-      case Shape::Kind::either: return either(shape, key);
-      case Shape::Kind::anything: break;
+  Schema of(const ValueSchema& schema, const Key& key) {
+    switch (schema.kind) {
+      case ValueSchema::Kind::number: return quantity(key);
+      case ValueSchema::Kind::integer: return number("integer", key.range);
+      case ValueSchema::Kind::boolean: return {{"type", "boolean"}};
+      case ValueSchema::Kind::text: return {{"type", {"string", "number", "boolean"}}};
+      case ValueSchema::Kind::file: return {{"type", "string"}};
+      case ValueSchema::Kind::word: return word(schema);
+      case ValueSchema::Kind::list: return list(schema, key);
+      case ValueSchema::Kind::named: return named(schema, key);
+      case ValueSchema::Kind::section: return define(schema.title, [&] { return section(schema.keys()); });
+      case ValueSchema::Kind::choice: return choice(schema, key);
+      case ValueSchema::Kind::either: return either(schema, key);
+      case ValueSchema::Kind::anything: break;
     }
     return Schema::object();
   }
 
-  static Schema word(const Shape& shape) {
-    if (!shape.behind_name) return {{"enum", shape.names}};
-    return {{"type", "string"}, {"pattern", fmt::format(R"(^.+\.({})$)", fmt::join(shape.names, "|"))}};
+  static Schema word(const ValueSchema& schema) {
+    if (!schema.behind_name) return {{"enum", schema.names}};
+    return {{"type", "string"}, {"pattern", fmt::format(R"(^.+\.({})$)", fmt::join(schema.names, "|"))}};
   }
 
   static Schema number(const char* type, const Range& range) {
@@ -121,33 +121,33 @@ class SchemaWriter {
     return {{"anyOf", {plain, {{"type", "string"}, {"pattern", kQuantity}}}}};
   }
 
-  Schema list(const Shape& shape, const Key& key) {
-    Schema out = {{"type", "array"}, {"items", of(shape.items.front(), key)}};
-    if (shape.count > 0) out["minItems"] = out["maxItems"] = shape.count;
+  Schema list(const ValueSchema& schema, const Key& key) {
+    Schema out = {{"type", "array"}, {"items", of(schema.items.front(), key)}};
+    if (schema.count > 0) out["minItems"] = out["maxItems"] = schema.count;
     return out;
   }
 
-  Schema named(const Shape& shape, const Key& key) {
+  Schema named(const ValueSchema& schema, const Key& key) {
     return {{"type", "object"},
             {"properties", {{"include", include()}}},
-            {"additionalProperties", of(shape.items.front(), key)}};
+            {"additionalProperties", of(schema.items.front(), key)}};
   }
 
-  Schema either(const Shape& shape, const Key& key) {
+  Schema either(const ValueSchema& schema, const Key& key) {
     Schema all = Schema::array();
-    for (const Shape& item : shape.items) all.push_back(of(item, key));
+    for (const ValueSchema& item : schema.items) all.push_back(of(item, key));
     return {{"anyOf", all}};
   }
 
   // By `type`, so that editors complete the keys of that type and complain about those alone.
-  Schema choice(const Shape& shape, const Key& key) {
+  Schema choice(const ValueSchema& schema, const Key& key) {
     const std::string usual = default_type(key);
-    return define(shape.title + (usual.empty() ? "" : "Or" + usual), [&]() -> Schema {
+    return define(schema.title + (usual.empty() ? "" : "Or" + usual), [&]() -> Schema {
       Schema names = Schema::array(), cases = Schema::array();
-      for (const auto& [type, alternative] : shape.alternatives()) {
+      for (const auto& [type, alternative] : schema.alternatives()) {
         names.push_back(type);
         const Schema one =
-            define(shape.title + "." + type, [&, &t = type, &a = alternative] { return section(a.keys, t); });
+            define(schema.title + "." + type, [&, &t = type, &a = alternative] { return section(a.keys, t); });
         cases.push_back(
             {{"if", {{"properties", {{"type", {{"const", type}}}}}, {"required", {"type"}}}}, {"then", one}});
         if (type == usual) cases.push_back({{"if", {{"not", {{"required", {"type"}}}}}}, {"then", one}});

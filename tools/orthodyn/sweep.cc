@@ -1,4 +1,4 @@
-// `orthodyn sweep`: figures of a scene over varied values, as a table and a report.
+// `orthodyn sweep`: metrics of a scene over varied values, as a table and a report.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,15 +54,15 @@ const T* value_of(const Named<T>& list, const std::string& name) {
 std::string outcome_of(const EvaluationResult& result, const Sweep& sweep) {
   if (result.failure) return "failed: " + result.failure->reason;
   std::vector<std::string> words;
-  for (const auto& [name, figure] : sweep.quantities) {
-    const double* value = value_of(result.figures, name);
+  for (const auto& [name, metric] : sweep.quantities) {
+    const double* value = value_of(result.metrics, name);
     if (!value || !std::isfinite(*value)) {
       words.push_back(name + " none");
       continue;
     }
     const std::string* si = value_of(result.units, name);
-    const std::string unit = !figure.unit.empty() ? figure.unit : si ? *si : "";
-    const double factor = figure.unit.empty() ? 1 : si_factor(figure.unit);
+    const std::string unit = !metric.unit.empty() ? metric.unit : si ? *si : "";
+    const double factor = metric.unit.empty() ? 1 : si_factor(metric.unit);
     words.push_back(
         fmt::format("{} {}{}", name, known_value(result, name, *value / factor), unit.empty() ? "" : " " + unit));
   }
@@ -72,10 +72,17 @@ std::string outcome_of(const EvaluationResult& result, const Sweep& sweep) {
 // Before its points are made.
 const Sweep& asked_for(const Sweep& sweep, const StudyArguments& arguments) {
   require_ranks(arguments);
-  for (const auto& [name, figure] : sweep.quantities)
-    if (arguments.ranks > 1 && !figure.is_of_motion())
-      figure.origin.fail("natural frequencies and buckling loads are computed by one process: remove it, or --ranks");
+  for (const auto& [name, metric] : sweep.quantities)
+    if (arguments.ranks > 1 && !metric.is_of_motion())
+      metric.origin.fail("natural frequencies and buckling loads are computed by one process: remove it, or --ranks");
   require_usual_number(arguments, number_of_points(sweep));
+  return sweep;
+}
+
+Sweep read_with_warnings(const std::string& file) {
+  const Config config = Config::from_file(file).resolving();
+  Sweep sweep = read_sweep(config);
+  for (const auto& warning : config.warnings()) fmt::print(stderr, "warning: {}\n", warning);
   return sweep;
 }
 
@@ -83,7 +90,7 @@ class SweepCommand {
  public:
   explicit SweepCommand(const SweepArguments& arguments)
       : arguments_(arguments),
-        sweep_(read_sweep(Config::from_file(arguments.file))),
+        sweep_(read_with_warnings(arguments.file)),
         points_(expand(asked_for(sweep_, arguments))),
         folder_(folder_for(arguments, "out/sweeps", sweep_.name)),
         jobs_(jobs_of(sweep_, points_, folder_, arguments.ranks)),
@@ -252,7 +259,7 @@ int sweep(const SweepArguments& arguments) { return SweepCommand(arguments).exec
 const CommandRegistration sweep_command(
     {.order = 50,
      .name = "sweep",
-     .sentence = "Figures of a scene over varied values, as a report, CSV and JSON. Run it again to continue.",
+     .sentence = "Metrics of a scene over varied values, as a report, CSV and JSON. Run it again to continue.",
      .examples = R"(
   orthodyn sweep configs/sweeps/grain_angle.yaml
   orthodyn sweep mine.yaml --slurm --tasks 100 > array.sh; sbatch array.sh

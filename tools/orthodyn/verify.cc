@@ -1,4 +1,4 @@
-// `orthodyn verify`: scenes with known figures, as a table of targets and what was computed.
+// `orthodyn verify`: scenes with known metrics, as a table of targets and what was computed.
 #include "lib/study/quantities/verify.h"
 
 #include <fmt/format.h>
@@ -129,7 +129,7 @@ void declare(VerifyArguments& arguments, CommandOptions& options) {
 const CommandRegistration verify_command(
     {.order = 70,
      .name = "verify",
-     .sentence = "Run scenes that expect known figures, and compare: exit code 1 on a miss, 2 if a file is at fault.",
+     .sentence = "Run scenes that expect known metrics, and compare: exit code 1 on a miss, 2 if a file is at fault.",
      .examples = R"(
   orthodyn verify configs/cases
   orthodyn verify mine.yaml --integrator tr_bdf2)"},

@@ -12,7 +12,7 @@ namespace orthodyn {
 enum class Component { x, y, z };
 
 template <>
-struct Words<Component> {
+struct EnumNames<Component> {
   static constexpr std::array<std::pair<Component, const char*>, 3> list{
       {{Component::x, "x"}, {Component::y, "y"}, {Component::z, "z"}}};
 };

@@ -42,7 +42,7 @@ struct GravityChoice : TermChoice {
 
 template <>
 struct Value<GravityChoice> {
-  static Shape shape() { return Value<Vec3>::shape(); }
+  static ValueSchema schema() { return Value<Vec3>::schema(); }
   static GravityChoice read(const Config& c, const Rule& r) {
     GravityChoice gravity;
     gravity.g = Value<Vec3>::read(c, r);

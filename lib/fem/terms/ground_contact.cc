@@ -28,41 +28,41 @@ double mean_slope(double a, double b, double w) {
 
 }  // namespace
 
-std::string Ground::description() const {
+std::string GroundContact::description() const {
   return fmt::format("{}: {} nodes, {:.6g} Pa/m", name(), areas_.size(), plane_.stiffness);
 }
 
-void Ground::add_force(const NodalState& s, NodalVector& f) const {
+void GroundContact::add_force(const NodalState& s, NodalVector& f) const {
   for (const auto& [node, area] : areas_)
     if (const double d = depth(node, s.x); d > 0)
       f.col(node) += plane_.stiffness * area * slope(d, plane_.onset) * plane_.normal;
 }
 
-void Ground::add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const {
+void GroundContact::add_mean_force(const NodalState& s0, const NodalState& s1, NodalVector& f) const {
   for (const auto& [node, area] : areas_) {
     const double mean = mean_slope(depth(node, s0.x), depth(node, s1.x), plane_.onset);
     if (mean > 0) f.col(node) += plane_.stiffness * area * mean * plane_.normal;
   }
 }
 
-void Ground::add_tangent(const NodalState& s, TangentKind, double* stiffness, double*) const {
+void GroundContact::add_tangent(const NodalState& s, TangentKind, double* stiffness, double*) const {
   const Mat3 across = plane_.stiffness * plane_.normal * plane_.normal.transpose();
   for (const auto& [node, area] : areas_)
     if (const double d = depth(node, s.x); d > 0)
       pattern_.add(node, node, pattern_.offset(node, node), area * curvature(d, plane_.onset) * across, stiffness);
 }
 
-double Ground::energy(const NodalState& s) const {
+double GroundContact::energy(const NodalState& s) const {
   double sum = 0;
   for (const auto& [node, area] : areas_) sum += area * penalty(depth(node, s.x), plane_.onset);
   return plane_.stiffness * sum;
 }
 
-void Ground::add_stiffness_bound(Vector& row_sums) const {
+void GroundContact::add_stiffness_bound(Vector& row_sums) const {
   for (const auto& [node, area] : areas_) row_sums[node] += plane_.stiffness * area;
 }
 
-double Ground::contact_stiffness() const {
+double GroundContact::contact_stiffness() const {
   double largest = 0;
   for (const auto& [node, area] : areas_) largest = std::max(largest, area);
   return plane_.stiffness * largest;
@@ -72,10 +72,10 @@ namespace {
 
 constexpr double kUsualOnset = 1e-3;  // of the mesh's diagonal
 
-class GroundChoice : public TermChoice {
+class GroundContactChoice : public TermChoice {
  public:
-  static const Spec<GroundChoice>& spec() {
-    using G = GroundChoice;
+  static const Spec<GroundContactChoice>& spec() {
+    using G = GroundContactChoice;
     static const auto s =
         Spec<G>()
             .key("point", &G::point_, "A point of the plane.", {.unit = "m"})
@@ -94,13 +94,13 @@ class GroundChoice : public TermChoice {
   std::unique_ptr<Term> make(const Discretization& body) const override {
     const auto triangles = surface_or_all(body.mesh, surface_, origin);
     const double onset = onset_.value_or(kUsualOnset * bounding_box(body.mesh).diagonal());
-    return std::make_unique<Ground>(GroundPlane{point_, normal_.normalized(), stiffness_, onset},
-                                    node_areas(body.mesh, triangles), body.pattern);
+    return std::make_unique<GroundContact>(GroundPlane{point_, normal_.normalized(), stiffness_, onset},
+                                           node_areas(body.mesh, triangles), body.pattern);
   }
 
   void declare(Traits& traits) const override { traits.linear = traits.smooth = false; }
 
-  Origin origin;
+  SourceLocation origin;
 
  private:
   Vec3 point_ = Vec3::Zero(), normal_{0, 0, 1};
@@ -109,8 +109,9 @@ class GroundChoice : public TermChoice {
   std::optional<std::string> surface_;
 };
 
-const bool ground_registered = Registry<TermChoice>::add<GroundChoice>(
-    "ground", "A rigid plane that pushes back what is below it, by a smooth penalty; no friction, no damping.");
+const bool ground_contact_registered = Registry<TermChoice>::add<GroundContactChoice>(
+    "ground_contact", "A rigid plane that pushes back what is below it, by a smooth penalty; no friction, no damping.");
+const bool ground_renamed = Registry<TermChoice>::rename("ground", "ground_contact");
 
 }  // namespace
 }  // namespace orthodyn

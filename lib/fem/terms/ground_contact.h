@@ -18,16 +18,16 @@ struct GroundPlane {
   double onset = 0;                            // w, m
 };
 
-class Ground : public Term {
+class GroundContact : public Term {
  public:
   // node and its share of the surface, m^2; the pattern must outlive the term.
-  Ground(const GroundPlane& plane, std::vector<std::pair<int, double>> areas, const BlockPattern& pattern)
+  GroundContact(const GroundPlane& plane, std::vector<std::pair<int, double>> areas, const BlockPattern& pattern)
       : plane_(plane), areas_(std::move(areas)), pattern_(pattern) {}
 
-  std::string name() const override { return "ground"; }
+  std::string name() const override { return "ground contact"; }
   std::string description() const override;
   std::unique_ptr<Term> part(const Subdomain& subdomain) const override {
-    return std::make_unique<Ground>(plane_, subdomain.owned(areas_), pattern_);
+    return std::make_unique<GroundContact>(plane_, subdomain.owned(areas_), pattern_);
   }
   std::size_t bytes() const override { return areas_.capacity() * sizeof(areas_[0]); }
   void add_force(const NodalState& s, NodalVector& f) const override;

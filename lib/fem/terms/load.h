@@ -18,7 +18,7 @@ struct Load : TermChoice {
   std::optional<std::array<PointQuantity, 3>> traction;  // Pa, per undeformed area
   std::optional<Vec3> force;                             // N in total
   std::shared_ptr<const TimeFunction> factor;
-  Origin origin;
+  SourceLocation origin;
   static const Spec<Load>& spec();
 
   std::unique_ptr<Term> make(const Discretization& body) const override;

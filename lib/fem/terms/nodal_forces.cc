@@ -48,7 +48,7 @@ class NodalForcesChoice : public TermChoice {
 
   void declare(Traits& traits) const override { declare_load(*factor_, traits); }
 
-  Origin origin;
+  SourceLocation origin;
 
  private:
   NodalForces read(const TetMesh& mesh) const {

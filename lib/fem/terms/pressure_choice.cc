@@ -61,7 +61,7 @@ class PressureChoice : public TermChoice {
     if (follows()) traits.linear = traits.conservative = false;
   }
 
-  Origin origin;
+  SourceLocation origin;
 
  private:
   bool follows() const { return follows_.value_or(true); }

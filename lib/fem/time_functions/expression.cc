@@ -48,8 +48,8 @@ class Expression : public TimeFunction {
     double largest = 0;
     for (int k = 0; k <= kSamples; ++k) {
       try {
-        largest =
-            std::max(largest, std::abs(formula_.at(k < kSamples ? start + golden_share(k) * (end - start) : end)));
+        largest = std::max(largest,
+                           std::abs(formula_.at(k < kSamples ? start + golden_ratio_sample(k) * (end - start) : end)));
       } catch (const ConfigError&) {  // no value there: the run will tell, if it comes so far
       }
     }

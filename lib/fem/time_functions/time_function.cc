@@ -30,7 +30,7 @@ double TimeFunction::seconds_at_peak(double start, double end) const {
     const double length = part_end - begin;
     for (int k = 0; k < samples; ++k) {
       try {
-        sum += length / samples * std::abs(value(begin + length * golden_share(k)));
+        sum += length / samples * std::abs(value(begin + length * golden_ratio_sample(k)));
       } catch (const ConfigError&) {  // no value there: the run will tell, if it comes so far
       }
     }

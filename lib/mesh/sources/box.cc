@@ -12,7 +12,7 @@
 namespace orthodyn {
 
 template <>
-struct Words<BoxMesh::Split> {
+struct EnumNames<BoxMesh::Split> {
   static constexpr std::array<std::pair<BoxMesh::Split, const char*>, 2> list{
       {{BoxMesh::Split::five, "five"}, {BoxMesh::Split::six, "six"}}};
 };
@@ -22,7 +22,7 @@ namespace {
 // A part of a box: the elements whose centroid lies in it.
 struct BoxRegion {
   Vec3 min = Vec3::Zero(), max = Vec3::Zero();
-  Origin origin;
+  SourceLocation origin;
   static const Spec<BoxRegion>& spec() {
     static const auto s = Spec<BoxRegion>()
                               .key("min", &BoxRegion::min, "Lowest coordinates.", {.required = true, .unit = "m"})

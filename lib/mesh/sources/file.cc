@@ -19,7 +19,7 @@
 namespace orthodyn {
 
 template <>
-struct Words<FileUnits> {
+struct EnumNames<FileUnits> {
   static constexpr std::array<std::pair<FileUnits, const char*>, 2> list{
       {{FileUnits::si, "SI"}, {FileUnits::mm_t_s, "mm_t_s"}}};
 };

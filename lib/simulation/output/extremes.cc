@@ -29,7 +29,7 @@ std::vector<std::string> exceeded_strengths(const std::vector<RecordedExtreme>& 
 }
 
 ExtremeRecorder::ExtremeRecorder(const std::vector<std::string>& quantities, const FemModel& model,
-                                 const Origin& origin)
+                                 const SourceLocation& origin)
     : model_(model) {
   for (const auto& name : quantities) {
     auto find = find_extreme(name, model, origin);

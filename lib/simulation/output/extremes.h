@@ -28,7 +28,7 @@ std::vector<std::string> exceeded_strengths(const std::vector<RecordedExtreme>& 
 class ExtremeRecorder : public Observer {
  public:
   // `quantities`: such as find_extreme() takes. The model must outlive it. Throws ConfigError at `origin`.
-  ExtremeRecorder(const std::vector<std::string>& quantities, const FemModel& model, const Origin& origin);
+  ExtremeRecorder(const std::vector<std::string>& quantities, const FemModel& model, const SourceLocation& origin);
 
   void on_start(const ObservedState& observed) override { look_at(observed); }
   void on_history(const ObservedState& observed) override { look_at(observed); }

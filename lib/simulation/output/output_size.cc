@@ -70,36 +70,36 @@ std::string shown_bytes(double bytes) {
   return fmt::format("{:.3g} kB", bytes / 1e3);
 }
 
-Volume volume_of(const Setup& setup) {
+OutputSize output_size_of(const Setup& setup) {
   const Scene& scene = setup.scene;
-  Volume volume;
-  volume.frames = frames_of(scene);
-  volume.rows = rows_of(scene, volume.frames);
-  volume.frame_bytes = scene.output.fields.empty() ? 0 : frame_bytes_of(*setup.built.model, scene.output.fields);
-  volume.row_bytes = row_bytes_of(setup);
+  OutputSize size;
+  size.frames = frames_of(scene);
+  size.rows = rows_of(scene, size.frames);
+  size.frame_bytes = scene.output.fields.empty() ? 0 : frame_bytes_of(*setup.built.model, scene.output.fields);
+  size.row_bytes = row_bytes_of(setup);
   if (scene.checkpoint)
-    volume.checkpoint_bytes = 2 * sizeof(double) * static_cast<double>(setup.built.model->num_dofs_of_all());
-  return volume;
+    size.checkpoint_bytes = 2 * sizeof(double) * static_cast<double>(setup.built.model->num_dofs_of_all());
+  return size;
 }
 
-void require_usual_volume(const Setup& setup) {
-  const Volume volume = volume_of(setup);
-  if (setup.scene.is_static() && volume.frames >= kMostUnasked)
-    refuse(setup, "statics", volume.frames, "load steps", volume.frame_bytes + volume.row_bytes,
+void require_usual_output_size(const Setup& setup) {
+  const OutputSize size = output_size_of(setup);
+  if (setup.scene.is_static() && size.frames >= kMostUnasked)
+    refuse(setup, "statics", size.frames, "load steps", size.frame_bytes + size.row_bytes,
            "take a larger statics.max_step");
-  if (volume.frames >= kMostUnasked)
-    refuse(setup, "output", volume.frames, "frames", volume.frame_bytes,
+  if (size.frames >= kMostUnasked)
+    refuse(setup, "output", size.frames, "frames", size.frame_bytes,
            "take fewer output.frames or a longer output.interval");
-  if (volume.rows >= kMostUnasked)
-    refuse(setup, "output", volume.rows, "rows of tables", volume.row_bytes,
+  if (size.rows >= kMostUnasked)
+    refuse(setup, "output", size.rows, "rows of tables", size.row_bytes,
            setup.scene.output.history && setup.scene.output.history->steps
                ? "take output.history.interval in place of output.history.steps"
                : "take a longer output.history.interval");
 }
 
-std::string unusual_volume(const Setup& setup) {
+std::string unusual_output_size(const Setup& setup) {
   try {
-    require_usual_volume(setup);
+    require_usual_output_size(setup);
   } catch (const ConfigError& e) {
     return e.what();
   }

@@ -12,7 +12,7 @@ namespace orthodyn {
 // More frames, rows, load steps or points of a study than this are hardly meant: they ask for --yes.
 constexpr double kMostUnasked = 1e6;
 
-struct Volume {
+struct OutputSize {
   double frames = 0;       // in statics the fewest load steps
   double frame_bytes = 0;  // of one
   double rows = 0;       // of energy.csv, momentum.csv and probes.csv each; 0: one each step, their number is not known
@@ -24,14 +24,14 @@ struct Volume {
 // Where none is cut back: doubled from the first one on, up to the largest.
 double fewest_load_steps(const Statics& statics);
 
-Volume volume_of(const Setup& setup);
+OutputSize output_size_of(const Setup& setup);
 
 // Throws ConfigError for a million frames, rows or load steps: how many they are, what they take on the disk, what to
 // change, and that --yes has them written all the same.
-void require_usual_volume(const Setup& setup);
+void require_usual_output_size(const Setup& setup);
 
 // The same as a sentence, for `orthodyn check`; "" where there are fewer.
-std::string unusual_volume(const Setup& setup);
+std::string unusual_output_size(const Setup& setup);
 
 // "1.2 GB".
 std::string shown_bytes(double bytes);

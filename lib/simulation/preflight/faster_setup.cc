@@ -63,7 +63,7 @@ std::optional<FasterWay> with_changes(const Setup& setup, const RunCost& cost) {
 
 std::optional<FasterWay> faster_way(const Setup& setup, const RunCost& cost) try {
   if (!setup.integrator || setup.kinematics || setup.scene.elasticity.is_warped() ||
-      setup.built.model->num_dofs() > kLargestForSlips)
+      setup.built.model->num_dofs() > kMostUnknownsOfResponse)
     return std::nullopt;
   return with_changes(setup, cost);
 } catch (const ConfigError&) {  // the changed scene is only a proposal

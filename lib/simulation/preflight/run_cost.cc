@@ -174,11 +174,11 @@ double seconds_of_frame(const Setup& setup) {
 }
 
 void add_outputs(const Setup& setup, RunCost& cost) {
-  const Volume volume = volume_of(setup);
+  const OutputSize size = output_size_of(setup);
   cost.row = seconds_of_row(setup);
   cost.frame = seconds_of_frame(setup);
-  cost.frames = volume.frames;
-  cost.rows = volume.rows > 0 ? CostRange{volume.rows, volume.rows} : cost.steps;
+  cost.frames = size.frames;
+  cost.rows = size.rows > 0 ? CostRange{size.rows, size.rows} : cost.steps;
 }
 
 }  // namespace

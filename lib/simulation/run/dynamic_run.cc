@@ -71,7 +71,7 @@ class DynamicAnalysis {
     }
     RunObservers observers(setup_, folder_.path());
     resumes ? resume(begin, observers) : prepare_anew();
-    const RunRecord record(folder_.path(), context_.scene, context_.set, begin.restarts, given_terms(setup_.config));
+    const RunRecord record(folder_.path(), context_.scene, context_.set, begin.restarts, model_keys(setup_.config));
     write_file(folder_.path() / "scene.yaml", {begin.scene});
     // Killed from here on, it can be resumed.
     if (!resumes && setup_.scene.checkpoint) begin.save(folder_.checkpoint());
@@ -169,7 +169,7 @@ class DynamicAnalysis {
     statistics.observation = outcome.observation;
     MotionResult out{.integrator = setup_.config.at("integrator").at("type").text(),
                      .decisions = integrator.decisions(),
-                     .doubts = integrator.doubts(),
+                     .warnings = integrator.result_warnings(),
                      .effort = before + Effort{statistics, outcome.wall_seconds, outcome.cpu_seconds},
                      .factor_bytes = integrator.factor_bytes(),
                      .det_f = {inversion.smallest(), inversion.element(), inversion.time()}};

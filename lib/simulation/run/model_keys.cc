@@ -42,7 +42,7 @@ Json json_of(const Config& value) {
 
 }  // namespace
 
-Json given_terms(const Config& resolved) {
+Json model_keys(const Config& resolved) {
   Json out = Json::object();
   for (const char* key : {"mesh", "materials", "regions", "elasticity", "mass", "damping", "gravity", "loads", "terms",
                           "clamps", "motions", "start", "initial"})

@@ -8,6 +8,6 @@
 namespace orthodyn {
 
 // `resolved`: a scene with every default. Sections that it does not have are left out.
-Json given_terms(const Config& resolved);
+Json model_keys(const Config& resolved);
 
 }  // namespace orthodyn

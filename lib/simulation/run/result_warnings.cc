@@ -79,7 +79,7 @@ std::string linearity_sentence(double error) {
 }
 
 // What steps may have missed of loads and of the motion of supports.
-void add_doubts(const Outcome& outcome, std::vector<std::string>& all) {
+void add_warnings(const Outcome& outcome, std::vector<std::string>& all) {
   if (outcome.stepped_over)
     all.push_back(
         fmt::format("the step after t = {:.4g} s is long against what a load or a support does in it, and fixed: much "
@@ -103,7 +103,7 @@ void add_few_states(const std::vector<RecordedExtreme>& extremes, std::vector<st
                     counted(few->states, "state")));
 }
 
-void add_doubts(const EquilibriumResult& equilibrium, std::vector<std::string>& all) {
+void add_warnings(const EquilibriumResult& equilibrium, std::vector<std::string>& all) {
   if (!(equilibrium.det_f.value > 0))
     all.push_back(fmt::format("element {} is inverted (det F = {:.3g}): this equilibrium has no meaning",
                               equilibrium.det_f.element, equilibrium.det_f.value));
@@ -117,11 +117,11 @@ void add_doubts(const EquilibriumResult& equilibrium, std::vector<std::string>& 
 
 }  // namespace
 
-std::vector<std::string> doubts(const RunResult& result) {
+std::vector<std::string> result_warnings(const RunResult& result) {
   std::vector<std::string> all;
   if (result.buckling && result.buckling->unsymmetric) all.push_back(kUnsymmetricLoads);
-  add_doubts(result.outcome, all);
-  if (result.equilibrium) add_doubts(*result.equilibrium, all);
+  add_warnings(result.outcome, all);
+  if (result.equilibrium) add_warnings(*result.equilibrium, all);
   if (const auto& strain = result.passed_strain)
     all.push_back(fmt::format("{} (the most at {} {:.4g}{})", strain->sentence,
                               result.equilibrium ? "load factor" : "t =", strain->time,

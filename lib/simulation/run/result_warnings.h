@@ -12,6 +12,6 @@ namespace orthodyn {
 // coarse mesh; loads that steps may have missed; linear kinematics that are far off; an energy balance that drifts by
 // more than a hundredth of the largest energy; errors of a long run that may have added up; what the integrator itself
 // doubts.
-std::vector<std::string> doubts(const RunResult& result);
+std::vector<std::string> result_warnings(const RunResult& result);
 
 }  // namespace orthodyn

@@ -22,7 +22,7 @@ struct RunRequest {
   bool force = false;            // replace an earlier result in the folder
   bool resume = false;           // go on from the checkpoint in the folder, or begin if there is no result yet
   bool estimate_error = false;   // then repeat the run more accurately, and compare
-  bool any_volume = false;       // also a million frames and more (volume.h)
+  bool any_output_size = false;  // also a million frames and more (volume.h)
   const Ranks* ranks = nullptr;  // those that compute it together, all of which ask for it; null: this process alone
 };
 

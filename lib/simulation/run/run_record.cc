@@ -186,7 +186,7 @@ void RunRecord::finish(const RunResult& result) const {
   if (result.buckling) add_buckling(out, *result.buckling, result.outcome);
   for (const RecordedExtreme& extreme : result.extremes) out["extremes"][extreme.quantity] = to_json(extreme);
   if (const auto errors = error_balance(result)) out["errors"] = errors_json(*errors);
-  if (const auto warnings = doubts(result); !warnings.empty()) out["warnings"] = warnings;
+  if (const auto warnings = result_warnings(result); !warnings.empty()) out["warnings"] = warnings;
   file_.rewrite(text(out));
 }
 

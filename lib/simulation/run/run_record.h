@@ -17,7 +17,7 @@ inline constexpr const char* kRunRecordFile = "run.json";  // in the folder of t
 
 class RunRecord {
  public:
-  // Writes the file. `scene`: its file, `set`: what was changed in it, `given`: of its model (given_terms.h). Throws
+  // Writes the file. `scene`: its file, `set`: what was changed in it, `given`: of its model (model_keys.h). Throws
   // RunError.
   RunRecord(const std::filesystem::path& folder, const std::string& scene, const std::vector<std::string>& set,
             const std::vector<Restart>& restarts, const Json& given);

@@ -62,7 +62,7 @@ struct FailurePlace {
 struct MotionResult {
   std::string integrator = {};                                      // its type
   std::vector<std::pair<std::string, std::string>> decisions = {};  // of the integrator: key and value
-  std::vector<std::string> doubts = {};                             // of the integrator
+  std::vector<std::string> warnings = {};                           // of the integrator
   Effort effort = {};                                               // over all restarts
   std::size_t factor_bytes = 0;
   SmallestDetF det_f = {};

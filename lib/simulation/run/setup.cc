@@ -28,7 +28,7 @@ void append(Warnings more, Warnings& all) {
 
 // Every name in `fields` must be an output of the model at one of the given places.
 void check_fields(const Model& model, const std::vector<std::string>& fields, std::vector<Location> allowed,
-                  const Origin& origin) {
+                  const SourceLocation& origin) {
   std::vector<std::string> names, short_names;
   for (const auto& info : model.outputs()) {
     if (std::find(allowed.begin(), allowed.end(), info.location) == allowed.end()) continue;
@@ -153,14 +153,14 @@ Setup set_up(Config config, Scene scene, bool linear_so_far, bool is_timed, cons
   if (!scene.is_static()) require_force_at_start(config, built);
   check_outputs(scene, *built.model);
   check_expectations(scene, *built.model);
-  if (!ranks) append(slips(config, scene, built, is_timed), built.warnings);
+  if (!ranks) append(check_inputs(config, scene, built, is_timed), built.warnings);
   std::optional<StaticResponse> statics;  // made once, for whoever asks first
   const auto response = [&]() -> const StaticResponse& {
     if (!statics) statics = static_response(*built.model, built.initial, scene.time.end);
     return *statics;
   };
-  if (!ranks && built.model->num_dofs() <= kLargestForSlips)
-    append(response_slips(config, scene, built, response()), built.warnings);
+  if (!ranks && built.model->num_dofs() <= kMostUnknownsOfResponse)
+    append(check_response(config, scene, built, response()), built.warnings);
   const auto stiffness = elastic_stiffness(scene, *built.model);
   if (!ranks && !built.model->traits().linear && needs_strain_check(*built.model, stiffness))
     append(strain_warnings(*built.model, stiffness, built.initial, response()), built.warnings);
@@ -179,9 +179,9 @@ Setup set_up(Config config, Scene scene, bool linear_so_far, bool is_timed, cons
     integrator = make_integrator(config, scene, task, *built.model);
     wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     cpu = cpu_seconds_now() - begin_cpu;
-    const bool told = ranks || built.model->num_dofs() <= kLargestForSlips;
+    const bool told = ranks || built.model->num_dofs() <= kMostUnknownsOfResponse;
     if (statics && !told && scene.start == Start::rest)
-      append(response_slips(config, scene, built, *statics), built.warnings);
+      append(check_response(config, scene, built, *statics), built.warnings);
   }
   if (ranks && is_linear_anywhere(scene))
     built.warnings.push_back("on several ranks it is not told how far linear kinematics are off; one process tells");

@@ -59,7 +59,7 @@ RunResult run_buckling_analysis(RunContext context) {
   require_held(setup.scene, model, t);
   context.folder.prepare();
   const auto& folder = context.folder.path();
-  const RunRecord record(folder, context.scene, context.set, {}, given_terms(setup.config));
+  const RunRecord record(folder, context.scene, context.set, {}, model_keys(setup.config));
   write_file(folder / "scene.yaml", {context.resolved});
   const State rest{t, unloaded_shape(setup.scene, setup.built), Vector::Zero(model.num_dofs())};
   RunResult result{.scene = context.scene, .folder = folder};

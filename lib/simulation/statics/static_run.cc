@@ -168,7 +168,7 @@ RunResult run_static_analysis(RunContext context) {
   const auto& folder = context.folder.path();
   const StaticProblem problem = static_problem(setup.scene, setup.built);
   context.folder.prepare();
-  const RunRecord record(folder, context.scene, context.set, {}, given_terms(context.setup.config));
+  const RunRecord record(folder, context.scene, context.set, {}, model_keys(context.setup.config));
   write_file(folder / "scene.yaml", {context.resolved});
   StaticObservers observers(setup, problem, folder, context.listener);
   auto all = observers.all();

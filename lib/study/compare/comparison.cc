@@ -15,7 +15,7 @@
 namespace orthodyn {
 
 template <>
-struct Words<ReferenceKind> {
+struct EnumNames<ReferenceKind> {
   static constexpr std::array<std::pair<ReferenceKind, const char*>, 3> list{
       {{ReferenceKind::automatic, "automatic"}, {ReferenceKind::computed, "computed"}, {ReferenceKind::none, "none"}}};
 };

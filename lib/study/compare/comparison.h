@@ -37,9 +37,9 @@ struct Comparison {
   std::vector<SceneEntry> scenes;
   std::vector<IntegratorEntry> integrators;  // `all`: every one of the registry
   std::vector<double> tolerances, steps;
-  Origin tolerances_at = {}, steps_at = {};  // their places in the file
-  Named<std::vector<YamlText>> vary;         // by path in a scene
-  std::vector<std::string> quantities = {};  // whose errors are measured beside displacement and velocity
+  SourceLocation tolerances_at = {}, steps_at = {};  // their places in the file
+  Named<std::vector<YamlText>> vary;                 // by path in a scene
+  std::vector<std::string> quantities = {};          // whose errors are measured beside displacement and velocity
   std::optional<KeptFrames> frames = {};
   int repeats = 3, samples = 100;
   Limits limits;

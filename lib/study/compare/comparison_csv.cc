@@ -72,8 +72,8 @@ bool is_near_reference(const Json& point, const std::string& error) {
   return std::find(names.begin(), names.end(), error) != names.end();
 }
 
-bool is_on_a_front(const Json& comparison, std::size_t point) {
-  const Json& fronts = comparison.at("fronts");
+bool is_on_pareto_front(const Json& comparison, std::size_t point) {
+  const Json& fronts = comparison.at("pareto_fronts");
   return std::any_of(fronts.begin(), fronts.end(), [&](const Json& front) {
     const Json& points = front.at("points");
     return std::find(points.begin(), points.end(), point) != points.end();
@@ -95,13 +95,13 @@ std::string comparison_csv(const Json& comparison) {
   const auto columns = columns_of(comparison);
   std::string out;
   for (const auto& column : columns) out += (out.empty() ? "" : ",") + csv_cell(column.title);
-  const bool has_fronts = !comparison.at("fronts").empty();
-  out += fmt::format(",near_reference.{}{}\n", kLeadingError, has_fronts ? ",front" : "");
+  const bool has_pareto_fronts = !comparison.at("pareto_fronts").empty();
+  out += fmt::format(",near_reference.{}{}\n", kLeadingError, has_pareto_fronts ? ",pareto_front" : "");
   for (std::size_t k = 0; k < comparison.at("points").size(); ++k) {
     const Json& point = comparison.at("points")[k];
     for (const auto& column : columns) out += cell(point, column) + ",";
     out += is_near_reference(point, kLeadingError) ? "true" : "false";
-    if (has_fronts) out += is_on_a_front(comparison, k) ? ",true" : ",false";
+    if (has_pareto_fronts) out += is_on_pareto_front(comparison, k) ? ",true" : ",false";
     out += '\n';
   }
   return out;

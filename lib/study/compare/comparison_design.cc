@@ -50,7 +50,7 @@ YamlText newton_tolerance(const Comparison& comparison) {
 }
 
 // Where the file says what controls the error.
-Origin origin_of(const Comparison& comparison, Method::Control control) {
+SourceLocation origin_of(const Comparison& comparison, Method::Control control) {
   switch (control) {
     case Method::Control::rtol: return comparison.tolerances_at;
     case Method::Control::step: return comparison.steps_at;

@@ -38,7 +38,7 @@ std::string control_word(Method::Control control);
 struct Point {
   std::size_t problem = 0, method = 0;
   double control = 0;
-  Origin control_at = {};  // its place in the comparison's file; "" where the program chooses it
+  SourceLocation control_at = {};  // its place in the comparison's file; "" where the program chooses it
 };
 
 struct Design {

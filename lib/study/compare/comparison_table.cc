@@ -187,7 +187,7 @@ void add_conclusions(const ComparisonRun& run, Json& out) {
   const Design& design = run.design();
   out["answers"] = Json::array();
   out["orders"] = Json::array();
-  out["fronts"] = fronts_json(run, out);
+  out["pareto_fronts"] = pareto_fronts_json(run, out);
   if (design.across_meshes) return;  // where the mesh's error remains a method has no order
   for (std::size_t p = 0; p < design.problems.size(); ++p) {
     std::vector<WorkPoint> all;

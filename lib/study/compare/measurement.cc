@@ -269,7 +269,7 @@ class Measurement {
 }  // namespace
 
 std::vector<Quantity> followed_quantities(const Setup& setup, const std::vector<std::string>& names,
-                                          const Origin& origin) {
+                                          const SourceLocation& origin) {
   std::vector<Quantity> all;
   for (const auto& name : names) {
     all.push_back(find_quantity(name, setup.scene, *setup.built.model, origin));

@@ -17,7 +17,7 @@ inline constexpr const char* kTrajectoryFile = "trajectory.bin";
 
 // The quantities of a comparison in one of its scenes. Throws ConfigError at `origin` for what the scene does not have.
 std::vector<Quantity> followed_quantities(const Setup& setup, const std::vector<std::string>& names,
-                                          const Origin& origin);
+                                          const SourceLocation& origin);
 
 // Trajectories that are to be kept go to `folder`. A run that fails is a result. Throws RunError if a reference cannot
 // be read or a trajectory not be written.

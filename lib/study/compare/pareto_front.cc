@@ -8,7 +8,7 @@
 
 namespace orthodyn::study::compare {
 
-std::vector<CostPoint> front(std::vector<CostPoint> points, double floor) {
+std::vector<CostPoint> pareto_front(std::vector<CostPoint> points, double floor) {
   std::sort(points.begin(), points.end(), [](const CostPoint& a, const CostPoint& b) {
     return std::tie(a.seconds, a.error) < std::tie(b.seconds, b.error);
   });

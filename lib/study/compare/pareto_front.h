@@ -13,7 +13,7 @@ struct CostPoint {
 };
 
 // From fast to accurate. Errors below `floor` are not told apart: of those points the fastest stands for all.
-std::vector<CostPoint> front(std::vector<CostPoint> points, double floor);
+std::vector<CostPoint> pareto_front(std::vector<CostPoint> points, double floor);
 
 // The fastest with an error of at most `target`.
 std::optional<CostPoint> fastest(const std::vector<CostPoint>& points, double target);

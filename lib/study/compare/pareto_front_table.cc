@@ -17,9 +17,9 @@ namespace orthodyn::study::compare {
 namespace {
 
 // One group of the document.
-class GroupFront {
+class GroupParetoFront {
  public:
-  GroupFront(const Json& document, const std::string& group, double reach) : document_(document), reach_(reach) {
+  GroupParetoFront(const Json& document, const std::string& group, double reach) : document_(document), reach_(reach) {
     for (const auto& problem : document.at("problems"))
       if (problem.at("group") == group) members_.push_back(problem.at("id")), problems_[problem.at("id")] = &problem;
     for (std::size_t k = 0; k < document.at("points").size(); ++k) add(k);
@@ -30,7 +30,7 @@ class GroupFront {
   Json points() const {
     Json out = Json::array();
     if (!std::isnan(reach_))
-      for (const auto& point : front(points_, reach_)) out.push_back(point.index);
+      for (const auto& point : pareto_front(points_, reach_)) out.push_back(point.index);
     return out;
   }
 
@@ -100,7 +100,7 @@ class GroupFront {
 
 }  // namespace
 
-Json fronts_json(const ComparisonRun& run, const Json& document) {
+Json pareto_fronts_json(const ComparisonRun& run, const Json& document) {
   Json out = Json::array();
   const Design& design = run.design();
   if (!design.across_meshes) return out;
@@ -110,7 +110,7 @@ Json fronts_json(const ComparisonRun& run, const Json& document) {
     const auto errors = time_errors_of(reference);
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     const double reach = Reach(reference, true).of(errors ? errors->displacement.l2 : unknown);
-    const GroupFront front(document, design.groups[g].id, reach);
+    const GroupParetoFront front(document, design.groups[g].id, reach);
     out.push_back({{"id", design.groups[g].id},
                    {"label", design.groups[g].label},
                    {"problems", front.members()},

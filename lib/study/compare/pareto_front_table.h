@@ -7,6 +7,6 @@ namespace orthodyn::study::compare {
 
 // Of each group: the points of its front by their place in `points` of the document, and for each power of ten which
 // point reaches it first, in data and in a sentence. `document`: with problems, methods and points.
-Json fronts_json(const ComparisonRun& run, const Json& document);
+Json pareto_fronts_json(const ComparisonRun& run, const Json& document);
 
 }  // namespace orthodyn::study::compare

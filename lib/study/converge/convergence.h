@@ -32,7 +32,7 @@ struct Level {
 };
 
 struct Design {
-  Named<WantedFigure> figures;
+  Named<WantedMetric> metrics;
   std::vector<Level> levels;  // by order, from coarse to fine
 };
 

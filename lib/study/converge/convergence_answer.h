@@ -1,4 +1,4 @@
-// What a refinement says of one figure, in a sentence.
+// What a refinement says of one metric, in a sentence.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ struct FinestMesh {
 // "quadratic"
 const char* words_of_order(int order);
 
-// Of a figure of the table (convergence_table.h); `target`: the error whose cost is told.
-std::string answer(const Json& figure, const std::optional<FinestMesh>& finest, double target);
+// Of a metric of the table (convergence_table.h); `target`: the error whose cost is told.
+std::string answer(const Json& metric, const std::optional<FinestMesh>& finest, double target);
 
 }  // namespace orthodyn::study::converge

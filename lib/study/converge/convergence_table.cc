@@ -32,8 +32,8 @@ class Table {
       : wanted_(wanted), design_(design), jobs_(jobs), results_(results) {}
 
   Json json() const {
-    Json figures = Json::array(), rows = Json::array();
-    for (const auto& [name, figure] : design_.figures) figures.push_back(figure_json(name, figure));
+    Json metrics = Json::array(), rows = Json::array();
+    for (const auto& [name, metric] : design_.metrics) metrics.push_back(metric_json(name, metric));
     for (std::size_t i = 0; i < design_.levels.size(); ++i) rows.push_back(row_json(i));
     return {{"orthodyn_convergence", 1},
             {"name", stem(wanted_.file)},
@@ -46,7 +46,7 @@ class Table {
             {"ratio", kRatio},
             {"target", kTarget},
             {"orders", wanted_.orders},
-            {"figures", figures},
+            {"metrics", metrics},
             {"rows", rows}};
   }
 
@@ -61,17 +61,17 @@ class Table {
     return found == results_.end() ? nullptr : &found->second;
   }
 
-  double value(std::size_t level, const std::string& figure) const {
+  double value(std::size_t level, const std::string& metric) const {
     const EvaluationResult* r = result(level);
-    return r ? entry(r->figures, figure).value_or(kNaN) : kNaN;
+    return r ? entry(r->metrics, metric).value_or(kNaN) : kNaN;
   }
 
   // Of one order, up to the first that is missing.
-  std::vector<double> values(int order, const std::string& figure) const {
+  std::vector<double> values(int order, const std::string& metric) const {
     std::vector<double> out;
     for (std::size_t i = 0; i < design_.levels.size(); ++i) {
       if (design_.levels[i].order != order) continue;
-      const double v = value(i, figure);
+      const double v = value(i, metric);
       if (!std::isfinite(v)) break;
       out.push_back(v);
     }
@@ -83,42 +83,42 @@ class Table {
   }
 
   // By the elements of the highest order, which are nearest to it on equal cells; the orders ascend.
-  std::optional<Limit> limit(const std::string& figure) const {
+  std::optional<Limit> limit(const std::string& metric) const {
     std::optional<Limit> found;
     for (const int order : wanted_.orders)
-      if (const auto value = extrapolated(values(order, figure), order)) found = Limit{*value, order};
+      if (const auto value = extrapolated(values(order, metric), order)) found = Limit{*value, order};
     return found;
   }
 
-  double error(std::size_t level, const std::string& figure) const {
-    const auto found = limit(figure);
-    return found && found->value.limit != 0 ? std::abs(value(level, figure) / found->value.limit - 1) : kNaN;
+  double error(std::size_t level, const std::string& metric) const {
+    const auto found = limit(metric);
+    return found && found->value.limit != 0 ? std::abs(value(level, metric) / found->value.limit - 1) : kNaN;
   }
 
-  double cpu_seconds(std::size_t level, const WantedFigure& figure) const {
+  double cpu_seconds(std::size_t level, const WantedMetric& metric) const {
     const EvaluationResult* r = result(level);
-    const auto cost = figure.is_of_motion() ? &EvaluationResult::cost : &EvaluationResult::modes_cost;
+    const auto cost = metric.is_of_motion() ? &EvaluationResult::cost : &EvaluationResult::modes_cost;
     return r && r->*cost ? (r->*cost)->cpu_seconds : kNaN;
   }
 
   // Of a frequency or a buckling load its own, of others the share of the elastic energy.
-  double mesh_error(std::size_t level, const WantedFigure& figure, const std::string& name) const {
+  double mesh_error(std::size_t level, const WantedMetric& metric, const std::string& name) const {
     const EvaluationResult* r = result(level);
     if (!r) return kNaN;
-    return figure.is_of_motion() ? r->mesh_error.value_or(kNaN) : entry(r->figure_errors, name).value_or(kNaN);
+    return metric.is_of_motion() ? r->mesh_error.value_or(kNaN) : entry(r->metric_errors, name).value_or(kNaN);
   }
 
   // CPU time at which the error of elements of an order falls to the target, s, between the points that enclose it; at
   // most that of the coarsest mesh where it is below already; null if there is none.
-  Json cost_of_target(int order, const std::string& name, const WantedFigure& figure) const {
+  Json cost_of_target(int order, const std::string& name, const WantedMetric& metric) const {
     std::optional<std::size_t> before;
     for (std::size_t i = 0; i < design_.levels.size(); ++i) {
       if (design_.levels[i].order != order) continue;
-      const double e = error(i, name), t = cpu_seconds(i, figure);
+      const double e = error(i, name), t = cpu_seconds(i, metric);
       if (!(e >= 0) || !(t > 0)) break;
       if (e <= kTarget) {
         if (!before) return {{"order", order}, {"cpu_seconds", t}, {"at_most", true}};
-        const double e0 = error(*before, name), t0 = cpu_seconds(*before, figure);
+        const double e0 = error(*before, name), t0 = cpu_seconds(*before, metric);
         const double share = std::log(e0 / kTarget) / std::log(e0 / std::max(e, 1e-300));
         return {{"order", order}, {"cpu_seconds", t0 * std::pow(t / t0, share)}, {"at_most", false}};
       }
@@ -127,14 +127,14 @@ class Table {
     return {{"order", order}, {"cpu_seconds", nullptr}, {"at_most", false}};
   }
 
-  std::string unit(const std::string& figure) const {
+  std::string unit(const std::string& metric) const {
     for (std::size_t i = 0; i < design_.levels.size(); ++i)
       if (const EvaluationResult* r = result(i))
-        if (const auto found = entry(r->units, figure)) return *found;
+        if (const auto found = entry(r->units, metric)) return *found;
     return "";
   }
 
-  Json figure_json(const std::string& name, const WantedFigure& figure) const {
+  Json metric_json(const std::string& name, const WantedMetric& metric) const {
     Json out{{"name", name}, {"unit", unit(name)}, {"limit", nullptr}};
     if (const auto found = limit(name)) {
       out["limit"] = found->value.limit;
@@ -144,14 +144,14 @@ class Table {
       out["why_no_limit"] = why_no_limit(name);
     }
     Json costs = Json::array();
-    for (const int order : wanted_.orders) costs.push_back(cost_of_target(order, name, figure));
+    for (const int order : wanted_.orders) costs.push_back(cost_of_target(order, name, metric));
     out["cost_of_target"] = costs;
     out["answer"] = answer(out, finest(name), kTarget);
     return out;
   }
 
-  std::string why_no_limit(const std::string& figure) const {
-    const std::vector<double> last = values(wanted_.orders.back(), figure);
+  std::string why_no_limit(const std::string& metric) const {
+    const std::vector<double> last = values(wanted_.orders.back(), metric);
     if (last.size() < 3 && wanted_.levels < 3) return "it takes three levels to see one (--levels 3)";
     if (last.size() < 3) return fmt::format("only {} of its meshes came to an end", last.size());
     const auto* at = last.data() + last.size() - 3;
@@ -165,14 +165,14 @@ class Table {
   std::optional<FinestMesh> finest(const std::string& name) const {
     for (std::size_t i = design_.levels.size(); i-- > 0;)
       if (const double v = value(i, name); std::isfinite(v))
-        return FinestMesh{v, mesh_error(i, *entry(design_.figures, name), name), design_.levels[i].order};
+        return FinestMesh{v, mesh_error(i, *entry(design_.metrics, name), name), design_.levels[i].order};
     return std::nullopt;
   }
 
   // On the level's own value and the two before it.
-  Json observed_order(std::size_t level, const std::string& figure) const {
+  Json observed_order(std::size_t level, const std::string& metric) const {
     if (design_.levels[level].level < 2) return nullptr;
-    const auto found = extrapolate({value(level - 2, figure), value(level - 1, figure), value(level, figure)}, kRatio,
+    const auto found = extrapolate({value(level - 2, metric), value(level - 1, metric), value(level, metric)}, kRatio,
                                    2 * design_.levels[level].order);
     return found && found->order ? finite_or_null(*found->order) : Json();
   }
@@ -191,14 +191,14 @@ class Table {
              {"message", r && r->failure ? r->failure->message : ""}};
     out["unknowns"] = r && r->unknowns ? Json(*r->unknowns) : Json();
     out["elements"] = r && r->elements ? Json(*r->elements) : Json();
-    Json figures = Json::object();
-    for (const auto& [name, figure] : design_.figures)
-      figures[name] = {{"value", finite_or_null(value(i, name))},
+    Json metrics = Json::object();
+    for (const auto& [name, metric] : design_.metrics)
+      metrics[name] = {{"value", finite_or_null(value(i, name))},
                        {"error", finite_or_null(error(i, name))},
                        {"order", observed_order(i, name)},
-                       {"mesh_error", finite_or_null(mesh_error(i, figure, name))},
-                       {"cpu_seconds", finite_or_null(cpu_seconds(i, figure))}};
-    out["figures"] = figures;
+                       {"mesh_error", finite_or_null(mesh_error(i, metric, name))},
+                       {"cpu_seconds", finite_or_null(cpu_seconds(i, metric))}};
+    out["metrics"] = metrics;
     return out;
   }
 

@@ -13,7 +13,7 @@ namespace orthodyn::study::converge {
 
 using Results = std::map<std::filesystem::path, EvaluationResult>;  // by the folder of a job
 
-// `jobs` by level. Errors are relative to the limit of each figure.
+// `jobs` by level. Errors are relative to the limit of each metric.
 Json convergence_json(const Convergence& wanted, const Design& design, const std::vector<Job>& jobs,
                       const Results& results);
 

@@ -9,7 +9,7 @@ namespace orthodyn::study::converge {
 
 std::string convergence_csv(const Json& table);
 
-// A table of each figure, and what an error of one per cent costs.
+// A table of each metric, and what an error of one per cent costs.
 std::string convergence_text(const Json& table);
 
 }  // namespace orthodyn::study::converge

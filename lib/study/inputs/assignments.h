@@ -10,12 +10,12 @@ namespace orthodyn {
 // YAML that is handed on as it stands: a value for a key of a scene.
 struct YamlText {
   std::string text;
-  Origin origin = {};
+  SourceLocation origin = {};
 };
 
 template <>
 struct Value<YamlText> {
-  static Shape shape() { return {}; }
+  static ValueSchema schema() { return {}; }
   static YamlText read(const Config& c, const Rule&) { return {c.yaml(), {c.where()}}; }
   static std::string yaml(const YamlText& x) { return x.text; }
 };

@@ -35,7 +35,7 @@ std::map<std::string, Alternative> sections() {
   for (const auto& [name, entry] : Registry<IntegratorChoice>::entries()) {
     Alternative one = entry;
     std::erase_if(one.keys, [](const Key& key) { return key.name == "rtol" || key.name == "step"; });
-    one.keys.push_back({"label", Value<std::string>::shape(), "", {}, "", "Its name in the report.", false});
+    one.keys.push_back({"label", Value<std::string>::schema(), "", {}, "", "Its name in the report.", false});
     out.emplace(name, one);
   }
   return out;
@@ -58,12 +58,12 @@ bool has_key(const std::string& integrator, const std::string& key) {
   return std::any_of(keys.begin(), keys.end(), [&](const Key& k) { return k.name == key; });
 }
 
-Shape Value<IntegratorEntry>::shape() {
+ValueSchema Value<IntegratorEntry>::schema() {
   std::vector<std::string> names{"all"};
   for (const auto& name : Registry<IntegratorChoice>::names()) names.push_back(name);
-  return {.kind = Shape::Kind::either,
-          .items = {{.kind = Shape::Kind::word, .words = "name", .names = names},
-                    {.kind = Shape::Kind::choice, .title = "IntegratorEntry", .alternatives = sections}}};
+  return {.kind = ValueSchema::Kind::either,
+          .items = {{.kind = ValueSchema::Kind::word, .words = "name", .names = names},
+                    {.kind = ValueSchema::Kind::choice, .title = "IntegratorEntry", .alternatives = sections}}};
 }
 
 IntegratorEntry Value<IntegratorEntry>::read(const Config& c, const Rule&) {
@@ -77,7 +77,9 @@ IntegratorEntry Value<IntegratorEntry>::read(const Config& c, const Rule&) {
   return read_section(c);
 }
 
-Shape Value<CompleteIntegratorEntry>::shape() { return Value<std::shared_ptr<const IntegratorChoice>>::shape(); }
+ValueSchema Value<CompleteIntegratorEntry>::schema() {
+  return Value<std::shared_ptr<const IntegratorChoice>>::schema();
+}
 
 CompleteIntegratorEntry Value<CompleteIntegratorEntry>::read(const Config& c, const Rule&) {
   if (!c.is_map()) c.fail("expected a section with the key 'type', found " + c.shown());

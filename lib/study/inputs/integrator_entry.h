@@ -12,7 +12,7 @@ namespace orthodyn {
 struct IntegratorEntry {
   std::string type, label;
   Assignments options;  // by key of the integrator
-  Origin origin;
+  SourceLocation origin;
   bool by_all = false;  // named by `all`: left out if it takes nothing that the comparison gives
 };
 
@@ -27,14 +27,14 @@ bool has_key(const std::string& integrator, const std::string& key);
 
 template <>
 struct Value<IntegratorEntry> {
-  static Shape shape();
+  static ValueSchema schema();
   static IntegratorEntry read(const Config& c, const Rule&);
   static std::string yaml(const IntegratorEntry&) { return ""; }
 };
 
 template <>
 struct Value<CompleteIntegratorEntry> {
-  static Shape shape();
+  static ValueSchema schema();
   static CompleteIntegratorEntry read(const Config& c, const Rule&);
   static std::string yaml(const CompleteIntegratorEntry&) { return ""; }
 };

@@ -17,10 +17,10 @@ const Spec<SceneEntry>& SceneEntry::spec() {
   return s;
 }
 
-Shape Value<SceneEntry>::shape() {
-  const Shape section{
-      .kind = Shape::Kind::section, .title = "SceneEntry", .keys = [] { return SceneEntry::spec().keys(); }};
-  return {.kind = Shape::Kind::either, .items = {Value<FilePath>::shape(), section}};
+ValueSchema Value<SceneEntry>::schema() {
+  const ValueSchema section{
+      .kind = ValueSchema::Kind::section, .title = "SceneEntry", .keys = [] { return SceneEntry::spec().keys(); }};
+  return {.kind = ValueSchema::Kind::either, .items = {Value<FilePath>::schema(), section}};
 }
 
 SceneEntry Value<SceneEntry>::read(const Config& c, const Rule&) {

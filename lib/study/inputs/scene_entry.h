@@ -12,7 +12,7 @@ struct SceneEntry {
   FilePath file;
   std::string label;  // default the file's stem
   Assignments set;
-  Origin origin;
+  SourceLocation origin;
   static const Spec<SceneEntry>& spec();
 };
 
@@ -24,7 +24,7 @@ std::string head_comment(const std::string& yaml);
 
 template <>
 struct Value<SceneEntry> {
-  static Shape shape();
+  static ValueSchema schema();
   static SceneEntry read(const Config& c, const Rule&);
   static std::string yaml(const SceneEntry&) { return ""; }
 };

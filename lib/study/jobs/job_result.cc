@@ -19,7 +19,7 @@ constexpr const char* kSeal = "fingerprint";
 bool is(const std::optional<Failure>& failure, const char* reason) { return failure && failure->reason == reason; }
 
 // The next time it may go well.
-bool is_of_the_moment(const std::optional<Failure>& failure) {
+bool is_transient(const std::optional<Failure>& failure) {
   return is(failure, kCrashed) || is(failure, reason_name(Reason::disk));
 }
 
@@ -63,7 +63,7 @@ Json finished_result(const Job& job, OldFailures failures) {
   Json result = read_result(job.folder);
   if (result.is_null()) return nullptr;
   const auto failure = failure_from(result);
-  if (is_of_the_moment(failure) || (failure && failures == OldFailures::retry)) return nullptr;
+  if (is_transient(failure) || (failure && failures == OldFailures::retry)) return nullptr;
   if (job.is_whole && !job.is_whole(result)) return nullptr;
   return result;
 }

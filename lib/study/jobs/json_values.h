@@ -45,7 +45,7 @@ std::optional<T> optional_from(const Json& json) {
 // The value that a word of the input stands for. Throws std::invalid_argument for an unknown one.
 template <class E>
 E from_word(const std::string& word) {
-  for (const auto& [value, name] : Words<E>::list)
+  for (const auto& [value, name] : EnumNames<E>::list)
     if (word == name) return value;
   throw std::invalid_argument("unknown word '" + word + "'");
 }

@@ -27,19 +27,19 @@ namespace {
 
 constexpr int kStatesOfMeshError = 8;
 
-// The figures of a quantity's course, side by side.
+// The metrics of a quantity's course, side by side.
 struct WantedQuantities {
-  std::vector<const std::pair<std::string, WantedFigure>*> figures;
+  std::vector<const std::pair<std::string, WantedMetric>*> metrics;
   std::vector<Expectation> expectations;
   std::vector<Quantity> quantities;
 };
 
 WantedQuantities wanted_quantities(const EvaluationInput& input, const Setup& setup) {
   WantedQuantities wanted;
-  for (const auto& figure : input.figures) {
-    const WantedFigure& f = figure.second;
+  for (const auto& metric : input.metrics) {
+    const WantedMetric& f = metric.second;
     if (f.quantity.empty()) continue;
-    wanted.figures.push_back(&figure);
+    wanted.metrics.push_back(&metric);
     Expectation& e = wanted.expectations.emplace_back();
     e.quantity = f.quantity, e.take = f.take, e.at = f.at, e.of = f.of;
     wanted.quantities.push_back(find_quantity(f.quantity, setup.scene, *setup.built.model, f.origin));
@@ -67,20 +67,20 @@ class Evaluation {
       : config_(scene), input_(input), folder_(folder), ranks_(ranks) {}
 
   EvaluationResult result() {
-    if (wants([](const WantedFigure& f) { return !f.is_of_motion(); })) find_modes();
-    if (input_.frame || wants([](const WantedFigure& f) { return f.is_of_motion(); })) follow_motion();
+    if (wants([](const WantedMetric& f) { return !f.is_of_motion(); })) find_modes();
+    if (input_.frame || wants([](const WantedMetric& f) { return f.is_of_motion(); })) follow_motion();
     return std::move(result_);
   }
 
  private:
   template <class Condition>
   bool wants(const Condition& condition) const {
-    return std::any_of(input_.figures.begin(), input_.figures.end(),
+    return std::any_of(input_.metrics.begin(), input_.metrics.end(),
                        [&](const auto& f) { return condition(f.second); });
   }
 
   void keep(const std::string& name, double value, const std::string& unit) {
-    result_.figures.emplace_back(name, value);
+    result_.metrics.emplace_back(name, value);
     result_.units.emplace_back(name, unit);
   }
 
@@ -111,8 +111,8 @@ class Evaluation {
 
   void find_modes(const Scene& scene, const BuiltScene& built, bool about_equilibrium) {
     std::vector<std::string> names;
-    std::vector<WantedFigure> wanted;
-    for (const auto& [name, f] : input_.figures)
+    std::vector<WantedMetric> wanted;
+    for (const auto& [name, f] : input_.metrics)
       if (!f.is_of_motion() && !f.buckling && f.about_equilibrium == about_equilibrium)
         names.push_back(name), wanted.push_back(f);
     if (wanted.empty()) return;
@@ -128,7 +128,7 @@ class Evaluation {
     const double cpu = cpu_seconds_now();
     const FrequencyErrors errors = frequency_errors_of(scene, *built.model, about, found.modes);
     for (std::size_t k = 0; k < names.size(); ++k)
-      if (found.chosen[k]) result_.figure_errors.emplace_back(names[k], errors.shares[*found.chosen[k]]);
+      if (found.chosen[k]) result_.metric_errors.emplace_back(names[k], errors.shares[*found.chosen[k]]);
     if (!errors.blind.empty()) result_.warnings.push_back(blindness_warning(errors.blind));
     diagnostics_cpu_ += cpu_seconds_now() - cpu;
     diagnostics_wall_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -136,11 +136,11 @@ class Evaluation {
 
   void find_buckling(const Scene& scene, const BuiltScene& built) {
     int count = 0;
-    for (const auto& [name, f] : input_.figures) count = std::max(count, f.buckling.value_or(0));
+    for (const auto& [name, f] : input_.metrics) count = std::max(count, f.buckling.value_or(0));
     if (count == 0) return;
     require_held(scene, *built.model, scene.time.end);
     const auto modes = buckling_modes(*built.model, unloaded_shape(scene, built), scene.time.end, count).modes;
-    for (const auto& [name, f] : input_.figures) {
+    for (const auto& [name, f] : input_.metrics) {
       if (!f.buckling) continue;
       const auto k = static_cast<std::size_t>(*f.buckling - 1);
       keep(name, k < modes.size() ? modes[k].load_factor : std::nan(""), "");
@@ -172,7 +172,7 @@ class Evaluation {
     if (ranks_) add_up(*result_.cost);
     if (result_.failure || is_outgrown(setup)) return;
     const Json costs = to_json(*result_.cost);
-    for (const auto& [name, f] : input_.figures)
+    for (const auto& [name, f] : input_.metrics)
       if (!f.cost.empty()) keep(name, costs.at(f.cost).get<double>(), f.unit_of(""));
   }
 
@@ -195,8 +195,8 @@ class Evaluation {
     if (is_outgrown(setup)) return;
     const State state{problem.path->times().end, outcome.last.q, outcome.last.v};
     const ObservedState observed(*setup.built.model, state);
-    for (std::size_t q = 0; q < wanted.figures.size(); ++q)
-      keep(wanted.figures[q]->first, wanted.quantities[q].values(observed)[0], wanted.quantities[q].unit);
+    for (std::size_t q = 0; q < wanted.metrics.size(); ++q)
+      keep(wanted.metrics[q]->first, wanted.quantities[q].values(observed)[0], wanted.quantities[q].unit);
     MeshErrorRecorder mesh_error(0);
     if (input_.mesh_error) mesh_error.look_at(observed);
     keep(mesh_error);
@@ -226,11 +226,11 @@ class Evaluation {
     result_.cost->cpu_seconds += setup.cpu_seconds - mesh_error.cpu_seconds;
     if (setup.kinematics && setup.linearity) setup.linearity->finish();
     if (!completed || is_outgrown(setup)) return;
-    for (std::size_t q = 0; q < wanted.figures.size(); ++q) {
-      const auto& [name, f] = *wanted.figures[q];
+    for (std::size_t q = 0; q < wanted.metrics.size(); ++q) {
+      const auto& [name, f] = *wanted.metrics[q];
       keep(name,
            f.settled_within ? settling_time(recorder.series(q), *f.settled_within)
-                            : figure(wanted.expectations[q], recorder, q),
+                            : metric(wanted.expectations[q], recorder, q),
            f.unit_of(wanted.quantities[q].unit));
     }
     keep(mesh_error);

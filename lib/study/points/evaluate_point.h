@@ -1,4 +1,4 @@
-// Computes the figures of one scene. What none of them needs is not computed.
+// Computes the metrics of one scene. What none of them needs is not computed.
 #pragma once
 
 #include <filesystem>

@@ -9,7 +9,7 @@ namespace orthodyn::study {
 
 namespace {
 
-Json figure_json(const WantedFigure& f) {
+Json metric_json(const WantedMetric& f) {
   return {{"quantity", f.quantity},
           {"take", Value<Take>::yaml(f.take)},
           {"at", optional_json(f.at)},
@@ -21,8 +21,8 @@ Json figure_json(const WantedFigure& f) {
           {"cost", f.cost}};
 }
 
-WantedFigure figure_from(const Json& json) {
-  WantedFigure f;
+WantedMetric metric_from(const Json& json) {
+  WantedMetric f;
   f.quantity = json.at("quantity");
   f.take = from_word<Take>(json.at("take"));
   f.at = optional_from<double>(json.at("at"));
@@ -53,9 +53,9 @@ EvaluationCost cost_from(const Json& json) {
 }  // namespace
 
 Json to_json(const EvaluationInput& input) {
-  Json figures = Json::object();
-  for (const auto& [name, f] : input.figures) figures[name] = figure_json(f);
-  Json json{{"figures", figures},
+  Json metrics = Json::object();
+  for (const auto& [name, f] : input.metrics) metrics[name] = metric_json(f);
+  Json json{{"metrics", metrics},
             {"frame", optional_json(input.frame)},
             {"frame_at", optional_json(input.frame_at)},
             {"seconds", input.seconds},
@@ -66,7 +66,7 @@ Json to_json(const EvaluationInput& input) {
 
 EvaluationInput evaluation_input_from(const Json& json) {
   EvaluationInput input;
-  for (const auto& [name, f] : json.at("figures").items()) input.figures.emplace_back(name, figure_from(f));
+  for (const auto& [name, f] : json.at("metrics").items()) input.metrics.emplace_back(name, metric_from(f));
   input.frame = optional_from<std::string>(json.at("frame"));
   input.frame_at = optional_from<double>(json.at("frame_at"));
   input.seconds = json.at("seconds");
@@ -92,15 +92,15 @@ Json to_json(const EvaluationCost& cost) {
   return json;
 }
 
-std::string known_value(const EvaluationResult& result, const std::string& figure, double value) {
-  for (const auto& [name, share] : result.figure_errors)
-    if (name == figure) return known_digits(value, share);
+std::string known_value(const EvaluationResult& result, const std::string& metric, double value) {
+  for (const auto& [name, share] : result.metric_errors)
+    if (name == metric) return known_digits(value, share);
   return fmt::format("{:.6g}", value);
 }
 
 Json to_json(const EvaluationResult& r) {
-  Json json{{"status", r.failure ? "failed" : "completed"}, {"figures", Json::object()}, {"units", Json::object()}};
-  for (const auto& [name, value] : r.figures) json["figures"][name] = finite_or_null(value);
+  Json json{{"status", r.failure ? "failed" : "completed"}, {"metrics", Json::object()}, {"units", Json::object()}};
+  for (const auto& [name, value] : r.metrics) json["metrics"][name] = finite_or_null(value);
   for (const auto& [name, unit] : r.units) json["units"][name] = unit;
   json["cost"] = r.cost ? to_json(*r.cost) : Json();
   if (r.modes_cost) json["modes_cost"] = to_json(*r.modes_cost);
@@ -108,7 +108,7 @@ Json to_json(const EvaluationResult& r) {
   if (r.failure) json["reason"] = r.failure->reason, json["message"] = r.failure->message;
   if (!r.frame.empty()) json["frame"] = r.frame;
   if (r.mesh_error) json["mesh_error"] = *r.mesh_error;
-  for (const auto& [name, error] : r.figure_errors) json["figure_errors"][name] = finite_or_null(error);
+  for (const auto& [name, error] : r.metric_errors) json["metric_errors"][name] = finite_or_null(error);
   if (!r.kinematics.empty()) json["kinematics"] = r.kinematics;
   if (!r.warnings.empty()) json["warnings"] = r.warnings;
   return json;
@@ -117,9 +117,9 @@ Json to_json(const EvaluationResult& r) {
 EvaluationResult evaluation_from(const Json& json) {
   EvaluationResult r;
   r.failure = failure_from(json);
-  const Json figures = member(json, "figures"), units = member(json, "units"), cost = member(json, "cost"),
+  const Json metrics = member(json, "metrics"), units = member(json, "units"), cost = member(json, "cost"),
              modes_cost = member(json, "modes_cost"), model = member(json, "model");
-  for (const auto& [name, value] : figures.items()) r.figures.emplace_back(name, number_or_nan(value));
+  for (const auto& [name, value] : metrics.items()) r.metrics.emplace_back(name, number_or_nan(value));
   for (const auto& [name, unit] : units.items()) r.units.emplace_back(name, unit);
   if (cost.is_object()) r.cost = cost_from(cost);
   if (modes_cost.is_object()) r.modes_cost = cost_from(modes_cost);
@@ -128,8 +128,8 @@ EvaluationResult evaluation_from(const Json& json) {
   r.kinematics = json.value("kinematics", "");
   r.warnings = json.value("warnings", std::vector<std::string>());
   if (json.contains("mesh_error")) r.mesh_error = json.at("mesh_error").get<double>();
-  const Json errors = member(json, "figure_errors");
-  for (const auto& [name, error] : errors.items()) r.figure_errors.emplace_back(name, number_or_nan(error));
+  const Json errors = member(json, "metric_errors");
+  for (const auto& [name, error] : errors.items()) r.metric_errors.emplace_back(name, number_or_nan(error));
   return r;
 }
 

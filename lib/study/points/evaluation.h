@@ -14,7 +14,7 @@ namespace orthodyn::study {
 
 // What is to be done.
 struct EvaluationInput {
-  Named<WantedFigure> figures;
+  Named<WantedMetric> metrics;
   std::optional<std::string> frame = {};  // the field that its picture shows
   std::optional<double> frame_at = {};    // s; default the end
   double seconds = 60;                    // limit of the integration
@@ -37,20 +37,20 @@ Json to_json(const EvaluationCost& cost);
 // What came out: of a failure all that was known by then.
 struct EvaluationResult {
   std::optional<Failure> failure;                 // else it was completed
-  Named<double> figures;                          // SI; NaN for one that the point does not have
-  Named<std::string> units;                       // of the figures
+  Named<double> metrics;                          // SI; NaN for one that the point does not have
+  Named<std::string> units;                       // of the metrics
   std::optional<EvaluationCost> cost;             // of the motion or the equilibrium, or else of modes alone
   std::optional<EvaluationCost> modes_cost;       // of natural frequencies, where some are wanted
   std::optional<std::size_t> unknowns, elements;  // of the model
   std::string frame;                              // the file of the picture's state; "" for none
   std::optional<double> mesh_error;               // MeshError::relative, of the motion or the equilibrium
-  Named<double> figure_errors;                    // of frequencies and buckling loads: by what share they are too high
+  Named<double> metric_errors;                    // of frequencies and buckling loads: by what share they are too high
   std::string kinematics;                         // what was taken for `auto`, and why; "" where the scene says which
   std::vector<std::string> warnings;              // of the scene's set-up: slips, strain limits
 };
 
-// The value of a figure, in any unit, with the digits that its own error by the mesh leaves; six where none is known.
-std::string known_value(const EvaluationResult& result, const std::string& figure, double value);
+// The value of a metric, in any unit, with the digits that its own error by the mesh leaves; six where none is known.
+std::string known_value(const EvaluationResult& result, const std::string& metric, double value);
 
 Json to_json(const EvaluationResult& result);
 EvaluationResult evaluation_from(const Json& json);

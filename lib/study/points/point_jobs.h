@@ -1,5 +1,5 @@
 // Jobs that evaluate scenes: each in a folder whose name tells what the result depends on: the scene, the files that it
-// names, the figures, the limits, the program, the number of ranks. Not the machine: points may come from several.
+// names, the metrics, the limits, the program, the number of ranks. Not the machine: points may come from several.
 #pragma once
 
 #include <filesystem>

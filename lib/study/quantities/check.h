@@ -1,4 +1,4 @@
-// An expectation beside the figure that was computed.
+// An expectation beside the metric that was computed.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace orthodyn::study {
 
 struct Check {
   Expectation expectation;
-  double computed = 0;  // NaN where the run has no such figure
+  double computed = 0;  // NaN where the run has no such metric
   std::string unit = {};
   double difference() const { return computed - expectation.value; }
   bool passed() const;

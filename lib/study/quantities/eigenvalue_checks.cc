@@ -12,7 +12,7 @@ namespace orthodyn::study {
 namespace {
 
 void check_frequencies(const Setup& setup, std::vector<Check>& checks) {
-  std::vector<WantedFigure> wanted;
+  std::vector<WantedMetric> wanted;
   for (const auto& e : setup.scene.expect)
     if (e.mode) wanted.push_back({.mode = e.mode});
   if (wanted.empty()) return;

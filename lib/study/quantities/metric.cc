@@ -14,12 +14,12 @@ double reference_size(const Expectation& e, const SeriesRecorder& recorder, std:
   if (!e.of && e.quantity == kEnergyBalance) scale = recorder.energy_scale();
   if (!e.of && e.quantity != kEnergyBalance)
     for (int c = 0; c < series.components; ++c) scale = std::hypot(scale, series.values[static_cast<std::size_t>(c)]);
-  return scale;  // NaN or 0 if there is none: then the figure is not met
+  return scale;  // NaN or 0 if there is none: then the metric is not met
 }
 
 }  // namespace
 
-double figure(const Expectation& e, const SeriesRecorder& recorder, std::size_t q) {
+double metric(const Expectation& e, const SeriesRecorder& recorder, std::size_t q) {
   const Series& series = recorder.series(q);
   if (e.at) return recorder.at(q, *e.at);
   switch (e.take) {

@@ -1,4 +1,4 @@
-// One figure of a quantity's course over time, as an expectation names it.
+// One metric of a quantity's course over time, as an expectation names it.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace orthodyn {
 
-// Of the recorder's quantity; NaN where its course has no such figure.
-double figure(const Expectation& wanted, const SeriesRecorder& recorder, std::size_t quantity);
+// Of the recorder's quantity; NaN where its course has no such metric.
+double metric(const Expectation& wanted, const SeriesRecorder& recorder, std::size_t quantity);
 
 // Output times that the run must have, ascending.
 std::vector<double> times_asked_for(const std::vector<Expectation>& wanted, double start);

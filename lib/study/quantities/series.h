@@ -17,7 +17,7 @@ struct Series {
   std::size_t size() const { return times.size(); }
 };
 
-// Figures of a scalar series; NaN where it has none.
+// Metrics of a scalar series; NaN where it has none.
 double maximum(const Series& series, double sign = 1);  // of sign * value, refined by a parabola
 double time_of_maximum(const Series& series, double sign = 1);
 double mean(const Series& series);       // over time

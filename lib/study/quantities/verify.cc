@@ -25,7 +25,7 @@ struct Wanted {
 };
 
 Wanted wanted_quantities(const Setup& setup) {
-  const Origin origin{setup.config.where()};
+  const SourceLocation origin{setup.config.where()};
   Wanted wanted;
   for (const auto& e : setup.scene.expect) {
     if (e.is_eigenvalue()) continue;
@@ -61,8 +61,8 @@ CaseResult verify_motion(const Setup& setup, std::vector<Observer*> observers, c
                     run(*setup.built.model, *setup.integrator, setup.built.initial, plan, observers, interrupt),
                     {}};
   for (std::size_t q = 0; q < expectations.size(); ++q)
-    result.checks.push_back({expectations[q], result.completed() ? figure(expectations[q], recorder, q) : std::nan(""),
-                             figure_unit(expectations[q].take, quantities[q].unit)});
+    result.checks.push_back({expectations[q], result.completed() ? metric(expectations[q], recorder, q) : std::nan(""),
+                             metric_unit(expectations[q].take, quantities[q].unit)});
   return result;
 }
 

@@ -10,7 +10,7 @@ namespace orthodyn {
 
 namespace {
 
-void check_figure(const WantedFigure& f, const Config& config) {
+void check_metric(const WantedMetric& f, const Config& config) {
   const int kinds =
       !f.quantity.empty() + (f.mode.has_value() || f.along.has_value()) + f.buckling.has_value() + !f.cost.empty();
   if (kinds != 1) config.fail("give exactly one of: quantity, mode (or along), buckling, cost");
@@ -38,16 +38,16 @@ const std::vector<std::pair<std::string, std::string>>& cost_names() {
   return all;
 }
 
-std::string WantedFigure::unit_of(const std::string& quantity_unit) const {
+std::string WantedMetric::unit_of(const std::string& quantity_unit) const {
   if (mode || along) return "Hz";
   if (settled_within) return "s";
-  if (cost.empty()) return figure_unit(take, quantity_unit);
+  if (cost.empty()) return metric_unit(take, quantity_unit);
   for (const auto& [name, si] : cost_names())
     if (name == cost) return si;
   return "";
 }
 
-void WantedFigure::check_unit(const std::string& quantity_unit) const {
+void WantedMetric::check_unit(const std::string& quantity_unit) const {
   if (unit.empty()) return;
   try {
     check_dimension(unit, unit_of(quantity_unit));
@@ -56,39 +56,39 @@ void WantedFigure::check_unit(const std::string& quantity_unit) const {
   }
 }
 
-const Spec<WantedFigure>& WantedFigure::spec() {
+const Spec<WantedMetric>& WantedMetric::spec() {
   static const auto s =
-      Spec<WantedFigure>()
-          .key("quantity", &WantedFigure::quantity,
+      Spec<WantedMetric>()
+          .key("quantity", &WantedMetric::quantity,
                "A probe's field and component (tip.displacement.z) or a scalar of the whole body (energy.elastic, "
                "tsai_wu.largest), as in `expect` of a scene.")
-          .key("take", &WantedFigure::take, kTakeSentence)
-          .key("at", &WantedFigure::at, "The value at this time, instead of `take`.", {.unit = "s"})
-          .key("of", &WantedFigure::of, kOfSentence, {.range = kPositive})
-          .key("settled_within", &WantedFigure::settled_within,
+          .key("take", &WantedMetric::take, kTakeSentence)
+          .key("at", &WantedMetric::at, "The value at this time, instead of `take`.", {.unit = "s"})
+          .key("of", &WantedMetric::of, kOfSentence, {.range = kPositive})
+          .key("settled_within", &WantedMetric::settled_within,
                "Instead of `take`: the time after which the quantity stays within this fraction of its range about its "
                "last value. None if that is in the last tenth of the time span.",
                {.range = {0, 1, true, true}})
-          .key("mode", &WantedFigure::mode, "A natural frequency in Hz by its number, rigid modes not counted.",
+          .key("mode", &WantedMetric::mode, "A natural frequency in Hz by its number, rigid modes not counted.",
                {.range = {1, 1000}})
-          .key("along", &WantedFigure::along,
+          .key("along", &WantedMetric::along,
                "A natural frequency: among the twenty lowest modes, the one with the largest effective mass along this "
                "axis.")
-          .key("about_equilibrium", &WantedFigure::about_equilibrium,
+          .key("about_equilibrium", &WantedMetric::about_equilibrium,
                "Modes about the static equilibrium under the scene's loads, not about rest.")
-          .key("buckling", &WantedFigure::buckling,
+          .key("buckling", &WantedMetric::buckling,
                "The load factor at which the body at rest would buckle (linear), by its number from the lowest.",
                {.range = {1, 1000}})
           .key(
-              "cost", &WantedFigure::cost,
+              "cost", &WantedMetric::cost,
               "A cost of the computation: cpu_seconds, wall_seconds, steps, rejected_steps, newton_iterations, forces, "
               "tangents, factorizations, solves or peak_memory.")
-          .key("title", &WantedFigure::title, "Its title in figures; default its name.")
-          .key("unit", &WantedFigure::unit, "The unit it is shown in, such as mm; default SI.")
-          .key("closed_form", &WantedFigure::closed_form,
+          .key("title", &WantedMetric::title, "Its title in metrics; default its name.")
+          .key("unit", &WantedMetric::unit, "The unit it is shown in, such as mm; default SI.")
+          .key("closed_form", &WantedMetric::closed_form,
                "A formula of the varied values and the definitions, in SI units: drawn as a line over the points.")
-          .key("scale", &WantedFigure::scale, "Scale of its axis in figures.")
-          .check(check_figure);
+          .key("scale", &WantedMetric::scale, "Scale of its axis in metrics.")
+          .check(check_metric);
   return s;
 }
 

@@ -1,4 +1,4 @@
-// A figure that a sweep wants of each point: of a quantity's course over time, a natural frequency, a critical load
+// A metric that a sweep wants of each point: of a quantity's course over time, a natural frequency, a critical load
 // factor, or a cost.
 #pragma once
 
@@ -16,12 +16,12 @@ namespace orthodyn {
 enum class Scale { linear, log };
 
 template <>
-struct Words<Scale> {
+struct EnumNames<Scale> {
   static constexpr std::array<std::pair<Scale, const char*>, 2> list{{{Scale::linear, "linear"}, {Scale::log, "log"}}};
 };
 
 // Exactly one of: quantity, mode (or along), buckling, cost.
-struct WantedFigure {
+struct WantedMetric {
   std::string quantity = {};
   Take take = Take::end;
   std::optional<double> at = {}, of = {}, settled_within = {};
@@ -32,8 +32,8 @@ struct WantedFigure {
   std::string cost = {};
   std::string title = {}, unit = {}, closed_form = {};
   Scale scale = Scale::linear;
-  Origin origin = {};
-  static const Spec<WantedFigure>& spec();
+  SourceLocation origin = {};
+  static const Spec<WantedMetric>& spec();
 
   bool is_of_motion() const { return !quantity.empty() || !cost.empty(); }
   // Its SI unit, where its quantity has the given one; "" for a plain number.

@@ -22,7 +22,7 @@ Modes elastic_modes(const Model& model, const State& about, int count) {
   return modes;
 }
 
-std::optional<std::size_t> chosen_by(const WantedFigure& f, const Modes& modes) {
+std::optional<std::size_t> chosen_by(const WantedMetric& f, const Modes& modes) {
   const auto first = modes.modes.begin() + std::min<std::ptrdiff_t>(modes.zeros, std::ssize(modes.modes));
   const auto number = [&](auto mode) { return static_cast<std::size_t>(mode - modes.modes.begin()); };
   if (f.mode) return modes.modes.end() - first < *f.mode ? std::nullopt : std::optional(number(first + *f.mode - 1));
@@ -35,12 +35,12 @@ std::optional<std::size_t> chosen_by(const WantedFigure& f, const Modes& modes) 
 
 }  // namespace
 
-WantedModes wanted_modes(const std::vector<WantedFigure>& figures, const Model& model, const State& about) {
+WantedModes wanted_modes(const std::vector<WantedMetric>& metrics, const Model& model, const State& about) {
   int count = 1;
-  for (const auto& f : figures) count = std::max(count, f.along ? kAlong : f.mode.value_or(1));
+  for (const auto& f : metrics) count = std::max(count, f.along ? kAlong : f.mode.value_or(1));
   WantedModes out{elastic_modes(model, about, count), {}};
   std::size_t highest = 0;
-  for (const auto& f : figures) {
+  for (const auto& f : metrics) {
     out.chosen.push_back(chosen_by(f, out.modes));
     if (out.chosen.back()) highest = std::max(highest, *out.chosen.back() + 1);
   }

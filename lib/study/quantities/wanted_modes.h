@@ -10,7 +10,7 @@
 
 namespace orthodyn {
 
-// Modes, up to the highest that is wanted, and of each figure, which has `mode` or `along`, which of them it is; none
+// Modes, up to the highest that is wanted, and of each metric, which has `mode` or `along`, which of them it is; none
 // where the model is too small to have it.
 struct WantedModes {
   Modes modes;
@@ -18,6 +18,6 @@ struct WantedModes {
 };
 
 // Throws what natural_modes() throws.
-WantedModes wanted_modes(const std::vector<WantedFigure>& figures, const Model& model, const State& about);
+WantedModes wanted_modes(const std::vector<WantedMetric>& metrics, const Model& model, const State& about);
 
 }  // namespace orthodyn

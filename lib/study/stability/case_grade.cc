@@ -11,7 +11,7 @@ namespace orthodyn::study::stability {
 
 namespace {
 
-// A figure that is no number is as far off as can be.
+// A metric that is no number is as far off as can be.
 double tolerances_off(const Check& check) {
   const double off = std::abs(check.difference()) / check.expectation.limit();
   return std::isnan(off) ? std::numeric_limits<double>::infinity() : off;

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-WorstFigure worst_figure(const Check& check) {
+WorstMetric worst_metric(const Check& check) {
   return {check.expectation.title(),
           check.unit,
           check.computed,
@@ -36,7 +36,7 @@ GradedRun graded_run(const fs::path& folder, const Setup& setup, double seconds)
   run.completed = result.completed();
   run.grade = grade_word(graded.grade);
   run.reason = result.outcome.status == Outcome::Status::interrupted ? kTimeLimit : graded.reason;
-  if (graded.worst) run.worst = worst_figure(*graded.worst);
+  if (graded.worst) run.worst = worst_metric(*graded.worst);
   run.time_reached = result.outcome.last.t;
   run.wall_seconds = result.outcome.wall_seconds;
   run.cpu_seconds = result.outcome.cpu_seconds;

@@ -40,12 +40,12 @@ HardCase Value<HardCase>::read(const Config& c, const Rule&) {
   return entry;
 }
 
-Shape Value<StabilityIntegrator>::shape() {
+ValueSchema Value<StabilityIntegrator>::schema() {
   auto names = Registry<IntegratorChoice>::names();
   names.insert(names.begin(), "all");
-  return {
-      .kind = Shape::Kind::either,
-      .items = {{.kind = Shape::Kind::word, .words = "name", .names = names}, Value<CompleteIntegratorEntry>::shape()}};
+  return {.kind = ValueSchema::Kind::either,
+          .items = {{.kind = ValueSchema::Kind::word, .words = "name", .names = names},
+                    Value<CompleteIntegratorEntry>::schema()}};
 }
 
 StabilityIntegrator Value<StabilityIntegrator>::read(const Config& c, const Rule& rule) {

@@ -1,4 +1,4 @@
-// Hard cases, as a YAML file names them: scenes that expect figures x integrators x changes to the force.
+// Hard cases, as a YAML file names them: scenes that expect metrics x integrators x changes to the force.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct HardCase {
   std::string label;  // default the file's stem
   Assignments set;
   std::string model;  // where the model itself is at fault and no integrator can help: why, in words
-  Origin origin;
+  SourceLocation origin;
   static const Spec<HardCase>& spec();
 };
 
@@ -34,10 +34,10 @@ struct Stability {
 
 template <>
 struct Value<HardCase> {
-  static Shape shape() {
-    const Shape section{
-        .kind = Shape::Kind::section, .title = "HardCase", .keys = [] { return HardCase::spec().keys(); }};
-    return {.kind = Shape::Kind::either, .items = {Value<FilePath>::shape(), section}};
+  static ValueSchema schema() {
+    const ValueSchema section{
+        .kind = ValueSchema::Kind::section, .title = "HardCase", .keys = [] { return HardCase::spec().keys(); }};
+    return {.kind = ValueSchema::Kind::either, .items = {Value<FilePath>::schema(), section}};
   }
   static HardCase read(const Config& c, const Rule&);
   static std::string yaml(const HardCase&) { return ""; }
@@ -45,7 +45,7 @@ struct Value<HardCase> {
 
 template <>
 struct Value<StabilityIntegrator> {
-  static Shape shape();
+  static ValueSchema schema();
   static StabilityIntegrator read(const Config& c, const Rule& rule);
   static std::string yaml(const StabilityIntegrator&) { return ""; }
 };

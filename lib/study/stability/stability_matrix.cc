@@ -104,7 +104,7 @@ Json StabilityMatrix::json(const std::string& file) const {
 
 std::string StabilityMatrix::csv() const {
   std::string csv =
-      "case,variant,integrator,grade,reason,figure,unit,computed,expected,limit,time_reached [s],wall [s],cpu "
+      "case,variant,integrator,grade,reason,metric,unit,computed,expected,limit,time_reached [s],wall [s],cpu "
       "[s],steps\n";
   for (const auto& [run, result] : results_) {
     const Json r = run_json(run, result), worst = member(r, "worst"), statistics = member(r, "statistics");

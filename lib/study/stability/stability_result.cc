@@ -6,13 +6,13 @@ namespace orthodyn::study::stability {
 
 namespace {
 
-Json to_json(const WorstFigure& f) {
+Json to_json(const WorstMetric& f) {
   return {{"title", f.title},        {"unit", f.unit},   {"computed", finite_or_null(f.computed)},
           {"expected", f.expected},  {"limit", f.limit}, {"source", f.source},
           {"tolerance", f.tolerance}};
 }
 
-WorstFigure worst_from(const Json& json) {
+WorstMetric worst_from(const Json& json) {
   return {json.at("title"),    json.at("unit"),  number_or_nan(json.at("computed")),
           json.at("expected"), json.at("limit"), json.at("source"),
           json.at("tolerance")};

@@ -19,10 +19,10 @@ struct CaseInput {
 Json to_json(const CaseInput& input);
 CaseInput case_input_from(const Json& json);
 
-// The figure that is farthest from what was expected.
-struct WorstFigure {
+// The metric that is farthest from what was expected.
+struct WorstMetric {
   std::string title, unit;
-  double computed = 0;  // NaN where the run has no such figure
+  double computed = 0;  // NaN where the run has no such metric
   double expected = 0, limit = 0;
   std::string source, tolerance;  // where the value is known from, why the tolerance is what it is
 };
@@ -32,7 +32,7 @@ struct GradedRun {
   bool completed = false;
   std::string grade;   // "pass", "degraded", "fail"
   std::string reason;  // of what is no pass
-  std::optional<WorstFigure> worst;
+  std::optional<WorstMetric> worst;
   double time_reached = 0, wall_seconds = 0, cpu_seconds = 0;  // s
   std::optional<Statistics> statistics;                        // none in statics
 };

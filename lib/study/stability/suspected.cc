@@ -31,7 +31,7 @@ std::optional<Suspicion> suspicion(const Field& field, const std::vector<Json>& 
   Suspicion s{field.first, field.second, first.at("title"), trials.size(), INFINITY, -INFINITY, first.at("expected")};
   for (const auto& trial : trials) {
     const Json& worst = trial.at("worst");
-    if (trial.at("grade") == "pass" || worst.at("title") != s.figure || worst.at("computed").is_null()) return {};
+    if (trial.at("grade") == "pass" || worst.at("title") != s.metric || worst.at("computed").is_null()) return {};
     s.lowest = std::min(s.lowest, worst.at("computed").get<double>());
     s.highest = std::max(s.highest, worst.at("computed").get<double>());
   }
@@ -46,7 +46,7 @@ std::string describe(const Suspicion& s) {
       "{}, {}: all {} integrators that finished agree on {} ({:.4g} to {:.4g}) and miss the expected {:.4g}; suspect "
       "the "
       "expectation, or the model, rather than the integrators",
-      s.hard_case, s.variant, s.integrators, s.figure, s.lowest, s.highest, s.expected);
+      s.hard_case, s.variant, s.integrators, s.metric, s.lowest, s.highest, s.expected);
 }
 
 std::vector<Suspicion> suspected_expectations(const Json& cases, const Json& trials) {

@@ -12,13 +12,13 @@ namespace orthodyn {
 
 namespace {
 
-// The columns of sweep.csv beside those of variables and figures; those that a figure of this cost has are left out.
+// The columns of sweep.csv beside those of variables and metrics; those that a metric of this cost has are left out.
 constexpr std::string_view kTableColumns[] = {"point",       "status", "reason",   "message", "wall_seconds",
                                               "cpu_seconds", "steps",  "unknowns", "folder"};
-// Columns beside that of a figure with a closed form: endings of its name.
+// Columns beside that of a metric with a closed form: endings of its name.
 constexpr const char* kBesideClosedForms[] = {".closed_form", ".relative_difference"};
 
-using Places = std::map<std::string, Origin>;  // by path or name
+using Places = std::map<std::string, SourceLocation>;  // by path or name
 
 Places paths_of(const Variable& v) {
   if (!v.path.empty()) return {{v.path, v.origin}};
@@ -50,7 +50,7 @@ std::vector<std::string> formulas_of(const Sweep& sweep) {
       if (value.text.find('=') != std::string::npos) all.push_back(value.text);
   };
   for (const auto& [name, definition] : sweep.definitions) all.push_back(definition.text);
-  for (const auto& [name, figure] : sweep.quantities) all.push_back(figure.closed_form);
+  for (const auto& [name, metric] : sweep.quantities) all.push_back(metric.closed_form);
   add_texts(sweep.scene.set);
   for (const auto& variable : sweep.vary) {
     for (const auto& value : variable.values) {
@@ -64,7 +64,7 @@ std::vector<std::string> formulas_of(const Sweep& sweep) {
 // A slip in a key's name would vary nothing.
 void refuse_unused_names(const Sweep& sweep) {
   const auto formulas = formulas_of(sweep);
-  const auto require = [&](const std::string& name, const Origin& place) {
+  const auto require = [&](const std::string& name, const SourceLocation& place) {
     if (std::none_of(formulas.begin(), formulas.end(), [&](const std::string& f) { return mentions(f, name); }))
       place.fail("'" + name + "' is not a key of a scene, and no formula uses it" + scene_key_near(name));
   };
@@ -75,7 +75,7 @@ void refuse_unused_names(const Sweep& sweep) {
   }
 }
 
-void take(Places& taken, const std::string& name, const Origin& place) {
+void take(Places& taken, const std::string& name, const SourceLocation& place) {
   const auto [other, is_new] = taken.emplace(name, place);
   if (!is_new)
     place.fail(fmt::format("the name '{}' is taken at {}; formulas could not tell them apart: give another", name,
@@ -97,10 +97,10 @@ void refuse_names_of_two_things(const Sweep& sweep) {
 
 bool is_blank(const std::string& name) { return name.find_first_not_of(' ') == std::string::npos; }
 
-// The table has a column for each variable and figure beside its own.
+// The table has a column for each variable and metric beside its own.
 void refuse_equal_columns(const Sweep& sweep) {
   Places taken;
-  const auto add = [&](const std::string& name, const Origin& place) {
+  const auto add = [&](const std::string& name, const SourceLocation& place) {
     if (is_blank(name)) place.fail("has no name; give one to head its column of the table");
     const auto [other, is_new] = taken.emplace(name, place);
     if (!is_new)

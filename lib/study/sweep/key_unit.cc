@@ -24,33 +24,34 @@ std::optional<Config> below(const std::optional<Config>& config, const std::stri
 
 std::string unit_of(const std::vector<Key>& keys, const std::optional<Config>& section, Steps steps);
 
-std::string unit_of(const Shape& shape, const std::string& unit, const std::optional<Config>& config, Steps steps) {
+std::string unit_of(const ValueSchema& schema, const std::string& unit, const std::optional<Config>& config,
+                    Steps steps) {
   const auto next = [&] {
     const std::string step = steps.front();
     steps.pop_front();
     return below(config, step);
   };
-  switch (shape.kind) {
-    case Shape::Kind::number: return steps.empty() ? unit : "";
-    case Shape::Kind::list: {
-      if (steps.empty()) return unit_of(shape.items.front(), unit, {}, {});
+  switch (schema.kind) {
+    case ValueSchema::Kind::number: return steps.empty() ? unit : "";
+    case ValueSchema::Kind::list: {
+      if (steps.empty()) return unit_of(schema.items.front(), unit, {}, {});
       const auto entry = next();
-      return unit_of(shape.items.front(), unit, entry, steps);
+      return unit_of(schema.items.front(), unit, entry, steps);
     }
-    case Shape::Kind::named: {
+    case ValueSchema::Kind::named: {
       if (steps.empty()) return "";
       const auto entry = next();
-      return unit_of(shape.items.front(), unit, entry, steps);
+      return unit_of(schema.items.front(), unit, entry, steps);
     }
-    case Shape::Kind::section: return unit_of(shape.keys(), config, steps);
-    case Shape::Kind::choice: {
+    case ValueSchema::Kind::section: return unit_of(schema.keys(), config, steps);
+    case ValueSchema::Kind::choice: {
       const auto type = below(config, "type");
-      const auto alternatives = shape.alternatives();
+      const auto alternatives = schema.alternatives();
       const auto chosen = type && type->is_scalar() ? alternatives.find(type->text()) : alternatives.end();
       return chosen == alternatives.end() ? "" : unit_of(chosen->second.keys, config, steps);
     }
-    case Shape::Kind::either:
-      for (const auto& item : shape.items)
+    case ValueSchema::Kind::either:
+      for (const auto& item : schema.items)
         if (std::string found = unit_of(item, unit, config, steps); !found.empty()) return found;
       return "";
     default: return "";
@@ -63,7 +64,7 @@ std::string unit_of(const std::vector<Key>& keys, const std::optional<Config>& s
   if (key == keys.end()) return "";
   const auto value = below(section, steps.front());
   steps.pop_front();
-  return unit_of(key->shape, key->unit, value, steps);
+  return unit_of(key->schema, key->unit, value, steps);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace orthodyn {
 namespace {
 
 constexpr const char* kNameSentence =
-    "Its name in formulas, tables and figures; default the path's last step, with the index of an entry (young.0).";
+    "Its name in formulas, tables and metrics; default the path's last step, with the index of an entry (young.0).";
 
 void check_range(const NumberRange& r, const Config& config) {
   if (r.scale == Scale::log && !(r.from.number > 0 && r.to.number > 0))

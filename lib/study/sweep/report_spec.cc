@@ -59,7 +59,8 @@ const Spec<FrameSpec>& FrameSpec::spec() {
 const Spec<PlotSpec>& PlotSpec::spec() {
   static const auto s =
       Spec<PlotSpec>()
-          .key("figure", &PlotSpec::figure, "One of `quantities`.", {.required = true})
+          .key("metric", &PlotSpec::metric, "One of `quantities`.", {.required = true})
+          .rename("figure", "metric")
           .key("x", &PlotSpec::x, "The variable along the axis; default the one with most numbers.")
           .key("lines", &PlotSpec::lines, "The variable with a line for each value; default the next.");
   return s;

@@ -11,7 +11,7 @@
 namespace orthodyn {
 
 template <>
-struct Words<Impossible> {
+struct EnumNames<Impossible> {
   static constexpr std::array<std::pair<Impossible, const char*>, 2> list{
       {{Impossible::stop, "stop"}, {Impossible::keep, "keep"}}};
 };
@@ -22,14 +22,14 @@ void check_plots(const Sweep& s, const Config& config) {
   for (std::size_t i = 0; i < s.plots.size(); ++i) {
     const auto& plot = s.plots[i];
     const Config at = config.at("plots").at(i);
-    std::vector<std::string> figures, variables;
-    for (const auto& [name, f] : s.quantities) figures.push_back(name);
+    std::vector<std::string> metrics, variables;
+    for (const auto& [name, f] : s.quantities) metrics.push_back(name);
     for (const auto& v : s.vary) variables.push_back(v.name);
     const auto require = [&](const std::string& key, const std::string& name, const std::vector<std::string>& known) {
       if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
       at.at(key).fail("there is no '" + name + "'; known: " + join(known));
     };
-    require("figure", plot.figure, figures);
+    require("metric", plot.metric, metrics);
     require("x", plot.x, variables);
     require("lines", plot.lines, variables);
   }
@@ -48,7 +48,7 @@ void check_number_of_points(const Sweep& s, const Config& config) {
 }
 
 void check_sweep(const Sweep& s, const Config& config) {
-  if (s.quantities.empty()) config.at("quantities").fail("is empty; name at least one figure");
+  if (s.quantities.empty()) config.at("quantities").fail("is empty; name at least one metric");
   if (s.combine != Combine::latin_hypercube) {
     const std::string only =
         "has a meaning only with combine: latin_hypercube, found combine: " + Value<Combine>::yaml(s.combine) +
@@ -94,7 +94,7 @@ const Spec<Sweep>& Sweep::spec() {
           .key("samples", &Sweep::samples, "Points of a Latin hypercube; default 50.", {.range = {1, kMostPoints}})
           .key("seed", &Sweep::seed, "Seed of a Latin hypercube; default 1.")
           .key("quantities", &Sweep::quantities, "What is computed for every point, by name.", {.required = true})
-          .key("plots", &Sweep::plots, "Figures of the report; default by the number of variables.")
+          .key("plots", &Sweep::plots, "Metrics of the report; default by the number of variables.")
           .key("frames", &Sweep::frames, "A picture of each point, side by side.")
           .key("impossible", &Sweep::impossible,
                "Points whose scene is impossible (an unstable material). stop: an error before anything runs. keep: "

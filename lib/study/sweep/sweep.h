@@ -1,4 +1,4 @@
-// A sweep, as its YAML file says it: one scene, what is varied in it, and the figures that are wanted of every point.
+// A sweep, as its YAML file says it: one scene, what is varied in it, and the metrics that are wanted of every point.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ enum class Combine { cartesian, zip, latin_hypercube };
 enum class Impossible { stop, keep };
 
 template <>
-struct Words<Combine> {
+struct EnumNames<Combine> {
   static constexpr std::array<std::pair<Combine, const char*>, 3> list{
       {{Combine::cartesian, "cartesian"}, {Combine::zip, "zip"}, {Combine::latin_hypercube, "latin_hypercube"}}};
 };
@@ -32,13 +32,13 @@ struct FrameSpec {
   double enlarged = 1;
   int most = 24;
   bool ghost = true;
-  Origin origin;
+  SourceLocation origin;
   static const Spec<FrameSpec>& spec();
 };
 
-// A figure of the report; without any, it has what the number of variables suggests.
+// A metric of the report; without any, it has what the number of variables suggests.
 struct PlotSpec {
-  std::string figure, x, lines;
+  std::string metric, x, lines;
   static const Spec<PlotSpec>& spec();
 };
 
@@ -51,12 +51,12 @@ struct Sweep {
   std::optional<int> samples;  // of a Latin hypercube
   std::optional<long> seed;
   std::vector<Variable> vary;
-  Named<WantedFigure> quantities;
+  Named<WantedMetric> quantities;
   std::vector<PlotSpec> plots;
   std::optional<FrameSpec> frames;
   Impossible impossible = Impossible::stop;
   Limits limits;
-  Origin origin;
+  SourceLocation origin;
   static const Spec<Sweep>& spec();
 };
 

@@ -99,9 +99,9 @@ class Expansion {
   Point point(const Values& values) {
     Point point{values, title_of(sweep_, values), {}, "", {}};
     const FormulaScope scope = scope_of(values);
-    for (const auto& [name, figure] : sweep_.quantities)
+    for (const auto& [name, metric] : sweep_.quantities)
       point.closed_forms.push_back(
-          figure.closed_form.empty() ? std::nan("") : scope.evaluate(figure.closed_form, figure.origin.where));
+          metric.closed_form.empty() ? std::nan("") : scope.evaluate(metric.closed_form, metric.origin.where));
     Config config = Config::from_text(scene_, sweep_.scene.file.path).resolving();
     try {
       set(config, values, scope);
@@ -165,7 +165,7 @@ class Expansion {
 
   // The values of formulas are SI: those of angles get the unit that the scene asks for.
   static void give_radians(Config& config, const std::string& path, const Config& given, const FormulaScope& scope,
-                           const Origin& origin) {
+                           const SourceLocation& origin) {
     if (given.is_sequence())
       for (std::size_t i = 0; i < given.size(); ++i)
         give_radians(config, fmt::format("{}.{}", path, i), given.at(i), scope, origin);

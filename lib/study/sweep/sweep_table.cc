@@ -29,13 +29,13 @@ Json variables_json(const Sweep& sweep, const std::vector<Point>& points) {
 }
 
 // An exposure itself, not when or how often it is one.
-bool fails_at_one(const WantedFigure& f) {
+bool fails_at_one(const WantedMetric& f) {
   const bool is_value = f.take == Take::end || f.take == Take::max || f.take == Take::min || f.take == Take::mean;
   return is_exposure(f.quantity) && is_value && !f.settled_within;
 }
 
 // The unit that people see, and what one of it is in SI.
-Json figures_json(const Sweep& sweep, const std::map<std::string, std::string>& units) {
+Json metrics_json(const Sweep& sweep, const std::map<std::string, std::string>& units) {
   Json all = Json::array();
   for (const auto& [name, f] : sweep.quantities) {
     const auto found = units.find(name);
@@ -54,7 +54,7 @@ Json figures_json(const Sweep& sweep, const std::map<std::string, std::string>& 
 
 Json plots_json(const Sweep& sweep) {
   Json all = Json::array();
-  for (const auto& p : sweep.plots) all.push_back({{"figure", p.figure}, {"x", p.x}, {"lines", p.lines}});
+  for (const auto& p : sweep.plots) all.push_back({{"metric", p.metric}, {"x", p.x}, {"lines", p.lines}});
   return all;
 }
 
@@ -90,13 +90,13 @@ Json point_json(const Sweep& sweep, const Point& point, const std::optional<Job>
     const VariedValue& value = point.values[k];
     out["values"][sweep.vary[k].name] = value.number ? Json(*value.number) : Json(value.label);
   }
-  out["figures"] = Json::object();
-  out["figure_errors"] = Json::object();
+  out["metrics"] = Json::object();
+  out["metric_errors"] = Json::object();
   out["closed_forms"] = Json::object();
   for (std::size_t q = 0; q < sweep.quantities.size(); ++q) {
     const std::string& name = sweep.quantities[q].first;
-    out["figures"][name] = member(member(computed, "figures"), name);
-    out["figure_errors"][name] = member(member(computed, "figure_errors"), name);
+    out["metrics"][name] = member(member(computed, "metrics"), name);
+    out["metric_errors"][name] = member(member(computed, "metric_errors"), name);
     out["closed_forms"][name] = finite_or_null(point.closed_forms[q]);
   }
   for (const char* key : {"reason", "message", "cost", "model", "frame", "mesh_error", "warnings"})
@@ -141,7 +141,7 @@ Json sweep_json(const Sweep& sweep, const std::vector<Point>& points, const std:
           {"ranks", ranks},
           {"versions", versions_json()},
           {"variables", variables_json(sweep, points)},
-          {"figures", figures_json(sweep, units)},
+          {"metrics", metrics_json(sweep, units)},
           {"definitions", definitions},
           {"plots", plots_json(sweep)},
           {"frames", frames_json(sweep)},
@@ -166,15 +166,15 @@ Json difference(const Json& x, const Json& reference) {
 constexpr std::pair<const char*, const char*> kCosts[] = {
     {"wall_seconds", "wall_seconds [s]"}, {"cpu_seconds", "cpu_seconds [s]"}, {"steps", "steps"}};
 
-bool has_figure(const Json& table, const std::string& name) {
-  const Json& figures = table.at("figures");
-  return std::any_of(figures.begin(), figures.end(), [&](const Json& f) { return f.at("name") == name; });
+bool has_metric(const Json& table, const std::string& name) {
+  const Json& metrics = table.at("metrics");
+  return std::any_of(metrics.begin(), metrics.end(), [&](const Json& f) { return f.at("name") == name; });
 }
 
 std::string csv_head(const Json& table) {
   std::string out = "point";
   for (const auto& v : table.at("variables")) out += "," + csv_cell(heading(v));
-  for (const auto& f : table.at("figures")) {
+  for (const auto& f : table.at("metrics")) {
     out += "," + csv_cell(heading(f));
     if (f.at("has_own_error")) out += "," + csv_cell(f.at("name").get<std::string>() + ".mesh_error");
     if (f.at("closed_form") == "") continue;
@@ -184,7 +184,7 @@ std::string csv_head(const Json& table) {
   }
   out += ",status,reason,message";
   for (const auto& [cost, heading] : kCosts)
-    if (!has_figure(table, cost)) out += std::string(",") + heading;
+    if (!has_metric(table, cost)) out += std::string(",") + heading;
   return out + ",mesh_error,warnings,unknowns,folder\n";
 }
 
@@ -198,18 +198,18 @@ std::string csv_row(const Json& table, const Json& point, std::size_t number) {
   std::string out = std::to_string(number);
   const auto add = [&](const Json& value) { out += "," + csv_cell(value); };
   for (const auto& v : table.at("variables")) add(point.at("values").at(v.at("name").get<std::string>()));
-  for (const auto& f : table.at("figures")) {
+  for (const auto& f : table.at("metrics")) {
     const std::string name = f.at("name");
-    const Json &value = point.at("figures").at(name), &closed = point.at("closed_forms").at(name);
+    const Json &value = point.at("metrics").at(name), &closed = point.at("closed_forms").at(name);
     add(divided(value, f.at("factor")));
-    if (f.at("has_own_error")) add(point.at("figure_errors").at(name));
+    if (f.at("has_own_error")) add(point.at("metric_errors").at(name));
     if (f.at("closed_form") == "") continue;
     add(divided(closed, f.at("factor")));
     add(difference(value, closed));
   }
   for (const char* key : {"status", "reason", "message"}) add(point.at(key));
   for (const auto& [cost, heading] : kCosts)
-    if (!has_figure(table, cost)) add(member(point.at("cost"), cost));
+    if (!has_metric(table, cost)) add(member(point.at("cost"), cost));
   add(point.at("mesh_error"));
   add(joined(point.at("warnings")));
   add(member(point.at("model"), "unknowns"));

@@ -188,13 +188,13 @@ std::vector<Variable> Value<std::vector<Variable>>::read(const Config& c, const 
   return all;
 }
 
-Shape Value<std::vector<Variable>>::shape() {
-  const Shape list = list_shape({.kind = Shape::Kind::anything});
-  const Shape sets{.kind = Shape::Kind::named, .items = {{.kind = Shape::Kind::anything}}};
-  return {.kind = Shape::Kind::named,
-          .items = {{.kind = Shape::Kind::either,
+ValueSchema Value<std::vector<Variable>>::schema() {
+  const ValueSchema list = list_schema({.kind = ValueSchema::Kind::anything});
+  const ValueSchema sets{.kind = ValueSchema::Kind::named, .items = {{.kind = ValueSchema::Kind::anything}}};
+  return {.kind = ValueSchema::Kind::named,
+          .items = {{.kind = ValueSchema::Kind::either,
                      .words = "values",
-                     .items = {list, Value<NumberRange>::shape(), Value<ValueList>::shape(), sets}}}};
+                     .items = {list, Value<NumberRange>::schema(), Value<ValueList>::schema(), sets}}}};
 }
 
 }  // namespace orthodyn

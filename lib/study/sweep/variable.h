@@ -18,8 +18,9 @@ struct Amount {
 
 template <>
 struct Value<Amount> {
-  static Shape shape() {
-    return {.kind = Shape::Kind::either, .items = {{.kind = Shape::Kind::number}, {.kind = Shape::Kind::text}}};
+  static ValueSchema schema() {
+    return {.kind = ValueSchema::Kind::either,
+            .items = {{.kind = ValueSchema::Kind::number}, {.kind = ValueSchema::Kind::text}}};
   }
   static Amount read(const Config& c, const Rule&);
   static std::string yaml(const Amount&) { return ""; }
@@ -62,13 +63,13 @@ struct VariedValue {
 
 // What is varied: a key of the scene by its path, or a name of which formulas make use, or named sets of keys.
 struct Variable {
-  std::string name;  // in formulas, tables and figures
+  std::string name;  // in formulas, tables and metrics
   std::string path;  // "" for one that formulas use
   std::string unit;
   Scale scale = Scale::linear;
   std::optional<NumberRange> range;  // of a Latin hypercube: not divided yet
   std::vector<VariedValue> values;
-  Origin origin;
+  SourceLocation origin;
 
   bool numeric() const;
   double si(double number) const;  // of a number in the variable's unit
@@ -78,7 +79,7 @@ struct Variable {
 // The variables, in the order of the file.
 template <>
 struct Value<std::vector<Variable>> {
-  static Shape shape();
+  static ValueSchema schema();
   static std::vector<Variable> read(const Config& c, const Rule&);
   static std::string yaml(const std::vector<Variable>&) { return ""; }
 };

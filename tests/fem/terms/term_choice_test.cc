@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "nonlinear"},
         Declared{"dashpots_in_place", "terms: [{type: dashpot, surface: x1, coefficient: 1}]",
                  "damping_matrix not_conservative dissipative"},
-        Declared{"ground", "terms: [{type: ground, stiffness: 1}]", "nonlinear"},
+        Declared{"ground_contact", "terms: [{type: ground_contact, stiffness: 1}]", "nonlinear"},
         Declared{"motion", "motions: [{nearest: [1, 1, 1], translation: [1, 0, 0], factor: {type: ramp, end: 1}}]",
                  "time_dependent not_conservative loaded"},
         Declared{"mass_damping", "damping: {mass: 1}", "not_conservative dissipative"},
@@ -84,7 +84,7 @@ TEST(TermNames, SayWhatEachIsAndOnWhat) {
 terms:
   - {type: spring, surface: x1, stiffness: 1}
   - {type: dashpot, surface: x1, coefficient: 1}
-  - {type: ground, stiffness: 1}
+  - {type: ground_contact, stiffness: 1}
   - {type: point_load, surface: x1, force: [1, 0, 0]}
   - {type: pressure, surface: x1, pressure: 1}
   - {type: pressure, pressure: 1, follows: true}
@@ -92,8 +92,8 @@ loads: [{surface: x1, force: [1, 0, 0]}]
 gravity: [0, 0, -9]
 )");
   const std::vector<std::string> expected = {
-      "gravity", "traction on x1", "springs",        "dashpots",
-      "ground",  "point load",     "pressure on x1", "pressure on the whole outer surface"};
+      "gravity",        "traction on x1", "springs",        "dashpots",
+      "ground_contact", "point load",     "pressure on x1", "pressure on the whole outer surface"};
   const auto& terms = scene.model().parts().loads;
   ASSERT_EQ(terms.size(), expected.size());
   for (std::size_t k = 0; k < terms.size(); ++k) {

@@ -24,9 +24,9 @@ const Case kInPlace{"springs_in_place", "{type: spring, surface: x1, stiffness: 
 const Case kNoLength{"spring_without_rest_length",
                      "{type: spring, between: [[1, 0, 0], [0, 1, 1]], stiffness: 3, rest_length: 0}"};
 const Case kOnset{"ground_in_its_onset",
-                  "{type: ground, point: [0, 0, 0.3], normal: [0.1, 0.2, 1], stiffness: 5, onset: 1.5}"};
+                  "{type: ground_contact, point: [0, 0, 0.3], normal: [0.1, 0.2, 1], stiffness: 5, onset: 1.5}"};
 const Case kDeep{"ground_beyond_its_onset",
-                 "{type: ground, point: [0, 0, 0.5], stiffness: 5, onset: 0.01, surface: z0}"};
+                 "{type: ground_contact, point: [0, 0, 0.5], stiffness: 5, onset: 0.01, surface: z0}"};
 const Case kClosed{"pressure_on_a_closed_surface",
                    "{type: pressure, pressure: 0.4, factor: {type: constant, value: 1.5}}"};
 const Case kBetween{"dashpot_between_nodes_of_no_element",
@@ -277,8 +277,8 @@ TEST_P(PressureOnAnOpenSurface, GivesTheSymmetricPartOfItsDerivative) {
 
 TEST(Ground, PushesByStiffnessTimesAreaTimesDepthLessHalfTheOnset) {
   const auto at = [](double depth, double onset) {
-    const auto s =
-        block(fmt::format("{{type: ground, point: [0, 0, {}], stiffness: 5, onset: {}, surface: z0}}", depth, onset));
+    const auto s = block(
+        fmt::format("{{type: ground_contact, point: [0, 0, {}], stiffness: 5, onset: {}, surface: z0}}", depth, onset));
     return Vec3(s.nodal(s.force(s.zero())).rowwise().sum());
   };
   EXPECT_LE((at(0.3, 0.1) - Vec3(0, 0, 5 * (0.3 - 0.05))).norm(), 1e-13);
@@ -288,8 +288,8 @@ TEST(Ground, PushesByStiffnessTimesAreaTimesDepthLessHalfTheOnset) {
 
 TEST(Ground, HasAContinuousTangentWhereContactSetsInAndWhereTheOnsetEnds) {
   const auto stiffness = [](double depth) {
-    const auto s =
-        block(fmt::format("{{type: ground, point: [0, 0, {:.17g}], stiffness: 5, onset: 0.1, surface: z0}}", depth));
+    const auto s = block(
+        fmt::format("{{type: ground_contact, point: [0, 0, {:.17g}], stiffness: 5, onset: 0.1, surface: z0}}", depth));
     return s.stiffness(s.zero());
   };
   for (const double depth : {0.0, 0.1})

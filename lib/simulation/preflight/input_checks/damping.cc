@@ -5,7 +5,7 @@
 
 #include "lib/simulation/preflight/input_checks/subject.h"
 
-namespace orthodyn::slip {
+namespace orthodyn::input_checks {
 
 namespace {
 
@@ -14,7 +14,7 @@ constexpr double kMostMassRatio = 8;  // of bending, by damping of the mass
 // What people take for damping ratios; a body that is to creep has more.
 constexpr double kLeastUsualRatio = 0.004, kMostUsualRatio = 0.25;
 
-void add_stiffness_slip(const Subject& subject, const Config& place, double beta, Warnings& out) {
+void check_stiffness(const Subject& subject, const Config& place, double beta, Warnings& out) {
   const double omega = subject.lowest_along();
   const double ratio = beta * omega / 2;
   const bool looks_like_a_ratio = beta >= kLeastUsualRatio && beta <= kMostUsualRatio;
@@ -31,7 +31,7 @@ void add_stiffness_slip(const Subject& subject, const Config& place, double beta
 }
 
 // Of a body that is held: another one is slowed down as a whole, as by a fluid.
-void add_mass_slip(const Subject& subject, const Config& place, double alpha, Warnings& out) {
+void check_mass(const Subject& subject, const Config& place, double alpha, Warnings& out) {
   const double omega = subject.held() ? subject.lowest_bending() : subject.lowest_along();
   const double ratio = alpha / (2 * omega);
   if (ratio <= (subject.held() ? kMostMassRatio : kMostRatio)) return;
@@ -44,17 +44,17 @@ void add_mass_slip(const Subject& subject, const Config& place, double alpha, Wa
 
 }  // namespace
 
-void add_damping_slips(const Subject& subject, Warnings& out) {
+void check_damping(const Subject& subject, Warnings& out) {
   if (!subject.moves()) return;
   const auto& damping = subject.scene.damping;
   if (damping) {
     const Config section = subject.config.at("damping");
-    if (damping->stiffness > 0) add_stiffness_slip(subject, section.at("stiffness"), damping->stiffness, out);
-    if (damping->mass > 0) add_mass_slip(subject, section.at("mass"), damping->mass, out);
+    if (damping->stiffness > 0) check_stiffness(subject, section.at("stiffness"), damping->stiffness, out);
+    if (damping->mass > 0) check_mass(subject, section.at("mass"), damping->mass, out);
   }
   for (const auto& [name, region] : subject.scene.regions)
     if (region.stiffness_damping)
-      add_stiffness_slip(subject, subject.config.at("regions").at(name), *region.stiffness_damping, out);
+      check_stiffness(subject, subject.config.at("regions").at(name), *region.stiffness_damping, out);
 }
 
-}  // namespace orthodyn::slip
+}  // namespace orthodyn::input_checks

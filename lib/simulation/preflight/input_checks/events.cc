@@ -7,7 +7,7 @@
 
 #include "lib/simulation/preflight/input_checks/subject.h"
 
-namespace orthodyn::slip {
+namespace orthodyn::input_checks {
 
 namespace {
 
@@ -37,7 +37,7 @@ double stiffest(const FemModel& model) {
 
 }  // namespace
 
-void add_event_slips(const Subject& subject, Warnings& out) {
+void check_event(const Subject& subject, Warnings& out) {
   for (std::size_t k = 0; k < subject.scene.events.size(); ++k) {
     const EventSpec& event = subject.scene.events[k];
     const std::string place = subject.config.at("events").at(k).where();
@@ -67,4 +67,4 @@ void add_event_slips(const Subject& subject, Warnings& out) {
   }
 }
 
-}  // namespace orthodyn::slip
+}  // namespace orthodyn::input_checks

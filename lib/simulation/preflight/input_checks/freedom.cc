@@ -11,7 +11,7 @@
 #include "lib/mesh/selection.h"
 #include "lib/simulation/preflight/input_checks/subject.h"
 
-namespace orthodyn::slip {
+namespace orthodyn::input_checks {
 
 namespace {
 
@@ -87,7 +87,7 @@ std::string places_of_loads(const Subject& subject) {
   return places;
 }
 
-void add_drift_slip(const Subject& subject, Warnings& out) {
+void check_drift(const Subject& subject, Warnings& out) {
   if (!subject.moves() || !is_free(subject)) return;
   const std::string places = places_of_loads(subject);
   if (places.empty()) return;
@@ -110,18 +110,19 @@ std::vector<int> touching_nodes(const Config& term, const TetMesh& mesh) {
   std::optional<std::string> surface;
   if (term.has("surface") && !term.at("surface").is_null()) surface = term.at("surface").text();
   std::vector<int> nodes;
-  for (const auto& [node, area] : node_areas(mesh, surface_or_all(mesh, surface, Origin()))) nodes.push_back(node);
+  for (const auto& [node, area] : node_areas(mesh, surface_or_all(mesh, surface, SourceLocation())))
+    nodes.push_back(node);
   return nodes;
 }
 
-void add_ground_slips(const Subject& subject, Warnings& out) {
+void check_ground(const Subject& subject, Warnings& out) {
   if (subject.is_static() || !subject.config.has("terms")) return;
   const FemModel& model = *subject.built.model;
   const NodalExpansion nodal(model.parts(), subject.start(), subject.built.initial.q, Vector::Zero(model.num_dofs()));
   const Config terms = subject.config.at("terms");
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const Config term = terms.at(i);
-    if (!term.has("type") || term.at("type").text() != "ground") continue;
+    if (!term.has("type") || term.at("type").text() != "ground_contact") continue;
     const auto given = [&](const char* key, const Vec3& usual, const char* unit) {
       return term.has(key) ? Value<Vec3>::read(term.at(key), {.unit = unit}) : usual;
     };
@@ -149,9 +150,9 @@ bool is_free(const Subject& subject) {
   return true;
 }
 
-void add_freedom_slips(const Subject& subject, Warnings& out) {
-  add_drift_slip(subject, out);
-  add_ground_slips(subject, out);
+void check_freedom(const Subject& subject, Warnings& out) {
+  check_drift(subject, out);
+  check_ground(subject, out);
 }
 
-}  // namespace orthodyn::slip
+}  // namespace orthodyn::input_checks

@@ -13,7 +13,7 @@
 
 namespace orthodyn {
 
-namespace slip {
+namespace input_checks {
 
 Subject::Subject(const Config& input, const Scene& given, const BuiltScene& made, bool timed)
     : config(input),
@@ -58,7 +58,7 @@ void visit_times(const Subject& subject, const std::function<void(double)>& visi
   ends.push_back(subject.end());
   for (const double end : ends) {
     const double begin = times.back();
-    for (int k = 0; k < kSamples; ++k) times.push_back(begin + (end - begin) * golden_share(k));
+    for (int k = 0; k < kSamples; ++k) times.push_back(begin + (end - begin) * golden_ratio_sample(k));
     std::sort(times.end() - kSamples, times.end());
     times.push_back(end);
   }
@@ -83,15 +83,17 @@ double distance(const Vec3& point, const Box& box) {
   return (point - point.cwiseMax(box.min).cwiseMin(box.max)).norm();
 }
 
-}  // namespace slip
+}  // namespace input_checks
 
-Warnings slips(const Config& config, const Scene& scene, const BuiltScene& built, bool is_timed) {
-  const slip::Subject subject(config, scene, built, is_timed);
+Warnings check_inputs(const Config& config, const Scene& scene, const BuiltScene& built, bool is_timed) {
+  const input_checks::Subject subject(config, scene, built, is_timed);
   Warnings out;
-  for (const auto add : {slip::add_material_slips, slip::add_place_slips, slip::add_load_slips, slip::add_time_slips,
-                         slip::add_motion_slips, slip::add_freedom_slips, slip::add_turning_slips,
-                         slip::add_damping_slips, slip::add_event_slips, slip::add_setting_slips})
+  for (const auto add :
+       {input_checks::check_material, input_checks::check_place, input_checks::check_load, input_checks::check_time,
+        input_checks::check_motion, input_checks::check_freedom, input_checks::check_turning,
+        input_checks::check_damping, input_checks::check_event, input_checks::check_setting})
     add(subject, out);
+  out.insert(out.end(), config.warnings().begin(), config.warnings().end());
   return out;
 }
 
@@ -105,10 +107,10 @@ Warnings slips_of(const Config& given) {
       scene = read_scene(config);
     }
     const BuiltScene built = build(scene);
-    out = slips(config, scene, built);
-    if (built.model->num_dofs() > kLargestForSlips) return out;
+    out = check_inputs(config, scene, built);
+    if (built.model->num_dofs() > kMostUnknownsOfResponse) return out;
     const StaticResponse statics = static_response(*built.model, built.initial, scene.time.end);
-    for (auto& slip : response_slips(config, scene, built, statics)) out.push_back(std::move(slip));
+    for (auto& slip : check_response(config, scene, built, statics)) out.push_back(std::move(slip));
   } catch (const ConfigError&) {  // what refuses the scene is told where it is run
   } catch (const RunError&) {
   }

@@ -12,14 +12,14 @@
 namespace orthodyn {
 
 // `config` is the resolved input of the scene. `is_timed`: whether the user gave its time span.
-Warnings slips(const Config& config, const Scene& scene, const BuiltScene& built, bool is_timed = true);
+Warnings check_inputs(const Config& config, const Scene& scene, const BuiltScene& built, bool is_timed = true);
 
 // Of the linear static response to the scene's loads. Throws ConfigError where no solid could be so soft.
-Warnings response_slips(const Config& config, const Scene& scene, const BuiltScene& built,
+Warnings check_response(const Config& config, const Scene& scene, const BuiltScene& built,
                         const StaticResponse& statics);
 
 // Unknowns up to which the response is computed for a warning's sake.
-constexpr int kLargestForSlips = 30'000;
+constexpr int kMostUnknownsOfResponse = 30'000;
 
 // Both kinds, of a scene that is built for them: for studies, whose points run elsewhere. None of a scene that cannot
 // be built, of which its points tell.

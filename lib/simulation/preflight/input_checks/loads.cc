@@ -10,7 +10,7 @@
 #include "lib/fem/time_functions/time_function.h"
 #include "lib/simulation/preflight/input_checks/subject.h"
 
-namespace orthodyn::slip {
+namespace orthodyn::input_checks {
 
 namespace {
 
@@ -26,7 +26,7 @@ double largest_within(const TimeFunction& factor, const Subject& subject) {
   for (std::size_t piece = 0; piece + 1 < times.size(); ++piece)
     for (int k = 0; k <= samples; ++k) {
       const double t =
-          k < samples ? times[piece] + (times[piece + 1] - times[piece]) * golden_share(k) : times[piece + 1];
+          k < samples ? times[piece] + (times[piece + 1] - times[piece]) * golden_ratio_sample(k) : times[piece + 1];
       largest = std::max(largest, std::abs(factor.value(t)));
     }
   return largest;
@@ -43,7 +43,7 @@ bool acts_within(const TimeFunction& factor, const Subject& subject) {
   }
 }
 
-void add_factor_slips(const Subject& subject, const Config& section, Warnings& out) {
+void check_factor(const Subject& subject, const Config& section, Warnings& out) {
   visit_keys(section, "factor", [&](const Config& given) {
     if (!names_a_factor(given)) return;
     const auto factor = Registry<TimeFunction>::read(given);
@@ -121,7 +121,7 @@ void add_idle_scene(const Subject& subject, Warnings& out) {
                   subject.config.at("time").where()));
 }
 
-void add_gravity_slips(const Subject& subject, Warnings& out) {
+void check_gravity(const Subject& subject, Warnings& out) {
   if (!subject.scene.gravity) return;
   const Vec3 g = subject.scene.gravity->g;
   const double size = g.norm();
@@ -140,13 +140,13 @@ void add_gravity_slips(const Subject& subject, Warnings& out) {
 
 }  // namespace
 
-void add_load_slips(const Subject& subject, Warnings& out) {
+void check_load(const Subject& subject, Warnings& out) {
   for (const char* section : {"loads", "terms", "motions"})
     if (subject.config.has(section) && (subject.is_static() || subject.is_timed))
-      add_factor_slips(subject, subject.config.at(section), out);
+      check_factor(subject, subject.config.at(section), out);
   add_idle_loads(subject, out);
   add_idle_scene(subject, out);
-  add_gravity_slips(subject, out);
+  check_gravity(subject, out);
 }
 
-}  // namespace orthodyn::slip
+}  // namespace orthodyn::input_checks

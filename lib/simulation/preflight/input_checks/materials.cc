@@ -12,7 +12,7 @@
 #include "lib/core/units.h"
 #include "lib/simulation/preflight/input_checks/subject.h"
 
-namespace orthodyn::slip {
+namespace orthodyn::input_checks {
 
 namespace {
 
@@ -47,13 +47,13 @@ std::string odd_unit(const std::vector<Modulus>& moduli) {
     bool fits = true;
     for (const Modulus& other : moduli) {
       if (&other == &odd) continue;
-      fits = fits && other.given.unit != odd.given.unit && apart(other.si, odd.si) > kMostApart &&
-             apart(other.given.number, odd.given.number) < kUsuallyApart;
-      if (!nearest || apart(other.si, odd.si) < apart(nearest->si, odd.si)) nearest = &other;
+      fits = fits && other.given.unit != odd.given.unit && ratio_distance(other.si, odd.si) > kMostApart &&
+             ratio_distance(other.given.number, odd.given.number) < kUsuallyApart;
+      if (!nearest || ratio_distance(other.si, odd.si) < ratio_distance(nearest->si, odd.si)) nearest = &other;
     }
     if (nearest && fits)
       return fmt::format("{} is {} times {} than {}: is its unit {}, too?", odd.text(),
-                         shown_factor(apart(odd.si, nearest->si)), odd.si < nearest->si ? "less" : "more",
+                         shown_factor(ratio_distance(odd.si, nearest->si)), odd.si < nearest->si ? "less" : "more",
                          nearest->text(), nearest->given.unit);
   }
   return "";
@@ -100,7 +100,7 @@ std::string swapped_ratio(const Config& material) {
 }
 
 // `given`: as the user wrote it, if he did.
-std::string dense_slip(double density, const std::optional<Config>& given) {
+std::string dense_warning(double density, const std::optional<Config>& given) {
   const auto parts = given && given->is_scalar() && !given->reads_as_number() ? split_quantity(given->text())
                                                                               : std::optional<NumberWithUnit>();
   if (!parts || parts->number > kDensest || density > 1000 * kDensest)
@@ -110,7 +110,7 @@ std::string dense_slip(double density, const std::optional<Config>& given) {
                      given->text(), density, parts->number, parts->number / 1000, parts->unit);
 }
 
-std::string wave_slip(double wave, double density, double stiffest) {
+std::string wave_warning(double wave, double density, double stiffest) {
   const std::string finding =
       fmt::format("waves would travel at {:.3g} m/s, faster than in any solid (diamond: 18000 m/s): ", wave);
   if (stiffest > kStiffest)
@@ -133,8 +133,8 @@ std::string slip_of(const Material& material, const std::optional<Config>& given
   const double density = material.density(), wave = fastest_wave(material);
   const Vec6 lambda = symmetric_eigenvalues(voigt(material.stiffness()));
   const double stiffest = lambda.maxCoeff(), softest = lambda.minCoeff();
-  if (density > kDensest) return dense_slip(density, given ? value_at(*given, {"density"}) : given);
-  if (wave > kFastest) return wave_slip(wave, density, stiffest);
+  if (density > kDensest) return dense_warning(density, given ? value_at(*given, {"density"}) : given);
+  if (wave > kFastest) return wave_warning(wave, density, stiffest);
   if (softest < kMostUnlike * stiffest)
     return fmt::format(
         "its moduli differ by a factor {:.1g} (eigenvalues of C {:.3g} to {:.3g} Pa): does one of them "
@@ -159,7 +159,7 @@ std::string slip_of(const Material& material, const std::optional<Config>& given
 
 }  // namespace
 
-void add_material_slips(const Subject& subject, Warnings& out) {
+void check_material(const Subject& subject, Warnings& out) {
   for (const auto& [name, material] : subject.scene.materials) {
     const auto place = value_at(subject.config, {"materials", name});
     const std::string slip = slip_of(*material, place);
@@ -168,4 +168,4 @@ void add_material_slips(const Subject& subject, Warnings& out) {
   }
 }
 
-}  // namespace orthodyn::slip
+}  // namespace orthodyn::input_checks

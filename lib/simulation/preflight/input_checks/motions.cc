@@ -5,14 +5,14 @@
 
 #include "lib/simulation/preflight/input_checks/subject.h"
 
-namespace orthodyn::slip {
+namespace orthodyn::input_checks {
 
 namespace {
 
 constexpr double kFastestBody = 3000;  // m/s; faster than a bullet
 constexpr double kFarthest = 100;      // lengths of the body, of a support
 
-void add_velocity_slips(const Subject& subject, Warnings& out) {
+void check_velocity(const Subject& subject, Warnings& out) {
   const State& start = subject.built.initial;
   if (start.v.isZero(0) || !subject.config.has("initial")) return;
   const auto& parts = subject.built.model->parts();
@@ -35,7 +35,7 @@ void add_velocity_slips(const Subject& subject, Warnings& out) {
                     place, relative, subject.wave));
 }
 
-void add_support_slips(const Subject& subject, Warnings& out) {
+void check_support(const Subject& subject, Warnings& out) {
   const auto& parts = subject.built.model->parts();
   if (!parts.moved) return;
   double farthest = 0, fastest = 0;
@@ -58,9 +58,9 @@ void add_support_slips(const Subject& subject, Warnings& out) {
 
 }  // namespace
 
-void add_motion_slips(const Subject& subject, Warnings& out) {
-  if (!subject.is_static()) add_velocity_slips(subject, out);
-  if (subject.is_static() || subject.is_timed) add_support_slips(subject, out);
+void check_motion(const Subject& subject, Warnings& out) {
+  if (!subject.is_static()) check_velocity(subject, out);
+  if (subject.is_static() || subject.is_timed) check_support(subject, out);
   if (const auto& initial = subject.scene.initial; initial && initial->noise)
     if (initial->noise->amplitude > subject.extent)
       out.push_back(fmt::format("{}: {:.4g} m is more than the length of the body, {:.4g} m: is that in mm?",
@@ -68,4 +68,4 @@ void add_motion_slips(const Subject& subject, Warnings& out) {
                                 subject.extent));
 }
 
-}  // namespace orthodyn::slip
+}  // namespace orthodyn::input_checks

@@ -9,7 +9,7 @@
 #include "lib/scene/region.h"
 #include "lib/simulation/preflight/input_checks/subject.h"
 
-namespace orthodyn::slip {
+namespace orthodyn::input_checks {
 
 namespace {
 
@@ -23,7 +23,7 @@ constexpr double kSlow = 30;       // m/s
 constexpr double kOblique = 0.02;  // cosine; directions are given by two or three digits
 constexpr double kTurn = 2 * std::numbers::pi;
 
-void add_size_slip(const Subject& subject, Warnings& out) {
+void check_size(const Subject& subject, Warnings& out) {
   const Config mesh = subject.config.at("mesh");
   const bool huge = subject.extent > kHuge;
   if (!huge && subject.extent > kLong && subject.wave < kSlow) {
@@ -39,7 +39,7 @@ void add_size_slip(const Subject& subject, Warnings& out) {
                             subject.extent, huge ? "mm" : "another unit, or scaled twice", remedy));
 }
 
-void add_anchor_slips(const Subject& subject, Warnings& out) {
+void check_anchor(const Subject& subject, Warnings& out) {
   if (!subject.config.has("terms")) return;
   visit_keys(subject.config.at("terms"), "anchor", [&](const Config& point) {
     if (!point.is_sequence() || point.size() != 3) return;  // a plugin's own
@@ -51,7 +51,7 @@ void add_anchor_slips(const Subject& subject, Warnings& out) {
 }
 
 // Of material axes; a support may make many turns.
-void add_angle_slips(const Subject& subject, Warnings& out) {
+void check_angle(const Subject& subject, Warnings& out) {
   visit_keys(subject.config, "axes", [&](const Config& axes) {
     visit_keys(axes, "angle", [&](const Config& given) {
       if (!given.is_scalar()) return;  // a plugin's own
@@ -69,7 +69,7 @@ std::string shown_direction(const Vec3& direction) {
 }
 
 // A second direction that is not across the first.
-void add_direction_slips(const Subject& subject, Warnings& out) {
+void check_direction(const Subject& subject, Warnings& out) {
   visit_keys(subject.config, "axes", [&](const Config& axes) {
     if (!axes.is_map() || axes.has("third") || !axes.has("first") || !axes.has("second")) return;
     if (axes.has("type") && axes.at("type").text() != "directions") return;  // a plugin's own
@@ -85,7 +85,7 @@ void add_direction_slips(const Subject& subject, Warnings& out) {
 }
 
 // Of a body of one material, along one direction: boards, strips and plates are not cut with the grain through them.
-void add_grain_slip(const Subject& subject, Warnings& out) {
+void check_grain(const Subject& subject, Warnings& out) {
   constexpr double kFarStiffer = 5, kFarThinner = 2, kAlong = 0.95;
   if (subject.scene.regions.size() != 1) return;
   const auto& [name, region] = *subject.scene.regions.begin();
@@ -126,12 +126,12 @@ void add_repeated_clamps(const Subject& subject, Warnings& out) {
 
 }  // namespace
 
-void add_place_slips(const Subject& subject, Warnings& out) {
-  add_size_slip(subject, out);
-  add_anchor_slips(subject, out);
-  add_angle_slips(subject, out);
-  add_direction_slips(subject, out);
-  add_grain_slip(subject, out);
+void check_place(const Subject& subject, Warnings& out) {
+  check_size(subject, out);
+  check_anchor(subject, out);
+  check_angle(subject, out);
+  check_direction(subject, out);
+  check_grain(subject, out);
   add_repeated_clamps(subject, out);
   const TetMesh& mesh = subject.built.model->parts().mesh;
   const auto check = [&](const Config& place, const std::string& what, const Vec3& point) {
@@ -155,4 +155,4 @@ void add_place_slips(const Subject& subject, Warnings& out) {
   }
 }
 
-}  // namespace orthodyn::slip
+}  // namespace orthodyn::input_checks

@@ -34,8 +34,8 @@ double stiffest_constant(const Scene& scene, const FemModel& model) {
 }
 
 LikelySlip slip_of_size(const Config& config, double extent, double stiffest) {
-  const auto gravity = slip::value_at(config, {"gravity"});
-  const auto place = [&](const char* key) { return slip::value_at(config, {key}).value_or(config).where(); };
+  const auto gravity = input_checks::value_at(config, {"gravity"});
+  const auto place = [&](const char* key) { return input_checks::value_at(config, {key}).value_or(config).where(); };
   if (gravity && Value<Vec3>::read(*gravity, {.unit = "m/s^2"}).norm() > 100)
     return {gravity->where(), "is the gravity in m/s^2?"};
   if (extent < kShortBody)
@@ -55,7 +55,8 @@ LikelySlip slip_of_size(const Config& config, double extent, double stiffest) {
 }
 
 std::string moved_by(double share) {
-  return share < 1 ? fmt::format("{:.2g} of its length", share) : slip::shown_factor(share) + " times its length";
+  return share < 1 ? fmt::format("{:.2g} of its length", share)
+                   : input_checks::shown_factor(share) + " times its length";
 }
 
 // rad/s, of the vibration that the loads start, by Rayleigh's quotient.
@@ -65,8 +66,8 @@ double frequency_of(const FemModel& model, const StaticResponse& statics) {
   return std::sqrt(statics.work / statics.displacement.dot(momentum));
 }
 
-void add_step_slip(const Config& config, const FemModel& model, const StaticResponse& statics, Warnings& out) {
-  const auto given = slip::value_at(config, {"integrator", "step"});
+void check_step(const Config& config, const FemModel& model, const StaticResponse& statics, Warnings& out) {
+  const auto given = input_checks::value_at(config, {"integrator", "step"});
   if (!given || given->text() == "auto") return;
   const double step = read_number(*given, {.unit = "s"});
   const double period = 2 * std::numbers::pi / frequency_of(model, statics);
@@ -78,11 +79,11 @@ void add_step_slip(const Config& config, const FemModel& model, const StaticResp
 }
 
 // The number of N is often given as the traction, of some Pa.
-void add_traction_slip(const Config& config, const Scene& scene, double share, Warnings& out) {
+void check_traction(const Config& config, const Scene& scene, double share, Warnings& out) {
   if (share >= kHardlySeen || scene.gravity || !scene.terms.empty() || !scene.motions.empty() || scene.initial) return;
   if (scene.loads.size() != 1) return;
   const Config load = config.at("loads").at(0);
-  const auto traction = slip::value_at(load, {"traction"});
+  const auto traction = input_checks::value_at(load, {"traction"});
   if (!traction || !traction->is_sequence()) return;
   for (std::size_t i = 0; i < traction->size(); ++i)
     if (!traction->at(i).reads_as_number() || std::abs(traction->at(i).number()) > kMostPascals) return;
@@ -94,7 +95,7 @@ void add_traction_slip(const Config& config, const Scene& scene, double share, W
 
 }  // namespace
 
-Warnings response_slips(const Config& config, const Scene& scene, const BuiltScene& built,
+Warnings check_response(const Config& config, const Scene& scene, const BuiltScene& built,
                         const StaticResponse& statics) {
   if (statics.load.isZero(0)) return {};
   const double extent = bounding_box(built.model->parts().mesh).size().maxCoeff();
@@ -109,10 +110,10 @@ Warnings response_slips(const Config& config, const Scene& scene, const BuiltSce
     return {
         fmt::format("{}: {}, too little to be seen in the digits of a result: are forces in N, tractions and "
                     "moduli in Pa?",
-                    slip::value_at(config, {"loads"}).value_or(config).where(), finding)};
+                    input_checks::value_at(config, {"loads"}).value_or(config).where(), finding)};
   Warnings out;
-  if (!scene.is_static()) add_step_slip(config, *built.model, statics, out);
-  add_traction_slip(config, scene, share, out);
+  if (!scene.is_static()) check_step(config, *built.model, statics, out);
+  check_traction(config, scene, share, out);
   return out;
 }
 

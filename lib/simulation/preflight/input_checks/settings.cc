@@ -3,7 +3,7 @@
 
 #include "lib/simulation/preflight/input_checks/subject.h"
 
-namespace orthodyn::slip {
+namespace orthodyn::input_checks {
 
 namespace {
 
@@ -12,7 +12,7 @@ constexpr double kLargestScale = 30, kSmallestScale = 1e-12;  // of the body's l
 constexpr double kMostSteps = 1e9;
 constexpr double kLargestLeast = 0.1;  // step, of the run
 
-void add_tolerance_slip(const Subject& subject, const char* section, Warnings& out) {
+void check_tolerance(const Subject& subject, const char* section, Warnings& out) {
   const auto rtol = value_at(subject.config, {section, "rtol"});
   if (!rtol || !rtol->reads_as_number()) return;
   if (rtol->number() > kCoarsest)
@@ -28,7 +28,7 @@ void add_tolerance_slip(const Subject& subject, const char* section, Warnings& o
 }
 
 // A length or a speed that errors are compared with, and how large it may be.
-void add_scale_slip(const Subject& subject, const char* key, const char* unit, double natural, Warnings& out) {
+void check_scale(const Subject& subject, const char* key, const char* unit, double natural, Warnings& out) {
   const auto scale = value_at(subject.config, {"integrator", key});
   if (!scale || scale->text() == "auto") return;
   const double share = read_number(*scale, {.unit = unit}) / natural;
@@ -42,7 +42,7 @@ void add_scale_slip(const Subject& subject, const char* key, const char* unit, d
                               scale->where(), scale->text(), share, natural, unit));
 }
 
-void add_step_slips(const Subject& subject, Warnings& out) {
+void check_step(const Subject& subject, Warnings& out) {
   for (const char* key : {"step", "h_max", "h_min", "h0"}) {
     const auto value = value_at(subject.config, {"integrator", key});
     if (!value || value->text() == "auto") continue;
@@ -64,12 +64,12 @@ void add_step_slips(const Subject& subject, Warnings& out) {
 
 }  // namespace
 
-void add_setting_slips(const Subject& subject, Warnings& out) {
+void check_setting(const Subject& subject, Warnings& out) {
   if (!subject.moves()) return;
-  add_tolerance_slip(subject, "integrator", out);
-  add_scale_slip(subject, "position_scale", "m", subject.extent, out);
-  add_scale_slip(subject, "velocity_scale", "m/s", subject.wave, out);
-  add_step_slips(subject, out);
+  check_tolerance(subject, "integrator", out);
+  check_scale(subject, "position_scale", "m", subject.extent, out);
+  check_scale(subject, "velocity_scale", "m/s", subject.wave, out);
+  check_step(subject, out);
 }
 
-}  // namespace orthodyn::slip
+}  // namespace orthodyn::input_checks

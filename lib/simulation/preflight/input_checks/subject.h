@@ -9,7 +9,7 @@
 
 #include "lib/simulation/preflight/input_checks/input_checks.h"
 
-namespace orthodyn::slip {
+namespace orthodyn::input_checks {
 
 struct Subject {
   Subject(const Config& config, const Scene& scene, const BuiltScene& built, bool is_timed);
@@ -40,16 +40,16 @@ struct Subject {
   static constexpr double kBending = 0.65;
 };
 
-void add_material_slips(const Subject& subject, Warnings& out);
-void add_place_slips(const Subject& subject, Warnings& out);
-void add_load_slips(const Subject& subject, Warnings& out);
-void add_time_slips(const Subject& subject, Warnings& out);
-void add_motion_slips(const Subject& subject, Warnings& out);
-void add_damping_slips(const Subject& subject, Warnings& out);
-void add_freedom_slips(const Subject& subject, Warnings& out);
-void add_turning_slips(const Subject& subject, Warnings& out);
-void add_event_slips(const Subject& subject, Warnings& out);
-void add_setting_slips(const Subject& subject, Warnings& out);
+void check_material(const Subject& subject, Warnings& out);
+void check_place(const Subject& subject, Warnings& out);
+void check_load(const Subject& subject, Warnings& out);
+void check_time(const Subject& subject, Warnings& out);
+void check_motion(const Subject& subject, Warnings& out);
+void check_damping(const Subject& subject, Warnings& out);
+void check_freedom(const Subject& subject, Warnings& out);
+void check_turning(const Subject& subject, Warnings& out);
+void check_event(const Subject& subject, Warnings& out);
+void check_setting(const Subject& subject, Warnings& out);
 
 // The value at a path such as "integrator.rtol", where it is given and not null.
 std::optional<Config> value_at(const Config& config, const std::vector<std::string>& path);
@@ -77,4 +77,4 @@ bool is_free(const Subject& subject);
 // m, from a point to the box.
 double distance(const Vec3& point, const Box& box);
 
-}  // namespace orthodyn::slip
+}  // namespace orthodyn::input_checks

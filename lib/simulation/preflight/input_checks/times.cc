@@ -6,7 +6,7 @@
 
 #include "lib/simulation/preflight/input_checks/subject.h"
 
-namespace orthodyn::slip {
+namespace orthodyn::input_checks {
 
 namespace {
 
@@ -27,7 +27,7 @@ bool only_swings(const Subject& subject) {
   return !ends.empty() && *std::ranges::max_element(ends) < subject.start() + kEarly * subject.span();
 }
 
-void add_span_slip(const Subject& subject, Warnings& out) {
+void check_span(const Subject& subject, Warnings& out) {
   const double crossings = subject.span() / subject.crossing();
   const std::string place = subject.config.at("time").where();
   if (crossings < kShortest)
@@ -73,9 +73,9 @@ void add_factor_times(const Subject& subject, const Config& section, Warnings& o
 
 }  // namespace
 
-void add_time_slips(const Subject& subject, Warnings& out) {
+void check_time(const Subject& subject, Warnings& out) {
   if (!subject.moves()) return;
-  add_span_slip(subject, out);
+  check_span(subject, out);
   for (const char* section : {"loads", "terms", "motions"})
     if (subject.config.has(section)) add_factor_times(subject, subject.config.at(section), out);
   if (const auto interval = subject.scene.output.interval; interval && *interval > subject.span())
@@ -87,4 +87,4 @@ void add_time_slips(const Subject& subject, Warnings& out) {
                               subject.config.at("output").at("history").where(), *history->interval, subject.span()));
 }
 
-}  // namespace orthodyn::slip
+}  // namespace orthodyn::input_checks

@@ -7,7 +7,7 @@
 
 #include "lib/simulation/preflight/input_checks/subject.h"
 
-namespace orthodyn::slip {
+namespace orthodyn::input_checks {
 
 namespace {
 
@@ -106,7 +106,7 @@ void add_lumped_moments(const Subject& subject, const Vec3& angle, Warnings& out
 
 }  // namespace
 
-void add_turning_slips(const Subject& subject, Warnings& out) {
+void check_turning(const Subject& subject, Warnings& out) {
   const auto& parts = subject.built.model->parts();
   if (!subject.moves() || !is_free(subject)) return;
   const Vec3 angle = angle_turned(subject);
@@ -119,4 +119,4 @@ void add_turning_slips(const Subject& subject, Warnings& out) {
                     kinematics->where(), angle.norm(), subject.end(), kLinear));
 }
 
-}  // namespace orthodyn::slip
+}  // namespace orthodyn::input_checks
