@@ -1,6 +1,6 @@
-"""Runs the notebooks beside it, each in a folder of its own:  python3 run.py [--save] [NAME...]
+"""Runs the notebooks of this folder, each in a temporary folder:  python3 run.py [--save] [NAME...]
 
---save keeps what they printed and drew in them. Needs nbclient and ipykernel, and orthodyn where Python finds it.
+--save stores the outputs in the notebooks. Needs nbclient, ipykernel and an importable orthodyn.
 """
 import argparse
 import sys
@@ -16,7 +16,7 @@ KEPT = 300_000  # characters of an output: a view in 3D is larger
 
 
 def run(path, save=False):
-    """Raises CellExecutionError where a cell fails."""
+    """Raises CellExecutionError if a cell fails."""
     book = nbformat.read(path, 4)
     with tempfile.TemporaryDirectory() as folder:
         NotebookClient(book, timeout=SECONDS, kernel_name="python3", resources={"metadata": {"path": folder}}).execute()
@@ -26,7 +26,7 @@ def run(path, save=False):
 
 
 def slim(book):
-    """Without times of execution, progress, and what is too large for a repository."""
+    """Removes execution times, progress messages, and outputs longer than KEPT characters."""
     for cell in book.cells:
         cell.metadata.pop("execution", None)
         if cell.cell_type == "code":
