@@ -1,5 +1,5 @@
-# The commit that is built, looked up at each build: commit.cc is written again where it has changed, and it alone is
-# compiled. "unknown" without git or outside of a clone.
+# Compiles the current commit into the library. Each build updates commit.cc if the commit has changed. The commit is
+# "unknown" without git or outside a clone.
 if(CMAKE_SCRIPT_MODE_FILE)
   find_program(GIT git)
   set(COMMIT unknown)

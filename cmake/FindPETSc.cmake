@@ -1,5 +1,5 @@
-# PETSc with real numbers and 32-bit indices as PETSc::PETSc; it has no CMake configuration of its own. Headers and
-# library are of one folder: that of PETSC_DIR and PETSC_ARCH if they are set, else Debian's, one for each version.
+# Defines PETSc::PETSc with real numbers and 32-bit indices, since PETSc has no CMake configuration. Headers and library
+# come from one folder: that of PETSC_DIR and PETSC_ARCH if set, otherwise Debian's newest version.
 set(_folders)
 if(DEFINED ENV{PETSC_DIR})
   list(APPEND _folders $ENV{PETSC_DIR}/$ENV{PETSC_ARCH} $ENV{PETSC_DIR})
@@ -15,7 +15,7 @@ endforeach()
 if(PETSc_CONFIG_INCLUDE_DIR)
   file(STRINGS ${PETSc_CONFIG_INCLUDE_DIR}/petscconf.h _other REGEX "define PETSC_USE_(COMPLEX|64BIT_INDICES|REAL_SINGLE)")
   if(_other)
-    message(WARNING "The PETSc of ${PETSc_CONFIG_INCLUDE_DIR} is not for real numbers with 32-bit indices: ${_other}")
+    message(WARNING "The PETSc in ${PETSc_CONFIG_INCLUDE_DIR} does not use real numbers with 32-bit indices: ${_other}")
     set(PETSc_LIBRARY PETSc_LIBRARY-NOTFOUND)
   endif()
 endif()

@@ -1,5 +1,5 @@
-# CHOLMOD and KLU with their parts, as SuiteSparse::cholmod and SuiteSparse::klu.
-# Debian 12's SuiteSparse has no CMake configuration of its own.
+# Defines SuiteSparse::cholmod and SuiteSparse::klu with their dependencies, since SuiteSparse in Debian 12 has no CMake
+# configuration.
 find_path(SuiteSparse_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
 set(_required SuiteSparse_INCLUDE_DIR)
 foreach(_part suitesparseconfig amd btf camd ccolamd colamd cholmod klu)

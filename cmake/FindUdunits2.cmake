@@ -1,4 +1,4 @@
-# UDUNITS-2 as Udunits2::udunits2; it has no CMake configuration of its own.
+# Defines Udunits2::udunits2, since UDUNITS-2 has no CMake configuration.
 find_path(Udunits2_INCLUDE_DIR udunits2.h PATH_SUFFIXES udunits2)
 find_library(Udunits2_LIBRARY udunits2)
 

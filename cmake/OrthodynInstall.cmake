@@ -1,8 +1,9 @@
-# `cmake --install`, and find_package(orthodyn) for others.
+# `cmake --install`, and find_package(orthodyn) in other projects.
 include(CMakePackageConfigHelpers)
 set(_config ${CMAKE_INSTALL_LIBDIR}/cmake/orthodyn)
 
-# Where the system's loader looks first on a processor of that level, beside a library for all others (tools/package).
+# The system's loader prefers this folder on processors of that level and uses the default folder on all others
+# (tools/package).
 set(_library ${CMAKE_INSTALL_LIBDIR})
 if(ORTHODYN_HWCAPS)
   string(APPEND _library /glibc-hwcaps/${ORTHODYN_PROCESSOR})

@@ -1,28 +1,29 @@
-# Compile options of our own code, and the functions that make modules and the library of them.
+# Compile options of our own code, and functions that define modules and the library.
 
 add_library(orthodyn_options INTERFACE)
 target_include_directories(orthodyn_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(orthodyn_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-  -fno-math-errno  # so that sqrt is an instruction
+  -fno-math-errno  # compiles sqrt to an instruction
   # False alarms of g++ 12 in its own headers (AVX-512, std::string).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-uninitialized -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds>
-  # Batches are passed within one library only.
+  # Warnings about the ABI of batches, which are passed within one library only.
   -Wno-psabi)
 if(ORTHODYN_PROCESSOR)
   target_compile_options(orthodyn_options INTERFACE -march=${ORTHODYN_PROCESSOR})
 endif()
-# Eigen's own depend on the processor; with these a program may be compiled for another one than the library.
+# Eigen's default alignment depends on the processor. With fixed values, a program and the library may be compiled for
+# different processors.
 set(ORTHODYN_EIGEN_ALIGNMENT EIGEN_MAX_ALIGN_BYTES=64 EIGEN_MAX_STATIC_ALIGN_BYTES=64)
 target_compile_definitions(orthodyn_options INTERFACE ${ORTHODYN_EIGEN_ALIGNMENT})
-# The library and the program are what is watched; tests are not: half of the build time.
+# Sanitizers instrument the library and the program but not the tests, which halves the build time.
 add_library(orthodyn_sanitizers INTERFACE)
 if(ORTHODYN_SANITIZE)
-  # But for what the address sanitizer sees, too, of every pointer: a quarter of the build time.
+  # Pointer checks that the address sanitizer covers are off, which saves a quarter of the build time.
   target_compile_options(orthodyn_sanitizers INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer
                          -fno-sanitize-recover=undefined -fno-sanitize=null,alignment,object-size,vptr)
   target_link_options(orthodyn_options INTERFACE -fsanitize=address,undefined)
-  # What is allocated here is freed there: Eigen is not to ask whether it is watched.
+  # Other code frees memory that instrumented code allocates, so Eigen must not choose its allocator by the sanitizer.
   list(APPEND ORTHODYN_EIGEN_ALIGNMENT EIGEN_MALLOC_ALREADY_ALIGNED=0)
   target_compile_definitions(orthodyn_options INTERFACE ${ORTHODYN_EIGEN_ALIGNMENT})
 endif()
@@ -32,10 +33,11 @@ if(ORTHODYN_FUZZ)
   target_link_options(orthodyn_options INTERFACE -fsanitize=address,undefined)
 endif()
 
-# Position-independent code as in a library for programs, too: else they could not share its precompiled headers.
+# Programs also use position-independent code; otherwise they could not share the precompiled headers of the library.
 target_compile_options(orthodyn_options INTERFACE -fPIC)
 
-# orthodyn_precompiled_headers(NAME HEADER LIBRARIES...): target NAME, for REUSE_FROM of target_precompile_headers().
+# orthodyn_precompiled_headers(NAME HEADER LIBRARIES...): defines target NAME, for REUSE_FROM of
+# target_precompile_headers().
 function(orthodyn_precompiled_headers name header)
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${name}.cc CONTENT "")
   add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/${name}.cc)
@@ -44,8 +46,7 @@ function(orthodyn_precompiled_headers name header)
 endfunction()
 orthodyn_precompiled_headers(orthodyn_precompiled cmake/precompiled.h Eigen3::Eigen fmt::fmt orthodyn_sanitizers)
 
-# orthodyn_module(NAME FOLDER DEPENDENCIES...): the sources below FOLDER as object library
-# orthodyn_NAME, which sees only what it depends on.
+# orthodyn_module(NAME FOLDER DEPENDENCIES...): compiles the sources below FOLDER into the object library orthodyn_NAME.
 function(orthodyn_module name folder)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cc)
   add_library(orthodyn_${name} OBJECT ${sources})
@@ -53,12 +54,17 @@ function(orthodyn_module name folder)
   target_precompile_headers(orthodyn_${name} REUSE_FROM orthodyn_precompiled)
 endfunction()
 
-# orthodyn_library(NAMES...): all modules as one shared library `orthodyn`.
+# orthodyn_library(NAMES...): links these modules into one shared library `orthodyn`.
 function(orthodyn_library)
   set(objects)
   set(modules)
   foreach(name ${ARGN})
-    list(APPEND objects $<TARGET_OBJECTS:orthodyn_${name}>)
+    if(ORTHODYN_BUILT AND name IN_LIST ORTHODYN_NOT_SANITIZED)
+      file(GLOB_RECURSE built CONFIGURE_DEPENDS ${ORTHODYN_BUILT}/CMakeFiles/orthodyn_${name}.dir/*.o)
+      list(APPEND objects ${built})
+    else()
+      list(APPEND objects $<TARGET_OBJECTS:orthodyn_${name}>)
+    endif()
     list(APPEND modules orthodyn_${name})
   endforeach()
   add_library(orthodyn SHARED ${objects})
@@ -75,7 +81,7 @@ function(orthodyn_library)
   if(ORTHODYN_SANITIZE)
     target_link_options(orthodyn PUBLIC -fsanitize=address,undefined)
   endif()
-  # A plugin holds inlined code of the headers: it is of one minor version.
+  # Plugins contain inlined code of the headers, so they need the same minor version.
   set_target_properties(orthodyn PROPERTIES VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 endfunction()

@@ -1,4 +1,4 @@
-# liborthodyn_petsc, which lib/linear/petsc.cc loads when it is wanted. It lies beside liborthodyn.
+# Builds liborthodyn_petsc in the folder of liborthodyn, where lib/linear/petsc.cc loads it on demand.
 find_package(MPI REQUIRED COMPONENTS CXX)
 find_package(PETSc REQUIRED)
 find_package(SUNDIALS REQUIRED COMPONENTS nvecmpiplusx nvecserial)
@@ -8,6 +8,6 @@ add_library(orthodyn_petsc MODULE ${sources})
 target_link_libraries(orthodyn_petsc
   PRIVATE orthodyn orthodyn_options orthodyn_sanitizers SUNDIALS::nvecmpiplusx PETSc::PETSc MPI::MPI_CXX)
 target_precompile_headers(orthodyn_petsc REUSE_FROM orthodyn_precompiled)
-# What installing the component `library` needs.
+# The component `library` can only be installed if orthodyn_petsc is built with orthodyn_library.
 add_dependencies(orthodyn_library orthodyn_petsc)
 target_compile_definitions(orthodyn_linear PRIVATE ORTHODYN_MPI)

@@ -1,4 +1,4 @@
-# CHOLMOD's supernodal factorisation lives on BLAS; the reference one is 2-10 times slower.
+# CHOLMOD's supernodal factorisation spends its time in BLAS. The reference BLAS is 2-10 times slower than OpenBLAS.
 find_library(ORTHODYN_BLAS libblas.so.3)
 mark_as_advanced(ORTHODYN_BLAS)
 if(ORTHODYN_BLAS)

@@ -1,6 +1,5 @@
-// Headers that nearly every source includes, compiled once. Each source still includes what it uses itself:
+// Precompiled headers. Each source still includes what it uses; to build without this file:
 //   cmake --preset release -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON
-// builds without this file.
 #pragma once
 
 #include <fmt/format.h>

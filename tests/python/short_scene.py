@@ -1,4 +1,4 @@
-"""A scene that takes a moment, as a dict."""
+"""A scene with a short run time, as a dict."""
 import sys
 
 sys.dont_write_bytecode = True

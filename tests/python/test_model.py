@@ -1,4 +1,4 @@
-"""The model of a scene as an object: derivatives, modes, an integrator of one's own."""
+"""The model of a scene as an object: derivatives, modes, a user-defined integrator."""
 import sys
 import unittest
 import warnings
@@ -26,7 +26,7 @@ class AModel(unittest.TestCase):
         return 0.01 * self.random.normal(size=self.model.n), 0.1 * self.random.normal(size=self.model.n)
 
     def test_has_the_derivatives_of_its_force_to_second_order(self):
-        q, v = self.state()[0], np.zeros(self.model.n)  # how damping changes with q is not in K
+        q, v = self.state()[0], np.zeros(self.model.n)  # K omits the dependence of damping on q
         K, D = self.model.tangent(0.1, q, v)
         for matrix, place in ((K, 0), (D, 1)):
             direction = self.random.normal(size=self.model.n)
@@ -38,7 +38,7 @@ class AModel(unittest.TestCase):
                     at[place] += side * h * 0.01 * direction
                     ends.append(self.model.force(0.1, *at))
                 errors.append(np.linalg.norm((ends[0] - ends[1]) / (0.02 * h) + matrix @ direction))
-            # The force depends on v linearly: its difference is exact.
+            # The force is linear in v: its difference quotient is exact.
             if place == 0:
                 self.assertAlmostEqual(np.log2(errors[0] / errors[1]), 2, delta=0.1)
             else:
@@ -54,9 +54,9 @@ class AModel(unittest.TestCase):
     def test_shows_frequencies_with_the_digits_that_the_mesh_lets_be_known(self):
         """Errors of 25 %, 2 % and 0; a rigid mode."""
         modes = orthodyn.Modes(np.array([0.0, 146.5551, 287.063, 1234.56]), np.zeros((4, 1)), np.array([0, 0.2515, 0.02, 0.0]))
-        self.assertEqual(repr(modes), "Modes([0 150 287 1234.6] Hz, by the mesh too high by [0 25 2.0 0] %)")
+        self.assertEqual(repr(modes), "Modes([0 150 287 1234.6] Hz, mesh errors [0 25 2.0 0] %)")
         many = orthodyn.Modes(np.arange(100.0), np.zeros((100, 1)), np.zeros(100))
-        self.assertEqual(repr(many), "Modes([0 1 2 ... 97 98 99] Hz, by the mesh too high by [0 0 0 ... 0 0 0] %)")
+        self.assertEqual(repr(many), "Modes([0 1 2 ... 97 98 99] Hz, mesh errors [0 0 0 ... 0 0 0] %)")
 
     def test_has_the_modes_that_scipy_finds(self):
         K, _ = self.model.tangent(0, np.zeros(self.model.n))
@@ -97,7 +97,7 @@ class AModel(unittest.TestCase):
             self.model.modes(-1)
 
     def test_is_integrated_by_a_method_of_ones_own(self):
-        """Ten lines: symplectic Euler, whose error falls with its step."""
+        """Symplectic Euler in ten lines; its error decreases with the step."""
         end = 0.05
         reference = self.scene.set("time.end", end).set("output.frames", 1).set(
             "integrator", {"type": "arkode_dirk", "rtol": 1e-9}).run()

@@ -1,4 +1,4 @@
-"""The notebooks of docs/ run to their end."""
+"""The notebooks in docs/ run without errors."""
 import importlib.util
 import sys
 import unittest

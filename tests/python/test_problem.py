@@ -1,4 +1,4 @@
-"""Models of one's own: integrators on functions in Python, against scipy and exact solutions."""
+"""User-defined models: integrators on Python functions, against scipy and exact solutions."""
 import gc
 import sys
 import unittest
@@ -20,7 +20,7 @@ def pendulum(t, q, v):
     return -9.81 * np.sin(q)
 
 
-# Of the methods for models of any kind; options that make them comparable.
+# Methods for models of any kind, with options that make them comparable.
 METHODS = {"cvode_bdf": {}, "cvode_adams": {}, "ida_bdf": {}, "arkode_dirk": {}, "arkode_erk": {}, "tr_bdf2": {}, "sdirk": {},
            "bathe": {}, "newmark": {}, "hht_alpha": {}, "generalized_alpha": {}, "rosenbrock": {}, "backward_euler": {},
            "auto": {}}
@@ -121,18 +121,18 @@ class AProblem(unittest.TestCase):
     def test_whose_force_gives_something_else_says_what(self):
         for given, error, at_once, later in (
                 ([1, 2, 3], ValueError, "shape \\(3,\\), expected \\(1,\\)", "the force has 3 numbers, expected 1"),
-                ("x", TypeError, "no array of numbers", "the force is no array of numbers"),
-                (None, TypeError, "no array of numbers", "the force is no array of numbers")):
+                ("x", TypeError, "not an array of numbers", "the force is not an array of numbers"),
+                (None, TypeError, "not an array of numbers", "the force is not an array of numbers")):
             for begin, text in ((0, at_once), (0.5, later)):
                 with self.subTest(text), self.assertRaisesRegex(error, text):
                     orthodyn.Problem([1.0], lambda t, q, v: given if t >= begin else -q).solve((0, 1), [1.0])
 
     def test_tells_what_is_wrong_with_a_tangent_by_the_kind_of_error(self):
         from orthodyn import _core
-        for given, error, text in ((None, TypeError, "no pair"), ((), TypeError, "no pair"), (1.0, TypeError, "no pair"),
-                                   ((np.ones(1),), TypeError, "no pair"),
-                                   ((None, None), TypeError, "the stiffness is no array of numbers"),
-                                   (("x", None), TypeError, "the stiffness is no array of numbers"),
+        for given, error, text in ((None, TypeError, "not a pair"), ((), TypeError, "not a pair"), (1.0, TypeError, "not a pair"),
+                                   ((np.ones(1),), TypeError, "not a pair"),
+                                   ((None, None), TypeError, "the stiffness is not an array of numbers"),
+                                   (("x", None), TypeError, "the stiffness is not an array of numbers"),
                                    ((np.ones(2), None), ValueError, "the stiffness has 2 numbers, expected 1")):
             with self.subTest(text), self.assertRaisesRegex(error, text):
                 problem = orthodyn.Problem([1.0], lambda t, q, v: -q)
@@ -142,9 +142,9 @@ class AProblem(unittest.TestCase):
 
     def test_says_what_it_needs(self):
         problem = orthodyn.Problem([1.0], lambda t, q, v: 1 - q)
-        for call, text in ((lambda: problem.solve((0, 1), [0.0]), "tells no size of the motion"),
+        for call, text in ((lambda: problem.solve((0, 1), [0.0]), "position_scale and velocity_scale"),
                            (lambda: problem.solve((0, 1), [0.0, 1.0]), r"q0: has the shape \(2,\), expected \(1,\)"),
-                           (lambda: problem.solve((0, 1), [np.nan]), "q0: holds what is not a finite number"),
+                           (lambda: problem.solve((0, 1), [np.nan]), "q0: has values that are not finite"),
                            (lambda: problem.solve((1, 0), [1.0]), "start before the end"),
                            (lambda: orthodyn.Problem([[2.0, 1], [1, 2]], pendulum), r"mass: has the shape \(2, 2\)"),
                            (lambda: orthodyn.Problem([1.0], pendulum, np.eye(3)).solve((0, 1), [1.0]), "stiffness: has the shape"),

@@ -1,4 +1,4 @@
-"""Studies as data frames: what they hold is what the program wrote."""
+"""Studies as data frames equal the tables written by the program."""
 import json
 import os
 import signal
@@ -92,7 +92,7 @@ class AStudy(unittest.TestCase):
         return {path: path.read_bytes() for path in Path("s/points").glob("*/result.json")}
 
     def interrupt_when_begun(self):
-        """Ctrl-C that only the interpreter sees, as in a notebook."""
+        """Sends Ctrl-C to the interpreter only, as in a notebook."""
         def wait():
             while not self.finished():
                 time.sleep(0.02)
@@ -104,7 +104,7 @@ class AStudy(unittest.TestCase):
         self.interrupt_when_begun()
         with self.assertRaises(KeyboardInterrupt) as caught:
             orthodyn.sweep(self.long_sweep(), "s", quiet=True)
-        self.assertIn("finished are kept in s; the same call goes on", caught.exception.__notes__[0])
+        self.assertIn("Finished points are kept in s", caught.exception.__notes__[0])
         self.assertFalse(list(Path().glob(".sweep-*")))
         before = self.finished()
         self.assertTrue(0 < len(before) < 400, len(before))
@@ -126,7 +126,7 @@ class AStudy(unittest.TestCase):
         self.assertEqual(json.loads(Path("two/sweep.json").read_text())["ranks"], 2)
 
     def test_ends_with_the_interpreter_that_asked_for_it(self):
-        """Also where that is killed."""
+        """Also if the interpreter is killed."""
         code = (f"import sys; sys.path[:0] = {sys.path!r}; import orthodyn; from short_scene import beam; "
                 f"orthodyn.sweep({{**{{'scene': orthodyn.Scene(beam())}}, **{ {k: v for k, v in self.long_sweep().items() if k != 'scene'}!r}}}, "
                 "'s', quiet=True)")

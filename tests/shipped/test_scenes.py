@@ -1,5 +1,5 @@
-"""Every scene of configs/scenes, at its full length, ends without a warning: it is what somebody runs first. The few whose
-point a warning is stand in EXPECTED with the reason.
+"""Every scene of configs/scenes completes at full length without a warning, because users run these scenes first. EXPECTED lists
+the scenes that show a warning on purpose, with the reason.
 
     ORTHODYN_EXECUTABLE=build/release/orthodyn ORTHODYN_LONG=1 /usr/bin/python3 -m unittest discover -s tests/shipped
 """
@@ -13,12 +13,12 @@ from pathlib import Path
 SCENES = Path(__file__).resolve().parents[2] / "configs" / "scenes"
 PROGRAM = os.environ.get("ORTHODYN_EXECUTABLE", "orthodyn")
 
-# Warnings begin like these.
+# Scene -> beginnings of its warnings.
 EXPECTED = {
-    "free_flight": ["the mesh is coarse for this motion"],  # it shows that the force conserves, on any mesh
-    "xylophone_bar": ["the mesh is coarse for this motion"],  # held at lines and points, as it says: finer cells give way more
+    "free_flight": ["the mesh is coarse for this motion"],  # shows conservation, which holds on any mesh
+    "xylophone_bar": ["the mesh is coarse for this motion"],  # supports at lines and points are softer on finer meshes
 }
-# Without ORTHODYN_LONG these are left out: 3 s of CPU and more.
+# Run with ORTHODYN_LONG only: 3 s of CPU and more.
 LONG = {"cantilever", "drop", "free_flight", "laminate", "muscle", "stem", "tube_lrt", "tuning_fork", "twist", "xylophone_bar"}
 
 

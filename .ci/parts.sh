@@ -1,0 +1,140 @@
+# shellcheck shell=bash
+# What is verified, each part a function. To be sourced in the project's root; .ci/run and .ci/nightly call them.
+source tools/setup/steps.sh
+source tools/setup/packages.sh
+source tools/setup/build.sh
+
+readonly SCENE=configs/scenes/cantilever.yaml
+readonly PREFIX=$PWD/build/ci/prefix
+# Folders of tests of lib and integrators that start no program.
+readonly LIBRARY_TESTS=(core config material element linear ode statics material_axes analysis mesh fem contract)
+
+# ensure COMMAND PACKAGE
+ensure() { if ! command -v "$1" >/dev/null; then install_packages "$2"; fi; }
+
+# Files that the commits of the last day have changed, for parts that are run only where they are touched.
+changed_files() {
+  local base
+  base=$(git rev-list -1 --before='1 day ago' HEAD 2>/dev/null) || true
+  if [[ -n $base ]]; then git diff --name-only --diff-filter=d "$base" HEAD; fi
+}
+
+format() {
+  ensure clang-format clang-format
+  git ls-files '*.cc' '*.h' | xargs clang-format --dry-run -Werror
+}
+
+release() { tools/test; }
+
+# Sources that were changed, each by itself and without precompiled headers: does it include what it uses?
+compile_changed() {
+  local sources
+  mapfile -t sources < <(changed_files | grep -E '^(lib|integrators|tools/orthodyn)/.*\.cc$' | shuf -n "${1:-30}")
+  say "${#sources[@]} changed sources"
+  if ((${#sources[@]} == 0)); then return; fi
+  configure ci-dev dev -B build/ci/dev -D CMAKE_CXX_FLAGS_RELWITHDEBINFO=-O0 -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
+    -D ORTHODYN_TESTS=OFF
+  logged build-ci-dev ninja -C build/ci/dev "${sources[@]/%/^}"
+}
+
+# The release build as others see it: installed, found by find_package, linked, used.
+installed() {
+  rm -rf "$PREFIX" build/ci/extend build/ci/comparison
+  logged install cmake --install build/release --prefix "$PREFIX"
+  "$PREFIX/bin/orthodyn" check "$SCENE" >/dev/null
+  "$PREFIX/bin/orthodyn" compare configs/comparisons/linear_beam.yaml --out build/ci/comparison
+  test -s build/ci/comparison/report.html  # drawn by the installed tool
+  extensions
+  python_package
+}
+
+# The examples of docs/extend.md, as a project outside of this tree.
+extensions() {
+  logged extend-configure cmake -G Ninja -S docs/extend -B build/ci/extend -D CMAKE_PREFIX_PATH="$PREFIX" \
+    -D CMAKE_BUILD_TYPE=Release
+  logged extend-build cmake --build build/ci/extend
+  build/ci/extend/oscillator_chain
+  "$PREFIX/bin/orthodyn" --plugin build/ci/extend/extensions.so run docs/extend/scene.yaml --quiet --force \
+    --out build/ci/extended
+}
+
+# The Python package as it is installed.
+python_package() {
+  local script='
+import sys, orthodyn
+from orthodyn.studies import program
+scene = orthodyn.Scene.load(sys.argv[1]).set("time.end", 0.06)
+assert len(scene.run(fields=["displacement"]).displacement) > 1
+assert program() == sys.argv[2], program()'
+  PYTHONPATH=$(echo "$PREFIX"/lib/python3*/site-packages) logged python-installed \
+    /usr/bin/python3 -c "$script" "$SCENE" "$PREFIX/bin/orthodyn"
+}
+
+# configure_sanitizers [CMAKE ARGUMENTS]: with the tests of the release build, which are not compiled again. Without MPI,
+# whose libraries leak at their end.
+configure_sanitizers() {
+  configure ci asan -B build/ci/build -D ORTHODYN_GPL=ON -D ORTHODYN_MPI=OFF -D ORTHODYN_BUILT="$PWD/build/release" \
+    -D ORTHODYN_PROCESSOR=native -D CMAKE_UNITY_BUILD=ON -D CMAKE_UNITY_BUILD_BATCH_SIZE=8 "$@"
+}
+
+library_with_sanitizers() {
+  configure_sanitizers -D ORTHODYN_NOT_SANITIZED="simulation;study;cli"
+  build ci/build --target "${LIBRARY_TESTS[@]/#/orthodyn_}"
+}
+
+# Everything with sanitizers, but how accurate whole scenes are.
+with_sanitizers() {
+  configure_sanitizers -D ORTHODYN_NOT_SANITIZED=
+  build ci/build
+  UBSAN_OPTIONS=print_stacktrace=1 run_tests ci/build -E '^(schema|draw|shipped|include_rule|ranks)' --no-tests=error
+}
+
+# In the same folder: only what depends on the option is built again.
+without_gpl() {
+  configure ci-without-gpl asan -B build/ci/build -D ORTHODYN_GPL=OFF -D ORTHODYN_MPI=OFF -D ORTHODYN_BUILT= \
+    -D ORTHODYN_NOT_SANITIZED= -D ORTHODYN_PROCESSOR=native
+  build ci/build --target orthodyn_cli orthodyn_linear_tests
+  run_tests ci/build -R '^linear' --no-tests=error
+  build/ci/build/orthodyn run "$SCENE" --quiet --force --out build/ci/scene
+}
+
+# Tests of the release build that every `ctest` leaves out.
+nightly_tests() { run_tests release -C nightly -R "$1" --no-tests=error; }
+ranks() { nightly_tests '^ranks\.|^(simulation|study)\.nightly$'; }
+kills_and_faults() { nightly_tests '^(simulation|study|faults)\.nightly$'; }
+estimates() { nightly_tests '^problems\.nightly$'; }
+fuzz() { nightly_tests '^fuzz\.nightly$'; }
+browser() {
+  ensure chromium chromium
+  nightly_tests '^draw\.(view_browser|stability|report_command)$'
+}
+
+# Every scene that is shown, at its full length.
+shipped_scenes() { ORTHODYN_LONG=1 nightly_tests '^shipped$'; }
+
+# Every scene and the notebooks by the Python package.
+python_scenes() { ORTHODYN_LONG=1 nightly_tests '^python\.'; }
+
+# Each source by itself, as `dev` has it.
+each_source() {
+  configure dev dev -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON -D CMAKE_CXX_FLAGS_RELWITHDEBINFO=-O0
+  build dev
+}
+
+# bare_debian RELEASE COMMAND...: in a system that has nothing but what debootstrap installs. Needs root.
+bare_debian() {
+  local root=$PWD/build/ci/$1
+  ensure debootstrap debootstrap
+  if [[ ! -d $root/usr ]]; then logged "debootstrap-$1" debootstrap --variant=minbase "$1" "$root"; fi
+  rm -rf "$root/orthodyn"
+  git clone -q . "$root/orthodyn"
+  cp /etc/resolv.conf "$root/etc/resolv.conf"
+  mount --bind /proc "$root/proc"
+  logged "bare-$1" chroot "$root" bash -c "cd /orthodyn && ${*:2}" || { umount "$root/proc"; return 1; }
+  umount "$root/proc"
+}
+debian12() { bare_debian bookworm 'tools/quickstart && tools/test'; }
+debian13() {
+  bare_debian trixie 'source tools/setup/steps.sh && source tools/setup/packages.sh && source tools/setup/build.sh &&
+    ensure_packages && configure release release && build release'
+}
